@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds the program and its tests, and runs them: ./test.sh
+# ./test.sh --full adds clang-tidy, the tests labelled "long", and the physics tests under the sanitizers.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+full=no
+for argument in "$@"; do
+  case "$argument" in
+    --full) full=yes ;;
+    *) echo "test.sh: '$argument' (no such option); use ./test.sh or ./test.sh --full" >&2; exit 2 ;;
+  esac
+done
+
+scripts/install_packages.sh test
+
+echo "== format =="
+find src shaders tests \( -name '*.h' -o -name '*.cpp' \) -not -path 'tests/data/*' -print0 |
+  xargs -0 clang-format --dry-run --Werror
+
+echo "== build =="
+[ -f build/ci/build.ninja ] || cmake --preset ci
+cmake --build --preset ci
+
+if [ "$full" = yes ]; then
+  echo "== clang-tidy =="
+  run-clang-tidy -quiet -p build/ci "^$PWD/(src|tests)/" 2> /dev/null
+fi
+
+echo "== tests =="
+export SUNFLECK_REQUIRE_DEVICE=1
+run_tests=(ctest --output-on-failure --no-tests=error --parallel "$(nproc)")
+leave_out=(-LE long)
+[ "$full" = no ] || leave_out=()
+"${run_tests[@]}" --test-dir build/ci "${leave_out[@]}"
+
+checked='^unit$'
+built=unit_tests
+if [ "$full" = yes ]; then
+  checked='^(unit|physics)$'
+  built='unit_tests physics_tests'
+fi
+echo "== ${built//_/ } under the address and undefined-behaviour sanitizers =="
+[ -f build/asan/build.ninja ] || cmake --preset asan
+# shellcheck disable=SC2086 # a list of targets
+cmake --build --preset asan --target $built
+"${run_tests[@]}" --test-dir build/asan -L "$checked" -LE long
