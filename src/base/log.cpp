@@ -1,0 +1,118 @@
+#include "base/log.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace sunfleck {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+constexpr int bar_cells = 16;
+constexpr const char* clear_line = "\r\x1b[K";  // to the first column, erase to the end (ECMA-48)
+
+bool on_terminal() {
+  return isatty(STDERR_FILENO) == 1;
+}
+
+bool quiet() {
+  return !spdlog::should_log(spdlog::level::info);
+}
+
+// A bar may stand on the line; text takes its place and the bar is drawn again below.
+std::string on_own_line(std::string_view line) {
+  return fmt::format("{}{}", on_terminal() ? clear_line : "", line);
+}
+
+std::size_t terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+std::string count_text(std::uint64_t rays) {
+  if (rays >= 1'000'000'000) return fmt::format("{:.2f} G rays", static_cast<double>(rays) * 1e-9);
+  return fmt::format("{:.1f} M rays", static_cast<double>(rays) * 1e-6);
+}
+
+std::string duration_text(double seconds) {
+  if (seconds >= 1e9) return "years";
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+void start_log(Verbosity verbosity) {
+  auto logger = std::make_shared<spdlog::logger>("sunfleck", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern("%v");
+  logger->set_level(verbosity == Verbosity::quiet ? spdlog::level::warn : spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void say(std::string_view line) {
+  if (!quiet()) spdlog::info("{}", on_own_line(line));
+}
+
+void warn(std::string_view line) {
+  spdlog::warn("{}", on_own_line(fmt::format("warning: {}", line)));
+}
+
+ProgressLine::ProgressLine(std::string task) : task_(std::move(task)), start_(steady_clock::now()), last_draw_(start_) {}
+
+ProgressLine::~ProgressLine() {
+  if (!drawn_) return;
+  draw_bar(steady_clock::now());
+  std::fputc('\n', stderr);
+}
+
+void ProgressLine::update(const State& state) {
+  state_ = state;
+  if (quiet()) return;
+  const bool terminal = on_terminal();
+  const auto now = steady_clock::now();
+  if (now - last_draw_ < (terminal ? 100ms : 5000ms)) return;
+  last_draw_ = now;
+  if (terminal) {
+    draw_bar(now);
+    drawn_ = true;
+  } else {
+    say(progress_text(task_, state_, std::chrono::duration<double>(now - start_).count(), 0));
+  }
+}
+
+void ProgressLine::draw_bar(steady_clock::time_point now) {
+  std::string text = progress_text(task_, state_, std::chrono::duration<double>(now - start_).count(), bar_cells);
+  text.resize(std::min(text.size(), terminal_columns() - 1));  // a wrapped line could not be redrawn
+  std::fprintf(stderr, "%s%s", clear_line, text.c_str());
+  std::fflush(stderr);
+}
+
+std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s, int bar_width) {
+  const double fraction = std::isfinite(state.fraction) ? std::clamp(state.fraction, 0.0, 1.0) : 0.0;
+  std::string text(task);
+  if (bar_width > 0) {
+    const int full = static_cast<int>(fraction * bar_width);
+    text += fmt::format(" [{}{}]", std::string(full, '#'), std::string(bar_width - full, '.'));
+  }
+  text += fmt::format(" {} %, {}", static_cast<int>(100.0 * fraction), count_text(state.rays));
+  if (state.relative_error && std::isfinite(*state.relative_error)) {
+    text += fmt::format(", error {:.2g}", *state.relative_error);
+    if (state.bound) text += fmt::format(" of {:.2g}", *state.bound);
+  }
+  if (fraction >= 0.01 && fraction < 1.0)
+    text += fmt::format(", {} left", duration_text(elapsed_s * (1.0 - fraction) / fraction));
+  return text;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,31 @@
+#pragma once
+// A stream of random numbers: the same on every machine and with every standard library.
+
+#include <cstdint>
+
+namespace sunfleck {
+
+// SplitMix64 (Steele, Lea & Flood 2014, OOPSLA, fig. 13).
+class RandomStream {
+ public:
+  // Streams with different numbers are independent.
+  RandomStream(std::uint64_t seed, std::uint64_t stream) : state_(mixed(mixed(seed) + stream)) {}
+
+  std::uint64_t word() { return mixed(state_ += increment); }
+
+  // Even over [0, 1), 53 bits.
+  double unit() { return static_cast<double>(word() >> 11) * 0x1p-53; }
+
+ private:
+  static constexpr std::uint64_t increment = 0x9e3779b97f4a7c15;
+
+  static std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t state_;
+};
+
+}  // namespace sunfleck
