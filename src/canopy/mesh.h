@@ -1,0 +1,42 @@
+#pragma once
+// Triangles as a file or a generator hands them over: indexed, in double precision, in the scene's axes (X south, Y up,
+// Z west, metres), before they are placed in the plot.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+// One organ of one plant, the unit of organs.csv.
+struct Organ {
+  std::uint32_t plant = 1;  // 0 for soil
+  std::string name;         // leaf, stem, ear, soil, leaf2, ...
+  int rank = 0;             // leaf number from the ground, 0 where it has none
+
+  friend bool operator==(const Organ&, const Organ&) = default;
+};
+
+struct Mesh {
+  std::vector<glm::dvec3> vertices;       // [vertex], m
+  std::vector<glm::uvec3> triangles;      // [triangle], vertex numbers; the counter-clockwise side is the upper face
+  std::vector<std::uint32_t> optics_of;   // [triangle], index into optics_names
+  std::vector<std::uint32_t> organ_of;    // [triangle], index into organs
+  std::vector<std::string> optics_names;  // as the file's materials are called
+  std::vector<Organ> organs;              // no two equal
+};
+
+// A copy of a mesh in the scene: turned clockwise seen from above, then moved.
+struct Placement {
+  glm::dvec3 position_m{0.0};
+  double heading_rad = 0.0;
+};
+
+// A mesh and where it stands; every placement is a copy with plants of its own.
+struct PlacedMesh {
+  Mesh mesh;
+  std::vector<Placement> placements;
+};
+
+}  // namespace sunfleck
