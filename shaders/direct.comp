@@ -1,0 +1,105 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+// One thread, one beam ray: from its grid cell on the incidence plane to its landing, one atomic increment.
+
+#include "shared/beam.h"
+#include "shared/layout.h"
+#include "tree.glsl"
+#include "traverse.glsl"
+
+layout(local_size_x = group_size) in;
+layout(constant_id = 0) const bool periodic = true;
+layout(constant_id = 1) const bool has_soil = true;
+
+layout(set = 0, binding = 2, scalar) readonly buffer Beam { BeamBlock beam; };
+layout(set = 0, binding = 3, scalar) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Inbox { uint inbox_count; PausedRay inbox[]; };
+layout(set = 0, binding = 5, scalar) buffer Outbox { uint outbox_count; PausedRay outbox[]; };
+layout(push_constant, scalar) uniform Push { BeamPush push; };
+
+void pause(Ray ray, uint crossings, uint number, bool stuck) {
+  uint place = atomicAdd(outbox_count, 1u);
+  outbox[place] = PausedRay(ray.origin, crossings, number, stuck ? 1u : 0u);
+}
+
+void count_element(NearestHit hit) {
+  uvec4 a = TRIANGLE_WORDS(3u * hit.triangle);
+  uvec4 b = TRIANGLE_WORDS(3u * hit.triangle + 1u);
+  uvec4 c = TRIANGLE_WORDS(3u * hit.triangle + 2u);
+  float y = landing_y(uintBitsToFloat(a.y), uintBitsToFloat(b.y), uintBitsToFloat(c.y), hit.weight_b, hit.weight_c);
+  uint layer = layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers);
+  atomicAdd(counters[c.w + 2u * layer + hit.lower], 1u);
+  if (!periodic) atomicAdd(counters[counter_met], 1u);
+}
+
+void count_ground(Ray ray, float t) {
+  if (!has_soil) atomicAdd(counters[counter_transmitted], 1u);
+  if (has_soil) atomicAdd(counters[counter_first_cell + soil_cell(beam.ground, ground_point(ray, t))], 1u);
+  if (!periodic) atomicAdd(counters[counter_met], 1u);
+}
+
+void follow_in_isolated_stand(Ray ray, uint number) {
+  Ground ground = meet_ground(ray, beam.ground);
+  bool over_plot = in_plot(beam.ground, ground_point(ray, ground.t));
+  uint steps = 0u;
+  NearestHit hit = nearest_hit(ray, over_plot ? ground.limit : 1e30, steps);
+  if (steps >= steps_in_one_dispatch) {
+    pause(ray, 0u, number, true);
+  } else if (hit.found) {
+    count_element(hit);
+  } else if (over_plot) {
+    count_ground(ray, ground.t);
+  } else {
+    atomicAdd(counters[counter_missed], 1u);
+  }
+}
+
+void follow_in_endless_canopy(Ray ray, uint crossings, uint number) {
+  uint steps = 0u;
+  while (steps < steps_before_pause) {
+    Ground ground = meet_ground(ray, beam.ground);
+    Crossing crossing = next_crossing(ray, beam.period, beam.overlap);
+    float limit = ground.limit < crossing.limit ? ground.limit : crossing.limit;
+    NearestHit hit = nearest_hit(ray, limit, steps);
+    if (steps >= steps_in_one_dispatch) {
+      pause(ray, crossings, number, true);
+      return;
+    }
+    if (hit.found) {
+      count_element(hit);
+      return;
+    }
+    if (ground.t <= crossing.t) {
+      count_ground(ray, ground.t);
+      return;
+    }
+    if (++crossings > max_crossings) {
+      atomicAdd(counters[counter_lost], 1u);
+      return;
+    }
+    ray.origin = enter_next_period(ray, crossing, beam.period);
+  }
+  pause(ray, crossings, number, false);
+}
+
+void main() {
+  if (gl_GlobalInvocationID.x >= push.count) return;
+  uint number = push.first + gl_GlobalInvocationID.x;
+  uint crossings = 0u;
+  vec3 origin;
+  if (push.from_inbox != 0u) {
+    PausedRay paused = inbox[gl_GlobalInvocationID.x];
+    number = paused.ray;
+    crossings = paused.crossings;
+    origin = paused.origin;
+  } else {
+    origin = beam_origin(beam, number);
+  }
+  Ray ray = make_ray(origin, beam.direction);
+  if (periodic) {
+    follow_in_endless_canopy(ray, crossings, number);
+  } else {
+    follow_in_isolated_stand(ray, number);
+  }
+}

@@ -1,0 +1,34 @@
+// Arithmetic that every device rounds alike.
+#ifndef SUNFLECK_SHARED_EXACT_H
+#define SUNFLECK_SHARED_EXACT_H
+
+#include "shared/bridge.h"
+
+SHARED_BEGIN
+
+// 1 / x within two units of the last place, for 2^-100 < |x| < 2^100: an integer guess (error below 13 %) and four Newton
+// steps y (2 - x y), each of which squares the error.
+INLINE float exact_reciprocal(float x) {
+  const uint sign = floatBitsToUint(x) & 0x80000000u;
+  const float a = uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
+  float y = uintBitsToFloat(0x7ef311c3u - floatBitsToUint(a));
+  for (uint step = 0u; step < 4u; ++step) {
+    EXACT float product = a * y;
+    EXACT float correction = 2.0f - product;
+    EXACT float next = y * correction;
+    y = next;
+  }
+  return uintBitsToFloat(floatBitsToUint(y) | sign);
+}
+
+// 1 / x of a direction's component; one that is (nearly) zero counts as +-2^-60, so that products with lengths stay finite.
+INLINE float direction_reciprocal(float x) {
+  const uint sign = floatBitsToUint(x) & 0x80000000u;
+  const float magnitude = uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
+  if (magnitude < 8.673617379884035e-19f) return uintBitsToFloat(floatBitsToUint(1152921504606846976.0f) | sign);
+  return exact_reciprocal(x);
+}
+
+SHARED_END
+
+#endif

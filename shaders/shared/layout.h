@@ -1,0 +1,147 @@
+// Everything that crosses from the host to the shaders: blocks, binding numbers, group size, counter numbers.
+#ifndef SUNFLECK_SHARED_LAYOUT_H
+#define SUNFLECK_SHARED_LAYOUT_H
+
+#include "shared/bridge.h"
+
+SHARED_BEGIN
+
+const uint group_size = 64u;
+
+// Words of the counters that come before the soil's cells and the elements' bins.
+const uint counter_transmitted = 0u;  // fell through the ground of a scene without soil
+const uint counter_met = 1u;          // isolated stands: rays that met an element or the plot's ground
+const uint counter_missed = 2u;       // isolated stands: rays that met neither
+const uint counter_lost = 3u;         // ended by the guard on periods crossed
+const uint counter_first_cell = 16u;
+
+// lavapipe ends every loop silently after 65,535 iterations, counted over all loops of the eight invocations that it runs side
+// by side; where these walk differently their iterations add up, so each may take an eighth. A ray pauses between two periods
+// once it has spent this many steps, and is handed back to the host if it reaches the second number within a period.
+const uint steps_before_pause = 4096u;
+const uint steps_in_one_dispatch = 8000u;
+
+// A ray that has crossed this many periods is given up and counted as lost.
+const uint max_crossings = 1048576u;
+
+// Where rays end, and how the soil's map is cut.
+struct GroundMap {
+  vec2 plot_lo;  // the plot's rectangle, x and z
+  vec2 plot_hi;
+  vec2 cells_per_metre;
+  uint cells_x;
+  uint cells_z;
+  float y;
+  float depth;  // a mesh lying in the ground wins over it: rays look this far below
+};
+
+// What one replicate of beam rays needs to know. Lengths in metres in the canopy's local frame.
+struct BeamBlock {
+  vec3 corner;       // of the rectangle the rays start on
+  float per_column;  // 1 / columns
+  vec3 edge_u;       // along its columns
+  float per_row;     // 1 / rows
+  vec3 edge_v;       // along its rows
+  uint columns;
+  vec3 direction;  // of travel
+  uint rows;
+  uvec2 key;     // of the random numbers: seed and replicate
+  vec2 period;   // of an endless plot, along x and z
+  vec2 overlap;  // how far past the border a hit still counts in the period before it
+  GroundMap ground;
+  float layer_base_y;
+  float layers_per_metre;
+  uint layers;
+};
+
+// One dispatch of beam rays: rays first..first+count-1 of the replicate, or the paused rays of the inbox.
+struct BeamPush {
+  uint first;
+  uint count;
+  uint from_inbox;
+};
+
+// A ray on its way, between two dispatches.
+struct PausedRay {
+  vec3 origin;
+  uint crossings;
+  uint ray;
+  uint stuck;  // 1: one period took more steps than a dispatch has
+};
+
+// What packets need to know of the scene. Lengths in metres in the canopy's local frame.
+struct PacketBlock {
+  vec2 period;   // of an endless plot, along x and z
+  vec2 overlap;  // as in BeamBlock
+  GroundMap ground;
+  float top_y;  // above all elements: what rises past it has left
+};
+
+// A packet at its start. In an endless plot the origin lies in the period the tree covers.
+struct Packet {
+  vec3 origin;
+  uint element;    // the one it leaves, which cannot stop it in the period it starts in; no_element for ground and beam
+  vec3 direction;  // any length
+  uint image;      // that element's copy in the period it starts in, as BvhTriangle::image
+};
+const uint no_element = 0xffffffffu;
+
+// Where a packet ended. Surface 2 * element + side (place_a, place_b: barycentric weights of corners b and c), or one of:
+const uint landed_on_ground = 0xfffffff0u;  // place_a, place_b: x and z
+const uint left_upwards = 0xfffffff1u;
+const uint left_downwards = 0xfffffff2u;
+const uint lost_on_its_way = 0xfffffff3u;  // ended by the guard on periods crossed
+struct Landing {
+  uint surface;
+  uint triangle;  // of the tree, in leaf order
+  float place_a;
+  float place_b;
+};
+
+// One dispatch of packets: packets first..first+count-1, or the paused ones of the inbox.
+struct PacketPush {
+  uint first;
+  uint count;
+  uint from_inbox;
+};
+
+struct PausedPacket {
+  vec3 origin;
+  uint crossings;
+  uint packet;
+  uint image;
+  uint stuck;  // as in PausedRay
+};
+
+// A picture: the camera as view/camera.h has it, in the canopy's local frame; right and up scaled by the tangents of half the
+// angles of view.
+struct ViewBlock {
+  vec3 position;
+  uint width;
+  vec3 forward;
+  uint height;
+  vec3 right;
+  uint samples;  // a pixel
+  vec3 up;
+  uint elements;  // surfaces 2 * element + side, then the ground's cells
+  GroundMap ground;
+  float start;  // depth at which rays begin, set by see_with_gpu and see_with_cpu
+};
+
+// One dispatch of a picture: samples first..first+count-1 of all its pixels.
+struct ViewPush {
+  uint first;
+  uint count;
+};
+
+// What one sample of a pixel sees.
+struct SeenSurface {
+  uint surface;  // seen_nothing where there is only sky
+  float depth;   // along the camera's forward axis
+};
+const uint seen_nothing = 0xffffffffu;
+const uint seen_unfinished = 0xfffffffeu;  // more steps than a dispatch has: the host looks again
+
+SHARED_END
+
+#endif

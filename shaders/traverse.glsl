@@ -1,0 +1,128 @@
+// The walk over the tree: nearest hit of one ray in one period, with a fixed stack and a count of its steps.
+// SKIP_OWN: the copy `own_image` of element `own_element` is left out. ONLY_ORIGINALS: elements are met where the canopy has
+// them, and not again where their copies reach into the period.
+
+const uint max_depth = 32u;
+
+struct NearestHit {
+  float t;
+  float weight_b;
+  float weight_c;
+  uint lower;
+  uint element;
+  uint triangle;  // place in leaf order
+  bool found;
+};
+
+vec3 corner_of(uvec4 words) { return uintBitsToFloat(words.xyz); }
+
+// Bit k - or, for leaf children, bits of their triangles - set where the ray may meet something in the child; see BvhNode.
+uint meet_children(Ray ray, float limit, uvec4 head, uvec4 meta, uvec4 planes_a, uvec4 planes_b, uvec4 planes_c, uint octant) {
+  vec3 corner = uintBitsToFloat(head.xyz);
+  vec3 cell = vec3(uintBitsToFloat((head.w & 0xffu) << 23u), uintBitsToFloat((head.w >> 8u & 0xffu) << 23u),
+                   uintBitsToFloat((head.w >> 16u & 0xffu) << 23u));
+  vec3 scale = cell * ray.inverse;
+  vec3 base = (corner - ray.origin) * ray.inverse;
+  bool back_x = ray.inverse.x < 0.0;
+  bool back_y = ray.inverse.y < 0.0;
+  bool back_z = ray.inverse.z < 0.0;
+  uint met = 0u;
+  for (uint half_of = 0u; half_of < 2u; ++half_of) {
+    bool first = half_of == 0u;
+    uint lo_x = first ? planes_a.x : planes_a.y;
+    uint lo_y = first ? planes_a.z : planes_a.w;
+    uint lo_z = first ? planes_b.x : planes_b.y;
+    uint hi_x = first ? planes_b.z : planes_b.w;
+    uint hi_y = first ? planes_c.x : planes_c.y;
+    uint hi_z = first ? planes_c.z : planes_c.w;
+    uint meta4 = first ? meta.z : meta.w;
+    uint near_x = back_x ? hi_x : lo_x;
+    uint near_y = back_y ? hi_y : lo_y;
+    uint near_z = back_z ? hi_z : lo_z;
+    uint far_x = back_x ? lo_x : hi_x;
+    uint far_y = back_y ? lo_y : hi_y;
+    uint far_z = back_z ? lo_z : hi_z;
+    for (uint shift = 0u; shift < 32u; shift += 8u) {
+      float enter_x = float(near_x >> shift & 0xffu) * scale.x + base.x;
+      float enter_y = float(near_y >> shift & 0xffu) * scale.y + base.y;
+      float enter_z = float(near_z >> shift & 0xffu) * scale.z + base.z;
+      float leave_x = float(far_x >> shift & 0xffu) * scale.x + base.x;
+      float leave_y = float(far_y >> shift & 0xffu) * scale.y + base.y;
+      float leave_z = float(far_z >> shift & 0xffu) * scale.z + base.z;
+      float enter = enter_x > enter_y ? enter_x : enter_y;
+      enter = enter_z > enter ? enter_z : enter;
+      enter = enter > 0.0 ? enter : 0.0;
+      float leave = leave_x < leave_y ? leave_x : leave_y;
+      leave = leave_z < leave ? leave_z : leave;
+      leave = limit < leave ? limit : leave;
+      uint meta_k = meta4 >> shift & 0xffu;
+      uint place = meta_k & 31u;
+      place = place >= 24u ? place ^ octant : place;
+      met |= enter <= leave ? meta_k >> 5u << place : 0u;
+    }
+  }
+  return met;
+}
+
+// Nearest hit with 0 < t <= limit. `steps` goes on counting; a walk that reaches `steps_in_one_dispatch` stops unfinished.
+#ifdef SKIP_OWN
+NearestHit nearest_hit(Ray ray, float limit, uint own_element, uint own_image, inout uint steps) {
+#else
+NearestHit nearest_hit(Ray ray, float limit, inout uint steps) {
+#endif
+  NearestHit best;
+  best.found = false;
+  best.t = limit;
+  best.element = 0xffffffffu;
+  best.triangle = 0u;
+  best.weight_b = 0.0;
+  best.weight_c = 0.0;
+  best.lower = 0u;
+  uint octant = (ray.inverse.x < 0.0 ? 4u : 0u) | (ray.inverse.y < 0.0 ? 2u : 0u) | (ray.inverse.z < 0.0 ? 1u : 0u);
+  uvec2 stack[max_depth];
+  uint depth = 0u;
+  uvec2 group = uvec2(0u, 0x80000000u);
+  ++steps;  // an iteration of the caller's loop over periods
+  while (steps < steps_in_one_dispatch) {
+    ++steps;
+    uint bit = uint(findMSB(group.y));
+    uint slot = (bit - 24u) ^ octant;
+    group.y &= ~(1u << bit);
+    if (group.y > 0x00ffffffu && depth < max_depth) stack[depth++] = group;
+    uint node = 5u * (group.x + uint(bitCount(group.y & 0xffu & ((1u << slot) - 1u))));
+    uvec4 head = NODE_WORDS(node);
+    uvec4 meta = NODE_WORDS(node + 1u);
+    uvec4 planes_a = NODE_WORDS(node + 2u);
+    uvec4 planes_b = NODE_WORDS(node + 3u);
+    uvec4 planes_c = NODE_WORDS(node + 4u);
+    uint met = meet_children(ray, best.t, head, meta, planes_a, planes_b, planes_c, octant);
+    group = uvec2(meta.x, (met & 0xff000000u) | (head.w >> 24u));
+    for (uint leaves = met & 0x00ffffffu; leaves != 0u; leaves &= leaves - 1u) {
+      ++steps;
+      uint triangle = meta.y + uint(findLSB(leaves));
+      uvec4 a = TRIANGLE_WORDS(3u * triangle);
+      uvec4 b = TRIANGLE_WORDS(3u * triangle + 1u);
+      TriangleHit hit = meet_triangle(ray, corner_of(a), corner_of(b), corner_of(TRIANGLE_WORDS(3u * triangle + 2u)));
+#ifdef SKIP_OWN
+      hit.met = hit.met && (a.w != own_element || b.w != own_image);
+#endif
+#ifdef ONLY_ORIGINALS
+      hit.met = hit.met && b.w == 0u;
+#endif
+      if (hit.met && hit.t <= limit && hit_precedes(hit.t, a.w, best.t, best.element)) {
+        best.found = true;
+        best.t = hit.t;
+        best.weight_b = hit.weight_b;
+        best.weight_c = hit.weight_c;
+        best.lower = hit.lower;
+        best.element = a.w;
+        best.triangle = triangle;
+      }
+    }
+    if (group.y <= 0x00ffffffu) {
+      if (depth == 0u) return best;
+      group = stack[--depth];
+    }
+  }
+  return best;
+}
