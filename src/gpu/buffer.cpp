@@ -1,0 +1,91 @@
+#include "gpu/buffer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/check.h"
+#include "base/error.h"
+
+namespace sunfleck {
+
+namespace {
+
+constexpr std::size_t texel_bytes = 16;
+
+void check_limits(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what) {
+  const auto refuse = [&](const char* limit, std::uint64_t most, const char* unit) {
+    throw_device(fmt::format("{}: {:.1f} MiB on {}", what, static_cast<double>(bytes) / (1 << 20), context.description().name),
+                 fmt::format("its {} is {} {}", limit, most, unit), "make the scene smaller or use another device");
+  };
+  const DeviceLimits& limits = context.limits();
+  if (use == BufferUse::storage && bytes > limits.max_storage_buffer_bytes) {
+    refuse("maxStorageBufferRange", limits.max_storage_buffer_bytes, "bytes");
+  }
+  if (use == BufferUse::uniform_texel && bytes / texel_bytes > limits.max_texel_buffer_elements) {
+    refuse("maxTexelBufferElements", limits.max_texel_buffer_elements, "texels of 16 bytes");
+  }
+  if (bytes > limits.max_allocation_bytes) refuse("maxMemoryAllocationSize", limits.max_allocation_bytes, "bytes");
+}
+
+[[noreturn]] void throw_out_of_memory(const GpuContext& context, std::size_t bytes, const char* what, const char* why) {
+  throw_failure(fmt::format("{}: {:.1f} MiB on {}", what, static_cast<double>(bytes) / (1 << 20), context.description().name),
+                fmt::format("out of memory: {}", why), "make the scene smaller or use another device");
+}
+
+}  // namespace
+
+GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what) {
+  using Usage = vk::BufferUsageFlagBits;
+  check_limits(context, use, bytes, what);
+  const auto own_usage = use == BufferUse::storage ? Usage::eStorageBuffer : Usage::eUniformTexelBuffer;
+  GpuBuffer result;
+  result.use = use;
+  result.bytes = bytes;
+  try {
+    const std::size_t room = std::max(bytes, texel_bytes);
+    result.buffer = context.device().createBuffer({{}, room, own_usage | Usage::eTransferSrc | Usage::eTransferDst});
+    result.memory = context.allocate(result.buffer.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal, {});
+    result.buffer.bindMemory(*result.memory, 0);
+    if (use == BufferUse::uniform_texel) {
+      result.view = context.device().createBufferView({{}, *result.buffer, texel_format, 0, VK_WHOLE_SIZE});
+    }
+  } catch (const vk::OutOfDeviceMemoryError& error) {
+    throw_out_of_memory(context, bytes, what, error.what());
+  } catch (const vk::OutOfHostMemoryError& error) {
+    throw_out_of_memory(context, bytes, what, error.what());
+  }
+  return result;
+}
+
+void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset) {
+  EXPECT(offset, <=, buffer.bytes);
+  EXPECT(data.size(), <=, buffer.bytes - offset);
+  const Staging& staging = context.staging();
+  for (std::size_t done = 0; done < data.size(); done += Staging::bytes) {
+    const auto piece = data.subspan(done, std::min(Staging::bytes, data.size() - done));
+    std::memcpy(staging.data, piece.data(), piece.size());
+    context.begin_commands().copyBuffer(*staging.buffer, *buffer.buffer, vk::BufferCopy(0, offset + done, piece.size()));
+    context.submit_and_wait();
+  }
+}
+
+void download(const GpuContext& context, const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset) {
+  EXPECT(offset, <=, buffer.bytes);
+  EXPECT(data.size(), <=, buffer.bytes - offset);
+  const Staging& staging = context.staging();
+  for (std::size_t done = 0; done < data.size(); done += Staging::bytes) {
+    const auto piece = data.subspan(done, std::min(Staging::bytes, data.size() - done));
+    context.begin_commands().copyBuffer(*buffer.buffer, *staging.buffer, vk::BufferCopy(offset + done, 0, piece.size()));
+    context.submit_and_wait();
+    std::memcpy(piece.data(), staging.data, piece.size());
+  }
+}
+
+void fill(const GpuContext& context, const GpuBuffer& buffer, std::uint32_t word) {
+  context.begin_commands().fillBuffer(*buffer.buffer, 0, VK_WHOLE_SIZE, word);
+  context.submit_and_wait();
+}
+
+}  // namespace sunfleck

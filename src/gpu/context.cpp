@@ -1,0 +1,372 @@
+#include "gpu/context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "base/check.h"
+#include "base/error.h"
+
+namespace sunfleck {
+
+namespace {
+
+constexpr std::uint32_t api_version = VK_API_VERSION_1_2;
+constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* no_vulkan_cure = "install a Vulkan driver (Debian: mesa-vulkan-drivers) or use the CPU path";
+
+struct FoundDevice {
+  DeviceDescription description;
+  vk::PhysicalDeviceType type;
+};
+
+vk::raii::Context open_loader() {
+  try {
+    return {};
+  } catch (const std::exception& error) {
+    throw_device("no Vulkan device", error.what(), no_vulkan_cure);
+  }
+}
+
+bool has_layer(const vk::raii::Context& loader, std::string_view name) {
+  const auto layers = loader.enumerateInstanceLayerProperties();
+  return std::any_of(layers.begin(), layers.end(), [&](const auto& layer) { return name == layer.layerName.data(); });
+}
+
+bool has_extension(const std::vector<vk::ExtensionProperties>& extensions, std::string_view name) {
+  return std::any_of(extensions.begin(), extensions.end(), [&](const auto& one) { return name == one.extensionName.data(); });
+}
+
+vk::raii::Instance create_instance(const vk::raii::Context& loader, Validation validation) {
+  std::vector<const char*> layers;
+  std::vector<const char*> extensions;
+  vk::InstanceCreateFlags flags;
+  if (has_extension(loader.enumerateInstanceExtensionProperties(), VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+    extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
+  }
+  const vk::ApplicationInfo application("sunfleck", 1, nullptr, 0, api_version);
+  const std::vector<vk::ValidationFeatureEnableEXT> thorough = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation,
+                                                                vk::ValidationFeatureEnableEXT::eGpuAssisted,
+                                                                vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot};
+  const vk::ValidationFeaturesEXT features(thorough);
+  if (validation != Validation::off) {
+    if (!has_layer(loader, validation_layer)) {
+      throw_device("Vulkan validation", fmt::format("{} is not installed", validation_layer),
+                   "install it (Debian: vulkan-validationlayers) or run without validation");
+    }
+    layers.push_back(validation_layer);
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  }
+  if (validation == Validation::thorough) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  return {loader, vk::InstanceCreateInfo(flags, &application, layers, extensions,
+                                         validation == Validation::thorough ? &features : nullptr)};
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+  std::string line = data->pMessage;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  static_cast<std::vector<std::string>*>(messages)->push_back(std::move(line));
+  return VK_FALSE;
+}
+
+vk::raii::DebugUtilsMessengerEXT create_messenger(const vk::raii::Instance& instance, std::vector<std::string>& messages) {
+  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+  return {instance,
+          vk::DebugUtilsMessengerCreateInfoEXT({}, Severity::eWarning | Severity::eError,
+                                               vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, keep_message, &messages)};
+}
+
+std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& physical) {
+  const auto families = physical.getQueueFamilyProperties();
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return i;
+  }
+  return std::nullopt;
+}
+
+// Empty, or what the device lacks. The figures beside the feature and the version are guaranteed by Vulkan 1.0 (table "Required
+// Limits" of the specification), and the buffers and shaders of this program rely on them.
+std::string find_lack(const vk::raii::PhysicalDevice& physical) {
+  const auto properties = physical.getProperties();
+  if (properties.apiVersion < api_version) {
+    return fmt::format("it has Vulkan {}.{}, 1.2 is needed", VK_API_VERSION_MAJOR(properties.apiVersion),
+                       VK_API_VERSION_MINOR(properties.apiVersion));
+  }
+  const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+  if (!features.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout) return "it lacks the feature scalarBlockLayout";
+  if (!compute_family(physical)) return "it has no compute queue";
+  const auto format = physical.getFormatProperties(vk::Format::eR32G32B32A32Uint);
+  if (!(format.bufferFeatures & vk::FormatFeatureFlagBits::eUniformTexelBuffer)) {
+    return "it lacks uniform texel buffers of format R32G32B32A32_UINT";
+  }
+  const auto& limits = properties.limits;
+  const std::tuple<const char*, std::uint64_t, std::uint64_t> needs[] = {
+      {"maxPushConstantsSize", limits.maxPushConstantsSize, 128},
+      {"maxStorageBufferRange", limits.maxStorageBufferRange, 1u << 27},
+      {"maxComputeWorkGroupInvocations", limits.maxComputeWorkGroupInvocations, 128},
+      {"maxComputeWorkGroupSize[0]", limits.maxComputeWorkGroupSize[0], 128},
+      {"maxComputeWorkGroupCount[0]", limits.maxComputeWorkGroupCount[0], 65535},
+  };
+  for (const auto& [name, value, least] : needs) {
+    if (value < least) return fmt::format("its {} is {}, {} is needed", name, value, least);
+  }
+  return {};
+}
+
+FoundDevice describe(const vk::raii::PhysicalDevice& physical) {
+  const auto properties = physical.getProperties();
+  FoundDevice found;
+  found.type = properties.deviceType;
+  found.description.name = properties.deviceName.data();
+  found.description.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+  found.description.unusable = find_lack(physical);
+  if (properties.apiVersion >= api_version) {
+    const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    found.description.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
+  }
+  return found;
+}
+
+// In the loader's order; empty if its drivers find nothing.
+std::vector<vk::raii::PhysicalDevice> enumerate(const vk::raii::Instance& instance) {
+  try {
+    return vk::raii::PhysicalDevices(instance);
+  } catch (const vk::SystemError&) {
+    return {};
+  }
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool fits(const DeviceWish& wish, const DeviceDescription& description, std::size_t index) {
+  switch (wish.kind) {
+    case DeviceWish::Kind::any:
+      return true;
+    case DeviceWish::Kind::hardware:
+      return !description.software;
+    case DeviceWish::Kind::software:
+      return description.software;
+    case DeviceWish::Kind::index:
+      return wish.index >= 0 && static_cast<std::size_t>(wish.index) == index;
+    case DeviceWish::Kind::name:
+      break;
+  }
+  std::string name = lower_case(description.name);
+  if (name.find("llvmpipe") != std::string::npos) name += " lavapipe";
+  return name.find(lower_case(wish.name)) != std::string::npos;
+}
+
+std::string wish_text(const DeviceWish& wish) {
+  switch (wish.kind) {
+    case DeviceWish::Kind::any:
+      return "Vulkan device";
+    case DeviceWish::Kind::hardware:
+      return "hardware Vulkan device";
+    case DeviceWish::Kind::software:
+      return "software Vulkan device";
+    case DeviceWish::Kind::index:
+      return fmt::format("Vulkan device {}", wish.index);
+    case DeviceWish::Kind::name:
+      break;
+  }
+  return fmt::format("Vulkan device \"{}\"", wish.name);
+}
+
+// Smaller is better: usable, then by kind.
+int preference(const FoundDevice& found) {
+  const int unusable = found.description.unusable.empty() ? 0 : 10;
+  switch (found.type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return unusable;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return unusable + 1;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return unusable + 2;
+    case vk::PhysicalDeviceType::eOther:
+      return unusable + 3;
+    case vk::PhysicalDeviceType::eCpu:
+      break;
+  }
+  return unusable + 4;
+}
+
+// The number of the best device that fits the wish.
+std::size_t choose(const DeviceWish& wish, const std::vector<FoundDevice>& all) {
+  std::optional<std::size_t> best;
+  std::string names;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    names += fmt::format("{}{}: {}", i == 0 ? "" : ", ", i, all[i].description.name);
+    if (fits(wish, all[i].description, i) && (!best || preference(all[i]) < preference(all[*best]))) best = i;
+  }
+  if (all.empty()) throw_device(wish_text(wish), "this machine has no Vulkan device", no_vulkan_cure);
+  if (!best) {
+    throw_device(wish_text(wish), fmt::format("this machine has only {}", names), "choose one of these or use the CPU path");
+  }
+  const DeviceDescription& chosen = all[*best].description;
+  if (!chosen.unusable.empty()) {
+    throw_device(fmt::format("Vulkan device {}: {}", *best, chosen.name), chosen.unusable,
+                 fmt::format("choose another of {} or use the CPU path", names));
+  }
+  return *best;
+}
+
+DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical) {
+  const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
+  const auto& core = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
+  DeviceLimits limits;
+  limits.max_texel_buffer_elements = core.maxTexelBufferElements;
+  limits.max_storage_buffer_bytes = core.maxStorageBufferRange;
+  limits.max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
+  limits.max_groups_per_dispatch = core.maxComputeWorkGroupCount[0];
+  const auto memory = physical.getMemoryProperties();
+  for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+    const auto& heap = memory.memoryHeaps[i];
+    if (heap.flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+      limits.heap_bytes = std::max<std::uint64_t>(limits.heap_bytes, heap.size);
+  }
+  return limits;
+}
+
+}  // namespace
+
+void set_software_threads(int threads) {
+  EXPECT(threads, >=, 0);
+  if (threads == 0) {
+    unsetenv("LP_NUM_THREADS");
+  } else {
+    setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+  }
+}
+
+std::vector<DeviceDescription> list_devices() {
+  std::vector<DeviceDescription> descriptions;
+  try {
+    const vk::raii::Context loader = open_loader();
+    const vk::raii::Instance instance = create_instance(loader, Validation::off);
+    for (const auto& physical : enumerate(instance)) descriptions.push_back(describe(physical).description);
+  } catch (const Error&) {            // no loader
+  } catch (const vk::SystemError&) {  // no driver
+  }
+  return descriptions;
+}
+
+bool validation_installed() {
+  try {
+    return has_layer(open_loader(), validation_layer);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+GpuContext::GpuContext(const DeviceWish& wish, Validation validation) : loader_(open_loader()) {
+  try {
+    instance_ = create_instance(loader_, validation);
+  } catch (const vk::SystemError& error) {
+    throw_device(wish_text(wish), fmt::format("no driver answers: {}", error.what()), no_vulkan_cure);
+  }
+  if (validation != Validation::off) messenger_ = create_messenger(instance_, messages_);
+  take_device(wish);
+  try {
+    create_device();
+    create_staging();
+  } catch (const vk::SystemError& error) {
+    throw_device(fmt::format("Vulkan device {}", description_.name), error.what(), "choose another device or use the CPU path");
+  }
+}
+
+GpuContext::~GpuContext() = default;
+
+void GpuContext::take_device(const DeviceWish& wish) {
+  auto physicals = enumerate(instance_);
+  std::vector<FoundDevice> all;
+  for (const auto& physical : physicals) all.push_back(describe(physical));
+  const std::size_t chosen = choose(wish, all);
+  physical_ = std::move(physicals[chosen]);
+  description_ = all[chosen].description;
+  limits_ = read_limits(physical_);
+}
+
+void GpuContext::create_device() {
+  const std::uint32_t family = compute_family(physical_).value();
+  const float priority = 1.0f;
+  const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
+  // A device that is Vulkan only through a translation must be told that this is known.
+  constexpr const char* portability_subset = "VK_KHR_portability_subset";
+  std::vector<const char*> extensions;
+  if (has_extension(physical_.enumerateDeviceExtensionProperties(), portability_subset))
+    extensions.push_back(portability_subset);
+  vk::PhysicalDeviceVulkan12Features features;
+  features.scalarBlockLayout = VK_TRUE;
+  device_ = vk::raii::Device(physical_, vk::DeviceCreateInfo({}, queue, {}, extensions, nullptr, &features));
+  queue_ = device_.getQueue(family, 0);
+  pool_ = device_.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
+  commands_ = std::move(device_.allocateCommandBuffers({*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
+  fence_ = device_.createFence({});
+}
+
+void GpuContext::create_staging() {
+  using Usage = vk::BufferUsageFlagBits;
+  using Property = vk::MemoryPropertyFlagBits;
+  staging_.buffer = device_.createBuffer({{}, Staging::bytes, Usage::eTransferSrc | Usage::eTransferDst});
+  staging_.memory = allocate(staging_.buffer.getMemoryRequirements(), Property::eHostVisible | Property::eHostCoherent,
+                             Property::eHostCached);  // uncached memory is very slow to read
+  staging_.buffer.bindMemory(*staging_.memory, 0);
+  staging_.data = static_cast<std::byte*>(staging_.memory.mapMemory(0, VK_WHOLE_SIZE));
+}
+
+vk::raii::DeviceMemory GpuContext::allocate(const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags required,
+                                            vk::MemoryPropertyFlags preferred) const {
+  const auto memory = physical_.getMemoryProperties();
+  for (const auto wanted : {required | preferred, required}) {
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+      const bool allowed = (needs.memoryTypeBits >> i & 1u) != 0;
+      if (allowed && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return device_.allocateMemory({needs.size, i});
+    }
+  }
+  throw vk::OutOfDeviceMemoryError("no memory type fits");
+}
+
+const vk::raii::CommandBuffer& GpuContext::begin_commands() const {
+  using Stage = vk::PipelineStageFlagBits;
+  using Access = vk::AccessFlagBits;
+  commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  const vk::MemoryBarrier barrier(Access::eTransferWrite | Access::eShaderWrite,
+                                  Access::eTransferRead | Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite);
+  const auto stages = Stage::eTransfer | Stage::eComputeShader;
+  commands_.pipelineBarrier(stages, stages, {}, barrier, {}, {});
+  return commands_;
+}
+
+void GpuContext::submit_and_wait() const {
+  using Stage = vk::PipelineStageFlagBits;
+  using Access = vk::AccessFlagBits;
+  const vk::MemoryBarrier barrier(Access::eTransferWrite | Access::eShaderWrite, Access::eHostRead);
+  commands_.pipelineBarrier(Stage::eTransfer | Stage::eComputeShader, Stage::eHost, {}, barrier, {}, {});
+  try {
+    commands_.end();
+    const vk::CommandBuffer handle = *commands_;
+    queue_.submit(vk::SubmitInfo({}, {}, handle), *fence_);
+    const auto result = device_.waitForFences(*fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    ENSURE(static_cast<int>(result), ==, static_cast<int>(vk::Result::eSuccess));
+    device_.resetFences(*fence_);
+  } catch (const vk::SystemError& error) {
+    throw_failure(fmt::format("Vulkan device {}", description_.name), error.what(),
+                  "run again; if it fails again, use another device or the CPU path");
+  }
+}
+
+}  // namespace sunfleck
