@@ -1,0 +1,23 @@
+#pragma once
+// Flux in integers.
+
+#include "transport/model.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sunfleck {
+
+// One band's flux in integers: a quantum is about 2^-46 of the band's incident flux per replicate.
+struct BandQuanta {
+  std::int64_t per_ray = 0;        // what a beam ray carries
+  double w_m2_per_quantum = 0.0;   // of ground, in one replicate
+  std::vector<std::int64_t> lamp;  // [element], what it emits in one replicate; empty without lamps in the band
+  std::int64_t lamps = 0;          // their sum
+
+  [[nodiscard]] bool lit() const { return per_ray > 0 || lamps > 0; }
+};
+[[nodiscard]] std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, std::uint64_t rays,
+                                                       double ground_per_ray_m2);
+
+}  // namespace sunfleck

@@ -1,0 +1,26 @@
+#pragma once
+// What is to be simulated, in SI units: the scene without its files.
+
+#include "canopy/canopy.h"
+#include "canopy/optics.h"
+#include "canopy/plot.h"
+#include "light/sun.h"
+
+#include <optional>
+#include <vector>
+
+namespace sunfleck {
+
+struct RadiationModel {
+  Canopy canopy;
+  Plot plot;
+  std::vector<SurfaceOptics> optics;  // [optics number of canopy.optics_of]
+  std::vector<Waveband> bands;        // [waveband]
+  std::optional<Soil> soil;           // none: what falls through is transmitted
+  std::optional<SunPosition> sun;     // none, or not above the horizon: no direct light
+  int layers = 20;                    // equal layers from the ground to the highest element
+
+  [[nodiscard]] bool has_beam() const { return sun && sun->elevation_rad > 0.0; }
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,362 @@
+#include "transport/solve.h"
+
+#include "base/check.h"
+#include "base/random.h"
+#include "bvh/bvh.h"
+#include "light/beam_grid.h"
+#include "transport/indirect.h"
+#include "transport/surfaces.h"
+#include "transport/tally.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace sunfleck {
+namespace {
+
+constexpr int pilot_replicates = 8;
+constexpr double first_pilot_rays = 16384;
+constexpr double first_pilot_packets = 4096;
+constexpr double most_packets = 0x1p24;
+// A pilot foretells work up to so many times its own; beyond, a larger pilot follows, at a few percent of the cost.
+constexpr double trusted_refinement = 16;
+// The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation G3), more slowly while its cells are
+// not yet small against the leaves: rays^-0.6 is what pilots on maize foretell best. That of packets falls with packets^-1/2.
+constexpr double ray_slope = 0.6;
+constexpr double packet_slope = 0.5;
+// Replicates that the work is chosen for, and the part of the bound aimed at, so that the checks rarely fail by chance.
+constexpr int planned_replicates = 16;
+constexpr double aimed_part_of_bound = 0.7;
+constexpr int first_check = 12;
+constexpr int fixed_grid_replicates = 16;
+// Replicate numbers of the pilots, apart from those of the run.
+constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
+
+BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays) {
+  const glm::dvec3 to_sun = direction_to_sun(*model.sun);
+  if (model.plot.periodic) return endless_beam_grid(model.canopy.period_m, layout.box.above_m(), to_sun, rays);
+  return isolated_beam_grid(layout.box.lo_m, layout.box.hi_m, to_sun, rays);
+}
+
+// What one replicate is made of.
+struct Work {
+  double rays = 0.0;
+  double packets = 0.0;
+};
+
+using Clock = std::chrono::steady_clock;
+
+class Solver {
+ public:
+  Solver(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
+         const Monitor& monitor)
+      : model_(model),
+        layout_(layout),
+        tracer_(tracer),
+        settings_(settings),
+        monitor_(monitor),
+        surfaces_(model),
+        counters_(layout.words()) {
+    if (scatters(model)) indirect_ = std::make_unique<IndirectPass>(model, layout, surfaces_, tracer);
+  }
+
+  RadiationResult run() {
+    const int replicates = settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
+    const bool needs_pilot = !settings_.grid_m || (indirect_ && !settings_.packets);
+    std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
+    if (!work) return finish(stop_);
+    if (settings_.grid_m) {
+      work->rays = grid_rays_asked(replicates);
+      work->packets = settings_.packets.value_or(std::max(first_pilot_packets, work->packets));
+    }
+    begin(*work);
+    return fixed() ? run_fixed(replicates) : run_to_bound();
+  }
+
+ private:
+  [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  // True once the run has to end; remembers why.
+  bool must_stop() {
+    if (monitor_.interrupted && monitor_.interrupted()) {
+      stop_ = StopReason::interrupted;
+      return true;
+    }
+    if (settings_.max_seconds && seconds() >= *settings_.max_seconds) {
+      stop_ = StopReason::time_spent;
+      return true;
+    }
+    return false;
+  }
+
+  void begin(const Work& work) {
+    work_ = work;
+    grid_rays_ = 0;
+    double ground_per_ray_m2 = 0.0;
+    if (model_.has_beam()) {
+      const BeamGrid grid = make_grid(model_, layout_, work.rays);
+      grid_rays_ = grid.rays();
+      ground_per_ray_m2 = grid.horizontal_area_per_ray_m2();
+    }
+    tally_ = std::make_unique<Tally>(model_, layout_, surfaces_, grid_rays_, ground_per_ray_m2,
+                                     settings_.element_errors ? ElementErrors::keep : ElementErrors::skip);
+  }
+
+  // Adds one replicate; false if the run has to end before it is whole.
+  bool add_replicate(std::uint64_t stream) {
+    if (must_stop()) return false;
+    const StopQuestion stop = [this] { return must_stop(); };
+    const std::uint64_t replicate = stream + tally_->replicates();
+    std::optional<shared::BeamBlock> beam;
+    std::fill(counters_.begin(), counters_.end(), 0U);
+    if (model_.has_beam()) {
+      beam = make_beam_block(model_, layout_, work_.rays, settings_.seed, replicate);
+      if (tracer_.count_beam(*beam, counters_, stop) == TraceOutcome::stopped) return false;
+    }
+    const DirectSums sums = tally_->sum(counters_);
+    traced_ += grid_rays_;
+    if (!indirect_ || work_.packets == 0.0) {
+      tally_->add(counters_, sums, nullptr);
+      return true;
+    }
+    const Clock::time_point start = Clock::now();
+    const FirstLandings first{beam ? &*beam : nullptr, grid_rays_, sums.met, tally_->scattered(sums)};
+    const IndirectSettings how{work_.packets, settings_.accuracy.indirect, settings_.seed, replicate};
+    const std::optional<IndirectSums> packets = indirect_->run(first, tally_->quanta(), how, stop);
+    indirect_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+    if (!packets) return false;
+    traced_ += packets->packets;
+    tally_->add(counters_, sums, &*packets);
+    return true;
+  }
+
+  [[nodiscard]] double direct_error() const { return model_.has_beam() ? tally_->direct_error(settings_.accuracy) : 0.0; }
+  [[nodiscard]] double indirect_error() const { return indirect_ ? tally_->indirect_error(settings_.accuracy) : 0.0; }
+
+  [[nodiscard]] bool bounds_hold() const {
+    return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
+  }
+
+  void report(double fraction) const {
+    if (!monitor_.report) return;
+    const double direct = direct_error();
+    const double indirect = indirect_error();
+    const bool direct_lags = direct / settings_.accuracy.direct >= indirect / settings_.accuracy.indirect;
+    Progress progress{
+        traced_, std::min(fraction, 1.0), {}, direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect};
+    if (!std::isnan(direct)) progress.relative_error = direct_lags ? direct : indirect;
+    monitor_.report(progress);
+  }
+
+  [[nodiscard]] double grid_rays_asked(int replicates) const {
+    return std::max(1.0, model_.plot.area_m2() / (*settings_.grid_m * *settings_.grid_m) / replicates);
+  }
+
+  // How many times work has to grow for an error to fall to the part aimed at of a bound.
+  [[nodiscard]] static double growth(double error, double bound, double slope) {
+    return std::pow(error / (aimed_part_of_bound * bound), 1.0 / slope);
+  }
+
+  // The work of a replicate with which `replicates` of them reach the bounds: pilots of the direct pass alone tell the rays,
+  // then pilots with half those rays tell the packets. None if the run was stopped meanwhile; the last pilot stays as the
+  // fallback.
+  std::optional<Work> choose_work(int replicates) {
+    double most = static_cast<double>(max_grid_rays);
+    if (settings_.max_rays) most = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * pilot_replicates));
+    Work work;
+    if (settings_.grid_m) {
+      work.rays = grid_rays_asked(replicates);
+    } else if (model_.has_beam()) {
+      const auto needed = [this](double fewer) { return growth(direct_error() * fewer, settings_.accuracy.direct, ray_slope); };
+      const auto rays = grow_pilots({std::min(first_pilot_rays, most), 0.0}, &Work::rays, most, needed, replicates);
+      if (!rays) return std::nullopt;
+      work.rays = *rays;
+    }
+    if (!indirect_) return work;
+    // On a fixed grid at most one packet a ray, and at least as many as the first pilot has.
+    double most_of_them = std::min(most, most_packets);
+    if (settings_.grid_m) most_of_them = std::min(most_of_them, std::max(first_pilot_packets, work.rays));
+    if (most_of_them <= first_pilot_packets) {
+      work.packets = most_of_them;
+      return work;
+    }
+    const Work pilot{std::max(std::min(first_pilot_rays, work.rays), 0.5 * work.rays), std::min(first_pilot_packets, most)};
+    const auto needed = [this](double fewer) {
+      return growth(indirect_error() * fewer, settings_.accuracy.indirect, packet_slope);
+    };
+    const auto packets = grow_pilots(pilot, &Work::packets, most_of_them, needed, replicates);
+    if (!packets) return std::nullopt;
+    work.packets = *packets;
+    return work;
+  }
+
+  // Runs pilots until one is large enough to foretell `part` of the work; `needed` tells how many times a pilot's has to grow.
+  template <class Growth>
+  std::optional<double> grow_pilots(Work pilot, double Work::*part, double most, const Growth& needed, int replicates) {
+    const double fewer = std::sqrt(static_cast<double>(pilot_replicates) / replicates) *
+                         t_quantile(settings_.accuracy.confidence, static_cast<std::size_t>(replicates)) /
+                         t_quantile(settings_.accuracy.confidence, pilot_replicates);
+    while (true) {
+      const double before = seconds();
+      begin(pilot);
+      while (tally_->replicates() < pilot_replicates) {
+        if (add_replicate(pilot_stream)) continue;
+        keep_fallback();
+        return std::nullopt;
+      }
+      const double wanted = pilot.*part * std::max(0.25, needed(fewer));
+      const double affordable = pilot.*part * affordable_growth((seconds() - before) / pilot_replicates);
+      const double next = std::clamp(std::min(wanted, affordable), 1.0, std::max(1.0, most));
+      keep_fallback();
+      if (next <= trusted_refinement * pilot.*part || next < wanted) return next;
+      pilot.*part *= trusted_refinement;
+    }
+  }
+
+  // With a limit of time, replicates so large that not even pilot_replicates of them would be done are of no use.
+  [[nodiscard]] double affordable_growth(double seconds_per_replicate) const {
+    if (!settings_.max_seconds) return std::numeric_limits<double>::infinity();
+    const double left = std::max(0.0, *settings_.max_seconds - seconds());
+    return left / (2.0 * pilot_replicates * std::max(seconds_per_replicate, 1e-6));
+  }
+
+  void keep_fallback() {
+    if (tally_ && tally_->replicates() >= 2) {
+      fallback_ = std::move(tally_);
+      fallback_rays_ = grid_rays_;
+    }
+    tally_.reset();
+  }
+
+  RadiationResult run_fixed(int replicates) {
+    while (tally_->replicates() < static_cast<std::size_t>(replicates)) {
+      if (spent() || !add_replicate(0)) return finish(stop_);
+      report(static_cast<double>(tally_->replicates()) / replicates);
+    }
+    return finish(StopReason::work_done);
+  }
+
+  RadiationResult run_to_bound() {
+    int good_checks = 0;
+    std::size_t next_check = first_check;
+    while (true) {
+      if (spent() || !add_replicate(0)) return finish(stop_);
+      report(static_cast<double>(tally_->replicates()) / std::max<double>(planned_replicates, next_check));
+      if (tally_->replicates() < next_check) continue;
+      good_checks = bounds_hold() ? good_checks + 1 : 0;
+      if (good_checks == 2) return finish(StopReason::bound_reached);
+      next_check += std::max<std::size_t>(4, next_check / 8);
+    }
+  }
+
+  // True if the next replicate would need more rays than are left.
+  bool spent() {
+    if (!settings_.max_rays) return false;
+    const std::size_t done = tally_->replicates();
+    if (done == 0) before_run_ = traced_;
+    const std::uint64_t run = traced_ - before_run_;
+    const std::uint64_t next = done > 0 ? run / done : grid_rays_;
+    if (run + next <= *settings_.max_rays) return false;
+    stop_ = StopReason::rays_spent;
+    return true;
+  }
+
+  RadiationResult finish(StopReason reason) {
+    const bool use_fallback = fallback_ && (!tally_ || tally_->replicates() < 2);
+    if (use_fallback) {
+      tally_ = std::move(fallback_);
+      grid_rays_ = fallback_rays_;
+    } else if (!tally_) {
+      begin({first_pilot_rays, first_pilot_packets});
+    }
+    RadiationResult result = tally_->result(settings_.accuracy.confidence);
+    result.stop = reason;
+    result.direct.replicates = tally_->replicates();
+    result.direct.rays = tally_->replicates() * grid_rays_;
+    if (result.direct.rays > 0) {
+      result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
+    }
+    if (const double error = direct_error(); !std::isnan(error)) result.direct.relative_error = error;
+    result.direct.seconds = seconds() - indirect_seconds_;
+    result.indirect.seconds = indirect_seconds_;
+    if (const double error = indirect_error(); indirect_ && !std::isnan(error)) result.indirect.relative_error = error;
+    if (!fixed()) {
+      result.direct.bound = settings_.accuracy.direct;
+      if (indirect_) result.indirect.bound = settings_.accuracy.indirect;
+    }
+    return result;
+  }
+
+  const RadiationModel& model_;
+  const CounterLayout& layout_;
+  Tracer& tracer_;
+  const SolveSettings& settings_;
+  const Monitor& monitor_;
+  Surfaces surfaces_;
+  std::unique_ptr<IndirectPass> indirect_;  // none where no light goes on after its first landing
+  Clock::time_point start_ = Clock::now();
+  std::vector<std::uint32_t> counters_;
+  std::unique_ptr<Tally> tally_, fallback_;
+  StopReason stop_ = StopReason::interrupted;
+  Work work_;
+  std::uint64_t grid_rays_ = 0;  // what the grid makes of the asked rays
+  std::uint64_t fallback_rays_ = 0;
+  std::uint64_t traced_ = 0, before_run_ = 0;
+  double indirect_seconds_ = 0.0;
+};
+
+// A scene without any light: every flux is exactly zero, and shares of the beam do not exist.
+RadiationResult without_light(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
+  const Surfaces surfaces(model);
+  Tally tally(model, layout, surfaces, 0, 0.0, settings.element_errors ? ElementErrors::keep : ElementErrors::skip);
+  const std::vector<std::uint32_t> nothing(layout.words());
+  for (int replicate = 0; replicate < pilot_replicates; ++replicate) tally.add(nothing, tally.sum(nothing), nullptr);
+  RadiationResult result = tally.result(settings.accuracy.confidence);
+  result.stop = StopReason::bound_reached;
+  result.direct.relative_error = 0.0;
+  if (!settings.grid_m && !settings.passes) result.direct.bound = settings.accuracy.direct;
+  return result;
+}
+
+bool has_lamps(const RadiationModel& model) {
+  const std::vector<BandQuanta> quanta = make_band_quanta(model, 0, 0.0);
+  return std::any_of(quanta.begin(), quanta.end(), [](const BandQuanta& band) { return band.lamps > 0; });
+}
+
+}  // namespace
+
+shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays, std::uint64_t seed,
+                                  std::uint64_t replicate) {
+  EXPECT(model.has_beam(), ==, true);
+  const BeamGrid grid = make_grid(model, layout, rays);
+  const std::uint64_t key = RandomStream(seed, replicate).word();
+  shared::BeamBlock beam;
+  beam.corner = grid.corner_m;
+  beam.edge_u = grid.edge_u_m;
+  beam.edge_v = grid.edge_v_m;
+  beam.per_column = 1.0F / static_cast<float>(grid.columns);
+  beam.per_row = 1.0F / static_cast<float>(grid.rows);
+  beam.columns = grid.columns;
+  beam.rows = grid.rows;
+  beam.direction = grid.direction;
+  beam.key = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)};
+  beam.period = model.canopy.period_m;
+  beam.overlap = 0.5F * border_margin_m(model.canopy);
+  beam.ground = make_ground_map(layout);
+  beam.layer_base_y = layout.layers.base_y_m;
+  beam.layers_per_metre = layout.layers.per_metre;
+  beam.layers = static_cast<std::uint32_t>(layout.layers.count);
+  return beam;
+}
+
+RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
+                      const Monitor& monitor) {
+  if (!model.has_beam() && !has_lamps(model)) return without_light(model, layout, settings);
+  return Solver(model, layout, tracer, settings, monitor).run();
+}
+
+}  // namespace sunfleck

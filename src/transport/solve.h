@@ -1,0 +1,50 @@
+#pragma once
+// The whole simulation: equal, independent replicates, each a direct pass and the rounds of its indirect pass, until the asked
+// errors are reached.
+
+#include "transport/accuracy.h"
+#include "transport/counters.h"
+#include "transport/model.h"
+#include "transport/result.h"
+#include "transport/tracer.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+namespace sunfleck {
+
+struct SolveSettings {
+  Accuracy accuracy;
+  std::uint64_t seed = 1;
+  std::optional<double> grid_m;           // fixed work: spacing of all beam rays of the run together
+  std::optional<int> passes;              // fixed work: so many replicates, >= 8
+  std::optional<double> packets;          // fixed work, beside grid_m: packets in the first round of each replicate
+  std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
+  std::optional<double> max_seconds;      // wall time of the simulation
+  bool element_errors = false;            // keep the spread of every element
+};
+
+struct Progress {
+  std::uint64_t rays = 0;                // and packets
+  double fraction = 0.0;                 // of the work as far as it can be foreseen
+  std::optional<double> relative_error;  // of the pass that is further from its bound
+  double bound = 0.0;
+};
+
+// How a caller watches and ends a run. Both may be empty.
+struct Monitor {
+  std::function<void(const Progress&)> report;
+  StopQuestion interrupted;
+};
+
+// Runs the simulation. A run stopped before its second replicate is done falls back on the replicates of its pilot, if it had
+// one. Throws Error (failure) if the ledger of any band does not close, or rays and landings do not tally.
+[[nodiscard]] RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
+                                    const SolveSettings& settings, const Monitor& monitor);
+
+// The beam rays of one replicate as tracers take them; `rays` is about how many.
+[[nodiscard]] shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays,
+                                                std::uint64_t seed, std::uint64_t replicate);
+
+}  // namespace sunfleck

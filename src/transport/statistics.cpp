@@ -1,0 +1,20 @@
+#include "transport/statistics.h"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace sunfleck {
+
+double ReplicateMean::standard_error() const {
+  if (count_ < 2) return std::numeric_limits<double>::quiet_NaN();
+  const auto n = static_cast<double>(count_);
+  return std::sqrt(squares_ / (n - 1.0) / n);
+}
+
+double t_quantile(double confidence, std::size_t replicates) {
+  if (replicates < 2) return std::numeric_limits<double>::quiet_NaN();
+  const boost::math::students_t distribution(static_cast<double>(replicates - 1));
+  return boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - confidence)));
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,43 @@
+#pragma once
+// Mean and confidence interval from independent, equal replicates.
+
+#include <cstddef>
+#include <limits>
+
+namespace sunfleck {
+
+// A value with the half-width of its confidence interval, in its own unit; NaN where too few replicates are there to tell.
+struct Estimate {
+  double value = 0.0;
+  double half_width = std::numeric_limits<double>::quiet_NaN();
+
+  [[nodiscard]] Estimate scaled(double factor) const { return {value * factor, half_width * (factor < 0 ? -factor : factor)}; }
+};
+
+// Running mean and sum of squared deviations (Welford 1962, Technometrics 4:419).
+class ReplicateMean {
+ public:
+  void add(double value) {
+    ++count_;
+    const double delta = value - mean_;
+    mean_ += delta / static_cast<double>(count_);
+    squares_ += delta * (value - mean_);
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] double mean() const { return mean_; }
+  // Of the mean; NaN below two replicates.
+  [[nodiscard]] double standard_error() const;
+  [[nodiscard]] Estimate estimate(double t_quantile) const { return {mean_, t_quantile * standard_error()}; }
+
+ private:
+  std::size_t count_ = 0;
+  double mean_ = 0.0;
+  double squares_ = 0.0;
+};
+
+// The factor between standard error and half-width of a two-sided interval: Student's t with replicates - 1 degrees of
+// freedom; NaN below two replicates.
+[[nodiscard]] double t_quantile(double confidence, std::size_t replicates);
+
+}  // namespace sunfleck

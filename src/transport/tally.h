@@ -1,0 +1,139 @@
+#pragma once
+// From landings to fluxes: adds up the replicates, integers for the ledger, means and spreads for the rest.
+
+#include "transport/accuracy.h"
+#include "transport/counters.h"
+#include "transport/indirect.h"
+#include "transport/model.h"
+#include "transport/result.h"
+#include "transport/surfaces.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+enum class ElementErrors { skip, keep };
+
+// Landings of one replicate's beam rays, summed from its counters.
+struct DirectSums {
+  struct Landings {
+    std::uint64_t upper = 0, lower = 0;
+    [[nodiscard]] std::uint64_t both() const { return upper + lower; }
+  };
+  std::vector<Landings> surface;       // [surface]
+  std::vector<Landings> layer_optics;  // [layer * optics + optics], without soil
+  std::vector<double> organ_lit_m2;    // [organ]
+  std::vector<double> layer_lit_m2;    // [layer], foliage
+  std::uint64_t soil_plane = 0, transmitted = 0, ground = 0, met = 0, missed = 0, lost = 0;
+};
+
+class Tally {
+ public:
+  // All replicates have `rays` beam rays (0 without a beam), each standing for ground_per_ray_m2 of level ground. Model, layout
+  // and surfaces must outlive it.
+  Tally(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, std::uint64_t rays,
+        double ground_per_ray_m2, ElementErrors element_errors);
+
+  [[nodiscard]] const std::vector<BandQuanta>& quanta() const { return quanta_; }
+
+  // Sums one replicate's counters; they are not added yet. Throws Error (failure) unless every ray sent is accounted for.
+  [[nodiscard]] DirectSums sum(std::span<const std::uint32_t> counters) const;
+
+  // What the first landings leave to be shot, as FirstLandings::scattered.
+  [[nodiscard]] std::vector<std::int64_t> scattered(const DirectSums& sums) const;
+
+  // Adds a replicate. Without an indirect pass what its first landings scattered counts as unshot.
+  void add(std::span<const std::uint32_t> counters, const DirectSums& sums, const IndirectSums* indirect);
+
+  [[nodiscard]] std::size_t replicates() const { return replicates_; }
+
+  // The figure compared with the direct bound: the largest half-width, relative to its value, of the first-hit flux on
+  // vegetation and on the ground, either judged against at least 1 % of the incident flux; for organs also that of every
+  // organ with at least a tenth of the mean organ's flux; for triangles the area-weighted root-mean-square half-width of the
+  // elements' irradiance relative to its mean. NaN below two replicates.
+  [[nodiscard]] double direct_error(const Accuracy& accuracy) const;
+
+  // The same for all else that vegetation and soil absorb, the largest over the bands; half-widths hold the unshot flux.
+  [[nodiscard]] double indirect_error(const Accuracy& accuracy) const;
+
+  // Everything but `stop`, `direct` and `indirect`. Throws Error (failure) if a ledger does not close.
+  [[nodiscard]] RadiationResult result(double confidence) const;
+
+ private:
+  using Landings = DirectSums::Landings;
+  struct BandMeans {                                         // W m-2 of ground
+    ReplicateMean vegetation, soil, reflected, transmitted;  // all that is absorbed, leaves
+    ReplicateMean indirect_vegetation, indirect_soil;        // absorbed other than from the beam's first landing
+  };
+  struct OrganMeans {
+    ReplicateMean landed, sunlit;                                              // landed: beam rays' ground per organ area
+    std::vector<ReplicateMean> direct, indirect, absorbed, indirect_absorbed;  // [band], W m-2 of organ
+  };
+  struct LayerMeans {
+    ReplicateMean ratio, sunlit;
+    std::vector<ReplicateMean> down, up, absorbed;  // [band], W m-2 of ground
+  };
+  struct Spread {
+    double sum = 0.0, squares = 0.0;
+    void add(double value) {
+      sum += value;
+      squares += value * value;
+    }
+  };
+
+  void measure_elements();
+  [[nodiscard]] const QuantaSplit& split_of(std::size_t optics, std::size_t side, std::size_t band) const;
+  void split_rays();
+  void sum_elements(std::span<const std::uint32_t> counters, DirectSums& sums) const;
+  void check(const DirectSums& sums) const;
+  void add_to_ledgers(const DirectSums& sums, const IndirectSums* indirect);
+  void add_to_band_means(const DirectSums& sums, const IndirectSums* indirect);
+  void add_to_organ_means(const DirectSums& sums, const IndirectSums* indirect);
+  void add_to_layer_means(const DirectSums& sums, const IndirectSums* indirect);
+  void add_elements(std::span<const std::uint32_t> counters, const IndirectSums* indirect);
+  [[nodiscard]] Landings element_landings(std::span<const std::uint32_t> counters, std::size_t element) const;
+  [[nodiscard]] double absorptance(std::size_t optics, std::size_t side, std::size_t band) const;
+  [[nodiscard]] double beam_w_m2(std::size_t band) const;
+  [[nodiscard]] double unshot_share(std::size_t band) const;
+  [[nodiscard]] double half_width(const Spread& spread, double quantile) const;
+  [[nodiscard]] double organ_error(double quantile, bool indirect) const;
+  [[nodiscard]] double element_rms_error(double quantile, const std::vector<Spread>& spreads, std::size_t first) const;
+  [[nodiscard]] BandResult band_result(std::size_t band, double quantile) const;
+  [[nodiscard]] std::vector<OrganResult> organ_results(double quantile) const;
+  [[nodiscard]] std::vector<LayerResult> layer_results(double quantile) const;
+  [[nodiscard]] std::vector<double> element_errors(double quantile) const;
+
+  const RadiationModel& model_;
+  const CounterLayout& layout_;
+  const Surfaces& surfaces_;
+  std::uint64_t rays_;
+  double ground_per_ray_m2_;
+  std::vector<BandQuanta> quanta_;         // [band]
+  std::vector<float> lit_m2_per_landing_;  // [element], of the element's own area
+  std::vector<bool> foliage_;              // [element]
+  std::vector<double> organ_area_m2_;      // [organ]
+  std::vector<double> layer_foliage_m2_;   // [layer]
+  double foliage_m2_ = 0.0;
+  std::vector<QuantaSplit> splits_;  // of a ray: [(optics * 2 + side) * bands + band], then [band] of the soil plane
+
+  std::size_t replicates_ = 0;
+  std::uint64_t lost_ = 0, packets_ = 0, rounds_ = 0;
+  std::vector<FluxLedger> ledgers_;  // [band]
+  ReplicateMean first_vegetation_, first_ground_, met_, ground_ratio_, sunlit_;
+  std::vector<BandMeans> bands_;
+  std::vector<OrganMeans> organs_;
+  std::vector<LayerMeans> layers_;  // [layer, + 1 for the top plane]
+  std::vector<ElementResult> elements_;
+  std::vector<std::int64_t> side_landed_;  // as IndirectSums::side_landed, over all replicates; empty before the first
+  std::vector<std::int64_t> cell_landed_;
+  std::vector<std::uint64_t> soil_cells_;
+  std::vector<std::uint64_t> element_hits_;  // [element], rays and packets; empty if errors are skipped
+  ElementErrors element_errors_;
+  std::vector<Spread> direct_spread_;    // [element], landings; these three empty if errors are skipped
+  std::vector<Spread> absorbed_spread_;  // [band * elements + element], W m-2 of element
+  std::vector<Spread> indirect_spread_;  // [band * elements + element], W m-2 of element
+};
+
+}  // namespace sunfleck
