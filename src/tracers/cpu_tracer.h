@@ -1,0 +1,95 @@
+#pragma once
+// The reference tracer: walks the tree on all cores with the arithmetic it shares with the shaders, or tests every element
+// when the tree itself is in doubt.
+
+#include "bvh/bvh.h"
+#include "shared/intersect.h"
+#include "shared/layout.h"
+#include "transport/tracer.h"
+
+#include <memory>
+
+namespace sunfleck {
+
+enum class CpuWalk { tree, every_element };
+
+// Nearest hit of one ray among the references of one period; `triangle` is its place in leaf order.
+struct CpuHit {
+  bool found = false;
+  float t = 0.0F;
+  float weight_b = 0.0F;
+  float weight_c = 0.0F;
+  std::uint32_t lower = 0;
+  std::uint32_t element = 0;
+  std::uint32_t triangle = 0;
+};
+
+// Elements where the canopy has them only, or their copies that reach into the period as well.
+enum class Images { all, originals };
+
+// An element's copy that a ray does not meet: the one it starts from.
+struct OwnElement {
+  std::uint32_t element = shared::no_element;
+  std::uint32_t image = 0;
+};
+
+// Nearest hit with 0 < t <= limit; at equal distance the lower element number.
+[[nodiscard]] CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images images = Images::all,
+                                 OwnElement own = {});
+[[nodiscard]] CpuHit nearest_hit_of_all(const Bvh& bvh, const shared::Ray& ray, float limit, OwnElement own = {});
+
+class CpuTracer final : public Tracer {
+ public:
+  // The tree must outlive the tracer. `period` tells an endless canopy from an isolated stand, `has_soil` whether there
+  // is a soil plane to land on.
+  struct Scene {
+    bool periodic = true;
+    bool has_soil = true;
+  };
+  CpuTracer(const Bvh& bvh, Scene scene, CpuWalk walk = CpuWalk::tree) : bvh_(bvh), scene_(scene), walk_(walk) {}
+
+  [[nodiscard]] TracerDevice device() const override;
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override;
+
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override;
+
+  // Where one packet lands that has come as far as `packet.origin` after `crossings` periods.
+  [[nodiscard]] shared::Landing follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
+                                              std::uint32_t crossings) const;
+
+  // Follows one ray to its end, from where it paused, and counts its landing.
+  void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters) const;
+
+ private:
+  [[nodiscard]] CpuHit nearest(const shared::Ray& ray, float limit, OwnElement own = {}) const;
+  [[nodiscard]] shared::Landing follow_in_isolated_stand(const shared::PacketBlock& scene, const shared::Ray& ray,
+                                                         OwnElement own) const;
+  [[nodiscard]] shared::Landing follow_in_endless_canopy(const shared::PacketBlock& scene, shared::Ray ray, OwnElement own,
+                                                         std::uint32_t crossings) const;
+  void count_element(const shared::BeamBlock& beam, const CpuHit& hit, std::span<std::uint32_t> counters) const;
+  void count_ground(const shared::BeamBlock& beam, const shared::Ray& ray, float t, std::span<std::uint32_t> counters) const;
+  void follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray, std::span<std::uint32_t> counters) const;
+  void follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
+                                std::span<std::uint32_t> counters) const;
+
+  const Bvh& bvh_;
+  Scene scene_;
+  CpuWalk walk_;
+};
+
+// Threads of the CPU path from here on, for as long as the object lives; 0: as many as there are cores.
+class CpuThreads {
+ public:
+  explicit CpuThreads(int threads);
+  ~CpuThreads();
+  CpuThreads(const CpuThreads&) = delete;
+  CpuThreads& operator=(const CpuThreads&) = delete;
+
+ private:
+  struct Limit;
+  std::unique_ptr<Limit> limit_;
+};
+
+}  // namespace sunfleck

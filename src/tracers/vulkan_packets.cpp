@@ -1,0 +1,89 @@
+#include "tracers/vulkan_packets.h"
+
+#include "base/check.h"
+#include "packets.spirv.h"
+#include "packets_storage.spirv.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::size_t outbox_head_bytes = sizeof(std::uint32_t);
+
+ShaderCode packets_shader(const GpuTree& tree) {
+  const std::span<const std::uint32_t> spirv = tree.fetch == TreeFetch::texel_buffers
+                                                   ? std::span<const std::uint32_t>(packets_spirv)
+                                                   : std::span<const std::uint32_t>(packets_storage_spirv);
+  std::vector<BufferUse> bindings{tree.use(), tree.use()};
+  bindings.resize(7, BufferUse::storage);
+  return {"packets", spirv, bindings, sizeof(shared::PacketPush), shared::group_size};
+}
+
+}  // namespace
+
+VulkanPackets::VulkanPackets(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, CpuTracer::Scene scene,
+                             std::uint32_t packets_per_dispatch)
+    : context_(context),
+      tree_(tree),
+      cpu_(cpu),
+      packets_per_dispatch_(packets_per_dispatch),
+      scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
+      packets_(create_buffer(context, BufferUse::storage, packets_per_dispatch * sizeof(shared::Packet), "packets")),
+      landings_(create_buffer(context, BufferUse::storage, packets_per_dispatch * sizeof(shared::Landing), "landings")),
+      inbox_(create_buffer(context, BufferUse::storage, outbox_head_bytes + packets_per_dispatch * sizeof(shared::PausedPacket),
+                           "paused packets")),
+      outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, "paused packets")),
+      pipeline_(context, packets_shader(tree), {scene.periodic ? 1U : 0U, scene.has_soil ? 1U : 0U}) {}
+
+void VulkanPackets::dispatch(const shared::PacketPush& push) {
+  const std::uint32_t none = 0;
+  upload(context_, outbox_, std::as_bytes(std::span(&none, 1)));
+  const GpuBuffer* const buffers[] = {&tree_.nodes, &tree_.triangles, &scene_, &packets_, &landings_, &inbox_, &outbox_};
+  pipeline_.run(push.count, std::as_bytes(std::span(&push, 1)), buffers);
+}
+
+std::uint32_t VulkanPackets::take_out_stuck(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                            std::vector<std::pair<std::uint32_t, shared::Landing>>& finished) {
+  std::uint32_t count = 0;
+  download(context_, outbox_, std::as_writable_bytes(std::span(&count, 1)));
+  if (count == 0) return 0;
+  std::vector<shared::PausedPacket> paused(count);
+  download(context_, outbox_, std::as_writable_bytes(std::span(paused)), outbox_head_bytes);
+  const auto stuck =
+      std::partition(paused.begin(), paused.end(), [](const shared::PausedPacket& packet) { return packet.stuck == 0; });
+  if (stuck == paused.end()) return count;
+  for (auto each = stuck; each != paused.end(); ++each) {
+    shared::Packet packet = packets[each->packet];
+    packet.origin = each->origin;
+    packet.image = each->image;
+    finished.emplace_back(each->packet, cpu_.follow_packet(scene, packet, each->crossings));
+  }
+  paused.erase(stuck, paused.end());
+  upload(context_, outbox_, std::as_bytes(std::span(paused)), outbox_head_bytes);
+  return static_cast<std::uint32_t>(paused.size());
+}
+
+TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                  std::span<shared::Landing> landings, const StopQuestion& stop) {
+  EXPECT(landings.size(), ==, packets.size());
+  upload(context_, scene_, std::as_bytes(std::span(&scene, 1)));
+  for (std::size_t first = 0; first < packets.size(); first += packets_per_dispatch_) {
+    const auto slice = packets.subspan(first, std::min<std::size_t>(packets_per_dispatch_, packets.size() - first));
+    upload(context_, packets_, std::as_bytes(slice));
+    std::vector<std::pair<std::uint32_t, shared::Landing>> finished_on_cpu;
+    shared::PacketPush push{0, static_cast<std::uint32_t>(slice.size()), 0};
+    while (push.count > 0) {
+      if (stop && stop()) return TraceOutcome::stopped;
+      dispatch(push);
+      push = {0, take_out_stuck(scene, slice, finished_on_cpu), 1};
+      std::swap(inbox_, outbox_);
+    }
+    download(context_, landings_, std::as_writable_bytes(landings.subspan(first, slice.size())));
+    for (const auto& [packet, landing] : finished_on_cpu) landings[first + packet] = landing;
+  }
+  return TraceOutcome::finished;
+}
+
+}  // namespace sunfleck

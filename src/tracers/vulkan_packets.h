@@ -1,0 +1,36 @@
+#pragma once
+// The part of the Vulkan tracer that follows packets. Made when the first packet is to be traced: a run without scattering has
+// neither its buffers nor its shader.
+
+#include "gpu/buffer.h"
+#include "gpu/compute.h"
+#include "tracers/cpu_tracer.h"
+#include "tracers/gpu_tree.h"
+#include "transport/tracer.h"
+
+namespace sunfleck {
+
+class VulkanPackets {
+ public:
+  // All three must outlive it.
+  VulkanPackets(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, CpuTracer::Scene scene,
+                std::uint32_t packets_per_dispatch);
+
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop);
+
+ private:
+  void dispatch(const shared::PacketPush& push);
+  // Packets that one period kept too long are followed to their end on the CPU; returns how many go on.
+  [[nodiscard]] std::uint32_t take_out_stuck(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                             std::vector<std::pair<std::uint32_t, shared::Landing>>& finished);
+
+  const GpuContext& context_;
+  const GpuTree& tree_;
+  const CpuTracer& cpu_;
+  std::uint32_t packets_per_dispatch_;
+  GpuBuffer scene_, packets_, landings_, inbox_, outbox_;
+  ComputePipeline pipeline_;
+};
+
+}  // namespace sunfleck

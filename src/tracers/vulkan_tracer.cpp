@@ -1,0 +1,119 @@
+#include "tracers/vulkan_tracer.h"
+
+#include "base/check.h"
+#include "direct.spirv.h"
+#include "direct_storage.spirv.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+// Rays of one dispatch, measured as a compromise between overhead and the time until Ctrl-C or a display is heard: about
+// 50 ms each on two cores of software Vulkan, a few ms on a large GPU.
+constexpr std::uint32_t software_rays_per_dispatch = 1U << 17U;
+constexpr std::uint32_t hardware_rays_per_dispatch = 1U << 22U;
+
+// Packets travel to the device and back: no more at a time than the smallest storage binding there is holds.
+constexpr std::uint32_t most_packets_per_dispatch = 1U << 20U;
+
+constexpr std::size_t outbox_head_bytes = sizeof(std::uint32_t);
+
+ShaderCode direct_shader(const GpuTree& tree) {
+  const std::span<const std::uint32_t> spirv = tree.fetch == TreeFetch::texel_buffers
+                                                   ? std::span<const std::uint32_t>(direct_spirv)
+                                                   : std::span<const std::uint32_t>(direct_storage_spirv);
+  return {"direct",
+          spirv,
+          {tree.use(), tree.use(), BufferUse::storage, BufferUse::storage, BufferUse::storage, BufferUse::storage},
+          sizeof(shared::BeamPush),
+          shared::group_size};
+}
+
+}  // namespace
+
+VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
+                           std::size_t counter_words)
+    : VulkanTracer(context, bvh, tree, scene, counter_words,
+                   context.description().software ? software_rays_per_dispatch : hardware_rays_per_dispatch) {}
+
+VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
+                           std::size_t counter_words, std::uint32_t rays_per_dispatch)
+    : context_(context),
+      cpu_(bvh, scene),
+      scene_(scene),
+      rays_per_dispatch_(rays_per_dispatch),
+      tree_(tree),
+      beam_(create_buffer(context, BufferUse::storage, sizeof(shared::BeamBlock), "the beam's description")),
+      counters_(create_buffer(context, BufferUse::storage, counter_words * sizeof(std::uint32_t), "the counters of landings")),
+      inbox_(create_buffer(context, BufferUse::storage, outbox_head_bytes + rays_per_dispatch * sizeof(shared::PausedRay),
+                           "paused rays")),
+      outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, "paused rays")),
+      pipeline_(context, direct_shader(tree), {scene.periodic ? 1U : 0U, scene.has_soil ? 1U : 0U}) {}
+
+TracerDevice VulkanTracer::device() const {
+  const DeviceDescription& device = context_.description();
+  return {"vulkan", device.name, device.driver, device.software};
+}
+
+void VulkanTracer::dispatch(const shared::BeamPush& push) {
+  const std::uint32_t none = 0;
+  upload(context_, outbox_, std::as_bytes(std::span(&none, 1)));
+  const GpuBuffer* const buffers[] = {&tree_.nodes, &tree_.triangles, &beam_, &counters_, &inbox_, &outbox_};
+  pipeline_.run(push.count, std::as_bytes(std::span(&push, 1)), buffers);
+}
+
+std::uint32_t VulkanTracer::paused_count() const {
+  std::uint32_t count = 0;
+  download(context_, outbox_, std::as_writable_bytes(std::span(&count, 1)));
+  return count;
+}
+
+std::uint32_t VulkanTracer::take_out_stuck_rays(const shared::BeamBlock& beam, std::uint32_t paused,
+                                                std::span<std::uint32_t> counters) {
+  std::vector<shared::PausedRay> rays(paused);
+  download(context_, outbox_, std::as_writable_bytes(std::span(rays)), outbox_head_bytes);
+  const auto stuck = std::partition(rays.begin(), rays.end(), [](const shared::PausedRay& ray) { return ray.stuck == 0; });
+  for (auto ray = stuck; ray != rays.end(); ++ray) cpu_.finish_ray(beam, *ray, counters);
+  if (stuck == rays.end()) return paused;
+  rays.erase(stuck, rays.end());
+  upload(context_, outbox_, std::as_bytes(std::span(rays)), outbox_head_bytes);
+  return static_cast<std::uint32_t>(rays.size());
+}
+
+TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                      const StopQuestion& stop) {
+  EXPECT(counters.size_bytes(), ==, counters_.bytes);
+  upload(context_, beam_, std::as_bytes(std::span(&beam, 1)));
+  fill(context_, counters_, 0);
+  const std::uint32_t rays = beam.columns * beam.rows;
+  for (std::uint32_t first = 0; first < rays;) {
+    const std::uint32_t slice = std::min(rays_per_dispatch_, rays - first);
+    shared::BeamPush push{first, slice, 0};
+    while (push.count > 0) {
+      if (stop && stop()) return TraceOutcome::stopped;
+      dispatch(push);
+      push = {0, paused_count(), 1};
+      if (push.count > 0) push.count = take_out_stuck_rays(beam, push.count, counters);
+      std::swap(inbox_, outbox_);
+    }
+    first += slice;
+  }
+  std::vector<std::uint32_t> landed(counters.size());
+  download(context_, counters_, std::as_writable_bytes(std::span(landed)));
+  for (std::size_t word = 0; word < landed.size(); ++word) counters[word] += landed[word];
+  return TraceOutcome::finished;
+}
+
+TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                 std::span<shared::Landing> landings, const StopQuestion& stop) {
+  if (!packets_) {
+    packets_ =
+        std::make_unique<VulkanPackets>(context_, tree_, cpu_, scene_, std::min(rays_per_dispatch_, most_packets_per_dispatch));
+  }
+  return packets_->trace(scene, packets, landings, stop);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,51 @@
+#pragma once
+// The tracer on Vulkan: uploads the tree once, cuts every replicate into short dispatches, and sends paused rays on.
+
+#include "bvh/bvh.h"
+#include "gpu/buffer.h"
+#include "gpu/compute.h"
+#include "gpu/context.h"
+#include "tracers/cpu_tracer.h"
+#include "tracers/gpu_tree.h"
+#include "tracers/vulkan_packets.h"
+#include "transport/tracer.h"
+
+#include <memory>
+
+namespace sunfleck {
+
+class VulkanTracer final : public Tracer {
+ public:
+  // Context, tree and device tree must outlive the tracer. `counter_words` is the length of the counters of every
+  // count_beam. Throws Error (device) naming the limit if the counters are too large for the device, Error (failure) if
+  // its memory runs out. The second form chooses how many rays go into one dispatch; the result is the same.
+  VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
+               std::size_t counter_words);
+  VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
+               std::size_t counter_words, std::uint32_t rays_per_dispatch);
+
+  [[nodiscard]] TracerDevice device() const override;
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override;
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override;
+
+ private:
+  void dispatch(const shared::BeamPush& push);
+  // The rays that paused in the last dispatch.
+  [[nodiscard]] std::uint32_t paused_count() const;
+  // Rays that one period kept too long are followed to their end on the CPU; the others go on in the next dispatch.
+  [[nodiscard]] std::uint32_t take_out_stuck_rays(const shared::BeamBlock& beam, std::uint32_t paused,
+                                                  std::span<std::uint32_t> counters);
+
+  const GpuContext& context_;
+  CpuTracer cpu_;
+  CpuTracer::Scene scene_;
+  std::uint32_t rays_per_dispatch_;
+  const GpuTree& tree_;
+  GpuBuffer beam_, counters_, inbox_, outbox_;
+  ComputePipeline pipeline_;
+  std::unique_ptr<VulkanPackets> packets_;  // once there are any
+};
+
+}  // namespace sunfleck
