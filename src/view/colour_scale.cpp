@@ -1,0 +1,111 @@
+#include "view/colour_scale.h"
+
+#include "base/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sunfleck {
+namespace {
+
+constexpr int rank_count = 5;
+
+// sRGB. Lightness (CIELAB L*) rises by 13 or more from class to class, so the order survives greyscale print; the hue runs
+// indigo, blue, green, orange, yellow, from shade to sun. Any two differ by at least 23 in CIELAB, for normal vision as under
+// the protanope, deuteranope and tritanope simulations of Machado, Oliveira and Fernandes (2009).
+constexpr std::array<std::array<std::uint8_t, 3>, rank_count> rank_srgb = {
+    {{0x24, 0x1a, 0x63}, {0x20, 0x64, 0xb4}, {0x17, 0xa2, 0x7f}, {0xe8, 0xa5, 0x3a}, {0xff, 0xef, 0x8a}}};
+
+// Equal values and the weight they have together: no class boundary can part them.
+struct Group {
+  double value = 0.0;
+  double weight = 0.0;
+};
+
+// In rising order of value; negative values count as zero, values without weight are left out.
+std::vector<Group> groups_by_value(std::span<const double> values, std::span<const double> weights) {
+  EXPECT(values.size(), ==, weights.size());
+  std::vector<Group> items;
+  items.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT(std::isfinite(values[i]), ==, true);
+    EXPECT(weights[i], >=, 0.0);
+    if (weights[i] > 0.0) items.push_back({std::max(values[i], 0.0), weights[i]});
+  }
+  std::stable_sort(items.begin(), items.end(), [](const Group& a, const Group& b) { return a.value < b.value; });
+  std::vector<Group> groups;
+  for (const Group& item : items) {
+    if (groups.empty() || groups.back().value < item.value) {
+      groups.push_back(item);
+    } else {
+      groups.back().weight += item.weight;
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
+RankScale equal_count_ranks(std::span<const double> values, std::span<const double> weights) {
+  const std::vector<Group> groups = groups_by_value(values, weights);
+  if (groups.size() < 2) return equal_interval_ranks(values);
+  double positive_weight = 0.0;
+  for (const Group& group : groups) positive_weight += group.value > 0.0 ? group.weight : 0.0;
+
+  RankScale scale;
+  scale.bounds.fill(groups.back().value);
+  scale.bounds[0] = groups.front().value;
+  // A group goes where its middle falls, so that a boundary is off its share by half a group at most.
+  int next = 1;
+  double below = 0.0;
+  for (const Group& group : groups) {
+    if (group.value == 0.0) continue;
+    const double middle = below + 0.5 * group.weight;
+    while (next < rank_count && middle * rank_count >= next * positive_weight) scale.bounds[next++] = group.value;
+    below += group.weight;
+  }
+  return scale;
+}
+
+RankScale equal_interval_ranks(std::span<const double> values) {
+  const double largest = values.empty() ? 0.0 : std::max(0.0, *std::max_element(values.begin(), values.end()));
+  RankScale scale;
+  for (int k = 0; k <= rank_count; ++k) scale.bounds[k] = largest * k / rank_count;
+  return scale;
+}
+
+int rank_of(const RankScale& scale, double value) {
+  if (!(scale.bounds.front() < scale.bounds.back())) return 0;
+  int rank = 0;
+  while (rank + 1 < rank_count && value >= scale.bounds[rank + 1]) ++rank;
+  return rank;
+}
+
+Colour rank_colour(int rank) {
+  EXPECT(rank, >=, 0);
+  EXPECT(rank, <, rank_count);
+  return from_srgb(rank_srgb[rank]);
+}
+
+// IEC 61966-2-1:1999, section 5.2.
+std::array<std::uint8_t, 3> to_srgb(const Colour& linear) {
+  std::array<std::uint8_t, 3> srgb{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double c = std::clamp(linear[i], 0.0, 1.0);
+    const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+    srgb[i] = static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+  }
+  return srgb;
+}
+
+Colour from_srgb(const std::array<std::uint8_t, 3>& srgb) {
+  Colour linear{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double encoded = srgb[i] / 255.0;
+    linear[i] = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+  }
+  return linear;
+}
+
+}  // namespace sunfleck
