@@ -1,0 +1,268 @@
+// From the bytes of a .gltf or .glb file to a model and its buffers.
+
+#include "base/error.h"
+#include "io/file.h"
+#include "io/gltf_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace sunfleck {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+static_assert(std::endian::native == std::endian::little, "glTF is read as it lies in memory");
+
+constexpr std::string_view write_again = "write the file again";
+
+struct GlbChunks {
+  std::string_view json, binary;
+};
+
+std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, sizeof word);
+  return word;
+}
+
+// glTF 2.0, section 4.4: magic, version, length; then chunks of length, type, bytes: JSON first, BIN second if at all.
+GlbChunks split_glb(const MeshSource& source) {
+  constexpr std::size_t header = 12, chunk_header = 8;
+  constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
+  std::string_view rest = source.bytes;
+  if (rest.size() < header + chunk_header)
+    refuse(source, 0, fmt::format("only {} bytes", rest.size()), "a GLB file has at least 20", write_again);
+  if (word_at(rest, 4) != 2)
+    refuse(source, 0, fmt::format("GLB version {}", word_at(rest, 4)), "only version 2 is read", "export it as glTF 2.0");
+  if (word_at(rest, 8) != rest.size())
+    refuse(source, 0, fmt::format("{} bytes", rest.size()), fmt::format("its header says {}", word_at(rest, 8)), write_again);
+  rest.remove_prefix(header);
+  GlbChunks chunks;
+  for (int number = 0; !rest.empty(); ++number) {
+    const std::size_t length = rest.size() < chunk_header ? rest.size() : word_at(rest, 0);
+    if (rest.size() < chunk_header || length > rest.size() - chunk_header)
+      refuse(source, 0, fmt::format("GLB chunk {} of {} bytes", number, length),
+             fmt::format("only {} bytes are left", rest.size()), write_again);
+    const std::string_view content = rest.substr(chunk_header, length);
+    const std::uint32_t type = word_at(rest, 4);
+    if (number == 0 && type != json_chunk)
+      refuse(source, 0, "the first GLB chunk is not JSON", "glTF 2.0 wants it first", write_again);
+    if (number == 0) chunks.json = content;
+    if (number == 1 && type == binary_chunk) chunks.binary = content;
+    rest.remove_prefix(chunk_header + length);
+  }
+  return chunks;
+}
+
+// Buffers are read here; the rest of what is left out concerns pictures and motion, and may be missing or broken.
+bool is_left_out(const std::string& section) {
+  constexpr std::array<std::string_view, 6> sections{"animations", "cameras", "images", "samplers", "skins", "textures"};
+  return std::find(sections.begin(), sections.end(), section) != sections.end();
+}
+
+json parse_json(const MeshSource& source, std::string_view text) {
+  constexpr int deepest = 100;  // tinygltf follows extras by recursion
+  const auto keep = [&](int depth, json::parse_event_t event, json& value) {
+    if (depth > deepest)
+      refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "no glTF file needs that", write_again);
+    return !(depth == 1 && event == json::parse_event_t::key && is_left_out(value.get_ref<const std::string&>()));
+  };
+  try {
+    json document = json::parse(text, keep);
+    if (!document.is_object()) refuse(source, 0, "not a JSON object", "every glTF file is one", write_again);
+    return document;
+  } catch (const json::exception& problem) {
+    refuse(source, 0, "malformed JSON", problem.what(), write_again);
+  }
+}
+
+// tinygltf passes over an optional value of a wrong type and cuts indices to 32 bits; here both are refused.
+class ValueCheck {
+ public:
+  ValueCheck(const MeshSource& source, const json& object, std::string_view where)
+      : source_(source), object_(object), where_(where) {
+    if (!object.is_object()) refuse(source, 0, fmt::format("{} is no object", where), "glTF 2.0 wants one", write_again);
+  }
+
+  void index(const char* key) const { check(key, is_index); }
+  void offset(const char* key) const {
+    check(key, [](const json& value) { return value.is_number_unsigned(); });
+  }
+  void indices(const char* key) const { check_list(key, is_index); }
+  void numbers(const char* key) const {
+    check_list(key, [](const json& value) { return value.is_number(); });
+  }
+
+ private:
+  using Rule = bool (*)(const json&);
+
+  static bool is_index(const json& value) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() <= std::numeric_limits<int>::max();
+  }
+
+  void check(const char* key, Rule rule) const {
+    if (const auto value = object_.find(key); value != object_.end() && !rule(*value)) refuse_value(key, *value);
+  }
+
+  void check_list(const char* key, Rule rule) const {
+    const auto value = object_.find(key);
+    if (value == object_.end()) return;
+    if (!value->is_array() || !std::all_of(value->begin(), value->end(), rule)) refuse_value(key, *value);
+  }
+
+  void refuse_value(const char* key, const json& value) const {
+    refuse(source_, 0, fmt::format("malformed glTF, {}: {} = {}", where_, key, in_quotes(value.dump())),
+           "not the kind of value that glTF 2.0 wants", write_again);
+  }
+
+  const MeshSource& source_;
+  const json& object_;
+  std::string where_;
+};
+
+void check_values(const MeshSource& source, const json& document) {
+  ValueCheck(source, document, "the file").index("scene");
+  const auto each = [&](const json& parent, const char* section, const auto& check) {
+    const auto items = parent.find(section);
+    if (items == parent.end()) return;
+    if (!items->is_array()) refuse(source, 0, fmt::format("{} is no array", section), "glTF 2.0 wants one", write_again);
+    for (std::size_t i = 0; i < items->size(); ++i)
+      check(ValueCheck(source, (*items)[i], fmt::format("{} {}", section, i)), (*items)[i]);
+  };
+  each(document, "scenes", [](const ValueCheck& scene, const json&) { scene.indices("nodes"); });
+  each(document, "nodes", [](const ValueCheck& node, const json&) {
+    node.index("mesh");
+    node.indices("children");
+    for (const char* key : {"matrix", "rotation", "scale", "translation"}) node.numbers(key);
+  });
+  each(document, "meshes", [&](const ValueCheck&, const json& mesh) {
+    each(mesh, "primitives", [&](const ValueCheck& primitive, const json& described) {
+      for (const char* key : {"indices", "material", "mode"}) primitive.index(key);
+      if (const auto attributes = described.find("attributes"); attributes != described.end())
+        ValueCheck(source, *attributes, "attributes").index("POSITION");
+    });
+  });
+  each(document, "accessors", [](const ValueCheck& accessor, const json&) {
+    accessor.index("bufferView");
+    accessor.offset("byteOffset");
+  });
+  each(document, "bufferViews", [](const ValueCheck& view, const json&) {
+    view.index("buffer");
+    for (const char* key : {"byteOffset", "byteStride"}) view.offset(key);
+  });
+}
+
+std::string percent_decoded(std::string_view uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    constexpr std::string_view digits = "0123456789abcdefABCDEF";
+    const std::string_view code = uri[i] == '%' ? uri.substr(i + 1, 2) : std::string_view();
+    if (code.size() == 2 && code.find_first_not_of(digits) == code.npos) {
+      text += static_cast<char>(std::stoi(std::string(code), nullptr, 16));
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+std::string read_buffer(const MeshSource& source, const std::string& uri) {
+  if (uri.starts_with("data:")) {
+    std::vector<unsigned char> bytes;
+    std::string kind;
+    if (!tinygltf::DecodeDataURI(&bytes, kind, uri, 0, false))
+      refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "not base64 data in a known form", write_again);
+    return {bytes.begin(), bytes.end()};
+  }
+  const fs::path name = percent_decoded(uri);
+  if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end() || uri.find("://") != uri.npos)
+    refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must lie beside the glTF file or below it",
+           "move it there or export as .glb");
+  return read_file(source.file.parent_path() / name);
+}
+
+// A buffer may be longer than it says (GLB pads to 4 bytes), never shorter.
+void read_buffers(const MeshSource& source, std::string_view binary, GltfDocument& document) {
+  const json buffers = document.json.value("buffers", json::array());
+  document.json.erase("buffers");
+  if (!buffers.is_array()) refuse(source, 0, "buffers is no array", "glTF 2.0 wants one", write_again);
+  document.owned.reserve(buffers.size());  // the views below stay valid
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const json& buffer = buffers[i];
+    if (!buffer.is_object() || !buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned())
+      refuse(source, 0, fmt::format("buffer {} has no byteLength", i), "it must be a whole number", write_again);
+    std::string_view bytes = binary;
+    if (buffer.contains("uri") && buffer["uri"].is_string()) {
+      bytes = document.owned.emplace_back(read_buffer(source, buffer["uri"].get_ref<const std::string&>()));
+    } else if (i > 0 || binary.empty()) {
+      refuse(source, 0, fmt::format("buffer {} has no content", i), "it has no uri and there is no GLB chunk for it",
+             write_again);
+    }
+    const auto length = buffer["byteLength"].get<std::uint64_t>();
+    if (length > bytes.size())
+      refuse(source, 0, fmt::format("buffer {} of {} bytes", i, length), fmt::format("only {} are there", bytes.size()),
+             write_again);
+    document.buffers.push_back(bytes.substr(0, length));
+  }
+}
+
+void refuse_extensions(const MeshSource& source, const tinygltf::Model& model) {
+  constexpr std::array<std::string_view, 4> unread{"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+                                                   "KHR_draco_mesh_compression", "KHR_mesh_quantization"};
+  const auto refuse_if_unread = [&](const std::string& name) {
+    if (std::find(unread.begin(), unread.end(), name) != unread.end())
+      refuse(source, 0, fmt::format("needs the extension {}", name), "it is not read", "export without it");
+  };
+  for (const std::string& name : model.extensionsRequired) refuse_if_unread(name);
+  // Instances are geometry even where the file calls them optional.
+  for (const tinygltf::Node& node : model.nodes)
+    for (const auto& [name, value] : node.extensions)
+      if (name == unread.front()) refuse_if_unread(name);
+}
+
+}  // namespace
+
+GltfDocument open_gltf(const MeshSource& source) {
+  GlbChunks chunks{source.bytes, {}};
+  if (source.bytes.starts_with("glTF")) chunks = split_glb(source);
+  GltfDocument document;
+  document.json = parse_json(source, chunks.json);
+  read_buffers(source, chunks.binary, document);
+  check_values(source, document.json);
+
+  std::string errors, warnings;
+  bool loaded = false;
+  try {
+    const std::string text = document.json.dump();
+    if (text.size() > std::numeric_limits<unsigned>::max())
+      refuse(source, 0, "more than 4 GiB of JSON", "glTF's own limit", "export as .glb");
+    loaded = tinygltf::TinyGLTF().LoadASCIIFromString(&document.model, &errors, &warnings, text.c_str(),
+                                                      static_cast<unsigned>(text.size()), "", tinygltf::REQUIRE_VERSION);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {
+    errors = problem.what();
+  }
+  // tinygltf also reports values of a wrong type that it then leaves out.
+  if (!loaded || !errors.empty())
+    refuse(source, 0, "malformed glTF", errors.empty() ? "no reason given" : errors.substr(0, errors.find('\n')), write_again);
+  if (!document.model.asset.version.starts_with("2."))
+    refuse(source, 0, fmt::format("glTF version {}", in_quotes(document.model.asset.version)), "only 2.x is read",
+           "export it as glTF 2.0");
+  refuse_extensions(source, document.model);
+  return document;
+}
+
+}  // namespace sunfleck

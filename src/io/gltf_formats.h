@@ -1,0 +1,25 @@
+#pragma once
+// The two halves of the glTF reader: from bytes to a model with its buffers, and from there to triangles.
+
+#include "io/gltf_library.h"
+#include "io/mesh_formats.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sunfleck {
+
+// tinygltf's model without buffers and pictures, the bytes of each buffer, and the JSON itself for the extras, whose
+// integers tinygltf cuts to 32 bits. Indices inside the model are still unchecked.
+struct GltfDocument {
+  nlohmann::json json;
+  tinygltf::Model model;
+  std::vector<std::string> owned;         // buffers that are not a part of the file itself
+  std::vector<std::string_view> buffers;  // [buffer], byteLength bytes
+};
+
+[[nodiscard]] GltfDocument open_gltf(const MeshSource& source);
+
+}  // namespace sunfleck

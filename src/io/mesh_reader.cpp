@@ -1,0 +1,244 @@
+#include "io/mesh_reader.h"
+
+#include "base/check.h"
+#include "base/error.h"
+#include "io/file.h"
+#include "io/mesh_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace sunfleck {
+
+namespace {
+
+enum class MeshFormat { can, gltf, obj, ply, stl, unknown };
+
+constexpr std::string_view blanks = " \t\f\v";
+constexpr std::size_t most_vertices = std::size_t{1} << 28;  // 6 GiB of positions
+
+MeshFormat format_of(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr std::pair<std::string_view, MeshFormat> endings[] = {
+      {".can", MeshFormat::can}, {".can.gz", MeshFormat::can}, {".glb", MeshFormat::gltf}, {".gltf", MeshFormat::gltf},
+      {".obj", MeshFormat::obj}, {".ply", MeshFormat::ply},    {".stl", MeshFormat::stl}};
+  for (const auto& [ending, format] : endings)
+    if (name.ends_with(ending)) return format;
+  return MeshFormat::unknown;
+}
+
+Mesh read_format(const MeshSource& source, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::can:
+      return read_can(source);
+    case MeshFormat::gltf:
+      return read_gltf(source);
+    case MeshFormat::obj:
+      return read_obj(source);
+    case MeshFormat::ply:
+      return read_ply(source);
+    case MeshFormat::stl:
+      return read_stl(source);
+    case MeshFormat::unknown:
+      break;
+  }
+  refuse(source, 0, "unknown kind of mesh", "the name ends in none of .glb .gltf .obj .ply .stl .can .can.gz",
+         "convert it or name it by its format");
+}
+
+// To the scene's axes and metres. Elements are kept in single precision, so that is where a coordinate must still be finite.
+void place(const MeshSource& source, Mesh& mesh, UpAxis up, double scale) {
+  for (glm::dvec3& v : mesh.vertices) {
+    if (up == UpAxis::z) v = {-v.y, v.z, -v.x};
+    v *= scale;
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!(largest <= std::numeric_limits<float>::max()))
+      refuse(source, 0, fmt::format("a coordinate of {} m after scaling by {}", largest, scale),
+             "single precision ends at 3.4e38", "check the file's numbers and scale");
+  }
+}
+
+}  // namespace
+
+bool is_mesh_file(const std::filesystem::path& file) {
+  return format_of(file) != MeshFormat::unknown;
+}
+
+Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import) {
+  EXPECT(import.scale, >, 0.0);
+  const MeshFormat format = format_of(file);
+  MeshSource source{file, {}, import.optics};
+  try {
+    const std::string bytes = format == MeshFormat::unknown ? std::string() : read_file(file);
+    source.bytes = bytes;
+    if (bytes.empty() && format != MeshFormat::unknown)
+      refuse(source, 0, "the file is empty", "a mesh needs at least one triangle", "write it again");
+    Mesh mesh = read_format(source, format);
+    if (mesh.triangles.empty())
+      refuse(source, 0, "no triangle found", "a mesh needs at least one", "check that surfaces were exported");
+    place(source, mesh, import.up.value_or(format == MeshFormat::can ? UpAxis::z : UpAxis::y), import.scale);
+    return mesh;
+  } catch (const std::bad_alloc&) {
+    throw_failure(fmt::format("{}: cannot be held", printable(file.string())), "memory ran out", "read a smaller mesh");
+  } catch (const std::length_error&) {
+    throw_failure(fmt::format("{}: cannot be held", printable(file.string())), "memory ran out", "read a smaller mesh");
+  }
+}
+
+void refuse(const MeshSource& source, std::size_t line, std::string_view what, std::string_view why, std::string_view cure) {
+  const std::string place = line == 0 ? source.file.string() : fmt::format("{}:{}", source.file.string(), line);
+  throw_input(printable(fmt::format("{}: {}", place, what)), printable(why), cure);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  if (text.size() <= longest) return fmt::format("'{}'", printable(text));
+  std::size_t cut = longest;
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;  // not inside a UTF-8 character
+  return fmt::format("'{}...'", printable(text.substr(0, cut)));
+}
+
+std::optional<Organ> organ_from_name(std::string_view name) {
+  constexpr std::string_view digits = "0123456789";
+  constexpr std::string_view prefix = "plant";
+  if (const std::size_t dot = name.rfind('.');
+      dot != name.npos && dot + 1 < name.size() && name.find_first_not_of(digits, dot + 1) == name.npos)
+    name = name.substr(0, dot);
+  if (!name.starts_with(prefix)) return std::nullopt;
+  name.remove_prefix(prefix.size());
+  const std::size_t bar = name.find('_');
+  if (bar == name.npos) return std::nullopt;
+  const auto plant = parse_integer(name.substr(0, bar));
+  if (!plant || name.find_first_not_of(digits) != bar || *plant > std::numeric_limits<std::uint32_t>::max())
+    return std::nullopt;
+  name.remove_prefix(bar + 1);
+  const std::size_t last = name.find_last_not_of(digits);
+  if (last == name.npos) return std::nullopt;
+  Organ organ{static_cast<std::uint32_t>(*plant), std::string(name.substr(0, last + 1)), 0};
+  if (last + 1 < name.size()) {
+    if (last > 0 && name[last] == '_') organ.name.pop_back();
+    const auto rank = parse_integer(name.substr(last + 1));
+    if (!rank || *rank > std::numeric_limits<int>::max()) return std::nullopt;
+    organ.rank = static_cast<int>(*rank);
+  }
+  return organ;
+}
+
+bool LineReader::next() {
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find_first_of("\r\n");
+  line_ = rest_.substr(0, end);
+  if (end == rest_.npos)
+    rest_ = {};
+  else
+    rest_.remove_prefix(rest_.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
+  ++number_;
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view next_word(std::string_view& rest) {
+  std::size_t first = 0;
+  while (first < rest.size() && blanks.find(rest[first]) != blanks.npos) ++first;
+  std::size_t last = first;
+  while (last < rest.size() && blanks.find(rest[last]) == blanks.npos) ++last;
+  const std::string_view word = rest.substr(first, last - first);
+  rest.remove_prefix(last);
+  return word;
+}
+
+std::optional<double> parse_number(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || word.empty()) return std::nullopt;
+  // from_chars leaves the value alone where it is too small as where it is too large; strtod tells them apart.
+  if (code == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
+  if (code == std::errc::invalid_argument || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  std::int64_t value = 0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || word.empty() || code != std::errc()) return std::nullopt;
+  return value;
+}
+
+double coordinate(const MeshSource& source, std::size_t line, std::string_view& rest) {
+  const std::string_view word = next_word(rest);
+  if (word.empty()) refuse(source, line, "a coordinate is missing", "the line ends too early", "write the file again");
+  const std::optional<double> value = parse_number(word);
+  if (!value) refuse(source, line, fmt::format("coordinate {}", in_quotes(word)), "not a finite number", "correct the number");
+  return *value;
+}
+
+void MeshBuilder::reserve_vertices(std::size_t count) {
+  const std::size_t wanted = mesh_.vertices.size() + count;
+  if (count > most_vertices || wanted > most_vertices)
+    refuse(source_, 0, fmt::format("more than {} vertices", most_vertices), "one file may hold that many", "split the file");
+  if (wanted > mesh_.vertices.capacity()) mesh_.vertices.reserve(std::max(wanted, 2 * mesh_.vertices.capacity()));
+}
+
+std::uint32_t MeshBuilder::add_vertex(const glm::dvec3& position) {
+  if (mesh_.vertices.size() == mesh_.vertices.capacity()) reserve_vertices(1);
+  mesh_.vertices.push_back(position);
+  return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
+}
+
+std::uint32_t MeshBuilder::optics(std::string_view name) {
+  if (last_optics_ < mesh_.optics_names.size() && mesh_.optics_names[last_optics_] == name) return last_optics_;
+  if (const auto known = optics_.find(name); known != optics_.end()) return last_optics_ = known->second;
+  last_optics_ = static_cast<std::uint32_t>(mesh_.optics_names.size());
+  mesh_.optics_names.emplace_back(name);
+  optics_.emplace(name, last_optics_);
+  return last_optics_;
+}
+
+std::uint32_t MeshBuilder::default_optics(std::size_t line) {
+  if (!source_.optics)
+    refuse(source_, line, "triangles without a material", "the file names none here",
+           "add optics = \"NAME\" to this file's [[geometry]] in the scene");
+  return optics(*source_.optics);
+}
+
+std::uint32_t MeshBuilder::organ(const Organ& organ) {
+  if (last_organ_ < mesh_.organs.size() && mesh_.organs[last_organ_] == organ) return last_organ_;
+  const auto [entry, is_new] =
+      organs_.try_emplace({organ.plant, organ.name, organ.rank}, static_cast<std::uint32_t>(mesh_.organs.size()));
+  if (is_new) mesh_.organs.push_back(organ);
+  return last_organ_ = entry->second;
+}
+
+std::uint32_t MeshBuilder::default_organ(std::uint32_t optics) {
+  return organ({1, mesh_.optics_names[optics], 0});
+}
+
+void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ) {
+  DCHECK(corners.size(), >=, 3U);
+  if (mesh_.triangles.size() + corners.size() > most_vertices)
+    refuse(source_, 0, fmt::format("more than {} triangles", most_vertices), "one file may hold that many", "split the file");
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    mesh_.triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
+    mesh_.optics_of.push_back(optics);
+    mesh_.organ_of.push_back(organ);
+  }
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,31 @@
+#pragma once
+// Reads mesh files: glTF and GLB, OBJ, PLY, STL, CARIBU .can and .can.gz. The format follows from the file's name.
+
+#include "canopy/mesh.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace sunfleck {
+
+enum class UpAxis { y, z };
+
+struct MeshImport {
+  std::optional<std::string> optics;  // for triangles whose file names no material
+  std::optional<UpAxis> up;           // default: y, but z for .can
+  double scale = 1.0;                 // > 0
+};
+
+// The file's triangles in the scene's axes (a z-up file is x east, y north: X = -y, Y = z, Z = -x), scaled, polygons cut
+// into fans. Organs: `.can` labels; glTF node extras {"plant", "organ", "rank"}, else node names like plant1_leaf7; else one
+// plant (number 1) whose organ names are the optics names, rank 0.
+// Throws Error (input), one line with the file and, where it has one, the line: missing or empty file, unknown format, cut-off
+// or malformed content, an index out of range, a number that is not finite or cannot be read, no triangle at all, a triangle
+// without a material where `optics` is not given.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import);
+
+// True if read_mesh has a reader for this name.
+[[nodiscard]] bool is_mesh_file(const std::filesystem::path& file);
+
+}  // namespace sunfleck

@@ -1,0 +1,176 @@
+#include "io/mesh_writer.h"
+
+#include "base/check.h"
+#include "base/error.h"
+#include "io/file.h"
+#include "io/gltf_library.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace sunfleck {
+
+namespace {
+
+// Of one organ: its triangles by optics, in the mesh's order.
+using Groups = std::map<std::uint32_t, std::vector<std::size_t>>;
+
+std::string node_name(const Organ& organ) {
+  const bool ends_in_digit = !organ.name.empty() && std::isdigit(static_cast<unsigned char>(organ.name.back())) != 0;
+  const std::string rank = organ.rank == 0 ? "" : fmt::format("{}{}", ends_in_digit ? "_" : "", organ.rank);
+  return fmt::format("plant{}_{}{}", organ.plant, organ.name, rank);
+}
+
+tinygltf::Value extras_of(const Organ& organ) {
+  return tinygltf::Value(tinygltf::Value::Object{{"plant", tinygltf::Value(static_cast<double>(organ.plant))},
+                                                 {"organ", tinygltf::Value(organ.name)},
+                                                 {"rank", tinygltf::Value(organ.rank)}});
+}
+
+class GltfWriter {
+ public:
+  explicit GltfWriter(const Mesh& mesh) : mesh_(mesh), new_number_(mesh.vertices.size(), unused) {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "sunfleck";
+    model_.buffers.emplace_back();
+    model_.scenes.emplace_back();
+    model_.defaultScene = 0;
+    for (const std::string& name : mesh.optics_names) {
+      tinygltf::Material material;
+      material.name = name;
+      material.doubleSided = true;  // a leaf has two faces
+      model_.materials.push_back(material);
+    }
+  }
+
+  tinygltf::Model take() {
+    std::vector<Groups> organs(mesh_.organs.size());
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) organs.at(mesh_.organ_of[i])[mesh_.optics_of[i]].push_back(i);
+    for (std::size_t i = 0; i < organs.size(); ++i)
+      if (!organs[i].empty()) add_organ(mesh_.organs[i], organs[i]);
+    if (model_.nodes.empty()) {  // an empty list is no valid glTF
+      model_.buffers.clear();
+      model_.scenes.clear();
+      model_.defaultScene = -1;
+    }
+    return std::move(model_);
+  }
+
+ private:
+  static constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+
+  void add_organ(const Organ& organ, const Groups& groups) {
+    std::vector<std::uint32_t> vertices;  // of the mesh, in the order of first use
+    tinygltf::Mesh shape;
+    for (const auto& [optics, triangles] : groups) {
+      std::vector<std::uint32_t> indices;
+      for (const std::size_t triangle : triangles)
+        for (int corner = 0; corner < 3; ++corner) {
+          const std::uint32_t vertex = mesh_.triangles[triangle][corner];
+          if (new_number_.at(vertex) == unused) {
+            new_number_[vertex] = static_cast<std::uint32_t>(vertices.size());
+            vertices.push_back(vertex);
+          }
+          indices.push_back(new_number_[vertex]);
+        }
+      tinygltf::Primitive primitive;
+      primitive.mode = TINYGLTF_MODE_TRIANGLES;
+      primitive.material = static_cast<int>(optics);
+      primitive.indices = add_indices(indices);
+      shape.primitives.push_back(primitive);
+    }
+    const int positions = add_positions(vertices);
+    for (tinygltf::Primitive& primitive : shape.primitives) primitive.attributes["POSITION"] = positions;
+    for (const std::uint32_t vertex : vertices) new_number_[vertex] = unused;
+
+    tinygltf::Node node;
+    node.name = node_name(organ);
+    node.extras = extras_of(organ);
+    node.mesh = static_cast<int>(model_.meshes.size());
+    shape.name = node.name;
+    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
+    model_.meshes.push_back(std::move(shape));
+    model_.nodes.push_back(std::move(node));
+  }
+
+  // Appends to the buffer and describes the piece; returns the accessor's number. All pieces are whole words, as GLB wants.
+  template <class T>
+  int add_piece(const std::vector<T>& values, int target, tinygltf::Accessor accessor) {
+    static_assert(sizeof(T) % 4 == 0);
+    std::vector<unsigned char>& buffer = model_.buffers[0].data;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.size();
+    view.byteLength = values.size() * sizeof(T);
+    view.target = target;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    buffer.insert(buffer.end(), bytes, bytes + view.byteLength);
+    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
+    accessor.count = values.size();
+    model_.bufferViews.push_back(view);
+    model_.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model_.accessors.size() - 1);
+  }
+
+  int add_indices(const std::vector<std::uint32_t>& indices) {
+    tinygltf::Accessor accessor;
+    accessor.type = TINYGLTF_TYPE_SCALAR;
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    return add_piece(indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, accessor);
+  }
+
+  int add_positions(const std::vector<std::uint32_t>& vertices) {
+    tinygltf::Accessor accessor;
+    accessor.type = TINYGLTF_TYPE_VEC3;
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.minValues.assign(3, std::numeric_limits<double>::max());
+    accessor.maxValues.assign(3, std::numeric_limits<double>::lowest());
+    std::vector<std::array<float, 3>> positions;
+    for (const std::uint32_t vertex : vertices) {
+      std::array<float, 3>& position = positions.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        position[axis] = static_cast<float>(mesh_.vertices[vertex][static_cast<int>(axis)]);
+        EXPECT(std::isfinite(position[axis]), ==, true);
+        accessor.minValues[axis] = std::min<double>(accessor.minValues[axis], position[axis]);
+        accessor.maxValues[axis] = std::max<double>(accessor.maxValues[axis], position[axis]);
+      }
+    }
+    return add_piece(positions, TINYGLTF_TARGET_ARRAY_BUFFER, accessor);
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::uint32_t> new_number_;  // [mesh vertex], in the organ being written
+  tinygltf::Model model_;
+};
+
+}  // namespace
+
+void write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  const std::string name = printable(file.string());
+  if (ending != ".glb" && ending != ".gltf")
+    throw_input(fmt::format("{}: cannot be written as glTF", name), fmt::format("its name ends in '{}'", printable(ending)),
+                "let it end in .glb or .gltf");
+  EXPECT(mesh.optics_of.size(), ==, mesh.triangles.size());
+  EXPECT(mesh.organ_of.size(), ==, mesh.triangles.size());
+  const tinygltf::Model model = GltfWriter(mesh).take();
+  constexpr std::size_t most_bytes = std::size_t{3} << 30;  // GLB counts to 4 GiB, JSON included
+  if (!model.buffers.empty() && model.buffers[0].data.size() > most_bytes)
+    throw_failure(fmt::format("{}: cannot be written as glTF", name), "it would hold more than 3 GiB", "write it in parts");
+  std::ostringstream text;
+  const bool pretty = ending == ".gltf";
+  const bool binary = ending == ".glb";
+  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, pretty, binary))
+    throw_failure(fmt::format("{}: cannot be written as glTF", name), "tinygltf refused it", "write another format");
+  write_file(file, text.view());
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,278 @@
+#include "io/result_writer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+namespace sunfleck {
+namespace {
+
+using nlohmann::ordered_json;
+
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+ordered_json number_or_null(double value) {
+  return std::isnan(value) ? ordered_json(nullptr) : ordered_json(value);
+}
+
+template <class T>
+ordered_json value_or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+void append_number(std::string& row, double value) {
+  row += ',';
+  if (!std::isnan(value)) fmt::format_to(std::back_inserter(row), "{:.9g}", value);
+}
+
+void append_estimate(std::string& row, const Estimate& estimate) {
+  append_number(row, estimate.value);
+  append_number(row, estimate.half_width);
+}
+
+// Fields with a comma, a quote or a line break are quoted as RFC 4180 has it.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
+  return text;
+}
+
+std::string table_head(const RunRecord& record, const char* content, const char* units) {
+  return fmt::format("# {}\n# {}\n# seed {}, confidence {}\n# {}\n", one_line(record.title), content, record.seed,
+                     record.accuracy.confidence, units);
+}
+
+ordered_json band_json(const BandResult& band) {
+  return {{"name", band.name},
+          {"incident", band.incident},
+          {"absorbed_vegetation", band.absorbed_vegetation.value},
+          {"absorbed_soil", band.absorbed_soil.value},
+          {"reflected", band.reflected.value},
+          {"transmitted", band.transmitted.value},
+          {"unshot", band.unshot},
+          {"residual", band.ledger.residual()},
+          {"quanta",
+           {{"incident", band.ledger.incident},
+            {"absorbed_vegetation", band.ledger.absorbed_vegetation},
+            {"absorbed_soil", band.ledger.absorbed_soil},
+            {"reflected", band.ledger.reflected},
+            {"transmitted", band.ledger.transmitted},
+            {"unshot", band.ledger.unshot}}},
+          {"error",
+           {{"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width)},
+            {"absorbed_soil", number_or_null(band.absorbed_soil.half_width)},
+            {"reflected", number_or_null(band.reflected.half_width)},
+            {"transmitted", number_or_null(band.transmitted.half_width)}}}};
+}
+
+const char* target_name(ErrorTarget target) {
+  switch (target) {
+    case ErrorTarget::canopy:
+      return "canopy";
+    case ErrorTarget::organ:
+      return "organ";
+    case ErrorTarget::triangle:
+      return "triangle";
+  }
+  return "";
+}
+
+ordered_json settings_json(const RunRecord& record) {
+  return {{"scene_file", record.scene_file},
+          {"direct_error", record.accuracy.direct},
+          {"indirect_error", record.accuracy.indirect},
+          {"confidence", record.accuracy.confidence},
+          {"of", target_name(record.accuracy.of)},
+          {"grid_m", value_or_null(record.grid_m)},
+          {"passes", value_or_null(record.passes)},
+          {"max_rays", value_or_null(record.max_rays)},
+          {"max_seconds", value_or_null(record.max_seconds)},
+          {"threads", record.threads}};
+}
+
+std::size_t plant_count(const Canopy& canopy) {
+  std::set<std::uint32_t> plants;
+  for (const Organ& organ : canopy.organs) {
+    if (organ.plant > 0) plants.insert(organ.plant);
+  }
+  return plants.size();
+}
+
+const char* stop_name(StopReason stop) {
+  switch (stop) {
+    case StopReason::bound_reached:
+      return "bound reached";
+    case StopReason::work_done:
+      return "work done";
+    case StopReason::rays_spent:
+      return "rays spent";
+    case StopReason::time_spent:
+      return "time spent";
+    case StopReason::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  ordered_json bands = ordered_json::array();
+  for (const BandResult& band : result.bands) bands.push_back(band_json(band));
+  ordered_json sun = nullptr;
+  if (model.sun) {
+    sun = {{"elevation_deg", degrees(model.sun->elevation_rad)}, {"azimuth_deg", degrees(model.sun->azimuth_rad)}};
+  }
+  const ordered_json summary = {
+      {"sunfleck", record.version},
+      {"commit", record.commit},
+      {"scene", record.title},
+      {"scene_digest", record.scene_digest},
+      {"complete", record.complete},
+      {"stopped", stop_name(result.stop)},
+      {"seed", record.seed},
+      {"settings", settings_json(record)},
+      {"device", {{"kind", record.device.kind}, {"name", record.device.name}, {"driver", record.device.driver}}},
+      {"triangles", model.canopy.size()},
+      {"organs", model.canopy.organs.size()},
+      {"plants", plant_count(model.canopy)},
+      {"plot_area_m2", model.plot.area_m2()},
+      {"leaf_area_index", result.leaf_area_index},
+      {"sun", sun},
+      {"bands", bands},
+      {"sunlit_leaf_fraction", number_or_null(result.sunlit_leaf_fraction.value)},
+      {"sunlit_leaf_fraction_error", number_or_null(result.sunlit_leaf_fraction.half_width)},
+      {"ground_sunfleck_ratio", number_or_null(result.ground_sunfleck_ratio.value)},
+      {"ground_sunfleck_ratio_error", number_or_null(result.ground_sunfleck_ratio.half_width)},
+      {"lost_rays", result.lost_rays},
+      {"direct",
+       {{"rays", result.direct.rays},
+        {"replicates", result.direct.replicates},
+        {"grid_m", result.direct.grid_m},
+        {"relative_error", value_or_null(result.direct.relative_error)},
+        {"bound", value_or_null(result.direct.bound)},
+        {"seconds", result.direct.seconds}}},
+      {"indirect",
+       {{"packets", result.indirect.packets},
+        {"rounds", result.indirect.rounds},
+        {"relative_error", value_or_null(result.indirect.relative_error)},
+        {"bound", value_or_null(result.indirect.bound)},
+        {"seconds", result.indirect.seconds}}},
+      {"seconds",
+       {{"load", record.seconds.load},
+        {"bvh", record.seconds.bvh},
+        {"device", record.seconds.device},
+        {"direct", record.seconds.direct},
+        {"indirect", record.seconds.indirect},
+        {"write", record.seconds.write},
+        {"total", record.seconds.total}}}};
+  return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  std::string text = table_head(
+      record, "Layers from the ground up, each with the horizontal plane at its lower edge; the last row is the top plane",
+      "height_m: m; down, up: W m-2 through the plane; absorbed: W m-2 of ground in the layer; others: shares; _error: "
+      "half-width of the confidence interval");
+  text += "height_m,leaf_area_index,sunfleck_ratio,sunfleck_ratio_error,sunlit_leaf_fraction,sunlit_leaf_fraction_error";
+  for (const Waveband& band : model.bands) {
+    text += fmt::format(",{0}_down,{0}_down_error,{0}_up,{0}_up_error,{0}_absorbed,{0}_absorbed_error", band.name);
+  }
+  text += '\n';
+  for (const LayerResult& layer : result.layers) {
+    std::string row = fmt::format("{:.9g}", layer.height_m);
+    const bool top_plane = layer.absorbed.empty();
+    append_number(row, top_plane ? std::numeric_limits<double>::quiet_NaN() : layer.leaf_area_index);
+    append_estimate(row, layer.sunfleck_ratio);
+    append_estimate(row, layer.sunlit_leaf_fraction);
+    for (std::size_t b = 0; b < model.bands.size(); ++b) {
+      append_estimate(row, layer.down[b]);
+      append_estimate(row, layer.up[b]);
+      append_estimate(row, top_plane ? Estimate{std::numeric_limits<double>::quiet_NaN()} : layer.absorbed[b]);
+    }
+    text += row + '\n';
+  }
+  return text;
+}
+
+std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  std::string text = table_head(record, "Organs",
+                                "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided "
+                                "area; _error: relative half-width of the confidence interval of absorbed");
+  text += "plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error";
+  for (const Waveband& band : model.bands) text += fmt::format(",{0}_direct,{0}_indirect,{0}_absorbed,{0}_error", band.name);
+  text += '\n';
+  for (std::size_t o = 0; o < model.canopy.organs.size(); ++o) {
+    const Organ& organ = model.canopy.organs[o];
+    const OrganResult& organ_result = result.organs[o];
+    std::string row = fmt::format("{},{},{}", organ.plant, csv_field(organ.name), organ.rank);
+    append_number(row, organ_result.area_m2);
+    append_estimate(row, organ_result.sunlit_fraction);
+    for (std::size_t b = 0; b < model.bands.size(); ++b) {
+      const Estimate& absorbed = organ_result.absorbed[b];
+      append_number(row, organ_result.direct[b].value);
+      append_number(row, organ_result.indirect[b].value);
+      append_number(row, absorbed.value);
+      append_number(row,
+                    absorbed.value > 0.0 ? absorbed.half_width / absorbed.value : std::numeric_limits<double>::quiet_NaN());
+    }
+    text += row + '\n';
+  }
+  return text;
+}
+
+std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  std::string text = table_head(record, "Triangles, in the order of the files",
+                                "area_m2: m2, one-sided; x, y, z: m, centroid after wrapping (X south, Y up, Z west); direct, "
+                                "indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: half-width of the "
+                                "confidence interval of absorbed, empty below 20 hits");
+  text += "triangle,plant,organ,area_m2,x,y,z";
+  for (const Waveband& band : model.bands) {
+    text += fmt::format(",{0}_direct_upper,{0}_direct_lower,{0}_indirect_upper,{0}_indirect_lower,{0}_absorbed,{0}_error",
+                        band.name);
+  }
+  text += '\n';
+  const Canopy& canopy = model.canopy;
+  for (std::size_t e = 0; e < canopy.size(); ++e) {
+    const Organ& organ = canopy.organs[canopy.organ_of[e]];
+    const Triangle& corners = canopy.corners[e];
+    const double area = area_m2(corners);
+    const glm::dvec3 centroid =
+        (glm::dvec3(corners[0]) + glm::dvec3(corners[1]) + glm::dvec3(corners[2])) / 3.0 + canopy.origin_m;
+    fmt::format_to(std::back_inserter(text), "{},{},{},{:.9g},{:.9g},{:.9g},{:.9g}", e, organ.plant, csv_field(organ.name),
+                   area, centroid.x, centroid.y, centroid.z);
+    const SurfaceOptics& optics = model.optics[canopy.optics_of[e]];
+    for (std::size_t b = 0; b < model.bands.size(); ++b) {
+      const double beam_w_m2 = model.bands[b].direct_w_m2;
+      const double upper = result.irradiance_w_m2(result.elements[e].upper, area, beam_w_m2);
+      const double lower = result.irradiance_w_m2(result.elements[e].lower, area, beam_w_m2);
+      append_number(text, upper);
+      append_number(text, lower);
+      const double indirect_upper = result.side_indirect_w_m2(2 * e, area, b);
+      const double indirect_lower = result.side_indirect_w_m2(2 * e + 1, area, b);
+      append_number(text, indirect_upper);
+      append_number(text, indirect_lower);
+      append_number(text, (upper + indirect_upper) * optics.upper[b].absorptance() +
+                              (lower + indirect_lower) * optics.lower[b].absorptance());
+      append_number(text, result.element_error.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                       : result.element_error[b * canopy.size() + e]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,183 @@
+// [[geometry]]: where triangles come from and which optics they get.
+
+#include "base/error.h"
+#include "io/file.h"
+#include "io/scene_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <system_error>
+
+namespace sunfleck {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t most_rows = 10000;
+constexpr std::int64_t most_plants = 10000;  // some 2e8 triangles of the generator, about 15 GB
+constexpr double farthest_m = 1e7;           // no coordinate of a scene lies farther from its zero
+
+constexpr NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
+
+GeometryPart read_generator(const TomlTable& table) {
+  static_cast<void>(table.word("generator", {"maize"}));  // the only one there is
+  for (const char* key : {"optics", "up", "scale", "heading", "at"}) {
+    if (table.has(key)) table.refuse(key, "it is for files; a generated stand fills the plot from its corner", "remove it");
+  }
+  MaizeStand stand;
+  stand.rows = static_cast<int>(table.integer("rows", 1, most_rows).value_or(stand.rows));
+  stand.per_row = static_cast<int>(table.integer("per_row", 1, most_rows).value_or(stand.per_row));
+  const std::int64_t plants = std::int64_t{stand.rows} * stand.per_row;
+  if (plants > most_plants) {
+    table.refuse(table.has("rows") ? "rows" : "per_row",
+                 fmt::format("rows * per_row gives {} plants, at most {} are possible", plants, most_plants),
+                 "make fewer; a periodic plot repeats them without end");
+  }
+  const auto spacing_m = table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres"});
+  if (spacing_m) {
+    stand.spacing_in_row_m = (*spacing_m)[0];
+    stand.spacing_between_rows_m = (*spacing_m)[1];
+  }
+  const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max());
+  if (seed) stand.seed = static_cast<std::uint64_t>(*seed);
+  return GeometryPart{.table = table, .maize = stand, .file = {}, .import = {}, .placements = {Placement{}}};
+}
+
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  const auto [in_folder, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return in_folder == folder.end();
+}
+
+// The file a table names, symbolic links resolved: relative to the scene's folder and inside it unless access allows more.
+fs::path resolve_file(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
+  const std::string name = *table.text("file");
+  std::error_code code;
+  const fs::path parent = scene_file.parent_path();
+  const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, code);
+  if (code) table.refuse("file", "the scene's folder cannot be read: " + code.message(), "check its permissions");
+  const fs::path file = fs::weakly_canonical(folder / name, code);
+  if (code) table.refuse("file", "its path cannot be followed: " + code.message(), "correct the path");
+  if (!access.allow_outside && !lies_in(file, folder)) {
+    table.refuse("file", "it lies outside the scene's folder", "move it beside the scene, or run with --allow-outside");
+  }
+  const fs::file_status status = fs::status(file, code);
+  if (status.type() == fs::file_type::not_found) {
+    table.refuse("file", "there is no such file; names are relative to the scene's folder", "correct the name");
+  }
+  if (!fs::is_regular_file(status)) table.refuse("file", "it is not a file with content", "name a mesh file");
+  if (!is_mesh_file(file)) {
+    table.refuse("file", "its format is not known", "give .glb, .gltf, .obj, .ply, .stl, .can or .can.gz");
+  }
+  return file;
+}
+
+std::vector<Placement> read_placements(const TomlTable& table) {
+  const std::vector<glm::dvec3> positions_m = table.triples("at", anywhere).value_or(std::vector<glm::dvec3>{{0.0, 0.0, 0.0}});
+  const NumberRange turn{.lo = -360.0, .hi = 360.0, .cure = "give degrees clockwise seen from above"};
+  const std::vector<double> headings_deg =
+      table.number_or_list("heading", positions_m.size(), turn).value_or(std::vector<double>(positions_m.size(), 0.0));
+  std::vector<Placement> placements;
+  for (std::size_t i = 0; i < positions_m.size(); ++i) placements.push_back({positions_m[i], glm::radians(headings_deg[i])});
+  return placements;
+}
+
+GeometryPart read_file_part(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
+  for (const char* key : {"rows", "per_row", "spacing", "seed"}) {
+    if (table.has(key)) table.refuse(key, "it is for generator = \"maize\"", "remove it; place a file's copies with `at`");
+  }
+  MeshImport import;
+  import.optics = table.text("optics");
+  if (const auto up = table.word("up", {"y", "z"})) import.up = *up == 0 ? UpAxis::y : UpAxis::z;
+  import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
+                     .value_or(import.scale);
+  std::vector<Placement> placements = read_placements(table);
+  return GeometryPart{.table = table,
+                      .maize = std::nullopt,
+                      .file = resolve_file(table, scene_file, access),
+                      .import = import,
+                      .placements = std::move(placements)};
+}
+
+void refuse_far(const GeometryPart& part, const Mesh& mesh) {
+  double farthest = 0.0;
+  for (const glm::dvec3& vertex_m : mesh.vertices) {
+    farthest = std::max({farthest, std::abs(vertex_m.x), std::abs(vertex_m.y), std::abs(vertex_m.z)});
+  }
+  if (farthest > farthest_m) {
+    part.table.refuse(part.source_key(),
+                      fmt::format("it reaches to {:.3g} m, at most {:.0e} m is possible", farthest, farthest_m),
+                      "give its unit with scale, e.g. scale = 0.001 for millimetres");
+  }
+}
+
+const OpticsInput* find_optics(const OpticsByName& defined, const std::string& name) {
+  const auto found = defined.find(name);
+  return found == defined.end() ? nullptr : &found->second;
+}
+
+[[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
+  std::vector<std::string> names;
+  for (const auto& [known, input] : defined) names.push_back(known);
+  const std::string shown = printable(name);
+  const std::string add = is_soil_name(name) ? fmt::format("add [optics.{}] or [soil]", shown)
+                                             : fmt::format("add [optics.{}] with reflectance", shown);
+  const auto nearest = nearest_word(name, names);
+  part.table.refuse(part.source_key(), fmt::format("it uses optics \"{}\", which is not defined", shown),
+                    nearest ? fmt::format("did you mean {}? else {}", printable(*nearest), add) : add);
+}
+
+SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
+  SurfaceOptics optics;
+  optics.name = name;
+  optics.rgb = soil.rgb;
+  for (const double reflectance : soil.reflectance) optics.upper.push_back({reflectance, 0.0});
+  optics.lower = optics.upper;
+  return optics;
+}
+
+}  // namespace
+
+std::vector<GeometryPart> read_geometry(const TomlTable& root, const fs::path& scene_file, const SceneAccess& access) {
+  std::vector<GeometryPart> parts;
+  for (const TomlTable& table : root.tables("geometry")) {
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at"});
+    if (table.has("generator") && table.has("file")) {
+      table.refuse("file", "generator is given too", "keep one of the two, and add another [[geometry]] for the other");
+    }
+    if (!table.has("generator")) table.require("file", "file = \"stand.glb\", or generator = \"maize\"");
+    parts.push_back(table.has("generator") ? read_generator(table) : read_file_part(table, scene_file, access));
+  }
+  return parts;
+}
+
+PlacedMesh load_geometry(const GeometryPart& part) {
+  PlacedMesh placed{part.maize ? make_maize(*part.maize) : read_mesh(part.file, part.import), part.placements};
+  refuse_far(part, placed.mesh);
+  return placed;
+}
+
+std::vector<SurfaceOptics> choose_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes,
+                                         const OpticsByName& defined, const Scene& scene) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const std::string& name : meshes[i].mesh.optics_names) {
+      const bool known = find_optics(defined, name) != nullptr || (is_soil_name(name) && scene.model.soil);
+      if (!known) refuse_undefined(parts[i], name, defined);
+    }
+    const auto& own = parts[i].import.optics;
+    if (own && find_optics(defined, *own) == nullptr && !(is_soil_name(*own) && scene.model.soil)) {
+      refuse_undefined(parts[i], *own, defined);
+    }
+  }
+  std::vector<SurfaceOptics> chosen;
+  for (const std::string& name : scene.model.canopy.optics_names) {
+    const OpticsInput* input = find_optics(defined, name);
+    chosen.push_back(input != nullptr ? input->optics : soil_optics(name, *scene.model.soil));
+  }
+  return chosen;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,156 @@
+#include "io/scene_reader.h"
+
+#include "base/error.h"
+#include "io/file.h"
+#include "io/scene_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <set>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr double farthest_m = 1e7;
+constexpr double default_fov_deg = 40.0;
+
+// FNV-1a, 64 bits (Fowler, Noll and Vo).
+class Digest {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  }
+  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+void refuse_unsupported_tables(const TomlTable& root) {
+  refuse_unsupported(root, "sky", "sky light is");
+  refuse_unsupported(root, "weather", "weather data is");
+  refuse_unsupported(root, "plane", "horizontal receivers are");
+  refuse_unsupported(root, "sensor", "sensors are");
+}
+
+std::string read_title(const TomlTable& root, const std::filesystem::path& file) {
+  return root.text("title").value_or(printable(file.stem().string()));
+}
+
+Plot read_plot(const TomlTable& root) {
+  root.require("plot", "[plot] with size = [1.8, 2.4]");
+  const TomlTable table = *root.table("plot");
+  table.allow({"size", "periodic"});
+  table.require("size", "size = [1.8, 2.4], metres along X and Z");
+  const auto size_m = *table.numbers("size", 2, {.lo = 1e-6, .hi = 1e6, .cure = "give metres"});
+  Plot plot;
+  plot.size_x_m = size_m[0];
+  plot.size_z_m = size_m[1];
+  plot.periodic = table.boolean("periodic").value_or(plot.periodic);
+  return plot;
+}
+
+Accuracy read_accuracy(const TomlTable& root) {
+  Accuracy accuracy;
+  const auto table = root.table("accuracy");
+  if (!table) return accuracy;
+  table->allow({"direct", "indirect", "confidence", "of"});
+  const NumberRange bound{
+      .lo = 0.0, .hi = 1.0, .lo_open = true, .hi_open = true, .cure = "give a relative error such as 0.001 for 0.1 percent"};
+  accuracy.direct = table->number("direct", bound).value_or(accuracy.direct);
+  accuracy.indirect = table->number("indirect", bound).value_or(accuracy.indirect);
+  const NumberRange confidence{.lo = 0.5, .hi = 0.9999, .cure = "give 0.95 for 95 percent"};
+  accuracy.confidence = table->number("confidence", confidence).value_or(accuracy.confidence);
+  constexpr ErrorTarget targets[] = {ErrorTarget::canopy, ErrorTarget::organ, ErrorTarget::triangle};
+  if (const auto of = table->word("of", {"canopy", "organ", "triangle"})) accuracy.of = targets[*of];
+  return accuracy;
+}
+
+std::optional<CameraPose> read_camera(const TomlTable& root) {
+  const auto table = root.table("camera");
+  if (!table) return std::nullopt;
+  table->allow({"position", "look_at", "fov"});
+  table->require("position", "position = [3.0, 2.5, 3.0], or remove [camera] for a view that fits");
+  table->require("look_at", "look_at = [0.9, 1.0, 1.2]");
+  const NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
+  CameraPose pose;
+  pose.position_m = *table->triple("position", anywhere);
+  pose.look_at_m = *table->triple("look_at", anywhere);
+  if (pose.position_m == pose.look_at_m) {
+    table->refuse("look_at", "it is the camera's own position, so there is no direction to look in", "give another point");
+  }
+  const NumberRange fov{.lo = 1.0, .hi = 179.0, .cure = "give degrees from the lower to the upper edge"};
+  pose.fov_rad = glm::radians(table->number("fov", fov).value_or(default_fov_deg));
+  return pose;
+}
+
+int read_layers(const TomlTable& root, int fallback) {
+  const auto table = root.table("output");
+  if (!table) return fallback;
+  table->allow({"layers"});
+  return static_cast<int>(table->integer("layers", 1, 10000).value_or(fallback));
+}
+
+void warn_of_night(const SunInput& sun, std::vector<std::string>& warnings) {
+  if (sun.position.elevation_rad > 0.0) return;
+  warnings.push_back(fmt::format("{}: the sun is not above the horizon (elevation {:.4g} degrees), so there is no direct light",
+                                 sun.table.place(), glm::degrees(sun.position.elevation_rad)));
+}
+
+void warn_of_unused(const OpticsByName& optics, const Scene& scene, std::vector<std::string>& warnings) {
+  const std::set<std::string> used(scene.model.canopy.optics_names.begin(), scene.model.canopy.optics_names.end());
+  for (const auto& [name, input] : optics) {
+    if (!used.contains(name)) warnings.push_back(fmt::format("{} is used by no geometry", input.place));
+  }
+}
+
+std::string digest_of(std::string_view text, std::span<const GeometryPart> parts) {
+  Digest digest;
+  digest.add(text);
+  for (const GeometryPart& part : parts) {
+    if (!part.maize) digest.add(read_file(part.file));
+  }
+  return digest.text();
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
+  const std::string text = read_file(file);
+  const TomlTable root = TomlTable::parse(file.string(), text);
+  root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
+              "plane", "sensor"});
+  refuse_unsupported_tables(root);
+
+  Scene scene;
+  scene.file = file;
+  scene.title = read_title(root, file);
+  scene.model.plot = read_plot(root);
+  const std::optional<SunInput> sun = read_sun(root);
+  if (sun) {
+    scene.model.sun = sun->position;
+    scene.moment = sun->moment;
+    warn_of_night(*sun, scene.warnings);
+  }
+  scene.model.bands = read_bands(root, sun);
+  scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, scene.warnings);
+  const OpticsByName optics = read_optics(root, scene.model.bands);
+  scene.accuracy = read_accuracy(root);
+  scene.camera = read_camera(root);
+  scene.model.layers = read_layers(root, scene.model.layers);
+
+  const std::vector<GeometryPart> parts = read_geometry(root, file, access);
+  std::vector<PlacedMesh> meshes;
+  for (const GeometryPart& part : parts) meshes.push_back(load_geometry(part));
+  scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
+  scene.model.optics = choose_optics(parts, meshes, optics, scene);
+  scene.digest = digest_of(text, parts);
+  warn_of_unused(optics, scene, scene.warnings);
+  for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
+  return scene;
+}
+
+}  // namespace sunfleck
