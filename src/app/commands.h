@@ -1,0 +1,13 @@
+#pragma once
+// The commands of the program; each returns the exit status.
+
+#include "app/options.h"
+
+namespace sunfleck {
+
+// 0: done, the bound reached if there is one; 1: stopped short of it; 130: interrupted. Results are written in every case.
+[[nodiscard]] int run(const RunOptions& options);
+[[nodiscard]] int write_maize(const MaizeOptions& options);
+[[nodiscard]] int show_info(const InfoOptions& options);
+
+}  // namespace sunfleck

@@ -1,0 +1,38 @@
+#pragma once
+// The device a run works on: tree and tracer, on Vulkan or on the CPU.
+
+#include "bvh/bvh.h"
+#include "gpu/context.h"
+#include "tracers/canopy_view.h"
+#include "tracers/cpu_tracer.h"
+#include "tracers/gpu_tree.h"
+#include "transport/tracer.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+class Engine {
+ public:
+  // `device` as on the command line: auto | gpu | lavapipe | cpu | INDEX | NAME. Throws Error (device) if there is none such.
+  // Tree and engine live together: the tree must outlive it.
+  Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words);
+
+  [[nodiscard]] Tracer& tracer() { return *tracer_; }
+  [[nodiscard]] TracerDevice device() const { return tracer_->device(); }
+  // Empty if stopped.
+  [[nodiscard]] std::vector<shared::SeenSurface> see(const shared::ViewBlock& view, const std::vector<glm::vec2>& offsets,
+                                                     const StopQuestion& stop) const;
+  // What the validation layer had to say; only builds with checks have it look.
+  [[nodiscard]] std::vector<std::string> validation_messages() const;
+
+ private:
+  const Bvh& bvh_;
+  std::unique_ptr<GpuContext> context_;  // none on the CPU path
+  std::unique_ptr<GpuTree> tree_;
+  std::unique_ptr<Tracer> tracer_;
+};
+
+}  // namespace sunfleck
