@@ -1,0 +1,241 @@
+// CPU walk, CPU test of every element, and Vulkan count the same landings, word for word, however the work is cut.
+
+#include "agreement/scenes.h"
+#include "support/device.h"
+#include "tracers/canopy_view.h"
+#include "tracers/vulkan_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+using namespace test;
+
+using Counters = std::vector<std::uint32_t>;
+
+Counters count(Tracer& tracer, const shared::BeamBlock& beam, const CounterLayout& layout) {
+  Counters counters(layout.words());
+  EXPECT_TRUE(tracer.count_beam(beam, counters, {}) == TraceOutcome::finished);
+  return counters;
+}
+
+// Every ray is counted once, and none is lost.
+void expect_all_counted(const Counters& counters, const shared::BeamBlock& beam, bool periodic) {
+  const auto landed = std::accumulate(counters.begin(), counters.end(), std::uint64_t{0}) - counters[shared::counter_met];
+  EXPECT_EQ(landed, std::uint64_t{beam.columns} * beam.rows);
+  EXPECT_EQ(counters[shared::counter_lost], 0U);
+  const std::uint32_t met = periodic ? 0U : beam.columns * beam.rows - counters[shared::counter_missed];
+  EXPECT_EQ(counters[shared::counter_met], met);
+}
+
+std::size_t words_apart(const Counters& a, const Counters& b) {
+  std::size_t apart = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
+  for (std::size_t word = 0; word < std::min(a.size(), b.size()); ++word) apart += a[word] == b[word] ? 0 : 1;
+  return apart;
+}
+
+struct Cut {
+  TreeFetch fetch;
+  std::uint32_t rays_per_dispatch;  // 0: as the program chooses
+};
+
+class DeviceAgreement : public DeviceTest {
+ protected:
+  [[nodiscard]] Counters count_on_device(const RadiationModel& model, const Prepared& prepared, const shared::BeamBlock& beam,
+                                         Cut cut) const {
+    const GpuTree tree(context(), prepared.bvh, cut.fetch);
+    const auto words = prepared.layout.words();
+    if (cut.rays_per_dispatch == 0) {
+      VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), words);
+      return count(tracer, beam, prepared.layout);
+    }
+    VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), words, cut.rays_per_dispatch);
+    return count(tracer, beam, prepared.layout);
+  }
+
+  // `doubted_rays` are also traced by testing every element.
+  void expect_agreement(const RadiationModel& model, double rays, double doubted_rays) const {
+    const Prepared prepared(model);
+    CpuTracer cpu(prepared.bvh, tracer_scene(model));
+    const shared::BeamBlock beam = make_beam_block(model, prepared.layout, rays, 1, 0);
+    const Counters expected = count(cpu, beam, prepared.layout);
+    expect_all_counted(expected, beam, model.plot.periodic);
+    for (const Cut cut :
+         {Cut{TreeFetch::texel_buffers, 0}, Cut{TreeFetch::storage_buffers, 1000}, Cut{TreeFetch::texel_buffers, 64}}) {
+      EXPECT_EQ(words_apart(count_on_device(model, prepared, beam, cut), expected), 0U)
+          << "in dispatches of " << cut.rays_per_dispatch;
+    }
+    if (doubted_rays == 0) return;
+    const shared::BeamBlock few = make_beam_block(model, prepared.layout, doubted_rays, 2, 0);
+    CpuTracer doubter(prepared.bvh, tracer_scene(model), CpuWalk::every_element);
+    EXPECT_EQ(words_apart(count(cpu, few, prepared.layout), count(doubter, few, prepared.layout)), 0U);
+  }
+};
+
+constexpr Plot unit_plot{1.0, 1.0, true};
+constexpr Plot unit_stand{1.0, 1.0, false};
+
+TEST_F(DeviceAgreement, OnTwoMaizePlants) {
+  expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, paper_sun()), 60'000, 1'000);
+}
+
+TEST_F(DeviceAgreement, OnALoneMaizePlant) {
+  const Mesh plant = make_maize({1, 1, 0.6, 0.6, 5});
+  expect_agreement(black_model(plant, {0.6, 0.6, false}, paper_sun()), 60'000, 1'000);
+}
+
+TEST_F(DeviceAgreement, OnRandomLeaves) {
+  const Mesh leaves = random_leaves(300, 0.1, 1);
+  for (const SunPosition& sun : {sun_at(90, 0), sun_at(53, 120), sun_at(10, 250)}) {
+    expect_agreement(black_model(leaves, unit_plot, sun), 20'000, 4'000);
+  }
+  expect_agreement(black_model(leaves, unit_stand, sun_at(25, 310)), 20'000, 4'000);
+}
+
+TEST_F(DeviceAgreement, WithoutSoil) {
+  const Mesh leaves = random_leaves(60, 0.1, 2);
+  expect_agreement(without_soil(black_model(leaves, unit_plot, paper_sun())), 20'000, 4'000);
+  expect_agreement(without_soil(black_model(leaves, unit_stand, paper_sun())), 20'000, 4'000);
+}
+
+TEST_F(DeviceAgreement, WithoutElements) {
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    const RadiationModel empty = black_model({}, plot, paper_sun());
+    expect_agreement(empty, 5'000, 5'000);
+    expect_agreement(without_soil(empty), 5'000, 5'000);
+  }
+}
+
+TEST_F(DeviceAgreement, WithAZenithSunOverAGriddedPlate) {
+  expect_agreement(black_model(gridded_plate(16), unit_plot, sun_at(90, 0)), 20'000, 4'000);
+  expect_agreement(black_model(gridded_plate(16), unit_stand, sun_at(90, 0)), 20'000, 4'000);
+}
+
+TEST_F(DeviceAgreement, WithSunsAlongTheAxes) {
+  const Mesh plate = gridded_plate(8);
+  for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
+    expect_agreement(black_model(plate, unit_plot, sun_at(20, azimuth)), 10'000, 2'000);
+    expect_agreement(black_model(plate, unit_stand, sun_at(45, azimuth)), 10'000, 2'000);
+  }
+}
+
+TEST_F(DeviceAgreement, OnALeafLargerThanThePlot) {
+  MeshMaker maker;
+  maker.triangle({-1.3, 0.2, -0.4}, {2.1, 0.9, 0.3}, {0.2, 0.5, 3.7});
+  maker.triangle({-2.0, 1.5, 0.5}, {4.0, 1.6, 0.5}, {-2.0, 1.4, 0.55});
+  for (const SunPosition& sun : {sun_at(70, 10), sun_at(15, 200)}) {
+    expect_agreement(black_model(maker.mesh(), unit_plot, sun), 20'000, 5'000);
+  }
+}
+
+TEST_F(DeviceAgreement, OnDuplicatesAndCoplanarLeaves) {
+  for (const SunPosition& sun : {sun_at(90, 0), sun_at(40, 77)}) {
+    expect_agreement(black_model(coplanar_leaves(), unit_plot, sun), 20'000, 5'000);
+  }
+}
+
+// A period of 5 cm below a leaf 12 m high: more than 30,000 periods on the way to the ground, so that every ray pauses between
+// dispatches.
+TEST_F(DeviceAgreement, WithALowSunOverATinyPlot) {
+  MeshMaker maker;
+  maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
+  maker.level(0.01, 0.04, 0.01, 0.04, 0.01);
+  expect_agreement(black_model(maker.mesh(), {0.05, 0.05, true}, sun_at(0.5, 33)), 300, 30);
+}
+
+// Neighbouring rays do their steps in different periods here, so that a group of them does more than each of them.
+TEST_F(DeviceAgreement, WithALowSunThroughSlivers) {
+  MeshMaker maker;
+  maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
+  add_slivers(maker, 60, 0.05, 6.0, 1e-7, 4);
+  for (int stalk = 0; stalk < 40; ++stalk) {
+    const double x = 0.05 * std::fmod(0.618034 * stalk, 1.0);
+    const double z = 0.05 * std::fmod(0.754878 * stalk, 1.0);
+    maker.triangle({x, 0.0, z}, {x + 0.004, 11.0, z + 0.004}, {x + 0.004 + 1e-7, 11.0, z + 0.004});
+  }
+  expect_agreement(black_model(maker.mesh(), {0.05, 0.05, true}, sun_at(0.5, 33)), 150, 0);
+}
+
+TEST_F(DeviceAgreement, OnAPileTooHighForOneDispatch) {
+  MeshMaker maker;
+  add_pile(maker, 70'000, 1.0, 0.5);
+  expect_agreement(black_model(maker.mesh(), unit_plot, sun_at(60, 30)), 200, 60);
+  expect_agreement(black_model(maker.mesh(), unit_stand, sun_at(60, 30)), 200, 60);
+}
+
+TEST_F(DeviceAgreement, OnAPileThatNeighboursWalkDifferently) {
+  MeshMaker maker;
+  add_slivers(maker, 150'000, 1.0, 0.5, 1e-6, 8);
+  expect_agreement(black_model(maker.mesh(), unit_plot, sun_at(90, 0)), 200, 0);
+}
+
+// Thousands of periods first, then the pile: the steps of both count together.
+TEST_F(DeviceAgreement, OnAPileBelowATallGap) {
+  MeshMaker maker;
+  maker.level(0.01, 0.02, 0.01, 0.02, 6.0);
+  add_pile(maker, 70'000, 0.05, 0.01);
+  expect_agreement(black_model(maker.mesh(), {0.05, 0.05, true}, sun_at(0.5, 33)), 150, 0);
+}
+
+shared::ViewBlock view_of(const RadiationModel& model, const CounterLayout& layout, glm::dvec3 from, glm::dvec3 to) {
+  const glm::dvec3 forward = glm::normalize(to - from);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.01, 1.0, 0.0)));
+  shared::ViewBlock view;
+  view.position = from;
+  view.forward = forward;
+  view.right = 0.5 * right;
+  view.up = 0.375 * glm::cross(right, forward);
+  view.width = 160;
+  view.height = 120;
+  view.samples = 3;
+  view.elements = static_cast<std::uint32_t>(model.canopy.size());
+  view.ground = make_ground_map(layout);
+  return view;
+}
+
+class ViewAgreement : public DeviceAgreement {
+ protected:
+  void expect_same_picture(const RadiationModel& model, glm::dvec3 from, glm::dvec3 to) const {
+    const Prepared prepared(model);
+    const shared::ViewBlock view = view_of(model, prepared.layout, from, to);
+    const std::vector<glm::vec2> offsets = sample_offsets(3);
+    const std::vector<shared::SeenSurface> expected = see_with_cpu(prepared.bvh, view, offsets, {});
+    ASSERT_EQ(expected.size(), 160U * 120U * 3U);
+    for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {
+      const GpuTree tree(context(), prepared.bvh, fetch);
+      const std::vector<shared::SeenSurface> seen = see_with_gpu(context(), tree, prepared.bvh, view, offsets, {});
+      ASSERT_EQ(seen.size(), expected.size());
+      std::size_t apart = 0;
+      for (std::size_t k = 0; k < seen.size(); ++k) apart += std::memcmp(&seen[k], &expected[k], sizeof seen[k]) == 0 ? 0 : 1;
+      EXPECT_EQ(apart, 0U);
+    }
+  }
+};
+
+TEST_F(ViewAgreement, OfAMaizePlot) {
+  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, paper_sun());
+  expect_same_picture(model, {3.0, 2.5, 2.0}, {0.6, 0.9, 0.3});
+  expect_same_picture(model, {0.6, 6.0, 0.3}, {0.6, 0.0, 0.3});
+  expect_same_picture(without_soil(model), {-2.0, 0.5, -2.0}, {0.6, 1.5, 0.3});
+}
+
+TEST_F(ViewAgreement, OfAPlateAlongTheAxes) {
+  const RadiationModel model = black_model(gridded_plate(8), unit_stand, paper_sun());
+  expect_same_picture(model, {0.5, 3.0, 0.5}, {0.5, 0.0, 0.5});
+  expect_same_picture(model, {-2.0, 0.5, 0.5}, {0.0, 0.5, 0.5});
+}
+
+TEST_F(ViewAgreement, OfAPileTooHighForOneDispatch) {
+  MeshMaker maker;
+  add_pile(maker, 70'000, 1.0, 0.5);
+  expect_same_picture(black_model(maker.mesh(), unit_stand, paper_sun()), {9.0, 20.0, 9.0}, {0.5, 0.0, 0.5});
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,175 @@
+// Packets land on the same places on the CPU path and on the device, bit by bit, however the work is cut; and so whole runs
+// with scattered light give the same numbers on both.
+
+#include "agreement/scenes.h"
+#include "support/device.h"
+#include "support/leaf_scenes.h"
+#include "support/result_numbers.h"
+#include "tracers/vulkan_tracer.h"
+#include "transport/indirect.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+using namespace test;
+
+constexpr Plot unit_plot{1.0, 1.0, true};
+constexpr Plot unit_stand{1.0, 1.0, false};
+
+// From random points on the elements, on the ground and between; into all directions, every fourth nearly level: its slope is
+// about `least_slope`.
+std::vector<shared::Packet> random_packets(const RadiationModel& model, const Prepared& prepared, std::size_t count,
+                                           double least_slope) {
+  const shared::PacketBlock scene = make_packet_block(model, prepared.layout);
+  const glm::dvec3 lo = prepared.layout.box.lo_m;
+  const glm::dvec3 hi = prepared.layout.box.hi_m;
+  Random random(17);
+  std::vector<shared::Packet> packets;
+  while (packets.size() < count) {
+    const double sign = packets.size() % 8 == 0 ? -1.0 : 1.0;
+    const double slope = packets.size() % 4 == 0 ? sign * random.uniform(0.5, 2.0) * least_slope : random.uniform(-1.0, 1.0);
+    const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+    const double level = std::sqrt(1.0 - slope * slope);
+    const glm::vec3 direction(level * std::cos(angle), slope, level * std::sin(angle));
+    const glm::dvec3 anywhere_m(random.uniform(lo.x, hi.x), random.uniform(lo.y, hi.y), random.uniform(lo.z, hi.z));
+    shared::Packet packet{glm::vec3(anywhere_m), shared::no_element, direction, 0};
+    if (packets.size() % 8 == 1) {
+      packet.origin.y = scene.ground.y;
+      packet.direction.y = std::abs(packet.direction.y);
+    } else if (!prepared.bvh.triangles.empty() && packets.size() % 8 != 5) {
+      const auto triangle = static_cast<std::size_t>(random.uniform() * static_cast<double>(prepared.bvh.triangles.size()));
+      const BvhTriangle& start = prepared.bvh.triangles[triangle];
+      const auto b = static_cast<float>(random.uniform(0.0, 0.5));
+      const auto c = static_cast<float>(random.uniform(0.0, 0.5));
+      for (int axis = 0; axis < 3; ++axis) {
+        packet.origin[axis] = start.a[axis] + b * (start.b[axis] - start.a[axis]) + c * (start.c[axis] - start.a[axis]);
+      }
+      packet.element = start.element;
+      packet.image = start.image;
+    }
+    if (model.plot.periodic) {
+      packet.origin.x = std::clamp(packet.origin.x, 0.0F, scene.period.x);
+      packet.origin.z = std::clamp(packet.origin.z, 0.0F, scene.period.y);
+    }
+    packets.push_back(packet);
+  }
+  return packets;
+}
+
+using Landings = std::vector<shared::Landing>;
+
+Landings follow(Tracer& tracer, const shared::PacketBlock& scene, const std::vector<shared::Packet>& packets) {
+  Landings landings(packets.size());
+  EXPECT_TRUE(tracer.trace(scene, packets, landings, {}) == TraceOutcome::finished);
+  return landings;
+}
+
+std::size_t apart(const Landings& a, const Landings& b) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) count += std::memcmp(&a[k], &b[k], sizeof a[k]) == 0 ? 0 : 1;
+  return count;
+}
+
+class PacketsAgreement : public DeviceTest {
+ protected:
+  // `doubted` packets are also traced by testing every element.
+  void expect_agreement(const RadiationModel& model, std::size_t count, std::size_t doubted, double least_slope = 1e-5) const {
+    const Prepared prepared(model);
+    const shared::PacketBlock scene = make_packet_block(model, prepared.layout);
+    const std::vector<shared::Packet> packets = random_packets(model, prepared, count, least_slope);
+    CpuTracer cpu(prepared.bvh, tracer_scene(model));
+    const Landings expected = follow(cpu, scene, packets);
+    std::size_t on_elements = 0;
+    for (const shared::Landing& landing : expected) {
+      on_elements += landing.surface < shared::landed_on_ground ? 1 : 0;
+      EXPECT_NE(landing.surface, shared::lost_on_its_way);
+    }
+    EXPECT_EQ(on_elements > 0, model.canopy.size() > 0);
+    for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {
+      const GpuTree tree(context(), prepared.bvh, fetch);
+      VulkanTracer whole(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
+      EXPECT_EQ(apart(follow(whole, scene, packets), expected), 0U);
+      for (const std::uint32_t cut : {64U, 1000U}) {
+        VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), cut);
+        EXPECT_EQ(apart(follow(tracer, scene, packets), expected), 0U) << "in dispatches of " << cut;
+      }
+    }
+    const std::vector<shared::Packet> few(packets.begin(), packets.begin() + static_cast<std::ptrdiff_t>(doubted));
+    CpuTracer doubter(prepared.bvh, tracer_scene(model), CpuWalk::every_element);
+    EXPECT_EQ(
+        apart(follow(doubter, scene, few), Landings(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(doubted))),
+        0U);
+  }
+
+  void expect_same_run(const RadiationModel& model, const SolveSettings& settings) const {
+    const Prepared prepared(model);
+    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
+    CpuTracer cpu(prepared.bvh, tracer_scene(model));
+    const auto theirs = all_numbers(solve(model, prepared.layout, device, settings, {}));
+    const RadiationResult result = solve(model, prepared.layout, cpu, settings, {});
+    EXPECT_GT(result.indirect.packets, 0U);
+    EXPECT_TRUE(theirs == all_numbers(result));
+  }
+};
+
+TEST_F(PacketsAgreement, OnRandomLeaves) {
+  const Mesh leaves = random_leaves(300, 0.1, 1);
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    const RadiationModel model = black_model(leaves, plot, paper_sun());
+    expect_agreement(model, 8'000, 1'000);
+    expect_agreement(without_soil(model), 8'000, 1'000);
+  }
+}
+
+TEST_F(PacketsAgreement, OnTwoMaizePlants) {
+  expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, paper_sun()), 8'000, 200);
+}
+
+TEST_F(PacketsAgreement, OnALeafLargerThanThePlot) {
+  MeshMaker maker;
+  maker.triangle({-1.3, 0.2, -0.4}, {2.1, 0.9, 0.3}, {0.2, 0.5, 3.7});
+  maker.triangle({-2.0, 1.5, 0.5}, {4.0, 1.6, 0.5}, {-2.0, 1.4, 0.55});
+  expect_agreement(black_model(maker.mesh(), unit_plot, paper_sun()), 4'000, 2'000);
+}
+
+TEST_F(PacketsAgreement, OnDuplicatesCoplanarAndGriddedLeaves) {
+  expect_agreement(black_model(coplanar_leaves(), unit_plot, paper_sun()), 4'000, 2'000, 1e-3);
+  expect_agreement(black_model(gridded_plate(16), unit_plot, paper_sun()), 4'000, 2'000, 1e-3);
+  expect_agreement(black_model(gridded_plate(16), unit_stand, paper_sun()), 4'000, 2'000);
+}
+
+TEST_F(PacketsAgreement, WithoutElements) {
+  for (const Plot& plot : {unit_plot, unit_stand}) expect_agreement(black_model({}, plot, paper_sun()), 1'000, 1'000, 1e-3);
+}
+
+// A period of 5 cm below a leaf 12 m high: level packets pass thousands of periods and pause between dispatches.
+TEST_F(PacketsAgreement, OverATinyPlot) {
+  MeshMaker maker;
+  maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
+  maker.level(0.01, 0.04, 0.01, 0.04, 0.01);
+  expect_agreement(black_model(maker.mesh(), {0.05, 0.05, true}, paper_sun()), 300, 100, 0.01);
+}
+
+TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
+  const Mesh leaves = random_leaves(100, 0.12, 5);
+  SolveSettings automatic;
+  automatic.accuracy.direct = 0.02;
+  automatic.accuracy.indirect = 0.05;
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    const RadiationModel model = paper_model(leaves, plot, paper_sun());
+    SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8, .bound = 0.01});
+    fixed.element_errors = true;
+    expect_same_run(model, fixed);
+    expect_same_run(without_soil(model), fixed);
+    expect_same_run(model, automatic);
+  }
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,116 @@
+// Every function of the shared text at once, itself in the shared text: what goes in and what comes out.
+#ifndef SUNFLECK_TESTS_SHARED_TEXT_H
+#define SUNFLECK_TESTS_SHARED_TEXT_H
+
+#include "shared/beam.h"
+#include "shared/view.h"
+
+SHARED_BEGIN
+
+struct TextInput {
+  vec3 origin;
+  vec3 direction;
+  vec3 a;
+  vec3 b;
+  vec3 c;
+  vec2 period;
+  vec2 overlap;
+  vec2 offset;
+  float divisor;
+  uint number;
+};
+
+struct TextOutput {
+  float reciprocal;
+  float direction_part;
+  uvec4 words;
+  float unit;
+  vec3 start;
+  vec3 inverse;
+  vec3 shear;
+  uint axis;
+  float t;
+  float weight_b;
+  float weight_c;
+  uint met_lower;
+  float crossing_t;
+  float crossing_limit;
+  uint along_x;
+  vec3 entered;
+  float ground_t;
+  float ground_limit;
+  vec2 ground_at;
+  uint in_plot;
+  uint cell;
+  float landing;
+  uint layer;
+  vec2 sample_at;
+  vec3 view_along;
+  vec3 view_from;
+  float view_depth;
+  float seen_t;
+  float seen_limit;
+};
+
+INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput given) {
+  TextOutput result;
+  result.reciprocal = exact_reciprocal(given.divisor);
+  result.direction_part = direction_reciprocal(given.divisor);
+  result.words = random_words(beam.key, given.number, 7u);
+  result.unit = unit_interval(result.words.x);
+  result.start = beam_origin(beam, given.number % (beam.columns * beam.rows));
+  const Ray ray = make_ray(given.origin, given.direction);
+  result.inverse = ray.inverse;
+  result.shear = ray.shear;
+  result.axis = ray.axis;
+  const TriangleHit hit = meet_triangle(ray, given.a, given.b, given.c);
+  result.t = hit.t;
+  result.weight_b = hit.weight_b;
+  result.weight_c = hit.weight_c;
+  result.met_lower = (hit.met ? 2u : 0u) + hit.lower;
+  const Crossing crossing = next_crossing(ray, given.period, given.overlap);
+  result.crossing_t = crossing.t;
+  result.crossing_limit = crossing.limit;
+  result.along_x = crossing.along_x ? 1u : 0u;
+  result.entered = enter_next_period(ray, crossing, given.period);
+  const Ground ground = meet_ground(ray, beam.ground);
+  result.ground_t = ground.t;
+  result.ground_limit = ground.limit;
+  result.ground_at = ground_point(ray, ground.t);
+  result.in_plot = in_plot(beam.ground, result.ground_at) ? 1u : 0u;
+  result.cell = soil_cell(beam.ground, result.ground_at);
+  result.landing = landing_y(given.a.y, given.b.y, given.c.y, hit.weight_b, hit.weight_c);
+  result.layer = layer_of(given.origin.y, beam.layer_base_y, beam.layers_per_metre, beam.layers);
+  const uint samples = view.width * view.height * view.samples;
+  result.sample_at = sample_point(view, given.number % samples, given.offset, exact_reciprocal(float(view.width)),
+                                  exact_reciprocal(float(view.height)));
+  result.view_along = view_direction(view, result.sample_at.x, result.sample_at.y);
+  result.view_from = view_origin(view, given.direction);
+  result.view_depth = view_depth(view, hit.t);
+  result.seen_t = seen_ground(ray, view.ground);
+  result.seen_limit = ground_limit(ray, view.ground, result.seen_t);
+  return result;
+}
+
+// One ray for the walk over the tree, and what came of it.
+struct WalkedRay {
+  vec3 origin;
+  float limit;
+};
+struct WalkedHit {
+  float t;
+  float weight_b;
+  float weight_c;
+  uint lower;
+  uint element;
+  uint found;  // 2: too many steps
+};
+
+struct TextPush {
+  vec3 direction;  // of all rays
+  uint count;
+};
+
+SHARED_END
+
+#endif

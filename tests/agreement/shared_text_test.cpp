@@ -1,0 +1,154 @@
+// The shared text gives the same bits on the device as in C++, on a million inputs.
+
+#include "agreement/shared_text.h"
+#include "gpu/buffer.h"
+#include "gpu/compute.h"
+#include "shared_text.spirv.h"
+#include "support/bvh_check.h"
+#include "support/device.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+using testing_bvh::Random;
+using testing_bvh::uniform;
+
+// All members are one 32-bit word or vectors of them.
+static_assert(sizeof(shared::TextInput) == 23 * 4);
+static_assert(sizeof(shared::TextOutput) == 46 * 4);
+static_assert(sizeof(shared::TextPush) == 16);
+
+constexpr std::uint32_t batch = 1U << 17U;
+constexpr int batches = 8;
+
+// Half of the points lie on a coarse lattice, where zeros, ties, edges and corners are frequent.
+glm::vec3 some_point(Random& random, bool on_lattice) {
+  if (!on_lattice) return testing_bvh::point(random, 2.0);
+  const auto coordinate = [&] { return static_cast<float>(static_cast<int>(random() % 17U) - 8) * 0.25F; };
+  const float x = coordinate();
+  const float y = coordinate();
+  return {x, y, coordinate()};
+}
+
+// Any sign, exponent of 2^-100..2^100 and fraction.
+float some_divisor(Random& random) {
+  const std::uint32_t exponent = 27U + static_cast<std::uint32_t>(random() % 200U);
+  const auto sign_and_fraction = static_cast<std::uint32_t>(random()) & 0x807fffffU;
+  return std::bit_cast<float>(sign_and_fraction | exponent << 23U);
+}
+
+shared::TextInput some_input(Random& random) {
+  const bool on_lattice = random() % 2 == 0;
+  shared::TextInput given;
+  given.origin = some_point(random, on_lattice);
+  given.a = some_point(random, on_lattice);
+  given.b = some_point(random, on_lattice);
+  given.c = some_point(random, on_lattice);
+  const auto weight_a = static_cast<float>(uniform(random));
+  const auto weight_b = static_cast<float>(uniform(random, -0.1, 1.0));
+  const glm::vec3 target = weight_a * given.a + weight_b * given.b + (1.0F - weight_a - weight_b) * given.c;
+  given.direction = on_lattice ? some_point(random, true) : target - given.origin;
+  if (given.direction == glm::vec3(0.0F)) given.direction.y = -1.0F;
+  if (random() % 8 == 0) given.direction[static_cast<int>(random() % 3U)] = -0.0F;
+  if (random() % 8 == 0) given.direction[static_cast<int>(random() % 3U)] *= 1e-12F;
+  if (given.direction == glm::vec3(0.0F)) given.direction.z = 1.0F;
+  given.period = {static_cast<float>(uniform(random, 0.5, 3.0)), on_lattice ? 2.0F : 1.7F};
+  given.overlap = given.period * 0x1p-19F;
+  given.offset = {static_cast<float>(uniform(random)), static_cast<float>(uniform(random))};
+  given.divisor = some_divisor(random);
+  given.number = static_cast<std::uint32_t>(random());
+  return given;
+}
+
+shared::BeamBlock some_beam(std::uint32_t columns, std::uint32_t rows) {
+  shared::BeamBlock beam{};
+  beam.corner = {-0.3F, 2.7F, 0.1F};
+  beam.edge_u = {1.8F, 0.1F, 0.03F};
+  beam.edge_v = {-0.2F, 0.3F, 2.4F};
+  beam.columns = columns;
+  beam.rows = rows;
+  beam.per_column = 1.0F / static_cast<float>(columns);
+  beam.per_row = 1.0F / static_cast<float>(rows);
+  beam.key = {0x12345678U, 0x9abcdef0U};
+  beam.ground.plot_lo = {-0.5F, -0.25F};
+  beam.ground.plot_hi = {1.5F, 1.0F};
+  beam.ground.cells_x = 40;
+  beam.ground.cells_z = 7;
+  beam.ground.cells_per_metre = {20.0F, 5.6F};
+  beam.ground.y = -0.75F;
+  beam.ground.depth = 1e-5F;
+  beam.layer_base_y = -0.5F;
+  beam.layers_per_metre = 11.3F;
+  beam.layers = 20;
+  return beam;
+}
+
+shared::ViewBlock some_view(const shared::GroundMap& ground) {
+  shared::ViewBlock view{};
+  view.position = {3.0F, 2.0F, 1.0F};
+  view.forward = {-0.8F, -0.5F, 0.3F};
+  view.right = {0.1F, -0.02F, 0.3F};
+  view.up = {0.12F, 0.25F, -0.1F};
+  view.width = 641;
+  view.height = 479;
+  view.samples = 5;
+  view.ground = ground;
+  view.start = 1.7F;
+  return view;
+}
+
+template <class T>
+GpuBuffer storage_of(const GpuContext& context, std::span<const T> data) {
+  GpuBuffer buffer = create_buffer(context, BufferUse::storage, data.size_bytes(), "test data");
+  upload(context, buffer, std::as_bytes(data));
+  return buffer;
+}
+
+using SharedText = DeviceTest;
+
+TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
+  const ShaderCode code{"shared_text", shared_text_spirv, std::vector<BufferUse>(4, BufferUse::storage),
+                        sizeof(shared::TextPush), shared::group_size};
+  ComputePipeline pipeline(context(), code, {});
+  Random random(1);
+  std::vector<shared::TextInput> inputs(batch);
+  std::vector<shared::TextOutput> outputs(batch);
+  const GpuBuffer results = create_buffer(context(), BufferUse::storage, batch * sizeof(shared::TextOutput), "outputs");
+  std::size_t apart = 0;
+  std::size_t met = 0;
+  for (int k = 0; k < batches; ++k) {
+    const shared::BeamBlock beam = some_beam(1000U + 37U * static_cast<std::uint32_t>(k), 999);
+    const shared::ViewBlock view = some_view(beam.ground);
+    for (shared::TextInput& given : inputs) given = some_input(random);
+    const GpuBuffer beam_buffer = storage_of(context(), std::span(&beam, 1));
+    const GpuBuffer view_buffer = storage_of(context(), std::span(&view, 1));
+    const GpuBuffer given = storage_of(context(), std::span<const shared::TextInput>(inputs));
+    const GpuBuffer* const buffers[] = {&beam_buffer, &view_buffer, &given, &results};
+    const shared::TextPush push{{}, batch};
+    pipeline.run(batch, std::as_bytes(std::span(&push, 1)), buffers);
+    download(context(), results, std::as_writable_bytes(std::span(outputs)));
+    for (std::size_t i = 0; i < batch; ++i) {
+      const shared::TextOutput expected = shared::all_of_the_text(beam, view, inputs[i]);
+      met += expected.met_lower >= 2 ? 1 : 0;
+      const auto ours = std::bit_cast<std::array<std::uint32_t, 46>>(expected);
+      const auto theirs = std::bit_cast<std::array<std::uint32_t, 46>>(outputs[i]);
+      for (std::size_t word = 0; word < ours.size(); ++word) {
+        if (ours[word] == theirs[word]) continue;
+        if (++apart <= 5)
+          ADD_FAILURE() << "input " << i << " of batch " << k << ", word " << word << ": " << ours[word] << " and "
+                        << theirs[word];
+      }
+    }
+  }
+  EXPECT_EQ(apart, 0U);
+  EXPECT_GT(met, std::size_t{batch} * batches / 5);  // so that weights and distances were compared
+}
+
+}  // namespace
+}  // namespace sunfleck

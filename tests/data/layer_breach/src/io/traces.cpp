@@ -1,0 +1,3 @@
+#include "view/image.h"
+#include "tracers/cpu_tracer.h"  // sideways
+  #  include "../canopy/canopy.h"  // hidden

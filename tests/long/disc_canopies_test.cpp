@@ -1,0 +1,26 @@
+// Homogeneous canopies of the sizes of leaf in B11 of the validation table, minutes each.
+#include "support/disc_canopies.h"
+
+namespace sunfleck::test {
+namespace {
+
+TEST(DiscCanopies, LargeSphericalLeaves) {
+  const auto got = disc_canopy_fluxes({.radius_m = 0.1, .count = 382, .horizontal = false}, 80, 2e5, 8192);
+  expect_row(got[0], {0.04801, 0.16803, 0.80914}, "spherical PAR, r 0.10");
+  expect_row(got[1], {0.40232, 0.43235, 0.25180}, "spherical NIR, r 0.10");
+}
+
+TEST(DiscCanopies, SmallHorizontalLeaves) {
+  const auto got = disc_canopy_fluxes({.radius_m = 0.02, .count = 9549, .horizontal = true, .corners = 6}, 16, 4e5, 16384);
+  expect_row(got[0], {0.06592, 0.06125, 0.88203}, "horizontal PAR, r 0.02");
+  expect_row(got[1], {0.48181, 0.3225, 0.2602}, "horizontal NIR, r 0.02");
+}
+
+TEST(DiscCanopies, SmallSphericalLeaves) {
+  const auto got = disc_canopy_fluxes({.radius_m = 0.02, .count = 9549, .horizontal = false, .corners = 6}, 16, 4e5, 16384);
+  expect_row(got[0], {0.04615, 0.16860, 0.81054}, "spherical PAR, r 0.02");
+  expect_row(got[1], {0.39992, 0.43435, 0.25259}, "spherical NIR, r 0.02");
+}
+
+}  // namespace
+}  // namespace sunfleck::test

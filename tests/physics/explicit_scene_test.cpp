@@ -1,0 +1,133 @@
+// Scenes given leaf by leaf, whose light independent programs have followed: scene S1 of the validation table (B12) and a whole
+// maize stand, in PAR and NIR.
+#include "io/mesh_reader.h"
+#include "support/comparison.h"
+#include "support/leaf_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace sunfleck::test {
+namespace {
+
+constexpr int replicates = 32;
+
+struct Reference {
+  double value;
+  double error;  // of the reference itself
+};
+
+// Three standard errors of the difference, asking for `largest` of our own.
+void expect_within(const Estimate& got, const Reference& reference, double largest, const std::string& what) {
+  const double own = standard_error(got, replicates);
+  const double error = std::hypot(own, reference.error);
+  const double difference = got.value - reference.value;
+  std::printf("%-28s expected %.6f(%.0e) got %.6f(%.1e) z %+.2f\n", what.c_str(), reference.value, reference.error, got.value,
+              own, difference / std::max(error, 1e-12));
+  EXPECT_LE(own, largest) << what;
+  EXPECT_LE(std::abs(difference), 3.0 * error + rounding) << what;
+}
+
+TEST(ExplicitScene, IsTheOneOfTheTable) {
+  const ExplicitScene scene = explicit_scene();
+  const auto expect_near = [](const glm::dvec3& got, const glm::dvec3& expected) {
+    EXPECT_LE(glm::length(got - expected), 1e-6);
+  };
+  expect_near(scene.leaves[0].centre_m, {0.120885, 0.347903, 0.669735});
+  expect_near(scene.leaves[0].normal, {-0.322204, -0.385838, 0.864473});
+  expect_near(scene.leaves[1].centre_m, {0.376987, 0.680171, 0.494081});
+  const RadiationModel model = paper_model(scene.mesh, {}, paper_sun());
+  double area = 0.0;
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) area += area_m2(model.canopy.corners[e]);
+  EXPECT_NEAR(area, 3.0, 1e-6);
+  const glm::dvec3 normal = scene.leaves[0].normal;
+  EXPECT_LE(glm::length(unit_normal(model.canopy.corners[0]) - from_enu(normal.x, normal.y, normal.z)), 1e-5);
+}
+
+TEST(ExplicitScene, TotalsAndLeavesUnderThePaperSun) {
+  const RadiationModel model = paper_model(explicit_scene().mesh, {}, paper_sun());
+  const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 1.6e7, .packets = 120000}));
+  struct Totals {
+    Reference reflected, leaves, on_soil;
+    double in_soil;
+  };
+  const std::array totals = {Totals{{0.051649, 9e-6}, {0.788413, 4e-5}, {0.188160, 4e-5}, 0.159936},
+                             Totals{{0.405730, 9e-5}, {0.241976, 3e-5}, {0.440377, 1.1e-4}, 0.352302}};
+  for (std::size_t b = 0; b < 2; ++b) {
+    const BandResult& band = result.bands[b];
+    const double largest = b == 0 ? 1e-4 : 2e-4;
+    expect_within(band.reflected, totals[b].reflected, largest, band.name + " reflected");
+    expect_within(band.absorbed_vegetation, totals[b].leaves, largest, band.name + " absorbed by leaves");
+    expect_within(result.layers[0].down[b], totals[b].on_soil, largest, band.name + " on soil");
+    const double soil_absorptance = 1.0 - model.soil->reflectance[b];
+    expect_within(band.absorbed_soil, {totals[b].in_soil, soil_absorptance * totals[b].on_soil.error}, largest,
+                  band.name + " absorbed by soil");
+  }
+  expect_within(result.ground_sunfleck_ratio, {0.172756, 5e-5}, 1e-4, "beam on soil");
+  struct Leaf {
+    Reference first_hit, par, nir;
+  };
+  const std::array leaves = {
+      Leaf{{0.2916, 7e-4}, {0.27760, 6e-4}, {0.08815, 2e-4}}, Leaf{{0.00869, 1e-4}, {0.04246, 2e-4}, {0.05880, 2e-4}},
+      Leaf{{0.0, 0.0}, {0.03478, 1e-4}, {0.05982, 2e-4}},     Leaf{{0.9038, 1.1e-3}, {0.77598, 9e-4}, {0.12936, 2e-4}},
+      Leaf{{0.3790, 7e-4}, {0.35758, 6e-4}, {0.10046, 2e-4}}, Leaf{{0.2635, 7e-4}, {0.26396, 6e-4}, {0.09690, 2e-4}}};
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    const OrganResult& organ = result.organs[leaf];
+    const std::string name = "leaf " + std::to_string(leaf);
+    expect_within(organ.direct[0], leaves[leaf].first_hit, 1e-3, name + " first hit");
+    expect_within(organ.absorbed[0], leaves[leaf].par, 1e-3, name + " absorbed PAR");
+    expect_within(organ.absorbed[1], leaves[leaf].nir, 1e-3, name + " absorbed NIR");
+  }
+  for (const BandResult& band : result.bands) EXPECT_EQ(band.ledger.residual(), 0) << band.name;
+  EXPECT_EQ(result.lost_rays, 0U);
+}
+
+// Leaves, stems and soil of the stand as kinds 0, 1 and 2 of optics.
+RadiationModel maize_stand() {
+  Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::string& organ = mesh.organs[mesh.organ_of[t]].name;
+    mesh.optics_of[t] = mesh.organ_of[t] = is_leaf_name(organ) ? 0U : organ == "stem" ? 1U : 2U;
+  }
+  mesh.organs = {{1, "leaf", 0}, {1, "stem", 0}, {0, "soil", 0}};
+  mesh.optics_names = {"leaf", "stem", "soil"};
+  const std::array bands = {BandOptics{"PAR", 0.12, 0.06, 0.15}, BandOptics{"NIR", 0.40, 0.45, 0.35}};
+  RadiationModel model = scattering_model(mesh, {3.0, 3.0, true}, sun_at(52.975, 120.70), bands);
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    model.optics[1].upper[b] = model.optics[1].lower[b] = {bands[b].reflectance, 0.0};
+    model.optics[2].upper[b] = model.optics[2].lower[b] = {bands[b].soil_reflectance, 0.0};
+  }
+  return model;
+}
+
+TEST(ExplicitScene, MaizeStandInParAndNir) {
+  const RadiationModel model = maize_stand();
+  ASSERT_EQ(model.canopy.size(), 97400U);
+  const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 2e6, .packets = 32768}));
+  struct Shares {
+    Reference leaf, stem, soil, reflected;
+    double tolerance;
+  };
+  const std::array expected = {Shares{{0.67631, 7e-5}, {0.03779, 3e-5}, {0.22927, 7e-5}, {0.05663, 1e-5}, 0.0005},
+                               Shares{{0.23191, 7e-5}, {0.07617, 7e-5}, {0.33639, 1.4e-4}, {0.35553, 1.5e-4}, 0.001}};
+  for (std::size_t b = 0; b < 2; ++b) {
+    const Shares& band = expected[b];
+    const std::string name = result.bands[b].name;
+    const auto organ_share = [&](std::size_t organ) {
+      return result.organs[organ].absorbed[b].scaled(result.organs[organ].area_m2 / model.plot.area_m2());
+    };
+    const std::array got = {organ_share(0), organ_share(1), result.bands[b].absorbed_soil, result.bands[b].reflected};
+    const std::array references = {band.leaf, band.stem, band.soil, band.reflected};
+    const std::array names = {"leaf", "stem", "soil", "reflected"};
+    for (std::size_t k = 0; k < got.size(); ++k) {
+      EXPECT_NEAR(got[k].value, references[k].value, band.tolerance) << name << ' ' << names[k];
+      expect_within(got[k], references[k], band.tolerance / 2.0, name + ' ' + names[k]);
+    }
+    EXPECT_EQ(result.bands[b].ledger.residual(), 0);
+  }
+  EXPECT_EQ(result.lost_rays, 0U);
+}
+
+}  // namespace
+}  // namespace sunfleck::test

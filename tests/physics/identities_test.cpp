@@ -1,0 +1,250 @@
+// What must hold in every scene (A8 and B14 of the validation table): the beam's energy, the ledger, and that neither a shift,
+// a turn, a larger plot nor a finer mesh changes a result.
+#include "base/error.h"
+#include "support/comparison.h"
+#include "support/models.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace sunfleck::test {
+namespace {
+
+constexpr int replicates = 32;
+constexpr double rays = 1e6;
+const Plot plot{1.0, 1.5, true};
+
+Mesh stand() {
+  return random_leaves(60, 0.02, plot, 1.0, 7);
+}
+
+// Sunlit areas, seen along the beam, and the sunlit soil fill the plot.
+TEST(Identities, SunlitAreasFillThePlot) {
+  for (const double elevation : {90.0, 53.0176, 15.0}) {
+    const RadiationModel model = black_model(stand(), plot, sun_at(elevation, 120.569));
+    const RadiationResult result = simulate(model, fixed_work(model, rays, replicates));
+    const glm::dvec3 to_sun = direction_to_sun(*model.sun);
+    double filled_m2 = result.bands[0].absorbed_soil.value * plot.area_m2();
+    double landed_m2 = 0.0;
+    for (std::size_t e = 0; e < model.canopy.size(); ++e) {  // each leaf is flat, so both its triangles have its normal
+      const ElementResult& element = result.elements[e];
+      landed_m2 += static_cast<double>(element.upper + element.lower) * result.ground_per_ray_m2;
+      if (e % 2 == 1) continue;
+      const OrganResult& leaf = result.organs[model.canopy.organ_of[e]];
+      filled_m2 += leaf.sunlit_fraction.value * leaf.area_m2 *
+                   std::abs(glm::dot(unit_normal(model.canopy.corners[e]), to_sun)) / to_sun.y;
+    }
+    for (const std::uint64_t cell : result.soil_cells) landed_m2 += static_cast<double>(cell) * result.ground_per_ray_m2;
+    EXPECT_NEAR(filled_m2, plot.area_m2(), 1e-5 * plot.area_m2());
+    EXPECT_NEAR(landed_m2, plot.area_m2(), 1e-6 * plot.area_m2());
+    EXPECT_LE(standard_error(result.bands[0].absorbed_soil, replicates), 2e-4);
+  }
+}
+
+// Bands of every kind: black, leaf-like, all reflected, all transmitted, both together, and nothing coming in.
+void add_bands(RadiationModel& model) {
+  const std::vector<FaceOptics> faces = {{0.0, 0.0}, {0.12, 0.06}, {1.0, 0.0}, {0.0, 1.0}, {0.45, 0.55}, {0.3, 0.3}};
+  const std::vector<double> direct_w_m2 = {1.0, 350.0, 1e-12, 1e12, 450.0, 0.0};
+  model.bands.clear();
+  for (std::size_t b = 0; b < faces.size(); ++b) model.bands.push_back({"band" + std::to_string(b), direct_w_m2[b], 0.0});
+  for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = faces;
+  if (model.soil) model.soil->reflectance = {0.0, 0.15, 1.0, 0.5, 1.0, 0.2};
+}
+
+void expect_closed(const RadiationModel& model, const RadiationResult& result) {
+  for (std::size_t b = 0; b < result.bands.size(); ++b) {
+    const BandResult& band = result.bands[b];
+    const FluxLedger& ledger = band.ledger;
+    EXPECT_EQ(ledger.residual(), 0) << band.name;
+    EXPECT_EQ(ledger.incident > 0, model.bands[b].direct_w_m2 > 0.0) << band.name;
+    const double sum =
+        band.absorbed_vegetation.value + band.absorbed_soil.value + band.reflected.value + band.transmitted.value + band.unshot;
+    EXPECT_NEAR(sum, band.incident, 1e-12 * band.incident) << band.name;
+    if (model.plot.periodic) {
+      EXPECT_NEAR(band.incident, model.bands[b].direct_w_m2, 1e-7 * model.bands[b].direct_w_m2) << band.name;
+    }
+    // Soil lets nothing through; only beside an isolated plot scattered light goes past it.
+    if (model.soil && model.plot.periodic) {
+      EXPECT_EQ(ledger.transmitted, 0) << band.name;
+    }
+    if (!model.soil) {
+      EXPECT_EQ(ledger.absorbed_soil, 0) << band.name;
+      EXPECT_EQ(ledger.transmitted > 0, ledger.incident > 0) << band.name;
+    }
+  }
+  EXPECT_EQ(result.bands[0].ledger.unshot, 0);
+  for (const std::size_t conserving : {2U, 3U, 4U}) EXPECT_EQ(result.bands[conserving].ledger.absorbed_vegetation, 0);
+  for (const std::size_t white_soil : {2U, 4U}) EXPECT_EQ(result.bands[white_soil].ledger.absorbed_soil, 0);
+}
+
+TEST(Identities, LedgerClosesInEveryBand) {
+  for (const bool periodic : {true, false}) {
+    for (const bool has_soil : {true, false}) {
+      RadiationModel model = black_model(stand(), {plot.size_x_m, plot.size_z_m, periodic}, paper_sun());
+      if (!has_soil) model.soil.reset();
+      add_bands(model);
+      expect_closed(model, simulate(model, fixed_work(model, 2e5, 8)));
+    }
+  }
+}
+
+// What lands is absorbed in that share: the organs' direct and indirect light times 0.82 is what the canopy absorbs.
+TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
+  RadiationModel model = black_model(stand(), plot, paper_sun());
+  add_bands(model);
+  const RadiationResult result = simulate(model, fixed_work(model, 2e5, 8));
+  double landed = 0.0;
+  for (const OrganResult& organ : result.organs) {
+    landed += (organ.direct[1].value + organ.indirect[1].value) * organ.area_m2 / plot.area_m2();
+  }
+  EXPECT_NEAR(result.bands[1].absorbed_vegetation.value, 0.82 * landed, 1e-9 * 350.0);
+}
+
+// An isolated stand takes the beam that first meets it or the plot's ground: a plate whose shadow falls partly beside the
+// plot (A3's, x east: the plot ends where the shadow of 0.4 m width still reaches 0.2187 m further west).
+TEST(Identities, IsolatedStandTakesWhatMeetsItOrItsPlot) {
+  MeshMaker maker;
+  const auto corner = [](double x, double y) { return from_enu(x - 1.0, y - 1.0, 0.8); };
+  maker.quad(corner(0.3, 0.35), corner(0.7, 0.35), corner(0.7, 0.65), corner(0.3, 0.65));
+  const RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, paper_sun());
+  const RadiationResult result = simulate(model, fixed_work(model, 4e6, replicates));
+  const double centre_x = 0.5 - 0.8 * 0.64840851;
+  const double in_plot_m2 = (centre_x + 0.2) * 0.3;
+  const double incident = 1.0 - in_plot_m2 + 0.12;
+  const Estimate all{result.bands[0].incident,
+                     result.bands[0].absorbed_soil.half_width + result.bands[0].absorbed_vegetation.half_width};
+  expect_agrees(all, incident, replicates, 5e-4, 3, "incident");
+  expect_agrees(result.bands[0].absorbed_vegetation, 0.12, replicates, 2e-4, 3, "plate");
+  expect_agrees(result.bands[0].absorbed_soil, 1.0 - in_plot_m2, replicates, 3e-4, 3, "soil");
+}
+
+void expect_same_aggregates(const RadiationModel& a, const RadiationModel& b, const char* what) {
+  const RadiationResult got_a = simulate(a, fixed_work(a, rays, replicates, 1));
+  const RadiationResult got_b = simulate(b, fixed_work(b, rays, replicates, 2));
+  constexpr std::size_t comparisons = 20;
+  expect_same(got_a.bands[0].absorbed_vegetation, got_b.bands[0].absorbed_vegetation, replicates, 3e-4, comparisons, what);
+  expect_same(got_a.sunlit_leaf_fraction, got_b.sunlit_leaf_fraction, replicates, 3e-3, comparisons, what);
+  expect_same(got_a.ground_sunfleck_ratio, got_b.ground_sunfleck_ratio, replicates, 3e-4, comparisons, what);
+  EXPECT_NEAR(got_a.leaf_area_index, got_b.leaf_area_index, 1e-6);
+}
+
+RadiationModel placed_model(const Mesh& mesh, const Plot& ground, const SunPosition& sun,
+                            const std::vector<Placement>& placements) {
+  RadiationModel model = black_model(mesh, ground, sun);
+  const PlacedMesh placed{mesh, placements};
+  model.canopy = assemble_canopy(std::span(&placed, 1), ground);
+  return model;
+}
+
+TEST(Identities, ShiftOfTheStandChangesNothing) {
+  const RadiationModel model = black_model(stand(), plot, paper_sun());
+  for (const glm::dvec3& shift_m : {glm::dvec3(0.37, 0.0, 1.21), glm::dvec3(-0.5, 0.0, 0.75)}) {
+    expect_same_aggregates(model, placed_model(stand(), plot, paper_sun(), {{shift_m, 0.0}}), "shifted");
+  }
+}
+
+TEST(Identities, TurnOfStandAndSunChangesNothing) {
+  const SunPosition sun = paper_sun();
+  const RadiationModel model = black_model(stand(), plot, sun);
+  const SunPosition turned_sun{sun.elevation_rad, sun.azimuth_rad + radians(90.0)};
+  const Plot turned_plot{plot.size_z_m, plot.size_x_m, true};
+  expect_same_aggregates(model, placed_model(stand(), turned_plot, turned_sun, {{glm::dvec3(0.0), radians(90.0)}}), "turned");
+}
+
+TEST(Identities, PlotOfFourCopiesChangesNothing) {
+  const RadiationModel model = black_model(stand(), plot, paper_sun());
+  const double x_m = plot.size_x_m;
+  const double z_m = plot.size_z_m;
+  const std::vector<Placement> copies = {{{0, 0, 0}, 0}, {{x_m, 0, 0}, 0}, {{0, 0, z_m}, 0}, {{x_m, 0, z_m}, 0}};
+  expect_same_aggregates(model, placed_model(stand(), {2 * x_m, 2 * z_m, true}, paper_sun(), copies), "four copies");
+}
+
+TEST(Identities, TrianglesCutInFourChangeNothing) {
+  const Mesh whole = stand();
+  Mesh cut = whole;
+  cut.triangles.clear();
+  cut.optics_of.clear();
+  cut.organ_of.clear();
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    const glm::uvec3& corner = whole.triangles[t];
+    const auto first = static_cast<std::uint32_t>(cut.vertices.size());
+    for (int k = 0; k < 3; ++k) {
+      cut.vertices.push_back(0.5 * (whole.vertices[corner[k]] + whole.vertices[corner[(k + 1) % 3]]));
+    }
+    for (const glm::uvec3& part : {glm::uvec3(corner.x, first, first + 2), glm::uvec3(first, corner.y, first + 1),
+                                   glm::uvec3(first + 2, first + 1, corner.z), glm::uvec3(first, first + 1, first + 2)}) {
+      cut.triangles.push_back(part);
+      cut.optics_of.push_back(whole.optics_of[t]);
+      cut.organ_of.push_back(whole.organ_of[t]);
+    }
+  }
+  expect_same_aggregates(black_model(whole, plot, paper_sun()), black_model(cut, plot, paper_sun()), "cut in four");
+}
+
+// Changes one counter of the last replicate by one.
+class CheatingTracer final : public Tracer {
+ public:
+  enum class Cheat { drop, invent };
+  CheatingTracer(Tracer& honest, Cheat cheat, std::size_t first, std::size_t end)
+      : honest_(honest), cheat_(cheat), first_(first), end_(end) {}
+
+  [[nodiscard]] TracerDevice device() const override { return honest_.device(); }
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override {
+    const TraceOutcome outcome = honest_.count_beam(beam, counters, stop);
+    if (++calls_ < 8) return outcome;
+    for (std::size_t word = first_; word < end_; ++word) {
+      if (counters[word] == 0) continue;
+      counters[word] += cheat_ == Cheat::drop ? -1U : 1U;
+      ++cheats_;
+      break;
+    }
+    return outcome;
+  }
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
+    return honest_.trace(scene, packets, landings, stop);
+  }
+  [[nodiscard]] int cheats() const { return cheats_; }
+
+ private:
+  Tracer& honest_;
+  Cheat cheat_;
+  std::size_t first_, end_;
+  int calls_ = 0;
+  int cheats_ = 0;
+};
+
+void expect_found_out(const RadiationModel& model, CheatingTracer::Cheat cheat, std::size_t first, std::size_t end) {
+  const Prepared prepared(model);
+  CpuTracer honest(prepared.bvh, tracer_scene(model));
+  CheatingTracer tracer(honest, cheat, first, std::min<std::size_t>(end, prepared.layout.words()));
+  try {
+    (void)solve(model, prepared.layout, tracer, fixed_work(model, 1e4, 8), {});
+    ADD_FAILURE() << "a landing was " << (cheat == CheatingTracer::Cheat::drop ? "lost" : "invented") << " unnoticed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::failure) << error.what();
+  }
+  EXPECT_EQ(tracer.cheats(), 1);
+}
+
+TEST(Identities, OneLostOrInventedLandingFailsTheRun) {
+  constexpr std::size_t all = ~std::size_t{0};
+  for (const bool periodic : {true, false}) {
+    RadiationModel model = black_model(stand(), {1.0, 1.5, periodic}, paper_sun());
+    const std::size_t first_bin = Prepared(model).layout.first_bin_word;
+    for (const auto cheat : {CheatingTracer::Cheat::drop, CheatingTracer::Cheat::invent}) {
+      expect_found_out(model, cheat, shared::counter_first_cell, first_bin);
+      expect_found_out(model, cheat, first_bin, all);
+      if (!periodic) expect_found_out(model, cheat, shared::counter_met, shared::counter_met + 1);
+      if (!periodic) expect_found_out(model, cheat, shared::counter_missed, shared::counter_missed + 1);
+      RadiationModel bare = model;
+      bare.soil.reset();
+      expect_found_out(bare, cheat, shared::counter_transmitted, shared::counter_transmitted + 1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunfleck::test

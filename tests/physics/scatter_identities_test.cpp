@@ -1,0 +1,227 @@
+// What must hold in every scene whose leaves reflect and transmit (B14 of the validation table), and that a run gives the same
+// numbers whatever the number of threads.
+#include "support/comparison.h"
+#include "support/leaf_scenes.h"
+#include "support/result_numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace sunfleck::test {
+namespace {
+
+constexpr int replicates = 32;
+const Plot plot{1.0, 1.5, true};
+
+Mesh stand() {
+  return random_leaves(60, 0.02, plot, 1.0, 7);
+}
+
+RadiationModel leafy_model(const Plot& ground = plot) {
+  return paper_model(stand(), ground, paper_sun());
+}
+
+RadiationModel placed_model(const Plot& ground, const SunPosition& sun, const std::vector<Placement>& placements) {
+  RadiationModel model = paper_model(stand(), ground, sun);
+  const Mesh mesh = stand();
+  const PlacedMesh placed{mesh, placements};
+  model.canopy = assemble_canopy(std::span(&placed, 1), ground);
+  return model;
+}
+
+RadiationResult run(const RadiationModel& model, std::uint64_t seed = 1) {
+  return simulate(model, fixed_scatter(model, {.rays = 5e5, .packets = 8192, .seed = seed}));
+}
+
+const RadiationResult& usual_run() {
+  static const RadiationResult result = run(leafy_model());
+  return result;
+}
+
+// (i), with bands that end after one landing, after some, and never.
+TEST(ScatterIdentities, LedgerClosesInIntegers) {
+  const std::array bands = {paper_par,
+                            usual_nir,
+                            BandOptics{"white", 0.6, 0.4, 1.0},
+                            BandOptics{"black", 0.0, 0.0, 0.0},
+                            BandOptics{"soil only", 0.0, 0.0, 0.3},
+                            BandOptics{"clear", 0.0, 1.0, 0.2}};
+  for (const bool periodic : {true, false}) {
+    for (const bool has_soil : {true, false}) {
+      RadiationModel black = black_model(stand(), {1.0, 1.5, periodic}, paper_sun());
+      if (!has_soil) black.soil.reset();
+      const RadiationModel model = scattering_model(black, bands);
+      const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 1e5, .packets = 2048, .replicates = 8}));
+      EXPECT_EQ(result.lost_rays, 0U);
+      for (std::size_t b = 0; b < bands.size(); ++b) {
+        const BandResult& band = result.bands[b];
+        EXPECT_EQ(band.ledger.residual(), 0) << band.name;
+        EXPECT_TRUE(band.ledger.transmitted == 0 || !has_soil || !periodic) << band.name;
+        EXPECT_TRUE(band.ledger.transmitted > 0 || has_soil) << band.name;
+        EXPECT_LE(band.unshot, 1e-5 * band.incident) << band.name;
+      }
+      for (const std::size_t lossless : {2U, 5U}) EXPECT_EQ(result.bands[lossless].ledger.absorbed_vegetation, 0);
+      EXPECT_EQ(result.bands[2].ledger.absorbed_soil, 0);
+      EXPECT_EQ(result.bands[3].ledger.reflected, 0);
+      EXPECT_EQ(result.bands[3].ledger.unshot, 0);
+    }
+  }
+}
+
+// (ii)
+TEST(ScatterIdentities, SoilAbsorbsItsShareOfWhatLandsOnIt) {
+  const RadiationModel model = leafy_model();
+  const RadiationResult& result = usual_run();
+  for (std::size_t b = 0; b < 2; ++b) {
+    const double absorptance = 1.0 - model.soil->reflectance[b];
+    const double landed = soil_irradiance_w_m2(model, result, b);
+    EXPECT_NEAR(landed * absorptance, result.bands[b].absorbed_soil.value, 1e-8);
+    EXPECT_NEAR(result.layers[0].down[b].value, landed, 1e-8);
+    EXPECT_NEAR(result.layers[0].up[b].value, landed * (1.0 - absorptance), 2e-4);
+  }
+}
+
+// (iv): the packets are the same, so the results are too, but for the rounding to quanta.
+TEST(ScatterIdentities, ThousandTimesTheLightGivesThousandTimesTheFlux) {
+  const RadiationModel model = leafy_model();
+  RadiationModel bright = model;
+  for (Waveband& band : bright.bands) band.direct_w_m2 *= 1000.0;
+  const RadiationResult& dim = usual_run();
+  const RadiationResult lit = run(bright);
+  const auto expect_scaled = [](const Estimate& small, const Estimate& large) {
+    EXPECT_NEAR(large.value, 1000.0 * small.value, 1e-6 * large.value);
+    EXPECT_NEAR(large.half_width, 1000.0 * small.half_width, 1e-3 * large.half_width);
+  };
+  for (std::size_t b = 0; b < 2; ++b) {
+    expect_scaled(dim.bands[b].absorbed_vegetation, lit.bands[b].absorbed_vegetation);
+    expect_scaled(dim.bands[b].absorbed_soil, lit.bands[b].absorbed_soil);
+    expect_scaled(dim.bands[b].reflected, lit.bands[b].reflected);
+    expect_scaled(dim.organs[3].absorbed[b], lit.organs[3].absorbed[b]);
+  }
+  EXPECT_EQ(dim.indirect.packets, lit.indirect.packets);
+}
+
+void expect_same_fluxes(const RadiationResult& b, const char* what) {
+  const RadiationResult& a = usual_run();
+  constexpr std::size_t comparisons = 24;
+  for (std::size_t band = 0; band < 2; ++band) {
+    const double largest = band == 0 ? 5e-4 : 1e-3;
+    expect_same(a.bands[band].absorbed_vegetation, b.bands[band].absorbed_vegetation, replicates, largest, comparisons, what);
+    expect_same(a.bands[band].absorbed_soil, b.bands[band].absorbed_soil, replicates, largest, comparisons, what);
+    expect_same(a.bands[band].reflected, b.bands[band].reflected, replicates, largest, comparisons, what);
+  }
+}
+
+// (v)
+TEST(ScatterIdentities, ShiftChangesNothing) {
+  expect_same_fluxes(run(placed_model(plot, paper_sun(), {{{0.37, 0.0, 1.21}, 0.0}}), 2), "shifted");
+}
+
+TEST(ScatterIdentities, TurnOfStandSunAndPlotChangesNothing) {
+  const SunPosition sun = paper_sun();
+  const SunPosition turned{sun.elevation_rad, sun.azimuth_rad + radians(90.0)};
+  const Plot turned_plot{plot.size_z_m, plot.size_x_m, true};
+  expect_same_fluxes(run(placed_model(turned_plot, turned, {{glm::dvec3(0.0), radians(90.0)}}), 3), "turned");
+}
+
+Mesh cut_in_four(const Mesh& whole) {
+  Mesh cut = whole;
+  cut.triangles.clear();
+  cut.optics_of.clear();
+  cut.organ_of.clear();
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    const glm::uvec3& corner = whole.triangles[t];
+    const auto first = static_cast<std::uint32_t>(cut.vertices.size());
+    for (int k = 0; k < 3; ++k) {
+      cut.vertices.push_back(0.5 * (whole.vertices[corner[k]] + whole.vertices[corner[(k + 1) % 3]]));
+    }
+    for (const glm::uvec3& part : {glm::uvec3(corner.x, first, first + 2), glm::uvec3(first, corner.y, first + 1),
+                                   glm::uvec3(first + 2, first + 1, corner.z), glm::uvec3(first, first + 1, first + 2)}) {
+      cut.triangles.push_back(part);
+      cut.optics_of.push_back(whole.optics_of[t]);
+      cut.organ_of.push_back(whole.organ_of[t]);
+    }
+  }
+  return cut;
+}
+
+// (vii), with a leaf's own flux beside the aggregates: where on a leaf the light lands must not be forgotten.
+TEST(ScatterIdentities, TrianglesCutInFourChangeNothing) {
+  const RadiationResult& whole = usual_run();
+  const RadiationResult cut = run(paper_model(cut_in_four(cut_in_four(stand())), plot, paper_sun()), 4);
+  expect_same_fluxes(cut, "cut in sixteen");
+  for (std::size_t leaf = 0; leaf < 6; ++leaf) {
+    expect_same(whole.organs[leaf].absorbed[1], cut.organs[leaf].absorbed[1], replicates, 3e-3, 24, "a leaf, NIR");
+  }
+}
+
+// (viii)
+TEST(ScatterIdentities, PlotOfFourCopiesChangesNothing) {
+  const double x_m = plot.size_x_m;
+  const double z_m = plot.size_z_m;
+  const std::vector<Placement> copies = {{{0, 0, 0}, 0}, {{x_m, 0, 0}, 0}, {{0, 0, z_m}, 0}, {{x_m, 0, z_m}, 0}};
+  expect_same_fluxes(run(placed_model({2 * x_m, 2 * z_m, true}, paper_sun(), copies), 5), "four copies");
+}
+
+// (ix)
+TEST(ScatterIdentities, BlackScenesEndAtTheFirstLanding) {
+  const RadiationModel model = scattering_model(stand(), plot, paper_sun(), std::array{BandOptics{"black", 0.0, 0.0, 0.0}});
+  const RadiationResult result = run(model);
+  EXPECT_EQ(result.indirect.packets, 0U);
+  EXPECT_EQ(result.bands[0].ledger.reflected, 0);
+  EXPECT_EQ(result.bands[0].ledger.unshot, 0);
+  EXPECT_NEAR(result.bands[0].absorbed_vegetation.value, 1.0 - result.ground_sunfleck_ratio.value, 1e-9);
+}
+
+// What goes down through a plane less what goes up is what is absorbed below it, or still unshot there. The leaves reach
+// through several layers each.
+TEST(ScatterIdentities, NetFluxThroughEveryPlaneIsAbsorbedBelowIt) {
+  for (const int layers : {1, 5, 20, 100}) {
+    RadiationModel model = leafy_model();
+    model.layers = layers;
+    const ScatterWork work{.rays = 1e5, .packets = 4096, .replicates = 8, .bound = 0.01};
+    const RadiationResult result = simulate(model, fixed_scatter(model, work));
+    for (std::size_t b = 0; b < 2; ++b) {
+      const BandResult& band = result.bands[b];
+      double below = band.absorbed_soil.value;
+      for (const LayerResult& layer : result.layers) {
+        const double missing = layer.down[b].value - layer.up[b].value - below;
+        EXPECT_LE(std::abs(missing), band.unshot + 1e-7) << band.name << ", " << layer.height_m << " m of " << layers;
+        if (!layer.absorbed.empty()) below += layer.absorbed[b].value;
+      }
+      EXPECT_NEAR(below, band.absorbed_soil.value + band.absorbed_vegetation.value, 1e-8);
+      const LayerResult& top = result.layers.back();
+      EXPECT_NEAR(top.down[b].value, 1.0, 1e-7);
+      EXPECT_NEAR(top.up[b].value, band.reflected.value, 1e-9);
+      EXPECT_NEAR(top.down[b].value - top.up[b].value - below, band.unshot, 1e-8);
+    }
+  }
+}
+
+TEST(ScatterIdentities, SameNumbersWithOneAndTwoThreads) {
+  const RadiationModel model = leafy_model();
+  const Prepared prepared(model);
+  SolveSettings settings = fixed_scatter(model, {.rays = 2e5, .packets = 20000, .replicates = 8});
+  settings.element_errors = true;
+  SolveSettings automatic;
+  automatic.accuracy.direct = 0.01;
+  automatic.accuracy.indirect = 0.02;
+  for (const SolveSettings& how : {settings, automatic}) {
+    std::vector<std::vector<std::uint64_t>> numbers;
+    for (const int threads : {1, 2, 1}) {
+      const CpuThreads limit(threads);
+      numbers.push_back(all_numbers(simulate(model, prepared, how)));
+    }
+    EXPECT_GT(numbers[0].size(), 1000U);
+    EXPECT_TRUE(numbers[1] == numbers[0]);
+    EXPECT_TRUE(numbers[2] == numbers[0]);
+    SolveSettings other = how;
+    other.seed = 2;
+    EXPECT_FALSE(all_numbers(simulate(model, prepared, other)) == numbers[0]);
+  }
+}
+
+}  // namespace
+}  // namespace sunfleck::test

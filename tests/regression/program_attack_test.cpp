@@ -1,0 +1,129 @@
+// Broken scenes and meshes: each is one line on standard error that names the place, before any work.
+
+#include "regression/program.h"
+
+#include <cstdint>
+
+namespace sunfleck::regression {
+namespace {
+
+const std::string plot = "[plot]\nsize = [1.0, 1.0]\n";
+const std::string sun = "[sun]\nelevation = 30.0\nazimuth = 90.0\n";
+const std::string band = "[[band]]\nname = \"PAR\"\ndirect = 100.0\n";
+const std::string leaf = "[optics.leaf]\nreflectance = 0.1\n";
+const std::string head = plot + sun + band + leaf;
+const std::string good_obj = "v 0 1 0\nv 0 1 1\nv 1 1 0\nusemtl leaf\nf 1 2 3\n";
+
+std::string mesh(const std::string& name) {
+  return "[[geometry]]\nfile = \"" + name + "\"\n";
+}
+
+struct Attack {
+  std::string scene;
+  std::string names;  // what the message has to name
+  std::string file;   // a further file of the scene
+  std::string bytes;
+};
+
+class Attacks : public ProgramTest {
+ protected:
+  void expect_refused(const Attack& attack) const {
+    SCOPED_TRACE(attack.scene + attack.bytes.substr(0, 100));
+    folder_.write("scene.toml", attack.scene);
+    folder_.write("good.obj", good_obj);
+    if (!attack.file.empty()) folder_.write(attack.file, attack.bytes);
+    expect_one_error(run({"run", "scene.toml", "--device", "cpu", "-o", "out"}), 2, attack.names);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+  }
+};
+
+TEST_F(Attacks, TheGroundTheyStandOnIsGood) {
+  folder_.write("scene.toml", head + mesh("good.obj"));
+  folder_.write("good.obj", good_obj);
+  simulate("scene.toml", {"--device", "cpu", "--grid", "0.05", "--images", "none"});
+  EXPECT_EQ(summary()["triangles"], 1);
+}
+
+TEST_F(Attacks, BrokenScenes) {
+  const std::vector<Attack> attacks{
+      {head + "[plot\n", "scene.toml:11", {}, {}},
+      {head + std::string("\xff\xfe"), "UTF-8", {}, {}},
+      {"", "plot", {}, {}},
+      {head + "[canopy]\nheight = 2.0\n", "canopy", {}, {}},
+      {plot + "colour = 3\n" + sun + band, "scene.toml:3", {}, {}},
+      {"[plot]\nsize = \"large\"\n" + sun + band, "scene.toml:2", {}, {}},
+      {"[plot]\nsize = [0.0, 1.0]\n" + sun + band, "scene.toml:2", {}, {}},
+      {"[plot]\nsize = [1.0, nan]\n" + sun + band, "scene.toml:2", {}, {}},
+      {plot + sun + "[[band]]\nname = \"PAR\"\ndirect = -1.0\n", "scene.toml:8", {}, {}},
+      {plot + sun + "[[band]]\nname = \"PAR\"\ndirect = nan\n", "scene.toml:8", {}, {}},
+      {plot + band, "direct", {}, {}},
+      {plot + sun, "band", {}, {}},
+      {plot + sun + band + "[optics.leaf]\nreflectance = 0.7\ntransmittance = 0.4\n", "optics.leaf", {}, {}},
+      {plot + sun + band + "[optics.leaf]\nreflectance = 12\n", "scene.toml:10", {}, {}},
+      {plot + sun + band + "[optics.leaf]\nreflectance = { NIR = 0.4 }\n", "scene.toml:10", {}, {}},
+      {plot + "[sun]\nelevation = 95.0\nazimuth = 0.0\n" + band, "scene.toml:4", {}, {}},
+      {plot + "[sun]\ntime = 2002-08-08T10:10:00\nlatitude = 40.0\nlongitude = 116.0\n" + band, "scene.toml:4", {}, {}},
+      {head + "[sky]\nmodel = \"uniform\"\n", "sky", {}, {}},
+      {head + "[[plane]]\nheight = 0.5\ncells = [10, 10]\n", "plane", {}, {}},
+      {head + "[[sensor]]\nname = \"a\"\nfrom = [0.0, 0.0, 0.0]\n", "sensor", {}, {}},
+      {head + "[weather]\nghi = 800.0\n", "weather", {}, {}},
+      {head + "emission = -1.0\n", "emission", {}, {}},
+      {head + "[accuracy]\ndirect = 0.0\n", "scene.toml:12", {}, {}},
+      {head + "[output]\nlayers = 0\n", "scene.toml:12", {}, {}},
+  };
+  for (const Attack& attack : attacks) expect_refused(attack);
+}
+
+TEST_F(Attacks, BrokenGeometry) {
+  std::filesystem::create_directories(folder_ / "folder.obj");
+  const std::vector<Attack> attacks{
+      {head + "[[geometry]]\ngenerator = \"wheat\"\n", "scene.toml:12", {}, {}},
+      {head + "[[geometry]]\ngenerator = \"maize\"\nrows = 0\n", "scene.toml:13", {}, {}},
+      {head + mesh("absent.obj"), "absent.obj", {}, {}},
+      {head + mesh("folder.obj"), "folder.obj", {}, {}},
+      {head + mesh("../outside.obj"), "../outside.obj", {}, {}},
+      {head + mesh("/etc/passwd"), "/etc/passwd", {}, {}},
+      {head + mesh("stand.xyz"), "stand.xyz", "stand.xyz", "1 2 3\n"},
+      {plot + sun + band + mesh("good.obj"), "\"leaf\"", {}, {}},
+      {head + mesh("good.obj") + "scale = 0.0\n", "scene.toml:13", {}, {}},
+      {head + mesh("good.obj") + "at = [[0.0, nan, 0.0]]\n", "scene.toml:13", {}, {}},
+  };
+  for (const Attack& attack : attacks) expect_refused(attack);
+}
+
+TEST_F(Attacks, BrokenMeshes) {
+  std::string glb = "glTF";
+  for (const std::uint32_t word : {2U, 1000U, 900U, 0x4E4F534AU}) glb.append(reinterpret_cast<const char*>(&word), sizeof word);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  const std::vector<Attack> attacks{
+      {head + mesh("a.obj"), "a.obj:5", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl leaf\nf 1 2 9\n"},
+      {head + mesh("a.obj"), "a.obj:1", "a.obj", "v 0 nan 0\nv 1 0 0\nv 0 1 0\nusemtl leaf\nf 1 2 3\n"},
+      {head + mesh("a.obj"), "a.obj", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
+      {head + mesh("a.obj"), "a.obj", "a.obj", ""},
+      {head + mesh("a.glb"), "a.glb", "a.glb", glb + "{\"asset\""},
+      {head + mesh("a.glb"), "a.glb", "a.glb", "glTF"},
+      {head + mesh("a.gltf"), "a.gltf", "a.gltf", "{\"asset\": {\"version\": \"2.0\"}"},
+      {head + mesh("a.ply"), "a.ply", "a.ply", ""},
+      {head + mesh("a.ply"), "a.ply", "a.ply", ply + "3 0 1 7\n"},
+      {head + mesh("a.ply"), "a.ply", "a.ply", ply + "3 0 1"},
+      {head + mesh("a.stl"), "a.stl", "a.stl", std::string(200, '\x5a')},
+      {head + mesh("a.stl"), "a.stl", "a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n"},
+      {head + mesh("a.can"), "a.can:1", "a.can", "p 1 100012007001 3 0 0 0 1 0 0\n"},
+      {head + mesh("a.can.gz"), "a.can.gz", "a.can.gz", "p 1 100012007001 3 0 0 0 1 0 0 1 1 0\n"},
+  };
+  for (const Attack& attack : attacks) expect_refused(attack);
+}
+
+TEST_F(Attacks, AFileOutsideIsForThoseWhoAskForIt) {
+  std::filesystem::create_directories(folder_ / "inner");
+  folder_.write("good.obj", good_obj);
+  const std::filesystem::path scene = folder_.write("inner/scene.toml", head + mesh("../good.obj"));
+  const Arguments quick{"--device", "cpu", "--grid", "0.05", "--images", "none"};
+  expect_one_error(run(Arguments{"run", scene.string(), "-o", "out"} + quick), 2, "../good.obj");
+  simulate(scene, quick + Arguments{"--allow-outside"});
+}
+
+}  // namespace
+}  // namespace sunfleck::regression

@@ -1,0 +1,75 @@
+// The commands beside `run`.
+
+#include "regression/program.h"
+
+namespace sunfleck::regression {
+namespace {
+
+using nlohmann::json;
+
+class Commands : public ProgramTest {};
+
+TEST_F(Commands, MaizeGivesAMeshThatAScenesFileCanName) {
+  const std::string scene =
+      "[plot]\nsize = [1.0, 0.5]\n[sun]\nelevation = 50.0\nazimuth = 90.0\n[[band]]\nname = \"PAR\"\n"
+      "direct = 1.0\n[optics.leaf]\nreflectance = 0.1\n[optics.stem]\nreflectance = 0.1\n[[geometry]]\n";
+  folder_.write("made.toml", scene + "generator = \"maize\"\nrows = 1\nper_row = 2\nspacing = [0.5, 0.5]\nseed = 7\n");
+  const json made = json::parse(run({"info", "made.toml", "--json"}).out);
+  for (const std::string name : {"stand.glb", "stand.gltf"}) {
+    const Outcome outcome =
+        run({"maize", "--rows", "1", "--per-row", "2", "--spacing", "0.5", "0.5", "--seed", "7", "-o", name});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.rfind(name + ": ", 0), 0U) << outcome.out;
+    folder_.write("read.toml", scene + "file = \"" + name + "\"\n");
+    const json read = json::parse(run({"info", "read.toml", "--json"}).out);
+    EXPECT_EQ(read["triangles"], made["triangles"]);
+    EXPECT_EQ(read["organs"], made["organs"]);
+    // The file holds single precision: 2^-24 of a coordinate, or 1e-5 of the area of triangles a centimetre wide.
+    EXPECT_NEAR(read["area_m2"], made["area_m2"], 1e-5 * made["area_m2"].get<double>());
+  }
+}
+
+TEST_F(Commands, InfoNamesTheDevices) {
+  const json info = json::parse(run({"info", "--json"}).out);
+  ASSERT_TRUE(info.contains("devices"));
+  EXPECT_FALSE(info.contains("triangles"));
+  const Outcome text = run({"info"});
+  EXPECT_EQ(text.status, 0);
+  for (const json& device : info["devices"]) {
+    EXPECT_NE(text.out.find(device["name"].get<std::string>()), std::string::npos) << text.out;
+  }
+  if (info["devices"].empty()) {
+    EXPECT_NE(text.out.find("CPU path"), std::string::npos) << text.out;
+  }
+}
+
+TEST_F(Commands, InfoTellsOfAScene) {
+  const std::string scene = scene_file("maize_sparse.toml").string();
+  const Outcome outcome = run({"info", scene, "--json"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  const json info = json::parse(outcome.out);
+  EXPECT_GT(info["triangles"], 10000);
+  EXPECT_GT(info["area_m2"], 5.0);
+  EXPECT_GT(info["memory_bytes"], 100 * info["triangles"].get<double>());
+  EXPECT_NEAR(info["sun"]["elevation_deg"], 53.0176, 0.001);
+  EXPECT_NEAR(info["sun"]["azimuth_deg"], 120.569, 0.001);
+  EXPECT_EQ(info["sun"]["sunrise"].get<std::string>().substr(0, 3), "05:");
+  EXPECT_EQ(info["sun"]["transit"].get<std::string>().substr(0, 3), "12:");
+  EXPECT_EQ(info["sun"]["sunset"].get<std::string>().substr(0, 3), "19:");
+  const Outcome text = run({"info", scene});
+  EXPECT_EQ(text.status, 0);
+  for (const char* word : {"triangles", "leaf: ", "stem: ", "memory", "elevation 53.01", "sunrise 05:", "sunset 19:"}) {
+    EXPECT_NE(text.out.find(word), std::string::npos) << word << text.out;
+  }
+}
+
+TEST_F(Commands, InfoOfASunByAnglesKnowsNoTimes) {
+  const json info = json::parse(run({"info", scene_file("two_squares.toml").string(), "--json"}).out);
+  EXPECT_EQ(info["triangles"], 4);
+  EXPECT_NEAR(info["area_m2"], 2.0, 1e-6);
+  for (const char* key : {"sunrise", "transit", "sunset"}) EXPECT_TRUE(info["sun"].at(key).is_null()) << key;
+}
+
+}  // namespace
+}  // namespace sunfleck::regression

@@ -1,0 +1,62 @@
+// The same scene and seed give the same bytes, whoever computes them.
+
+#include "regression/program.h"
+
+namespace sunfleck::regression {
+namespace {
+
+const std::vector<std::string> result_tables{"profile.csv", "organs.csv", "triangles.csv"};
+
+class Identity : public ProgramTest {
+ protected:
+  void compute(const std::string& to, const Arguments& more) const {
+    simulate(scene_file("maize_sparse.toml"), Arguments{"--grid", "0.01", "--export", "csv", "--size", "160x120"} + more, 0,
+             to);
+    for (const std::string& table : result_tables) EXPECT_GT(file(table, to).size(), 1000U) << table;
+  }
+  void expect_same(const std::string& one, const std::string& other) const {
+    for (const std::string& table : result_tables) EXPECT_TRUE(file(table, one) == file(table, other)) << table;
+    EXPECT_TRUE(file("rank_direct.png", one) == file("rank_direct.png", other));
+  }
+  [[nodiscard]] bool has_device() const { return !nlohmann::json::parse(run({"info", "--json"}).out).at("devices").empty(); }
+};
+
+TEST_F(Identity, TwoRuns) {
+  compute("a", {"--device", "cpu"});
+  compute("b", {"--device", "cpu"});
+  expect_same("a", "b");
+}
+
+TEST_F(Identity, OneThreadAndTwo) {
+  compute("a", {"--device", "cpu", "--threads", "1"});
+  compute("b", {"--device", "cpu", "--threads", "2"});
+  expect_same("a", "b");
+}
+
+TEST_F(Identity, CpuAndSoftwareVulkan) {
+  if (!has_device()) {
+    ASSERT_FALSE(is_set("SUNFLECK_REQUIRE_DEVICE")) << "no Vulkan device, and SUNFLECK_REQUIRE_DEVICE=1 asks for one";
+    GTEST_SKIP() << "no Vulkan device on this machine";
+  }
+  compute("a", {"--device", "cpu"});
+  compute("b", {"--device", "lavapipe"});
+  EXPECT_EQ(summary("b")["device"]["kind"], "vulkan");
+  expect_same("a", "b");
+}
+
+TEST_F(Identity, EndsAtTheBoundAlike) {
+  const Arguments more{"--direct-error", "0.02", "--images", "none"};
+  simulate(scene_file("two_squares.toml"), Arguments{"--device", "cpu"} + more, 0, "a");
+  simulate(scene_file("two_squares.toml"), Arguments{"--device", "cpu", "--threads", "1"} + more, 0, "b");
+  EXPECT_EQ(file("profile.csv", "a"), file("profile.csv", "b"));
+  EXPECT_EQ(file("organs.csv", "a"), file("organs.csv", "b"));
+}
+
+TEST_F(Identity, AnotherSeedIsAnotherSample) {
+  compute("a", {"--device", "cpu", "--seed", "1"});
+  compute("b", {"--device", "cpu", "--seed", "2"});
+  for (const std::string& table : result_tables) EXPECT_TRUE(file(table, "a") != file(table, "b")) << table;
+}
+
+}  // namespace
+}  // namespace sunfleck::regression

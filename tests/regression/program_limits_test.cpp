@@ -1,0 +1,193 @@
+// Fixed work, limits, interruption, and what is said where.
+
+#include "regression/program.h"
+#include "support/table.h"
+
+#include <cmath>
+
+namespace sunfleck::regression {
+namespace {
+
+using nlohmann::json;
+
+const Arguments on_cpu{"--device", "cpu", "--images", "none"};
+
+class Limits : public ProgramTest {
+ protected:
+  // Whole files of an incomplete run, every number in them finite or empty.
+  void expect_kept() const {
+    EXPECT_EQ(summary().value("complete", true), false);
+    for (const char* name : {"profile.csv", "organs.csv"}) {
+      const Table table(file(name));
+      EXPECT_GT(table.size(), 0U);
+      for (std::size_t row = 0; row < table.size(); ++row)
+        for (const std::string& column : table.columns())
+          if (column != "organ") static_cast<void>(table.number(row, column));
+    }
+  }
+  // Sends the signal once the device is named and some rays are on their way.
+  static Watch send_after_start(int signal) {
+    return
+        [signal, sent = false, start = std::chrono::steady_clock::time_point()](pid_t child, const std::string& err) mutable {
+          const auto now = std::chrono::steady_clock::now();
+          if (err.find("device: ") == std::string::npos) {
+            start = now;
+          } else if (!sent && now - start > std::chrono::milliseconds(700)) {
+            sent = ::kill(child, signal) == 0;
+          }
+        };
+  }
+  const std::filesystem::path maize_ = scene_file("maize_sparse.toml");
+  const std::filesystem::path squares_ = scene_file("two_squares.toml");
+};
+
+TEST_F(Limits, GridFixesTheWork) {
+  simulate(maize_, on_cpu + Arguments{"--grid", "0.006"});
+  const json direct = summary()["direct"];
+  EXPECT_NEAR(direct["grid_m"], 0.006, 0.01 * 0.006);
+  EXPECT_EQ(direct["replicates"], 16);
+  EXPECT_TRUE(direct["bound"].is_null());
+  EXPECT_TRUE(summary()["indirect"]["bound"].is_null());
+  EXPECT_GT(direct["relative_error"], 0.0);
+}
+
+TEST_F(Limits, PassesFixTheReplicates) {
+  simulate(squares_, on_cpu + Arguments{"--passes", "11", "--direct-error", "0.05"});
+  EXPECT_EQ(summary()["direct"]["replicates"], 11);
+  EXPECT_TRUE(summary()["direct"]["bound"].is_null());
+  EXPECT_TRUE(summary()["indirect"]["bound"].is_null());
+  simulate(maize_, on_cpu + Arguments{"--passes", "8", "--grid", "0.006"});
+  EXPECT_EQ(summary()["direct"]["replicates"], 8);
+  EXPECT_NEAR(summary()["direct"]["grid_m"], 0.006, 0.01 * 0.006);
+}
+
+TEST_F(Limits, ErrorSetsBothBounds) {
+  simulate(squares_, on_cpu + Arguments{"--error", "0.04"});
+  EXPECT_EQ(summary()["settings"]["direct_error"], 0.04);
+  EXPECT_EQ(summary()["settings"]["indirect_error"], 0.04);
+  EXPECT_EQ(summary()["direct"]["bound"], 0.04);
+  EXPECT_LE(summary()["direct"]["relative_error"], 0.04);
+  simulate(squares_, on_cpu + Arguments{"--error", "0.04", "--direct-error", "0.05"});
+  EXPECT_EQ(summary()["settings"]["direct_error"], 0.05);
+  EXPECT_EQ(summary()["settings"]["indirect_error"], 0.04);
+}
+
+TEST_F(Limits, RaysStopTheRun) {
+  const Outcome outcome = simulate(maize_, on_cpu + Arguments{"--direct-error", "1e-7", "--max-rays", "3e5", "--quiet"}, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("--max-rays 300000"), std::string::npos) << outcome.err;
+  EXPECT_LE(summary()["direct"]["rays"], 300000);
+  EXPECT_GT(summary()["direct"]["rays"], 100000);
+  EXPECT_EQ(summary()["direct"]["bound"], 1e-7);
+  EXPECT_GT(summary()["direct"]["relative_error"], 1e-7);
+  expect_kept();
+}
+
+TEST_F(Limits, SecondsStopTheRun) {
+  constexpr double limit_s = 1.5;
+  const Outcome outcome = simulate(maize_, on_cpu + Arguments{"--direct-error", "1e-7", "--max-seconds", "1.5"}, 1);
+  EXPECT_LT(summary()["direct"]["seconds"].get<double>(), limit_s + 1.0);
+  EXPECT_LT(outcome.seconds, limit_s + 4.0);  // loading, tree and tables on a busy machine
+  EXPECT_GE(summary()["direct"]["replicates"], 2);
+  EXPECT_NE(outcome.err.find("--max-seconds 1.5"), std::string::npos) << outcome.err;
+  expect_kept();
+}
+
+TEST_F(Limits, NoTimeAtAllIsSaid) {
+  const Outcome outcome = simulate(squares_, on_cpu + Arguments{"--max-seconds", "1e-9"}, 1);
+  EXPECT_NE(outcome.err.find("no light yet"), std::string::npos) << outcome.err;
+  EXPECT_EQ(summary()["direct"]["rays"], 0);
+  expect_kept();
+}
+
+TEST_F(Limits, SignalsEndTheRunCleanly) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Outcome outcome =
+        simulate(maize_, {"--device", "cpu", "--direct-error", "1e-7"}, 130, "out", send_after_start(signal));
+    EXPECT_LT(outcome.seconds, 15.0);
+    EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+    expect_kept();
+    EXPECT_FALSE(exists("rank_direct.png"));
+  }
+}
+
+TEST_F(Limits, ASignalWhilePicturesAreDrawnKeepsTheTables) {
+  const Watch watch = [this, sent = false](pid_t child, const std::string&) mutable {
+    if (!sent && exists("organs.csv")) sent = ::kill(child, SIGINT) == 0;
+  };
+  simulate(maize_, {"--device", "cpu", "--grid", "0.01", "--size", "2048x2048", "--samples", "16"}, 130, "out", watch);
+  EXPECT_FALSE(exists("rank_direct.png"));
+  EXPECT_EQ(summary()["stopped"], "interrupted");
+  EXPECT_EQ(summary()["direct"]["replicates"], 16);
+  expect_kept();
+}
+
+TEST_F(Limits, AFolderHoldsOneRun) {
+  simulate(squares_, {"--device", "cpu", "--grid", "0.05", "--export", "csv", "--size", "160x120"});
+  EXPECT_TRUE(exists("triangles.csv"));
+  EXPECT_TRUE(exists("rank_direct.png"));
+  folder_.write("out/notes.txt", "mine");
+  const Outcome refused = run({"run", squares_.string(), "-o", "out", "--device", "nonexistent"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_EQ(summary()["complete"], true) << "a run that never began spoils nothing";
+  simulate(squares_, on_cpu + Arguments{"--grid", "0.05", "--seed", "2"});
+  EXPECT_FALSE(exists("triangles.csv"));
+  EXPECT_FALSE(exists("rank_direct.png"));
+  EXPECT_TRUE(exists("notes.txt"));
+  EXPECT_EQ(summary()["seed"], 2);
+}
+
+TEST_F(Limits, ForeignFilesStay) {
+  std::filesystem::create_directories(folder_ / "mine");
+  folder_.write("mine/triangles.csv", "mine");
+  simulate(squares_, on_cpu + Arguments{"--grid", "0.05"}, 0, "mine");
+  EXPECT_EQ(file("triangles.csv", "mine"), "mine");
+}
+
+TEST_F(Limits, WhatIsSaidWhere) {
+  const Arguments quick = on_cpu + Arguments{"--grid", "0.05"};
+  const Outcome plain = simulate(squares_, quick);
+  EXPECT_EQ(plain.err, "device: CPU path\n");
+  EXPECT_NE(plain.out.find("Two black squares"), std::string::npos);
+  const Outcome quiet = simulate(squares_, quick + Arguments{"--quiet"});
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  const Outcome summary_only = simulate(squares_, quick + Arguments{"--json"});
+  EXPECT_EQ(summary_only.err, "");
+  EXPECT_EQ(summary_only.out, file("summary.json"));
+  EXPECT_EQ(json::parse(summary_only.out)["complete"], true);
+}
+
+TEST_F(Limits, ImagesAndExportsAreChosen) {
+  const Arguments quick{"--device", "cpu", "--grid", "0.05", "--size", "160x120"};
+  EXPECT_EQ(run(Arguments{"run", "--images", "none", squares_.string()} + quick).status, 0);
+  EXPECT_TRUE(exists("summary.json", "results/two_squares"));  // the folder without -o
+  EXPECT_FALSE(exists("rank_direct.png", "results/two_squares"));
+  EXPECT_FALSE(exists("triangles.csv", "results/two_squares"));
+  EXPECT_EQ(run(Arguments{"run", "--images", "rank_direct", "--export", "csv", squares_.string()} + quick).status, 0);
+  EXPECT_TRUE(exists("rank_direct.png", "results/two_squares"));
+  EXPECT_TRUE(exists("triangles.csv", "results/two_squares"));
+}
+
+TEST_F(Limits, ASunBelowTheHorizonIsNoError) {
+  std::string night = content(squares_);
+  night.replace(night.find("elevation = 45.0"), 16, "elevation = -5.0");
+  folder_.write("night.toml", night);
+  std::filesystem::copy_file(scene_file("two_squares.obj"), folder_ / "two_squares.obj");
+  const Outcome outcome = simulate("night.toml", {"--device", "cpu"});
+  const std::size_t warning = outcome.err.find("warning: ");
+  EXPECT_NE(warning, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("warning: ", warning + 1), std::string::npos) << outcome.err;
+  EXPECT_EQ(summary()["complete"], true);
+  EXPECT_EQ(summary()["bands"][0]["incident"], 0.0);
+  EXPECT_TRUE(summary()["ground_sunfleck_ratio"].is_null());
+  const Table profile(file("profile.csv"));
+  for (std::size_t row = 0; row < profile.size(); ++row) {
+    EXPECT_EQ(profile.cell(row, "sunfleck_ratio"), "");
+    EXPECT_EQ(profile.number(row, "PAR_down"), 0.0);
+  }
+  const Table organs(file("organs.csv"));
+  for (std::size_t row = 0; row < organs.size(); ++row) EXPECT_EQ(organs.number(row, "PAR_absorbed"), 0.0);
+}
+
+}  // namespace
+}  // namespace sunfleck::regression

@@ -1,0 +1,211 @@
+// Every scene of scenes/, run quickly: do the files say what the manual promises, and do they agree with each other?
+
+#include "regression/program.h"
+#include "support/table.h"
+
+#include <cmath>
+#include <regex>
+
+namespace sunfleck::regression {
+namespace {
+
+using nlohmann::json;
+
+// Cells hold nine significant digits, so a sum of products of two cells is off by 1e-8 of its terms at most.
+constexpr double table_rounding = 1e-8;
+
+constexpr int width = 160;
+constexpr int height = 120;
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "scenes")) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void expect_keys(const json& object, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
+}
+
+// The number that follows a big-endian four-byte place of a PNG's header.
+int big_endian(const std::string& bytes, std::size_t at) {
+  int value = 0;
+  for (std::size_t i = at; i < at + 4; ++i) value = value * 256 + static_cast<unsigned char>(bytes.at(i));
+  return value;
+}
+
+class Scenes : public ProgramTest, public ::testing::WithParamInterface<std::string> {
+ protected:
+  void SetUp() override {
+    text_ = content(scene_file(GetParam() + ".toml"));
+    simulate(scene_file(GetParam() + ".toml"), {"--device", "cpu", "--passes", "8", "--grid", "0.01", "--export", "csv",
+                                                "--size", std::to_string(width) + "x" + std::to_string(height)});
+    summary_ = summary();
+    ASSERT_TRUE(summary_.is_object());
+    for (const json& band : summary_["bands"]) bands_.push_back(band["name"]);
+    ASSERT_FALSE(bands_.empty());
+  }
+
+  [[nodiscard]] std::string header(std::string common, const std::vector<std::string>& of_band) const {
+    for (const std::string& band : bands_)
+      for (const std::string& column : of_band) common += "," + band + column;
+    return common;
+  }
+  [[nodiscard]] int layers() const {
+    std::smatch found;
+    return std::regex_search(text_, found, std::regex("layers *= *([0-9]+)")) ? std::stoi(found[1]) : 20;
+  }
+  [[nodiscard]] bool periodic() const { return std::regex_search(text_, std::regex("periodic *= *true")); }
+
+  std::string text_;
+  json summary_;
+  std::vector<std::string> bands_;
+};
+
+void expect_summary_keys(const json& summary) {
+  expect_keys(summary, {"sunfleck",
+                        "commit",
+                        "scene",
+                        "scene_digest",
+                        "settings",
+                        "complete",
+                        "seed",
+                        "device",
+                        "triangles",
+                        "organs",
+                        "plants",
+                        "plot_area_m2",
+                        "leaf_area_index",
+                        "sun",
+                        "bands",
+                        "sunlit_leaf_fraction",
+                        "ground_sunfleck_ratio",
+                        "lost_rays",
+                        "direct",
+                        "indirect",
+                        "seconds"});
+  expect_keys(summary["device"], {"kind", "name", "driver"});
+  if (!summary["sun"].is_null()) expect_keys(summary["sun"], {"elevation_deg", "azimuth_deg"});
+  expect_keys(summary["direct"], {"rays", "replicates", "grid_m", "relative_error", "bound", "seconds"});
+  expect_keys(summary["indirect"], {"packets", "rounds", "relative_error", "bound", "seconds"});
+  expect_keys(summary["seconds"], {"load", "bvh", "device", "direct", "indirect", "write", "total"});
+  for (const json& band : summary["bands"]) {
+    expect_keys(band, {"name", "incident", "absorbed_vegetation", "absorbed_soil", "reflected", "transmitted", "unshot",
+                       "residual", "error"});
+    expect_keys(band["error"], {"absorbed_vegetation", "absorbed_soil", "reflected", "transmitted"});
+  }
+}
+
+TEST_P(Scenes, GiveWhatTheManualPromises) {
+  expect_summary_keys(summary_);
+  EXPECT_EQ(summary_["complete"], true);
+  EXPECT_EQ(summary_["device"]["kind"], "cpu");
+  EXPECT_EQ(summary_["lost_rays"], 0);
+  for (const json& band : summary_["bands"]) {
+    EXPECT_EQ(band["residual"], 0);
+    double sum = 0.0;
+    for (const char* key : {"absorbed_vegetation", "absorbed_soil", "reflected", "transmitted", "unshot"}) {
+      EXPECT_GE(band[key], 0.0) << key;
+      sum += band[key].get<double>();
+    }
+    EXPECT_NEAR(sum, band["incident"], 1e-9 * band["incident"].get<double>());
+  }
+
+  const Table profile(file("profile.csv"));
+  EXPECT_EQ(
+      profile.header(),
+      header("height_m,leaf_area_index,sunfleck_ratio,sunfleck_ratio_error,sunlit_leaf_fraction,sunlit_leaf_fraction_error",
+             {"_down", "_down_error", "_up", "_up_error", "_absorbed", "_absorbed_error"}));
+  EXPECT_EQ(profile.size(), static_cast<std::size_t>(layers()) + 1);
+  const Table organs(file("organs.csv"));
+  EXPECT_EQ(organs.header(), header("plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error",
+                                    {"_direct", "_indirect", "_absorbed", "_error"}));
+  EXPECT_EQ(organs.size(), summary_["organs"]);
+  const Table triangles(file("triangles.csv"));
+  EXPECT_EQ(triangles.header(),
+            header("triangle,plant,organ,area_m2,x,y,z",
+                   {"_direct_upper", "_direct_lower", "_indirect_upper", "_indirect_lower", "_absorbed", "_error"}));
+  EXPECT_EQ(triangles.size(), summary_["triangles"]);
+  for (const Table* table : {&profile, &organs, &triangles}) {
+    ASSERT_GE(table->comments().size(), 3U);
+    EXPECT_EQ(table->comments()[0], "# " + summary_["scene"].get<std::string>());
+    for (std::size_t row = 0; row < table->size(); ++row) {
+      for (const std::string& column : table->columns()) {
+        if (column != "organ") static_cast<void>(table->number(row, column));
+      }
+    }
+  }
+
+  const std::string picture = file(summary_["sun"].is_null() ? "rank_indirect.png" : "rank_direct.png");
+  ASSERT_GT(picture.size(), 24U);
+  EXPECT_EQ(picture.substr(1, 3), "PNG");
+  EXPECT_EQ(big_endian(picture, 16), width);
+  EXPECT_EQ(big_endian(picture, 20), height);
+}
+
+TEST_P(Scenes, AgreeWithThemselves) {
+  const Table profile(file("profile.csv"));
+  const Table organs(file("organs.csv"));
+  const Table triangles(file("triangles.csv"));
+  const double plot_m2 = summary_["plot_area_m2"];
+  for (std::size_t b = 0; b < bands_.size(); ++b) {
+    const std::string& band = bands_[b];
+    double absorbed = 0.0;
+    double direct = 0.0;
+    for (std::size_t o = 0; o < organs.size(); ++o) {
+      const double area_m2 = organs.number(o, "area_m2");
+      direct += area_m2 * organs.number(o, band + "_direct") / plot_m2;
+      if (organs.cell(o, "organ").rfind("soil", 0) != 0) absorbed += area_m2 * organs.number(o, band + "_absorbed") / plot_m2;
+    }
+    double direct_of_triangles = 0.0;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      direct_of_triangles += triangles.number(t, "area_m2") / plot_m2 *
+                             (triangles.number(t, band + "_direct_upper") + triangles.number(t, band + "_direct_lower"));
+    }
+    double absorbed_in_layers = 0.0;
+    for (std::size_t k = 0; k + 1 < profile.size(); ++k) absorbed_in_layers += profile.number(k, band + "_absorbed");
+    const json& balance = summary_["bands"][b];
+    const double incident = balance["incident"];
+    EXPECT_NEAR(absorbed, balance["absorbed_vegetation"], table_rounding * incident);
+    EXPECT_NEAR(absorbed_in_layers, balance["absorbed_vegetation"], table_rounding * incident);
+    EXPECT_NEAR(direct, direct_of_triangles, table_rounding * incident);
+    const bool no_sky = text_.find("[sky]") == std::string::npos;
+    if (periodic() && no_sky) {
+      const double on_ground = summary_["ground_sunfleck_ratio"];
+      EXPECT_NEAR(direct, incident * (1.0 - on_ground), table_rounding * incident);
+      EXPECT_GE(profile.number(0, band + "_down"), incident * on_ground * (1.0 - table_rounding));
+      // What goes down through a plane and does not come up again is absorbed below it, or leaves there, or is unshot.
+      double below = double{balance["absorbed_soil"]} + double{balance["transmitted"]};
+      for (std::size_t k = 0; k < profile.size(); ++k) {
+        const double net = profile.number(k, band + "_down") - profile.number(k, band + "_up");
+        EXPECT_NEAR(net, below, double{balance["unshot"]} + table_rounding * incident) << k;
+        if (k + 1 < profile.size()) below += profile.number(k, band + "_absorbed");
+      }
+    }
+  }
+  double leaf_area_index = 0.0;
+  for (std::size_t k = 0; k < profile.size(); ++k) {
+    if (summary_["sun"].is_null()) {
+      EXPECT_EQ(profile.cell(k, "sunfleck_ratio"), "") << "no beam, no share of it";
+    }
+    const double ratio = summary_["sun"].is_null() ? 1.0 : profile.number(k, "sunfleck_ratio");
+    EXPECT_TRUE(ratio >= 0.0 && ratio <= 1.0) << k;
+    // Under an endless canopy no light enters from the side; beside a stand alone it does.
+    if (periodic() && k > 0 && !summary_["sun"].is_null()) {
+      EXPECT_GE(ratio, profile.number(k - 1, "sunfleck_ratio")) << k;
+    }
+    if (k + 1 < profile.size()) leaf_area_index += profile.number(k, "leaf_area_index");
+  }
+  EXPECT_NEAR(leaf_area_index, summary_["leaf_area_index"], table_rounding * leaf_area_index);
+  if (summary_["sun"].is_null()) return;
+  EXPECT_NEAR(profile.number(0, "sunfleck_ratio"), summary_["ground_sunfleck_ratio"], periodic() ? table_rounding : 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Scenes, ::testing::ValuesIn(scene_names()),
+                         [](const ::testing::TestParamInfo<std::string>& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace sunfleck::regression

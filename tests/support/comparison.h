@@ -1,0 +1,90 @@
+#pragma once
+// Comparing an estimate with its known value.
+
+#include "transport/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <cstdio>
+
+namespace sunfleck::test {
+
+// Standard error behind a half-width of the default confidence 0.95.
+inline double standard_error(const Estimate& estimate, std::size_t replicates) {
+  return estimate.half_width / t_quantile(0.95, replicates);
+}
+
+// Student's t for `count` comparisons that together fail by chance once in a thousand times (Sidak).
+inline double table_quantile(std::size_t count, std::size_t replicates) {
+  const double each = std::pow(1.0 - 0.001, 1.0 / static_cast<double>(count));
+  return t_quantile(each, replicates);
+}
+
+// The mean of independent runs as an estimate like those of a result.
+inline Estimate estimate_of(const ReplicateMean& mean) {
+  return mean.estimate(t_quantile(0.95, mean.count()));
+}
+
+// What remains of a value where the arithmetic itself is single precision.
+inline constexpr double rounding = 1e-6;
+
+// Within the estimate's own error, and with an error small enough to be a test; an entry without error equals to 1e-6.
+inline void expect_agrees(const Estimate& got, double expected, std::size_t replicates, double largest_standard_error,
+                          std::size_t comparisons, const char* what) {
+  const double error = standard_error(got, replicates);
+  std::printf("%-44s expected %.7f got %.7f error %.1e z %+.2f\n", what, expected, got.value, error,
+              error > 0.0 ? (got.value - expected) / error : 0.0);
+  EXPECT_LE(error, largest_standard_error) << what;
+  EXPECT_LE(std::abs(got.value - expected), table_quantile(comparisons, replicates) * error + rounding)
+      << what << ": got " << got.value << " +- " << error << ", expected " << expected;
+}
+
+// Two estimates of one value from independent runs with as many replicates each.
+inline void expect_same(const Estimate& a, const Estimate& b, std::size_t replicates, double largest_standard_error,
+                        std::size_t comparisons, const char* what) {
+  const Estimate difference{a.value - b.value, std::hypot(a.half_width, b.half_width)};
+  expect_agrees(difference, 0.0, replicates, largest_standard_error, comparisons, what);
+}
+
+// Judges the reported errors by a whole table of independent comparisons: z must scatter as Student's t does.
+class ZScores {
+ public:
+  explicit ZScores(std::size_t replicates) : replicates_(replicates) {}
+
+  // An entry without error only has to be equal.
+  void add(const Estimate& got, double expected, const char* what) {
+    const double error = standard_error(got, replicates_);
+    if (error == 0.0) {
+      EXPECT_NEAR(got.value, expected, rounding) << what;
+      return;
+    }
+    const double z = (got.value - expected) / error;
+    sum_ += z;
+    squares_ += z * z;
+    ++count_;
+  }
+
+  // The mean within its own error at 0.1 %, the root mean square within 25 % of Student's.
+  void expect_plausible() const {
+    const auto n = static_cast<double>(count_);
+    const double degrees = static_cast<double>(replicates_) - 1.0;
+    const double spread = std::sqrt(degrees / (degrees - 2.0));
+    const double mean = sum_ / n;
+    const double rms = std::sqrt(squares_ / n);
+    std::printf("z of %zu comparisons: mean %+.3f, rms %.3f (Student's %.3f)\n", count_, mean, rms, spread);
+    const boost::math::normal normal;
+    EXPECT_LE(std::abs(mean), boost::math::quantile(boost::math::complement(normal, 0.0005)) * spread / std::sqrt(n));
+    EXPECT_GE(rms, 0.75 * spread);
+    EXPECT_LE(rms, 1.25 * spread);
+  }
+
+ private:
+  std::size_t replicates_;
+  std::size_t count_ = 0;
+  double sum_ = 0.0;
+  double squares_ = 0.0;
+};
+
+}  // namespace sunfleck::test

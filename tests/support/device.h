@@ -1,0 +1,66 @@
+#pragma once
+// A Vulkan device for tests. Where there is none they are skipped and say so, or fail if SUNFLECK_REQUIRE_DEVICE=1 is set.
+// SUNFLECK_TEST_DEVICE chooses one by a part of its name; otherwise it is the software device, and hardware in its absence.
+// SUNFLECK_THOROUGH_VALIDATION=1 adds the checks of Validation::thorough.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "gpu/context.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+// The validation layer (1.3.239) leaks and is unloaded before the report, so that its leaks cannot be told by their origin.
+extern "C" [[gnu::used]] inline const char* __asan_default_options() {
+  return "detect_leaks=0";
+}
+#endif
+
+namespace sunfleck {
+
+// With validation wherever the layer is installed; a message of it fails the test that caused it.
+class DeviceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!list_devices().empty()) {
+      const Validation wanted = is_set("SUNFLECK_THOROUGH_VALIDATION") ? Validation::thorough : Validation::on;
+      context_ = std::make_unique<GpuContext>(wish(), validation_installed() ? wanted : Validation::off);
+    } else if (is_set("SUNFLECK_REQUIRE_DEVICE")) {
+      FAIL() << "no Vulkan device, and SUNFLECK_REQUIRE_DEVICE=1 asks for one";
+    } else {
+      GTEST_SKIP() << "no Vulkan device on this machine";
+    }
+  }
+
+  void TearDown() override {
+    if (!context_) return;
+    for (const auto& message : context_->validation_messages()) ADD_FAILURE() << message;
+  }
+
+  [[nodiscard]] const GpuContext& context() const { return *context_; }
+
+ private:
+  static bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && std::string(value) == "1";
+  }
+
+  static DeviceWish wish() {
+    DeviceWish result;
+    if (const char* name = std::getenv("SUNFLECK_TEST_DEVICE")) {
+      result.kind = DeviceWish::Kind::name;
+      result.name = name;
+      return result;
+    }
+    for (const auto& device : list_devices()) {
+      if (device.software) result.kind = DeviceWish::Kind::software;
+    }
+    return result;
+  }
+
+  std::unique_ptr<GpuContext> context_;
+};
+
+}  // namespace sunfleck

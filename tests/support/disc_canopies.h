@@ -1,0 +1,124 @@
+#pragma once
+// Homogeneous canopies of small flat leaves as in B11 of the validation table, where an explicit-disc ray tracer gave the
+// answer; many random scenes, scene noise removed by regression.
+
+#include "support/leaf_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace sunfleck::test {
+
+// `count` regular polygons of equal area over 2 x 2 m, their centres
+// evenly between a disc's radius and 2 m above the ground.
+struct DiscCanopy {
+  double radius_m;  // of the disc of a leaf's area
+  int count;
+  bool horizontal;  // else all orientations alike
+  int corners = 12;
+
+  [[nodiscard]] double leaf_m2() const { return std::numbers::pi * radius_m * radius_m; }
+  // E[T_0] under the paper sun, exact for that number of leaves (A7).
+  [[nodiscard]] double expected_beam_on_soil() const {
+    const double shadow_m2 = leaf_m2() * (horizontal ? 1.0 : 0.5 / std::cos(radians(36.9824)));
+    return std::pow(1.0 - shadow_m2 / 4.0, count);
+  }
+};
+inline constexpr Plot disc_plot{2.0, 2.0, true};
+inline Mesh disc_leaves(const DiscCanopy& canopy, std::uint32_t seed) {
+  Random random(seed);
+  MeshMaker maker;
+  for (int leaf = 0; leaf < canopy.count; ++leaf) {
+    const double x_m = random.uniform(0.0, 2.0);
+    const double y_m = random.uniform(canopy.radius_m, 2.0);
+    const double z_m = random.uniform(0.0, 2.0);
+    const double inclination = canopy.horizontal ? 0.0 : std::acos(random.uniform(-1.0, 1.0));
+    const glm::dvec3 normal = inclined(inclination, random.uniform(0.0, 2.0 * std::numbers::pi));
+    maker.polygon({x_m, y_m, z_m}, normal, canopy.leaf_m2(), canopy.corners, random.uniform(0.0, 2.0 * std::numbers::pi));
+  }
+  return maker.mesh();
+}
+
+// The mean of y where x has its known mean: x as a control variate, the slope fitted.
+class Regression {
+ public:
+  explicit Regression(double mean_x) : mean_x_(mean_x) {}
+  void add(double x, double y) {
+    x_.push_back(x);
+    y_.push_back(y);
+  }
+  struct Fit {
+    double value, error;  // and its standard error
+  };
+  [[nodiscard]] Fit fit() const {
+    const auto n = static_cast<double>(x_.size());
+    double x = 0.0;
+    double y = 0.0;
+    for (std::size_t k = 0; k < x_.size(); ++k) x += x_[k] / n, y += y_[k] / n;
+    double xx = 0.0;
+    double xy = 0.0;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      xx += (x_[k] - x) * (x_[k] - x);
+      xy += (x_[k] - x) * (y_[k] - y);
+    }
+    const double slope = xy / xx;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double residual = y_[k] - y - slope * (x_[k] - x);
+      squares += residual * residual;
+    }
+    const double moved = x - mean_x_;
+    return {y - slope * moved, std::sqrt(squares / (n - 2.0) * (1.0 / n + moved * moved / xx))};
+  }
+
+ private:
+  double mean_x_;
+  std::vector<double> x_, y_;
+};
+
+// Per band reflected, on soil, absorbed by leaves: over many random scenes, freed of the scenes' own share of beam on soil.
+struct CanopyFluxes {
+  Regression::Fit reflected, on_soil, leaves;
+};
+inline std::vector<CanopyFluxes> disc_canopy_fluxes(const DiscCanopy& canopy, int scenes, double rays, double packets) {
+  const Regression empty(canopy.expected_beam_on_soil());
+  std::vector<std::array<Regression, 3>> sums(2, {empty, empty, empty});
+  for (int scene = 1; scene <= scenes; ++scene) {
+    const auto seed = static_cast<std::uint32_t>(scene);
+    const RadiationModel model = paper_model(disc_leaves(canopy, seed), disc_plot, paper_sun());
+    const ScatterWork work{.rays = rays, .packets = packets, .replicates = 8, .seed = seed, .bound = 0.003};
+    const RadiationResult result = simulate(model, fixed_scatter(model, work));
+    for (std::size_t b = 0; b < 2; ++b) {
+      const double beam_on_soil = result.ground_sunfleck_ratio.value;
+      sums[b][0].add(beam_on_soil, result.bands[b].reflected.value);
+      sums[b][1].add(beam_on_soil, result.layers[0].down[b].value);
+      sums[b][2].add(beam_on_soil, result.bands[b].absorbed_vegetation.value);
+    }
+  }
+  std::vector<CanopyFluxes> fluxes;
+  for (const auto& band : sums) fluxes.push_back({band[0].fit(), band[1].fit(), band[2].fit()});
+  return fluxes;
+}
+
+struct CanopyRow {
+  double reflected, on_soil, leaves;
+};
+
+// The rule of B11: 1 % on what is reflected, 0.002 on the rest, and errors small enough to tell.
+inline void expect_row(const CanopyFluxes& got, const CanopyRow& expected, const char* what) {
+  const auto expect_flux = [&](const Regression::Fit& flux, double value, double tolerance, const char* name) {
+    std::printf("%-24s %-10s expected %.5f got %.5f(%.1e), off by %+.5f of %.5f\n", what, name, value, flux.value, flux.error,
+                flux.value - value, tolerance);
+    EXPECT_LE(flux.error, 0.4 * tolerance) << what << ' ' << name;
+    EXPECT_NEAR(flux.value, value, tolerance) << what << ' ' << name;
+  };
+  expect_flux(got.reflected, expected.reflected, 0.01 * expected.reflected, "reflected");
+  expect_flux(got.on_soil, expected.on_soil, 0.002, "on soil");
+  expect_flux(got.leaves, expected.leaves, 0.002, "leaves");
+}
+
+}  // namespace sunfleck::test

@@ -1,0 +1,57 @@
+#pragma once
+// Every number of a result but times of the clock, bit by bit: two runs are the same if these are.
+
+#include "transport/result.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sunfleck::test {
+
+inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
+  std::vector<std::uint64_t> words;
+  const auto integer = [&](auto value) { words.push_back(static_cast<std::uint64_t>(value)); };
+  const auto number = [&](double value) { words.push_back(std::bit_cast<std::uint64_t>(value)); };
+  const auto estimates = [&](std::span<const Estimate> all) {
+    for (const Estimate& estimate : all) number(estimate.value), number(estimate.half_width);
+  };
+  for (const BandResult& band : result.bands) {
+    const FluxLedger& ledger = band.ledger;
+    for (const std::int64_t term : {ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected,
+                                    ledger.transmitted, ledger.unshot}) {
+      integer(term);
+    }
+    number(band.incident);
+    number(band.unshot);
+    estimates(std::array{band.absorbed_vegetation, band.absorbed_soil, band.reflected, band.transmitted});
+  }
+  for (const OrganResult& organ : result.organs) {
+    number(organ.area_m2);
+    estimates(std::array{organ.sunlit_fraction});
+    for (const auto* all : {&organ.direct, &organ.indirect, &organ.absorbed}) estimates(*all);
+  }
+  for (const LayerResult& layer : result.layers) {
+    number(layer.height_m);
+    number(layer.leaf_area_index);
+    estimates(std::array{layer.sunfleck_ratio, layer.sunlit_leaf_fraction});
+    for (const auto* all : {&layer.down, &layer.up, &layer.absorbed}) estimates(*all);
+  }
+  for (const ElementResult& element : result.elements) integer(element.upper), integer(element.lower);
+  for (const double error : result.element_error) number(error);
+  for (const auto landings : result.soil_cells) integer(landings);
+  for (const auto quanta : result.side_indirect) integer(quanta);
+  for (const auto quanta : result.cell_indirect) integer(quanta);
+  for (const double watts : result.w_per_quantum) number(watts);
+  estimates(std::array{result.sunlit_leaf_fraction, result.ground_sunfleck_ratio});
+  integer(result.lost_rays);
+  integer(result.direct.rays);
+  integer(result.direct.replicates);
+  integer(result.indirect.packets);
+  integer(result.indirect.rounds);
+  return words;
+}
+
+}  // namespace sunfleck::test

@@ -1,0 +1,130 @@
+#pragma once
+// Scenes that scatter or glow, what their results keep in every case, and estimates of what a result gives without an error.
+
+#include "support/comparison.h"
+#include "support/models.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sunfleck::test {
+
+// So many bands of 1 W m-2 on the horizontal, every surface black in all of them.
+inline void set_bands(RadiationModel& model, std::size_t count) {
+  model.bands.clear();
+  for (std::size_t b = 0; b < count; ++b) model.bands.push_back({"band" + std::to_string(b), 1.0, 0.0});
+  for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = std::vector<FaceOptics>(count);
+  if (model.soil) model.soil->reflectance.assign(count, 0.0);
+}
+
+// No sun and no soil: light comes from lamps only.
+inline RadiationModel dark_model(const Mesh& mesh, const Plot& plot, std::size_t bands = 1) {
+  RadiationModel model = black_model(mesh, plot, paper_sun());
+  model.sun.reset();
+  model.soil.reset();
+  set_bands(model, bands);
+  return model;
+}
+
+// Both faces alike.
+inline void set_faces(RadiationModel& model, std::size_t optics, const std::vector<FaceOptics>& faces) {
+  model.optics.at(optics).upper = model.optics.at(optics).lower = faces;
+}
+
+// So many beam rays and first packets in each replicate; the unshot flux, below 1e-9 of the incident, does not matter.
+inline SolveSettings fixed_packets(const RadiationModel& model, double packets, int replicates = 32, std::uint64_t seed = 1) {
+  SolveSettings settings = fixed_work(model, packets * replicates, replicates, seed);
+  settings.packets = packets;
+  settings.accuracy.indirect = 1e-6;
+  return settings;
+}
+
+// What holds in every scene. Without a beam the incident flux is what the lamps emit.
+inline void expect_sound(const RadiationModel& model, const RadiationResult& result) {
+  EXPECT_EQ(result.lost_rays, 0U);
+  for (std::size_t b = 0; b < result.bands.size(); ++b) {
+    EXPECT_EQ(result.bands[b].ledger.residual(), 0) << result.bands[b].name;
+    if (model.has_beam()) continue;
+    double emitted_w = 0.0;
+    for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+      const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
+      if (!optics.emission_w_m2.empty()) emitted_w += optics.emission_w_m2[b] * area_m2(model.canopy.corners[e]);
+    }
+    EXPECT_NEAR(result.bands[b].incident * model.plot.area_m2(), emitted_w, 1e-9 * emitted_w) << result.bands[b].name;
+  }
+}
+
+inline RadiationResult simulate_soundly(const RadiationModel& model, const SolveSettings& settings) {
+  const RadiationResult result = simulate(model, settings);
+  expect_sound(model, result);
+  return result;
+}
+
+// The flux that an organ absorbs, per ground area of the plot.
+inline Estimate absorbed_by_organ(const RadiationModel& model, const RadiationResult& result, std::size_t organ,
+                                  std::size_t band) {
+  const OrganResult& got = result.organs.at(organ);
+  return got.absorbed.at(band).scaled(got.area_m2 / model.plot.area_m2());
+}
+
+// All light on the two sides of groups of elements and on the soil plane, with errors from independent runs of one replicate.
+class SideIrradiance {
+ public:
+  // group_of: [element], from 0 on without gaps.
+  SideIrradiance(const RadiationModel& model, std::vector<std::uint32_t> group_of, double packets, int runs,
+                 std::uint64_t first_seed)
+      : model_(model), group_of_(std::move(group_of)), bands_(model.bands.size()), soil_(bands_) {
+    for (std::size_t e = 0; e < group_of_.size(); ++e) {
+      area_m2_.resize(std::max<std::size_t>(area_m2_.size(), group_of_[e] + 1));
+      area_m2_[group_of_[e]] += area_m2(model.canopy.corners[e]);
+    }
+    sides_.resize(area_m2_.size() * 2 * bands_);
+    const Prepared prepared(model);
+    for (int run = 0; run < runs; ++run) {
+      const auto seed = first_seed + static_cast<std::uint64_t>(run);
+      const RadiationResult result = simulate(model, prepared, fixed_packets(model, packets, 1, seed));
+      expect_sound(model, result);
+      add(result);
+    }
+  }
+
+  // W m-2 of the group's one-sided area; side 0 is the upper one.
+  [[nodiscard]] Estimate of(std::size_t group, std::size_t side, std::size_t band) const {
+    return estimate_of(sides_.at((group * 2 + side) * bands_ + band));
+  }
+  // W m-2 of ground.
+  [[nodiscard]] Estimate of_soil(std::size_t band) const { return estimate_of(soil_.at(band)); }
+
+ private:
+  void add(const RadiationResult& result) {
+    for (std::size_t b = 0; b < bands_; ++b) {
+      const double beam_w_m2 = model_.has_beam() ? model_.bands[b].direct_w_m2 : 0.0;
+      std::vector<double> sums(area_m2_.size() * 2);
+      for (std::size_t e = 0; e < group_of_.size(); ++e) {
+        const std::uint64_t landings[2] = {result.elements[e].upper, result.elements[e].lower};
+        for (std::size_t side = 0; side < 2; ++side) {
+          sums[group_of_[e] * 2 + side] += result.irradiance_w_m2(landings[side], area_m2_[group_of_[e]], beam_w_m2) +
+                                           result.side_indirect_w_m2(2 * e + side, area_m2_[group_of_[e]], b);
+        }
+      }
+      for (std::size_t side = 0; side < sums.size(); ++side) sides_[side * bands_ + b].add(sums[side]);
+      double soil = 0.0;
+      for (std::size_t cell = 0; cell < result.soil_cells.size(); ++cell) {
+        soil += result.irradiance_w_m2(result.soil_cells[cell], model_.plot.area_m2(), beam_w_m2) +
+                result.cell_indirect_w_m2(cell, model_.plot.area_m2(), b);
+      }
+      soil_[b].add(soil);
+    }
+  }
+
+  const RadiationModel& model_;
+  std::vector<std::uint32_t> group_of_;
+  std::size_t bands_;
+  std::vector<double> area_m2_;       // [group]
+  std::vector<ReplicateMean> sides_;  // [(group * 2 + side) * bands + band]
+  std::vector<ReplicateMean> soil_;   // [band]
+};
+
+}  // namespace sunfleck::test

@@ -1,0 +1,156 @@
+#pragma once
+// A scene file with everything in it, a folder for it, and what every refusal of it must look like.
+
+#include "base/error.h"
+#include "io/scene_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace sunfleck {
+
+// Every table and nearly every key of a scene file.
+inline const std::string good_scene = R"(title = "A test stand"
+
+[plot]
+size     = [2.0, 3]
+periodic = false
+
+[sun]
+elevation = 30.0
+azimuth   = -90
+
+[[band]]
+name    = "PAR"
+direct  = 350.0
+diffuse = 0.0
+
+[[band]]
+name          = "NIR_1"
+direct_normal = 400
+
+[soil]
+reflectance = { PAR = 0.15, NIR_1 = 0.25 }
+patch       = 0.02
+rgb         = [0.2, 0.15, 0.1]
+
+[optics.leaf]
+reflectance   = { PAR = 0.12, NIR_1 = 0.45 }
+transmittance = { PAR = 0.06, NIR_1 = 0.55 }
+rgb           = [0.05, 0.1, 0.04]
+
+[optics.bark.upper]
+reflectance = 0.3
+
+[optics.bark.lower]
+reflectance   = 0.1
+transmittance = { PAR = 0, NIR_1 = 0.2 }
+
+[[geometry]]
+file    = "plates.obj"
+optics  = "bark"
+up      = "y"
+scale   = 0.5
+heading = [0, 90.0]
+at      = [[0.5, 0.0, 1.0], [1.5, 0.25, 2.0]]
+
+[accuracy]
+direct     = 0.002
+indirect   = 0.004
+confidence = 0.9
+of         = "organ"
+
+[camera]
+position = [3.0, 2.5, 3.0]
+look_at  = [0.9, 1.0, 1.2]
+fov      = 50
+
+[output]
+layers = 12
+)";
+
+inline const std::string plates_obj = R"(v 0 1 0
+v 0 1 1
+v 1 1 0
+v 0 2 0
+v 0 2 1
+v 1 2 0
+f 1 2 3
+usemtl leaf
+f 4 5 6
+)";
+
+// The smallest scene.
+inline const std::string bare_scene = "[plot]\nsize = [1.0, 1.0]\n[[band]]\nname = \"PAR\"\n";
+
+inline void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+// A folder of its own for each test, with plates.obj in it.
+class SceneFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string("sunfleck_") + test->test_suite_name() + "_" + test->name();
+    std::replace(name.begin(), name.end(), '/', '_');
+    folder_ = std::filesystem::temp_directory_path() / name;
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    write(folder_ / "plates.obj", plates_obj);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::filesystem::path file() const { return folder_ / "scene.toml"; }
+  [[nodiscard]] Scene read(const std::string& text, const SceneAccess& access = {}) const {
+    write(file(), text);
+    return read_scene(file(), access);
+  }
+
+  std::filesystem::path folder_;
+};
+
+// The message of the one permitted kind of failure; none if the text is a scene. Anything else fails the test.
+inline std::optional<std::string> message_of(const std::function<void()>& work) {
+  try {
+    work();
+    return std::nullopt;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+    return error.what();
+  } catch (const std::exception& other) {
+    ADD_FAILURE() << "not an Error: " << other.what();
+    return std::nullopt;
+  }
+}
+
+inline void expect_three_parts(const std::string& message) {
+  EXPECT_EQ(message.find_first_of("\n\r\t\x1b"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\0'), std::string::npos) << message;
+  const std::size_t open = message.find(" (");
+  const std::size_t close = message.find("); ");
+  ASSERT_NE(open, std::string::npos) << message;
+  ASSERT_NE(close, std::string::npos) << message;
+  EXPECT_LT(open + 2, close) << message;
+  EXPECT_LT(close + 3, message.size()) << message;
+}
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+inline std::size_t line_of(const std::string& text, const std::string& mark) {
+  const std::size_t at = text.find(mark);
+  EXPECT_NE(at, std::string::npos) << mark;
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,145 @@
+#include "app/options.h"
+
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+Command parse(std::initializer_list<const char*> words) {
+  std::vector<const char*> argv{"sunfleck"};
+  argv.insert(argv.end(), words);
+  return parse_command_line(static_cast<int>(argv.size()), argv.data());
+}
+
+RunOptions parse_run(std::initializer_list<const char*> words) {
+  return std::get<RunOptions>(parse(words));
+}
+
+std::string refusal(std::initializer_list<const char*> words) {
+  try {
+    static_cast<void>(parse(words));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return "";
+}
+
+TEST(Options, OfARunStandBesideTheirNames) {
+  const RunOptions options = parse_run({"run", "a.toml"});
+  EXPECT_EQ(options.scene, "a.toml");
+  EXPECT_TRUE(options.output.empty());
+  EXPECT_EQ(options.device, "auto");
+  EXPECT_FALSE(options.direct_error || options.indirect_error || options.grid_m || options.passes || options.max_seconds ||
+               options.max_rays);
+  EXPECT_EQ(options.seed, 1U);
+  EXPECT_EQ(options.threads, 0);
+  EXPECT_TRUE(options.exports.empty());
+  EXPECT_EQ(options.images, std::vector<std::string>{"all"});
+  EXPECT_EQ(options.width, 1600);
+  EXPECT_EQ(options.height, 1200);
+  EXPECT_FALSE(options.allow_outside || options.quiet || options.json);
+}
+
+TEST(Options, OfARunAreRead) {
+  const RunOptions options =
+      parse_run({"run",      "-o",  "out",      "a.toml",  "--device",  "cpu", "--grid",          "0.0015",  "--passes",  "32",
+                 "--seed",   "12",  "--size",   "640x480", "--samples", "9",   "--max-seconds",   "2.5",     "--threads", "3",
+                 "--export", "csv", "--images", "none",    "--band",    "NIR", "--allow-outside", "--quiet", "--json"});
+  EXPECT_EQ(options.scene, "a.toml");
+  EXPECT_EQ(options.output, "out");
+  EXPECT_EQ(options.device, "cpu");
+  EXPECT_EQ(options.grid_m, 0.0015);
+  EXPECT_EQ(options.passes, 32);
+  EXPECT_EQ(options.seed, 12U);
+  EXPECT_EQ(options.width, 640);
+  EXPECT_EQ(options.height, 480);
+  EXPECT_EQ(options.samples, 9);
+  EXPECT_EQ(options.max_seconds, 2.5);
+  EXPECT_EQ(options.threads, 3);
+  EXPECT_EQ(options.exports, std::vector<std::string>{"csv"});
+  EXPECT_EQ(options.images, std::vector<std::string>{"none"});
+  EXPECT_EQ(options.band, "NIR");
+  EXPECT_TRUE(options.allow_outside && options.quiet && options.json);
+}
+
+TEST(Options, ErrorSetsTheBoundsThatNothingElseSets) {
+  const RunOptions both = parse_run({"run", "a.toml", "--error", "0.01"});
+  EXPECT_EQ(both.direct_error, 0.01);
+  EXPECT_EQ(both.indirect_error, 0.01);
+  const RunOptions one = parse_run({"run", "a.toml", "--error", "0.01", "--indirect-error", "0.02"});
+  EXPECT_EQ(one.direct_error, 0.01);
+  EXPECT_EQ(one.indirect_error, 0.02);
+  const RunOptions direct = parse_run({"run", "a.toml", "--direct-error", "0.03"});
+  EXPECT_EQ(direct.direct_error, 0.03);
+  EXPECT_FALSE(direct.indirect_error);
+}
+
+TEST(Options, WholeNumbersAreDecimal) {
+  EXPECT_EQ(parse_run({"run", "a.toml", "--seed", "010"}).seed, 10U);
+  EXPECT_EQ(parse_run({"run", "a.toml", "--seed", "18446744073709551615"}).seed, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(parse_run({"run", "a.toml", "--max-rays", "2.5e6"}).max_rays, 2500000U);
+  for (const char* text : {"-1", "18446744073709551616", "0x10", "1.5", "", " 1", "1 ", "nan", "1e300"}) {
+    EXPECT_NE(refusal({"run", "a.toml", "--seed", text}).find("--seed"), std::string::npos) << text;
+  }
+}
+
+TEST(Options, ListsTakeOneWord) {
+  EXPECT_EQ(parse_run({"run", "--images", "none", "a.toml"}).scene, "a.toml");
+  EXPECT_EQ(parse_run({"run", "--export", "csv", "a.toml"}).scene, "a.toml");
+  EXPECT_EQ(parse_run({"run", "a.toml", "--images", "rank_direct,all"}).images.size(), 2U);
+}
+
+TEST(Options, OfTheStand) {
+  const MaizeOptions plain = std::get<MaizeOptions>(parse({"maize"}));
+  EXPECT_EQ(plain.output, "maize.glb");
+  EXPECT_EQ(plain.rows, 4);
+  EXPECT_EQ(plain.per_row, 3);
+  EXPECT_EQ(plain.spacing_m, (std::vector<double>{0.6, 0.6}));
+  const std::vector<double> expected{0.3, 0.75};
+  EXPECT_EQ(std::get<MaizeOptions>(parse({"maize", "--spacing", "0.3", "0.75"})).spacing_m, expected);
+  EXPECT_EQ(std::get<MaizeOptions>(parse({"maize", "--spacing", "0.3,0.75"})).spacing_m, expected);
+  const MaizeOptions options =
+      std::get<MaizeOptions>(parse({"maize", "-o", "a.gltf", "--rows", "2", "--per-row", "5", "--seed", "9"}));
+  EXPECT_EQ(options.output, "a.gltf");
+  EXPECT_EQ(options.rows, 2);
+  EXPECT_EQ(options.per_row, 5);
+  EXPECT_EQ(options.seed, 9U);
+}
+
+TEST(Options, OfInfo) {
+  EXPECT_TRUE(std::get<InfoOptions>(parse({"info"})).scene.empty());
+  const InfoOptions options = std::get<InfoOptions>(parse({"info", "a.toml", "--json", "--allow-outside"}));
+  EXPECT_EQ(options.scene, "a.toml");
+  EXPECT_TRUE(options.json && options.allow_outside);
+}
+
+TEST(Options, HelpAndVersionAreTexts) {
+  EXPECT_NE(std::get<TextToPrint>(parse({"--help"})).text.find("run"), std::string::npos);
+  EXPECT_NE(std::get<TextToPrint>(parse({"run", "--help"})).text.find("--grid"), std::string::npos);
+  EXPECT_EQ(std::get<TextToPrint>(parse({"--version"})).text, "sunfleck " + version() + "\n");
+  EXPECT_EQ(std::get<TextToPrint>(parse({"run", "--version"})).text, "sunfleck " + version() + "\n");
+}
+
+TEST(Options, MistakesAreNamed) {
+  EXPECT_EQ(refusal({"run", "a.toml", "--passes", "4"}),
+            "command line: --passes 4 (must be a whole number in 8..65536); see sunfleck run --help");
+  EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}), "command line: --bogus (not known here); see sunfleck run --help");
+  EXPECT_EQ(refusal({"ran"}), "ran (no command of this program); use run, maize or info; see sunfleck --help");
+  EXPECT_EQ(refusal({}), "command line (no command); use run, maize or info; see sunfleck --help");
+  EXPECT_EQ(refusal({"run", "a.toml", "--size", "3\nx"}),
+            "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
+  EXPECT_NE(refusal({"view", "a.toml"}).find("view (not in version"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunfleck
