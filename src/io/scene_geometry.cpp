@@ -59,7 +59,7 @@ fs::path resolve_file(const TomlTable& table, const fs::path& scene_file, const 
   const fs::path parent = scene_file.parent_path();
   const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, code);
   if (code) table.refuse("file", "the scene's folder cannot be read: " + code.message(), "check its permissions");
-  const fs::path file = fs::weakly_canonical(folder / name, code);
+  fs::path file = fs::weakly_canonical(folder / name, code);
   if (code) table.refuse("file", "its path cannot be followed: " + code.message(), "correct the path");
   if (!access.allow_outside && !lies_in(file, folder)) {
     table.refuse("file", "it lies outside the scene's folder", "move it beside the scene, or run with --allow-outside");
