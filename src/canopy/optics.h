@@ -10,8 +10,9 @@ namespace sunfleck {
 // A spectral interval and what comes in through it on a horizontal plane above the canopy.
 struct Waveband {
   std::string name;
-  double direct_w_m2 = 0.0;   // beam irradiance on a horizontal plane
-  double diffuse_w_m2 = 0.0;  // sky irradiance on a horizontal plane
+  double direct_w_m2 = 0.0;     // beam irradiance on a horizontal plane
+  double diffuse_w_m2 = 0.0;    // sky irradiance on a horizontal plane
+  double umol_per_joule = 0.0;  // photons of the band's light; 0: not asked for in photon units
 };
 
 // Lambertian coefficients of light arriving on one face: reflected to that face, transmitted to the other.

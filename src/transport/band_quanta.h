@@ -14,10 +14,15 @@ struct BandQuanta {
   double w_m2_per_quantum = 0.0;   // of ground, in one replicate
   std::vector<std::int64_t> lamp;  // [element], what it emits in one replicate; empty without lamps in the band
   std::int64_t lamps = 0;          // their sum
-
-  [[nodiscard]] bool lit() const { return per_ray > 0 || lamps > 0; }
+  std::int64_t sky = 0;            // what all of the sky's rays carry in one replicate
 };
-[[nodiscard]] std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, std::uint64_t rays,
-                                                       double ground_per_ray_m2);
+
+// The rays that light comes in with, in one replicate.
+struct Incidence {
+  std::uint64_t rays = 0;          // of the beam
+  double ground_per_ray_m2 = 0.0;  // level ground that each of them stands for
+  double sky_ground_m2 = 0.0;      // level ground that all of the sky's rays stand for; 0 without a sky
+};
+[[nodiscard]] std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Incidence& incidence);
 
 }  // namespace sunfleck

@@ -4,7 +4,9 @@
 #include "canopy/canopy.h"
 #include "canopy/optics.h"
 #include "canopy/plot.h"
+#include "light/sky.h"
 #include "light/sun.h"
+#include "transport/receivers.h"
 
 #include <optional>
 #include <vector>
@@ -18,9 +20,13 @@ struct RadiationModel {
   std::vector<Waveband> bands;        // [waveband]
   std::optional<Soil> soil;           // none: what falls through is transmitted
   std::optional<SunPosition> sun;     // none, or not above the horizon: no direct light
-  int layers = 20;                    // equal layers from the ground to the highest element
+  std::optional<SkyModel> sky;        // none: no diffuse light
+  std::vector<PlaneReceiver> planes;  // in ascending order of height
+  std::vector<Sensor> sensors;
+  int layers = 20;  // equal layers from the ground to the highest element
 
   [[nodiscard]] bool has_beam() const { return sun && sun->elevation_rad > 0.0; }
+  [[nodiscard]] bool has_sky() const;  // and some band has light from it
 };
 
 }  // namespace sunfleck

@@ -63,6 +63,28 @@ struct ElementResult {
   std::uint64_t lower = 0;
 };
 
+// A horizontal receiver's map. Cells are numbered x fastest; the sums over cells are the flux through the whole plane.
+struct PlaneResult {
+  double height_m = 0.0;
+  std::uint32_t cells_x = 0, cells_z = 0;
+  std::vector<std::uint64_t> reached;   // [cell], beam rays that came down through it
+  std::vector<std::uint64_t> crossing;  // [cell], beam rays whose way, extended, crosses it: reached if nothing stood above
+  std::vector<std::int64_t> down;       // [cell * bands + band], quanta of all other light that came down through it
+  Estimate sunfleck_ratio;              // share of the plane that the direct beam reaches; value NaN without a beam
+  std::vector<Estimate> total_down;     // [band], W m-2 of plane, beam and all other light
+};
+
+// What one point of a sensor reads, W m-2.
+struct SensorResult {
+  std::vector<Estimate> direct, sky, scattered;  // [band]; direct is exact: a point sees the sun or does not
+};
+
+// What one replicate is made of: rays of the beam, packets of the first round.
+struct Work {
+  double rays = 0.0;
+  double packets = 0.0;
+};
+
 struct PassSummary {
   std::uint64_t rays = 0;
   std::size_t replicates = 0;
@@ -73,6 +95,7 @@ struct PassSummary {
 };
 
 struct IndirectSummary {
+  std::uint64_t sky_rays = 0;
   std::uint64_t packets = 0;
   std::uint64_t rounds = 0;  // over all replicates
   std::optional<double> relative_error;
@@ -92,7 +115,11 @@ struct RadiationResult {
   std::vector<std::uint64_t> soil_cells;    // [cell of the soil's map], landings of beam rays
   std::vector<std::int64_t> side_indirect;  // [(2 * element + side) * bands + band], quanta of other light; empty if none
   std::vector<std::int64_t> cell_indirect;  // [cell * bands + band]
-  std::vector<double> w_per_quantum;        // [waveband], W that one of these quanta stands for
+  std::vector<std::int64_t> side_sky;       // as side_indirect: its part that comes from the sky unscattered; empty without sky
+  std::vector<std::int64_t> cell_sky;       // as cell_indirect
+  std::vector<PlaneResult> planes;          // [plane of the model]
+  std::vector<std::vector<SensorResult>> sensors;  // [sensor of the model][point]
+  std::vector<double> w_per_quantum;               // [waveband], W that one of these quanta stands for
   Estimate sunlit_leaf_fraction;
   Estimate ground_sunfleck_ratio;  // value NaN without a beam
   double leaf_area_index = 0.0;
@@ -100,6 +127,7 @@ struct RadiationResult {
   std::uint64_t lost_rays = 0;
   PassSummary direct;
   IndirectSummary indirect;
+  Work next_work;  // with which a run on a scene much like this one would begin, its bounds the same
 
   // Irradiance (W m-2) of a side, or of a cell of the soil's map, by all but the beam; 0 without area.
   [[nodiscard]] double side_indirect_w_m2(std::size_t side, double area_m2, std::size_t band) const {
@@ -107,6 +135,14 @@ struct RadiationResult {
   }
   [[nodiscard]] double cell_indirect_w_m2(std::size_t cell, double area_m2, std::size_t band) const {
     return indirect_w_m2(cell_indirect, cell, area_m2, band);
+  }
+
+  // The part of side_indirect_w_m2 that comes from the sky unscattered.
+  [[nodiscard]] double side_sky_w_m2(std::size_t side, double area_m2, std::size_t band) const {
+    return indirect_w_m2(side_sky, side, area_m2, band);
+  }
+  [[nodiscard]] double cell_sky_w_m2(std::size_t cell, double area_m2, std::size_t band) const {
+    return indirect_w_m2(cell_sky, cell, area_m2, band);
   }
 
   // Irradiance (W m-2) that `landings` make on `area_m2` in a band of that horizontal beam irradiance; 0 without area.

@@ -4,7 +4,10 @@
 #include "base/random.h"
 #include "bvh/bvh.h"
 #include "light/beam_grid.h"
+#include "transport/beam_landings.h"
 #include "transport/indirect.h"
+#include "transport/planes.h"
+#include "transport/sky_rays.h"
 #include "transport/surfaces.h"
 #include "transport/tally.h"
 
@@ -31,21 +34,11 @@ constexpr double packet_slope = 0.5;
 constexpr int planned_replicates = 16;
 constexpr double aimed_part_of_bound = 0.7;
 constexpr int first_check = 12;
-constexpr int fixed_grid_replicates = 16;
+// Rays of the sky for each packet of the first round, where the work is not fixed, and the most of one replicate.
+constexpr double sky_rays_per_packet = 2.0;
+constexpr double most_sky_rays = 0x1p22;
 // Replicate numbers of the pilots, apart from those of the run.
 constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
-
-BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays) {
-  const glm::dvec3 to_sun = direction_to_sun(*model.sun);
-  if (model.plot.periodic) return endless_beam_grid(model.canopy.period_m, layout.box.above_m(), to_sun, rays);
-  return isolated_beam_grid(layout.box.lo_m, layout.box.hi_m, to_sun, rays);
-}
-
-// What one replicate is made of.
-struct Work {
-  double rays = 0.0;
-  double packets = 0.0;
-};
 
 using Clock = std::chrono::steady_clock;
 
@@ -60,11 +53,15 @@ class Solver {
         monitor_(monitor),
         surfaces_(model),
         counters_(layout.words()) {
-    if (scatters(model)) indirect_ = std::make_unique<IndirectPass>(model, layout, surfaces_, tracer);
+    if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
+    if (model.has_sky()) sky_.emplace(model, layout);
+    if (!scatters(model) && !sky_) return;
+    indirect_ = std::make_unique<IndirectPass>(model, layout, surfaces_, tracer, sky_ ? &*sky_ : nullptr, receivers());
   }
 
   RadiationResult run() {
     const int replicates = settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
+    if (settings_.begin_with && !fixed()) return begin_as_told(*settings_.begin_with);
     const bool needs_pilot = !settings_.grid_m || (indirect_ && !settings_.packets);
     std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
     if (!work) return finish(stop_);
@@ -93,17 +90,34 @@ class Solver {
     return false;
   }
 
+  [[nodiscard]] const PlaneReceivers* receivers() const { return receivers_ ? &*receivers_ : nullptr; }
+
   void begin(const Work& work) {
     work_ = work;
     grid_rays_ = 0;
-    double ground_per_ray_m2 = 0.0;
+    Incidence incidence;
+    incidence.sky_ground_m2 = sky_ ? sky_->ground_m2() : 0.0;
     if (model_.has_beam()) {
       const BeamGrid grid = make_grid(model_, layout_, work.rays);
       grid_rays_ = grid.rays();
-      ground_per_ray_m2 = grid.horizontal_area_per_ray_m2();
+      incidence.rays = grid.rays();
+      incidence.ground_per_ray_m2 = grid.horizontal_area_per_ray_m2();
     }
-    tally_ = std::make_unique<Tally>(model_, layout_, surfaces_, grid_rays_, ground_per_ray_m2,
+    tally_ = std::make_unique<Tally>(model_, layout_, surfaces_, receivers(), incidence,
                                      settings_.element_errors ? ElementErrors::keep : ElementErrors::skip);
+  }
+
+  // A fixed grid is the sky's as well.
+  [[nodiscard]] std::size_t sky_rays() const {
+    if (!sky_) return 0;
+    const double rays = settings_.grid_m && !settings_.packets ? work_.rays : sky_rays_per_packet * work_.packets;
+    return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
+  }
+
+  // Traces the beam of one replicate.
+  TraceOutcome count_beam(const shared::BeamBlock& beam, PlaneSums& passed, const StopQuestion& stop) {
+    if (!receivers_) return tracer_.count_beam(beam, counters_, stop);
+    return count_beam_landings(model_, layout_, *receivers_, tracer_, beam, counters_, passed, stop);
   }
 
   // Adds one replicate; false if the run has to end before it is whole.
@@ -113,24 +127,27 @@ class Solver {
     const std::uint64_t replicate = stream + tally_->replicates();
     std::optional<shared::BeamBlock> beam;
     std::fill(counters_.begin(), counters_.end(), 0U);
+    PlaneSums passed;
+    if (receivers_) passed = PlaneSums(*receivers_, model_);
     if (model_.has_beam()) {
       beam = make_beam_block(model_, layout_, work_.rays, settings_.seed, replicate);
-      if (tracer_.count_beam(*beam, counters_, stop) == TraceOutcome::stopped) return false;
+      if (count_beam(*beam, passed, stop) == TraceOutcome::stopped) return false;
     }
     const DirectSums sums = tally_->sum(counters_);
     traced_ += grid_rays_;
     if (!indirect_ || work_.packets == 0.0) {
-      tally_->add(counters_, sums, nullptr);
+      tally_->add(counters_, sums, passed, nullptr);
       return true;
     }
     const Clock::time_point start = Clock::now();
-    const FirstLandings first{beam ? &*beam : nullptr, grid_rays_, sums.met, tally_->scattered(sums)};
-    const IndirectSettings how{work_.packets, settings_.accuracy.indirect, settings_.seed, replicate};
+    const FirstLandings first{beam ? &*beam : nullptr, grid_rays_, sums.met, tally_->scattered(sums),
+                              tally_->scattered_by_zone(sums, passed)};
+    const IndirectSettings how{work_.packets, sky_rays(), settings_.accuracy.indirect, settings_.seed, replicate};
     const std::optional<IndirectSums> packets = indirect_->run(first, tally_->quanta(), how, stop);
     indirect_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
     if (!packets) return false;
-    traced_ += packets->packets;
-    tally_->add(counters_, sums, &*packets);
+    traced_ += packets->packets + packets->sky_rays;
+    tally_->add(counters_, sums, passed, &*packets);
     return true;
   }
 
@@ -150,6 +167,32 @@ class Solver {
         traced_, std::min(fraction, 1.0), {}, direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect};
     if (!std::isnan(direct)) progress.relative_error = direct_lags ? direct : indirect;
     monitor_.report(progress);
+  }
+
+  // The last run is the pilot. What this scene has that the last one had not starts as small as pilots do.
+  RadiationResult begin_as_told(Work work) {
+    if (model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
+    if (indirect_) work.packets = std::max(first_pilot_packets, work.packets);
+    begin(work);
+    return run_to_bound();
+  }
+
+  // The work with which planned_replicates would just have reached the bounds, as far as this run can tell.
+  [[nodiscard]] Work next_work() const {
+    Work next = work_;
+    const std::size_t done = tally_->replicates();
+    if (done < 2) return next;
+    const double fewer = std::sqrt(static_cast<double>(done) / planned_replicates) *
+                         t_quantile(settings_.accuracy.confidence, planned_replicates) /
+                         t_quantile(settings_.accuracy.confidence, done);
+    const auto scale = [&](double error, double bound, double slope) {
+      return std::clamp(growth(error * fewer, bound, slope), 1.0 / trusted_refinement, trusted_refinement);
+    };
+    next.rays *= scale(direct_error(), settings_.accuracy.direct, ray_slope);
+    next.packets *= scale(indirect_error(), settings_.accuracy.indirect, packet_slope);
+    next.rays = std::min(next.rays, static_cast<double>(max_grid_rays));
+    next.packets = std::min(next.packets, most_packets);
+    return next;
   }
 
   [[nodiscard]] double grid_rays_asked(int replicates) const {
@@ -284,6 +327,7 @@ class Solver {
     result.direct.seconds = seconds() - indirect_seconds_;
     result.indirect.seconds = indirect_seconds_;
     if (const double error = indirect_error(); indirect_ && !std::isnan(error)) result.indirect.relative_error = error;
+    result.next_work = next_work();
     if (!fixed()) {
       result.direct.bound = settings_.accuracy.direct;
       if (indirect_) result.indirect.bound = settings_.accuracy.indirect;
@@ -297,7 +341,9 @@ class Solver {
   const SolveSettings& settings_;
   const Monitor& monitor_;
   Surfaces surfaces_;
-  std::unique_ptr<IndirectPass> indirect_;  // none where no light goes on after its first landing
+  std::optional<PlaneReceivers> receivers_;
+  std::optional<SkyRays> sky_;
+  std::unique_ptr<IndirectPass> indirect_;  // none without a sky where no light goes on after its first landing
   Clock::time_point start_ = Clock::now();
   std::vector<std::uint32_t> counters_;
   std::unique_ptr<Tally> tally_, fallback_;
@@ -312,9 +358,12 @@ class Solver {
 // A scene without any light: every flux is exactly zero, and shares of the beam do not exist.
 RadiationResult without_light(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
   const Surfaces surfaces(model);
-  Tally tally(model, layout, surfaces, 0, 0.0, settings.element_errors ? ElementErrors::keep : ElementErrors::skip);
+  std::optional<PlaneReceivers> receivers;
+  if (!model.planes.empty()) receivers.emplace(model, layout, surfaces);
+  Tally tally(model, layout, surfaces, receivers ? &*receivers : nullptr, {},
+              settings.element_errors ? ElementErrors::keep : ElementErrors::skip);
   const std::vector<std::uint32_t> nothing(layout.words());
-  for (int replicate = 0; replicate < pilot_replicates; ++replicate) tally.add(nothing, tally.sum(nothing), nullptr);
+  for (int replicate = 0; replicate < pilot_replicates; ++replicate) tally.add(nothing, tally.sum(nothing), {}, nullptr);
   RadiationResult result = tally.result(settings.accuracy.confidence);
   result.stop = StopReason::bound_reached;
   result.direct.relative_error = 0.0;
@@ -323,39 +372,15 @@ RadiationResult without_light(const RadiationModel& model, const CounterLayout& 
 }
 
 bool has_lamps(const RadiationModel& model) {
-  const std::vector<BandQuanta> quanta = make_band_quanta(model, 0, 0.0);
+  const std::vector<BandQuanta> quanta = make_band_quanta(model, {});
   return std::any_of(quanta.begin(), quanta.end(), [](const BandQuanta& band) { return band.lamps > 0; });
 }
 
 }  // namespace
 
-shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays, std::uint64_t seed,
-                                  std::uint64_t replicate) {
-  EXPECT(model.has_beam(), ==, true);
-  const BeamGrid grid = make_grid(model, layout, rays);
-  const std::uint64_t key = RandomStream(seed, replicate).word();
-  shared::BeamBlock beam;
-  beam.corner = grid.corner_m;
-  beam.edge_u = grid.edge_u_m;
-  beam.edge_v = grid.edge_v_m;
-  beam.per_column = 1.0F / static_cast<float>(grid.columns);
-  beam.per_row = 1.0F / static_cast<float>(grid.rows);
-  beam.columns = grid.columns;
-  beam.rows = grid.rows;
-  beam.direction = grid.direction;
-  beam.key = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)};
-  beam.period = model.canopy.period_m;
-  beam.overlap = 0.5F * border_margin_m(model.canopy);
-  beam.ground = make_ground_map(layout);
-  beam.layer_base_y = layout.layers.base_y_m;
-  beam.layers_per_metre = layout.layers.per_metre;
-  beam.layers = static_cast<std::uint32_t>(layout.layers.count);
-  return beam;
-}
-
 RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
                       const Monitor& monitor) {
-  if (!model.has_beam() && !has_lamps(model)) return without_light(model, layout, settings);
+  if (!model.has_beam() && !model.has_sky() && !has_lamps(model)) return without_light(model, layout, settings);
   return Solver(model, layout, tracer, settings, monitor).run();
 }
 

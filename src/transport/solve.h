@@ -3,6 +3,7 @@
 // errors are reached.
 
 #include "transport/accuracy.h"
+#include "transport/beam_block.h"
 #include "transport/counters.h"
 #include "transport/model.h"
 #include "transport/result.h"
@@ -14,11 +15,15 @@
 
 namespace sunfleck {
 
+// Replicates of a run whose grid is fixed, but not their number.
+inline constexpr int fixed_grid_replicates = 16;
+
 struct SolveSettings {
   Accuracy accuracy;
   std::uint64_t seed = 1;
   std::optional<double> grid_m;           // fixed work: spacing of all beam rays of the run together
   std::optional<int> passes;              // fixed work: so many replicates, >= 8
+  std::optional<Work> begin_with;         // instead of what pilots would choose: next_work of a run on a scene much like this
   std::optional<double> packets;          // fixed work, beside grid_m: packets in the first round of each replicate
   std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
   std::optional<double> max_seconds;      // wall time of the simulation
@@ -42,9 +47,5 @@ struct Monitor {
 // one. Throws Error (failure) if the ledger of any band does not close, or rays and landings do not tally.
 [[nodiscard]] RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
                                     const SolveSettings& settings, const Monitor& monitor);
-
-// The beam rays of one replicate as tracers take them; `rays` is about how many.
-[[nodiscard]] shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays,
-                                                std::uint64_t seed, std::uint64_t replicate);
 
 }  // namespace sunfleck

@@ -1,5 +1,6 @@
 #include "transport/surfaces.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -20,6 +21,10 @@ Surfaces::Surfaces(const RadiationModel& model) {
     if (fresh) of.push_back({key.first, key.second, roles.soil[e]});
     number_of.push_back(place->second);
   }
+}
+
+bool RadiationModel::has_sky() const {
+  return sky && std::any_of(bands.begin(), bands.end(), [](const Waveband& band) { return band.diffuse_w_m2 > 0.0; });
 }
 
 bool scatters(const RadiationModel& model, std::size_t band) {

@@ -10,14 +10,14 @@
 
 namespace sunfleck {
 
-Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, std::uint64_t rays,
-             double ground_per_ray_m2, ElementErrors element_errors)
+Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
+             const PlaneReceivers* receivers, const Incidence& incidence, ElementErrors element_errors)
     : model_(model),
       layout_(layout),
       surfaces_(surfaces),
-      rays_(rays),
-      ground_per_ray_m2_(ground_per_ray_m2),
-      quanta_(make_band_quanta(model, rays, ground_per_ray_m2)),
+      rays_(incidence.rays),
+      ground_per_ray_m2_(incidence.ground_per_ray_m2),
+      quanta_(make_band_quanta(model, incidence)),
       ledgers_(model.bands.size()),
       bands_(model.bands.size()),
       elements_(model.canopy.size()),
@@ -25,6 +25,7 @@ Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Sur
       element_errors_(element_errors) {
   measure_elements();
   split_rays();
+  if (receivers != nullptr) planes_.emplace(*receivers, model);
   const std::size_t bands = model.bands.size();
   OrganMeans organ;
   for (auto* means : {&organ.direct, &organ.indirect, &organ.absorbed, &organ.indirect_absorbed}) means->resize(bands);
@@ -36,7 +37,7 @@ Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Sur
   direct_spread_.resize(model.canopy.size());
   element_hits_.resize(model.canopy.size());
   absorbed_spread_.resize(model.canopy.size() * bands);
-  if (scatters(model)) indirect_spread_.resize(model.canopy.size() * bands);
+  if (scatters(model) || model.has_sky()) indirect_spread_.resize(model.canopy.size() * bands);
 }
 
 // Areas by organ and layer, and the area of its element that a landing stands for: the beam's cross-section over the cosine
@@ -170,11 +171,30 @@ std::vector<std::int64_t> Tally::scattered(const DirectSums& sums) const {
   return scattered;
 }
 
-void Tally::add(std::span<const std::uint32_t> counters, const DirectSums& sums, const IndirectSums* indirect) {
+std::vector<std::int64_t> Tally::scattered_by_zone(const DirectSums& sums, const PlaneSums& passed) const {
+  const std::size_t bands = quanta_.size();
+  const std::size_t faces = model_.optics.size() * 2;
+  if (!planes_) return {};
+  std::vector<std::int64_t> scattered((model_.planes.size() + 1) * bands);
+  const auto add = [&](std::size_t zone, std::size_t band, std::uint64_t landings, const QuantaSplit& split) {
+    scattered[zone * bands + band] += static_cast<std::int64_t>(landings) * (split.reflected + split.transmitted);
+  };
+  for (std::size_t b = 0; b < bands; ++b) {
+    for (std::size_t k = 0; k < passed.zone_landings.size(); ++k) {
+      add(k / faces, b, passed.zone_landings[k], splits_[k % faces * bands + b]);
+    }
+    if (model_.soil) add(0, b, sums.soil_plane, splits_[faces * bands + b]);
+  }
+  return scattered;
+}
+
+void Tally::add(std::span<const std::uint32_t> counters, const DirectSums& sums, const PlaneSums& passed,
+                const IndirectSums* indirect) {
   ++replicates_;
   lost_ += sums.lost;
   if (indirect != nullptr) {
     lost_ += indirect->lost;
+    sky_rays_ += indirect->sky_rays;
     packets_ += indirect->packets;
     rounds_ += indirect->rounds;
   }
@@ -182,7 +202,18 @@ void Tally::add(std::span<const std::uint32_t> counters, const DirectSums& sums,
   add_to_band_means(sums, indirect);
   add_to_organ_means(sums, indirect);
   add_to_layer_means(sums, indirect);
+  if (planes_) add_to_planes(passed, indirect);
   add_elements(counters, indirect);
+}
+
+void Tally::add_to_planes(const PlaneSums& passed, const IndirectSums* indirect) {
+  std::vector<double> per_ray, per_quantum;
+  for (std::size_t b = 0; b < quanta_.size(); ++b) {
+    per_ray.push_back(ground_per_ray_m2_ / model_.plot.area_m2() * beam_w_m2(b));
+    per_quantum.push_back(quanta_[b].w_m2_per_quantum);
+  }
+  planes_->add(model_.has_beam() ? &passed : nullptr, indirect != nullptr ? &indirect->receivers : nullptr, per_ray,
+               per_quantum);
 }
 
 void Tally::add_to_ledgers(const DirectSums& sums, const IndirectSums* indirect) {
@@ -205,6 +236,9 @@ void Tally::add_to_ledgers(const DirectSums& sums, const IndirectSums* indirect)
     ledger.unshot += static_cast<std::int64_t>(sums.lost) * per_ray;
     if (indirect == nullptr) {
       for (std::size_t k = b; k < waiting.size(); k += ledgers_.size()) ledger.unshot += waiting[k];
+      const std::int64_t other = quanta_[b].lamps + (model_.plot.periodic ? quanta_[b].sky : 0);
+      ledger.incident += other;
+      ledger.unshot += other;
       continue;
     }
     const FluxLedger& packets = indirect->ledger[b];

@@ -5,10 +5,12 @@
 #include "transport/counters.h"
 #include "transport/indirect.h"
 #include "transport/model.h"
+#include "transport/planes.h"
 #include "transport/result.h"
 #include "transport/surfaces.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,10 +33,9 @@ struct DirectSums {
 
 class Tally {
  public:
-  // All replicates have `rays` beam rays (0 without a beam), each standing for ground_per_ray_m2 of level ground. Model, layout
-  // and surfaces must outlive it.
-  Tally(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, std::uint64_t rays,
-        double ground_per_ray_m2, ElementErrors element_errors);
+  // All replicates are alike in `incidence`. All but that must outlive it; `receivers` may be null.
+  Tally(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, const PlaneReceivers* receivers,
+        const Incidence& incidence, ElementErrors element_errors);
 
   [[nodiscard]] const std::vector<BandQuanta>& quanta() const { return quanta_; }
 
@@ -44,8 +45,13 @@ class Tally {
   // What the first landings leave to be shot, as FirstLandings::scattered.
   [[nodiscard]] std::vector<std::int64_t> scattered(const DirectSums& sums) const;
 
-  // Adds a replicate. Without an indirect pass what its first landings scattered counts as unshot.
-  void add(std::span<const std::uint32_t> counters, const DirectSums& sums, const IndirectSums* indirect);
+  // The same by zones of the receivers, as FirstLandings::scattered_by_zone. Empty without them.
+  [[nodiscard]] std::vector<std::int64_t> scattered_by_zone(const DirectSums& sums, const PlaneSums& passed) const;
+
+  // Adds a replicate; `passed`: what its beam rays did at the receivers. Without an indirect pass what its first landings
+  // scattered, and in an endless canopy what the sky sends, count as unshot.
+  void add(std::span<const std::uint32_t> counters, const DirectSums& sums, const PlaneSums& passed,
+           const IndirectSums* indirect);
 
   [[nodiscard]] std::size_t replicates() const { return replicates_; }
 
@@ -92,6 +98,7 @@ class Tally {
   void add_to_band_means(const DirectSums& sums, const IndirectSums* indirect);
   void add_to_organ_means(const DirectSums& sums, const IndirectSums* indirect);
   void add_to_layer_means(const DirectSums& sums, const IndirectSums* indirect);
+  void add_to_planes(const PlaneSums& passed, const IndirectSums* indirect);
   void add_elements(std::span<const std::uint32_t> counters, const IndirectSums* indirect);
   [[nodiscard]] Landings element_landings(std::span<const std::uint32_t> counters, std::size_t element) const;
   [[nodiscard]] double absorptance(std::size_t optics, std::size_t side, std::size_t band) const;
@@ -110,6 +117,7 @@ class Tally {
   const Surfaces& surfaces_;
   std::uint64_t rays_;
   double ground_per_ray_m2_;
+  std::optional<PlaneTally> planes_;
   std::vector<BandQuanta> quanta_;         // [band]
   std::vector<float> lit_m2_per_landing_;  // [element], of the element's own area
   std::vector<bool> foliage_;              // [element]
@@ -119,7 +127,7 @@ class Tally {
   std::vector<QuantaSplit> splits_;  // of a ray: [(optics * 2 + side) * bands + band], then [band] of the soil plane
 
   std::size_t replicates_ = 0;
-  std::uint64_t lost_ = 0, packets_ = 0, rounds_ = 0;
+  std::uint64_t lost_ = 0, sky_rays_ = 0, packets_ = 0, rounds_ = 0;
   std::vector<FluxLedger> ledgers_;  // [band]
   ReplicateMean first_vegetation_, first_ground_, met_, ground_ratio_, sunlit_;
   std::vector<BandMeans> bands_;
@@ -128,6 +136,7 @@ class Tally {
   std::vector<ElementResult> elements_;
   std::vector<std::int64_t> side_landed_;  // as IndirectSums::side_landed, over all replicates; empty before the first
   std::vector<std::int64_t> cell_landed_;
+  std::vector<std::int64_t> side_sky_, cell_sky_;
   std::vector<std::uint64_t> soil_cells_;
   std::vector<std::uint64_t> element_hits_;  // [element], rays and packets; empty if errors are skipped
   ElementErrors element_errors_;

@@ -127,6 +127,10 @@ void Tally::add_elements(std::span<const std::uint32_t> counters, const Indirect
     cell_landed_.resize(indirect->cell_landed.size());
     for (std::size_t k = 0; k < side_landed_.size(); ++k) side_landed_[k] += indirect->side_landed[k];
     for (std::size_t k = 0; k < cell_landed_.size(); ++k) cell_landed_[k] += indirect->cell_landed[k];
+    side_sky_.resize(indirect->side_sky.size());
+    cell_sky_.resize(indirect->cell_sky.size());
+    for (std::size_t k = 0; k < side_sky_.size(); ++k) side_sky_[k] += indirect->side_sky[k];
+    for (std::size_t k = 0; k < cell_sky_.size(); ++k) cell_sky_[k] += indirect->cell_sky[k];
   }
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const Landings landings = element_landings(counters, e);
@@ -251,11 +255,15 @@ RadiationResult Tally::result(double confidence) const {
   result.soil_cells = soil_cells_;
   result.side_indirect = side_landed_;
   result.cell_indirect = cell_landed_;
+  result.side_sky = side_sky_;
+  result.cell_sky = cell_sky_;
+  if (planes_) result.planes = planes_->results(quantile);
   result.sunlit_leaf_fraction = sunlit_.estimate(quantile);
   result.ground_sunfleck_ratio = model_.has_beam() ? ground_ratio_.estimate(quantile) : Estimate{none, none};
   result.leaf_area_index = foliage_m2_ / model_.plot.area_m2();
   result.ground_per_ray_m2 = replicates_ > 0 ? ground_per_ray_m2_ / static_cast<double>(replicates_) : 0.0;
   result.lost_rays = lost_;
+  result.indirect.sky_rays = sky_rays_;
   result.indirect.packets = packets_;
   result.indirect.rounds = rounds_;
   return result;

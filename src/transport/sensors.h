@@ -1,0 +1,37 @@
+#pragma once
+// What sensors read: rays followed backwards, from the points that measure to where the light comes from. They take no part in
+// the flux ledger.
+
+#include "transport/counters.h"
+#include "transport/model.h"
+#include "transport/result.h"
+#include "transport/tracer.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sunfleck {
+
+struct SensorSettings {
+  std::uint32_t rays = 1024;  // of sky light and of scattered light each, from every point in every replicate; up to 2^20
+  int replicates = 8;         // >= 8
+  std::uint64_t seed = 1;
+  double confidence = 0.95;
+};
+
+// The readings of the model's sensors, [sensor][point]; none if stopped. All are unbiased; half-widths come from the spread
+// between replicates.
+// - direct: one ray to the sun. Exact, half-width 0.
+// - sky: rays to directions drawn from the sky; for a sky of single lights one ray to each, exact. A uniform sky of horizontal
+//   irradiance 1 reads 1 on a level plane, 1/2 on an upright one and 2 on a sphere where nothing stands in its way.
+// - scattered: light that has left a surface, lamps included.
+// A point below the soil plane counts as on it. A point of cosine response measures just in front of itself, so that it may lie
+// on a leaf. A ray that the guard on periods crossed ends, or a path of more than 10,000 bounces, brings no more light.
+// The same for any number of threads and on every tracer that lands rays alike.
+[[nodiscard]] std::optional<std::vector<std::vector<SensorResult>>> measure_sensors(const RadiationModel& model,
+                                                                                    const CounterLayout& layout, Tracer& tracer,
+                                                                                    const SensorSettings& settings,
+                                                                                    const StopQuestion& stop);
+
+}  // namespace sunfleck

@@ -1,0 +1,41 @@
+#pragma once
+// Rays of sky light: one for each share of the sky's flux, from a plane above an endless canopy or from a disc around an
+// isolated stand.
+
+#include "base/random.h"
+#include "light/sky.h"
+#include "shared/layout.h"
+#include "transport/counters.h"
+#include "transport/model.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sunfleck {
+
+class SkyRays {
+ public:
+  // For a model that has a sky.
+  SkyRays(const RadiationModel& model, const CounterLayout& layout);
+
+  // All rays of a replicate together carry the flux that horizontal sky irradiance brings to so much level ground.
+  [[nodiscard]] double ground_m2() const { return ground_m2_; }
+
+  // About `count` rays of equal flux: parallel beams from directions drawn one in each of equal shares of the sky's flux, the
+  // origins of a beam's rays one in each cell of a grid over the plot, or over the disc that faces the beam.
+  [[nodiscard]] std::vector<shared::Packet> draw(std::size_t count, RandomStream& random) const;
+
+ private:
+  [[nodiscard]] glm::dvec3 origin_above(double u, double v) const;
+  [[nodiscard]] glm::dvec3 origin_around(const glm::dvec3& to_sky, double u, double v) const;
+
+  Sky sky_;
+  bool periodic_;
+  glm::dvec2 period_m_{0.0};
+  double top_y_m_ = 0.0;
+  glm::dvec3 centre_m_{0.0};  // of the sphere around an isolated stand and its plot
+  double radius_m_ = 0.0;
+  double ground_m2_ = 0.0;
+};
+
+}  // namespace sunfleck
