@@ -113,35 +113,6 @@ struct PausedPacket {
   uint stuck;  // as in PausedRay
 };
 
-// A picture: the camera as view/camera.h has it, in the canopy's local frame; right and up scaled by the tangents of half the
-// angles of view.
-struct ViewBlock {
-  vec3 position;
-  uint width;
-  vec3 forward;
-  uint height;
-  vec3 right;
-  uint samples;  // a pixel
-  vec3 up;
-  uint elements;  // surfaces 2 * element + side, then the ground's cells
-  GroundMap ground;
-  float start;  // depth at which rays begin, set by see_with_gpu and see_with_cpu
-};
-
-// One dispatch of a picture: samples first..first+count-1 of all its pixels.
-struct ViewPush {
-  uint first;
-  uint count;
-};
-
-// What one sample of a pixel sees.
-struct SeenSurface {
-  uint surface;  // seen_nothing where there is only sky
-  float depth;   // along the camera's forward axis
-};
-const uint seen_nothing = 0xffffffffu;
-const uint seen_unfinished = 0xfffffffeu;  // more steps than a dispatch has: the host looks again
-
 SHARED_END
 
 #endif

@@ -3,12 +3,14 @@
 #define SUNFLECK_SHARED_VIEW_H
 
 #include "shared/beam.h"
+#include "shared/view_layout.h"
 
 SHARED_BEGIN
 
-// Through the point (x, y) of the picture, 0..1 from the left and from the top. Its length is such that t is the depth along
-// the forward axis.
+// Through the point (x, y) of the picture, 0..1 from the left and from the top; not of a fisheye. Its length is such that t is
+// the depth along the forward axis.
 INLINE vec3 view_direction(ViewBlock view, float x, float y) {
+  if (view.kind == view_orthographic) return view.forward;
   EXACT float across = 2.0f * x - 1.0f;
   EXACT float up = 1.0f - 2.0f * y;
   EXACT float dx = view.forward.x + (view.right.x * across + view.up.x * up);
@@ -17,12 +19,23 @@ INLINE vec3 view_direction(ViewBlock view, float x, float y) {
   return vec3(dx, dy, dz);
 }
 
+// The point of the camera that the ray through (x, y) passes.
+INLINE vec3 view_position(ViewBlock view, float x, float y) {
+  if (view.kind != view_orthographic) return view.position;
+  EXACT float across = 2.0f * x - 1.0f;
+  EXACT float up = 1.0f - 2.0f * y;
+  EXACT float px = view.position.x + (view.right.x * across + view.up.x * up);
+  EXACT float py = view.position.y + (view.right.y * across + view.up.y * up);
+  EXACT float pz = view.position.z + (view.right.z * across + view.up.z * up);
+  return vec3(px, py, pz);
+}
+
 // Where the ray begins: no farther from the scene than needed, since the boxes of the tree are padded for rounding errors over
 // lengths of its own size.
-INLINE vec3 view_origin(ViewBlock view, vec3 direction) {
-  EXACT float x = view.position.x + view.start * direction.x;
-  EXACT float y = view.position.y + view.start * direction.y;
-  EXACT float z = view.position.z + view.start * direction.z;
+INLINE vec3 view_origin(ViewBlock view, vec3 position, vec3 direction) {
+  EXACT float x = position.x + view.start * direction.x;
+  EXACT float y = position.y + view.start * direction.y;
+  EXACT float z = position.z + view.start * direction.z;
   return vec3(x, y, z);
 }
 
@@ -31,12 +44,13 @@ INLINE float view_depth(ViewBlock view, float t) {
   return depth;
 }
 
-// Where sample `number` of the picture lies; `offset` is its place in the pixel, 0..1.
-INLINE vec2 sample_point(ViewBlock view, uint number, vec2 offset, float per_width, float per_height) {
+// Where a sample of the picture lies; `number` counts from the first sample of the row `first_row`, `offset` is its place in
+// the pixel, 0..1.
+INLINE vec2 sample_point(ViewBlock view, uint first_row, uint number, vec2 offset, float per_width, float per_height) {
   const uint pixel = number / view.samples;
   const uint row = pixel / view.width;
   EXACT float x = (float(pixel - row * view.width) + offset.x) * per_width;
-  EXACT float y = (float(row) + offset.y) * per_height;
+  EXACT float y = (float(first_row + row) + offset.y) * per_height;
   return vec2(x, y);
 }
 
@@ -47,11 +61,36 @@ INLINE float seen_ground(Ray ray, GroundMap ground) {
   return t > 0.0f && in_plot(ground, ground_point(ray, t)) ? t : 0.0f;
 }
 
-// How far a ray that meets the ground at `t` looks for elements, so that one lying in the ground is seen.
-INLINE float ground_limit(Ray ray, GroundMap ground, float t) {
+// An element lying in the ground is seen although the ray meets the ground a little before it.
+INLINE float ground_slack(Ray ray, GroundMap ground) {
   EXACT float slack = ground.depth * magnitude(ray.inverse.y);
+  return slack;
+}
+
+// How far a ray that meets the ground at `t` looks for elements.
+INLINE float ground_limit(float t, float slack) {
   EXACT float limit = t + slack;
   return t > 0.0f ? limit : 1e30f;
+}
+
+// How far it looks where something has been seen already, in another copy of the plot.
+INLINE float kept_limit(ViewBlock view, SeenSurface kept, float slack, float limit) {
+  EXACT float t = (kept.depth - view.start) + slack;
+  return kept.surface != seen_nothing && t < limit ? t : limit;
+}
+
+// Whether what is found replaces what has been seen in another copy of the plot: the nearer wins, an element over the ground
+// also where it lies in it.
+INLINE bool replaces(ViewBlock view, SeenSurface found, SeenSurface kept, float slack) {
+  if (found.surface == seen_nothing) return false;
+  if (kept.surface == seen_nothing) return true;
+  const bool found_ground = found.surface >= 2u * view.elements;
+  const bool kept_ground = kept.surface >= 2u * view.elements;
+  EXACT float kept_to = kept.depth + slack;
+  EXACT float found_to = found.depth + slack;
+  if (found_ground && !kept_ground) return found_to < kept.depth;
+  if (kept_ground && !found_ground) return found.depth <= kept_to;
+  return found.depth < kept.depth;
 }
 
 SHARED_END

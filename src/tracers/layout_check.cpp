@@ -2,6 +2,7 @@
 
 #include "bvh/bvh.h"
 #include "shared/layout.h"
+#include "shared/view_layout.h"
 
 #include <cstddef>
 
@@ -24,9 +25,10 @@ static_assert(sizeof(Landing) == 16);
 static_assert(sizeof(PacketPush) == 12);
 static_assert(sizeof(PausedPacket) == 28);
 static_assert(offsetof(ViewBlock, ground) == 64);
-static_assert(sizeof(ViewBlock) == 108);
-static_assert(sizeof(ViewPush) == 8);
-static_assert(sizeof(SeenSurface) == 8);
+static_assert(offsetof(ViewBlock, circle_centre) == 112);
+static_assert(sizeof(ViewBlock) == 128);
+static_assert(sizeof(ViewPush) == 16);
+static_assert(sizeof(SeenSurface) == 12);
 static_assert(sizeof(BvhNode) == 5 * 16);
 static_assert(sizeof(BvhTriangle) == 3 * 16);
 

@@ -13,19 +13,19 @@
 namespace sunfleck {
 namespace {
 
-// The part of the picture that three_quarter_view fills, as tangents of the angles to `forward` for a half picture of 1.
+// The part of the picture that the scene fills, from the middle; half the picture is `half_height` high: a tangent or a length.
 // Kept free: a strip at the top for the titles, at the bottom for the footer, at the left for an axis' letter and at the right
 // for the legend. The type's size, and so the width of letter and legend, follows the picture's height.
 struct Window {
   double left, right, bottom, top;
 };
 
-Window free_window(double tan_half_fov, double aspect) {
+Window free_window(double half_height, double aspect) {
   constexpr double top_margin = 0.15, bottom_margin = 0.085;
   const double left_margin = std::min(0.065 / aspect, 0.15);
   const double legend_width = std::min(0.36 / aspect, 0.4);
-  const auto horizontal = [&](double x) { return (2.0 * x - 1.0) * tan_half_fov * aspect; };
-  const auto vertical = [&](double y) { return (1.0 - 2.0 * y) * tan_half_fov; };
+  const auto horizontal = [&](double x) { return (2.0 * x - 1.0) * half_height * aspect; };
+  const auto vertical = [&](double y) { return (1.0 - 2.0 * y) * half_height; };
   return {horizontal(left_margin), horizontal(1.0 - legend_width), vertical(1.0 - bottom_margin), vertical(top_margin)};
 }
 
@@ -59,6 +59,72 @@ glm::dvec3 fitting_position(const Camera& camera, const Window& window, std::spa
   return a0 * camera.right + b0 * camera.up + d0 * camera.forward;
 }
 
+// Corners of the box and tips of axes from its lowest corner that reach beyond it.
+std::array<glm::dvec3, 11> points_to_show(glm::dvec3 lo_m, glm::dvec3 hi_m) {
+  const glm::dvec3 extent_m = hi_m - lo_m;
+  const double overhang_m = axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
+  EXPECT(std::min({extent_m.x, extent_m.y, extent_m.z}), >=, 0.0);
+  EXPECT(overhang_m, >, 0.0);
+  std::array<glm::dvec3, 11> points_m;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    points_m[corner] = {(corner & 1U) != 0 ? hi_m.x : lo_m.x, (corner & 2U) != 0 ? hi_m.y : lo_m.y,
+                        (corner & 4U) != 0 ? hi_m.z : lo_m.z};
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 tip_m = lo_m;
+    tip_m[axis] = hi_m[axis] + overhang_m;
+    points_m[8U + static_cast<std::size_t>(axis)] = tip_m;
+  }
+  return points_m;
+}
+
+// An orthographic camera of that direction whose picture is as small as the points allow, and which stands before them all.
+Camera fitting_orthographic(glm::dvec3 forward, glm::dvec3 right, double aspect, std::span<const glm::dvec3> points_m) {
+  EXPECT(aspect, >, 0.0);
+  Camera camera;
+  camera.kind = Projection::orthographic;
+  camera.aspect = aspect;
+  camera.forward = forward;
+  camera.right = right;
+  camera.up = glm::cross(right, forward);
+  Interval across, upwards, along;
+  const auto take_in = [](Interval& interval, double value) { interval.take_in(value, value); };
+  for (const glm::dvec3& point : points_m) {
+    take_in(across, glm::dot(point, camera.right));
+    take_in(upwards, glm::dot(point, camera.up));
+    take_in(along, glm::dot(point, camera.forward));
+  }
+  const Window unit = free_window(1.0, aspect);
+  camera.half_height_m =
+      std::max((across.hi - across.lo) / (unit.right - unit.left), (upwards.hi - upwards.lo) / (unit.top - unit.bottom));
+  const double a0 = 0.5 * (across.lo + across.hi - camera.half_height_m * (unit.left + unit.right));
+  const double b0 = 0.5 * (upwards.lo + upwards.hi - camera.half_height_m * (unit.bottom + unit.top));
+  const double d0 = along.lo - 2.0 * camera.half_height_m;
+  camera.position_m = a0 * camera.right + b0 * camera.up + d0 * camera.forward;
+  return camera;
+}
+
+// The point (x, y) of the picture from its middle, in half heights of the picture.
+glm::dvec2 from_middle(const Camera& camera, glm::dvec2 at) {
+  return {(2.0 * at.x - 1.0) * camera.aspect, 1.0 - 2.0 * at.y};
+}
+
+// The same from the centre of a fisheye's circle, in radii of the circle.
+glm::dvec2 from_zenith(const Camera& camera, glm::dvec2 at) {
+  return glm::dvec2((at.x - camera.circle_centre.x) * camera.aspect, camera.circle_centre.y - at.y) / camera.circle_radius;
+}
+
+std::optional<Appearance> project_hemisphere(const Camera& camera, glm::dvec3 offset_m) {
+  const double distance_m = glm::length(offset_m);
+  const double ahead_m = glm::dot(offset_m, camera.forward);
+  if (!(distance_m > 0.0) || ahead_m < 0.0) return std::nullopt;
+  const glm::dvec2 aside_m(glm::dot(offset_m, camera.right), glm::dot(offset_m, camera.up));
+  const double aside = glm::length(aside_m);
+  const double radii = std::atan2(aside, ahead_m) / (0.5 * std::numbers::pi);
+  const glm::dvec2 from_centre = aside > 0.0 ? aside_m * (radii * camera.circle_radius / aside) : glm::dvec2(0.0);
+  return Appearance{camera.circle_centre + glm::dvec2(from_centre.x / camera.aspect, -from_centre.y), distance_m};
+}
+
 }  // namespace
 
 Camera look_at(glm::dvec3 position_m, glm::dvec3 look_at_m, double vertical_fov_rad, double aspect) {
@@ -84,21 +150,7 @@ Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect) {
   constexpr double vertical_fov_rad = 26.0 * degree;  // mild perspective, as of a telephoto lens
   constexpr double elevation_rad = 27.0 * degree;
   constexpr double from_south_rad = 38.0 * degree;  // towards the west
-  const glm::dvec3 extent_m = hi_m - lo_m;
-  const double overhang_m = axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
-  EXPECT(std::min({extent_m.x, extent_m.y, extent_m.z}), >=, 0.0);
-  EXPECT(overhang_m, >, 0.0);
-
-  std::array<glm::dvec3, 11> points_m;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    points_m[corner] = {(corner & 1U) != 0 ? hi_m.x : lo_m.x, (corner & 2U) != 0 ? hi_m.y : lo_m.y,
-                        (corner & 4U) != 0 ? hi_m.z : lo_m.z};
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 tip_m = lo_m;
-    tip_m[axis] = hi_m[axis] + overhang_m;
-    points_m[8U + static_cast<std::size_t>(axis)] = tip_m;
-  }
+  const std::array<glm::dvec3, 11> points_m = points_to_show(lo_m, hi_m);
   const glm::dvec3 towards_camera(std::cos(elevation_rad) * std::cos(from_south_rad), std::sin(elevation_rad),
                                   std::cos(elevation_rad) * std::sin(from_south_rad));
   Camera camera = look_at(towards_camera, glm::dvec3(0.0), vertical_fov_rad, aspect);
@@ -106,19 +158,74 @@ Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect) {
   return camera;
 }
 
-glm::dvec3 ray_direction(const Camera& camera, glm::dvec2 at) {
-  return glm::normalize(camera.forward + camera.right * ((2.0 * at.x - 1.0) * camera.tan_half_fov * camera.aspect) +
-                        camera.up * ((1.0 - 2.0 * at.y) * camera.tan_half_fov));
+Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect) {
+  return fitting_orthographic({0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}, aspect, points_to_show(lo_m, hi_m));
 }
 
-std::optional<Projection> project(const Camera& camera, glm::dvec3 point_m) {
+Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect) {
+  return fitting_orthographic({-1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, aspect, points_to_show(lo_m, hi_m));
+}
+
+Camera fisheye_view(glm::dvec3 position_m, double aspect) {
+  EXPECT(aspect, >, 0.0);
+  constexpr double letter_room = 0.035;  // around the circle, in heights of the picture
+  const Window window = free_window(0.5, aspect);
+  Camera camera;
+  camera.kind = Projection::fisheye;
+  camera.aspect = aspect;
+  camera.position_m = position_m;
+  camera.forward = {0.0, 1.0, 0.0};
+  camera.right = {0.0, 0.0, 1.0};
+  camera.up = {-1.0, 0.0, 0.0};
+  camera.circle_centre = {0.5 + 0.5 * (window.left + window.right) / aspect, 0.5 - 0.5 * (window.bottom + window.top)};
+  const double room = 0.5 * std::min(window.right - window.left, window.top - window.bottom);
+  camera.circle_radius = std::max(room - letter_room, 0.5 * room);
+  return camera;
+}
+
+bool in_view(const Camera& camera, glm::dvec2 at) {
+  return camera.kind != Projection::fisheye || glm::length(from_zenith(camera, at)) <= 1.0;
+}
+
+glm::dvec3 ray_origin(const Camera& camera, glm::dvec2 at) {
+  if (camera.kind != Projection::orthographic) return camera.position_m;
+  const glm::dvec2 aside_m = from_middle(camera, at) * camera.half_height_m;
+  return camera.position_m + camera.right * aside_m.x + camera.up * aside_m.y;
+}
+
+glm::dvec3 ray_direction(const Camera& camera, glm::dvec2 at) {
+  if (camera.kind == Projection::orthographic) return camera.forward;
+  if (camera.kind == Projection::fisheye) {
+    const glm::dvec2 radii = from_zenith(camera, at);
+    const double angle_rad = 0.5 * std::numbers::pi * glm::length(radii);
+    const glm::dvec2 aside = angle_rad > 0.0 ? radii * (std::sin(angle_rad) / glm::length(radii)) : glm::dvec2(0.0);
+    return glm::normalize(std::cos(angle_rad) * camera.forward + aside.x * camera.right + aside.y * camera.up);
+  }
+  const glm::dvec2 aside = from_middle(camera, at) * camera.tan_half_fov;
+  return glm::normalize(camera.forward + camera.right * aside.x + camera.up * aside.y);
+}
+
+std::optional<Appearance> project(const Camera& camera, glm::dvec3 point_m) {
   const glm::dvec3 offset_m = point_m - camera.position_m;
+  if (camera.kind == Projection::fisheye) return project_hemisphere(camera, offset_m);
   const double depth_m = glm::dot(offset_m, camera.forward);
   if (!(depth_m > 0.0)) return std::nullopt;
-  const double half_height_m = depth_m * camera.tan_half_fov;
-  return Projection{{0.5 + 0.5 * glm::dot(offset_m, camera.right) / (half_height_m * camera.aspect),
+  const double half_height_m = camera.kind == Projection::orthographic ? camera.half_height_m : depth_m * camera.tan_half_fov;
+  return Appearance{{0.5 + 0.5 * glm::dot(offset_m, camera.right) / (half_height_m * camera.aspect),
                      0.5 - 0.5 * glm::dot(offset_m, camera.up) / half_height_m},
                     depth_m};
+}
+
+double pixel_size_m(const Camera& camera, int height, double depth_m) {
+  switch (camera.kind) {
+    case Projection::perspective:
+      return 2.0 * camera.tan_half_fov * depth_m / height;
+    case Projection::orthographic:
+      return 2.0 * camera.half_height_m / height;
+    case Projection::fisheye:
+      return 0.5 * std::numbers::pi / camera.circle_radius * depth_m / height;
+  }
+  return 0.0;
 }
 
 }  // namespace sunfleck

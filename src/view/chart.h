@@ -5,48 +5,59 @@
 #include "view/camera.h"
 #include "view/colour_scale.h"
 #include "view/image.h"
+#include "view/legend.h"
+#include "view/surface_image.h"
 
-#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace sunfleck {
 
-// What each sample of each pixel sees.
-struct SurfaceImage {
-  static constexpr std::uint32_t nothing = 0xffffffffU;
-  int width = 0;
-  int height = 0;
-  int samples = 1;                     // a pixel
-  std::vector<std::uint32_t> surface;  // [row][column][sample]: a surface number or `nothing`
-  std::vector<float> depth_m;          // [row][column][sample]: along the camera's forward axis
-};
-
-// One entry of the legend, from its top to its bottom.
-struct LegendEntry {
-  Colour colour{};
-  std::string label;  // "FROM – TO" (en dash) is set in two columns
-};
-
-// The entries of a rank chart, full sun first, labelled with the bounds to three digits of the largest, or as many more as it
-// takes to tell the bounds apart. Empty classes are left out.
-[[nodiscard]] std::vector<LegendEntry> rank_legend(const RankScale& scale);
-
 // UTF-8, a line each. What is too long for the picture is set smaller.
 struct ChartText {
   std::string title;
   std::string subtitle;      // may be empty
-  std::string legend_title;  // e.g. "Direct PAR irradiance, W m⁻²": what follows the last ", " is a line of its own
+  std::string legend_title;  // as Legend::title
   std::vector<LegendEntry> legend;
-  std::string footer;  // may be empty
+  std::string footer;            // may be empty
+  std::optional<ColourBar> bar;  // below the entries of the legend
 };
 
-// Draws the chart at the size of `seen`: surfaces in `colours` (linear, [surface number]) averaged over each pixel's samples
-// over a soft background; the axes from the plot's origin in red (X), green (Y), blue (Z) with their letters, the plot's
+// What a chart shows, and how large. A fisheye's chart has the horizon's circle and N, E, S, W instead of axes and border.
+struct ChartFrame {
+  int width = 0;
+  int height = 0;
+  Camera camera;
+  Plot plot;
+  double height_m = 0.0;  // of the canopy, for the length of the axes
+};
+
+// A chart that is painted band of rows by band of rows; how the rows are cut changes no pixel.
+//
+// Surfaces in their colours averaged over each pixel's samples over a soft background, those of neighbouring copies of the plot
+// mixed half and half with it; the axes from the plot's origin in red (X), green (Y), blue (Z) with their letters, the plot's
 // border at ground level in black, both hidden where a surface stands before them (their letters never are); text in a
-// sans-serif type whose size follows the picture's height, readable at half size. `height_m` is the canopy's height, for the
-// length of the axes.
+// sans-serif type whose size follows the picture's height, readable at half size.
+class ChartCanvas {
+ public:
+  // colours: linear, [surface number].
+  ChartCanvas(const ChartFrame& frame, std::vector<Colour> colours);
+
+  // Paints the rows that are in `seen`; each row once, in any order.
+  void paint(const SurfaceImage& seen);
+
+  // After all rows. The picture is handed over.
+  [[nodiscard]] Image finish(const ChartText& text);
+
+ private:
+  ChartFrame frame_;
+  std::vector<Colour> colours_;
+  Image image_;
+};
+
+// The same in one go, at the size of `seen`.
 [[nodiscard]] Image draw_chart(const SurfaceImage& seen, std::span<const Colour> colours, const Camera& camera,
                                const Plot& plot, double height_m, const ChartText& text);
 

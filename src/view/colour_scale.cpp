@@ -1,6 +1,7 @@
 #include "view/colour_scale.h"
 
 #include "base/check.h"
+#include "view/viridis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,34 +46,83 @@ std::vector<Group> groups_by_value(std::span<const double> values, std::span<con
   return groups;
 }
 
+double weight_of(std::span<const Group> groups) {
+  double weight = 0.0;
+  for (const Group& group : groups) weight += group.weight;
+  return weight;
+}
+
+// Of groups in rising order; 0 without any.
+double quantile(std::span<const Group> groups, double share) {
+  const double wanted = share * weight_of(groups);
+  double below = 0.0;
+  for (const Group& group : groups) {
+    below += group.weight;
+    if (below >= wanted) return group.value;
+  }
+  return groups.empty() ? 0.0 : groups.back().value;
+}
+
+std::span<const Group> above_zero(std::span<const Group> groups) {
+  return !groups.empty() && groups.front().value == 0.0 ? groups.subspan(1) : groups;
+}
+
+double largest_of(std::span<const double> values) {
+  return values.empty() ? 0.0 : std::max(0.0, *std::max_element(values.begin(), values.end()));
+}
+
+RankScale equal_interval_ranks(std::span<const Group> groups, std::span<const double> values) {
+  const double top = groups.empty() ? largest_of(values) : quantile(above_zero(groups), rank_top_share);
+  RankScale scale;
+  for (int k = 0; k <= rank_count; ++k) scale.bounds[k] = top * k / rank_count;
+  scale.open = !groups.empty() && groups.back().value > top;
+  return scale;
+}
+
 }  // namespace
+
+double weighted_quantile(std::span<const double> values, std::span<const double> weights, double share) {
+  EXPECT(share, >=, 0.0);
+  EXPECT(share, <=, 1.0);
+  return quantile(groups_by_value(values, weights), share);
+}
 
 RankScale equal_count_ranks(std::span<const double> values, std::span<const double> weights) {
   const std::vector<Group> groups = groups_by_value(values, weights);
-  if (groups.size() < 2) return equal_interval_ranks(values);
-  double positive_weight = 0.0;
-  for (const Group& group : groups) positive_weight += group.value > 0.0 ? group.weight : 0.0;
+  if (groups.size() < 2) return equal_interval_ranks(groups, values);
+  const std::span<const Group> lit = above_zero(groups);
+  const double lit_weight = weight_of(lit);
 
   RankScale scale;
-  scale.bounds.fill(groups.back().value);
+  scale.bounds.fill(quantile(lit, rank_top_share));
   scale.bounds[0] = groups.front().value;
   // A group goes where its middle falls, so that a boundary is off its share by half a group at most.
   int next = 1;
   double below = 0.0;
-  for (const Group& group : groups) {
-    if (group.value == 0.0) continue;
+  for (const Group& group : lit) {
     const double middle = below + 0.5 * group.weight;
-    while (next < rank_count && middle * rank_count >= next * positive_weight) scale.bounds[next++] = group.value;
+    while (next < rank_count && middle * rank_count >= next * lit_weight) scale.bounds[next++] = group.value;
     below += group.weight;
   }
+  scale.bounds.back() = std::max(scale.bounds.back(), scale.bounds[rank_count - 1]);
+  scale.open = groups.back().value > scale.bounds.back();
   return scale;
 }
 
-RankScale equal_interval_ranks(std::span<const double> values) {
-  const double largest = values.empty() ? 0.0 : std::max(0.0, *std::max_element(values.begin(), values.end()));
-  RankScale scale;
-  for (int k = 0; k <= rank_count; ++k) scale.bounds[k] = largest * k / rank_count;
+RankScale equal_interval_ranks(std::span<const double> values, std::span<const double> weights) {
+  return equal_interval_ranks(groups_by_value(values, weights), values);
+}
+
+MapScale make_map_scale(std::span<const double> values, std::span<const double> weights) {
+  const std::vector<Group> groups = groups_by_value(values, weights);
+  MapScale scale{quantile(groups, map_top_share)};
+  if (scale.top == 0.0) scale.top = groups.empty() ? 0.0 : groups.back().value;
+  scale.open = !groups.empty() && groups.back().value > scale.top;
   return scale;
+}
+
+Colour map_colour(const MapScale& scale, double value) {
+  return viridis(scale.top > 0.0 ? value / scale.top : 0.0);
 }
 
 int rank_of(const RankScale& scale, double value) {
@@ -100,10 +150,14 @@ std::array<std::uint8_t, 3> to_srgb(const Colour& linear) {
 }
 
 Colour from_srgb(const std::array<std::uint8_t, 3>& srgb) {
+  return from_encoded({srgb[0] / 255.0, srgb[1] / 255.0, srgb[2] / 255.0});
+}
+
+Colour from_encoded(const Colour& encoded) {
   Colour linear{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const double encoded = srgb[i] / 255.0;
-    linear[i] = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+    const double c = encoded[i];
+    linear[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
   }
   return linear;
 }

@@ -10,24 +10,32 @@
 namespace sunfleck {
 namespace {
 
-glm::dvec2 to_pixels(const Projection& projection, const SurfaceImage& seen) {
-  return {projection.at.x * seen.width, projection.at.y * seen.height};
+glm::dvec2 to_pixels(const Appearance& appearance, const Image& image) {
+  return {appearance.at.x * image.width, appearance.at.y * image.height};
+}
+
+// Rows of the picture that are both in the range and in what is seen.
+PixelRange seen_rows(PixelRange range, const SurfaceImage& seen) {
+  range.top = std::max(range.top, seen.first_row);
+  range.bottom = std::min(range.bottom, seen.first_row + seen.height);
+  return range;
 }
 
 // The share of a pixel's samples that see nothing nearer than `depth_m`. Differences below two pixels' sizes count as none,
 // and so do surfaces no more than a pixel's size above or below the ground.
-double visible_share(const SeenScene& scene, int column, int row, double depth_m) {
+double visible_share(const SeenScene& scene, const Image& image, int column, int row, double depth_m) {
   const SurfaceImage& seen = scene.seen;
-  const Camera& camera = scene.camera;
-  const glm::dvec3 ray = ray_direction(camera, {(column + 0.5) / seen.width, (row + 0.5) / seen.height});
-  const double rise = ray.y / glm::dot(ray, camera.forward);
-  const double pixel_size = 2.0 * camera.tan_half_fov / seen.height;  // per depth
-  const std::size_t first = (static_cast<std::size_t>(row) * seen.width + column) * seen.samples;
+  const glm::dvec2 middle((column + 0.5) / image.width, (row + 0.5) / image.height);
+  const glm::dvec3 ray = ray_direction(scene.camera, middle);
+  const double base_y_m = ray_origin(scene.camera, middle).y;
+  const double rise = ray.y / glm::dot(ray, scene.camera.forward);
+  const std::size_t first = (static_cast<std::size_t>(row - seen.first_row) * seen.width + column) * seen.samples;
   int visible = 0;
   for (std::size_t sample = first; sample < first + seen.samples; ++sample) {
     const double sample_depth_m = seen.depth_m[sample];
-    const bool hides = seen.surface[sample] != SurfaceImage::nothing && sample_depth_m * (1.0 + 2.0 * pixel_size) < depth_m &&
-                       std::abs(camera.position_m.y + rise * sample_depth_m) > pixel_size * sample_depth_m;
+    const double pixel_m = pixel_size_m(scene.camera, image.height, sample_depth_m);
+    const bool hides = seen.surface[sample] != SurfaceImage::nothing && sample_depth_m + 2.0 * pixel_m < depth_m &&
+                       std::abs(base_y_m + rise * sample_depth_m) > pixel_m;
     if (!hides) ++visible;
   }
   return static_cast<double>(visible) / seen.samples;
@@ -38,12 +46,17 @@ struct Stroke {
   glm::dvec2 from{0.0}, to{0.0};
   double from_depth_m = 0.0, to_depth_m = 0.0;
 
-  // Depth at the share `t` of the way in the picture: its reciprocal is linear there.
-  [[nodiscard]] double depth_m(double t) const { return 1.0 / ((1.0 - t) / from_depth_m + t / to_depth_m); }
+  Projection kind = Projection::perspective;
+
+  // Depth at the share `t` of the way in the picture: in perspective its reciprocal is linear there.
+  [[nodiscard]] double depth_m(double t) const {
+    if (kind == Projection::orthographic) return (1.0 - t) * from_depth_m + t * to_depth_m;
+    return 1.0 / ((1.0 - t) / from_depth_m + t / to_depth_m);
+  }
 };
 
 // None where the segment is wholly behind the camera; else the part before it.
-std::optional<Stroke> appearance(const SeenScene& scene, const Segment& segment) {
+std::optional<Stroke> appearance(const SeenScene& scene, const Image& image, const Segment& segment) {
   const auto depth = [&](glm::dvec3 point) { return glm::dot(point - scene.camera.position_m, scene.camera.forward); };
   const double nearest_m = 1e-3 * glm::distance(segment.from_m, segment.to_m);
   Segment part = segment;
@@ -54,18 +67,20 @@ std::optional<Stroke> appearance(const SeenScene& scene, const Segment& segment)
     const glm::dvec3 cut_m = glm::mix(part.from_m, part.to_m, (nearest_m - from_m) / (to_m - from_m));
     (from_m < to_m ? part.from_m : part.to_m) = cut_m;
   }
-  const std::optional<Projection> from = project(scene.camera, part.from_m);
-  const std::optional<Projection> to = project(scene.camera, part.to_m);
+  const std::optional<Appearance> from = project(scene.camera, part.from_m);
+  const std::optional<Appearance> to = project(scene.camera, part.to_m);
   if (!from || !to) return std::nullopt;
-  return Stroke{to_pixels(*from, scene.seen), to_pixels(*to, scene.seen), from->depth_m, to->depth_m};
+  return Stroke{to_pixels(*from, image), to_pixels(*to, image), from->depth_m, to->depth_m, scene.camera.kind};
 }
 
 void draw_stroke(Image& image, const SeenScene& scene, const Stroke& stroke, double width_px, const Paint& paint) {
   const double reach = 0.5 * width_px + 0.5;
   const glm::dvec2 along = stroke.to - stroke.from;
   const double length2 = std::max(glm::dot(along, along), 1e-12);
-  const PixelRange rows = pixels_in({glm::min(stroke.from, stroke.to) - reach, glm::max(stroke.from, stroke.to) + reach},
-                                    image.width, image.height);
+  const PixelRange rows =
+      seen_rows(pixels_in({glm::min(stroke.from, stroke.to) - reach, glm::max(stroke.from, stroke.to) + reach}, image.width,
+                          image.height),
+                scene.seen);
   for (int row = rows.top; row < rows.bottom; ++row) {
     // The part of the line within reach of this row, and so the columns to look at.
     const auto share_at = [&](double y) { return std::clamp((y - stroke.from.y) / along.y, 0.0, 1.0); };
@@ -79,7 +94,7 @@ void draw_stroke(Image& image, const SeenScene& scene, const Stroke& stroke, dou
       const double coverage = std::clamp(reach - glm::distance(middle, stroke.from + t * along), 0.0, 1.0);
       if (coverage == 0.0) continue;
       const std::size_t pixel = static_cast<std::size_t>(row) * image.width + column;
-      blend(image.pixels[pixel], paint, coverage * visible_share(scene, column, row, stroke.depth_m(t)));
+      blend(image.pixels[pixel], paint, coverage * visible_share(scene, image, column, row, stroke.depth_m(t)));
     }
   }
 }
@@ -92,7 +107,7 @@ void fill_triangle(Image& image, const SeenScene& scene, FlatTriangle corners, d
   if (cross(corners[1] - corners[0], corners[2] - corners[0]) < 0.0) std::swap(corners[1], corners[2]);
   const Rectangle box = {glm::min(glm::min(corners[0], corners[1]), corners[2]) - 1.0,
                          glm::max(glm::max(corners[0], corners[1]), corners[2]) + 1.0};
-  const PixelRange range = pixels_in(box, image.width, image.height);
+  const PixelRange range = seen_rows(pixels_in(box, image.width, image.height), scene.seen);
   for (int row = range.top; row < range.bottom; ++row) {
     for (int column = range.left; column < range.right; ++column) {
       double inside_px = 1.0;  // least distance from the three edges, inwards
@@ -103,7 +118,7 @@ void fill_triangle(Image& image, const SeenScene& scene, FlatTriangle corners, d
       const double coverage = std::clamp(inside_px + 0.5, 0.0, 1.0);
       if (coverage == 0.0) continue;
       const std::size_t pixel = static_cast<std::size_t>(row) * image.width + column;
-      blend(image.pixels[pixel], paint, coverage * visible_share(scene, column, row, depth_m));
+      blend(image.pixels[pixel], paint, coverage * visible_share(scene, image, column, row, depth_m));
     }
   }
 }
@@ -111,11 +126,12 @@ void fill_triangle(Image& image, const SeenScene& scene, FlatTriangle corners, d
 }  // namespace
 
 void draw_line(Image& image, const SeenScene& scene, const Segment& segment, double width_px, const Paint& paint) {
-  if (const std::optional<Stroke> stroke = appearance(scene, segment)) draw_stroke(image, scene, *stroke, width_px, paint);
+  if (const std::optional<Stroke> stroke = appearance(scene, image, segment))
+    draw_stroke(image, scene, *stroke, width_px, paint);
 }
 
 void draw_arrow(Image& image, const SeenScene& scene, const Segment& segment, double width_px, const Paint& paint) {
-  std::optional<Stroke> stroke = appearance(scene, segment);
+  std::optional<Stroke> stroke = appearance(scene, image, segment);
   if (!stroke) return;
   const double head_length = 5.0 * width_px;
   const double head_half_width = 1.7 * width_px;

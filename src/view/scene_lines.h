@@ -2,15 +2,16 @@
 // Lines that stand in the scene, drawn over its picture and hidden where a surface stands before them.
 
 #include "view/camera.h"
-#include "view/chart.h"
 #include "view/image.h"
 #include "view/overlay.h"
+#include "view/surface_image.h"
 
 #include <glm/vec3.hpp>
 
 namespace sunfleck {
 
-// What lines are drawn over. A sample on the ground (y = 0, to a pixel's size) hides nothing, so that lines lie upon it.
+// What lines are drawn over: of the whole picture only the rows that `seen` holds are drawn upon. A sample on the ground (y =
+// 0, to a pixel's size) hides nothing, so that lines lie upon it. Not for a fisheye, in which lines are curved.
 struct SeenScene {
   const SurfaceImage& seen;
   const Camera& camera;
