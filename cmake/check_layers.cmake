@@ -19,7 +19,7 @@ set(below_shared "")
 set(layers "base|canopy|light|bvh|gpu|transport|view|tracers|io|app|shared")
 
 # Libraries that only these folders may name, by the beginning of their headers.
-set(libraries "vulkan|GLFW|toml|CLI|nlohmann|tiny_gltf|tiny_obj_loader|zlib|erfa|stb")
+set(libraries "vulkan|GLFW|toml|CLI|nlohmann|tiny_gltf|tiny_obj_loader|zlib|erfa|stb|tinyexr|netcdf")
 set(users_of_vulkan gpu)
 set(users_of_GLFW gpu)
 set(users_of_toml io)
@@ -30,6 +30,8 @@ set(users_of_tiny_obj_loader io)
 set(users_of_zlib io)
 set(users_of_erfa light)
 set(users_of_stb io view)
+set(users_of_tinyexr io)
+set(users_of_netcdf io)
 
 set(breaches 0)
 function(breach file line why cure)

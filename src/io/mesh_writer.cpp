@@ -3,17 +3,13 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "io/file.h"
-#include "io/gltf_library.h"
+#include "io/gltf_parts.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <utility>
 
 namespace sunfleck {
@@ -22,18 +18,6 @@ namespace {
 
 // Of one organ: its triangles by optics, in the mesh's order.
 using Groups = std::map<std::uint32_t, std::vector<std::size_t>>;
-
-std::string node_name(const Organ& organ) {
-  const bool ends_in_digit = !organ.name.empty() && std::isdigit(static_cast<unsigned char>(organ.name.back())) != 0;
-  const std::string rank = organ.rank == 0 ? "" : fmt::format("{}{}", ends_in_digit ? "_" : "", organ.rank);
-  return fmt::format("plant{}_{}{}", organ.plant, organ.name, rank);
-}
-
-tinygltf::Value extras_of(const Organ& organ) {
-  return tinygltf::Value(tinygltf::Value::Object{{"plant", tinygltf::Value(static_cast<double>(organ.plant))},
-                                                 {"organ", tinygltf::Value(organ.name)},
-                                                 {"rank", tinygltf::Value(organ.rank)}});
-}
 
 class GltfWriter {
  public:
@@ -87,13 +71,13 @@ class GltfWriter {
       primitive.indices = add_indices(indices);
       shape.primitives.push_back(primitive);
     }
-    const int positions = add_positions(vertices);
+    const int positions = add_corners(vertices);
     for (tinygltf::Primitive& primitive : shape.primitives) primitive.attributes["POSITION"] = positions;
     for (const std::uint32_t vertex : vertices) new_number_[vertex] = unused;
 
     tinygltf::Node node;
     node.name = node_name(organ);
-    node.extras = extras_of(organ);
+    node.extras = organ_extras(organ);
     node.mesh = static_cast<int>(model_.meshes.size());
     shape.name = node.name;
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
@@ -101,49 +85,20 @@ class GltfWriter {
     model_.nodes.push_back(std::move(node));
   }
 
-  // Appends to the buffer and describes the piece; returns the accessor's number. All pieces are whole words, as GLB wants.
-  template <class T>
-  int add_piece(const std::vector<T>& values, int target, tinygltf::Accessor accessor) {
-    static_assert(sizeof(T) % 4 == 0);
-    std::vector<unsigned char>& buffer = model_.buffers[0].data;
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = buffer.size();
-    view.byteLength = values.size() * sizeof(T);
-    view.target = target;
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-    buffer.insert(buffer.end(), bytes, bytes + view.byteLength);
-    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
-    accessor.count = values.size();
-    model_.bufferViews.push_back(view);
-    model_.accessors.push_back(std::move(accessor));
-    return static_cast<int>(model_.accessors.size() - 1);
-  }
-
   int add_indices(const std::vector<std::uint32_t>& indices) {
     tinygltf::Accessor accessor;
     accessor.type = TINYGLTF_TYPE_SCALAR;
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    return add_piece(indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, accessor);
+    return add_piece<std::uint32_t>(model_, indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, accessor);
   }
 
-  int add_positions(const std::vector<std::uint32_t>& vertices) {
-    tinygltf::Accessor accessor;
-    accessor.type = TINYGLTF_TYPE_VEC3;
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.minValues.assign(3, std::numeric_limits<double>::max());
-    accessor.maxValues.assign(3, std::numeric_limits<double>::lowest());
+  int add_corners(const std::vector<std::uint32_t>& vertices) {
     std::vector<std::array<float, 3>> positions;
     for (const std::uint32_t vertex : vertices) {
-      std::array<float, 3>& position = positions.emplace_back();
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        position[axis] = static_cast<float>(mesh_.vertices[vertex][static_cast<int>(axis)]);
-        EXPECT(std::isfinite(position[axis]), ==, true);
-        accessor.minValues[axis] = std::min<double>(accessor.minValues[axis], position[axis]);
-        accessor.maxValues[axis] = std::max<double>(accessor.maxValues[axis], position[axis]);
-      }
+      const glm::vec3 position(mesh_.vertices[vertex]);
+      positions.push_back({position.x, position.y, position.z});
     }
-    return add_piece(positions, TINYGLTF_TARGET_ARRAY_BUFFER, accessor);
+    return add_positions(model_, positions);
   }
 
   const Mesh& mesh_;
@@ -162,15 +117,7 @@ void write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
   EXPECT(mesh.optics_of.size(), ==, mesh.triangles.size());
   EXPECT(mesh.organ_of.size(), ==, mesh.triangles.size());
   const tinygltf::Model model = GltfWriter(mesh).take();
-  constexpr std::size_t most_bytes = std::size_t{3} << 30;  // GLB counts to 4 GiB, JSON included
-  if (!model.buffers.empty() && model.buffers[0].data.size() > most_bytes)
-    throw_failure(fmt::format("{}: cannot be written as glTF", name), "it would hold more than 3 GiB", "write it in parts");
-  std::ostringstream text;
-  const bool pretty = ending == ".gltf";
-  const bool binary = ending == ".glb";
-  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, pretty, binary))
-    throw_failure(fmt::format("{}: cannot be written as glTF", name), "tinygltf refused it", "write another format");
-  write_file(file, text.view());
+  write_file(file, gltf_bytes(model, ending == ".glb" ? GltfForm::binary : GltfForm::text, name));
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,7 @@
 #include "io/result_writer.h"
 
+#include "io/table_text.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -27,34 +29,6 @@ ordered_json value_or_null(const std::optional<T>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-void append_number(std::string& row, double value) {
-  row += ',';
-  if (!std::isnan(value)) fmt::format_to(std::back_inserter(row), "{:.9g}", value);
-}
-
-void append_estimate(std::string& row, const Estimate& estimate) {
-  append_number(row, estimate.value);
-  append_number(row, estimate.half_width);
-}
-
-// Fields with a comma, a quote or a line break are quoted as RFC 4180 has it.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-std::string one_line(std::string text) {
-  for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
-  return text;
-}
-
-std::string table_head(const RunRecord& record, const char* content, const char* units) {
-  return fmt::format("# {}\n# {}\n# seed {}, confidence {}\n# {}\n", one_line(record.title), content, record.seed,
-                     record.accuracy.confidence, units);
-}
-
 ordered_json band_json(const BandResult& band) {
   return {{"name", band.name},
           {"incident", band.incident},
@@ -78,16 +52,46 @@ ordered_json band_json(const BandResult& band) {
             {"transmitted", number_or_null(band.transmitted.half_width)}}}};
 }
 
-const char* target_name(ErrorTarget target) {
-  switch (target) {
-    case ErrorTarget::canopy:
-      return "canopy";
-    case ErrorTarget::organ:
-      return "organ";
-    case ErrorTarget::triangle:
-      return "triangle";
+// The same in photons, for bands that ask for it: umol m-2 s-1 of ground.
+ordered_json photons_json(const BandResult& band, double umol_per_joule) {
+  return {{"incident", band.incident * umol_per_joule},
+          {"absorbed_vegetation", band.absorbed_vegetation.value * umol_per_joule},
+          {"absorbed_soil", band.absorbed_soil.value * umol_per_joule},
+          {"reflected", band.reflected.value * umol_per_joule},
+          {"transmitted", band.transmitted.value * umol_per_joule}};
+}
+
+ordered_json bands_json(const RadiationModel& model, const RadiationResult& result) {
+  ordered_json bands = ordered_json::array();
+  for (std::size_t b = 0; b < result.bands.size(); ++b) {
+    bands.push_back(band_json(result.bands[b]));
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    if (umol_per_joule > 0.0) bands.back()["umol_m2_s"] = photons_json(result.bands[b], umol_per_joule);
   }
-  return "";
+  return bands;
+}
+
+ordered_json sun_json(const RadiationModel& model) {
+  if (!model.sun) return nullptr;
+  return {{"elevation_deg", degrees(model.sun->elevation_rad)}, {"azimuth_deg", degrees(model.sun->azimuth_rad)}};
+}
+
+ordered_json planes_json(const RadiationResult& result) {
+  ordered_json planes = ordered_json::array();
+  for (const PlaneResult& plane : result.planes) {
+    ordered_json down = ordered_json::array();
+    ordered_json error = ordered_json::array();
+    for (const Estimate& total : plane.total_down) {
+      down.push_back(total.value);
+      error.push_back(number_or_null(total.half_width));
+    }
+    planes.push_back({{"height_m", plane.height_m},
+                      {"sunfleck_ratio", number_or_null(plane.sunfleck_ratio.value)},
+                      {"sunfleck_ratio_error", number_or_null(plane.sunfleck_ratio.half_width)},
+                      {"down", down},
+                      {"down_error", error}});
+  }
+  return planes;
 }
 
 ordered_json settings_json(const RunRecord& record) {
@@ -95,7 +99,7 @@ ordered_json settings_json(const RunRecord& record) {
           {"direct_error", record.accuracy.direct},
           {"indirect_error", record.accuracy.indirect},
           {"confidence", record.accuracy.confidence},
-          {"of", target_name(record.accuracy.of)},
+          {"of", error_target_name(record.accuracy.of)},
           {"grid_m", value_or_null(record.grid_m)},
           {"passes", value_or_null(record.passes)},
           {"max_rays", value_or_null(record.max_rays)},
@@ -129,13 +133,19 @@ const char* stop_name(StopReason stop) {
 
 }  // namespace
 
-std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  ordered_json bands = ordered_json::array();
-  for (const BandResult& band : result.bands) bands.push_back(band_json(band));
-  ordered_json sun = nullptr;
-  if (model.sun) {
-    sun = {{"elevation_deg", degrees(model.sun->elevation_rad)}, {"azimuth_deg", degrees(model.sun->azimuth_rad)}};
+const char* error_target_name(ErrorTarget target) {
+  switch (target) {
+    case ErrorTarget::canopy:
+      return "canopy";
+    case ErrorTarget::organ:
+      return "organ";
+    case ErrorTarget::triangle:
+      return "triangle";
   }
+  return "";
+}
+
+std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
   const ordered_json summary = {
       {"sunfleck", record.version},
       {"commit", record.commit},
@@ -151,12 +161,13 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"plants", plant_count(model.canopy)},
       {"plot_area_m2", model.plot.area_m2()},
       {"leaf_area_index", result.leaf_area_index},
-      {"sun", sun},
-      {"bands", bands},
+      {"sun", sun_json(model)},
+      {"bands", bands_json(model, result)},
       {"sunlit_leaf_fraction", number_or_null(result.sunlit_leaf_fraction.value)},
       {"sunlit_leaf_fraction_error", number_or_null(result.sunlit_leaf_fraction.half_width)},
       {"ground_sunfleck_ratio", number_or_null(result.ground_sunfleck_ratio.value)},
       {"ground_sunfleck_ratio_error", number_or_null(result.ground_sunfleck_ratio.half_width)},
+      {"planes", planes_json(result)},
       {"lost_rays", result.lost_rays},
       {"direct",
        {{"rays", result.direct.rays},
@@ -166,7 +177,8 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
         {"bound", value_or_null(result.direct.bound)},
         {"seconds", result.direct.seconds}}},
       {"indirect",
-       {{"packets", result.indirect.packets},
+       {{"sky_rays", result.indirect.sky_rays},
+        {"packets", result.indirect.packets},
         {"rounds", result.indirect.rounds},
         {"relative_error", value_or_null(result.indirect.relative_error)},
         {"bound", value_or_null(result.indirect.bound)},
@@ -211,9 +223,13 @@ std::string profile_csv(const RunRecord& record, const RadiationModel& model, co
 std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
   std::string text = table_head(record, "Organs",
                                 "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided "
-                                "area; _error: relative half-width of the confidence interval of absorbed");
+                                "area; _error: relative half-width of the confidence interval of absorbed; "
+                                "absorbed_umol_m2_s: the same in photons, umol m-2 s-1");
   text += "plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error";
-  for (const Waveband& band : model.bands) text += fmt::format(",{0}_direct,{0}_indirect,{0}_absorbed,{0}_error", band.name);
+  for (const Waveband& band : model.bands) {
+    text += fmt::format(",{0}_direct,{0}_indirect,{0}_absorbed,{0}_error", band.name);
+    if (band.umol_per_joule > 0.0) text += fmt::format(",{}_absorbed_umol_m2_s", band.name);
+  }
   text += '\n';
   for (std::size_t o = 0; o < model.canopy.organs.size(); ++o) {
     const Organ& organ = model.canopy.organs[o];
@@ -228,51 +244,41 @@ std::string organs_csv(const RunRecord& record, const RadiationModel& model, con
       append_number(row, absorbed.value);
       append_number(row,
                     absorbed.value > 0.0 ? absorbed.half_width / absorbed.value : std::numeric_limits<double>::quiet_NaN());
+      const double umol_per_joule = model.bands[b].umol_per_joule;
+      if (umol_per_joule > 0.0) append_number(row, absorbed.value * umol_per_joule);
     }
     text += row + '\n';
   }
   return text;
 }
 
-std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+std::string triangles_csv(const RunRecord& record, const ElementFields& fields) {
   std::string text = table_head(record, "Triangles, in the order of the files",
                                 "area_m2: m2, one-sided; x, y, z: m, centroid after wrapping (X south, Y up, Z west); direct, "
-                                "indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: half-width of the "
-                                "confidence interval of absorbed, empty below 20 hits");
-  text += "triangle,plant,organ,area_m2,x,y,z";
-  for (const Waveband& band : model.bands) {
-    text += fmt::format(",{0}_direct_upper,{0}_direct_lower,{0}_indirect_upper,{0}_indirect_lower,{0}_absorbed,{0}_error",
-                        band.name);
-  }
-  text += '\n';
-  const Canopy& canopy = model.canopy;
-  for (std::size_t e = 0; e < canopy.size(); ++e) {
-    const Organ& organ = canopy.organs[canopy.organ_of[e]];
-    const Triangle& corners = canopy.corners[e];
-    const double area = area_m2(corners);
-    const glm::dvec3 centroid =
-        (glm::dvec3(corners[0]) + glm::dvec3(corners[1]) + glm::dvec3(corners[2])) / 3.0 + canopy.origin_m;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{:.9g},{:.9g},{:.9g},{:.9g}", e, organ.plant, csv_field(organ.name),
-                   area, centroid.x, centroid.y, centroid.z);
-    const SurfaceOptics& optics = model.optics[canopy.optics_of[e]];
-    for (std::size_t b = 0; b < model.bands.size(); ++b) {
-      const double beam_w_m2 = model.bands[b].direct_w_m2;
-      const double upper = result.irradiance_w_m2(result.elements[e].upper, area, beam_w_m2);
-      const double lower = result.irradiance_w_m2(result.elements[e].lower, area, beam_w_m2);
-      append_number(text, upper);
-      append_number(text, lower);
-      const double indirect_upper = result.side_indirect_w_m2(2 * e, area, b);
-      const double indirect_lower = result.side_indirect_w_m2(2 * e + 1, area, b);
-      append_number(text, indirect_upper);
-      append_number(text, indirect_lower);
-      append_number(text, (upper + indirect_upper) * optics.upper[b].absorptance() +
-                              (lower + indirect_lower) * optics.lower[b].absorptance());
-      append_number(text, result.element_error.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                                       : result.element_error[b * canopy.size() + e]);
+                                "sky (unscattered, a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, "
+                                "both faces; _error: half-width of the confidence interval of absorbed, empty below 20 hits");
+  std::vector<const LightValues*> columns;
+  for (const std::vector<LightValues>& band : fields.light) {
+    for (const LightValues& column : band) {
+      if (column.column != LightColumn::total) columns.push_back(&column);
     }
+  }
+  text += "triangle,plant,organ,area_m2,x,y,z";
+  for (const LightValues* column : columns) text += ',' + column->name;
+  text += '\n';
+  for (std::size_t e = 0; e < fields.size(); ++e) {
+    const std::string organ = csv_field(fields.organ_names[static_cast<std::size_t>(fields.organ[e])]);
+    fmt::format_to(std::back_inserter(text), "{},{},{}", e, fields.plant[e], organ);
+    append_number(text, fields.area_m2[e]);
+    for (const std::vector<double>& axis : fields.centroid_m) append_number(text, axis[e]);
+    for (const LightValues* column : columns) append_number(text, column->values[e]);
     text += '\n';
   }
   return text;
+}
+
+std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return triangles_csv(record, make_element_fields(model, result));
 }
 
 }  // namespace sunfleck

@@ -2,6 +2,7 @@
 // The result folder: summary.json and the tables. What each file and column means stands in README.md; the units stand in the
 // files. Every file is written aside and renamed, so that none is ever half there.
 
+#include "io/element_fields.h"
 #include "transport/accuracy.h"
 #include "transport/model.h"
 #include "transport/result.h"
@@ -43,5 +44,8 @@ struct RunRecord {
 [[nodiscard]] std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
+[[nodiscard]] std::string triangles_csv(const RunRecord& record, const ElementFields& fields);
+
+[[nodiscard]] const char* error_target_name(ErrorTarget target);  // as scene files call it
 
 }  // namespace sunfleck

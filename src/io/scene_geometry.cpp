@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
-#include <system_error>
 
 namespace sunfleck {
 
@@ -47,28 +46,8 @@ GeometryPart read_generator(const TomlTable& table) {
   return GeometryPart{.table = table, .maize = stand, .file = {}, .import = {}, .placements = {Placement{}}};
 }
 
-bool lies_in(const fs::path& file, const fs::path& folder) {
-  const auto [in_folder, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-  return in_folder == folder.end();
-}
-
-// The file a table names, symbolic links resolved: relative to the scene's folder and inside it unless access allows more.
-fs::path resolve_file(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
-  const std::string name = *table.text("file");
-  std::error_code code;
-  const fs::path parent = scene_file.parent_path();
-  const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, code);
-  if (code) table.refuse("file", "the scene's folder cannot be read: " + code.message(), "check its permissions");
-  fs::path file = fs::weakly_canonical(folder / name, code);
-  if (code) table.refuse("file", "its path cannot be followed: " + code.message(), "correct the path");
-  if (!access.allow_outside && !lies_in(file, folder)) {
-    table.refuse("file", "it lies outside the scene's folder", "move it beside the scene, or run with --allow-outside");
-  }
-  const fs::file_status status = fs::status(file, code);
-  if (status.type() == fs::file_type::not_found) {
-    table.refuse("file", "there is no such file; names are relative to the scene's folder", "correct the name");
-  }
-  if (!fs::is_regular_file(status)) table.refuse("file", "it is not a file with content", "name a mesh file");
+fs::path find_mesh(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
+  fs::path file = find_scene_file(table, scene_file, access, "name a mesh file");
   if (!is_mesh_file(file)) {
     table.refuse("file", "its format is not known", "give .glb, .gltf, .obj, .ply, .stl, .can or .can.gz");
   }
@@ -97,7 +76,7 @@ GeometryPart read_file_part(const TomlTable& table, const fs::path& scene_file, 
   std::vector<Placement> placements = read_placements(table);
   return GeometryPart{.table = table,
                       .maize = std::nullopt,
-                      .file = resolve_file(table, scene_file, access),
+                      .file = find_mesh(table, scene_file, access),
                       .import = import,
                       .placements = std::move(placements)};
 }

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double largest_irradiance_w_m2 = 1e15;
 constexpr std::size_t most_bands = 1000;
-constexpr std::size_t longest_band_name = 64;
+constexpr std::size_t longest_name = 64;
+constexpr double default_share = 0.5;  // PAR in solar radiation, interface of [weather]
 
 // Years (UTC) that sun_position knows.
 constexpr int first_year = 1900;
@@ -73,45 +74,59 @@ SunInput read_angles(const TomlTable& sun) {
 std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& earlier) {
   band.require("name", "name = \"PAR\"");
   std::string name = *band.text("name");
-  const bool usable =
-      name.size() <= longest_band_name && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-      });
-  if (!usable) {
-    band.refuse("name", fmt::format("it heads columns: letters, digits, _ and -, at most {}", longest_band_name),
-                "give a name such as PAR or band_1");
-  }
+  if (!is_plain_name(name)) band.refuse("name", plain_name_rule, "give a name such as PAR or band_1");
   if (std::any_of(earlier.begin(), earlier.end(), [&](const Waveband& other) { return other.name == name; })) {
     band.refuse("name", "another [[band]] has this name", "give every band a name of its own");
   }
   return name;
 }
 
-// W m-2 on a horizontal plane.
-double read_direct_w_m2(const TomlTable& band, const std::optional<SunInput>& sun) {
+BandLight read_fixed_light(const TomlTable& band, bool has_sun, bool has_sky) {
   const NumberRange irradiance{.lo = 0.0, .hi = largest_irradiance_w_m2, .cure = "give W m-2"};
   if (band.has("direct") && band.has("direct_normal")) {
     band.refuse("direct_normal", "direct is given too, and either follows from the other", "remove one of the two");
   }
-  const char* key = band.has("direct_normal") ? "direct_normal" : "direct";
-  const double given_w_m2 = band.number(key, irradiance).value_or(0.0);
-  if (given_w_m2 == 0.0) return 0.0;
-  if (!sun) band.refuse(key, "there is no [sun] for this light to come from", "add [sun] or remove it");
-  const double elevation_rad = sun->position.elevation_rad;
-  if (elevation_rad <= 0.0) return 0.0;
-  return band.has("direct_normal") ? given_w_m2 * std::sin(elevation_rad) : given_w_m2;
+  BandLight light;
+  light.direct_w_m2 = band.number("direct", irradiance).value_or(0.0);
+  light.direct_normal_w_m2 = band.number("direct_normal", irradiance).value_or(0.0);
+  light.diffuse_w_m2 = band.number("diffuse", irradiance).value_or(0.0);
+  if (band.has("direct")) light.direct_place = band.place("direct");
+  if (light.direct_w_m2 + light.direct_normal_w_m2 > 0.0 && !has_sun) {
+    band.refuse(band.has("direct") ? "direct" : "direct_normal", "there is no [sun] for this light to come from",
+                "add [sun] or remove it");
+  }
+  if (light.diffuse_w_m2 > 0.0 && !has_sky) {
+    band.refuse("diffuse", "there is no [sky] for this light to come from", "add [sky] with model = \"uniform\", or remove it");
+  }
+  return light;
 }
 
-void refuse_diffuse(const TomlTable& band) {
-  const double diffuse_w_m2 =
-      band.number("diffuse", {.lo = 0.0, .hi = largest_irradiance_w_m2, .cure = "give W m-2"}).value_or(0.0);
-  if (diffuse_w_m2 > 0.0) band.refuse("diffuse", "sky light is not in this version yet", "remove it or give 0");
+BandLight read_band_light(const TomlTable& band, bool has_sun, bool has_sky, const std::optional<WeatherInput>& weather) {
+  const auto share =
+      band.number("share", {.lo = 0.0, .hi = 1.0, .is_share = true, .cure = "give a share of the broadband irradiance"});
+  if (share && !weather) band.refuse("share", "there is no [weather] to have a share of", "add [weather] or remove it");
+  for (const char* key : {"direct", "direct_normal", "diffuse"}) {
+    if (share && band.has(key)) {
+      band.refuse(key, "share is given too, which takes this light from [weather]", "remove one of the two");
+    }
+  }
+  const bool fixed = band.has("direct") || band.has("direct_normal") || band.has("diffuse");
+  if (!weather || fixed) return read_fixed_light(band, has_sun, has_sky);
+  BandLight light;
+  light.share = share.value_or(default_share);
+  if (*light.share > 0.0 && !has_sky && weather->may_be_diffuse()) {
+    weather->table.refuse_table("there is no [sky] for its diffuse light to come from",
+                                "add [sky] with model = \"perez\" or another");
+  }
+  return light;
 }
 
 }  // namespace
 
-void refuse_unsupported(const TomlTable& table, std::string_view key, std::string_view feature) {
-  if (table.has(key)) table.refuse(key, fmt::format("{} not in this version yet", feature), "remove it");
+bool is_plain_name(std::string_view name) {
+  return !name.empty() && name.size() <= longest_name && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
 }
 
 std::optional<SunInput> read_sun(const TomlTable& root) {
@@ -122,23 +137,23 @@ std::optional<SunInput> read_sun(const TomlTable& root) {
   return by_moment ? read_moment(*sun) : read_angles(*sun);
 }
 
-std::vector<Waveband> read_bands(const TomlTable& root, const std::optional<SunInput>& sun) {
+BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun, const std::optional<SkyInput>& sky,
+                      const std::optional<WeatherInput>& weather) {
   const std::vector<TomlTable> tables = root.tables("band");
   if (tables.empty()) root.require("band", "[[band]] with name = \"PAR\" and direct = 350.0");
   if (tables.empty()) root.refuse("band", "there must be at least one", "add [[band]] with name = \"PAR\" and direct = 350.0");
   if (tables.size() > most_bands) root.refuse("band", fmt::format("there may be at most {}", most_bands), "split the scene");
-  std::vector<Waveband> bands;
+  BandsInput input;
   for (const TomlTable& table : tables) {
     table.allow({"name", "direct", "direct_normal", "diffuse", "share", "umol_per_joule"});
-    refuse_unsupported(table, "share", "weather data is");
-    refuse_unsupported(table, "umol_per_joule", "photon units are");
     Waveband band;
-    band.name = read_band_name(table, bands);
-    band.direct_w_m2 = read_direct_w_m2(table, sun);
-    refuse_diffuse(table);
-    bands.push_back(std::move(band));
+    band.name = read_band_name(table, input.bands);
+    const NumberRange photons{.lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give 4.57 for PAR from sun and sky"};
+    band.umol_per_joule = table.number("umol_per_joule", photons).value_or(0.0);
+    input.bands.push_back(std::move(band));
+    input.lights.push_back(read_band_light(table, sun.has_value(), sky.has_value(), weather));
   }
-  return bands;
+  return input;
 }
 
 }  // namespace sunfleck

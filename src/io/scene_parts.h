@@ -11,8 +11,14 @@
 
 namespace sunfleck {
 
-// Refuses a key whose feature this version lacks; nothing if it is absent.
-void refuse_unsupported(const TomlTable& table, std::string_view key, std::string_view feature);
+// Where the file that `table.file` names lies, symbolic links resolved: relative to the scene's folder, and inside it unless
+// access allows more. Refused if it is not a regular file; `wanted` is the cure where it is something else.
+[[nodiscard]] std::filesystem::path find_scene_file(const TomlTable& table, const std::filesystem::path& scene_file,
+                                                    const SceneAccess& access, std::string_view wanted);
+
+// Names that head columns or stand in cells of the result tables.
+[[nodiscard]] bool is_plain_name(std::string_view name);
+inline constexpr std::string_view plain_name_rule = "it stands in tables: letters, digits, _ and -, at most 64";
 
 struct SunInput {
   SunPosition position;
@@ -21,8 +27,37 @@ struct SunInput {
 };
 [[nodiscard]] std::optional<SunInput> read_sun(const TomlTable& root);
 
-// Beam irradiances are those on a horizontal plane, 0 with the sun at or below the horizon.
-[[nodiscard]] std::vector<Waveband> read_bands(const TomlTable& root, const std::optional<SunInput>& sun);
+struct WeatherInput {
+  Weather weather;
+  std::filesystem::path file;  // empty if there is none
+  TomlTable table;
+
+  [[nodiscard]] bool may_be_diffuse() const;
+};
+[[nodiscard]] std::optional<WeatherInput> read_weather_table(const TomlTable& root, const std::filesystem::path& scene_file,
+                                                             const SceneAccess& access, const std::optional<SunInput>& sun,
+                                                             std::vector<std::string>& warnings);
+
+struct SkyInput {
+  SkyModel model;
+  bool from_weather = false;   // perez without dni and dhi
+  std::filesystem::path file;  // of lights; else empty
+};
+[[nodiscard]] std::optional<SkyInput> read_sky(const TomlTable& root, const std::filesystem::path& scene_file,
+                                               const SceneAccess& access, const std::optional<SunInput>& sun,
+                                               const std::optional<WeatherInput>& weather);
+
+// Names and photon units go to `bands`, whose irradiances stay 0; where light comes from is said by `lights`.
+struct BandsInput {
+  std::vector<Waveband> bands;
+  std::vector<BandLight> lights;  // [waveband]
+};
+[[nodiscard]] BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
+                                    const std::optional<SkyInput>& sky, const std::optional<WeatherInput>& weather);
+
+// In ascending order of height.
+[[nodiscard]] std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot);
+[[nodiscard]] std::vector<Sensor> read_sensors(const TomlTable& root);
 
 // Where `patch` is absent it is 0.05 m, or coarser (a warning says so) if the plot has too many such cells.
 [[nodiscard]] std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/file.h"
+#include "io/moment_light.h"
 #include "io/scene_parts.h"
 
 #include <fmt/format.h>
@@ -28,13 +29,6 @@ class Digest {
  private:
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
-
-void refuse_unsupported_tables(const TomlTable& root) {
-  refuse_unsupported(root, "sky", "sky light is");
-  refuse_unsupported(root, "weather", "weather data is");
-  refuse_unsupported(root, "plane", "horizontal receivers are");
-  refuse_unsupported(root, "sensor", "sensors are");
-}
 
 std::string read_title(const TomlTable& root, const std::filesystem::path& file) {
   return root.text("title").value_or(printable(file.stem().string()));
@@ -107,13 +101,48 @@ void warn_of_unused(const OpticsByName& optics, const Scene& scene, std::vector<
   }
 }
 
-std::string digest_of(std::string_view text, std::span<const GeometryPart> parts) {
+std::string digest_of(std::string_view text, std::span<const std::filesystem::path> files,
+                      std::span<const GeometryPart> parts) {
   Digest digest;
   digest.add(text);
+  for (const std::filesystem::path& file : files) digest.add(read_file(file));
   for (const GeometryPart& part : parts) {
     if (!part.maize) digest.add(read_file(part.file));
   }
   return digest.text();
+}
+
+// [sun], [sky], [weather] and [[band]]; returns the files they name.
+std::vector<std::filesystem::path> read_light(const TomlTable& root, const SceneAccess& access, Scene& scene) {
+  const std::optional<SunInput> sun = read_sun(root);
+  if (sun) {
+    scene.model.sun = sun->position;
+    scene.moment = sun->moment;
+    if (access.purpose == ScenePurpose::moment) warn_of_night(*sun, scene.warnings);
+  }
+  std::optional<WeatherInput> weather = read_weather_table(root, scene.file, access, sun, scene.warnings);
+  const std::optional<SkyInput> sky = read_sky(root, scene.file, access, sun, weather);
+  BandsInput bands = read_bands(root, sun, sky, weather);
+  scene.model.bands = std::move(bands.bands);
+  scene.light.bands = std::move(bands.lights);
+  std::vector<std::filesystem::path> files;
+  if (weather) {
+    if (!weather->file.empty()) files.push_back(weather->file);
+    scene.light.weather_place = weather->table.place();
+    scene.light.weather = std::move(weather->weather);
+  }
+  if (sky) {
+    if (!sky->file.empty()) files.push_back(sky->file);
+    scene.light.sky = sky->model;
+    scene.light.sky_from_weather = sky->from_weather;
+    scene.model.sky = sky->model;
+  }
+  if (access.purpose == ScenePurpose::moment) {
+    MomentLight now = light_of(scene);
+    scene.model.bands = std::move(now.bands);
+    scene.model.sky = std::move(now.sky);
+  }
+  return files;
 }
 
 }  // namespace
@@ -123,31 +152,26 @@ Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
   const TomlTable root = TomlTable::parse(file.string(), text);
   root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
               "plane", "sensor"});
-  refuse_unsupported_tables(root);
 
   Scene scene;
   scene.file = file;
   scene.title = read_title(root, file);
   scene.model.plot = read_plot(root);
-  const std::optional<SunInput> sun = read_sun(root);
-  if (sun) {
-    scene.model.sun = sun->position;
-    scene.moment = sun->moment;
-    warn_of_night(*sun, scene.warnings);
-  }
-  scene.model.bands = read_bands(root, sun);
+  const std::vector<std::filesystem::path> light_files = read_light(root, access, scene);
   scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, scene.warnings);
   const OpticsByName optics = read_optics(root, scene.model.bands);
   scene.accuracy = read_accuracy(root);
   scene.camera = read_camera(root);
   scene.model.layers = read_layers(root, scene.model.layers);
+  scene.model.planes = read_planes(root, scene.model.plot);
+  scene.model.sensors = read_sensors(root);
 
   const std::vector<GeometryPart> parts = read_geometry(root, file, access);
   std::vector<PlacedMesh> meshes;
   for (const GeometryPart& part : parts) meshes.push_back(load_geometry(part));
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
   scene.model.optics = choose_optics(parts, meshes, optics, scene);
-  scene.digest = digest_of(text, parts);
+  scene.digest = digest_of(text, light_files, parts);
   warn_of_unused(optics, scene, scene.warnings);
   for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
   return scene;

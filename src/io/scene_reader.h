@@ -2,6 +2,7 @@
 // The scene file (TOML): the only place that knows its keys, degrees and the units of users.
 
 #include "light/sun.h"
+#include "light/weather.h"
 #include "transport/accuracy.h"
 #include "transport/model.h"
 
@@ -26,21 +27,46 @@ struct SunMoment {
   int offset_minutes = 0;  // of the time as written, east of Greenwich positive
 };
 
-// model.bands: direct_w_m2 is 0 with the sun below the horizon. model.optics: soil elements (names soil, soil2, ...) without
-// [optics.NAME] of their own have the reflectance and colour of [soil] on both faces and transmit nothing.
+// Where a band's light comes from: a share of the weather's broadband irradiance, or the fixed rest of these, W m-2.
+struct BandLight {
+  std::optional<double> share;
+  double direct_w_m2 = 0.0;         // on a horizontal plane, while the sun is up
+  double direct_normal_w_m2 = 0.0;  // on a plane that faces the sun
+  double diffuse_w_m2 = 0.0;        // on a horizontal plane
+  std::string direct_place;         // of the key `direct`, for messages; empty without one
+};
+
+// What the scene says of its light at any time; moment_light.h makes irradiances of it.
+struct SceneLight {
+  std::vector<BandLight> bands;  // [waveband]
+  std::optional<Weather> weather;
+  std::string weather_place;  // of its table, for messages
+  std::optional<SkyModel> sky;
+  bool sky_from_weather = false;  // all_weather, with dni and dhi of the moment's weather
+};
+
+// model.sun, bands and sky are the light of the scene's own moment: direct_w_m2 is 0 with the sun below the horizon.
+// model.optics: soil elements (names soil, soil2, ...) without [optics.NAME] of their own have the reflectance and colour of
+// [soil] on both faces and transmit nothing.
 struct Scene {
   std::string title;  // the file's stem where it has none
   std::filesystem::path file;
-  std::string digest;  // 16 hexadecimal digits: FNV-1a, 64 bits, over the scene's text and the bytes of every mesh file
+  std::string digest;  // 16 hexadecimal digits: FNV-1a, 64 bits, over the scene's text and the bytes of every file it names
   RadiationModel model;
+  SceneLight light;
   std::optional<SunMoment> moment;
   Accuracy accuracy;
   std::optional<CameraPose> camera;
   std::vector<std::string> warnings;  // one line each, to be said once
 };
 
+// What a scene is read for. A day takes the light of its steps from light_at: the model's bands have none yet, and the
+// scene's own moment need not lie in its weather file nor have the sun up.
+enum class ScenePurpose { moment, day };
+
 struct SceneAccess {
-  bool allow_outside = false;  // may mesh files lie outside the scene's folder?
+  bool allow_outside = false;  // may files lie outside the scene's folder?
+  ScenePurpose purpose = ScenePurpose::moment;
 };
 
 // Reads, checks and assembles a scene. Throws Error (input), one line `file:line: key ...`, before any work starts.

@@ -1,0 +1,81 @@
+#include "base/error.h"
+#include "io/export_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::uint32_t most_plant = 99'999;
+constexpr int most_leaf = 999;
+
+[[noreturn]] void refuse(const char* what, std::int64_t number, std::int64_t most) {
+  throw_failure(fmt::format("caribu.csv: {} {} has no label", what, number),
+                fmt::format("CARIBU's labels number them 0..{}", most), "export csv or another format");
+}
+
+// leaf2 is of species 2; leaf, and names that end otherwise, of species 1.
+unsigned species_of(const std::string& name) {
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  unsigned species = 1;
+  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), species);
+  return error == std::errc() ? species : 1;
+}
+
+std::size_t column_index(const std::vector<LightValues>& band, LightColumn column) {
+  const auto found = std::find_if(band.begin(), band.end(), [&](const LightValues& v) { return v.column == column; });
+  return static_cast<std::size_t>(found - band.begin());
+}
+
+}  // namespace
+
+std::string caribu_label(const Organ& organ, std::size_t number_in_organ) {
+  constexpr std::size_t element_numbers = 1000;
+  if (organ.plant > most_plant) refuse("plant", organ.plant, most_plant);
+  if (organ.rank < 0 || organ.rank > most_leaf) refuse("leaf", organ.rank, most_leaf);
+  const unsigned species = is_soil_name(organ.name) ? 0 : species_of(organ.name);
+  const int leaf = is_leaf_name(organ.name) ? std::max(organ.rank, 1) : 0;
+  return fmt::format("{}{:05}{:03}{:03}", species, organ.plant, leaf, number_in_organ % element_numbers);
+}
+
+std::string caribu_csv(const ExportData& data) {
+  const ElementFields& fields = data.fields;
+  const Canopy& canopy = data.model.canopy;
+  std::vector<std::string> labels;
+  std::vector<std::size_t> next_number(canopy.organs.size());
+  for (std::size_t e = 0; e < fields.size(); ++e) {
+    const std::uint32_t organ = canopy.organ_of[e];
+    labels.push_back(caribu_label(canopy.organs[organ], next_number[organ]++));
+  }
+  std::string text;
+  for (const RecordEntry& entry : record_entries(data.record, data.model)) {
+    text += fmt::format("# {}: {}\n", entry.key, entry.value);
+  }
+  text +=
+      "# area: m2, one-sided; Eabs: W m-2 absorbed; Ei_sup, Ei_inf: W m-2 incident on the upper and the lower face; Ei: "
+      "their sum\nband,index,label,area,Eabs,Ei,Ei_sup,Ei_inf\n";
+  for (std::size_t b = 0; b < fields.light.size(); ++b) {
+    const std::vector<LightValues>& band = fields.light[b];
+    const auto values = [&](LightColumn column) -> const std::vector<double>& {
+      return band[column_index(band, column)].values;
+    };
+    const std::vector<double>& absorbed = values(LightColumn::absorbed);
+    const std::vector<double>& total = values(LightColumn::total);
+    const std::vector<double>& direct_upper = values(LightColumn::direct_upper);
+    const std::vector<double>& direct_lower = values(LightColumn::direct_lower);
+    const std::vector<double>& indirect_upper = values(LightColumn::indirect_upper);
+    const std::vector<double>& indirect_lower = values(LightColumn::indirect_lower);
+    for (std::size_t e = 0; e < fields.size(); ++e) {
+      fmt::format_to(std::back_inserter(text), "{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", data.model.bands[b].name, e,
+                     labels[e], fields.area_m2[e], absorbed[e], total[e], direct_upper[e] + indirect_upper[e],
+                     direct_lower[e] + indirect_lower[e]);
+    }
+  }
+  return text;
+}
+
+}  // namespace sunfleck

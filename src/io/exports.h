@@ -1,0 +1,52 @@
+#pragma once
+// Results for other programs: the same fields of every triangle, with units and the run's record, in the formats they read.
+// A file depends on scene and seed only: it names no device and no time. Every file is written aside and renamed.
+
+#include "io/result_writer.h"
+#include "transport/model.h"
+#include "transport/result.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace sunfleck {
+
+// csv     triangles.csv  the table
+// nc      results.nc     netCDF-4 with CF 1.8 attributes (xarray, R): the fields by triangle, the corners, the bands' balance
+// vtp     canopy.vtp     VTK PolyData (ParaView): the fields by cell, the record as field data
+// glb     canopy.glb     binary glTF (Blender): a node for each organ below the node `canopy`; the fields of each triangle at
+// its
+//                        three vertices, as _TRIANGLE, _AREA_M2 and _BAND_DIRECT_UPPER ... _BAND_ERROR (-1: no interval)
+// ply     canopy.ply     binary PLY (MeshLab, CloudCompare): the fields of each triangle at its three vertices
+// caribu  caribu.csv     CARIBU's table of polygons: band, index, label, area, Eabs, Ei, Ei_sup, Ei_inf
+enum class ExportKind { csv, nc, vtp, glb, ply, caribu };
+
+constexpr std::array<ExportKind, 6> export_kinds = {ExportKind::csv, ExportKind::nc,  ExportKind::vtp,
+                                                    ExportKind::glb, ExportKind::ply, ExportKind::caribu};
+
+[[nodiscard]] const char* export_name(ExportKind kind);  // as --export calls it
+[[nodiscard]] const char* export_file(ExportKind kind);
+[[nodiscard]] std::optional<ExportKind> export_kind(std::string_view name);
+
+// One colour twice: glTF's vertex colours are linear, PLY's are sRGB.
+struct ElementColour {
+  std::array<double, 3> linear{};  // red, green, blue, 0..1
+  std::array<std::uint8_t, 3> srgb{};
+};
+
+// Into a folder that exists. colours: [element], of canopy.glb and canopy.ply; empty for none.
+// Throws Error (failure): a file that cannot be written, or a canopy too large for its format.
+void write_exports(std::span<const ExportKind> kinds, const std::filesystem::path& folder, const RunRecord& record,
+                   const RadiationModel& model, const RadiationResult& result, std::span<const ElementColour> colours = {});
+
+inline void write_export(ExportKind kind, const std::filesystem::path& folder, const RunRecord& record,
+                         const RadiationModel& model, const RadiationResult& result,
+                         std::span<const ElementColour> colours = {}) {
+  write_exports({&kind, 1}, folder, record, model, result, colours);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,55 @@
+#pragma once
+// A netCDF-4 file in memory or on disk, written by the C library: dimensions and variables with their attributes, then the
+// values.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sunfleck {
+
+class NetcdfFile {
+ public:
+  explicit NetcdfFile(std::string name);  // for messages
+  NetcdfFile(std::string name, const std::filesystem::path& file);
+  ~NetcdfFile();
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+  // Numbers of the dimension and of the variable. Variables with dimensions are compressed (deflate 2 after shuffling); a
+  // float or double variable has NaN as its missing value.
+  int dimension(const std::string& name, std::size_t size);
+  template <class T>  // std::int32_t, std::int64_t, float or double
+  int variable(const std::string& name, const std::vector<int>& dimensions);
+
+  // Of a variable with two dimensions: stored row by row, to be put so. A row is an index of the first dimension.
+  void store_by_row(int variable, std::size_t row_length);
+
+  // Of a variable, or of the file: number -1.
+  void attribute(int variable, const std::string& name, std::string_view text);
+  void attribute(int variable, const std::string& name, std::span<const std::int32_t> numbers);
+
+  // All values, the last dimension fastest. The first put ends the definitions.
+  template <class T>
+  void put(int variable, std::span<const T> values);
+  void put_row(int variable, std::size_t row, std::span<const float> values);
+
+  // A variable of names, `name`(dimension, name_length), padded with zeros.
+  void names(const std::string& name, int dimension, const std::vector<std::string>& values, std::string_view meaning);
+
+  // The finished file; nothing may follow. Of one on disk: `finish`.
+  [[nodiscard]] std::string take();
+  void finish();
+
+ private:
+  int define(const std::string& name, int type, const std::vector<int>& dimensions);
+  void check(int status, std::string_view what) const;
+
+  std::string name_, cure_;
+  int file_ = -1;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,115 @@
+#include "io/number_table.h"
+
+#include "base/error.h"
+#include "io/file.h"
+#include "io/mesh_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <system_error>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::uintmax_t largest_file_bytes = 10'000'000;
+
+std::string_view unquoted(std::string_view cell) {
+  cell = trimmed(cell);
+  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
+    cells.push_back(unquoted(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
+  }
+  cells.push_back(unquoted(line));
+  return cells;
+}
+
+void take_header(NumberTable& table, std::size_t line, const std::vector<std::string_view>& names) {
+  table.header_line = line;
+  for (const std::string_view name : names) {
+    if (name.empty()) refuse_table(table, line, "a column without a name", "the header names every column", "name it");
+    if (table.find_column(name))
+      refuse_table(table, line, fmt::format("column {} twice", in_quotes(name)), "names tell columns apart", "rename one");
+    table.columns.emplace_back(name);
+  }
+}
+
+void take_row(NumberTable& table, std::size_t line, const std::vector<std::string_view>& cells) {
+  if (cells.size() != table.columns.size()) {
+    refuse_table(table, line, fmt::format("{} cells", cells.size()),
+                 fmt::format("the header in line {} has {} columns", table.header_line, table.columns.size()),
+                 "give as many cells, with a comma between them and a point in numbers");
+  }
+  NumberTable::Row row{line, {}};
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::optional<double> value = cells[c].empty() ? std::numeric_limits<double>::quiet_NaN() : parse_number(cells[c]);
+    if (!value) {
+      refuse_table(table, line, fmt::format("{} = {}", table.columns[c], in_quotes(cells[c])), "not a finite number",
+                   "correct the number");
+    }
+    row.cells.push_back(*value);
+  }
+  table.rows.push_back(std::move(row));
+}
+
+}  // namespace
+
+void refuse_table(const NumberTable& table, std::size_t line, std::string_view what, std::string_view why,
+                  std::string_view cure) {
+  const std::string place = line == 0 ? table.file.string() : fmt::format("{}:{}", table.file.string(), line);
+  throw_input(printable(fmt::format("{}: {}", place, what)), printable(why), cure);
+}
+
+std::optional<std::size_t> NumberTable::find_column(std::string_view name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end()) return {};
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::size_t NumberTable::column(std::string_view name) const {
+  const std::optional<std::size_t> found = find_column(name);
+  if (!found) {
+    refuse_table(*this, header_line, fmt::format("no column {}", name), "it is needed",
+                 "give the file as this program writes it");
+  }
+  return *found;
+}
+
+NumberTable read_number_table(const std::filesystem::path& file) {
+  NumberTable table;
+  table.file = file;
+  std::error_code error;
+  const std::uintmax_t bytes_there = std::filesystem::file_size(file, error);
+  if (!error && bytes_there > largest_file_bytes) {
+    refuse_table(table, 0, fmt::format("{} bytes", bytes_there), "a table here may have 10 MB", "give fewer rows");
+  }
+  const std::string bytes = read_file(file);
+  std::string_view text = bytes;
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) text.remove_prefix(byte_order_mark.size());
+
+  for (LineReader lines(text); lines.next();) {
+    const std::string_view line = trimmed(lines.line());
+    if (line.empty()) continue;
+    if (line.front() == '#') {
+      table.comments.emplace_back(trimmed(line.substr(1)));
+    } else if (table.columns.empty()) {
+      take_header(table, lines.number(), split(line));
+    } else {
+      take_row(table, lines.number(), split(line));
+    }
+  }
+  if (table.columns.empty())
+    refuse_table(table, 0, "nothing but blank lines and comments", "a line of column names comes first", "check the file");
+  if (table.rows.empty())
+    refuse_table(table, table.header_line, "no row below the header", "at least one is needed", "check the file");
+  return table;
+}
+
+}  // namespace sunfleck

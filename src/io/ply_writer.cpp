@@ -1,0 +1,95 @@
+#include "base/error.h"
+#include "io/export_formats.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+std::string header_of(const ExportData& data, const char* coordinate) {
+  const ElementFields& fields = data.fields;
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  for (const RecordEntry& entry : record_entries(data.record, data.model)) {
+    text += fmt::format("comment {}: {}\n", entry.key, entry.value);
+  }
+  text += "comment Each triangle has three vertices of its own, which carry its values.\n";
+  for (std::size_t i = 0; i < fields.organ_names.size(); ++i) {
+    text += fmt::format("comment organ {}: {}\n", i, clean_text(fields.organ_names[i]));
+  }
+  for (std::size_t i = 0; i < fields.optics_names.size(); ++i) {
+    text += fmt::format("comment optics {}: {}\n", i, clean_text(fields.optics_names[i]));
+  }
+  text += fmt::format("comment x, y, z: m\ncomment {}: {}\n", area_column.name, area_column.units);
+  for (const std::vector<LightValues>& band : fields.light) {
+    for (const LightValues& column : band) {
+      text += fmt::format("comment {}: {}, {}\n", column.name, light_units, meaning(column.column));
+    }
+  }
+  text += fmt::format("element vertex {}\n", 3 * fields.size());
+  for (const char axis : {'x', 'y', 'z'}) text += fmt::format("property {} {}\n", coordinate, axis);
+  if (!data.colours.empty()) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  for (const PlaceColumn& column : {triangle_column, plant_column}) text += fmt::format("property uint {}\n", column.name);
+  for (const PlaceColumn& column : {rank_column, organ_column, optics_column}) {
+    text += fmt::format("property int {}\n", column.name);
+  }
+  text += fmt::format("property double {}\n", area_column.name);
+  for (const std::vector<LightValues>& band : fields.light) {
+    for (const LightValues& column : band) text += fmt::format("property double {}\n", column.name);
+  }
+  return text + fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", fields.size());
+}
+
+void append_corner(std::string& bytes, const ExportData& data, std::size_t element, std::size_t corner) {
+  const glm::dvec3 position = corner_m(data.model.canopy, element, corner);
+  if (corners_fit_float(data.model.canopy)) {
+    append_bytes(bytes, glm::vec3(position));
+  } else {
+    append_bytes(bytes, position);
+  }
+}
+
+void append_values(std::string& bytes, const ExportData& data, std::size_t element) {
+  const ElementFields& fields = data.fields;
+  if (!data.colours.empty()) append_bytes(bytes, data.colours[element].srgb);
+  append_bytes(bytes, static_cast<std::uint32_t>(element));
+  append_bytes(bytes, fields.plant[element]);
+  append_bytes(bytes, fields.rank[element]);
+  append_bytes(bytes, fields.organ[element]);
+  append_bytes(bytes, fields.optics[element]);
+  append_bytes(bytes, fields.area_m2[element]);
+  for (const std::vector<LightValues>& band : fields.light) {
+    for (const LightValues& column : band) append_bytes(bytes, column.values[element]);
+  }
+}
+
+}  // namespace
+
+// The values stand at the vertices and not at the faces, since CloudCompare and meshio read none of a face's.
+std::string ply_bytes(const ExportData& data) {
+  const std::size_t count = data.fields.size();
+  constexpr std::size_t most_triangles = std::numeric_limits<std::int32_t>::max() / 3;
+  if (count > most_triangles) {
+    throw_failure(fmt::format("canopy.ply: {} triangles", count),
+                  fmt::format("the format's vertex numbers end at {} of them", most_triangles), "export vtp or nc");
+  }
+  std::string bytes = header_of(data, corners_fit_float(data.model.canopy) ? "float" : "double");
+  std::string values;
+  for (std::size_t e = 0; e < count; ++e) {
+    values.clear();
+    append_values(values, data, e);
+    for (std::size_t k = 0; k < 3; ++k) {
+      append_corner(bytes, data, e, k);
+      bytes += values;
+    }
+  }
+  for (std::size_t e = 0; e < count; ++e) {
+    const auto first = static_cast<std::int32_t>(3 * e);
+    bytes += static_cast<char>(3);
+    append_bytes(bytes, std::array{first, first + 1, first + 2});
+  }
+  return bytes;
+}
+
+}  // namespace sunfleck

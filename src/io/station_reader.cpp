@@ -1,0 +1,234 @@
+// A weather station's CSV.
+
+#include "io/mesh_formats.h"
+#include "io/weather_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+constexpr std::size_t not_there = static_cast<std::size_t>(-1);
+constexpr int first_year = 1900, last_year = 2100;  // where the sun's position is known
+constexpr std::string_view time_cure = "write it as 2002-08-08T10:10:00+08:00";
+
+struct Columns {
+  std::size_t count = 0;
+  std::size_t time = not_there, ghi = not_there, dni = not_there, dhi = not_there;
+};
+
+class StationReader {
+ public:
+  explicit StationReader(const WeatherSource& source) : source_(source) {}
+
+  WeatherFile read() {
+    std::string_view text = source_.bytes;
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    LineReader lines(text);
+    while (lines.next()) {
+      const std::string_view line = trimmed(lines.line());
+      if (line.empty() || line.front() == '#') continue;
+      line_ = lines.number();
+      split_cells(line, cells_);
+      if (columns_.count == 0) {
+        read_header();
+      } else {
+        read_row();
+      }
+    }
+    if (columns_.count == 0) refuse(source_, 0, "no line of column names found", "there is no row", "begin with time,ghi");
+    if (intervals_.size() < 2) {
+      refuse(source_, 0, fmt::format("{} row found", intervals_.size() == 0 ? "no" : "one"),
+             "an interval's length is the step to the next one's start, so two are needed", "add rows");
+    }
+    set_lengths();
+    WeatherFile result;
+    result.weather.source = Weather::Source::intervals;
+    result.weather.intervals = std::move(intervals_);
+    result.weather.name = printable_name();
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::string printable_name() const {
+    const std::string quoted = in_quotes(source_.file.filename().string());
+    return quoted.substr(1, quoted.size() - 2);
+  }
+
+  void read_header() {
+    columns_.count = cells_.size();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      std::string name(cells_[i]);
+      std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+      for (const auto& [known, column] :
+           {std::pair{"time", &columns_.time}, {"ghi", &columns_.ghi}, {"dni", &columns_.dni}, {"dhi", &columns_.dhi}}) {
+        if (name != known) continue;
+        if (*column != not_there) refuse(source_, line_, fmt::format("column {}", known), "is there twice", "keep one");
+        *column = i;
+      }
+    }
+    if (columns_.time == not_there) {
+      refuse(source_, line_, fmt::format("the line of column names is {}", in_quotes(cells_.front())),
+             "no column is called time", "begin with a line such as time,ghi or time,dni,dhi; separate by commas");
+    }
+    const bool one_part = (columns_.dni == not_there) != (columns_.dhi == not_there);
+    if (one_part) {
+      refuse(source_, line_, fmt::format("column {} is missing", columns_.dni == not_there ? "dni" : "dhi"),
+             "direct normal and diffuse horizontal irradiance come together", "add it, or give ghi alone");
+    }
+    if (columns_.ghi == not_there && columns_.dni == not_there) {
+      refuse(source_, line_, "no irradiance", "no column is called ghi, nor dni and dhi", "name the columns so, in W m-2");
+    }
+  }
+
+  void read_row() {
+    if (cells_.size() != columns_.count) {
+      refuse(source_, line_, fmt::format("{} cells", cells_.size()), fmt::format("there are {} columns", columns_.count),
+             "give every column a value, separated by commas");
+    }
+    WeatherInterval interval;
+    interval.line = line_;
+    interval.start = read_time(cells_[columns_.time]);
+    if (columns_.ghi != not_there) interval.ghi_w_m2 = read_value("ghi", cells_[columns_.ghi]);
+    if (columns_.dni != not_there) {
+      interval.dni_w_m2 = read_value("dni", cells_[columns_.dni]);
+      interval.dhi_w_m2 = read_value("dhi", cells_[columns_.dhi]);
+    }
+    if (!intervals_.empty() && seconds_between(intervals_.back().start, interval.start) <= 0.0) {
+      refuse(source_, line_, fmt::format("time {}", in_quotes(cells_[columns_.time])),
+             fmt::format("it is not later than that of line {}", intervals_.back().line), "sort the rows by time");
+    }
+    intervals_.push_back(interval);
+  }
+
+  double read_value(std::string_view column, std::string_view cell) const {
+    const std::optional<double> value = parse_number(cell);
+    if (!value) {
+      refuse(source_, line_, fmt::format("{} {}", column, in_quotes(cell)),
+             "must be a number, and missing ones are not guessed", "fill it in, or leave the row out to make a gap");
+    }
+    if (*value < 0.0 || *value > most_broadband_w_m2) {
+      refuse(source_, line_, fmt::format("{} = {}", column, *value),
+             fmt::format("must lie in 0..{} W m-2", most_broadband_w_m2),
+             *value < 0.0 ? "set a pyranometer's offset at night to 0" : "give the mean over the interval in W m-2");
+    }
+    return *value;
+  }
+
+  // Digits at the front of `rest`, exactly `count`; empty if there are other characters.
+  static std::optional<int> take_digits(std::string_view& rest, std::size_t count) {
+    if (rest.size() < count) return std::nullopt;
+    int value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (rest[i] < '0' || rest[i] > '9') return std::nullopt;
+      value = 10 * value + (rest[i] - '0');
+    }
+    rest.remove_prefix(count);
+    return value;
+  }
+  static bool take(std::string_view& rest, std::string_view any_of) {
+    if (rest.empty() || any_of.find(rest.front()) == any_of.npos) return false;
+    rest.remove_prefix(1);
+    return true;
+  }
+  // Two digits after one of the separators.
+  static std::optional<int> take_part(std::string_view& rest, std::string_view separators) {
+    return take(rest, separators) ? take_digits(rest, 2) : std::nullopt;
+  }
+
+  // Seconds with decimals, after a colon; 0 where there is none.
+  static std::optional<double> take_seconds(std::string_view& rest) {
+    if (rest.empty() || rest.front() != ':') return 0.0;
+    const std::optional<int> whole = take_part(rest, ":");
+    if (!whole) return std::nullopt;
+    double second = *whole;
+    if (!take(rest, ".")) return second;
+    std::size_t digits = 0;
+    for (double unit = 0.1; !rest.empty() && std::isdigit(static_cast<unsigned char>(rest.front())) != 0; unit /= 10.0) {
+      second += unit * (rest.front() - '0');
+      rest.remove_prefix(1);
+      ++digits;
+    }
+    return digits > 0 ? std::optional<double>(second) : std::nullopt;
+  }
+
+  // Z, +08, +0800 or +08:00, in minutes east of Greenwich.
+  static std::optional<int> take_offset(std::string_view& rest) {
+    if (take(rest, "Zz")) return 0;
+    const bool west = rest.starts_with('-');
+    if (!take(rest, "+-")) return std::nullopt;
+    const std::optional<int> hours = take_digits(rest, 2);
+    int minutes = 0;
+    if (hours && !rest.empty()) {
+      static_cast<void>(take(rest, ":"));
+      const std::optional<int> given = take_digits(rest, 2);
+      if (!given) return std::nullopt;
+      minutes = *given;
+    }
+    if (!hours || *hours > 23 || minutes > 59) return std::nullopt;
+    return (west ? -1 : 1) * (60 * *hours + minutes);
+  }
+
+  UtcTime read_time(std::string_view cell) const {
+    const std::string shown = fmt::format("time {}", in_quotes(cell));
+    std::string_view rest = cell;
+    const auto year = take_digits(rest, 4);
+    const auto month = take_part(rest, "-"), day = take_part(rest, "-"), hour = take_part(rest, "Tt "),
+               minute = take_part(rest, ":");
+    const auto second = take_seconds(rest);
+    if (!year || !month || !day || !hour || !minute || !second)
+      refuse(source_, line_, shown, "is no ISO 8601 date and time", time_cure);
+    rest = trimmed(rest);
+    if (rest.empty()) refuse(source_, line_, shown, "has no offset from UTC, so the instant is unknown", time_cure);
+    const auto offset = take_offset(rest);
+    if (!offset || !rest.empty()) refuse(source_, line_, shown, "its offset from UTC cannot be read", time_cure);
+    constexpr int days_in[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    const bool leap = (*year % 4 == 0 && *year % 100 != 0) || *year % 400 == 0;
+    const bool exists = *month >= 1 && *month <= 12 && *day >= 1 &&
+                        *day <= days_in[*month - 1] + (*month == 2 && leap ? 1 : 0) && *hour <= 23 && *minute <= 59 &&
+                        *second < 60.0;
+    if (!exists) refuse(source_, line_, shown, "there is no such date or time", "correct it");
+    // A day inside the years that sun_position knows, so that the offset does not leave them.
+    if (*year <= first_year || *year >= last_year) {
+      refuse(source_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
+             "correct the year");
+    }
+    return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * *offset);
+  }
+
+  // Each lasts to the next one's start; but where that is further than the most common step, only that long.
+  void set_lengths() {
+    std::map<long long, std::size_t> counts;  // by step in milliseconds
+    for (std::size_t i = 0; i + 1 < intervals_.size(); ++i) {
+      intervals_[i].length_s = seconds_between(intervals_[i].start, intervals_[i + 1].start);
+      ++counts[std::llround(1000.0 * intervals_[i].length_s)];
+    }
+    // From the longest step down, so that it wins over one as common.
+    const auto common =
+        std::max_element(counts.rbegin(), counts.rend(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const double longest_s = 0.001 * static_cast<double>(common->first);
+    for (WeatherInterval& interval : intervals_) interval.length_s = std::min(interval.length_s, longest_s);
+    intervals_.back().length_s = intervals_[intervals_.size() - 2].length_s;
+  }
+
+  const WeatherSource& source_;
+  Columns columns_;
+  std::vector<std::string_view> cells_;
+  std::size_t line_ = 0;
+  std::vector<WeatherInterval> intervals_;
+};
+
+}  // namespace
+
+WeatherFile read_station(const WeatherSource& source) {
+  return StationReader(source).read();
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,237 @@
+#include "io/step_store.h"
+
+#include "base/error.h"
+#include "io/file.h"
+#include "io/packed_array.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::string_view step_mark = "SUNSTEP1";
+constexpr const char* steps_folder = "steps";
+constexpr const char* settings_file = "settings.json";
+constexpr const char* finished_key = "finished";
+constexpr std::size_t head_bytes = step_mark.size() + sizeof(std::uint32_t);
+
+std::uint32_t check_sum(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+// Every number of a step's light, in the order of the file.
+template <class Light, class Visit>
+void for_each_number(Light& light, const Visit& visit) {
+  const auto visit_estimate = [&](auto& estimate) {
+    visit(estimate.value);
+    visit(estimate.half_width);
+  };
+  for (auto& band : light.bands) {
+    for (auto* term : {&band.incident, &band.absorbed_vegetation, &band.absorbed_soil, &band.reflected, &band.transmitted}) {
+      visit_estimate(*term);
+    }
+    visit(band.unshot);
+  }
+  for (auto& organ : light.organ_absorbed) visit_estimate(organ);
+  visit_estimate(light.sunlit_leaf_fraction);
+}
+
+std::vector<double> numbers_of(const StepLight& light) {
+  std::vector<double> numbers;
+  for_each_number(light, [&](double number) { numbers.push_back(number); });
+  return numbers;
+}
+
+StepLight read_light(const json& packed, std::size_t bands, std::size_t organs) {
+  StepLight light{std::vector<StepBand>(bands), std::vector<Estimate>(organs * bands), {}};
+  const std::vector<double> numbers = unpack<double>(packed, numbers_of(light).size());
+  std::size_t next = 0;
+  for_each_number(light, [&](double& number) { number = numbers[next++]; });
+  return light;
+}
+
+json error_json(const std::optional<double>& error) {
+  return error ? json(*error) : json(nullptr);
+}
+
+std::optional<double> error_of(const json& value) {
+  return value.is_null() ? std::nullopt : std::optional<double>(value.get<double>());
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw_failure(printable(file.string()), error.message(), "remove it, or give another folder with -o");
+}
+
+// Finished ones and what was begun.
+void remove_steps(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().filename().string().rfind("step_", 0) == 0) files.push_back(entry.path());
+  }
+  for (const fs::path& file : files) remove_file(file);
+}
+
+std::string value_text(const ordered_json& settings, const std::string& key) {
+  return settings.contains(key) ? printable(settings[key].dump()) : "not given";
+}
+
+}  // namespace
+
+std::vector<LightColumn> day_columns(const RadiationModel& model) {
+  std::vector<LightColumn> columns = {LightColumn::direct_upper, LightColumn::direct_lower};
+  if (model.sky) columns.insert(columns.end(), {LightColumn::sky_upper, LightColumn::sky_lower});
+  columns.insert(columns.end(),
+                 {LightColumn::indirect_upper, LightColumn::indirect_lower, LightColumn::absorbed, LightColumn::error});
+  return columns;
+}
+
+std::vector<float> day_fields(const RadiationModel& model, const RadiationResult& result) {
+  const std::vector<LightColumn> columns = day_columns(model);
+  const ElementFields all = make_element_fields(model, result);
+  std::vector<float> fields;
+  fields.reserve(model.bands.size() * columns.size() * all.size());
+  for (const std::vector<LightValues>& band : all.light) {
+    for (const LightColumn column : columns) {
+      const auto found = std::find_if(band.begin(), band.end(), [&](const LightValues& v) { return v.column == column; });
+      if (found == band.end()) {
+        fields.insert(fields.end(), all.size(), 0.0F);  // a sky without light
+      } else {
+        for (const double value : found->values) fields.push_back(static_cast<float>(value));
+      }
+    }
+  }
+  return fields;
+}
+
+void remove_day_steps(const fs::path& result_folder) {
+  const fs::path folder = result_folder / steps_folder;
+  remove_steps(folder);
+  remove_file(folder / settings_file);
+  std::error_code not_empty;
+  fs::remove(folder, not_empty);
+}
+
+StepStore::StepStore(fs::path result_folder, const RadiationModel& model, const ordered_json& settings)
+    : folder_(std::move(result_folder) / steps_folder),
+      settings_(settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace)),
+      bands_(model.bands.size()),
+      organs_(model.canopy.organs.size()),
+      field_values_(model.bands.size() * day_columns(model).size() * model.canopy.size()) {}
+
+StepStore::Found StepStore::find() const {
+  std::error_code error;
+  const fs::path file = folder_ / settings_file;
+  if (!fs::exists(file, error)) return Found::nothing;
+  ordered_json noted = ordered_json::parse(read_file(file), nullptr, false);
+  if (!noted.is_object() || !noted.contains(finished_key)) {
+    throw_input(printable(file.string()), "it is damaged", "leave --resume out: the day is computed anew");
+  }
+  const bool finished = noted[finished_key] == true;
+  noted.erase(finished_key);
+  const ordered_json now = ordered_json::parse(settings_);
+  for (const ordered_json* settings : {&now, static_cast<const ordered_json*>(&noted)}) {
+    for (const auto& [key, value] : settings->items()) {
+      if (now.contains(key) && noted.contains(key) && now[key] == noted[key]) continue;
+      throw_input(fmt::format("--resume {}", printable(folder_.parent_path().string())),
+                  fmt::format("that day has other settings: {} was {}, now {}", printable(key), value_text(noted, key),
+                              value_text(now, key)),
+                  "give the same, or leave --resume out to compute the day anew");
+    }
+  }
+  return finished ? Found::finished : Found::begun;
+}
+
+void StepStore::begin() {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw_failure(printable(folder_.string()), error.message(), "give a folder that can be written with -o");
+  remove_steps(folder_);
+  write_settings(false);
+}
+
+void StepStore::finish() {
+  write_settings(true);
+  remove_steps(folder_);
+}
+
+void StepStore::write(std::size_t step, const StoredStep& stored) const {
+  const json content = {{"settings", settings_},
+                        {"step", step},
+                        {"light", pack(numbers_of(stored.light))},
+                        {"fields", pack(stored.fields)},
+                        {"next_rays", stored.next_work.rays},
+                        {"next_packets", stored.next_work.packets},
+                        {"rays", stored.rays},
+                        {"packets", stored.packets},
+                        {"lost_rays", stored.lost_rays},
+                        {"direct_error", error_json(stored.direct_error)},
+                        {"indirect_error", error_json(stored.indirect_error)},
+                        {"reached_bound", stored.reached_bound},
+                        {"seconds", stored.seconds}};
+  std::string bytes(head_bytes, '\0');
+  json::to_cbor(content, bytes);
+  const std::uint32_t sum = check_sum(std::string_view(bytes).substr(head_bytes));
+  std::copy(step_mark.begin(), step_mark.end(), bytes.begin());
+  std::memcpy(bytes.data() + step_mark.size(), &sum, sizeof sum);
+  write_file(file_of(step), bytes);
+}
+
+std::optional<StoredStep> StepStore::read(std::size_t step) const {
+  std::error_code error;
+  if (!fs::is_regular_file(file_of(step), error)) return std::nullopt;
+  const std::string bytes = read_file(file_of(step));
+  if (bytes.size() < head_bytes || bytes.compare(0, step_mark.size(), step_mark) != 0) return std::nullopt;
+  const std::string_view content = std::string_view(bytes).substr(head_bytes);
+  std::uint32_t sum = 0;
+  std::memcpy(&sum, bytes.data() + step_mark.size(), sizeof sum);
+  if (sum != check_sum(content)) return std::nullopt;
+  try {
+    const json from = json::from_cbor(content);
+    if (from.at("settings") != settings_ || from.at("step") != step) return std::nullopt;
+    StoredStep stored;
+    stored.light = read_light(from.at("light"), bands_, organs_);
+    stored.fields = unpack<float>(from.at("fields"), field_values_);
+    stored.next_work = {from.at("next_rays").get<double>(), from.at("next_packets").get<double>()};
+    stored.rays = from.at("rays").get<std::uint64_t>();
+    stored.packets = from.at("packets").get<std::uint64_t>();
+    stored.lost_rays = from.at("lost_rays").get<std::uint64_t>();
+    stored.direct_error = error_of(from.at("direct_error"));
+    stored.indirect_error = error_of(from.at("indirect_error"));
+    stored.reached_bound = from.at("reached_bound").get<bool>();
+    stored.seconds = from.at("seconds").get<double>();
+    return stored;
+  } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const std::runtime_error&) {  // an array that cannot be unpacked
+    return std::nullopt;
+  }
+}
+
+fs::path StepStore::scratch_file() const {
+  return folder_ / "step_fields.tmp";
+}
+
+fs::path StepStore::file_of(std::size_t step) const {
+  return folder_ / fmt::format("step_{:05}.bin", step);
+}
+
+void StepStore::write_settings(bool finished) const {
+  ordered_json settings = ordered_json::parse(settings_);
+  settings[finished_key] = finished;
+  write_file(folder_ / settings_file, settings.dump(2) + "\n");
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,67 @@
+#include "io/weather_reader.h"
+
+#include "base/error.h"
+#include "io/file.h"
+#include "io/mesh_formats.h"
+#include "io/weather_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace sunfleck {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // three years of minutes
+
+std::string lower_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+}  // namespace
+
+bool is_weather_file(const fs::path& file) {
+  const std::string extension = lower_extension(file);
+  return extension == ".csv" || extension == ".epw";
+}
+
+WeatherFile read_weather(const fs::path& file) {
+  WeatherSource source{file, {}};
+  if (!is_weather_file(file)) refuse(source, 0, "its format is not known", "weather is .csv or .epw", "give one of these");
+  std::error_code code;
+  const std::uintmax_t size = fs::file_size(file, code);
+  if (!code && size > most_bytes) {
+    refuse(source, 0, fmt::format("has {} bytes", size), fmt::format("at most {} are possible", most_bytes),
+           "cut out the days of interest");
+  }
+  const std::string bytes = read_file(file);
+  source.bytes = bytes;
+  if (bytes.empty()) refuse(source, 0, "the file is empty", "weather needs at least one row", "write it again");
+  if (bytes.find('\0') != std::string::npos) {
+    refuse(source, 0, "has a zero byte", "weather files are plain text", "save it as text, UTF-8");
+  }
+  return lower_extension(file) == ".epw" ? read_epw(source) : read_station(source);
+}
+
+void refuse(const WeatherSource& source, std::size_t line, std::string_view what, std::string_view why, std::string_view cure) {
+  const std::string place = line == 0 ? source.file.string() : fmt::format("{}:{}", source.file.string(), line);
+  throw_input(printable(fmt::format("{}: {}", place, what)), printable(why), cure);
+}
+
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == line.npos) return;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace sunfleck
