@@ -1,5 +1,7 @@
 #include "app/commands.h"
+#include "app/day.h"
 #include "app/options.h"
+#include "app/render.h"
 #include "base/error.h"
 
 #include <fmt/format.h>
@@ -16,6 +18,8 @@ struct Dispatch {
     return 0;
   }
   int operator()(const sunfleck::RunOptions& options) const { return sunfleck::run(options); }
+  int operator()(const sunfleck::DayOptions& options) const { return sunfleck::run_day(options); }
+  int operator()(const sunfleck::RenderOptions& options) const { return sunfleck::render(options); }
   int operator()(const sunfleck::MaizeOptions& options) const { return sunfleck::write_maize(options); }
   int operator()(const sunfleck::InfoOptions& options) const { return sunfleck::show_info(options); }
 };

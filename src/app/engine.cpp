@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -46,9 +47,8 @@ Engine::Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene
   tracer_ = std::make_unique<VulkanTracer>(*context_, bvh, *tree_, scene, counter_words);
 }
 
-std::vector<shared::SeenSurface> Engine::see(const shared::ViewBlock& view, const std::vector<glm::vec2>& offsets,
-                                             const StopQuestion& stop) const {
-  return context_ ? see_with_gpu(*context_, *tree_, bvh_, view, offsets, stop) : see_with_cpu(bvh_, view, offsets, stop);
+std::unique_ptr<CanopyViewer> Engine::viewer(CanopyLook look) const {
+  return context_ ? view_with_gpu(*context_, *tree_, bvh_, std::move(look)) : view_with_cpu(bvh_, std::move(look));
 }
 
 std::vector<std::string> Engine::validation_messages() const {

@@ -22,9 +22,8 @@ class Engine {
 
   [[nodiscard]] Tracer& tracer() { return *tracer_; }
   [[nodiscard]] TracerDevice device() const { return tracer_->device(); }
-  // Empty if stopped.
-  [[nodiscard]] std::vector<shared::SeenSurface> see(const shared::ViewBlock& view, const std::vector<glm::vec2>& offsets,
-                                                     const StopQuestion& stop) const;
+  // The engine must outlive it.
+  [[nodiscard]] std::unique_ptr<CanopyViewer> viewer(CanopyLook look) const;
   // What the validation layer had to say; only builds with checks have it look.
   [[nodiscard]] std::vector<std::string> validation_messages() const;
 

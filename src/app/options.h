@@ -1,6 +1,8 @@
 #pragma once
 // The command line as plain values; the defaults stand beside the names.
 
+#include "app/picture.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -21,15 +23,34 @@ struct RunOptions {
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_rays;
   std::uint64_t seed = 1;
-  int threads = 0;                         // 0: as many as there are cores
-  std::vector<std::string> exports;        // of: csv
-  std::vector<std::string> images{"all"};  // file stems, all or none
-  std::string band;                        // of the pictures; empty: the scene's first
-  int width = 1600, height = 1200;         // of the pictures
-  int samples = 4;                         // a pixel
+  int threads = 0;                             // 0: as many as there are cores
+  std::vector<std::string> exports;            // of the names of io/exports.h
+  std::filesystem::path measured;              // empty: no field data
+  std::vector<std::filesystem::path> compare;  // folders of earlier results
+  std::vector<std::string> images{"all"};      // file stems, all or none
+  std::optional<Picture> extra_picture;        // beside them, where --chart or --field asks for it
+  PictureOptions pictures;
   bool allow_outside = false;
   bool quiet = false;
   bool json = false;
+};
+
+// Of several dates, each has the same local hours.
+struct DayOptions {
+  RunOptions run;        // images: all, none or day
+  std::string from, to;  // HH:MM; empty: sunrise and sunset
+  std::string date;      // YYYY-MM-DD; empty: the scene's own
+  std::string to_date;   // empty: one date
+  int step_min = 60;     // the last step ends at `to`
+  bool resume = false;
+};
+
+struct RenderOptions {
+  RunOptions run;              // scene: that, or the folder of a finished run; what simulates it; how it is looked at
+  std::filesystem::path file;  // .png or .exr; empty: <chart>_<field>.png in the folder, or <scene>_<chart>_<field>.png
+  Picture picture;
+  bool chart_given = false;
+  std::string simulating;  // the first option given that only a simulation needs; empty: none
 };
 
 struct MaizeOptions {
@@ -49,7 +70,7 @@ struct InfoOptions {
 struct TextToPrint {
   std::string text;
 };
-using Command = std::variant<TextToPrint, RunOptions, MaizeOptions, InfoOptions>;
+using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, MaizeOptions, InfoOptions>;
 
 // Throws Error (input) on bad usage.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);

@@ -1,44 +1,47 @@
 #include "app/pictures.h"
 
+#include "app/colouring.h"
+#include "app/fields.h"
 #include "base/error.h"
 #include "io/file.h"
-#include "transport/solve.h"
+#include "tracers/canopy_view.h"
+#include "view/camera.h"
+#include "view/chart.h"
+#include "view/value_image.h"
+#include "view/view_block.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <numbers>
+#include <utility>
 
 namespace sunfleck {
 namespace {
 
-Camera camera_of(const Scene& scene, double height_m, double aspect) {
-  if (scene.camera) return look_at(scene.camera->position_m, scene.camera->look_at_m, scene.camera->fov_rad, aspect);
-  const RadiationModel& model = scene.model;
+// Where a canopy photograph is taken from: in the middle of the plot, above the clods of the soil.
+constexpr double fisheye_height_m = 0.1;
+
+Camera camera_of(const Drawing& drawing, const PictureOptions& options) {
+  const RadiationModel& model = drawing.scene.model;
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const auto& pose = drawing.scene.camera;
+  if (options.view == ViewKind::camera && pose) return look_at(pose->position_m, pose->look_at_m, pose->fov_rad, aspect);
+  if (options.view == ViewKind::fisheye) {
+    return fisheye_view({0.5 * model.plot.size_x_m, fisheye_height_m, 0.5 * model.plot.size_z_m}, aspect);
+  }
   const Box elements = bounds(model.canopy);
   glm::dvec3 lo(0.0);
-  glm::dvec3 hi(model.plot.size_x_m, height_m, model.plot.size_z_m);
+  glm::dvec3 hi(model.plot.size_x_m, drawing.layout.layers.height_m, model.plot.size_z_m);
   if (model.canopy.size() > 0) {
     lo = glm::min(lo, glm::dvec3(elements.lo) + model.canopy.origin_m);
     hi = glm::max(hi, glm::dvec3(elements.hi) + model.canopy.origin_m);
   }
-  return three_quarter_view(lo, hi, aspect);
-}
-
-shared::ViewBlock view_block(const RadiationModel& model, const CounterLayout& layout, const Camera& camera,
-                             const SurfaceImage& image) {
-  shared::ViewBlock view;
-  view.position = camera.position_m - model.canopy.origin_m;
-  view.forward = camera.forward;
-  view.right = camera.right * (camera.tan_half_fov * camera.aspect);
-  view.up = camera.up * camera.tan_half_fov;
-  view.width = static_cast<std::uint32_t>(image.width);
-  view.height = static_cast<std::uint32_t>(image.height);
-  view.samples = static_cast<std::uint32_t>(image.samples);
-  view.elements = static_cast<std::uint32_t>(model.canopy.size());
-  view.ground = make_ground_map(layout);
-  return view;
+  const glm::dvec3 beside = 0.5 * (options.repeat - 1) * glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
+  lo -= beside;
+  hi += beside;
+  if (options.view == ViewKind::top) return top_view(lo, hi, aspect);
+  return options.view == ViewKind::side ? side_view(lo, hi, aspect) : three_quarter_view(lo, hi, aspect);
 }
 
 std::string subtitle_line(const RadiationModel& model, const RadiationResult& result) {
@@ -51,26 +54,71 @@ std::string subtitle_line(const RadiationModel& model, const RadiationResult& re
   return line + fmt::format("{} triangles, leaf area index {:.2f}", model.canopy.size(), result.leaf_area_index);
 }
 
-std::string footer_line(LightField field, const RadiationResult& result) {
-  std::string line = fmt::format("{:.2f} million rays", static_cast<double>(result.direct.rays) * 1e-6);
-  if (result.direct.relative_error) line += fmt::format(", relative error {:.2g}", *result.direct.relative_error);
-  if (field == LightField::direct || result.indirect.packets == 0) return line;
-  line += fmt::format("; {:.2f} million packets", static_cast<double>(result.indirect.packets) * 1e-6);
-  if (result.indirect.relative_error) line += fmt::format(", relative error {:.2g}", *result.indirect.relative_error);
-  return line;
+std::string footer_line(LightField field, const RadiationResult& result, const std::string& note) {
+  std::string line;
+  const auto add = [&](std::uint64_t count, const char* what, const std::optional<double>& error) {
+    if (count == 0) return;
+    line += fmt::format("{}{:.2f} million {}", line.empty() ? "" : "; ", static_cast<double>(count) * 1e-6, what);
+    if (error) line += fmt::format(", relative error {:.2g}", *error);
+  };
+  add(result.direct.rays, "rays", result.direct.relative_error);
+  if (field != LightField::direct) {
+    add(result.indirect.packets + result.indirect.sky_rays, "packets", result.indirect.relative_error);
+  }
+  return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
 }
 
-const char* field_name(LightField field) {
-  switch (field) {
-    case LightField::direct:
-      return "Direct";
-    case LightField::indirect:
-      return "Indirect";
-    case LightField::total:
-      return "Total";
+SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, const RowBand& rows,
+                           const PictureOptions& options) {
+  SurfaceImage image{options.width, rows.count, options.samples, {}, {}, {}, rows.first};
+  image.surface.reserve(samples.size());
+  image.depth_m.reserve(samples.size());
+  if (options.repeat > 1) image.neighbour.reserve(samples.size());
+  for (const shared::SeenSurface& sample : samples) {
+    image.surface.push_back(sample.surface);
+    image.depth_m.push_back(sample.depth);
+    if (options.repeat > 1) image.neighbour.push_back(sample.copy != 0 ? 1 : 0);
   }
-  return "";
+  return image;
 }
+
+// One look at a scene: a picture's rows, band by band.
+class Look {
+ public:
+  Look(const Drawing& drawing, const PictureOptions& options, const Camera& camera)
+      : options_(options), viewer_(drawing.engine.viewer(canopy_look(drawing, options, camera))) {}
+
+  // Hands over every band of rows, top to bottom; false if stopped.
+  template <class Receive>
+  [[nodiscard]] bool each_band(const StopQuestion& stop, const Receive& receive) const {
+    static_assert(SurfaceImage::nothing == shared::seen_nothing);
+    for (const RowBand& rows : row_bands(options_.width, options_.height, options_.samples)) {
+      const auto samples = viewer_->see(static_cast<std::uint32_t>(rows.first), static_cast<std::uint32_t>(rows.count), stop);
+      if (samples.empty()) return false;
+      receive(surface_image(samples, rows, options_));
+    }
+    return true;
+  }
+
+ private:
+  static CanopyLook canopy_look(const Drawing& drawing, const PictureOptions& options, const Camera& camera) {
+    const RadiationModel& model = drawing.scene.model;
+    CanopyLook look;
+    look.view = make_view_block(camera, {options.width, options.height, options.samples}, model.canopy.origin_m);
+    look.view.elements = static_cast<std::uint32_t>(model.canopy.size());
+    look.view.ground = make_ground_map(drawing.layout);
+    look.offsets = sample_offsets(options.samples);
+    if (options.repeat == 1) return look;
+    // Seen from the side, copies in front would hide the plot itself.
+    const bool from_the_side = options.view == ViewKind::camera || options.view == ViewKind::side;
+    look.copies = {options.repeat, model.canopy.period_m,
+                   from_the_side ? SeenCopies::Which::not_before_plot : SeenCopies::Which::all};
+    return look;
+  }
+
+  const PictureOptions& options_;
+  std::unique_ptr<CanopyViewer> viewer_;
+};
 
 }  // namespace
 
@@ -84,69 +132,71 @@ std::size_t picture_band(const RadiationModel& model, const std::string& name) {
   throw_input(fmt::format("--band {}", printable(name)), "no band of the scene", "give one of " + known);
 }
 
-RankCharts::RankCharts(const Scene& scene, const CounterLayout& layout, const RadiationResult& result,
-                       const RunOptions& options)
-    : scene_(scene),
-      layout_(layout),
-      result_(result),
-      band_(picture_band(scene.model, options.band)),
-      camera_(
-          camera_of(scene, layout.layers.height_m, static_cast<double>(options.width) / static_cast<double>(options.height))),
-      seen_{options.width, options.height, options.samples, {}, {}} {}
-
-bool RankCharts::look(const Engine& engine, const StopQuestion& stop) {
-  static_assert(SurfaceImage::nothing == shared::seen_nothing);
-  const std::vector<shared::SeenSurface> samples =
-      engine.see(view_block(scene_.model, layout_, camera_, seen_), sample_offsets(seen_.samples), stop);
-  seen_.surface.reserve(samples.size());
-  seen_.depth_m.reserve(samples.size());
-  for (const shared::SeenSurface& sample : samples) {
-    seen_.surface.push_back(sample.surface);
-    seen_.depth_m.push_back(sample.depth);
-  }
-  return !samples.empty();
+void check_view(const RadiationModel& model, const PictureOptions& options) {
+  static_cast<void>(picture_band(model, options.band));
+  if (options.repeat == 1 || model.plot.periodic) return;
+  throw_input(fmt::format("--repeat {}", options.repeat), "the plot stands alone: it has no neighbours",
+              "leave --repeat out, or make the scene periodic");
 }
 
-RankCharts::SurfaceValues RankCharts::surface_values(LightField field) const {
-  const RadiationModel& model = scene_.model;
-  const double beam_w_m2 = model.bands[band_].direct_w_m2;
-  SurfaceValues values;
-  const auto add = [&](std::uint64_t landings, double indirect_w_m2, double area) {
-    double irradiance_w_m2 = 0.0;
-    if (field != LightField::indirect) irradiance_w_m2 += result_.irradiance_w_m2(landings, area, beam_w_m2);
-    if (field != LightField::direct) irradiance_w_m2 += indirect_w_m2;
-    values.irradiance_w_m2.push_back(irradiance_w_m2);
-    values.area_m2.push_back(area);
-  };
-  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
-    const double area = area_m2(model.canopy.corners[e]);
-    add(result_.elements[e].upper, result_.side_indirect_w_m2(2 * e, area, band_), area);
-    add(result_.elements[e].lower, result_.side_indirect_w_m2(2 * e + 1, area, band_), area);
-  }
-  const double cell_m2 = layout_.cells() > 0 ? model.plot.area_m2() / layout_.cells() : 0.0;
-  for (std::size_t cell = 0; cell < result_.soil_cells.size(); ++cell) {
-    add(result_.soil_cells[cell], result_.cell_indirect_w_m2(cell, cell_m2, band_), cell_m2);
-  }
-  return values;
+void check_field(const RadiationModel& model, const Picture& picture) {
+  if (has_field(model, picture.field)) return;
+  const char* why = "nothing in the scene reflects, transmits or glows, and there is no sky";
+  if (picture.field == LightField::direct) why = "the scene has no beam";
+  if (picture.field == LightField::sky) why = "the scene has no light from the sky";
+  throw_input("picture " + stem_of(picture), why, "ask for another field");
 }
 
-ChartText RankCharts::chart_text(LightField field, const RankScale& scale) const {
-  ChartText text;
-  text.title = scene_.title;
-  text.subtitle = subtitle_line(scene_.model, result_);
-  text.legend_title = fmt::format("{} {} irradiance, W m⁻²", field_name(field), scene_.model.bands[band_].name);
-  text.legend = rank_legend(scale);
-  text.footer = footer_line(field, result_);
-  return text;
+bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
+                 const StopQuestion& stop, const ChartReceiver& receive) {
+  const RadiationModel& model = drawing.scene.model;
+  const std::size_t band = picture_band(model, options.band);
+  const Camera camera = camera_of(drawing, options);
+  const ChartFrame frame{options.width, options.height, camera, model.plot, drawing.layout.layers.height_m};
+  const SurfaceColours surfaces = surface_colours(model, drawing.layout);
+  std::vector<ChartCanvas> canvases;
+  std::vector<ChartText> texts;
+  for (const Picture& picture : pictures) {
+    Colouring colouring = colour_field(picture.chart, field_values(model, drawing.layout, drawing.result, band, picture.field),
+                                       surfaces, field_title(picture.field, model.bands[band].name));
+    canvases.emplace_back(frame, std::move(colouring.colours));
+    texts.push_back({drawing.scene.title, subtitle_line(model, drawing.result), colouring.legend_title, colouring.legend,
+                     footer_line(picture.field, drawing.result, colouring.note), colouring.bar});
+  }
+  const Look look(drawing, options, camera);
+  const bool seen = look.each_band(stop, [&](const SurfaceImage& rows) {
+    for (ChartCanvas& canvas : canvases) canvas.paint(rows);
+  });
+  if (!seen) return false;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    if (stop && stop()) return false;
+    receive(pictures[k], canvases[k].finish(texts[k]));
+  }
+  return true;
 }
 
-Image RankCharts::draw(LightField field) const {
-  const SurfaceValues values = surface_values(field);
-  const RankScale scale = equal_count_ranks(values.irradiance_w_m2, values.area_m2);
-  std::vector<Colour> colours;
-  colours.reserve(values.irradiance_w_m2.size());
-  for (const double irradiance : values.irradiance_w_m2) colours.push_back(rank_colour(rank_of(scale, irradiance)));
-  return draw_chart(seen_, colours, camera_, scene_.model.plot, layout_.layers.height_m, chart_text(field, scale));
+std::optional<ExrImage> draw_values(const Drawing& drawing, const PictureOptions& options, LightField field,
+                                    const StopQuestion& stop) {
+  const RadiationModel& model = drawing.scene.model;
+  const std::size_t band = picture_band(model, options.band);
+  const FieldValues values = field_values(model, drawing.layout, drawing.result, band, field);
+  ValueImage image;
+  const Look look(drawing, options, camera_of(drawing, options));
+  const bool seen =
+      look.each_band(stop, [&](const SurfaceImage& rows) { append_rows(image, resolve_values(rows, values.w_m2)); });
+  if (!seen) return std::nullopt;
+  for (std::uint32_t& surface : image.surface) {
+    surface = surface < 2 * model.canopy.size() ? surface / 2 : SurfaceImage::nothing;
+  }
+  ExrImage exr{image.width, image.height, {}, {}};
+  exr.channels.push_back({"Y", std::move(image.value)});
+  exr.channels.push_back({"A", std::move(image.coverage)});
+  exr.channels.push_back({"element", std::move(image.surface)});
+  exr.comments = fmt::format(
+      "{}; Y: {}, mean over the samples that see a surface; A: share of the samples that see one; element: number of the "
+      "triangle that most samples see, from 0, 4294967295 for soil and sky",
+      drawing.scene.title, field_title(field, model.bands[band].name));
+  return exr;
 }
 
 }  // namespace sunfleck

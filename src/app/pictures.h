@@ -1,54 +1,47 @@
 #pragma once
-// From a result to its charts.
+// From a result to its pictures.
 
 #include "app/engine.h"
-#include "app/options.h"
+#include "app/picture.h"
+#include "io/exr_writer.h"
 #include "io/scene_reader.h"
 #include "transport/counters.h"
 #include "transport/result.h"
-#include "view/camera.h"
-#include "view/chart.h"
-#include "view/colour_scale.h"
 #include "view/image.h"
 
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace sunfleck {
 
 // The number of the band of that name, of the first for an empty one. Throws Error (input) if the scene has none such.
 [[nodiscard]] std::size_t picture_band(const RadiationModel& model, const std::string& name);
 
-// Which light a picture shows: the beam's first landings, all other light, or both.
-enum class LightField { direct, indirect, total };
+// Throws Error (input) if the scene does not have what a picture is to show, or cannot be looked at that way.
+void check_view(const RadiationModel& model, const PictureOptions& options);
+void check_field(const RadiationModel& model, const Picture& picture);
 
-// The colour rank charts of irradiance in one band, of one view that is looked at once.
-class RankCharts {
- public:
-  // All must outlive it.
-  RankCharts(const Scene& scene, const CounterLayout& layout, const RadiationResult& result, const RunOptions& options);
-
-  // Looks at the scene; false if stopped.
-  [[nodiscard]] bool look(const Engine& engine, const StopQuestion& stop);
-
-  // After a look.
-  [[nodiscard]] Image draw(LightField field) const;
-
- private:
-  struct SurfaceValues {
-    std::vector<double> irradiance_w_m2;  // [surface number]: both faces of the elements, then the soil's cells
-    std::vector<double> area_m2;
-  };
-  [[nodiscard]] SurfaceValues surface_values(LightField field) const;
-  [[nodiscard]] ChartText chart_text(LightField field, const RankScale& scale) const;
-
-  const Scene& scene_;
-  const CounterLayout& layout_;
-  const RadiationResult& result_;
-  std::size_t band_;
-  Camera camera_;
-  SurfaceImage seen_;
+// What is drawn. `layout` is the scene's, `result` of the scene; the tree of the engine is the scene's.
+struct Drawing {
+  const Scene& scene;
+  const CounterLayout& layout;
+  const RadiationResult& result;
+  const Engine& engine;
 };
+
+// Draws charts of one view: the scene is looked at once for all of them. Each is handed over as soon as it is finished, in
+// order. False if stopped before the last.
+using ChartReceiver = std::function<void(const Picture& picture, const Image& image)>;
+[[nodiscard]] bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
+                               const StopQuestion& stop, const ChartReceiver& receive);
+
+// The values themselves. Channels: "Y" the field in W m-2, mean over the samples of the pixel that see a surface, 0 where none
+// does; "A" the share of samples that see one; "element" the number of the element that most of them see, 4294967295 where it
+// is none, which the soil is not. None if stopped.
+[[nodiscard]] std::optional<ExrImage> draw_values(const Drawing& drawing, const PictureOptions& options, LightField field,
+                                                  const StopQuestion& stop);
 
 }  // namespace sunfleck

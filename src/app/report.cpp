@@ -43,12 +43,25 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
     if (bound) line += fmt::format(" (bound {:.2g})", *bound);
     return line;
   };
-  text += fmt::format("  direct: {} rays in {} replicates, spacing {:.3g} mm{}, {:.2f} s\n", result.direct.rays,
-                      result.direct.replicates, result.direct.grid_m * 1e3,
-                      errors(result.direct.relative_error, result.direct.bound), result.direct.seconds);
-  if (result.indirect.packets > 0) {
-    text += fmt::format("  indirect: {} packets in {} rounds{}, {:.2f} s\n", result.indirect.packets, result.indirect.rounds,
-                        errors(result.indirect.relative_error, result.indirect.bound), result.indirect.seconds);
+  if (result.direct.rays > 0) {
+    text += fmt::format("  direct: {} rays in {} replicates, spacing {:.3g} mm{}, {:.2f} s\n", result.direct.rays,
+                        result.direct.replicates, result.direct.grid_m * 1e3,
+                        errors(result.direct.relative_error, result.direct.bound), result.direct.seconds);
+  }
+  if (result.indirect.packets + result.indirect.sky_rays > 0) {
+    const std::string sky =
+        result.indirect.sky_rays > 0 ? fmt::format("{} rays from the sky, ", result.indirect.sky_rays) : std::string();
+    text +=
+        fmt::format("  indirect: {}{} packets in {} rounds{}, {:.2f} s\n", sky, result.indirect.packets, result.indirect.rounds,
+                    errors(result.indirect.relative_error, result.indirect.bound), result.indirect.seconds);
+  }
+  for (const PlaneResult& plane : result.planes) {
+    text += fmt::format("  plane at {:.3f} m:", plane.height_m);
+    if (model.has_beam()) text += fmt::format(" sunflecks {},", with_error(plane.sunfleck_ratio));
+    for (std::size_t b = 0; b < plane.total_down.size(); ++b) {
+      text += fmt::format("{} {} down {} W m-2", b > 0 ? "," : "", result.bands[b].name, with_error(plane.total_down[b]));
+    }
+    text += '\n';
   }
   if (result.lost_rays > 0) text += fmt::format("  {} rays were lost: their flux counts as unshot\n", result.lost_rays);
   return text;

@@ -1,0 +1,355 @@
+#include "app/day.h"
+
+#include "app/day_plan.h"
+#include "app/interrupt.h"
+#include "app/result_folder.h"
+#include "app/simulation.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/random.h"
+#include "io/day_netcdf.h"
+#include "io/day_plot.h"
+#include "io/day_summary.h"
+#include "io/day_tables.h"
+#include "io/file.h"
+#include "io/gnuplot.h"
+#include "io/step_store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* summary_file = "summary.json";
+constexpr const char* day_file = "day.csv";
+constexpr const char* organs_file = "organs_day.csv";
+constexpr const char* fields_file = "day.nc";
+constexpr const char* plot_file = "day.png";
+
+// next_work foresees replicates of which sixteen reach 0.7 of the bounds, so that a run rarely fails its checks: half of its
+// work is spare. With fewer packets each, a step makes as many replicates as it takes, and the spare work is what lies between
+// two checks. Rays cost little beside packets, and a beam that lags behind would cost all packets of more replicates.
+constexpr double share_of_next_packets = 0.4;
+// The sun may have moved to where much more work is needed, as when the first beams reach the ground. Where after so many
+// replicates the error is still so many bounds, a step begins anew with pilots: it would need 75 replicates, not some 20.
+constexpr int judged_replicates = 12;
+constexpr double most_bounds = 2.5;
+
+template <class T>
+ordered_json value_or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+// All that the bytes of a finished step depend on.
+ordered_json step_settings(const DayOptions& options, const Scene& scene, const SolveSettings& settings, const DayPlan& plan) {
+  return {{"sunfleck", version()},
+          {"scene_digest", scene.digest},
+          {"date", plan.course.dates.front()},
+          {"to_date", plan.course.dates.back()},
+          {"step_min", options.step_min},
+          {"from", clock_text(plan.from_min)},
+          {"to", clock_text(plan.to_min)},
+          {"seed", settings.seed},
+          {"direct_error", settings.accuracy.direct},
+          {"indirect_error", settings.accuracy.indirect},
+          {"confidence", settings.accuracy.confidence},
+          {"of", error_target_name(settings.accuracy.of)},
+          {"grid_m", value_or_null(settings.grid_m)},
+          {"passes", value_or_null(settings.passes)},
+          {"max_rays", value_or_null(settings.max_rays)}};
+}
+
+// The day's limit of time ends it between rays like Ctrl-C, not by smaller replicates: the bytes do not depend on the clock.
+class DayClock {
+ public:
+  explicit DayClock(std::optional<double> max_seconds) : max_seconds_(max_seconds) {}
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  [[nodiscard]] bool stop() const { return interrupted() || (max_seconds_ && seconds() >= *max_seconds_); }
+
+ private:
+  std::optional<double> max_seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// What the steps found, in their order; fewer than the plan has where the day was stopped.
+struct DayResult {
+  std::vector<StepLight> lights;
+  DayTotals totals;
+};
+
+class DayRun {
+ public:
+  DayRun(Scene& scene, const DayPlan& plan, const SolveSettings& settings, const SceneTree& tree, Engine& engine,
+         const StepStore& store, const DayClock& clock)
+      : model_(scene.model), plan_(plan), settings_(settings), tree_(tree), engine_(engine), store_(store), clock_(clock) {
+    const auto& steps = plan.course.steps;
+    lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.night(); }));
+  }
+
+  DayResult run() {
+    for (std::size_t i = 0; i < plan_.course.steps.size(); ++i) {
+      if (clock_.stop()) break;
+      if (plan_.course.steps[i].night()) {
+        result_.lights.push_back(night_light(model_));
+        continue;
+      }
+      std::optional<StoredStep> step = store_.read(i);
+      if (!step) {
+        step = simulate_step(i);
+        if (!step) break;
+        store_.write(i, *step);
+        tell(i, *step);
+      }
+      count(*step);
+      next_work_ = step->next_work;
+      result_.lights.push_back(std::move(step->light));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  // Empty if stopped meanwhile.
+  std::optional<StoredStep> simulate_step(std::size_t i) {
+    const MomentLight& light = plan_.lights[i];
+    model_.sun = light.sun;
+    model_.bands = light.bands;
+    model_.sky = light.sky;
+    SolveSettings settings = settings_;
+    settings.seed = RandomStream(settings_.seed, i).word();
+    if (next_work_ && !settings.grid_m && !settings.passes) {
+      settings.begin_with = Work{next_work_->rays, share_of_next_packets * next_work_->packets};
+    }
+    const double begin_s = clock_.seconds();
+    std::optional<RadiationResult> attempt = solve_step(settings);
+    if (!attempt) {
+      settings.begin_with.reset();
+      attempt = solve_step(settings);
+    }
+    const RadiationResult& result = *attempt;
+    check_validation(engine_);
+    if (result.stop == StopReason::interrupted) return std::nullopt;
+    StoredStep step;
+    step.light = step_light(model_, result);
+    step.fields = day_fields(model_, result);
+    step.next_work = result.next_work;
+    step.rays = result.direct.rays;
+    step.packets = result.indirect.packets;
+    step.lost_rays = result.lost_rays;
+    step.direct_error = result.direct.relative_error;
+    step.indirect_error = result.indirect.relative_error;
+    step.reached_bound = is_done(result.stop);
+    step.seconds = clock_.seconds() - begin_s;
+    return step;
+  }
+
+  // Empty if it began with far too little work; what decides that are counts, not the clock.
+  std::optional<RadiationResult> solve_step(const SolveSettings& settings) {
+    bool too_little = false;
+    int replicates = 0;
+    Monitor monitor;
+    monitor.interrupted = [&] { return too_little || clock_.stop(); };
+    monitor.report = [&](const Progress& state) {
+      ++replicates;
+      const bool judged = settings.begin_with && replicates == judged_replicates;
+      too_little = too_little || (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound);
+      const double done = static_cast<double>(result_.totals.simulated) + state.fraction;
+      progress_.update(
+          {result_.totals.rays + result_.totals.packets + state.rays, done / lit_steps_, state.relative_error, state.bound});
+    };
+    RadiationResult result = solve(model_, tree_.layout, engine_.tracer(), settings, monitor);
+    if (too_little) return std::nullopt;
+    return result;
+  }
+
+  void count(const StoredStep& step) {
+    DayTotals& totals = result_.totals;
+    const auto worse = [](std::optional<double>& worst, const std::optional<double>& error) {
+      if (error) worst = std::max(worst.value_or(0.0), *error);
+    };
+    ++totals.simulated;
+    totals.short_of_bound += step.reached_bound ? 0 : 1;
+    totals.rays += step.rays;
+    totals.packets += step.packets;
+    totals.lost_rays += step.lost_rays;
+    worse(totals.direct_error, step.direct_error);
+    worse(totals.indirect_error, step.indirect_error);
+    totals.seconds += step.seconds;
+  }
+
+  void tell(std::size_t i, const StoredStep& step) const {
+    constexpr double degree = std::numbers::pi / 180.0;
+    const DayStep& when = plan_.course.steps[i];
+    std::string line = fmt::format("step {} of {}: {}, sun {:.1f} deg, {:.2f} s", i + 1, plan_.course.steps.size(),
+                                   local_time_text(when.start, plan_.course.offset_minutes).substr(0, 16),
+                                   when.sun.elevation_rad / degree, step.seconds);
+    if (step.direct_error) line += fmt::format(", error {:.2g} direct", *step.direct_error);
+    if (step.indirect_error) line += fmt::format(", {:.2g} indirect", *step.indirect_error);
+    say(step.reached_bound ? line : line + ", stopped at --max-rays short of the bound");
+  }
+
+  RadiationModel& model_;
+  const DayPlan& plan_;
+  const SolveSettings& settings_;
+  const SceneTree& tree_;
+  Engine& engine_;
+  const StepStore& store_;
+  const DayClock& clock_;
+  double lit_steps_ = 0.0;
+  std::optional<Work> next_work_;
+  DayResult result_;
+  ProgressLine progress_{"day"};
+};
+
+void draw_day(const fs::path& folder, const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+              const DayResult& day, std::size_t band) {
+  DayPlot plot;
+  plot.title = record.title;
+  plot.band = model.bands[band].name;
+  plot.confidence = record.accuracy.confidence;
+  for (std::size_t i = 0; i < day.lights.size(); ++i) {
+    const DayStep& step = course.steps[i];
+    const StepBand& light = day.lights[i].bands[band];
+    DayPlotRow row;
+    row.start_s = local_clock_s(local_time_text(step.start, course.offset_minutes)).value();
+    row.step_s = step.length_s;
+    row.incident = light.incident;
+    row.absorbed_vegetation = light.absorbed_vegetation;
+    row.absorbed_soil = light.absorbed_soil;
+    row.reflected = light.reflected;
+    row.sunlit_leaf_fraction =
+        step.night() ? Estimate{std::numeric_limits<double>::quiet_NaN()} : day.lights[i].sunlit_leaf_fraction;
+    plot.rows.push_back(row);
+  }
+  if (const std::optional<std::string> problem = draw_plot(day_plot(plot), folder / plot_file)) warn(*problem);
+}
+
+void write_fields(const fs::path& folder, const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+                  const DayResult& day, const StepStore& store) {
+  const auto fields = [&store](std::size_t step) {
+    std::optional<StoredStep> stored = store.read(step);
+    if (!stored) throw_failure(fmt::format("step {}", step + 1), "its file is gone or damaged", "run again with --resume");
+    return std::move(stored->fields);
+  };
+  write_day_netcdf(folder / fields_file, store.scratch_file(), {record, model, course, day.lights.size(), fields});
+  std::error_code error;
+  const double megabytes = static_cast<double>(fs::file_size(folder / fields_file, error)) * 1e-6;
+  say(fmt::format("{}: {:.1f} MB", fields_file, megabytes));
+}
+
+void write_results(const fs::path& folder, const DayOptions& options, const RunRecord& record, const RadiationModel& model,
+                   const DayCourse& course, const DayResult& day, const StepStore& store) {
+  write_file(folder / day_file, day_csv(record, model, course, day.lights));
+  write_file(folder / organs_file, organs_day_csv(record, model, course, day.lights));
+  if (day.lights.empty()) return;
+  write_fields(folder, record, model, course, day, store);
+  const bool none = std::find(options.run.images.begin(), options.run.images.end(), "none") != options.run.images.end();
+  if (!none) draw_day(folder, record, model, course, day, picture_band(model, options.run.pictures.band));
+}
+
+// A day whose results are there already.
+int tell_finished(const fs::path& folder, const RunOptions& options) {
+  const std::string summary = read_file(folder / summary_file);
+  const bool complete = ordered_json::parse(summary, nullptr, false).value("complete", false);
+  if (options.json) {
+    fmt::print("{}", summary);
+  } else {
+    say(fmt::format("{}: this day is finished, nothing to resume", printable(folder.string())));
+  }
+  return complete ? exit_done : exit_short_of_bound;
+}
+
+int warn_if_stopped(const DayCourse& course, const DayResult& day, const RunOptions& options) {
+  if (day.lights.size() < course.steps.size()) {
+    const std::string why = interrupted() ? "interrupted" : fmt::format("stopped after --max-seconds {}", *options.max_seconds);
+    warn(fmt::format("{} after {} of {} steps; they are kept, and --resume goes on", why, day.lights.size(),
+                     course.steps.size()));
+    return interrupted() ? exit_interrupted : exit_short_of_bound;
+  }
+  if (day.totals.short_of_bound == 0) return exit_done;
+  warn(fmt::format("{} of {} steps stopped at --max-rays {} short of their bound; the results are marked incomplete",
+                   day.totals.short_of_bound, course.steps.size(), options.max_rays.value_or(0)));
+  return exit_short_of_bound;
+}
+
+Scene read_day_scene(const RunOptions& options) {
+  Scene scene = read_scene(options.scene, {options.allow_outside, ScenePurpose::day});
+  for (const std::string& warning : scene.warnings) warn(warning);
+  if (!scene.model.planes.empty() || !scene.model.sensors.empty()) say("planes and sensors are left to `run`");
+  scene.model.planes.clear();
+  scene.model.sensors.clear();
+  return scene;
+}
+
+}  // namespace
+
+int run_day(const DayOptions& options) {
+  start_log(options.run.quiet || options.run.json ? Verbosity::quiet : Verbosity::normal);
+  watch_for_interrupts();
+  Stopwatch total;
+  Stopwatch watch;
+  const fs::path folder = result_folder(options.run);
+
+  Scene scene = read_day_scene(options.run);
+  const DayPlan plan = plan_day(options, scene);
+  SolveSettings settings = solve_settings(options.run, scene);
+  settings.element_errors = true;
+  settings.max_seconds.reset();
+  check_grid(options.run, scene);
+  static_cast<void>(picture_band(scene.model, options.run.pictures.band));
+  const ordered_json kept_settings = step_settings(options, scene, settings, plan);
+  StepStore store(folder, scene.model, kept_settings);
+  const StepStore::Found found = options.resume ? store.find() : StepStore::Found::nothing;
+  if (found == StepStore::Found::finished) return tell_finished(folder, options.run);
+  RunRecord::Seconds seconds;
+  seconds.load = watch.lap();
+
+  const SceneTree tree(scene.model);
+  seconds.bvh = watch.lap();
+  set_software_threads(options.run.threads);
+  const CpuThreads threads(options.run.threads);
+  const RadiationModel& model = scene.model;
+  Engine engine(options.run.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
+  RunRecord record = make_record(options.run, scene, settings, engine);
+  record.max_seconds = options.run.max_seconds;
+  if (found == StepStore::Found::begun) {
+    write_file(folder / summary_file, "{\"complete\": false}\n");
+  } else {
+    prepare_folder(folder);
+    store.begin();
+  }
+  say(device_line(record.device));
+  seconds.device = watch.lap();
+
+  const DayClock clock(options.run.max_seconds);
+  const DayResult day = DayRun(scene, plan, settings, tree, engine, store, clock).run();
+  watch.lap();
+
+  const int status = warn_if_stopped(plan.course, day, options.run);
+  record.complete = status == exit_done;
+  write_results(folder, options, record, model, plan.course, day, store);
+  seconds.write = watch.lap();
+  seconds.total = total.lap();
+  record.seconds = seconds;
+  const DaySummary summary{record, model, plan.course, day.lights, day.totals, kept_settings};
+  const std::string summary_text = day_summary_json(summary);
+  write_file(folder / summary_file, summary_text);
+  if (day.lights.size() == plan.course.steps.size()) store.finish();
+  if (options.run.json) {
+    fmt::print("{}", summary_text);
+  } else if (!options.run.quiet) {
+    fmt::print("{}{}\n", day_report(summary), folder.string());
+  }
+  return status;
+}
+
+}  // namespace sunfleck

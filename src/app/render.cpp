@@ -1,0 +1,126 @@
+#include "app/render.h"
+
+#include "app/interrupt.h"
+#include "app/pictures.h"
+#include "app/simulation.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "io/exr_writer.h"
+#include "io/file.h"
+#include "io/image_writer.h"
+#include "io/result_store.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <optional>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_exr(const fs::path& file) {
+  return file.extension() == ".exr";
+}
+
+// Where the picture goes; checked before any work.
+fs::path picture_file(const RenderOptions& options, bool finished_run) {
+  fs::path file = options.file;
+  const fs::path name = stem_of(options.picture) + ".png";
+  if (file.empty()) file = finished_run ? options.run.scene / name : fs::path(options.run.scene.stem().string() + "_") += name;
+  if (file.extension() != ".png" && !is_exr(file)) {
+    throw_input(fmt::format("-o {}", printable(file.string())), "the name must end in .png or .exr",
+                "give a picture.png, or a values.exr for the values themselves");
+  }
+  if (is_exr(file) && options.chart_given) {
+    throw_input("--chart", "an .exr file holds values, no colours", "leave it out, or name a .png");
+  }
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw_failure(printable(file.string()), "its folder does not exist", "make the folder first");
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw_failure(printable(file.string()), "its folder cannot be written", "name another place with -o");
+  }
+  return file;
+}
+
+// A scene with its result, where there is one already.
+struct Source {
+  Scene scene;
+  std::optional<RadiationResult> result;
+};
+
+Source read_source(const RenderOptions& options, bool finished_run) {
+  const fs::path& place = options.run.scene;
+  if (!finished_run) {
+    Source source{read_scene(place, {options.run.allow_outside}), std::nullopt};
+    for (const std::string& warning : source.scene.warnings) warn(warning);
+    return source;
+  }
+  if (!options.simulating.empty()) {
+    throw_input(options.simulating, fmt::format("the run in {} is finished", printable(place.string())),
+                "leave it out, or give the scene");
+  }
+  const fs::path store = place / result_store_file;
+  std::error_code error;
+  if (!fs::exists(store, error)) {
+    throw_input(printable(place.string()), fmt::format("no folder of a finished run: it has no {}", result_store_file),
+                "give a scene, or run it first");
+  }
+  StoredResult stored = read_result_store(store);
+  if (!stored.complete) warn("the run stopped before its work was done: its picture is noisier than it was meant to be");
+  return {std::move(stored.scene), std::move(stored.result)};
+}
+
+// False if stopped.
+bool write_picture(const Drawing& drawing, const RenderOptions& options, const fs::path& file) {
+  if (!is_exr(file)) {
+    return draw_charts(drawing, options.run.pictures, std::span(&options.picture, 1), interrupted,
+                       [&](const Picture&, const Image& image) { write_png(image, file); });
+  }
+  const std::optional<ExrImage> image = draw_values(drawing, options.run.pictures, options.picture.field, interrupted);
+  if (image) write_exr(*image, file);
+  return image.has_value();
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+  start_log(options.run.quiet ? Verbosity::quiet : Verbosity::normal);
+  watch_for_interrupts();
+  std::error_code error;
+  const bool finished_run = fs::is_directory(options.run.scene, error);
+  const fs::path file = picture_file(options, finished_run);
+  Source source = read_source(options, finished_run);
+  const RadiationModel& model = source.scene.model;
+  check_view(model, options.run.pictures);
+  check_field(model, options.picture);
+
+  if (!source.result) check_grid(options.run, source.scene);
+
+  const SceneTree tree(model);
+  set_software_threads(options.run.threads);
+  const CpuThreads threads(options.run.threads);
+  Engine engine(options.run.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
+  int status = exit_done;
+  if (!source.result) {
+    say(device_line(engine.device()));
+    const SolveSettings settings = solve_settings(options.run, source.scene);
+    source.result = simulate(model, tree.layout, engine, settings);
+    check_validation(engine);
+    warn_if_short(settings, *source.result);
+    status = exit_status(source.result->stop);
+  }
+  if (status == exit_interrupted || !write_picture({source.scene, tree.layout, *source.result, engine}, options, file)) {
+    return exit_interrupted;
+  }
+  check_validation(engine);
+  if (!options.run.quiet) fmt::print("{}\n", file.string());
+  return status;
+}
+
+}  // namespace sunfleck

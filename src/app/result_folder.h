@@ -1,0 +1,42 @@
+#pragma once
+// The folder that `run` fills: tables, exports, plots and pictures.
+
+#include "app/options.h"
+#include "app/pictures.h"
+#include "io/measured_reader.h"
+#include "io/profile_table.h"
+#include "io/result_writer.h"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace sunfleck {
+
+// Where a run's results go.
+[[nodiscard]] std::filesystem::path result_folder(const RunOptions& options);
+
+// Made, and tried, before rays are traced: nothing of that shall be lost for want of a folder. What an earlier run left goes,
+// so that the folder never holds pieces of two. Throws Error (failure).
+void prepare_folder(const std::filesystem::path& folder);
+
+// What is drawn beside a run's own profile, read before any work starts. Throws Error (input).
+struct Companions {
+  std::optional<MeasuredProfile> measured;
+  std::vector<ProfileTable> results;
+};
+[[nodiscard]] Companions read_companions(const RunOptions& options, const RadiationModel& model);
+
+// Throws Error (input) for pictures that the scene cannot give.
+void check_pictures(const RunOptions& options, const RadiationModel& model);
+
+// Everything but the summary. An export that cannot be written is said, and the rest goes on.
+enum class Written { all, some, interrupted };
+[[nodiscard]] Written write_results(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
+                                 const Drawing& drawing, const Companions& companions);
+
+// The summary into its file, and to the user what was asked for.
+void publish(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
+             const RadiationModel& model, const RadiationResult& result);
+
+}  // namespace sunfleck

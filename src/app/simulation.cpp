@@ -1,0 +1,135 @@
+#include "app/simulation.h"
+
+#include "app/interrupt.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "bvh/bvh.h"
+#include "light/beam_grid.h"
+#include "transport/sensors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sunfleck {
+
+SceneTree::SceneTree(const RadiationModel& model)
+    : layout(make_counter_layout(model)), bvh(build_bvh(model.canopy, box_padding_m(model))) {
+  number_counters(layout, model.canopy, bvh);
+}
+
+SolveSettings solve_settings(const RunOptions& options, const Scene& scene) {
+  SolveSettings settings;
+  settings.accuracy = scene.accuracy;
+  settings.accuracy.direct = options.direct_error.value_or(scene.accuracy.direct);
+  settings.accuracy.indirect = options.indirect_error.value_or(scene.accuracy.indirect);
+  settings.seed = options.seed;
+  settings.grid_m = options.grid_m;
+  settings.passes = options.passes;
+  settings.max_rays = options.max_rays;
+  settings.max_seconds = options.max_seconds;
+  settings.element_errors = !options.exports.empty() || scene.accuracy.of == ErrorTarget::triangle;
+  return settings;
+}
+
+void check_grid(const RunOptions& options, const Scene& scene) {
+  if (!options.grid_m) return;
+  const double replicates = options.passes.value_or(fixed_grid_replicates);
+  const double finest_m = std::sqrt(scene.model.plot.area_m2() / (replicates * static_cast<double>(max_grid_rays)));
+  if (*options.grid_m >= finest_m) return;
+  throw_input(
+      fmt::format("--grid {}", *options.grid_m),
+      fmt::format("{} replicates on this plot reach {:.2g} m, each of {} rays at most", replicates, finest_m, max_grid_rays),
+      "give a wider grid or more --passes");
+}
+
+RunRecord make_record(const RunOptions& options, const Scene& scene, const SolveSettings& settings, const Engine& engine) {
+  RunRecord record;
+  record.version = version();
+  record.commit = commit();
+  record.title = scene.title;
+  record.scene_file = scene.file.filename().string();
+  record.scene_digest = scene.digest;
+  record.seed = settings.seed;
+  record.accuracy = settings.accuracy;
+  record.grid_m = settings.grid_m;
+  record.passes = settings.passes;
+  record.max_rays = settings.max_rays;
+  record.max_seconds = settings.max_seconds;
+  record.threads = options.threads;
+  record.device = engine.device();
+  return record;
+}
+
+std::string device_line(const TracerDevice& device) {
+  return fmt::format("device: {}{}", device.name,
+                     device.software && device.kind == "vulkan" ? " (software Vulkan, no GPU)" : "");
+}
+
+namespace {
+
+// Half-widths at a point come out at about ten times the bound of the totals: a few percent where those have 0.3 %.
+std::uint32_t sensor_rays(const SolveSettings& settings) {
+  const double bound = settings.grid_m || settings.passes ? 0.01 : settings.accuracy.indirect;
+  return static_cast<std::uint32_t>(std::clamp(3.0 / bound, 64.0, 16384.0));
+}
+
+}  // namespace
+
+RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
+                         const SolveSettings& settings) {
+  ProgressLine progress("simulating");
+  Monitor monitor;
+  monitor.interrupted = interrupted;
+  monitor.report = [&](const Progress& state) {
+    progress.update({state.rays, state.fraction, state.relative_error, state.bound});
+  };
+  RadiationResult result = solve(model, layout, engine.tracer(), settings, monitor);
+  if (model.sensors.empty() || result.stop == StopReason::interrupted) return result;
+  SensorSettings sensors;
+  sensors.rays = sensor_rays(settings);
+  sensors.seed = settings.seed;
+  sensors.confidence = settings.accuracy.confidence;
+  if (auto readings = measure_sensors(model, layout, engine.tracer(), sensors, interrupted)) {
+    result.sensors = std::move(*readings);
+  } else {
+    result.stop = StopReason::interrupted;
+  }
+  return result;
+}
+
+void check_validation(const Engine& engine) {
+  const std::vector<std::string> messages = engine.validation_messages();
+  if (messages.empty()) return;
+  throw_failure(messages.front(), fmt::format("{} messages of the Vulkan validation layer", messages.size()),
+                "report it with the scene and the device");
+}
+
+bool is_done(StopReason stop) {
+  return stop == StopReason::bound_reached || stop == StopReason::work_done;
+}
+
+void warn_if_short(const SolveSettings& settings, const RadiationResult& result) {
+  if (is_done(result.stop)) return;
+  std::string line = "interrupted";
+  if (result.stop == StopReason::time_spent)
+    line = fmt::format("stopped after --max-seconds {}", settings.max_seconds.value_or(0));
+  if (result.stop == StopReason::rays_spent) line = fmt::format("stopped at --max-rays {}", settings.max_rays.value_or(0));
+  if (result.direct.rays + result.indirect.sky_rays + result.indirect.packets == 0) {
+    line += " before the first rays were counted: the tables hold no light yet";
+  } else {
+    line += fmt::format(" after {} replicates", result.direct.replicates);
+    if (result.direct.relative_error) line += fmt::format(", relative error {:.2g}", *result.direct.relative_error);
+    if (result.direct.bound) line += fmt::format(" of {:.2g}", *result.direct.bound);
+  }
+  warn(line + "; the results are kept, marked incomplete");
+}
+
+int exit_status(StopReason stop) {
+  if (is_done(stop)) return exit_done;
+  return stop == StopReason::interrupted ? exit_interrupted : exit_short_of_bound;
+}
+
+}  // namespace sunfleck
