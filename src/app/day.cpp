@@ -259,7 +259,8 @@ void write_results(const fs::path& folder, const DayOptions& options, const RunR
 // A day whose results are there already.
 int tell_finished(const fs::path& folder, const RunOptions& options) {
   const std::string summary = read_file(folder / summary_file);
-  const bool complete = ordered_json::parse(summary, nullptr, false).value("complete", false);
+  const ordered_json finished = ordered_json::parse(summary, nullptr, false);
+  const bool complete = finished.is_object() && finished.value("complete", false);
   if (options.json) {
     fmt::print("{}", summary);
   } else {

@@ -33,7 +33,7 @@ void check_pictures(const RunOptions& options, const RadiationModel& model);
 // Everything but the summary. An export that cannot be written is said, and the rest goes on.
 enum class Written { all, some, interrupted };
 [[nodiscard]] Written write_results(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
-                                 const Drawing& drawing, const Companions& companions);
+                                    const Drawing& drawing, const Companions& companions);
 
 // The summary into its file, and to the user what was asked for.
 void publish(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,

@@ -167,6 +167,11 @@ class LookingViewer : public CanopyViewer {
     return static_cast<std::uint32_t>(samples);
   }
 
+  [[nodiscard]] const Bvh& bvh() const { return bvh_; }
+  [[nodiscard]] const std::vector<glm::vec2>& offsets() const { return offsets_; }
+  [[nodiscard]] const std::vector<shared::ViewBlock>& views() const { return views_; }
+
+ private:
   const Bvh& bvh_;
   std::vector<glm::vec2> offsets_;
   std::vector<shared::ViewBlock> views_;  // [copy]
@@ -178,14 +183,14 @@ class CpuViewer final : public LookingViewer {
 
   std::vector<shared::SeenSurface> see(std::uint32_t first_row, std::uint32_t rows, const StopQuestion& stop) override {
     const std::uint32_t samples = sample_count(first_row, rows);
-    const SampleGrid grid{views_[0], offsets_, first_row};
+    const SampleGrid grid{views()[0], offsets(), first_row};
     std::vector<shared::SeenSurface> seen(samples);
     for (std::uint32_t first = 0; first < samples;) {
       if (stop && stop()) return {};
       const std::uint32_t end = first + std::min(software_samples_per_slice, samples - first);
       oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first, end, 4096), [&](const auto& range) {
         for (std::uint32_t number = range.begin(); number < range.end(); ++number) {
-          seen[number] = see_sample(bvh_, views_, grid, number);
+          seen[number] = see_sample(bvh(), views(), grid, number);
         }
       });
       first = end;
@@ -218,8 +223,8 @@ class GpuViewer final : public LookingViewer {
         tree_(tree),
         slice_(samples_per_slice()),
         pipeline_(context, view_shader(tree), {}),
-        blocks_(upload_storage(context, std::span<const shared::ViewBlock>(views_), "the cameras")),
-        places_(upload_storage(context, std::span<const glm::vec2>(offsets_), "the places of samples")),
+        blocks_(upload_storage(context, std::span<const shared::ViewBlock>(views()), "the cameras")),
+        places_(upload_storage(context, std::span<const glm::vec2>(offsets()), "the places of samples")),
         directions_(create_buffer(context, BufferUse::storage, is_fisheye() ? slice_ * sizeof(glm::vec3) : 0,
                                   "the directions of a fisheye")),
         slice_seen_(
@@ -227,18 +232,18 @@ class GpuViewer final : public LookingViewer {
 
   std::vector<shared::SeenSurface> see(std::uint32_t first_row, std::uint32_t rows, const StopQuestion& stop) override {
     const std::uint32_t samples = sample_count(first_row, rows);
-    const SampleGrid grid{views_[0], offsets_, first_row};
+    const SampleGrid grid{views()[0], offsets(), first_row};
     std::vector<shared::SeenSurface> seen(samples);
     for (std::uint32_t first = 0; first < samples;) {
       const std::uint32_t count = std::min(slice_, samples - first);
       if (is_fisheye()) upload_directions(grid, first, count);
-      for (std::uint32_t copy = 0; copy < views_.size(); ++copy) {
+      for (std::uint32_t copy = 0; copy < views().size(); ++copy) {
         if (stop && stop()) return {};
         run({first, count, first_row, copy});
       }
       download(context_, slice_seen_, std::as_writable_bytes(std::span(seen).subspan(first, count)));
       for (std::uint32_t number = first; number < first + count; ++number) {
-        if (seen[number].surface == shared::seen_unfinished) seen[number] = see_sample(bvh_, views_, grid, number);
+        if (seen[number].surface == shared::seen_unfinished) seen[number] = see_sample(bvh(), views(), grid, number);
       }
       first += count;
     }
@@ -246,10 +251,10 @@ class GpuViewer final : public LookingViewer {
   }
 
  private:
-  [[nodiscard]] bool is_fisheye() const { return views_[0].kind == shared::view_fisheye; }
+  [[nodiscard]] bool is_fisheye() const { return views()[0].kind == shared::view_fisheye; }
 
   [[nodiscard]] std::uint32_t samples_per_slice() const {
-    const std::uint64_t all = std::uint64_t{views_[0].width} * views_[0].height * views_[0].samples;
+    const std::uint64_t all = std::uint64_t{views()[0].width} * views()[0].height * views()[0].samples;
     const std::uint32_t most = context_.description().software ? software_samples_per_slice : hardware_samples_per_slice;
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(all, most));
   }
@@ -258,7 +263,7 @@ class GpuViewer final : public LookingViewer {
     host_directions_.resize(count);
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, count, 4096), [&](const auto& range) {
       for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-        host_directions_[i] = fisheye_direction(views_[0], grid.at(first + i));
+        host_directions_[i] = fisheye_direction(views()[0], grid.at(first + i));
       }
     });
     upload(context_, directions_, std::as_bytes(std::span(host_directions_)));

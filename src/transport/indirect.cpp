@@ -126,11 +126,14 @@ void IndirectPass::close_planes(Round& round) const {
     sums.down[k] += half;
     sums.up[k] -= round.moved_down[k] - half;
   }
-  for (std::size_t k = 0; k < round.moved_through_receivers.size(); ++k) {
-    const std::int64_t moved = round.moved_through_receivers[k];
-    const std::int64_t half = receivers_->at_ground(k / bands) ? 0 : moved / 2;
-    sums.receivers.through_down[k] += half;
-    sums.receivers.through_up[k] -= moved - half;
+  const std::size_t planes = receivers_ != nullptr ? receivers_->size() : 0;
+  for (std::size_t p = 0; p < planes; ++p) {
+    for (std::size_t b = 0; b < bands; ++b) {
+      const std::int64_t moved = round.moved_through_receivers[p * bands + b];
+      const std::int64_t half = receivers_->at_ground(p) ? 0 : moved / 2;
+      sums.receivers.through_down[p * bands + b] += half;
+      sums.receivers.through_up[p * bands + b] -= moved - half;
+    }
   }
 }
 

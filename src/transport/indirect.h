@@ -77,7 +77,7 @@ class IndirectPass {
     bool transmitted = false;
 
     [[nodiscard]] double weight(const Soil* soil, std::size_t band) const {
-      if (face == nullptr) return soil->reflectance[band];
+      if (face == nullptr) return soil != nullptr ? soil->reflectance[band] : 0.0;
       return transmitted ? (*face)[band].transmittance : (*face)[band].reflectance;
     }
   };

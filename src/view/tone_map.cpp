@@ -9,7 +9,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double white_share = 0.995;   // of the surfaces' area, no brighter than L995
+constexpr double white_share = 0.995;    // of the surfaces' area, no brighter than L995
 constexpr double white_over_top = 1.25;  // Lwhite / L995
 
 double log_mean(std::span<const double> values, std::span<const double> weights) {
