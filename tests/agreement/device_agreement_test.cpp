@@ -186,7 +186,7 @@ TEST_F(DeviceAgreement, OnAPileBelowATallGap) {
 shared::ViewBlock view_of(const RadiationModel& model, const CounterLayout& layout, glm::dvec3 from, glm::dvec3 to) {
   const glm::dvec3 forward = glm::normalize(to - from);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.01, 1.0, 0.0)));
-  shared::ViewBlock view;
+  shared::ViewBlock view{};
   view.position = from;
   view.forward = forward;
   view.right = 0.5 * right;

@@ -171,5 +171,21 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
   }
 }
 
+TEST_F(PacketsAgreement, OfWholeRunsUnderTheSkyWithReceivers) {
+  const Mesh leaves = random_leaves(100, 0.12, 5);
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    RadiationModel model = paper_model(leaves, plot, paper_sun());
+    model.sky = SkyModel{.kind = SkyKind::overcast};
+    for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.4;
+    model.planes = {{0.3, 20, 20}, {0.6, 7, 5}};
+    const SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8, .bound = 0.01});
+    expect_same_run(model, fixed);
+    expect_same_run(without_soil(model), fixed);
+    model.sun.reset();
+    for (Waveband& band : model.bands) band.direct_w_m2 = 0.0;
+    expect_same_run(model, fixed);
+  }
+}
+
 }  // namespace
 }  // namespace sunfleck

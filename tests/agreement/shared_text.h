@@ -50,6 +50,8 @@ struct TextOutput {
   float view_depth;
   float seen_t;
   float seen_limit;
+  float kept_limit;
+  uint replaced;
 };
 
 INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput given) {
@@ -82,13 +84,18 @@ INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput give
   result.landing = landing_y(given.a.y, given.b.y, given.c.y, hit.weight_b, hit.weight_c);
   result.layer = layer_of(given.origin.y, beam.layer_base_y, beam.layers_per_metre, beam.layers);
   const uint samples = view.width * view.height * view.samples;
-  result.sample_at = sample_point(view, given.number % samples, given.offset, exact_reciprocal(float(view.width)),
+  result.sample_at = sample_point(view, 3u, given.number % samples, given.offset, exact_reciprocal(float(view.width)),
                                   exact_reciprocal(float(view.height)));
   result.view_along = view_direction(view, result.sample_at.x, result.sample_at.y);
-  result.view_from = view_origin(view, given.direction);
+  result.view_from = view_origin(view, view_position(view, result.sample_at.x, result.sample_at.y), given.direction);
   result.view_depth = view_depth(view, hit.t);
   result.seen_t = seen_ground(ray, view.ground);
-  result.seen_limit = ground_limit(ray, view.ground, result.seen_t);
+  const float slack = ground_slack(ray, view.ground);
+  result.seen_limit = ground_limit(result.seen_t, slack);
+  const SeenSurface kept = {given.number % (2u * view.elements + 9u), result.seen_t, 0u};
+  const SeenSurface found = {given.number % 7u, result.view_depth, 1u};
+  result.kept_limit = kept_limit(view, kept, slack, result.seen_limit);
+  result.replaced = replaces(view, found, kept, slack) ? 1u : 0u;
   return result;
 }
 

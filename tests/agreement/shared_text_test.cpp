@@ -21,7 +21,7 @@ using testing_bvh::uniform;
 
 // All members are one 32-bit word or vectors of them.
 static_assert(sizeof(shared::TextInput) == 23 * 4);
-static_assert(sizeof(shared::TextOutput) == 46 * 4);
+static_assert(sizeof(shared::TextOutput) == 48 * 4);
 static_assert(sizeof(shared::TextPush) == 16);
 
 constexpr std::uint32_t batch = 1U << 17U;
@@ -89,7 +89,7 @@ shared::BeamBlock some_beam(std::uint32_t columns, std::uint32_t rows) {
   return beam;
 }
 
-shared::ViewBlock some_view(const shared::GroundMap& ground) {
+shared::ViewBlock some_view(const shared::GroundMap& ground, std::uint32_t kind) {
   shared::ViewBlock view{};
   view.position = {3.0F, 2.0F, 1.0F};
   view.forward = {-0.8F, -0.5F, 0.3F};
@@ -98,6 +98,8 @@ shared::ViewBlock some_view(const shared::GroundMap& ground) {
   view.width = 641;
   view.height = 479;
   view.samples = 5;
+  view.elements = 3;
+  view.kind = kind;
   view.ground = ground;
   view.start = 1.7F;
   return view;
@@ -124,7 +126,7 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
   std::size_t met = 0;
   for (int k = 0; k < batches; ++k) {
     const shared::BeamBlock beam = some_beam(1000U + 37U * static_cast<std::uint32_t>(k), 999);
-    const shared::ViewBlock view = some_view(beam.ground);
+    const shared::ViewBlock view = some_view(beam.ground, static_cast<std::uint32_t>(k) % 2);
     for (shared::TextInput& given : inputs) given = some_input(random);
     const GpuBuffer beam_buffer = storage_of(context(), std::span(&beam, 1));
     const GpuBuffer view_buffer = storage_of(context(), std::span(&view, 1));
@@ -136,8 +138,8 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
     for (std::size_t i = 0; i < batch; ++i) {
       const shared::TextOutput expected = shared::all_of_the_text(beam, view, inputs[i]);
       met += expected.met_lower >= 2 ? 1 : 0;
-      const auto ours = std::bit_cast<std::array<std::uint32_t, 46>>(expected);
-      const auto theirs = std::bit_cast<std::array<std::uint32_t, 46>>(outputs[i]);
+      const auto ours = std::bit_cast<std::array<std::uint32_t, 48>>(expected);
+      const auto theirs = std::bit_cast<std::array<std::uint32_t, 48>>(outputs[i]);
       for (std::size_t word = 0; word < ours.size(); ++word) {
         if (ours[word] == theirs[word]) continue;
         if (++apart <= 5)

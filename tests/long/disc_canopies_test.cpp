@@ -22,5 +22,14 @@ TEST(DiscCanopies, SmallSphericalLeaves) {
   expect_row(got[1], {0.39992, 0.43435, 0.25259}, "spherical NIR, r 0.02");
 }
 
+// The diffuse columns of B9 at leaf area index 3, extrapolated to small leaves.
+TEST(DiscCanopies, SphericalLeavesUnderAUniformSky) {
+  const DiscCanopy large{.radius_m = 0.1, .count = 382, .horizontal = false, .corners = 8};
+  const DiscCanopy half{.radius_m = 0.05, .count = 1528, .horizontal = false, .corners = 8};
+  const auto a = disc_canopy_fluxes(large, 80, 0.0, 8192, CanopyLight::uniform_sky);
+  const auto b = disc_canopy_fluxes(half, 80, 0.0, 8192, CanopyLight::uniform_sky);
+  expect_row(without_leaf_size(a[0], b[0]), {0.04935, 0.12814, 0.84173}, "spherical PAR, sky");
+}
+
 }  // namespace
 }  // namespace sunfleck::test

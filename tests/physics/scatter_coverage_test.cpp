@@ -1,76 +1,13 @@
-// Are the reported errors of scattered light true? Seeds 1 to 400 of a small scene, each run to its bounds like a user's
-// (G2 of the validation table).
-#include "support/comparison.h"
-#include "support/leaf_scenes.h"
-
-#include <gtest/gtest.h>
+// Are the reported errors of scattered light true?
+#include "support/coverage.h"
 
 namespace sunfleck::test {
 namespace {
 
-constexpr int seeds = 400;
-// Binomial with probability 0.95: outside of these bounds once in a thousand times.
-constexpr int least_covered = 366;
-constexpr int most_covered = 394;
-
-struct Covered {
-  std::string what;
-  double truth;
-  int times = 0;
-  int by_sampling = 0;  // by the half-width without the unshot flux in it
-};
-
-// Absorbed by leaves, by soil, and reflected, band by band.
-std::vector<Estimate> fluxes_of(const RadiationResult& result) {
-  std::vector<Estimate> fluxes;
-  for (const BandResult& band : result.bands) {
-    fluxes.insert(fluxes.end(), {band.absorbed_vegetation, band.absorbed_soil, band.reflected});
-  }
-  return fluxes;
-}
-
 TEST(ScatterCoverage, IntervalsOfFourHundredRunsHoldTheTruth) {
   const RadiationModel model = paper_model(random_leaves(8, 0.08, {}, 0.6, 11), {}, paper_sun());
-  const Prepared prepared(model);
-  const ScatterWork long_run{.rays = 1e7, .packets = 1e5, .replicates = 40, .seed = 1000001, .bound = 1e-6};
-  const RadiationResult truth = simulate(model, prepared, fixed_scatter(model, long_run));
-  std::vector<Covered> covered;
-  const std::array names = {"leaves", "soil", "reflected"};
-  for (const Estimate& flux : fluxes_of(truth)) {
-    covered.push_back({truth.bands[covered.size() / 3].name + ' ' + names[covered.size() % 3], flux.value});
-  }
-  SolveSettings settings;
-  settings.accuracy.direct = 0.02;
-  settings.accuracy.indirect = 0.04;
-  ReplicateMean replicates, seconds, unshot;
-  std::vector<ReplicateMean> deviation(covered.size()), half_width(covered.size());
-  for (settings.seed = 1; settings.seed <= seeds; ++settings.seed) {
-    const RadiationResult result = simulate(model, prepared, settings);
-    replicates.add(static_cast<double>(result.indirect.rounds) / static_cast<double>(result.direct.replicates));
-    seconds.add(result.direct.seconds + result.indirect.seconds);
-    unshot.add(result.bands[0].unshot);
-    const std::vector<Estimate> got = fluxes_of(result);
-    for (std::size_t k = 0; k < got.size(); ++k) {
-      const double off = std::abs(got[k].value - covered[k].truth);
-      covered[k].times += off <= got[k].half_width ? 1 : 0;
-      covered[k].by_sampling += off <= got[k].half_width - result.bands[k / 3].unshot ? 1 : 0;
-      deviation[k].add(got[k].value - covered[k].truth);
-      half_width[k].add(got[k].half_width);
-    }
-  }
-  const std::vector<Estimate> truths = fluxes_of(truth);
-  for (std::size_t k = 0; k < covered.size(); ++k) {
-    std::printf(
-        "%-14s covered %d of %d times, %d by sampling; half-width %.1e on average, mean deviation %+.1e(%.0e), truth "
-        "%.5f(%.0e)\n",
-        covered[k].what.c_str(), covered[k].times, seeds, covered[k].by_sampling, half_width[k].mean(), deviation[k].mean(),
-        deviation[k].standard_error(), covered[k].truth, truths[k].half_width);
-    EXPECT_LE(truths[k].half_width, 0.05 * half_width[k].mean()) << covered[k].what;
-    EXPECT_GE(covered[k].times, least_covered) << covered[k].what;
-    EXPECT_LE(covered[k].times, most_covered) << covered[k].what;
-  }
-  std::printf("%.1f rounds a replicate, %.0f ms a run, unshot PAR %.1e\n", replicates.mean(), 1e3 * seconds.mean(),
-              unshot.mean());
+  expect_coverage(model, {.rays = 1e7, .packets = 1e5, .replicates = 40, .seed = 1000001, .bound = 1e-6},
+                  {.direct = 0.02, .indirect = 0.04});
 }
 
 }  // namespace

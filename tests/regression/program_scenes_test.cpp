@@ -58,6 +58,7 @@ class Scenes : public ProgramTest, public ::testing::WithParamInterface<std::str
     std::smatch found;
     return std::regex_search(text_, found, std::regex("layers *= *([0-9]+)")) ? std::stoi(found[1]) : 20;
   }
+  [[nodiscard]] bool has_sky() const { return text_.find("[sky]") != std::string::npos; }
   [[nodiscard]] bool periodic() const { return std::regex_search(text_, std::regex("periodic *= *true")); }
 
   std::string text_;
@@ -121,13 +122,19 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
              {"_down", "_down_error", "_up", "_up_error", "_absorbed", "_absorbed_error"}));
   EXPECT_EQ(profile.size(), static_cast<std::size_t>(layers()) + 1);
   const Table organs(file("organs.csv"));
-  EXPECT_EQ(organs.header(), header("plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error",
-                                    {"_direct", "_indirect", "_absorbed", "_error"}));
+  std::string organ_columns = "plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error";
+  for (const json& band : summary_["bands"]) {
+    const std::string name = band["name"];
+    organ_columns += "," + name + "_direct," + name + "_indirect," + name + "_absorbed," + name + "_error";
+    if (band.contains("umol_m2_s")) organ_columns += "," + name + "_absorbed_umol_m2_s";
+  }
+  EXPECT_EQ(organs.header(), organ_columns);
   EXPECT_EQ(organs.size(), summary_["organs"]);
   const Table triangles(file("triangles.csv"));
-  EXPECT_EQ(triangles.header(),
-            header("triangle,plant,organ,area_m2,x,y,z",
-                   {"_direct_upper", "_direct_lower", "_indirect_upper", "_indirect_lower", "_absorbed", "_error"}));
+  std::vector<std::string> of_band{"_direct_upper", "_direct_lower"};
+  if (has_sky()) of_band.insert(of_band.end(), {"_sky_upper", "_sky_lower"});
+  of_band.insert(of_band.end(), {"_indirect_upper", "_indirect_lower", "_absorbed", "_error"});
+  EXPECT_EQ(triangles.header(), header("triangle,plant,organ,area_m2,x,y,z", of_band));
   EXPECT_EQ(triangles.size(), summary_["triangles"]);
   for (const Table* table : {&profile, &organs, &triangles}) {
     ASSERT_GE(table->comments().size(), 3U);
@@ -144,6 +151,33 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
   EXPECT_EQ(picture.substr(1, 3), "PNG");
   EXPECT_EQ(big_endian(picture, 16), width);
   EXPECT_EQ(big_endian(picture, 20), height);
+}
+
+// Maps and sensors, where the scene has them.
+TEST_P(Scenes, ShowWhatTheirReceiversSaw) {
+  const json& planes = summary_["planes"];
+  EXPECT_EQ(planes.empty(), text_.find("[[plane]]") == std::string::npos);
+  for (const json& plane : planes) {
+    char stem[32];
+    std::snprintf(stem, sizeof stem, "plane_%.3f", plane["height_m"].get<double>());
+    const Table map(file(std::string(stem) + ".csv"));
+    EXPECT_EQ(map.header(), header("x_m,z_m,sunfleck", {"_direct", "_total"}));
+    EXPECT_GT(file(std::string(stem) + ".png").size(), 1000U);
+    for (std::size_t b = 0; b < bands_.size(); ++b) {
+      double sum = 0.0;
+      for (std::size_t cell = 0; cell < map.size(); ++cell) sum += map.number(cell, bands_[b] + "_total");
+      if (!periodic()) continue;
+      const double down = plane["down"][b];
+      EXPECT_NEAR(sum / static_cast<double>(map.size()), down, 10.0 * table_rounding * down);
+    }
+  }
+  if (text_.find("[[sensor]]") == std::string::npos) return;
+  const Table sensors(file("sensors.csv"));
+  EXPECT_EQ(sensors.header(),
+            header("sensor,point,x,y,z", {"_direct", "_direct_error", "_sky", "_sky_error", "_scattered", "_scattered_error"}));
+  for (std::size_t row = 0; row < sensors.size(); ++row) {
+    for (const std::string& band : bands_) EXPECT_GE(sensors.number(row, band + "_sky"), 0.0);
+  }
 }
 
 TEST_P(Scenes, AgreeWithThemselves) {
@@ -172,11 +206,12 @@ TEST_P(Scenes, AgreeWithThemselves) {
     EXPECT_NEAR(absorbed, balance["absorbed_vegetation"], table_rounding * incident);
     EXPECT_NEAR(absorbed_in_layers, balance["absorbed_vegetation"], table_rounding * incident);
     EXPECT_NEAR(direct, direct_of_triangles, table_rounding * incident);
-    const bool no_sky = text_.find("[sky]") == std::string::npos;
-    if (periodic() && no_sky) {
-      const double on_ground = summary_["ground_sunfleck_ratio"];
-      EXPECT_NEAR(direct, incident * (1.0 - on_ground), table_rounding * incident);
-      EXPECT_GE(profile.number(0, band + "_down"), incident * on_ground * (1.0 - table_rounding));
+    if (periodic()) {
+      if (!has_sky()) {
+        const double on_ground = summary_["ground_sunfleck_ratio"];
+        EXPECT_NEAR(direct, incident * (1.0 - on_ground), table_rounding * incident);
+        EXPECT_GE(profile.number(0, band + "_down"), incident * on_ground * (1.0 - table_rounding));
+      }
       // What goes down through a plane and does not come up again is absorbed below it, or leaves there, or is unshot.
       double below = double{balance["absorbed_soil"]} + double{balance["transmitted"]};
       for (std::size_t k = 0; k < profile.size(); ++k) {

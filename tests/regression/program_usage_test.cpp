@@ -45,7 +45,16 @@ TEST_F(Usage, OfOptions) {
                                       {{"--seed", "18446744073709551616"}, "--seed"},
                                       {{"--threads", "-1"}, "--threads -1"},
                                       {{"--samples", "0"}, "--samples 0"},
-                                      {{"--size", "8192x8192", "--samples", "16"}, "--size 8192x8192"},
+                                      {{"--size", "8193x64"}, "--size 8193x64"},
+                                      {{"--samples", "257"}, "--samples 257"},
+                                      {{"--repeat", "2"}, "--repeat 2"},
+                                      {{"--repeat", "3"}, "--repeat 3"},
+                                      {{"--repeat", "11"}, "--repeat 11"},
+                                      {{"--view", "below"}, "--view below"},
+                                      {{"--chart", "pie"}, "--chart pie"},
+                                      {{"--field", "sky"}, "rank_sky"},
+                                      {{"--field", "indirect", "--chart", "hue"}, "hue_indirect"},
+                                      {{"--images", "map_sky"}, "map_sky"},
                                       {{"--export", "xls"}, "--export xls"},
                                       {{"--images", "photo"}, "--images photo"},
                                       {{"--images", "none,all"}, "--images none,all"},
@@ -69,7 +78,7 @@ TEST_F(Usage, OfCommandsAndFiles) {
 }
 
 TEST_F(Usage, OfCommandsToCome) {
-  for (const char* command : {"day", "render", "view", "validate", "tradeoff", "convert"}) {
+  for (const char* command : {"view", "validate", "tradeoff", "convert"}) {
     expect_one_error(run({command, scene_, "--from", "08:00"}), 2, std::string(command) + " (not in version");
   }
 }

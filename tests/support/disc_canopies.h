@@ -6,12 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
 namespace sunfleck::test {
+
+enum class CanopyLight { paper_sun, uniform_sky };
 
 // `count` regular polygons of equal area over 2 x 2 m, their centres
 // evenly between a disc's radius and 2 m above the ground.
@@ -26,6 +29,16 @@ struct DiscCanopy {
   [[nodiscard]] double expected_beam_on_soil() const {
     const double shadow_m2 = leaf_m2() * (horizontal ? 1.0 : 0.5 / std::cos(radians(36.9824)));
     return std::pow(1.0 - shadow_m2 / 4.0, count);
+  }
+  // The same under a uniform sky, leaves of all orientations: averaged over directions by the middle rule.
+  [[nodiscard]] double expected_sky_on_soil() const {
+    constexpr int steps = 100000;
+    double sum = 0.0;
+    for (int k = 0; k < steps; ++k) {
+      const double sine = std::sqrt((k + 0.5) / steps);  // of elevation, its square even over [0, 1)
+      sum += std::pow(std::max(0.0, 1.0 - 0.5 * leaf_m2() / sine / 4.0), count);
+    }
+    return sum / steps;
   }
 };
 inline constexpr Plot disc_plot{2.0, 2.0, true};
@@ -84,24 +97,35 @@ class Regression {
 struct CanopyFluxes {
   Regression::Fit reflected, on_soil, leaves;
 };
-inline std::vector<CanopyFluxes> disc_canopy_fluxes(const DiscCanopy& canopy, int scenes, double rays, double packets) {
-  const Regression empty(canopy.expected_beam_on_soil());
+inline std::vector<CanopyFluxes> disc_canopy_fluxes(const DiscCanopy& canopy, int scenes, double rays, double packets,
+                                                    CanopyLight light = CanopyLight::paper_sun) {
+  const bool sky = light == CanopyLight::uniform_sky;
+  const Regression empty(sky ? canopy.expected_sky_on_soil() : canopy.expected_beam_on_soil());
   std::vector<std::array<Regression, 3>> sums(2, {empty, empty, empty});
   for (int scene = 1; scene <= scenes; ++scene) {
     const auto seed = static_cast<std::uint32_t>(scene);
-    const RadiationModel model = paper_model(disc_leaves(canopy, seed), disc_plot, paper_sun());
+    RadiationModel model = paper_model(disc_leaves(canopy, seed), disc_plot, paper_sun());
+    if (sky) shine_from_sky(model, {});
     const ScatterWork work{.rays = rays, .packets = packets, .replicates = 8, .seed = seed, .bound = 0.003};
     const RadiationResult result = simulate(model, fixed_scatter(model, work));
     for (std::size_t b = 0; b < 2; ++b) {
-      const double beam_on_soil = result.ground_sunfleck_ratio.value;
-      sums[b][0].add(beam_on_soil, result.bands[b].reflected.value);
-      sums[b][1].add(beam_on_soil, result.layers[0].down[b].value);
-      sums[b][2].add(beam_on_soil, result.bands[b].absorbed_vegetation.value);
+      const double passed = sky ? sky_on_soil_w_m2(model, result, b) : result.ground_sunfleck_ratio.value;
+      sums[b][0].add(passed, result.bands[b].reflected.value);
+      sums[b][1].add(passed, result.layers[0].down[b].value);
+      sums[b][2].add(passed, result.bands[b].absorbed_vegetation.value);
     }
   }
   std::vector<CanopyFluxes> fluxes;
   for (const auto& band : sums) fluxes.push_back({band[0].fit(), band[1].fit(), band[2].fit()});
   return fluxes;
+}
+
+// Two leaf sizes, the second half the first, extrapolated to none: the effect of finite leaves is nearly linear (B11).
+inline CanopyFluxes without_leaf_size(const CanopyFluxes& large, const CanopyFluxes& half) {
+  const auto flux = [](const Regression::Fit& a, const Regression::Fit& b) {
+    return Regression::Fit{2.0 * b.value - a.value, std::hypot(a.error, 2.0 * b.error)};
+  };
+  return {flux(large.reflected, half.reflected), flux(large.on_soil, half.on_soil), flux(large.leaves, half.leaves)};
 }
 
 struct CanopyRow {

@@ -71,6 +71,24 @@ inline double soil_irradiance_w_m2(const RadiationModel& model, const RadiationR
   return sum_w / model.plot.area_m2();
 }
 
+// Exchanges the beam for as much sky light.
+inline void shine_from_sky(RadiationModel& model, const SkyModel& sky) {
+  for (Waveband& band : model.bands) {
+    band.diffuse_w_m2 = band.direct_w_m2;
+    band.direct_w_m2 = 0.0;
+  }
+  model.sky = sky;
+}
+
+// The sky's unscattered light on the soil plane (W m-2 of ground).
+inline double sky_on_soil_w_m2(const RadiationModel& model, const RadiationResult& result, std::size_t band) {
+  double sum_w = 0.0;
+  for (std::size_t k = band; k < result.cell_sky.size(); k += model.bands.size()) {
+    sum_w += static_cast<double>(result.cell_sky[k]) * result.w_per_quantum[band];
+  }
+  return sum_w / model.plot.area_m2();
+}
+
 // Scene S1 of the validation table (B12): 300 square leaves of 0.1 m, an organ each, over 1 m2.
 struct ExplicitLeaf {
   glm::dvec3 centre_m, normal;  // x east, y north, z up

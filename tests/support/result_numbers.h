@@ -44,11 +44,21 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
   for (const auto landings : result.soil_cells) integer(landings);
   for (const auto quanta : result.side_indirect) integer(quanta);
   for (const auto quanta : result.cell_indirect) integer(quanta);
+  for (const auto quanta : result.side_sky) integer(quanta);
+  for (const auto quanta : result.cell_sky) integer(quanta);
+  for (const PlaneResult& plane : result.planes) {
+    for (const auto rays : plane.reached) integer(rays);
+    for (const auto rays : plane.crossing) integer(rays);
+    for (const auto quanta : plane.down) integer(quanta);
+    estimates(std::array{plane.sunfleck_ratio});
+    estimates(plane.total_down);
+  }
   for (const double watts : result.w_per_quantum) number(watts);
   estimates(std::array{result.sunlit_leaf_fraction, result.ground_sunfleck_ratio});
   integer(result.lost_rays);
   integer(result.direct.rays);
   integer(result.direct.replicates);
+  integer(result.indirect.sky_rays);
   integer(result.indirect.packets);
   integer(result.indirect.rounds);
   return words;

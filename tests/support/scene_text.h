@@ -86,6 +86,57 @@ usemtl leaf
 f 4 5 6
 )";
 
+// Sky, weather and receivers, with every key of theirs that goes together.
+inline const std::string lit_scene = R"([plot]
+size = [2.0, 3]
+
+[sun]
+time      = 2002-08-08T10:10:00+08:00
+latitude  = 40.02
+longitude = 116.28
+
+[sky]
+model = "perez"
+dni   = 700.0
+dhi   = 110.0
+
+[weather]
+file  = "station.csv"
+split = "spitters"
+
+[[band]]
+name           = "PAR"
+share          = 0.45
+umol_per_joule = 4.57
+
+[[band]]
+name          = "NIR"
+direct_normal = 400.0
+diffuse       = 60.0
+
+[[plane]]
+height = 0.5
+cells  = [20, 30]
+
+[[plane]]
+height = 0.25
+
+[[sensor]]
+name   = "ceptometer"
+from   = [0.2, 1.2, 0.1]
+to     = [0.2, 1.2, 2.1]
+points = 5
+normal = [0, -2, 0]
+
+[[sensor]]
+name     = "ball"
+from     = [1, 1, 1]
+response = "spherical"
+)";
+
+inline const std::string station_csv =
+    "time,ghi\n2002-08-08T10:00+08:00,800\n2002-08-08T10:10+08:00,400\n2002-08-08T10:20+08:00,100\n";
+
 // The smallest scene.
 inline const std::string bare_scene = "[plot]\nsize = [1.0, 1.0]\n[[band]]\nname = \"PAR\"\n";
 
@@ -93,7 +144,7 @@ inline void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-// A folder of its own for each test, with plates.obj in it.
+// A folder of its own for each test, with plates.obj and station.csv in it.
 class SceneFolder : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -104,6 +155,7 @@ class SceneFolder : public ::testing::Test {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     write(folder_ / "plates.obj", plates_obj);
+    write(folder_ / "station.csv", station_csv);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

@@ -1,5 +1,7 @@
 #include "view/colour_scale.h"
 
+#include "view/viridis.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +10,8 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -21,6 +25,18 @@ std::array<double, 5> weight_by_rank(const RankScale& scale, const std::vector<d
 
 std::vector<double> ones(std::size_t count) {
   return std::vector<double>(count, 1.0);
+}
+
+// CIE 15:2004, section 8.2.1, with the D65 white of IEC 61966-2-1.
+Colour lab(const Colour& linear) {
+  const auto [r, g, b] = linear;
+  const Colour relative = {(0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505, 0.2126 * r + 0.7152 * g + 0.0722 * b,
+                           (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089};
+  Colour f{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    f[i] = relative[i] > 216.0 / 24389.0 ? std::cbrt(relative[i]) : (24389.0 / 27.0 * relative[i] + 16.0) / 116.0;
+  }
+  return {116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])};
 }
 
 TEST(RankOf, FollowsTheBounds) {
@@ -48,13 +64,80 @@ TEST(RankOf, SkipsEmptyClasses) {
 }
 
 TEST(EqualIntervalRanks, DividesZeroToTheLargestValue) {
-  const RankScale scale = equal_interval_ranks(std::vector<double>{3.0, 100.0, 7.0});
+  const RankScale scale = equal_interval_ranks(std::vector<double>{3.0, 100.0, 7.0}, ones(3));
   for (int k = 0; k <= 5; ++k) EXPECT_DOUBLE_EQ(scale.bounds[k], 20.0 * k);
+  EXPECT_FALSE(scale.open);
+}
+
+// 1, 2, ... 10000 with weight 1 and half as many zeros: the quantile 0.999 of those above zero is 9990.
+TEST(Ranks, EndWhereAThousandthOfTheLitWeightIsBrighter) {
+  std::vector<double> values(15000, 0.0);
+  std::iota(values.begin() + 5000, values.end(), 1.0);
+  for (const RankScale& scale : {equal_interval_ranks(values, ones(15000)), equal_count_ranks(values, ones(15000))}) {
+    EXPECT_EQ(scale.bounds.back(), 9990.0);
+    EXPECT_TRUE(scale.open);
+    EXPECT_EQ(rank_of(scale, 10000.0), 4);
+  }
+}
+
+TEST(Ranks, KeepTheirOrderWhereAlmostAllIsEqual) {
+  std::vector<double> values(2000, 5.0);
+  values.push_back(6.0);
+  const RankScale scale = equal_count_ranks(values, ones(2001));
+  EXPECT_TRUE(std::is_sorted(scale.bounds.begin(), scale.bounds.end()));
+  EXPECT_EQ(scale.bounds.back(), 6.0);
+  EXPECT_FALSE(scale.open);
+}
+
+TEST(WeightedQuantile, IsTheSmallestValueWithEnoughWeightBelow) {
+  const std::vector<double> values = {4.0, 1.0, 3.0, 2.0};
+  EXPECT_EQ(weighted_quantile(values, ones(4), 0.0), 1.0);
+  EXPECT_EQ(weighted_quantile(values, ones(4), 0.5), 2.0);
+  EXPECT_EQ(weighted_quantile(values, ones(4), 0.51), 3.0);
+  EXPECT_EQ(weighted_quantile(values, ones(4), 1.0), 4.0);
+  EXPECT_EQ(weighted_quantile(values, std::vector<double>{1.0, 0.0, 0.0, 0.0}, 0.1), 4.0);
+  EXPECT_EQ(weighted_quantile({}, {}, 0.5), 0.0);
+}
+
+TEST(MapScale, EndsBelowTheBrightestSlivers) {
+  std::vector<double> values(1000);
+  std::iota(values.begin(), values.end(), 1.0);
+  const MapScale scale = make_map_scale(values, ones(1000));
+  EXPECT_EQ(scale.top, 995.0);
+  EXPECT_TRUE(scale.open);
+  EXPECT_EQ(map_colour(scale, 0.0), viridis(0.0));
+  EXPECT_EQ(map_colour(scale, 1000.0), viridis(1.0));
+  const MapScale equal = make_map_scale(ones(3), ones(3));
+  EXPECT_EQ(equal.top, 1.0);
+  EXPECT_FALSE(equal.open);
+  const MapScale dark = make_map_scale(std::vector<double>(3, 0.0), ones(3));
+  EXPECT_EQ(dark.top, 0.0);
+  EXPECT_EQ(map_colour(dark, 0.0), viridis(0.0));
+}
+
+// The published table of 256 colours, at its ends and where five even steps would fall.
+TEST(Viridis, IsThePublishedMap) {
+  const std::vector<std::pair<double, std::array<int, 3>>> places = {
+      {0.0, {68, 1, 84}}, {0.25, {59, 82, 139}}, {0.5, {33, 145, 140}}, {0.75, {93, 200, 99}}, {1.0, {253, 231, 37}}};
+  for (const auto& [at, expected] : places) {
+    const auto got = to_srgb(viridis(at));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], expected[i], 2) << at;
+  }
+  EXPECT_EQ(viridis(-1.0), viridis(0.0));
+  EXPECT_EQ(viridis(2.0), viridis(1.0));
+}
+
+TEST(Viridis, GrowsLighterEvenly) {
+  for (int k = 1; k <= 50; ++k) {
+    const double step = lab(viridis(k / 50.0))[0] - lab(viridis((k - 1) / 50.0))[0];
+    EXPECT_GT(step, 0.8) << k;
+    EXPECT_LT(step, 2.4) << k;
+  }
 }
 
 TEST(EqualIntervalRanks, WithoutLightIsAllDarkestShade) {
   for (const auto& values : {std::vector<double>{}, std::vector<double>{0.0, 0.0}}) {
-    const RankScale scale = equal_interval_ranks(values);
+    const RankScale scale = equal_interval_ranks(values, ones(values.size()));
     EXPECT_EQ(scale.bounds, (std::array<double, 6>{}));
     EXPECT_EQ(rank_of(scale, 0.0), 0);
   }
@@ -72,7 +155,7 @@ TEST(EqualCountRanks, GivesEachClassItsShareToWithinOneItem) {
     const RankScale scale = equal_count_ranks(values, weights);
     EXPECT_TRUE(std::is_sorted(scale.bounds.begin(), scale.bounds.end()));
     EXPECT_EQ(scale.bounds.front(), *std::min_element(values.begin(), values.end()));
-    EXPECT_EQ(scale.bounds.back(), *std::max_element(values.begin(), values.end()));
+    EXPECT_EQ(scale.bounds.back(), weighted_quantile(values, weights, rank_top_share));
     const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / 5.0;
     const double largest = *std::max_element(weights.begin(), weights.end());
     for (const double sum : weight_by_rank(scale, values, weights)) EXPECT_NEAR(sum, share, largest);
@@ -134,9 +217,10 @@ TEST(EqualCountRanks, LeavesOutWhatHasNoWeight) {
 
 TEST(EqualCountRanks, FallsBackToEqualIntervals) {
   const std::vector<double> values = {1.0, 2.0, 10.0};
-  EXPECT_EQ(equal_count_ranks(values, std::vector<double>(3, 0.0)).bounds, equal_interval_ranks(values).bounds);
+  EXPECT_EQ(equal_count_ranks(values, std::vector<double>(3, 0.0)).bounds,
+            (std::array<double, 6>{0.0, 2.0, 4.0, 6.0, 8.0, 10.0}));
   const std::vector<double> same = {4.0, 4.0, 4.0};
-  EXPECT_EQ(equal_count_ranks(same, ones(3)).bounds, equal_interval_ranks(same).bounds);
+  EXPECT_EQ(equal_count_ranks(same, ones(3)).bounds, equal_interval_ranks(same, ones(3)).bounds);
   EXPECT_EQ(equal_count_ranks({}, {}).bounds, (std::array<double, 6>{}));
   const std::vector<double> dark(4, 0.0);
   const RankScale scale = equal_count_ranks(dark, ones(4));
@@ -149,18 +233,6 @@ TEST(EqualCountRanks, RefusesWhatHasNoRank) {
   EXPECT_THROW(static_cast<void>(equal_count_ranks(broken, ones(2))), std::logic_error);
   EXPECT_THROW(static_cast<void>(equal_count_ranks(ones(2), ones(3))), std::logic_error);
   EXPECT_THROW(static_cast<void>(equal_count_ranks(ones(2), std::vector<double>{1.0, -1.0})), std::logic_error);
-}
-
-// CIE 15:2004, section 8.2.1, with the D65 white of IEC 61966-2-1.
-Colour lab(const Colour& linear) {
-  const auto [r, g, b] = linear;
-  const Colour relative = {(0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505, 0.2126 * r + 0.7152 * g + 0.0722 * b,
-                           (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089};
-  Colour f{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    f[i] = relative[i] > 216.0 / 24389.0 ? std::cbrt(relative[i]) : (24389.0 / 27.0 * relative[i] + 16.0) / 116.0;
-  }
-  return {116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])};
 }
 
 double difference(const Colour& a, const Colour& b) {

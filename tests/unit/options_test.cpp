@@ -6,6 +6,7 @@
 
 #include <initializer_list>
 #include <limits>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -45,8 +46,8 @@ TEST(Options, OfARunStandBesideTheirNames) {
   EXPECT_EQ(options.threads, 0);
   EXPECT_TRUE(options.exports.empty());
   EXPECT_EQ(options.images, std::vector<std::string>{"all"});
-  EXPECT_EQ(options.width, 1600);
-  EXPECT_EQ(options.height, 1200);
+  EXPECT_EQ(options.pictures.width, 1600);
+  EXPECT_EQ(options.pictures.height, 1200);
   EXPECT_FALSE(options.allow_outside || options.quiet || options.json);
 }
 
@@ -61,14 +62,14 @@ TEST(Options, OfARunAreRead) {
   EXPECT_EQ(options.grid_m, 0.0015);
   EXPECT_EQ(options.passes, 32);
   EXPECT_EQ(options.seed, 12U);
-  EXPECT_EQ(options.width, 640);
-  EXPECT_EQ(options.height, 480);
-  EXPECT_EQ(options.samples, 9);
+  EXPECT_EQ(options.pictures.width, 640);
+  EXPECT_EQ(options.pictures.height, 480);
+  EXPECT_EQ(options.pictures.samples, 9);
   EXPECT_EQ(options.max_seconds, 2.5);
   EXPECT_EQ(options.threads, 3);
   EXPECT_EQ(options.exports, std::vector<std::string>{"csv"});
   EXPECT_EQ(options.images, std::vector<std::string>{"none"});
-  EXPECT_EQ(options.band, "NIR");
+  EXPECT_EQ(options.pictures.band, "NIR");
   EXPECT_TRUE(options.allow_outside && options.quiet && options.json);
 }
 
@@ -97,6 +98,61 @@ TEST(Options, ListsTakeOneWord) {
   EXPECT_EQ(parse_run({"run", "--images", "none", "a.toml"}).scene, "a.toml");
   EXPECT_EQ(parse_run({"run", "--export", "csv", "a.toml"}).scene, "a.toml");
   EXPECT_EQ(parse_run({"run", "a.toml", "--images", "rank_direct,all"}).images.size(), 2U);
+}
+
+TEST(Options, OfPicturesAreShared) {
+  for (const char* command : {"run", "render"}) {
+    const Command parsed = parse(
+        {command, "a.toml", "--view", "fisheye", "--repeat", "5", "--size", "8192x4096", "--samples", "256", "--band", "NIR"});
+    const auto* render = std::get_if<RenderOptions>(&parsed);
+    const PictureOptions& options = render != nullptr ? render->run.pictures : std::get<RunOptions>(parsed).pictures;
+    EXPECT_EQ(options.view, ViewKind::fisheye);
+    EXPECT_EQ(options.repeat, 5);
+    EXPECT_EQ(options.width, 8192);
+    EXPECT_EQ(options.height, 4096);
+    EXPECT_EQ(options.samples, 256);
+    EXPECT_EQ(options.band, "NIR");
+  }
+  EXPECT_EQ(refusal({"run", "a.toml", "--repeat", "2"}),
+            "--repeat 2 (must be odd: the plot stands in the middle of its copies); give 3");
+  EXPECT_NE(refusal({"render", "a.toml", "--view", "below"}).find("--view below"), std::string::npos);
+}
+
+TEST(Options, OfARender) {
+  const RenderOptions plain = std::get<RenderOptions>(parse({"render", "out"}));
+  EXPECT_EQ(plain.run.scene, "out");
+  EXPECT_TRUE(plain.file.empty());
+  EXPECT_EQ(plain.picture, (Picture{ChartKind::rank, LightField::total}));
+  EXPECT_FALSE(plain.chart_given);
+  EXPECT_EQ(plain.simulating, "");
+  const RenderOptions options = std::get<RenderOptions>(parse(
+      {"render", "a.toml", "-o", "a.exr", "--chart", "rank-interval", "--field", "absorbed", "--seed", "3", "--error", "0.1"}));
+  EXPECT_EQ(options.file, "a.exr");
+  EXPECT_EQ(options.picture, (Picture{ChartKind::rank_interval, LightField::absorbed}));
+  EXPECT_TRUE(options.chart_given);
+  EXPECT_EQ(options.simulating, "--error");
+  EXPECT_EQ(options.run.seed, 3U);
+  EXPECT_EQ(options.run.direct_error, 0.1);
+  EXPECT_NE(refusal({"render"}).find("scene"), std::string::npos);
+  EXPECT_NE(refusal({"render", "out", "--json"}).find("--json"), std::string::npos);
+}
+
+TEST(Options, OfMorePicturesOfARun) {
+  EXPECT_FALSE(parse_run({"run", "a.toml"}).extra_picture);
+  EXPECT_EQ(parse_run({"run", "a.toml", "--field", "sky"}).extra_picture, (Picture{ChartKind::rank, LightField::sky}));
+  EXPECT_EQ(parse_run({"run", "a.toml", "--chart", "map"}).extra_picture, (Picture{ChartKind::map, LightField::total}));
+  EXPECT_EQ(parse_run({"run", "a.toml", "--images", "hue_sky,rank-interval_absorbed"}).images.size(), 2U);
+  EXPECT_NE(refusal({"run", "a.toml", "--images", "none", "--chart", "map"}).find("--images none"), std::string::npos);
+}
+
+TEST(Pictures, HaveNamesOfTheirOwn) {
+  std::set<std::string> stems;
+  for (const Picture& picture : all_pictures()) stems.insert(stem_of(picture));
+  EXPECT_EQ(stems.size(), 20U);
+  std::vector<std::string> usual;
+  for (const Picture& picture : usual_pictures()) usual.push_back(stem_of(picture));
+  EXPECT_EQ(usual, (std::vector<std::string>{"rank_direct", "rank_indirect", "rank_total", "hue_direct", "hue_indirect",
+                                             "hue_total"}));
 }
 
 TEST(Options, OfTheStand) {
@@ -134,8 +190,8 @@ TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--passes", "4"}),
             "command line: --passes 4 (must be a whole number in 8..65536); see sunfleck run --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}), "command line: --bogus (not known here); see sunfleck run --help");
-  EXPECT_EQ(refusal({"ran"}), "ran (no command of this program); use run, maize or info; see sunfleck --help");
-  EXPECT_EQ(refusal({}), "command line (no command); use run, maize or info; see sunfleck --help");
+  EXPECT_EQ(refusal({"ran"}), "ran (no command of this program); use run, day, render, maize or info; see sunfleck --help");
+  EXPECT_EQ(refusal({}), "command line (no command); use run, day, render, maize or info; see sunfleck --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--size", "3\nx"}),
             "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
   EXPECT_NE(refusal({"view", "a.toml"}).find("view (not in version"), std::string::npos);

@@ -24,8 +24,11 @@ class SceneUnderAttack : public SceneFolder {
 };
 
 TEST_F(SceneUnderAttack, CutAtEveryLength) {
-  for (std::size_t length = 0; length < good_scene.size(); ++length) attack(good_scene.substr(0, length));
-  EXPECT_GT(refusals_, static_cast<int>(good_scene.size() / 4));
+  for (const std::string& scene : {good_scene, lit_scene}) {
+    refusals_ = 0;
+    for (std::size_t length = 0; length < scene.size(); ++length) attack(scene.substr(0, length));
+    EXPECT_GT(refusals_, static_cast<int>(scene.size() / 4));
+  }
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -44,87 +47,103 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-TEST_F(SceneUnderAttack, EveryLineRemovedDoubledOrChanged) {
-  const std::vector<std::string> values = {"-1",
-                                           "0",
-                                           "1",
-                                           "1e30",
-                                           "-1e30",
-                                           "1e-320",
-                                           "9223372036854775807",
-                                           "-9223372036854775808",
-                                           "nan",
-                                           "-nan",
-                                           "inf",
-                                           "-inf",
-                                           "true",
-                                           "\"\"",
-                                           "\"text\"",
-                                           "\"..\"",
-                                           "\"/\"",
-                                           "[]",
-                                           "[[]]",
-                                           "[[[1]]]",
-                                           "[1]",
-                                           "[1, 2]",
-                                           "[1, 2, 3]",
-                                           "[[1, 2, 3]]",
-                                           "[nan, inf]",
-                                           "[\"a\", 1]",
-                                           "[{}]",
-                                           "{}",
-                                           "{ PAR = 1 }",
-                                           "{ PAR = nan, NIR_1 = {} }",
-                                           "1979-05-27",
-                                           "07:32:00",
-                                           "1979-05-27T07:32:00",
-                                           "1979-05-27T07:32:00Z",
-                                           "9999-12-31T23:59:59.999-23:59",
-                                           "0000-01-01T00:00:00+23:59"};
-  const std::vector<std::string> lines = lines_of(good_scene);
-  int keys = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    std::vector<std::string> changed = lines;
-    changed[i] = "";
-    attack(joined(changed));
-    changed[i] = lines[i] + lines[i];
-    attack(joined(changed));
-    const std::size_t equals = lines[i].find('=');
-    if (equals == std::string::npos) continue;
-    ++keys;
-    for (const std::string& value : values) {
-      changed[i] = lines[i].substr(0, equals + 1) + " " + value + "\n";
+const std::vector<std::string> values = {"-1",
+                                         "0",
+                                         "1",
+                                         "1e30",
+                                         "-1e30",
+                                         "1e-320",
+                                         "9223372036854775807",
+                                         "-9223372036854775808",
+                                         "nan",
+                                         "-nan",
+                                         "inf",
+                                         "-inf",
+                                         "true",
+                                         "\"\"",
+                                         "\"text\"",
+                                         "\"..\"",
+                                         "\"/\"",
+                                         "[]",
+                                         "[[]]",
+                                         "[[[1]]]",
+                                         "[1]",
+                                         "[1, 2]",
+                                         "[1, 2, 3]",
+                                         "[[1, 2, 3]]",
+                                         "[nan, inf]",
+                                         "[\"a\", 1]",
+                                         "[{}]",
+                                         "{}",
+                                         "{ PAR = 1 }",
+                                         "{ PAR = nan, NIR_1 = {} }",
+                                         "1979-05-27",
+                                         "07:32:00",
+                                         "1979-05-27T07:32:00",
+                                         "1979-05-27T07:32:00Z",
+                                         "9999-12-31T23:59:59.999-23:59",
+                                         "0000-01-01T00:00:00+23:59"};
+
+class SceneLinesUnderAttack : public SceneUnderAttack {
+ protected:
+  // Every line removed, doubled, and its value replaced; returns how many lines have one.
+  int attack_lines(const std::string& scene) {
+    const std::vector<std::string> lines = lines_of(scene);
+    int keys = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::vector<std::string> changed = lines;
+      changed[i] = "";
       attack(joined(changed));
+      changed[i] = lines[i] + lines[i];
+      attack(joined(changed));
+      const std::size_t equals = lines[i].find('=');
+      if (equals == std::string::npos) continue;
+      ++keys;
+      for (const std::string& value : values) {
+        changed[i] = lines[i].substr(0, equals + 1) + " " + value + "\n";
+        attack(joined(changed));
+      }
     }
+    return keys;
   }
-  EXPECT_EQ(keys, 33);
-  EXPECT_GT(refusals_, 20 * keys);
+};
+
+TEST_F(SceneLinesUnderAttack, EveryLineRemovedDoubledOrChanged) {
+  EXPECT_EQ(attack_lines(good_scene), 33);
+  EXPECT_GT(refusals_, 20 * 33);
+}
+
+TEST_F(SceneLinesUnderAttack, EveryLineOfLightAndReceivers) {
+  EXPECT_EQ(attack_lines(lit_scene), 26);
+  EXPECT_GT(refusals_, 20 * 26);
 }
 
 TEST_F(SceneUnderAttack, EveryNumberReplaced) {
   const std::string digits = "0123456789";
-  for (std::size_t at = 0; at < good_scene.size();) {
-    if (digits.find(good_scene[at]) == std::string::npos) {
-      ++at;
-      continue;
+  for (const std::string& scene : {good_scene, lit_scene}) {
+    for (std::size_t at = 0; at < scene.size();) {
+      if (digits.find(scene[at]) == std::string::npos) {
+        ++at;
+        continue;
+      }
+      const std::size_t end = scene.find_first_not_of(digits + ".", at);
+      for (const char* number : {"-7", "1e300", "nan", "inf", "\"7\"", "true", "99999999999999999999"}) {
+        attack(scene.substr(0, at) + number + scene.substr(end));
+      }
+      at = end;
     }
-    const std::size_t end = good_scene.find_first_not_of(digits + ".", at);
-    for (const char* number : {"-7", "1e300", "nan", "inf", "\"7\"", "true", "99999999999999999999"}) {
-      attack(good_scene.substr(0, at) + number + good_scene.substr(end));
-    }
-    at = end;
   }
 }
 
 TEST_F(SceneUnderAttack, BytesChangedAtRandom) {
   std::mt19937 random(20020808);
   const std::string alphabet = "[]{}=.,\"'#\n\\ \t-+_aeyz019\xff\xc3\x01";
-  for (int round = 0; round < 1500; ++round) {
-    std::string text = good_scene;
+  for (int round = 0; round < 2000; ++round) {
+    std::string text = round % 2 == 0 ? good_scene : lit_scene;
     for (unsigned edit = 0; edit <= random() % 3; ++edit) text[random() % text.size()] = alphabet[random() % alphabet.size()];
     attack(text);
   }
-  EXPECT_GT(refusals_, 500);
+  EXPECT_GT(refusals_, 650);
 }
 
 }  // namespace

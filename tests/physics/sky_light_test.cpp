@@ -1,0 +1,233 @@
+// Light from the sky: what single faces see of it, what canopies keep of it (B12 and E of the validation table), and the
+// identities that hold with it.
+#include "io/mesh_reader.h"
+#include "support/comparison.h"
+#include "support/leaf_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+namespace sunfleck::test {
+namespace {
+
+constexpr int replicates = 32;
+
+struct Reference {
+  double value, error;  // error: of the reference itself
+};
+
+void expect_within(const Estimate& got, const Reference& reference, double largest, const std::string& what) {
+  const double own = standard_error(got, replicates);
+  const double error = std::hypot(own, reference.error);
+  std::printf("%-28s expected %.6f(%.0e) got %.6f(%.1e) z %+.2f\n", what.c_str(), reference.value, reference.error, got.value,
+              own, (got.value - reference.value) / std::max(error, 1e-12));
+  EXPECT_LE(own, largest) << what;
+  EXPECT_LE(std::abs(got.value - reference.value), 3.0 * error + rounding) << what;
+}
+
+RadiationModel under_sky(RadiationModel model, const SkyModel& sky) {
+  shine_from_sky(model, sky);
+  return model;
+}
+
+SkyModel general_sky(int type) {
+  return {.kind = SkyKind::general, .cie_type = type};
+}
+
+TEST(SkyLight, ExplicitSceneUnderUniformAndOvercastSkies) {
+  struct Row {
+    SkyKind kind;
+    Reference reflected, leaves, on_soil, passed;
+    double in_soil;
+  };
+  const std::array rows = {
+      Row{SkyKind::uniform, {0.053482, 2e-5}, {0.837763, 5e-5}, {0.127951, 6e-5}, {0.113245, 6e-5}, 0.108758},
+      Row{SkyKind::overcast, {0.052310, 1e-5}, {0.826358, 8e-5}, {0.142742, 9e-5}, {0.127740, 9e-5}, 0.121331}};
+  for (const Row& row : rows) {
+    RadiationModel model = under_sky(paper_model(explicit_scene().mesh, {}, paper_sun()), {.kind = row.kind});
+    model.sun.reset();
+    const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 98304}));
+    const BandResult& par = result.bands[0];
+    expect_within(par.reflected, row.reflected, 1e-4, "reflected");
+    expect_within(par.absorbed_vegetation, row.leaves, 2e-4, "absorbed by leaves");
+    expect_within(result.layers[0].down[0], row.on_soil, 2e-4, "on soil");
+    expect_within(par.absorbed_soil, {row.in_soil, 0.85 * row.on_soil.error}, 2e-4, "absorbed by soil");
+    const double passed_error = 3.0 * std::hypot(row.passed.error, standard_error(result.layers[0].down[0], replicates));
+    EXPECT_NEAR(sky_on_soil_w_m2(model, result, 0), row.passed.value, passed_error);
+    EXPECT_EQ(par.ledger.residual(), 0);
+    EXPECT_NEAR(par.incident, 1.0, 1e-12);
+    EXPECT_EQ(result.direct.rays, 0U);
+  }
+}
+
+// A vertical black square above black soil, alone, sees half of each sky's vertical irradiance tables (E1 to E4).
+struct VerticalCase {
+  const char* what;
+  SkyModel sky;
+  std::array<double, 4> toward;  // north, east, south, west, relative to the horizontal
+};
+
+TEST(SkyLight, VerticalSquareSeesTheTables) {
+  const std::array cases = {VerticalCase{"uniform", {}, {0.5, 0.5, 0.5, 0.5}},
+                            VerticalCase{"overcast", {.kind = SkyKind::overcast}, {0.396177, 0.396177, 0.396177, 0.396177}},
+                            VerticalCase{"type 4", general_sky(4), {0.33892, 0.49337, 0.44326, 0.31672}},
+                            VerticalCase{"type 12", general_sky(12), {0.39034, 0.78120, 0.64176, 0.35554}},
+                            VerticalCase{"type 14", general_sky(14), {0.38965, 0.89532, 0.71540, 0.34382}},
+                            VerticalCase{"Perez clear",
+                                         {.kind = SkyKind::all_weather, .dni_w_m2 = 850.0, .dhi_w_m2 = 100.0},
+                                         {0.43355, 0.80890, 0.66418, 0.41844}},
+                            VerticalCase{"Perez overcast",
+                                         {.kind = SkyKind::all_weather, .dni_w_m2 = 5.0, .dhi_w_m2 = 300.0},
+                                         {0.39093, 0.47206, 0.44760, 0.37611}}};
+  const std::array normals = {glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)};
+  for (const VerticalCase& each : cases) {
+    for (const std::size_t pair : {0U, 1U}) {  // a square that faces north and south, one that faces east and west
+      MeshMaker maker;
+      maker.polygon({0.05, 0.08, 0.05}, normals[pair], 0.01, 4);
+      const Plot plot{0.1, 0.1, false};
+      RadiationModel model = under_sky(black_model(maker.mesh(), plot, paper_sun()), each.sky);
+      const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 65536}));
+      EXPECT_EQ(result.bands[0].ledger.residual(), 0);
+      double area = 0.0;
+      std::array<double, 2> faces{};
+      for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+        const double element_m2 = area_m2(model.canopy.corners[e]);
+        area += element_m2;
+        for (std::size_t side = 0; side < 2; ++side) {
+          faces[side] += result.side_sky_w_m2(2 * e + side, element_m2, 0) * element_m2;
+        }
+      }
+      // Both faces together have an error of their own; each face's is at most about that.
+      const double error = standard_error(result.organs[0].indirect[0], replicates);
+      EXPECT_LE(error, 0.0015) << each.what;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const double expected = each.toward[pair + 2 * side];
+        std::printf("%-16s face %zu expected %.5f got %.5f(%.1e)\n", each.what, pair + 2 * side, expected, faces[side] / area,
+                    error);
+        EXPECT_NEAR(faces[side] / area, expected, 3.5 * error + 0.003 * expected) << each.what;
+      }
+    }
+  }
+}
+
+// What the leaves, the stems and the soil of a whole stand take of the overcast sky, against a reference of 46 directions.
+TEST(SkyLight, StandUnderTheOvercastSky) {
+  Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
+  std::vector<std::uint32_t> kind_of;
+  for (const Organ& organ : mesh.organs) kind_of.push_back(is_leaf_name(organ.name) ? 0 : organ.name == "stem" ? 1 : 2);
+  for (std::uint32_t& organ : mesh.organ_of) organ = kind_of[organ];
+  mesh.organs = {{1, "leaf", 0}, {1, "stem", 0}, {0, "soil", 0}};
+  RadiationModel model = under_sky(black_model(mesh, {3.0, 3.0, true}, paper_sun()), {.kind = SkyKind::overcast});
+  model.sun.reset();
+  const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 32768}));
+  const std::array expected = {0.744, 0.029, 0.226};
+  for (std::size_t organ = 0; organ < expected.size(); ++organ) {
+    const Estimate share = result.organs[organ].indirect[0].scaled(result.organs[organ].area_m2 / 9.0);
+    std::printf("%s: expected %.3f got %.5f(%.1e)\n", mesh.organs[organ].name.c_str(), expected[organ], share.value,
+                standard_error(share, replicates));
+    EXPECT_LE(standard_error(share, replicates), 4e-4);
+    EXPECT_NEAR(share.value, expected[organ], 0.003);
+  }
+}
+
+TEST(SkyLight, ALampListIsABeamFromEachDirection) {
+  const Plot plot{1.0, 1.0, true};
+  const Mesh leaves = random_leaves(40, 0.02, plot, 1.0, 3);
+  RadiationModel beam = paper_model(leaves, plot, paper_sun());
+  SkyModel sky{.kind = SkyKind::lights};
+  sky.lights = {{1.0, direction_to_sun(paper_sun())}};
+  RadiationModel listed = under_sky(beam, sky);
+  listed.sun.reset();
+  const RadiationResult by_beam = simulate(beam, fixed_scatter(beam, {.rays = 2e6, .packets = 16384}));
+  const RadiationResult by_sky = simulate(listed, fixed_scatter(listed, {.packets = 32768}));
+  for (std::size_t b = 0; b < 2; ++b) {
+    expect_same(by_sky.bands[b].absorbed_vegetation, by_beam.bands[b].absorbed_vegetation, replicates, 1e-3, 6, "leaves");
+    expect_same(by_sky.bands[b].absorbed_soil, by_beam.bands[b].absorbed_soil, replicates, 1e-3, 6, "soil");
+    expect_same(by_sky.bands[b].reflected, by_beam.bands[b].reflected, replicates, 1e-3, 6, "reflected");
+  }
+}
+
+// B14 (iii): sun and sky together give what they give apart.
+TEST(SkyLight, SunAndSkyAddUp) {
+  const Plot plot{1.0, 1.5, true};
+  const RadiationModel sun = paper_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, paper_sun());
+  const RadiationModel sky = under_sky(sun, general_sky(12));
+  RadiationModel both = sun;
+  both.sky = general_sky(12);
+  for (Waveband& band : both.bands) {
+    band.direct_w_m2 = 0.7;
+    band.diffuse_w_m2 = 0.3;
+  }
+  const auto run = [](const RadiationModel& model, std::uint64_t seed) {
+    return simulate(model, fixed_scatter(model, {.rays = 5e5, .packets = 16384, .seed = seed}));
+  };
+  const RadiationResult by_sun = run(sun, 1);
+  const RadiationResult by_sky = run(sky, 2);
+  const RadiationResult by_both = run(both, 3);
+  for (std::size_t b = 0; b < 2; ++b) {
+    const auto expect_sum = [&](Estimate BandResult::*part, const char* what) {
+      const Estimate a = (by_sun.bands[b].*part).scaled(0.7);
+      const Estimate c = (by_sky.bands[b].*part).scaled(0.3);
+      const Estimate sum{a.value + c.value, std::hypot(a.half_width, c.half_width)};
+      expect_same(by_both.bands[b].*part, sum, replicates, 1e-3, 6, what);
+    };
+    expect_sum(&BandResult::absorbed_vegetation, "leaves");
+    expect_sum(&BandResult::absorbed_soil, "soil");
+    expect_sum(&BandResult::reflected, "reflected");
+  }
+}
+
+// B14 (i) and (ix): the ledger closes in every kind of scene, and black surfaces send nothing back.
+TEST(SkyLight, LedgerClosesInIntegers) {
+  const std::array bands = {paper_par, usual_nir, BandOptics{"white", 0.6, 0.4, 1.0}, BandOptics{"black", 0.0, 0.0, 0.0}};
+  for (const bool periodic : {true, false}) {
+    for (const bool has_soil : {true, false}) {
+      for (const bool has_sun : {true, false}) {
+        const Plot plot{1.0, 1.5, periodic};
+        RadiationModel black = black_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, paper_sun());
+        if (!has_soil) black.soil.reset();
+        RadiationModel model = scattering_model(black, bands);
+        model.sky = SkyModel{.kind = SkyKind::overcast};
+        for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.5;
+        if (!has_sun) model = under_sky(model, *model.sky);
+        const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 1e5, .packets = 2048, .replicates = 8}));
+        EXPECT_EQ(result.lost_rays, 0U);
+        for (std::size_t b = 0; b < bands.size(); ++b) {
+          const BandResult& band = result.bands[b];
+          EXPECT_EQ(band.ledger.residual(), 0) << band.name;
+          EXPECT_GT(band.incident, 0.0);
+          EXPECT_LE(band.unshot, 1e-5 * band.incident) << band.name;
+          if (periodic) {
+            EXPECT_NEAR(band.incident, has_sun ? 1.5 : 1.0, 1e-9);
+          }
+          const LayerResult& top = result.layers.back();
+          EXPECT_NEAR(top.down[b].value, band.incident, 1e-9);
+          EXPECT_NEAR(top.up[b].value, band.reflected.value, 1e-9);
+        }
+        EXPECT_EQ(result.bands[2].ledger.absorbed_vegetation, 0);
+        EXPECT_EQ(result.bands[3].ledger.reflected, 0);
+        EXPECT_EQ(result.bands[3].ledger.unshot, 0);
+      }
+    }
+  }
+}
+
+// A canopy under a level roof without gaps sees no sky.
+TEST(SkyLight, NothingPassesAFullRoof) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.level(0.0, 1.0, 0.0, 1.0, 1.0);
+  maker.organ("leaf", 1, 2);
+  maker.level(0.2, 0.7, 0.1, 0.9, 0.5);
+  const Plot plot{1.0, 1.0, true};
+  RadiationModel model = under_sky(black_model(maker.mesh(), plot, paper_sun()), general_sky(12));
+  const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 4096, .replicates = 8}));
+  EXPECT_NEAR(result.organs[0].indirect[0].value, 1.0, 1e-9);
+  EXPECT_EQ(result.organs[1].indirect[0].value, 0.0);
+  EXPECT_EQ(result.bands[0].absorbed_soil.value, 0.0);
+}
+
+}  // namespace
+}  // namespace sunfleck::test

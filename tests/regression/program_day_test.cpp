@@ -1,0 +1,394 @@
+// `day` through the program: its tables, and that a day which was cut short goes on as if nothing had been.
+
+#include "regression/program.h"
+#include "support/table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace sunfleck::regression {
+namespace {
+
+using nlohmann::json;
+
+const std::string scene_text = R"(title = "A small day"
+[plot]
+size = [1.0, 1.25]
+[sun]
+time = 2002-08-08T10:10:00+08:00
+latitude = 40.02
+longitude = 116.28
+[sky]
+model = "perez"
+[weather]
+clear_sky = "ineichen"
+[[band]]
+name = "PAR"
+share = 0.5
+umol_per_joule = 4.57
+[[band]]
+name = "NIR"
+share = 0.5
+[soil]
+reflectance = { PAR = 0.15, NIR = 0.25 }
+[optics.leaf]
+reflectance = { PAR = 0.12, NIR = 0.45 }
+transmittance = { PAR = 0.06, NIR = 0.45 }
+[[geometry]]
+file = "leaves.obj"
+optics = "leaf"
+at = [[0, 0, 0], [0.3, 0.2, 0.3]]
+[accuracy]
+direct = 0.02
+indirect = 0.02
+)";
+
+const std::string leaves = R"(v 0.1 0.5 0.1
+v 0.1 0.5 0.7
+v 0.7 0.6 0.1
+v 0.7 0.6 0.7
+f 1 2 3
+f 2 4 3
+)";
+
+constexpr double plot_m2 = 1.25;
+const std::array<const char*, 2> bands{"PAR", "NIR"};
+const std::array<const char*, 4> terms{"incident", "absorbed_vegetation", "absorbed_soil", "reflected"};
+const std::array<const char*, 3> tables{"day.csv", "organs_day.csv", "day.nc"};
+
+class Day : public ProgramTest {
+ protected:
+  void SetUp() override {
+    folder_.write("leaves.obj", leaves);
+    scene_ = folder_.write("scene.toml", scene_text).string();
+  }
+
+  [[nodiscard]] Outcome day(const Arguments& more, const std::string& to = "out", const Watch& watch = {}) const {
+    const bool drawn = std::find(more.begin(), more.end(), "--images") != more.end();
+    const Arguments images = drawn ? Arguments{} : Arguments{"--images", "none"};
+    return run(Arguments{"day", scene_, "-o", to, "--device", "cpu"} + images + more, watch);
+  }
+  void expect_day(const Arguments& more, int status = 0, const std::string& to = "out", const Watch& watch = {}) const {
+    const Outcome outcome = day(more, to, watch);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+  }
+  void expect_same_tables(const std::string& left, const std::string& right) const {
+    for (const char* name : tables) {
+      EXPECT_FALSE(file(name, left).empty()) << name;
+      EXPECT_TRUE(file(name, left) == file(name, right)) << name << " of " << left << " and " << right;
+    }
+  }
+  [[nodiscard]] std::size_t finished_steps(const std::string& of = "out") const {
+    std::error_code error;
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / of / "steps", error)) {
+      count += entry.path().extension() == ".bin" ? 1 : 0;
+    }
+    return count;
+  }
+  // Ctrl-C once so many steps are done.
+  [[nodiscard]] Watch interrupt_after(std::size_t steps) const {
+    return [this, steps, sent = false](pid_t child, const std::string&) mutable {
+      if (!sent && finished_steps() >= steps) sent = ::kill(child, SIGINT) == 0;
+    };
+  }
+  // Starts a day and kills it so long after so many steps are done, or lets it end if it is faster.
+  void kill_day(const Arguments& more, std::size_t steps, std::chrono::milliseconds later) const {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const Arguments all = Arguments{"sunfleck", "day", scene_, "-o", "out", "--device", "cpu", "--quiet"} + more;
+      std::vector<char*> argv;
+      for (const std::string& argument : all) argv.push_back(const_cast<char*>(argument.c_str()));
+      argv.push_back(nullptr);
+      if (::chdir(folder_.path().c_str()) == 0) ::execv(SUNFLECK_PROGRAM, argv.data());
+      ::_exit(126);
+    }
+    int state = 0;
+    pid_t ended = 0;
+    while (ended == 0 && finished_steps() < steps) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      ended = ::waitpid(child, &state, WNOHANG);
+    }
+    if (ended != 0) return;
+    std::this_thread::sleep_for(later);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, &state, 0);
+  }
+  [[nodiscard]] json read_fields() const {
+    const std::string command = "'" SUNFLECK_PYTHON "' -B '" SUNFLECK_SOURCE_DIR "/tests/regression/read_back/read_day.py' '" +
+                                (folder_ / "out/day.nc").string() + "'";
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
+    std::string text;
+    std::array<char, 4096> piece{};
+    while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), pipe.get())) text.append(piece.data(), got);
+    return json::parse(text, nullptr, false);
+  }
+
+  const Arguments evening_{"--from", "15:00", "--to", "20:20"};
+  std::string scene_;
+};
+
+std::string column(const char* band, const std::string& name) {
+  return std::string(band) + "_" + name;
+}
+
+TEST_F(Day, TablesAreAsTheManualSays) {
+  expect_day(evening_);
+  const Table day(file("day.csv"));
+  std::string header = "time,step_s,elevation_deg,azimuth_deg";
+  for (const char* band : bands) {
+    for (const char* term : terms) header += ',' + column(band, term) + ',' + column(band, term) + "_error";
+  }
+  EXPECT_EQ(day.header(), header + ",sunlit_leaf_fraction,sunlit_leaf_fraction_error");
+  ASSERT_EQ(day.size(), 6U);
+  EXPECT_EQ(day.cell(0, "time"), "2002-08-08T15:00:00+08:00");
+  EXPECT_EQ(day.number(0, "step_s"), 3600.0);
+  EXPECT_EQ(day.cell(5, "time"), "2002-08-08T20:00:00+08:00");
+  EXPECT_EQ(day.number(5, "step_s"), 1200.0);
+  for (std::size_t row = 0; row < 4; ++row) {
+    EXPECT_GT(day.number(row, "elevation_deg"), 0.0);
+    EXPECT_EQ(day.number(row, "PAR_incident_error"), 0.0);
+    for (const char* term : terms) EXPECT_GT(day.number(row, column("PAR", term)), 0.0);
+  }
+  for (std::size_t row = 4; row < 6; ++row) {  // sunset is at 19:17
+    EXPECT_LT(day.number(row, "elevation_deg"), 0.0);
+    for (std::size_t c = 4; c < day.columns().size(); ++c) EXPECT_EQ(day.cell(row, day.columns()[c]), "0");
+  }
+  const Table organs(file("organs_day.csv"));
+  EXPECT_EQ(organs.header(),
+            "date,plant,organ,rank,area_m2,PAR_absorbed_mj_m2,PAR_error,PAR_absorbed_mol_m2,NIR_absorbed_mj_m2,NIR_error");
+  EXPECT_EQ(organs.size(), 2U);
+  EXPECT_EQ(summary()["complete"], true);
+  EXPECT_EQ(summary()["steps"], json({{"asked", 6}, {"done", 6}, {"night", 2}, {"short_of_bound", 0}}));
+}
+
+TEST_F(Day, StepIsTheRunOfItsMiddle) {
+  expect_day({"--from", "08:40", "--to", "12:40", "--step", "60", "--seed", "5"});
+  std::string text = scene_text;
+  text.replace(text.find("T10:10"), 6, "T11:10");
+  folder_.write("scene.toml", text);
+  simulate(scene_, {"--device", "cpu", "--images", "none"}, 0, "single");
+  const Table day(file("day.csv"));
+  const json single = summary("single");
+  EXPECT_NEAR(day.number(2, "elevation_deg"), single["sun"]["elevation_deg"], 1e-6);
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const json& band = single["bands"][b];
+    EXPECT_NEAR(day.number(2, column(bands[b], "incident")), band["incident"], 1e-6);
+    for (const char* term : {"absorbed_vegetation", "absorbed_soil", "reflected"}) {
+      // Independent estimates; twice their intervals is four standard errors.
+      const double error = std::hypot(day.number(2, column(bands[b], term) + "_error"), band["error"][term].get<double>());
+      EXPECT_NEAR(day.number(2, column(bands[b], term)), band[term], 2.0 * error) << bands[b] << ' ' << term;
+    }
+  }
+}
+
+TEST_F(Day, IntegralsAreSumsOverTheStepsOfEachDate) {
+  expect_day({"--from", "10:30", "--to", "13:00", "--date", "2003-06-30", "--to-date", "2003-07-01"});
+  const Table day(file("day.csv"));
+  const Table organs(file("organs_day.csv"));
+  ASSERT_EQ(day.size(), 6U);
+  ASSERT_EQ(organs.size(), 4U);
+  EXPECT_EQ(day.cell(3, "time"), "2003-07-01T10:30:00+08:00");
+  for (std::size_t date = 0; date < 2; ++date) {
+    EXPECT_EQ(organs.cell(2 * date, "date"), date == 0 ? "2003-06-30" : "2003-07-01");
+    for (const char* band : bands) {
+      double mj = 0.0, organs_mj = 0.0;
+      for (std::size_t row = 3 * date; row < 3 * date + 3; ++row) {
+        mj += 1e-6 * day.number(row, "step_s") * day.number(row, column(band, "absorbed_vegetation")) * plot_m2;
+      }
+      for (std::size_t row = 2 * date; row < 2 * date + 2; ++row) {
+        organs_mj += organs.number(row, column(band, "absorbed_mj_m2")) * organs.number(row, "area_m2");
+        EXPECT_GT(organs.number(row, column(band, "error")), 0.0);
+        EXPECT_LT(organs.number(row, column(band, "error")), 0.02);
+      }
+      EXPECT_NEAR(organs_mj / mj, 1.0, 1e-7) << band;
+      const json sums = summary()["dates"][date]["bands"][band == bands[0] ? 0 : 1];
+      EXPECT_NEAR(sums["absorbed_vegetation_mj_m2"].get<double>() * plot_m2 / mj, 1.0, 1e-7);
+    }
+    const double mol = organs.number(2 * date, "PAR_absorbed_mol_m2");
+    EXPECT_NEAR(mol / organs.number(2 * date, "PAR_absorbed_mj_m2"), 4.57, 1e-6);
+  }
+}
+
+TEST_F(Day, FieldsAreReadByXarray) {
+  expect_day(evening_);
+  const Table day(file("day.csv"));
+  const json found = read_fields();
+  ASSERT_FALSE(found.is_discarded()) << "python3-netcdf4 and python3-xarray must be installed";
+  EXPECT_EQ(found["sizes"], json({{"time", 6}, {"triangle", 4}}));
+  EXPECT_EQ(found["starts"][0], "2002-08-08T07:00:00");
+  EXPECT_EQ(found["ends"][5], "2002-08-08T12:20:00");
+  EXPECT_EQ(found["local"][5], "2002-08-08T20:00:00+08:00");
+  EXPECT_EQ(found["conventions"], "CF-1.8");
+  for (const char* band : bands) {
+    for (std::size_t step = 0; step < day.size(); ++step) {
+      const double absorbed = day.number(step, column(band, "absorbed_vegetation"));
+      EXPECT_NEAR(found["absorbed_w"][band][step].get<double>() / plot_m2, absorbed, 1e-5 * absorbed);
+    }
+    EXPECT_EQ(found["columns"][band], json({"absorbed", "direct_lower", "direct_upper", "error", "indirect_lower",
+                                            "indirect_upper", "sky_lower", "sky_upper"}));
+  }
+}
+
+TEST_F(Day, GoesOnWhereItWasKilled) {
+  expect_day({}, 0, "whole");
+  // Moments that no step knows of: after some step, and some milliseconds more.
+  kill_day({}, 1, std::chrono::milliseconds(7));
+  kill_day({"--resume"}, 4, std::chrono::milliseconds(43));
+  kill_day({"--resume"}, 9, std::chrono::milliseconds(19));
+  EXPECT_GE(finished_steps(), 9U);
+  expect_day({"--resume"});
+  expect_same_tables("whole", "out");
+  EXPECT_EQ(finished_steps(), 0U);
+}
+
+TEST_F(Day, KeepsFinishedStepsAtCtrlC) {
+  expect_day(evening_, 0, "whole");
+  expect_day(evening_, 130, "out", interrupt_after(2));
+  EXPECT_EQ(summary()["complete"], false);
+  EXPECT_GE(finished_steps(), 2U);
+  const Table part(file("day.csv"));
+  EXPECT_EQ(part.size(), finished_steps());
+  EXPECT_EQ(part.comments().back(), "# incomplete: the first " + std::to_string(part.size()) + " of 6 steps");
+  EXPECT_EQ(read_fields()["sizes"]["time"], part.size());
+  expect_day(evening_ + Arguments{"--resume"});
+  expect_same_tables("whole", "out");
+}
+
+TEST_F(Day, ComputesDamagedStepsAgain) {
+  expect_day(evening_, 0, "whole");
+  expect_day(evening_, 130, "out", interrupt_after(3));
+  const std::filesystem::path steps = folder_ / "out" / "steps";
+  std::string bytes = content(steps / "step_00001.bin");
+  bytes[bytes.size() / 2] ^= 1;
+  std::ofstream(steps / "step_00001.bin", std::ios::binary) << bytes;
+  std::filesystem::resize_file(steps / "step_00002.bin", 100);
+  const Outcome outcome = day(evening_ + Arguments{"--resume"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("step 1 of"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("step 2 of"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("step 3 of"), std::string::npos) << outcome.err;
+  expect_same_tables("whole", "out");
+}
+
+TEST_F(Day, ResumesWithTheSameSettingsOnly) {
+  expect_day(evening_, 130, "out", interrupt_after(1));
+  for (const auto& [names, more] : std::initializer_list<std::pair<std::string, Arguments>>{
+           {"seed was 1, now 2", {"--seed", "2"}},
+           {"indirect_error was 0.02, now 0.03", {"--indirect-error", "0.03"}},
+           {"step_min was 60, now 30", {"--step", "30"}},
+           {"to was \"20:20\", now \"20:21\"", {"--from", "15:00", "--to", "20:21"}}}) {
+    const Arguments hours = more.size() == 4 ? Arguments{} : evening_;
+    expect_one_error(day(hours + more + Arguments{"--resume"}), 2, names);
+  }
+  const std::size_t kept = finished_steps();
+  folder_.write("leaves.obj", leaves + "f 1 2 4\n");
+  expect_one_error(day(evening_ + Arguments{"--resume"}), 2, "scene_digest");
+  EXPECT_EQ(finished_steps(), kept);
+  folder_.write("leaves.obj", leaves);
+  expect_day(evening_ + Arguments{"--resume"});
+  const std::string table = file("day.csv");
+  const Outcome again = day(evening_ + Arguments{"--resume"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.err.find("nothing to resume"), std::string::npos) << again.err;
+  EXPECT_EQ(file("day.csv"), table);
+  // Without --resume everything begins anew.
+  expect_day({"--from", "12:00", "--to", "13:00", "--seed", "2"});
+  EXPECT_EQ(Table(file("day.csv")).size(), 1U);
+}
+
+TEST_F(Day, LimitsLeaveItIncomplete) {
+  expect_day(evening_, 0, "whole");
+  expect_day(evening_ + Arguments{"--max-seconds", "1e-3"}, 1);
+  EXPECT_EQ(Table(file("day.csv")).size(), 0U);
+  EXPECT_EQ(summary()["complete"], false);
+  expect_day(evening_ + Arguments{"--resume", "--max-seconds", "1e4"});
+  expect_same_tables("whole", "out");
+  const Arguments few_rays = Arguments{"--max-rays", "150000", "--error", "0.0005"} + evening_;
+  expect_day(few_rays, 1);
+  EXPECT_EQ(summary()["steps"]["short_of_bound"], 4);
+  EXPECT_EQ(Table(file("day.csv")).size(), 6U);
+  expect_day(few_rays + Arguments{"--resume"}, 1);
+}
+
+TEST_F(Day, FixedWorkHasNoBound) {
+  expect_day(Arguments{"--grid", "0.01"} + evening_);
+  EXPECT_TRUE(summary()["direct"]["bound"].is_null());
+  EXPECT_TRUE(summary()["indirect"]["bound"].is_null());
+  EXPECT_EQ(summary()["complete"], true);
+}
+
+TEST_F(Day, IsLitFromSunriseToSunsetUnlessTold) {
+  const Outcome outcome = day({"--step", "120", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(json::parse(outcome.out, nullptr, false), summary());
+  EXPECT_EQ(summary()["settings"]["from"], "04:00");  // sunrise is at 05:18
+  EXPECT_EQ(summary()["settings"]["to"], "20:00");
+  EXPECT_EQ(Table(file("day.csv")).size(), 8U);
+}
+
+TEST_F(Day, SharesNoFolderWithARun) {
+  expect_day({"--from", "12:00", "--to", "13:00"});
+  simulate(scene_, {"--device", "cpu", "--images", "none"});
+  for (const char* name : tables) EXPECT_FALSE(exists(name)) << name;
+  EXPECT_FALSE(exists("steps"));
+  expect_day({"--from", "12:00", "--to", "13:00", "--resume"});
+  EXPECT_TRUE(exists("day.csv"));
+  EXPECT_FALSE(exists("organs.csv"));
+}
+
+TEST_F(Day, DrawsItsCourse) {
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "gnuplot is not installed";
+  expect_day(evening_ + Arguments{"--images", "day", "--band", "NIR"});
+  EXPECT_EQ(file("day.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Day, RefusesWhatCannotBe) {
+  for (const auto& [names, more] :
+       std::initializer_list<std::pair<std::string, Arguments>>{{"--from 25:00", {"--from", "25:00"}},
+                                                                {"--from 7", {"--from", "7"}},
+                                                                {"--to 07:60", {"--to", "07:60"}},
+                                                                {"--to 24:01", {"--to", "24:01"}},
+                                                                {"--to 09:00", {"--from", "10:00", "--to", "09:00"}},
+                                                                {"--to 10:00", {"--from", "10:00", "--to", "10:00"}},
+                                                                {"--step 0", {"--step", "0"}},
+                                                                {"--step -5", {"--step", "-5"}},
+                                                                {"--step 1", {"--step", "1", "--to-date", "2003-08-08"}},
+                                                                {"--date 2002-02-30", {"--date", "2002-02-30"}},
+                                                                {"--date 8.8.2002", {"--date", "8.8.2002"}},
+                                                                {"--date 1899-12-31", {"--date", "1899-12-31"}},
+                                                                {"--to-date 2002-08-07", {"--to-date", "2002-08-07"}},
+                                                                {"--band UV", {"--band", "UV"}},
+                                                                {"--images", {"--images", "rank_total"}},
+                                                                {"--export", {"--export", "vtp"}}}) {
+    const Outcome outcome = run(Arguments{"day", scene_, "-o", "out", "--device", "cpu"} + more);
+    expect_one_error(outcome, 2, names);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << names;
+  }
+}
+
+TEST_F(Day, NeedsWeatherForAllItsSteps) {
+  std::string text = scene_text;
+  const std::string clear = "[weather]\nclear_sky = \"ineichen\"\n";
+  text.replace(text.find(clear), clear.size(), "[weather]\nfile = \"station.csv\"\n");
+  scene_ = folder_.write("scene.toml", text).string();
+  folder_.write("station.csv",
+                "time,ghi\n2002-08-08T10:00+08:00,700\n2002-08-08T11:00+08:00,800\n2002-08-08T12:00+08:00,750\n");
+  expect_day({"--from", "10:00", "--to", "13:00", "--step", "30"});
+  const Table day_table(file("day.csv"));
+  EXPECT_NEAR(day_table.number(2, "PAR_incident"), 400.0, 1e-6);
+  EXPECT_NEAR(day_table.number(4, "PAR_incident"), 375.0, 1e-6);
+  expect_one_error(day({"--from", "10:00", "--to", "14:00"}, "other"), 2, "2002-08-08");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "other"));
+  text.replace(text.find("[weather]\nfile = \"station.csv\"\n"), 31, "");
+  while (text.find("share = 0.5\n") != std::string::npos) text.replace(text.find("share = 0.5\n"), 12, "");
+  folder_.write("scene.toml", text);
+  expect_one_error(day({}, "other"), 2, "band");
+}
+
+}  // namespace
+}  // namespace sunfleck::regression
