@@ -109,7 +109,8 @@ NearestHit nearest_hit(Ray ray, float limit, inout uint steps) {
 #ifdef ONLY_ORIGINALS
       hit.met = hit.met && b.w == 0u;
 #endif
-      if (hit.met && hit.t <= limit && hit_precedes(hit.t, a.w, best.t, best.element)) {
+      if (hit.met && hit.t <= limit &&
+          hit_precedes(HitRank(hit.t, a.w, triangle), HitRank(best.t, best.element, best.triangle))) {
         best.found = true;
         best.t = hit.t;
         best.weight_b = hit.weight_b;

@@ -94,9 +94,17 @@ INLINE TriangleHit meet_triangle(Ray ray, vec3 corner_a, vec3 corner_b, vec3 cor
   return hit;
 }
 
-// Where two hits compete the nearer wins, at equal distance the lower element number.
-INLINE bool hit_precedes(float t, uint element, float other_t, uint other_element) {
-  return t < other_t || (t == other_t && element < other_element);
+// Where two hits compete the nearer wins, at equal distance the lower element number, and of copies of one element that lie in
+// each other's plane the one that comes first in the tree.
+struct HitRank {
+  float t;
+  uint element;
+  uint triangle;  // place in leaf order
+};
+
+INLINE bool hit_precedes(HitRank hit, HitRank other) {
+  if (hit.t != other.t) return hit.t < other.t;
+  return hit.element < other.element || (hit.element == other.element && hit.triangle < other.triangle);
 }
 
 SHARED_END

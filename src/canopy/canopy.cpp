@@ -108,6 +108,10 @@ std::vector<std::uint16_t> merge_optics_names(Canopy& canopy, const Mesh& mesh) 
 std::uint32_t add_organs(Canopy& canopy, const Mesh& mesh, std::uint32_t offset) {
   std::uint32_t highest = offset;
   for (Organ organ : mesh.organs) {
+    if (organ.plant > std::numeric_limits<std::uint32_t>::max() - offset) {
+      throw_input(fmt::format("plant {} of a mesh", organ.plant), fmt::format("{} plants stand before it, too many", offset),
+                  "number a mesh's plants from 1");
+    }
     if (organ.plant > 0) organ.plant += offset;
     highest = std::max(highest, organ.plant);
     canopy.organs.push_back(std::move(organ));

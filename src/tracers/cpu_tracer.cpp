@@ -32,7 +32,8 @@ void meet(const Bvh& bvh, std::uint32_t triangle, const shared::Ray& ray, float 
   const BvhTriangle& reference = bvh.triangles[triangle];
   if (reference.element == own.element && reference.image == own.image) return;
   const shared::TriangleHit hit = shared::meet_triangle(ray, corner(reference.a), corner(reference.b), corner(reference.c));
-  if (!hit.met || hit.t > limit || !shared::hit_precedes(hit.t, reference.element, best.t, best.element)) return;
+  if (!hit.met || hit.t > limit) return;
+  if (!shared::hit_precedes({hit.t, reference.element, triangle}, {best.t, best.element, best.triangle})) return;
   best = {true, hit.t, hit.weight_b, hit.weight_c, hit.lower, reference.element, triangle};
 }
 

@@ -33,7 +33,7 @@ struct OwnElement {
   std::uint32_t image = 0;
 };
 
-// Nearest hit with 0 < t <= limit; at equal distance the lower element number.
+// Nearest hit with 0 < t <= limit; at equal distance the first as shared::hit_precedes says.
 [[nodiscard]] CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images images = Images::all,
                                  OwnElement own = {});
 [[nodiscard]] CpuHit nearest_hit_of_all(const Bvh& bvh, const shared::Ray& ray, float limit, OwnElement own = {});

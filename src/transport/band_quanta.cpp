@@ -5,9 +5,23 @@
 
 namespace sunfleck {
 
+namespace {
+
+// A replicate's incident flux is about this many quanta, twice as many at most: 2^16 replicates fit 63 bits.
+constexpr double quanta_per_replicate = 0x1p46;
+// Less light than this is none: a quantum of it would no longer be a normal number.
+constexpr double least_incident_w = 1e-290;
+
+// Whole quanta of a ray that should carry so many. Rounded down, the quantum is chosen to fit. A beam so faint beside sky and
+// lamps that a ray carries less than half a quantum counts as none here: that is rays * 2^-47 of the incident flux, at most
+// 2^-19 with the largest grid; quanta small enough to hold it would overflow in the sky's flux.
+std::int64_t quanta_of_ray(double wanted) {
+  return wanted <= 0.5 ? 0 : std::max<std::int64_t>(1, static_cast<std::int64_t>(wanted));
+}
+
+}  // namespace
+
 std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Incidence& incidence) {
-  // A replicate's incident flux is about this many quanta: 2^17 replicates fit 63 bits.
-  constexpr double quanta_per_replicate = 0x1p46;
   std::vector<BandQuanta> quanta(model.bands.size());
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const double per_ray_w = model.has_beam() ? model.bands[b].direct_w_m2 * incidence.ground_per_ray_m2 : 0.0;
@@ -22,12 +36,10 @@ std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Inci
       lamps_w += lamp_w[e];
     }
     const double incident_w = per_ray_w * static_cast<double>(incidence.rays) + lamps_w + sky_w;
-    if (!(incident_w > 0.0)) continue;
+    if (!(incident_w > least_incident_w)) continue;
     double w_per_quantum = incident_w / quanta_per_replicate;
-    if (per_ray_w > 0.0) {
-      quanta[b].per_ray = std::max<std::int64_t>(1, static_cast<std::int64_t>(per_ray_w / w_per_quantum));
-      w_per_quantum = per_ray_w / static_cast<double>(quanta[b].per_ray);
-    }
+    quanta[b].per_ray = quanta_of_ray(per_ray_w / w_per_quantum);
+    if (quanta[b].per_ray > 0) w_per_quantum = per_ray_w / static_cast<double>(quanta[b].per_ray);
     quanta[b].w_m2_per_quantum = w_per_quantum / model.plot.area_m2();
     quanta[b].sky = std::llround(sky_w / w_per_quantum);
     for (const double flux_w : lamp_w) quanta[b].lamp.push_back(std::llround(flux_w / w_per_quantum));

@@ -3,6 +3,7 @@
 
 #include "transport/model.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,12 +11,15 @@ namespace sunfleck {
 
 // One band's flux in integers: a quantum is about 2^-46 of the band's incident flux per replicate.
 struct BandQuanta {
-  std::int64_t per_ray = 0;        // what a beam ray carries
+  std::int64_t per_ray = 0;        // what a beam ray carries; 0 if that is less than half a quantum
   double w_m2_per_quantum = 0.0;   // of ground, in one replicate
   std::vector<std::int64_t> lamp;  // [element], what it emits in one replicate; empty without lamps in the band
   std::int64_t lamps = 0;          // their sum
   std::int64_t sky = 0;            // what all of the sky's rays carry in one replicate
 };
+
+// The most replicates of a run: more would not fit 63 bits.
+inline constexpr std::size_t most_replicates = std::size_t{1} << 16U;
 
 // The rays that light comes in with, in one replicate.
 struct Incidence {

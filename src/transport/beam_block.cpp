@@ -8,7 +8,8 @@ namespace sunfleck {
 BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays) {
   const glm::dvec3 to_sun = direction_to_sun(*model.sun);
   if (model.plot.periodic) return endless_beam_grid(model.canopy.period_m, layout.box.above_m(), to_sun, rays);
-  return isolated_beam_grid(layout.box.lo_m, layout.box.hi_m, to_sun, rays);
+  const glm::dvec3 seen_hi_m(layout.box.hi_m.x, layout.box.seen_y_m, layout.box.hi_m.z);
+  return isolated_beam_grid(layout.box.lo_m, seen_hi_m, to_sun, rays);
 }
 
 shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays, std::uint64_t seed,

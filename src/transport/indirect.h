@@ -108,6 +108,8 @@ class IndirectPass {
   void land_on_soil(Round& round, const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta) const;
   void pass(Round& round, const shared::Landing& landing, const Way& way, int to_level,
             std::span<const std::int64_t> quanta) const;
+  void pass_receivers_alone(Round& round, const shared::Landing& landing, const Way& way,
+                            std::span<const std::int64_t> quanta) const;
   [[nodiscard]] bool fell_beside_plot(const shared::Landing& landing, const shared::Packet& ray) const;
   [[nodiscard]] EmissionPoint place_of(const shared::Landing& landing) const;
   [[nodiscard]] std::int32_t zone_of(const EmissionPoint& place) const;

@@ -25,9 +25,13 @@ bool IndirectPass::let_sky_in(Round& round, const StopQuestion& stop) const {
       own[b] = up_to - given[b];
       given[b] = up_to;
     }
-    if (fell_beside_plot(landings[k], rays[k])) continue;
+    const Way way = way_from(above, rays[k]);
+    if (fell_beside_plot(landings[k], rays[k])) {
+      pass_receivers_alone(round, landings[k], way, own);
+      continue;
+    }
     for (std::size_t b = 0; b < bands; ++b) round.sky[b] += own[b];
-    land(round, landings[k], way_from(above, rays[k]), own);
+    land(round, landings[k], way, own);
   }
   for (std::size_t b = 0; b < bands; ++b) round.sums.ledger[b].incident += round.sky[b];
   round.sums.side_sky = round.sums.side_landed;
@@ -37,7 +41,7 @@ bool IndirectPass::let_sky_in(Round& round, const StopQuestion& stop) const {
   return true;
 }
 
-// A ray of an isolated stand that met neither an element nor the plot's ground: none of its flux counts.
+// A ray of an isolated stand that met neither an element nor the plot's ground: its flux counts only where it passed receivers.
 bool IndirectPass::fell_beside_plot(const shared::Landing& landing, const shared::Packet& ray) const {
   if (model_.plot.periodic || landing.surface != shared::left_downwards) return false;
   const shared::Ray way = shared::make_ray(ray.origin, ray.direction);
@@ -56,7 +60,7 @@ std::optional<std::vector<IndirectPass::Source>> IndirectPass::sample_first_land
   const double offset = round.random.unit();
   std::vector<shared::Packet> rays(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto ray = static_cast<std::uint32_t>((static_cast<double>(k) + offset) * stride);
+    const std::uint32_t ray = sampled_ray(k, offset, stride, first.rays);
     rays[k] = {shared::beam_origin(*first.beam, ray), shared::no_element, first.beam->direction, 0};
   }
   std::vector<shared::Landing> landings(count);

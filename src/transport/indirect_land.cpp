@@ -47,12 +47,16 @@ IndirectPass::Way IndirectPass::way_from(const EmissionPoint& place, const share
   return way;
 }
 
+void IndirectPass::pass_receivers_alone(Round& round, const shared::Landing& landing, const Way& way,
+                                        std::span<const std::int64_t> quanta) const {
+  if (receivers_ == nullptr) return;
+  pass_receivers(*receivers_, way.packet, way.from_zone, receivers_->zone_of(landing), quanta, round.sums.receivers);
+}
+
 // Books what goes through the layers' planes and the receivers.
 void IndirectPass::pass(Round& round, const shared::Landing& landing, const Way& way, int to_level,
                         std::span<const std::int64_t> quanta) const {
-  if (receivers_ != nullptr) {
-    pass_receivers(*receivers_, way.packet, way.from_zone, receivers_->zone_of(landing), quanta, round.sums.receivers);
-  }
+  pass_receivers_alone(round, landing, way, quanta);
   const int from_level = way.from.level;
   if (from_level == to_level) return;
   const std::size_t bands = quanta.size();

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "transport/indirect.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,11 @@ struct IndirectPass::Round {
   std::vector<std::int64_t> moved_through_receivers;  // the same for the horizontal receivers
   std::vector<std::int64_t> reflected, transmitted;   // [band], of the landing in hand
 };
+
+// The k-th ray of a systematic sample, one in `stride`; the offset is even over [0, 1). The last sum may round up to `rays`.
+[[nodiscard]] inline std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays) {
+  return static_cast<std::uint32_t>(std::min((static_cast<double>(k) + offset) * stride, static_cast<double>(rays - 1)));
+}
 
 struct IndirectPass::Moves {
   std::vector<std::int64_t> by_level;  // [level index * bands + band]

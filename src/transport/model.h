@@ -25,8 +25,8 @@ struct RadiationModel {
   std::vector<Sensor> sensors;
   int layers = 20;  // equal layers from the ground to the highest element
 
-  [[nodiscard]] bool has_beam() const { return sun && sun->elevation_rad > 0.0; }
-  [[nodiscard]] bool has_sky() const;  // and some band has light from it
+  [[nodiscard]] bool has_beam() const;  // the sun is above the horizon, and some band has light from it
+  [[nodiscard]] bool has_sky() const;   // and some band has light from it
 };
 
 }  // namespace sunfleck

@@ -20,7 +20,8 @@ float lowest_of_layer(const Layers& layers, std::uint32_t layer) {
   return y_m;
 }
 
-float threshold(const Layers& layers, double height_m) {
+float threshold(const Layers& layers, double ground_y_m, double height_m) {
+  if (ground_y_m < layers.base_y_m && height_m <= 0.0) return static_cast<float>(layers.base_y_m + height_m);
   const double edge = height_m * double{layers.per_metre};
   const double nearest = std::round(edge);
   const bool is_edge = layers.per_metre > 0.0F && std::abs(edge - nearest) < same_edge;
@@ -39,7 +40,8 @@ std::size_t cell_along(double share, std::uint32_t cells) {
 PlaneReceivers::PlaneReceivers(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces)
     : model_(model), layout_(layout), surfaces_(surfaces), first_cell_{0} {
   for (const PlaneReceiver& plane : model.planes) {
-    planes_.push_back({layout.layers.base_y_m + plane.height_m, threshold(layout.layers, plane.height_m)});
+    planes_.push_back(
+        {layout.layers.base_y_m + plane.height_m, threshold(layout.layers, layout.box.ground_y_m, plane.height_m)});
     first_cell_.push_back(first_cell_.back() + static_cast<std::size_t>(plane.cells_x) * plane.cells_z);
   }
 }

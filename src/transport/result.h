@@ -103,7 +103,7 @@ struct IndirectSummary {
   double seconds = 0.0;
 };
 
-enum class StopReason { bound_reached, work_done, rays_spent, time_spent, interrupted };
+enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, time_spent, interrupted };
 
 struct RadiationResult {
   StopReason stop = StopReason::work_done;

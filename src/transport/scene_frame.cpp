@@ -12,9 +12,12 @@ SceneBox scene_box(const RadiationModel& model) {
   if (!model.soil && canopy.size() > 0) box.ground_y_m = std::min(box.ground_y_m, double{elements.lo.y});
   box.lo_m = {-canopy.origin_m.x, box.ground_y_m, -canopy.origin_m.z};
   box.hi_m = box.lo_m + glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
-  if (canopy.size() == 0) return box;
-  box.lo_m = glm::min(box.lo_m, glm::dvec3(elements.lo));
-  box.hi_m = glm::max(box.hi_m, glm::dvec3(elements.hi));
+  if (canopy.size() > 0) {
+    box.lo_m = glm::min(box.lo_m, glm::dvec3(elements.lo));
+    box.hi_m = glm::max(box.hi_m, glm::dvec3(elements.hi));
+  }
+  box.seen_y_m = box.hi_m.y;
+  for (const PlaneReceiver& plane : model.planes) box.seen_y_m = std::max(box.seen_y_m, plane.height_m - canopy.origin_m.y);
   return box;
 }
 

@@ -13,11 +13,13 @@ namespace sunfleck {
 struct SceneBox {
   glm::dvec3 lo_m{0.0}, hi_m{0.0};
   double ground_y_m = 0.0;
+  double seen_y_m = 0.0;  // top of the box, or the highest receiver: light comes in from above it
 
   [[nodiscard]] double extent_m() const { return std::max({hi_m.x - lo_m.x, hi_m.y - lo_m.y, hi_m.z - lo_m.z}); }
   // Above the highest element by a thousandth of the scene: rays from there meet a leaf that lies in the top plane.
   [[nodiscard]] double above_m() const { return hi_m.y + std::ldexp(extent_m(), -10); }
 };
+
 [[nodiscard]] SceneBox scene_box(const RadiationModel& model);
 
 // How far boxes of the tree are padded, so that rounding in the walk loses nothing: 2^-19 of the scene's extent.

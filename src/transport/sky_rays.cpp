@@ -43,8 +43,11 @@ SkyRays::SkyRays(const RadiationModel& model, const CounterLayout& layout)
       period_m_(model.canopy.period_m),
       top_y_m_(layout.box.above_m()),
       centre_m_(0.5 * (layout.box.lo_m + layout.box.hi_m)) {
+  glm::dvec3 size_m = layout.box.hi_m - layout.box.lo_m;
+  size_m.y = layout.box.seen_y_m - layout.box.lo_m.y;
+  centre_m_.y = layout.box.lo_m.y + 0.5 * size_m.y;
   // Wider by 2^-16, so that rounding to single precision leaves nothing outside.
-  radius_m_ = 0.5 * glm::length(layout.box.hi_m - layout.box.lo_m) * (1.0 + 0x1p-16);
+  radius_m_ = 0.5 * glm::length(size_m) * (1.0 + 0x1p-16);
   ground_m2_ = periodic_ ? period_m_.x * period_m_.y : sky_.spherical_irradiance() * std::numbers::pi * radius_m_ * radius_m_;
 }
 

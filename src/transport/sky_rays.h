@@ -33,7 +33,7 @@ class SkyRays {
   bool periodic_;
   glm::dvec2 period_m_{0.0};
   double top_y_m_ = 0.0;
-  glm::dvec3 centre_m_{0.0};  // of the sphere around an isolated stand and its plot
+  glm::dvec3 centre_m_{0.0};  // of the sphere around an isolated stand, its plot and receivers
   double radius_m_ = 0.0;
   double ground_m2_ = 0.0;
 };

@@ -292,7 +292,8 @@ class Solver {
       if (tally_->replicates() < next_check) continue;
       good_checks = bounds_hold() ? good_checks + 1 : 0;
       if (good_checks == 2) return finish(StopReason::bound_reached);
-      next_check += std::max<std::size_t>(4, next_check / 8);
+      if (tally_->replicates() >= most_replicates) return finish(StopReason::replicates_spent);
+      next_check = std::min(most_replicates, next_check + std::max<std::size_t>(4, next_check / 8));
     }
   }
 

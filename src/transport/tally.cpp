@@ -9,6 +9,21 @@
 #include <glm/geometric.hpp>
 
 namespace sunfleck {
+namespace {
+
+// What the integers of all landings together may hold.
+constexpr double most_landed = 0x1p62;
+
+// All that landed in a band, as often as it did.
+double landed_quanta(const IndirectSums& indirect, std::size_t band) {
+  double landed = 0.0;
+  for (const auto* sums : {&indirect.surface_landed, &indirect.cell_landed}) {
+    for (std::size_t k = band; k < sums->size(); k += indirect.bands) landed += static_cast<double>((*sums)[k]);
+  }
+  return landed;
+}
+
+}  // namespace
 
 Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
              const PlaneReceivers* receivers, const Incidence& incidence, ElementErrors element_errors)
@@ -19,6 +34,7 @@ Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Sur
       ground_per_ray_m2_(incidence.ground_per_ray_m2),
       quanta_(make_band_quanta(model, incidence)),
       ledgers_(model.bands.size()),
+      landed_(model.bands.size()),
       bands_(model.bands.size()),
       elements_(model.canopy.size()),
       soil_cells_(layout.cells()),
@@ -193,6 +209,7 @@ void Tally::add(std::span<const std::uint32_t> counters, const DirectSums& sums,
   ++replicates_;
   lost_ += sums.lost;
   if (indirect != nullptr) {
+    count_landed(*indirect);
     lost_ += indirect->lost;
     sky_rays_ += indirect->sky_rays;
     packets_ += indirect->packets;
@@ -204,6 +221,18 @@ void Tally::add(std::span<const std::uint32_t> counters, const DirectSums& sums,
   add_to_layer_means(sums, indirect);
   if (planes_) add_to_planes(passed, indirect);
   add_elements(counters, indirect);
+}
+
+// Light between mirrors lands so often that the sums over all replicates would overflow.
+void Tally::count_landed(const IndirectSums& indirect) {
+  for (std::size_t b = 0; b < landed_.size(); ++b) {
+    landed_[b] += landed_quanta(indirect, b);
+    if (landed_[b] <= most_landed) continue;
+    throw_failure(fmt::format("band {}: its light landed so often that the {} replicates' integers cannot hold it",
+                              model_.bands[b].name, replicates_),
+                  fmt::format("{:.3g} quanta, at most {:.3g} are possible", landed_[b], most_landed),
+                  "lower reflectance + transmittance where surfaces enclose the light, or give fewer --passes");
+  }
 }
 
 void Tally::add_to_planes(const PlaneSums& passed, const IndirectSums* indirect) {

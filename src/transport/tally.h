@@ -94,6 +94,7 @@ class Tally {
   void split_rays();
   void sum_elements(std::span<const std::uint32_t> counters, DirectSums& sums) const;
   void check(const DirectSums& sums) const;
+  void count_landed(const IndirectSums& indirect);
   void add_to_ledgers(const DirectSums& sums, const IndirectSums* indirect);
   void add_to_band_means(const DirectSums& sums, const IndirectSums* indirect);
   void add_to_organ_means(const DirectSums& sums, const IndirectSums* indirect);
@@ -129,14 +130,14 @@ class Tally {
   std::size_t replicates_ = 0;
   std::uint64_t lost_ = 0, sky_rays_ = 0, packets_ = 0, rounds_ = 0;
   std::vector<FluxLedger> ledgers_;  // [band]
+  std::vector<double> landed_;       // [band], quanta that packets and sky rays brought, as often as they landed
   ReplicateMean first_vegetation_, first_ground_, met_, ground_ratio_, sunlit_;
   std::vector<BandMeans> bands_;
   std::vector<OrganMeans> organs_;
   std::vector<LayerMeans> layers_;  // [layer, + 1 for the top plane]
   std::vector<ElementResult> elements_;
   std::vector<std::int64_t> side_landed_;  // as IndirectSums::side_landed, over all replicates; empty before the first
-  std::vector<std::int64_t> cell_landed_;
-  std::vector<std::int64_t> side_sky_, cell_sky_;
+  std::vector<std::int64_t> cell_landed_, side_sky_, cell_sky_;
   std::vector<std::uint64_t> soil_cells_;
   std::vector<std::uint64_t> element_hits_;  // [element], rays and packets; empty if errors are skipped
   ElementErrors element_errors_;

@@ -114,6 +114,23 @@ TEST(Receivers, EmptyPlotIsInFullSunEverywhere) {
   }
 }
 
+// Beside and above an isolated stand a plane sees the whole sun and sky, though much of that light meets nothing afterwards.
+TEST(Receivers, IsolatedPlanesSeeLightThatMeetsNothing) {
+  MeshMaker maker;
+  maker.level(0.9, 1.1, 0.9, 1.1, 0.2);
+  const Plot plot{2.0, 2.0, false};
+  RadiationModel model = black_model(maker.mesh(), plot, sun_at(45.0, 180.0));
+  model.bands[0].direct_w_m2 = 300.0;
+  model.bands[0].diffuse_w_m2 = 100.0;
+  model.sky = SkyModel{.kind = SkyKind::uniform};
+  model.planes = {{0.5, 4, 4}, {3.0, 4, 4}};
+  const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 1e5, .packets = 16384, .replicates = 8}));
+  for (const PlaneResult& plane : result.planes) {
+    EXPECT_EQ(plane.sunfleck_ratio.value, 1.0);
+    expect_agrees(plane.total_down[0], 400.0, 8, 0.5, 1, "light above a small square");
+  }
+}
+
 // A square's shadow lies where the sun throws it: towards (cos az, sin az) / tan el from the square, in X and Z.
 TEST(Receivers, ShadowLiesWhereTheSunThrowsIt) {
   const SunPosition sun = sun_at(40.0, 150.0);

@@ -178,12 +178,14 @@ TEST(MeetTriangle, LetsNoRayThroughACommonCorner) {
   }
 }
 
-TEST(HitPrecedes, PutsTheNearerFirstAndThenTheLowerNumber) {
-  EXPECT_TRUE(hit_precedes(1.0F, 9, 2.0F, 1));
-  EXPECT_FALSE(hit_precedes(2.0F, 1, 1.0F, 9));
-  EXPECT_TRUE(hit_precedes(1.0F, 1, 1.0F, 2));
-  EXPECT_FALSE(hit_precedes(1.0F, 2, 1.0F, 1));
-  EXPECT_FALSE(hit_precedes(1.0F, 2, 1.0F, 2));
+TEST(HitPrecedes, PutsTheNearerFirstThenTheLowerNumberThenTheFirstCopy) {
+  EXPECT_TRUE(hit_precedes({1.0F, 9, 9}, {2.0F, 1, 1}));
+  EXPECT_FALSE(hit_precedes({2.0F, 1, 1}, {1.0F, 9, 9}));
+  EXPECT_TRUE(hit_precedes({1.0F, 1, 9}, {1.0F, 2, 1}));
+  EXPECT_FALSE(hit_precedes({1.0F, 2, 1}, {1.0F, 1, 9}));
+  EXPECT_TRUE(hit_precedes({1.0F, 2, 1}, {1.0F, 2, 3}));
+  EXPECT_FALSE(hit_precedes({1.0F, 2, 3}, {1.0F, 2, 1}));
+  EXPECT_FALSE(hit_precedes({1.0F, 2, 3}, {1.0F, 2, 3}));
 }
 
 }  // namespace
