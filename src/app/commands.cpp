@@ -13,10 +13,11 @@ namespace sunfleck {
 
 int run(const RunOptions& options) {
   start_log(options.quiet || options.json ? Verbosity::quiet : Verbosity::normal);
-  watch_for_interrupts();
+  exit_on_interrupts();
   Stopwatch total;
   Stopwatch watch;
   const std::filesystem::path folder = result_folder(options);
+  FolderLock lock(folder);
 
   const Scene scene = read_scene(options.scene, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
@@ -35,7 +36,8 @@ int run(const RunOptions& options) {
   const CpuThreads threads(options.threads);
   Engine engine(options.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
   RunRecord record = make_record(options, scene, settings, engine);
-  prepare_folder(folder);
+  watch_for_interrupts();
+  prepare_folder(folder, lock);
   say(device_line(record.device));
   seconds.device = watch.lap();
 
@@ -46,23 +48,28 @@ int run(const RunOptions& options) {
   watch.lap();
 
   record.complete = is_done(result.stop);
-  const Written written = write_results(folder, options, record, {scene, tree.layout, result, engine}, companions);
-  if (written == Written::interrupted) {
+  Losses losses;
+  if (!write_results(folder, options, record, {scene, tree.layout, result, engine}, companions, losses)) {
     result.stop = StopReason::interrupted;
     record.complete = false;
   }
   check_validation(engine);
+  record.not_written = losses.names();
+  record.complete = record.complete && record.not_written.empty();
   warn_if_short(settings, result);
   seconds.write = watch.lap();
   seconds.total = total.lap();
   record.seconds = seconds;
-  publish(folder, options, record, model, result);
-  return written == Written::some && is_done(result.stop) ? exit_failed : exit_status(result.stop);
+  publish(folder, options, record, model, result, losses);
+  losses.complain();
+  return exit_status(result.stop);
 }
 
 int write_maize(const MaizeOptions& options) {
   start_log(Verbosity::normal);
+  exit_on_interrupts();
   const Mesh mesh = make_maize({options.rows, options.per_row, options.spacing_m[0], options.spacing_m[1], options.seed});
+  watch_for_interrupts();  // a file that was begun is finished
   write_gltf(mesh, options.output);
   fmt::print("{}: {} triangles, {} organs\n", options.output.string(), mesh.triangles.size(), mesh.organs.size());
   return exit_done;

@@ -33,6 +33,7 @@ constexpr const char* day_file = "day.csv";
 constexpr const char* organs_file = "organs_day.csv";
 constexpr const char* fields_file = "day.nc";
 constexpr const char* plot_file = "day.png";
+constexpr const char* resume_hint = ", then go on with --resume";
 
 // next_work foresees replicates of which sixteen reach 0.7 of the bounds, so that a run rarely fails its checks: half of its
 // work is spare. With fewer packets each, a step makes as many replicates as it takes, and the spare work is what lies between
@@ -247,20 +248,31 @@ void write_fields(const fs::path& folder, const RunRecord& record, const Radiati
 }
 
 void write_results(const fs::path& folder, const DayOptions& options, const RunRecord& record, const RadiationModel& model,
-                   const DayCourse& course, const DayResult& day, const StepStore& store) {
-  write_file(folder / day_file, day_csv(record, model, course, day.lights));
-  write_file(folder / organs_file, organs_day_csv(record, model, course, day.lights));
+                   const DayCourse& course, const DayResult& day, const StepStore& store, Losses& losses) {
+  losses.attempt(day_file, [&] { write_file(folder / day_file, day_csv(record, model, course, day.lights)); });
+  losses.attempt(organs_file, [&] { write_file(folder / organs_file, organs_day_csv(record, model, course, day.lights)); });
   if (day.lights.empty()) return;
-  write_fields(folder, record, model, course, day, store);
+  losses.attempt(fields_file, [&] { write_fields(folder, record, model, course, day, store); });
   const bool none = std::find(options.run.images.begin(), options.run.images.end(), "none") != options.run.images.end();
-  if (!none) draw_day(folder, record, model, course, day, picture_band(model, options.run.pictures.band));
+  if (none) return;
+  losses.attempt(plot_file,
+                 [&] { draw_day(folder, record, model, course, day, picture_band(model, options.run.pictures.band)); });
+}
+
+// What stops a day in its middle leaves the finished steps where they are.
+DayResult run_steps(DayRun day) {
+  try {
+    return day.run();
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string(error.what()) + resume_hint);
+  }
 }
 
 // A day whose results are there already.
 int tell_finished(const fs::path& folder, const RunOptions& options) {
   const std::string summary = read_file(folder / summary_file);
   const ordered_json finished = ordered_json::parse(summary, nullptr, false);
-  const bool complete = finished.is_object() && finished.value("complete", false);
+  const bool complete = finished.is_object() && finished.contains("complete") && finished["complete"] == true;
   if (options.json) {
     fmt::print("{}", summary);
   } else {
@@ -295,10 +307,11 @@ Scene read_day_scene(const RunOptions& options) {
 
 int run_day(const DayOptions& options) {
   start_log(options.run.quiet || options.run.json ? Verbosity::quiet : Verbosity::normal);
-  watch_for_interrupts();
+  exit_on_interrupts();
   Stopwatch total;
   Stopwatch watch;
   const fs::path folder = result_folder(options.run);
+  FolderLock lock(folder);
 
   Scene scene = read_day_scene(options.run);
   const DayPlan plan = plan_day(options, scene);
@@ -322,34 +335,41 @@ int run_day(const DayOptions& options) {
   Engine engine(options.run.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
   RunRecord record = make_record(options.run, scene, settings, engine);
   record.max_seconds = options.run.max_seconds;
+  watch_for_interrupts();
   if (found == StepStore::Found::begun) {
-    write_file(folder / summary_file, "{\"complete\": false}\n");
+    reopen_folder(folder);
   } else {
-    prepare_folder(folder);
+    prepare_folder(folder, lock);
     store.begin();
   }
   say(device_line(record.device));
   seconds.device = watch.lap();
 
   const DayClock clock(options.run.max_seconds);
-  const DayResult day = DayRun(scene, plan, settings, tree, engine, store, clock).run();
+  const DayResult day = run_steps(DayRun(scene, plan, settings, tree, engine, store, clock));
   watch.lap();
 
   const int status = warn_if_stopped(plan.course, day, options.run);
   record.complete = status == exit_done;
-  write_results(folder, options, record, model, plan.course, day, store);
+  Losses losses;
+  write_results(folder, options, record, model, plan.course, day, store, losses);
+  record.not_written = losses.names();
+  record.complete = record.complete && record.not_written.empty();
   seconds.write = watch.lap();
   seconds.total = total.lap();
   record.seconds = seconds;
   const DaySummary summary{record, model, plan.course, day.lights, day.totals, kept_settings};
   const std::string summary_text = day_summary_json(summary);
-  write_file(folder / summary_file, summary_text);
-  if (day.lights.size() == plan.course.steps.size()) store.finish();
+  losses.attempt(summary_file, [&] {
+    write_file(folder / summary_file, summary_text);
+    if (losses.names().empty() && day.lights.size() == plan.course.steps.size()) store.finish();
+  });
   if (options.run.json) {
     fmt::print("{}", summary_text);
   } else if (!options.run.quiet) {
     fmt::print("{}{}\n", day_report(summary), folder.string());
   }
+  losses.complain(resume_hint);
   return status;
 }
 

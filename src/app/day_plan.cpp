@@ -98,7 +98,8 @@ struct Daylight {
   int from_min = minutes_per_day, to_min = 0;
 };
 
-// From the first sunrise to the last sunset of the dates.
+// From the first sunrise to the last sunset of the dates. Where the clock is far from local time one of them lies beyond
+// midnight.
 Daylight daylight(const std::vector<sys_days>& dates, const SunMoment& moment) {
   Daylight light;
   for (const sys_days day : dates) {
@@ -121,8 +122,9 @@ void set_hours(DayPlan& plan, const DayOptions& options, const std::vector<sys_d
       throw_input("--from", "the sun does not rise on these dates", "give --from and --to");
     }
     const int step = options.step_min;
-    plan.from_min = std::max(0, light.from_min / step * step);
-    plan.to_min = std::min(minutes_per_day, (light.to_min + step - 1) / step * step);
+    const bool past_midnight = light.from_min < 0 || light.to_min > minutes_per_day;
+    plan.from_min = past_midnight ? 0 : light.from_min / step * step;
+    plan.to_min = past_midnight ? minutes_per_day : std::min(minutes_per_day, (light.to_min + step - 1) / step * step);
   }
   if (!options.from.empty()) plan.from_min = read_clock("--from", options.from);
   if (!options.to.empty()) plan.to_min = read_clock("--to", options.to);

@@ -34,12 +34,17 @@ bool any_usable_device() {
 
 }  // namespace
 
-Engine::Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words) : bvh_(bvh) {
-  if (device == "cpu" || (device == "auto" && !any_usable_device())) {
+std::unique_ptr<GpuContext> open_device(const std::string& device) {
+  if (device == "cpu" || (device == "auto" && !any_usable_device())) return nullptr;
+  return std::make_unique<GpuContext>(wish_of(device), validation);
+}
+
+Engine::Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words)
+    : bvh_(bvh), context_(open_device(device)) {
+  if (!context_) {
     tracer_ = std::make_unique<CpuTracer>(bvh, scene);
     return;
   }
-  context_ = std::make_unique<GpuContext>(wish_of(device), validation);
   const TreeFetch fetch = preferred_fetch(*context_, bvh);
   if (fetch == TreeFetch::storage_buffers)
     say("the tree is too large for this device's texel buffers: storage buffers are used");

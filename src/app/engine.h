@@ -14,10 +14,13 @@
 
 namespace sunfleck {
 
+// The Vulkan device of that name on the command line (auto | gpu | lavapipe | cpu | INDEX | NAME); none stands for the CPU
+// path. Throws Error (device) if there is none such.
+[[nodiscard]] std::unique_ptr<GpuContext> open_device(const std::string& device);
+
 class Engine {
  public:
-  // `device` as on the command line: auto | gpu | lavapipe | cpu | INDEX | NAME. Throws Error (device) if there is none such.
-  // Tree and engine live together: the tree must outlive it.
+  // `device` as in open_device. Tree and engine live together: the tree must outlive it.
   Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words);
 
   [[nodiscard]] Tracer& tracer() { return *tracer_; }

@@ -53,6 +53,25 @@ struct RenderOptions {
   std::string simulating;  // the first option given that only a simulation needs; empty: none
 };
 
+struct ValidateOptions {
+  std::filesystem::path output;    // empty: results/validate
+  std::vector<std::string> cases;  // parts of names: only those; empty: all
+  std::string device = "auto";
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+struct TradeoffOptions {
+  RunOptions run;                  // of it scene, output, device, threads, seed, grid_m (one more, marked in the plot),
+                                   // max_seconds, allow_outside, quiet, json
+  double finest_rays = 8e6;        // about as many as the finest grid has; all other work follows from it
+  int seeds = 8;                   // runs of each setting, with the seeds run.seed, run.seed + 1, ...
+  std::vector<double> meshes;      // coarser ones too: shares of the triangles that are kept
+  double asked_error = 0.01;       // what a setting is recommended for,
+  std::string quantity = "organ";  // of canopy, layer, organ or triangle
+};
+
 struct MaizeOptions {
   std::filesystem::path output = "maize.glb";
   int rows = 4, per_row = 3;
@@ -70,7 +89,8 @@ struct InfoOptions {
 struct TextToPrint {
   std::string text;
 };
-using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, MaizeOptions, InfoOptions>;
+using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, ValidateOptions, TradeoffOptions, MaizeOptions,
+                             InfoOptions>;
 
 // Throws Error (input) on bad usage.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);

@@ -2,6 +2,7 @@
 
 #include "app/colouring.h"
 #include "app/fields.h"
+#include "app/open_spot.h"
 #include "base/error.h"
 #include "io/file.h"
 #include "tracers/canopy_view.h"
@@ -19,7 +20,7 @@
 namespace sunfleck {
 namespace {
 
-// Where a canopy photograph is taken from: in the middle of the plot, above the clods of the soil.
+// Where a canopy photograph is taken from: between the plants, above the clods of the soil.
 constexpr double fisheye_height_m = 0.1;
 
 Camera camera_of(const Drawing& drawing, const PictureOptions& options) {
@@ -27,9 +28,7 @@ Camera camera_of(const Drawing& drawing, const PictureOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
   const auto& pose = drawing.scene.camera;
   if (options.view == ViewKind::camera && pose) return look_at(pose->position_m, pose->look_at_m, pose->fov_rad, aspect);
-  if (options.view == ViewKind::fisheye) {
-    return fisheye_view({0.5 * model.plot.size_x_m, fisheye_height_m, 0.5 * model.plot.size_z_m}, aspect);
-  }
+  if (options.view == ViewKind::fisheye) return fisheye_view(open_spot(model, fisheye_height_m), aspect);
   const Box elements = bounds(model.canopy);
   glm::dvec3 lo(0.0);
   glm::dvec3 hi(model.plot.size_x_m, drawing.layout.layers.height_m, model.plot.size_z_m);

@@ -91,7 +91,7 @@ bool write_picture(const Drawing& drawing, const RenderOptions& options, const f
 
 int render(const RenderOptions& options) {
   start_log(options.run.quiet ? Verbosity::quiet : Verbosity::normal);
-  watch_for_interrupts();
+  exit_on_interrupts();
   std::error_code error;
   const bool finished_run = fs::is_directory(options.run.scene, error);
   const fs::path file = picture_file(options, finished_run);
@@ -106,6 +106,7 @@ int render(const RenderOptions& options) {
   set_software_threads(options.run.threads);
   const CpuThreads threads(options.run.threads);
   Engine engine(options.run.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
+  watch_for_interrupts();
   int status = exit_done;
   if (!source.result) {
     say(device_line(engine.device()));

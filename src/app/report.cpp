@@ -1,5 +1,7 @@
 #include "app/report.h"
 
+#include "io/table_text.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -34,8 +36,8 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
         with_error(band.reflected), with_error(band.transmitted), band.unshot);
   }
   if (model.has_beam()) {
-    text += fmt::format("  sunlit leaf fraction {}, sunflecks on the ground {}\n", with_error(result.sunlit_leaf_fraction),
-                        with_error(result.ground_sunfleck_ratio));
+    text += fmt::format("  sunlit leaf fraction {}, sunflecks on the ground {}\n",
+                        with_error(as_share(result.sunlit_leaf_fraction)), with_error(result.ground_sunfleck_ratio));
   }
   const auto errors = [](const std::optional<double>& error, const std::optional<double>& bound) {
     std::string line;

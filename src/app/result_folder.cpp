@@ -83,48 +83,53 @@ std::vector<ElementColour> element_colours(const Drawing& drawing, std::size_t b
 }
 
 void write_export_files(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
-                        const Drawing& drawing) {
-  std::vector<ExportKind> kinds;
-  for (const std::string& name : options.exports) {
-    if (const auto kind = export_kind(name); kind && std::find(kinds.begin(), kinds.end(), *kind) == kinds.end()) {
-      kinds.push_back(*kind);
-    }
-  }
-  if (kinds.empty()) return;
+                        const Drawing& drawing, Losses& losses) {
+  if (options.exports.empty()) return;
   const std::size_t band = picture_band(drawing.scene.model, options.pictures.band);
-  write_exports(kinds, folder, record, drawing.scene.model, drawing.result, element_colours(drawing, band));
+  const std::vector<ElementColour> colours = element_colours(drawing, band);
+  for (const ExportKind kind : export_kinds) {
+    const bool asked = std::find(options.exports.begin(), options.exports.end(), export_name(kind)) != options.exports.end();
+    if (!asked) continue;
+    losses.attempt(export_file(kind),
+                   [&] { write_exports(std::span(&kind, 1), folder, record, drawing.scene.model, drawing.result, colours); });
+  }
 }
 
 void write_tables(const std::filesystem::path& folder, const RunRecord& record, const RadiationModel& model,
-                  const RadiationResult& result) {
-  write_file(folder / profile_file, profile_csv(record, model, result));
-  write_file(folder / organs_file, organs_csv(record, model, result));
-  if (!result.sensors.empty()) write_file(folder / sensors_file, sensors_csv(record, model, result));
+                  const RadiationResult& result, Losses& losses) {
+  const auto write = [&](const std::string& name, const auto& text) {
+    losses.attempt(name, [&] { write_file(folder / name, text()); });
+  };
+  write(profile_file, [&] { return profile_csv(record, model, result); });
+  write(organs_file, [&] { return organs_csv(record, model, result); });
+  if (!result.sensors.empty()) write(sensors_file, [&] { return sensors_csv(record, model, result); });
   for (std::size_t plane = 0; plane < result.planes.size(); ++plane) {
     const std::string stem = plane_stem(result.planes[plane].height_m);
-    write_file(folder / (stem + ".csv"), plane_csv(record, model, result, plane));
-    if (model.has_beam()) write_file(folder / (stem + "_flecks.csv"), plane_flecks_csv(record, model, result, plane));
+    write(stem + ".csv", [&] { return plane_csv(record, model, result, plane); });
+    if (model.has_beam()) write(stem + "_flecks.csv", [&] { return plane_flecks_csv(record, model, result, plane); });
   }
 }
 
 // A plot that gnuplot could not draw is said once; then no other is tried.
 class Plots {
  public:
-  explicit Plots(const std::filesystem::path& folder) : folder_(folder) {}
+  Plots(const std::filesystem::path& folder, Losses& losses) : folder_(folder), losses_(losses) {}
   void draw(const std::string& script, const std::string& file) {
     if (given_up_) return;
-    const std::optional<std::string> problem = draw_plot(script, folder_ / file);
+    std::optional<std::string> problem;
+    losses_.attempt(file, [&] { problem = draw_plot(script, folder_ / file); });
     if (problem) warn(*problem);
     given_up_ = problem.has_value();
   }
 
  private:
   const std::filesystem::path& folder_;
+  Losses& losses_;
   bool given_up_ = false;
 };
 
 void write_plots(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
-                 const Drawing& drawing, const Companions& companions) {
+                 const Drawing& drawing, const Companions& companions, Losses& losses) {
   const RadiationModel& model = drawing.scene.model;
   const RadiationResult& result = drawing.result;
   const std::size_t band = picture_band(model, options.pictures.band);
@@ -132,7 +137,7 @@ void write_plots(const std::filesystem::path& folder, const RunOptions& options,
   if (companions.measured && model.has_beam()) {
     say(agreement_line(companions.measured->name, agreement(own, *companions.measured)));
   }
-  Plots plots(folder);
+  Plots plots(folder, losses);
   if (asks_for(options, "all") || asks_for(options, "profile")) {
     std::vector<ProfileCurve> curves{{record.title, own}};
     for (const ProfileTable& other : companions.results) curves.push_back({other.title, other});
@@ -145,11 +150,44 @@ void write_plots(const std::filesystem::path& folder, const RunOptions& options,
 }
 
 // False if interrupted before all were drawn.
-bool write_pictures(const std::filesystem::path& folder, const RunOptions& options, const Drawing& drawing) {
+bool write_pictures(const std::filesystem::path& folder, const RunOptions& options, const Drawing& drawing, Losses& losses) {
   const std::vector<Picture> wanted = wanted_pictures(options, drawing.scene.model, drawing.result);
-  return wanted.empty() ||
-         draw_charts(drawing, options.pictures, wanted, interrupted,
-                     [&](const Picture& picture, const Image& image) { write_png(image, folder / file_of(picture)); });
+  if (wanted.empty()) return true;
+  bool finished = true;
+  losses.attempt("the pictures", [&] {
+    finished = draw_charts(drawing, options.pictures, wanted, interrupted, [&](const Picture& picture, const Image& image) {
+      losses.attempt(file_of(picture), [&] { write_png(image, folder / file_of(picture)); });
+    });
+  });
+  return finished;
+}
+
+// The names of all files but the summary that some run writes into its folder.
+bool is_file_of_runs(const std::string& name) {
+  std::vector<std::string> names{profile_file, profile_plot_file, organs_file, sensors_file, result_store_file,
+                                 "day.csv",    "organs_day.csv",  "day.nc",    "day.png"};
+  for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
+  for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
+  return is_plane_file(name) || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class Wanted>
+std::vector<std::string> names_in(const std::filesystem::path& folder, const Wanted& wanted) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    std::string name = entry.path().filename().string();
+    if (wanted(name)) found.push_back(std::move(name));
+  }
+  return found;
+}
+
+void remove_files(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::error_code error;
+    std::filesystem::remove(folder / name, error);
+    if (error) throw_failure(printable((folder / name).string()), error.message(), "give a folder that can be written with -o");
+  }
 }
 
 }  // namespace
@@ -158,28 +196,25 @@ std::filesystem::path result_folder(const RunOptions& options) {
   return options.output.empty() ? std::filesystem::path("results") / options.scene.stem() : options.output;
 }
 
-void prepare_folder(const std::filesystem::path& folder) {
+void prepare_folder(const std::filesystem::path& folder, FolderLock& lock) {
+  lock.make_folder();
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const auto refuse = [&](const std::filesystem::path& path) {
-    throw_failure(printable(path.string()), error.message(), "give a folder that can be written with -o");
-  };
-  if (error) refuse(folder);
   const bool of_earlier_run = std::filesystem::exists(folder / summary_file, error);
+  std::vector<std::string> earlier;
+  if (of_earlier_run) earlier = names_in(folder, is_file_of_runs);
+  for (const std::string& name : earlier) check_writable(folder / name);
+  reopen_folder(folder);
+  if (of_earlier_run) remove_day_steps(folder);
+  remove_files(folder, earlier);
+}
+
+void reopen_folder(const std::filesystem::path& folder) {
   write_file(folder / summary_file, "{\"complete\": false}\n");
-  if (!of_earlier_run) return;
-  remove_day_steps(folder);
-  std::vector<std::filesystem::path> names{profile_file, profile_plot_file, organs_file, sensors_file, result_store_file,
-                                           "day.csv",    "organs_day.csv",  "day.nc",    "day.png"};
-  for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
-  for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (is_plane_file(entry.path())) names.push_back(entry.path().filename());
-  }
-  for (const std::filesystem::path& name : names) {
-    std::filesystem::remove(folder / name, error);
-    if (error) refuse(folder / name);
-  }
+  // What was being written when an earlier run was killed.
+  remove_files(folder, names_in(folder, [](const std::string& name) {
+                 const std::string of = std::filesystem::path(name).stem().stem().string();  // NAME.NUMBER.tmp
+                 return is_left_aside(name, of) && (of == summary_file || is_file_of_runs(of));
+               }));
 }
 
 Companions read_companions(const RunOptions& options, const RadiationModel& model) {
@@ -200,25 +235,20 @@ void check_pictures(const RunOptions& options, const RadiationModel& model) {
   for (const Picture& picture : named_pictures(options)) check_field(model, picture);
 }
 
-Written write_results(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
-                      const Drawing& drawing, const Companions& companions) {
-  Written written = Written::all;
-  write_tables(folder, record, drawing.scene.model, drawing.result);
-  try {
-    write_export_files(folder, options, record, drawing);
-  } catch (const Error& error) {
-    warn(error.what());
-    written = Written::some;
-  }
-  write_result_store(folder / result_store_file, record, drawing.scene, drawing.result);
-  write_plots(folder, options, record, drawing, companions);
-  return write_pictures(folder, options, drawing) ? written : Written::interrupted;
+bool write_results(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
+                   const Drawing& drawing, const Companions& companions, Losses& losses) {
+  write_tables(folder, record, drawing.scene.model, drawing.result, losses);
+  write_export_files(folder, options, record, drawing, losses);
+  losses.attempt(result_store_file,
+                 [&] { write_result_store(folder / result_store_file, record, drawing.scene, drawing.result); });
+  write_plots(folder, options, record, drawing, companions, losses);
+  return write_pictures(folder, options, drawing, losses);
 }
 
 void publish(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
-             const RadiationModel& model, const RadiationResult& result) {
+             const RadiationModel& model, const RadiationResult& result, Losses& losses) {
   const std::string summary = summary_json(record, model, result);
-  write_file(folder / summary_file, summary);
+  losses.attempt(summary_file, [&] { write_file(folder / summary_file, summary); });
   if (options.json) {
     fmt::print("{}", summary);
   } else if (!options.quiet) {

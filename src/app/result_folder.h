@@ -1,8 +1,10 @@
 #pragma once
 // The folder that `run` fills: tables, exports, plots and pictures.
 
+#include "app/losses.h"
 #include "app/options.h"
 #include "app/pictures.h"
+#include "io/folder_lock.h"
 #include "io/measured_reader.h"
 #include "io/profile_table.h"
 #include "io/result_writer.h"
@@ -16,9 +18,12 @@ namespace sunfleck {
 // Where a run's results go.
 [[nodiscard]] std::filesystem::path result_folder(const RunOptions& options);
 
-// Made, and tried, before rays are traced: nothing of that shall be lost for want of a folder. What an earlier run left goes,
-// so that the folder never holds pieces of two. Throws Error (failure).
-void prepare_folder(const std::filesystem::path& folder);
+// Made, locked, and tried, before rays are traced: nothing of that shall be lost for want of a folder. What an earlier run left
+// goes, so that the folder never holds pieces of two. Throws Error (failure).
+void prepare_folder(const std::filesystem::path& folder, FolderLock& lock);
+
+// The same for a run that goes on with what it left there.
+void reopen_folder(const std::filesystem::path& folder);
 
 // What is drawn beside a run's own profile, read before any work starts. Throws Error (input).
 struct Companions {
@@ -30,13 +35,13 @@ struct Companions {
 // Throws Error (input) for pictures that the scene cannot give.
 void check_pictures(const RunOptions& options, const RadiationModel& model);
 
-// Everything but the summary. An export that cannot be written is said, and the rest goes on.
-enum class Written { all, some, interrupted };
-[[nodiscard]] Written write_results(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
-                                    const Drawing& drawing, const Companions& companions);
+// Everything but the summary. What cannot be written is among the losses, and the rest goes on. False if interrupted before
+// all pictures were drawn.
+[[nodiscard]] bool write_results(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
+                                 const Drawing& drawing, const Companions& companions, Losses& losses);
 
-// The summary into its file, and to the user what was asked for.
+// The summary into its file, and to the user what was asked for; that too where the file is lost.
 void publish(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
-             const RadiationModel& model, const RadiationResult& result);
+             const RadiationModel& model, const RadiationResult& result, Losses& losses);
 
 }  // namespace sunfleck

@@ -29,11 +29,6 @@ void check_limits(const GpuContext& context, BufferUse use, std::size_t bytes, c
   if (bytes > limits.max_allocation_bytes) refuse("maxMemoryAllocationSize", limits.max_allocation_bytes, "bytes");
 }
 
-[[noreturn]] void throw_out_of_memory(const GpuContext& context, std::size_t bytes, const char* what, const char* why) {
-  throw_failure(fmt::format("{}: {:.1f} MiB on {}", what, static_cast<double>(bytes) / (1 << 20), context.description().name),
-                fmt::format("out of memory: {}", why), "make the scene smaller or use another device");
-}
-
 }  // namespace
 
 GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what) {
@@ -51,10 +46,8 @@ GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t by
     if (use == BufferUse::uniform_texel) {
       result.view = context.device().createBufferView({{}, *result.buffer, texel_format, 0, VK_WHOLE_SIZE});
     }
-  } catch (const vk::OutOfDeviceMemoryError& error) {
-    throw_out_of_memory(context, bytes, what, error.what());
-  } catch (const vk::OutOfHostMemoryError& error) {
-    throw_out_of_memory(context, bytes, what, error.what());
+  } catch (const vk::SystemError& error) {
+    throw_call_failed(context, fmt::format("{}: {:.1f} MiB", what, static_cast<double>(bytes) / (1 << 20)), error);
   }
   return result;
 }

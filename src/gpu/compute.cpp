@@ -29,8 +29,7 @@ ComputePipeline::ComputePipeline(const GpuContext& context, const ShaderCode& co
     create_layouts();
     create_pipeline(constants);
   } catch (const vk::SystemError& error) {
-    throw_failure(fmt::format("shader {} on {}", code.name, context.description().name), error.what(),
-                  "update the driver, use another device or the CPU path");
+    throw_call_failed(context, fmt::format("shader {}", code.name), error);
   }
 }
 

@@ -284,7 +284,7 @@ GpuContext::GpuContext(const DeviceWish& wish, Validation validation) : loader_(
     create_device();
     create_staging();
   } catch (const vk::SystemError& error) {
-    throw_device(fmt::format("Vulkan device {}", description_.name), error.what(), "choose another device or use the CPU path");
+    throw_call_failed(*this, fmt::format("Vulkan device {}", description_.name), error);
   }
 }
 
@@ -343,7 +343,11 @@ vk::raii::DeviceMemory GpuContext::allocate(const vk::MemoryRequirements& needs,
 const vk::raii::CommandBuffer& GpuContext::begin_commands() const {
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
-  commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  try {
+    commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  } catch (const vk::SystemError& error) {
+    throw_call_failed(*this, fmt::format("Vulkan device {}", description_.name), error);
+  }
   const vk::MemoryBarrier barrier(Access::eTransferWrite | Access::eShaderWrite,
                                   Access::eTransferRead | Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite);
   const auto stages = Stage::eTransfer | Stage::eComputeShader;
@@ -364,9 +368,24 @@ void GpuContext::submit_and_wait() const {
     ENSURE(static_cast<int>(result), ==, static_cast<int>(vk::Result::eSuccess));
     device_.resetFences(*fence_);
   } catch (const vk::SystemError& error) {
-    throw_failure(fmt::format("Vulkan device {}", description_.name), error.what(),
-                  "run again; if it fails again, use another device or the CPU path");
+    throw_call_failed(*this, fmt::format("Vulkan device {}", description_.name), error);
   }
+}
+
+void throw_call_failed(const GpuContext& context, const std::string& what, const vk::SystemError& error) {
+  const auto is = [&](vk::Result result) { return error.code() == result; };
+  const std::string on = what.find(context.description().name) == std::string::npos
+                             ? fmt::format("{} on {}", what, context.description().name)
+                             : what;
+  if (is(vk::Result::eErrorOutOfDeviceMemory) || is(vk::Result::eErrorOutOfHostMemory)) {
+    throw_failure(on, fmt::format("out of memory: {}", error.what()),
+                  "make the scene smaller, or use another device or the CPU path (--device cpu)");
+  }
+  if (is(vk::Result::eErrorDeviceLost)) {
+    throw_failure(on, fmt::format("the device was lost: {}", error.what()),
+                  "run again; if it fails again, use another device or the CPU path (--device cpu)");
+  }
+  throw_failure(on, error.what(), "update the driver, or use another device or the CPU path (--device cpu)");
 }
 
 }  // namespace sunfleck

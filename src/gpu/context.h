@@ -58,6 +58,7 @@ void set_software_threads(int threads);
 class GpuContext {
  public:
   // Throws Error (device) if no device fits the wish, or the one that fits lacks what is needed; the line names the limit.
+  // Throws Error (failure) if memory runs out or the device is lost meanwhile.
   // Unless validation is off every warning or error of the validation layer is kept in validation_messages(); if the layer is
   // not installed that is an Error (device) too.
   GpuContext(const DeviceWish& wish, Validation validation);
@@ -79,7 +80,7 @@ class GpuContext {
                                                 vk::MemoryPropertyFlags preferred) const;
 
   // The one command buffer, emptied and begun. What earlier submissions wrote is visible to the transfers and compute
-  // shaders recorded here; barriers between commands of the same recording are the caller's.
+  // shaders recorded here; barriers between commands of the same recording are the caller's. Throws Error (failure).
   [[nodiscard]] const vk::raii::CommandBuffer& begin_commands() const;
   // Ends that command buffer, submits it and waits; then its writes are visible to the host. Throws Error (failure) if the
   // device is lost.
@@ -104,5 +105,9 @@ class GpuContext {
   DeviceDescription description_;
   DeviceLimits limits_;
 };
+
+// Every Vulkan call that fails after a device was chosen ends here: Error (failure) saying `what` was being done, on which
+// device, and why.
+[[noreturn]] void throw_call_failed(const GpuContext& context, const std::string& what, const vk::SystemError& error);
 
 }  // namespace sunfleck

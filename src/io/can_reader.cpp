@@ -13,6 +13,9 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t most_text_bytes = std::size_t{4} << 30;  // about 40 million polygons
+// Polygons as text shrink to a third or a tenth; what grows more than this, beyond a size that harms nobody, is no such text.
+constexpr std::size_t most_growth = 100;
+constexpr std::size_t harmless_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_corners = 1000;
 
 // Digits O PPPPP LLL EEE; the element number EEE is of no use here.
@@ -115,7 +118,7 @@ std::string inflate_gzip(const MeshSource& source, std::size_t limit) {
       refuse(source, 0, fmt::format("holds more than {} bytes", limit), "a compressed file may hold that many",
              "split the file");
     const std::size_t have = text.size();
-    text.resize(std::min(limit, std::max<std::size_t>(2 * have, 1 << 20)));
+    text.resize(std::min(limit, std::max<std::size_t>(2 * have, 8 * source.bytes.size())));
     constexpr std::size_t piece = std::numeric_limits<uInt>::max();
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest.data()));
     stream.avail_in = static_cast<uInt>(std::min(rest.size(), piece));
@@ -135,7 +138,10 @@ std::string inflate_gzip(const MeshSource& source, std::size_t limit) {
 
 Mesh read_can(const MeshSource& source) {
   const bool named_gz = source.file.extension() == ".gz" || source.file.extension() == ".GZ";
-  if (named_gz || source.bytes.starts_with("\x1f\x8b")) return CanReader(source).read(inflate_gzip(source, most_text_bytes));
+  if (named_gz || source.bytes.starts_with("\x1f\x8b")) {
+    const std::size_t limit = std::clamp(source.bytes.size(), harmless_bytes / most_growth, most_text_bytes / most_growth);
+    return CanReader(source).read(inflate_gzip(source, limit * most_growth));
+  }
   return CanReader(source).read(source.bytes);
 }
 

@@ -142,10 +142,14 @@ class DayWriter {
 
 void write_day_netcdf(const std::filesystem::path& file, const std::filesystem::path& aside, const DayFields& day) {
   EXPECT(day.steps, >, std::size_t{0});
-  DayWriter(day, aside).write();
-  std::error_code error;
-  std::filesystem::rename(aside, file, error);
-  if (error) throw_failure(printable(file.string()), error.message(), "choose a folder where files may be written");
+  try {
+    DayWriter(day, aside).write();
+  } catch (const Error&) {
+    std::error_code error;
+    std::filesystem::remove(aside, error);
+    throw;
+  }
+  replace_file(file, aside);
 }
 
 }  // namespace sunfleck

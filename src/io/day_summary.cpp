@@ -85,7 +85,7 @@ std::string day_summary_json(const DaySummary& day) {
   settings["max_seconds"] = value_or_null(record.max_seconds);
   settings["threads"] = record.threads;
   const auto bound = [fixed](double asked) { return fixed ? ordered_json(nullptr) : ordered_json(asked); };
-  const ordered_json summary = {
+  ordered_json summary = {
       {"sunfleck", record.version},
       {"commit", record.commit},
       {"command", "day"},
@@ -122,6 +122,7 @@ std::string day_summary_json(const DaySummary& day) {
         {"steps", totals.seconds},
         {"write", record.seconds.write},
         {"total", record.seconds.total}}}};
+  if (!record.not_written.empty()) summary["not_written"] = record.not_written;
   return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -53,7 +53,7 @@ std::string day_csv(const RunRecord& record, const RadiationModel& model, const 
       append_estimate(row, band.absorbed_soil);
       append_estimate(row, band.reflected);
     }
-    append_estimate(row, lights[i].sunlit_leaf_fraction);
+    append_estimate(row, as_share(lights[i].sunlit_leaf_fraction));
     text += row + '\n';
   }
   return text;

@@ -40,7 +40,7 @@ struct RecordEntry {
 };
 [[nodiscard]] std::vector<RecordEntry> record_entries(const RunRecord& record, const RadiationModel& model);
 
-// On one line and valid UTF-8, as most formats want their names; what breaks this becomes '?' or U+FFFD.
+// On one line and valid UTF-8, as most formats want their names; what breaks this becomes '?'.
 [[nodiscard]] std::string clean_text(std::string_view text);
 
 // Formats with little-endian numbers.

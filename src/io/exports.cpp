@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <nlohmann/json.hpp>
 
 namespace sunfleck {
 namespace {
@@ -79,9 +78,7 @@ std::optional<ExportKind> export_kind(std::string_view name) {
 }
 
 std::string clean_text(std::string_view text) {
-  using nlohmann::json;
-  const std::string replaced = json(printable(text)).dump(-1, ' ', false, json::error_handler_t::replace);
-  return json::parse(replaced).get<std::string>();
+  return printable(text);
 }
 
 std::vector<RecordEntry> record_entries(const RunRecord& record, const RadiationModel& model) {

@@ -2,13 +2,16 @@
 
 #include "base/error.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <system_error>
 
@@ -28,22 +31,82 @@ Handle open(const fs::path& file, const char* mode) {
   throw_input(fmt::format("{}: cannot be read", printable(file.string())), why, cure);
 }
 
-std::string_view write_cure(int code) {
-  if (code == ENOSPC || code == EDQUOT) return "free some space or choose another disk";
-  if (code == ENOENT || code == ENOTDIR) return "make its folder first";
-  return "choose a folder where files may be written";
+[[noreturn]] void refuse_write(const fs::path& file, int code) {
+  throw_failure(fmt::format("{}: cannot be written", printable(file.string())), std::strerror(code), write_cure(code));
+}
+
+// 0, or the errno that speaks against a new file of this name. A rename would go ahead.
+int protection(const fs::path& file) {
+  struct stat state {};
+  if (::stat(file.c_str(), &state) != 0) return 0;  // none there, or what opening the new one will tell
+  if (S_ISDIR(state.st_mode)) return EISDIR;
+  return ::access(file.c_str(), W_OK) == 0 ? 0 : errno;
+}
+
+// All bytes, and closes. 0 or errno.
+int fill(int number, std::string_view bytes) {
+  int code = 0;
+  while (!bytes.empty() && code == 0) {
+    const ssize_t written = ::write(number, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) code = errno;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::close(number) != 0 && code == 0) code = errno;  // a network's disk may be full only now
+  return code;
 }
 
 }  // namespace
 
+bool is_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
+    const unsigned first = byte(0), second = byte(1);
+    std::size_t length = 1;
+    if (first >= 0x80U) {
+      length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
+      const unsigned least = first == 0xE0U ? 0xA0U : first == 0xF0U ? 0x90U : 0x80U;
+      const unsigned most = first == 0xEDU ? 0x9FU : first == 0xF4U ? 0x8FU : 0xBFU;
+      if (first < 0xC2U || first > 0xF4U || second < least || second > most) return false;
+      for (std::size_t i = 2; i < length; ++i)
+        if ((byte(i) & 0xC0U) != 0x80U) return false;
+    }
+    at += length;
+  }
+  return true;
+}
+
 std::string printable(std::string_view text) {
+  const bool ascii_only = !is_utf8(text);
   std::string shown(text);
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto c = static_cast<unsigned char>(shown[i]);
+    // U+0080 to U+009F are control characters too.
+    const bool second_control = c == 0xC2U && i + 1 < shown.size() && static_cast<unsigned char>(shown[i + 1]) < 0xA0U;
+    if (c < 0x20U || c == 0x7FU || (c >= 0x80U && ascii_only)) shown[i] = '?';
+    if (second_control && !ascii_only) shown[i] = shown[i + 1] = '?';
+  }
   return shown;
 }
 
-std::string read_file(const fs::path& file) {
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  return text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
+}
+
+std::string shortened(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  std::size_t cut = longest;
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;
+  return fmt::format("{}...", text.substr(0, cut));
+}
+
+std::uintmax_t physical_memory_bytes() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uintmax_t>::max();
+  return static_cast<std::uintmax_t>(pages) * static_cast<std::uintmax_t>(page_bytes);
+}
+
+std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
   std::error_code code;
   const fs::file_status status = fs::status(file, code);
   if (status.type() == fs::file_type::not_found) refuse_read(file, "there is no such file", "check the name and the folder");
@@ -53,25 +116,67 @@ std::string read_file(const fs::path& file) {
 
   const Handle handle = open(file, "rb");
   if (!handle) refuse_read(file, std::strerror(errno), "check its permissions");
-  std::string bytes(fs::file_size(file, code), '\0');
+  const std::uintmax_t size = fs::file_size(file, code);
   if (code) refuse_read(file, code.message(), "check the path and its permissions");
+  if (const std::uintmax_t most = std::min(most_bytes, physical_memory_bytes()); size > most)
+    refuse_read(file, fmt::format("it has {} bytes, and at most {} are read", size, most), "give a smaller file");
+  std::string bytes(size, '\0');
   const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), handle.get());
   if (std::ferror(handle.get()) != 0) refuse_read(file, std::strerror(errno), "check the disk");
   if (got != bytes.size()) refuse_read(file, "it became shorter while it was read", "try again when it is complete");
   return bytes;
 }
 
+std::string_view write_cure(int code) {
+  switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose another disk";
+    case EFBIG:
+      return "raise the limit of file sizes (ulimit -f) or choose another disk";
+    case ENOENT:
+    case ENOTDIR:
+      return "make its folder first";
+    case EISDIR:
+      return "remove that folder or choose another name";
+    case EIO:
+      return "check the disk";
+    default:
+      return "choose a folder where files may be written";
+  }
+}
+
 void write_file(const fs::path& file, std::string_view bytes) {
+  constexpr mode_t mode = 0666;  // less the user's mask
+  check_writable(file);
   const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
-  const auto fail = [&](int code) {
-    std::remove(aside.c_str());
-    throw_failure(fmt::format("{}: cannot be written", printable(file.string())), std::strerror(code), write_cure(code));
-  };
-  Handle handle = open(aside, "wb");
-  if (!handle) fail(errno);
-  if (std::fwrite(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size()) fail(errno);
-  if (std::fclose(handle.release()) != 0) fail(errno);
-  if (std::rename(aside.c_str(), file.c_str()) != 0) fail(errno);
+  ::unlink(aside.c_str());
+  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (number < 0) refuse_write(file, errno);
+  if (const int code = fill(number, bytes); code != 0) {
+    ::unlink(aside.c_str());
+    refuse_write(file, code);
+  }
+  replace_file(file, aside);
+}
+
+void check_writable(const fs::path& file) {
+  if (const int code = protection(file); code != 0) refuse_write(file, code);
+}
+
+void replace_file(const fs::path& file, const fs::path& aside) {
+  int code = protection(file);
+  if (code == 0 && std::rename(aside.c_str(), file.c_str()) != 0) code = errno;
+  if (code == 0) return;
+  ::unlink(aside.c_str());
+  refuse_write(file, code);
+}
+
+bool is_left_aside(std::string_view name, std::string_view of) {
+  constexpr std::string_view ending = ".tmp";
+  if (!name.starts_with(of) || !name.ends_with(ending) || name.size() < of.size() + ending.size() + 2) return false;
+  const std::string_view number = name.substr(of.size() + 1, name.size() - of.size() - 1 - ending.size());
+  return name[of.size()] == '.' && number.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 }  // namespace sunfleck

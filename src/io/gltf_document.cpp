@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 namespace sunfleck {
@@ -23,6 +24,7 @@ using nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "glTF is read as it lies in memory");
 
 constexpr std::string_view write_again = "write the file again";
+constexpr std::uint64_t most_buffer_bytes = std::uint64_t{8} << 30U;  // of all together: 2^28 positions and their indices
 
 struct GlbChunks {
   std::string_view json, binary;
@@ -41,6 +43,10 @@ GlbChunks split_glb(const MeshSource& source) {
   std::string_view rest = source.bytes;
   if (rest.size() < header + chunk_header)
     refuse(source, 0, fmt::format("only {} bytes", rest.size()), "a GLB file has at least 20", write_again);
+  constexpr std::uint32_t swapped_two = 0x02000000;
+  if (word_at(rest, 4) == swapped_two)
+    refuse(source, 0, "its numbers have the most significant byte first", "a GLB file has the least significant byte first",
+           "write it again with the bytes of each number turned round");
   if (word_at(rest, 4) != 2)
     refuse(source, 0, fmt::format("GLB version {}", word_at(rest, 4)), "only version 2 is read", "export it as glTF 2.0");
   if (word_at(rest, 8) != rest.size())
@@ -64,24 +70,45 @@ GlbChunks split_glb(const MeshSource& source) {
 }
 
 // Buffers are read here; the rest of what is left out concerns pictures and motion, and may be missing or broken.
-bool is_left_out(const std::string& section) {
-  constexpr std::array<std::string_view, 6> sections{"animations", "cameras", "images", "samplers", "skins", "textures"};
-  return std::find(sections.begin(), sections.end(), section) != sections.end();
+constexpr std::array<std::string_view, 6> left_out{"animations", "cameras", "images", "samplers", "skins", "textures"};
+
+// The deepest nesting of lists and objects.
+std::int64_t depth_of(std::string_view text) {
+  std::int64_t depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (in_string && c == '\\') ++at;
+    if (c == '"') in_string = !in_string;
+    if (in_string) continue;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return deepest;
 }
 
+// The library's message without the name it gives the error, [json.exception.parse_error.101].
+std::string_view reason_of(const json::exception& problem) {
+  const std::string_view words = problem.what();
+  const std::size_t name = words.find("] ");
+  return words.starts_with('[') && name != words.npos ? words.substr(name + 2) : words;
+}
+
+// Not by the library's callbacks: with them it goes through a whole list at the end of each of its objects.
 json parse_json(const MeshSource& source, std::string_view text) {
   constexpr int deepest = 100;  // tinygltf follows extras by recursion
-  const auto keep = [&](int depth, json::parse_event_t event, json& value) {
-    if (depth > deepest)
-      refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "no glTF file needs that", write_again);
-    return !(depth == 1 && event == json::parse_event_t::key && is_left_out(value.get_ref<const std::string&>()));
-  };
+  if (depth_of(text) > deepest)
+    refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "no glTF file needs that", write_again);
   try {
-    json document = json::parse(text, keep);
+    json document = json::parse(text);
     if (!document.is_object()) refuse(source, 0, "not a JSON object", "every glTF file is one", write_again);
+    for (const std::string_view section : left_out) document.erase(std::string(section));
     return document;
   } catch (const json::exception& problem) {
-    refuse(source, 0, "malformed JSON", problem.what(), write_again);
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == text.npos || text[first] != '{')
+      refuse(source, 0, "not a glTF file", "it begins neither with glTF, as .glb does, nor with {, as .gltf does", write_again);
+    refuse(source, 0, "malformed JSON", reason_of(problem), write_again);
   }
 }
 
@@ -176,6 +203,15 @@ std::string percent_decoded(std::string_view uri) {
   return text;
 }
 
+// Once symbolic links are followed.
+bool lies_in_folder_of(const fs::path& gltf, const fs::path& file) {
+  std::error_code code;
+  const fs::path folder = fs::weakly_canonical(gltf.parent_path().empty() ? fs::path(".") : gltf.parent_path(), code);
+  if (code) return false;
+  const fs::path found = fs::weakly_canonical(file, code);
+  return !code && std::mismatch(folder.begin(), folder.end(), found.begin(), found.end()).first == folder.end();
+}
+
 std::string read_buffer(const MeshSource& source, const std::string& uri) {
   if (uri.starts_with("data:")) {
     std::vector<unsigned char> bytes;
@@ -184,11 +220,14 @@ std::string read_buffer(const MeshSource& source, const std::string& uri) {
       refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "not base64 data in a known form", write_again);
     return {bytes.begin(), bytes.end()};
   }
-  const fs::path name = percent_decoded(uri);
-  if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end() || uri.find("://") != uri.npos)
+  const std::string decoded = percent_decoded(uri);
+  if (decoded.find("://") != decoded.npos || decoded.find('\0') != decoded.npos)
+    refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must name a file", "export as .glb");
+  const fs::path file = source.file.parent_path() / decoded;
+  if (!source.allow_outside && !lies_in_folder_of(source.file, file))
     refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must lie beside the glTF file or below it",
-           "move it there or export as .glb");
-  return read_file(source.file.parent_path() / name);
+           "move it there, export as .glb, or run with --allow-outside");
+  return read_file(file, most_buffer_bytes);
 }
 
 // A buffer may be longer than it says (GLB pads to 4 bytes), never shorter.
@@ -197,6 +236,7 @@ void read_buffers(const MeshSource& source, std::string_view binary, GltfDocumen
   document.json.erase("buffers");
   if (!buffers.is_array()) refuse(source, 0, "buffers is no array", "glTF 2.0 wants one", write_again);
   document.owned.reserve(buffers.size());  // the views below stay valid
+  std::uint64_t owned_bytes = 0;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const json& buffer = buffers[i];
     if (!buffer.is_object() || !buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned())
@@ -204,6 +244,10 @@ void read_buffers(const MeshSource& source, std::string_view binary, GltfDocumen
     std::string_view bytes = binary;
     if (buffer.contains("uri") && buffer["uri"].is_string()) {
       bytes = document.owned.emplace_back(read_buffer(source, buffer["uri"].get_ref<const std::string&>()));
+      owned_bytes += bytes.size();
+      if (owned_bytes > most_buffer_bytes)
+        refuse(source, 0, fmt::format("buffers of more than {} bytes", most_buffer_bytes), "one file may have that many",
+               "split the file");
     } else if (i > 0 || binary.empty()) {
       refuse(source, 0, fmt::format("buffer {} has no content", i), "it has no uri and there is no GLB chunk for it",
              write_again);
@@ -234,7 +278,7 @@ void refuse_extensions(const MeshSource& source, const tinygltf::Model& model) {
 
 GltfDocument open_gltf(const MeshSource& source) {
   GlbChunks chunks{source.bytes, {}};
-  if (source.bytes.starts_with("glTF")) chunks = split_glb(source);
+  if (source.bytes.starts_with("glTF") || source.bytes.starts_with("FTlg")) chunks = split_glb(source);
   GltfDocument document;
   document.json = parse_json(source, chunks.json);
   read_buffers(source, chunks.binary, document);
@@ -252,6 +296,8 @@ GltfDocument open_gltf(const MeshSource& source) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const json::exception& problem) {
+    errors = reason_of(problem);
   } catch (const std::exception& problem) {
     errors = problem.what();
   }

@@ -46,6 +46,7 @@ std::string gltf_bytes(const tinygltf::Model& model, GltfForm form, std::string_
   if (!model.buffers.empty() && model.buffers[0].data.size() > most_bytes)
     throw_failure(fmt::format("{}: cannot be written as glTF", file), "it would hold more than 3 GiB", "write it in parts");
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // a lack of memory would cut the text short in silence
   const bool binary = form == GltfForm::binary;
   if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, !binary, binary))
     throw_failure(fmt::format("{}: cannot be written as glTF", file), "tinygltf refused it", "write another format");

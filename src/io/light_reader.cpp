@@ -13,6 +13,8 @@ namespace sunfleck {
 
 namespace {
 
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // most_lights with long comments
+
 constexpr std::string_view line_form = "write: weight dx dy dz";
 
 double number(const MeshSource& source, std::size_t line, std::string_view& rest, std::string_view what) {
@@ -45,10 +47,10 @@ SkyLight parse_light(const MeshSource& source, std::size_t line, std::string_vie
 }  // namespace
 
 std::vector<SkyLight> read_lights(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file);
+  const std::string bytes = read_file(file, most_bytes);
   const MeshSource source{file, bytes, {}};
   std::vector<SkyLight> lights;
-  LineReader lines(bytes);
+  LineReader lines(without_mark(bytes));
   while (lines.next()) {
     const std::string_view content = trimmed(lines.line().substr(0, lines.line().find('#')));
     if (content.empty()) continue;

@@ -1,5 +1,6 @@
 #include "io/measured_reader.h"
 
+#include "io/file.h"
 #include "io/mesh_formats.h"
 #include "io/number_table.h"
 
@@ -32,20 +33,22 @@ MeasuredRatio checked(const NumberTable& table, const NumberTable::Row& row, std
   return point;
 }
 
+void check_columns(const NumberTable& table) {
+  if (table.find_column("height_m") && table.find_column("sunfleck_ratio") && table.columns.size() == 2) return;
+  const std::string found = fmt::format("{}", fmt::join(table.columns, ","));
+  refuse_table(table, table.header_line, fmt::format("columns {}", in_quotes(found)),
+               "it takes height_m and sunfleck_ratio, no other", columns_wanted);
+}
+
 }  // namespace
 
 MeasuredProfile read_measured(const std::filesystem::path& file) {
-  const NumberTable table = read_number_table(file);
-  const std::optional<std::size_t> height = table.find_column("height_m");
-  const std::optional<std::size_t> ratio = table.find_column("sunfleck_ratio");
-  if (!height || !ratio || table.columns.size() != 2) {
-    const std::string found = fmt::format("{}", fmt::join(table.columns, ","));
-    refuse_table(table, table.header_line, fmt::format("columns {}", in_quotes(found)),
-                 "it takes height_m and sunfleck_ratio, no other", columns_wanted);
-  }
+  const NumberTable table = read_number_table(file, check_columns);
+  const std::size_t height = table.column("height_m");
+  const std::size_t ratio = table.column("sunfleck_ratio");
   MeasuredProfile profile;
-  profile.name = file.filename().string();
-  for (const NumberTable::Row& row : table.rows) profile.points.push_back(checked(table, row, *height, *ratio));
+  profile.name = printable(file.filename().string());
+  for (const NumberTable::Row& row : table.rows) profile.points.push_back(checked(table, row, height, ratio));
   return profile;
 }
 

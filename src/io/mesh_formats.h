@@ -19,6 +19,7 @@ struct MeshSource {
   std::filesystem::path file;
   std::string_view bytes;             // not empty
   std::optional<std::string> optics;  // for triangles whose file names no material
+  bool allow_outside = false;         // may a glTF file's buffers lie outside its folder?
 };
 
 // One reader a format. Coordinates come back as the file has them: neither turned nor scaled; a mesh may be empty.
@@ -60,6 +61,9 @@ class LineReader {
 [[nodiscard]] std::string_view next_word(std::string_view& rest);
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+// The same for the cell of a table, which may stand in double quotes.
+[[nodiscard]] std::string_view unquoted(std::string_view cell);
+
 // Empty if the word is not wholly a finite number (an integer).
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
@@ -77,6 +81,7 @@ class MeshBuilder {
   std::uint32_t add_vertex(const glm::dvec3& position);
   [[nodiscard]] std::size_t vertex_count() const { return mesh_.vertices.size(); }
 
+  // Names go into tables and other programs' files: a new one is refused that is not UTF-8 on one line of at most 200 bytes.
   [[nodiscard]] std::uint32_t optics(std::string_view name);
   [[nodiscard]] const std::string& optics_name(std::uint32_t optics) const { return mesh_.optics_names[optics]; }
   // For triangles without a material; refused where the scene names none. `line` as in refuse.
@@ -91,6 +96,8 @@ class MeshBuilder {
   [[nodiscard]] Mesh take() { return std::move(mesh_); }
 
  private:
+  void check_name(std::string_view kind, std::string_view name) const;
+
   const MeshSource& source_;
   Mesh mesh_;
   std::map<std::string, std::uint32_t, std::less<>> optics_;

@@ -24,6 +24,7 @@ namespace {
 enum class MeshFormat { can, gltf, obj, ply, stl, unknown };
 
 constexpr std::string_view blanks = " \t\f\v";
+constexpr std::size_t longest_name = 200;
 constexpr std::size_t most_vertices = std::size_t{1} << 28;  // 6 GiB of positions
 
 MeshFormat format_of(const std::filesystem::path& file) {
@@ -77,11 +78,11 @@ bool is_mesh_file(const std::filesystem::path& file) {
 Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import) {
   EXPECT(import.scale, >, 0.0);
   const MeshFormat format = format_of(file);
-  MeshSource source{file, {}, import.optics};
+  MeshSource source{file, {}, import.optics, import.allow_outside};
   try {
     const std::string bytes = format == MeshFormat::unknown ? std::string() : read_file(file);
-    source.bytes = bytes;
-    if (bytes.empty() && format != MeshFormat::unknown)
+    source.bytes = without_mark(bytes);
+    if (source.bytes.empty() && format != MeshFormat::unknown)
       refuse(source, 0, "the file is empty", "a mesh needs at least one triangle", "write it again");
     Mesh mesh = read_format(source, format);
     if (mesh.triangles.empty())
@@ -102,10 +103,7 @@ void refuse(const MeshSource& source, std::size_t line, std::string_view what, s
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 40;
-  if (text.size() <= longest) return fmt::format("'{}'", printable(text));
-  std::size_t cut = longest;
-  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;  // not inside a UTF-8 character
-  return fmt::format("'{}...'", printable(text.substr(0, cut)));
+  return fmt::format("'{}'", printable(shortened(text, longest)));
 }
 
 std::optional<Organ> organ_from_name(std::string_view name) {
@@ -150,6 +148,11 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == text.npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view unquoted(std::string_view cell) {
+  cell = trimmed(cell);
+  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
 }
 
 std::string_view next_word(std::string_view& rest) {
@@ -205,6 +208,7 @@ std::uint32_t MeshBuilder::add_vertex(const glm::dvec3& position) {
 std::uint32_t MeshBuilder::optics(std::string_view name) {
   if (last_optics_ < mesh_.optics_names.size() && mesh_.optics_names[last_optics_] == name) return last_optics_;
   if (const auto known = optics_.find(name); known != optics_.end()) return last_optics_ = known->second;
+  check_name("material", name);
   last_optics_ = static_cast<std::uint32_t>(mesh_.optics_names.size());
   mesh_.optics_names.emplace_back(name);
   optics_.emplace(name, last_optics_);
@@ -222,8 +226,20 @@ std::uint32_t MeshBuilder::organ(const Organ& organ) {
   if (last_organ_ < mesh_.organs.size() && mesh_.organs[last_organ_] == organ) return last_organ_;
   const auto [entry, is_new] =
       organs_.try_emplace({organ.plant, organ.name, organ.rank}, static_cast<std::uint32_t>(mesh_.organs.size()));
-  if (is_new) mesh_.organs.push_back(organ);
+  if (is_new) {
+    check_name("organ", organ.name);
+    mesh_.organs.push_back(organ);
+  }
   return last_organ_ = entry->second;
+}
+
+void MeshBuilder::check_name(std::string_view kind, std::string_view name) const {
+  const auto bad = [&](std::string_view why, std::string_view cure) {
+    refuse(source_, 0, fmt::format("{} {}", kind, in_quotes(name)), why, cure);
+  };
+  if (name.size() > longest_name) bad(fmt::format("a name may have {} bytes", longest_name), "shorten it");
+  if (!is_utf8(name)) bad("it is not UTF-8", "save the file as UTF-8");
+  if (printable(name) != name) bad("a name is one line without control characters", "rename it");
 }
 
 std::uint32_t MeshBuilder::default_organ(std::uint32_t optics) {

@@ -15,6 +15,7 @@ struct MeshImport {
   std::optional<std::string> optics;  // for triangles whose file names no material
   std::optional<UpAxis> up;           // default: y, but z for .can
   double scale = 1.0;                 // > 0
+  bool allow_outside = false;         // may a glTF file's buffers lie outside its folder?
 };
 
 // The file's triangles in the scene's axes (a z-up file is x east, y north: X = -y, Y = z, Z = -x), scaled, polygons cut

@@ -1,13 +1,17 @@
 #include "io/netcdf_file.h"
 
 #include "base/error.h"
+#include "io/file.h"
 
 #include <fmt/format.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -40,6 +44,21 @@ int put_all(int file, int variable, const double* values) {
   return nc_put_var_double(file, variable, values);
 }
 
+// After a failed write netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process ends and it does
+// so by itself. It is left alone, and the process ends, with the status it was going to have, before that.
+void leave_before_libraries() {
+  ::on_exit(
+      [](int status, void*) {
+        std::fflush(nullptr);
+        std::_Exit(status);
+      },
+      nullptr);
+}
+
+bool reason_of_disk(int code) {
+  return code == ENOSPC || code == EDQUOT || code == EFBIG || code == EIO;
+}
+
 }  // namespace
 
 NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)), cure_("export vtp or csv") {
@@ -48,17 +67,23 @@ NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)), cure_("export
 }
 
 NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file)
-    : name_(std::move(name)), cure_("free some space, or choose another folder with -o") {
+    : name_(std::move(name)), cure_("free some space, or choose another folder with -o"), on_disk_(true) {
+  errno = 0;
   check(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be begun");
 }
 
 NetcdfFile::~NetcdfFile() {
-  if (file_ >= 0) nc_abort(file_);
+  if (file_ >= 0 && !broken_) nc_abort(file_);
 }
 
-void NetcdfFile::check(int status, std::string_view what) const {
+void NetcdfFile::check(int status, std::string_view what) {
   if (status == NC_NOERR) return;
-  throw_failure(fmt::format("{}: {}", name_, what), nc_strerror(status), cure_);
+  const int reason = errno;
+  if (!std::exchange(broken_, true)) leave_before_libraries();
+  // Below netCDF, HDF5 tells that a write failed, and what the system said stays in errno.
+  const bool of_disk = status == NC_EHDFERR && on_disk_ && reason_of_disk(reason);
+  throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : nc_strerror(status),
+                of_disk ? write_cure(reason) : cure_);
 }
 
 int NetcdfFile::dimension(const std::string& name, std::size_t size) {
@@ -137,6 +162,7 @@ std::string NetcdfFile::take() {
 }
 
 void NetcdfFile::finish() {
+  check(nc_sync(file_), "it cannot be finished");  // so that closing writes nothing more
   check(nc_close(std::exchange(file_, -1)), "it cannot be finished");
 }
 

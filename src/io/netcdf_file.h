@@ -46,9 +46,11 @@ class NetcdfFile {
 
  private:
   int define(const std::string& name, int type, const std::vector<int>& dimensions);
-  void check(int status, std::string_view what) const;
+  void check(int status, std::string_view what);
 
   std::string name_, cure_;
+  bool on_disk_ = false;
+  bool broken_ = false;  // a call failed: the library is not to be called again with this file
   int file_ = -1;
 };
 

@@ -13,12 +13,8 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uintmax_t largest_file_bytes = 10'000'000;
-
-std::string_view unquoted(std::string_view cell) {
-  cell = trimmed(cell);
-  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
-}
+constexpr std::uintmax_t most_bytes = 10'000'000;
+constexpr std::size_t most_columns = 1000;
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> cells;
@@ -32,6 +28,9 @@ std::vector<std::string_view> split(std::string_view line) {
 
 void take_header(NumberTable& table, std::size_t line, const std::vector<std::string_view>& names) {
   table.header_line = line;
+  if (names.size() > most_columns)
+    refuse_table(table, line, fmt::format("{} columns", names.size()), fmt::format("a table here may have {}", most_columns),
+                 "leave out what is not needed");
   for (const std::string_view name : names) {
     if (name.empty()) refuse_table(table, line, "a column without a name", "the header names every column", "name it");
     if (table.find_column(name))
@@ -81,26 +80,23 @@ std::size_t NumberTable::column(std::string_view name) const {
   return *found;
 }
 
-NumberTable read_number_table(const std::filesystem::path& file) {
+NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header) {
   NumberTable table;
   table.file = file;
   std::error_code error;
   const std::uintmax_t bytes_there = std::filesystem::file_size(file, error);
-  if (!error && bytes_there > largest_file_bytes) {
+  if (!error && bytes_there > most_bytes) {
     refuse_table(table, 0, fmt::format("{} bytes", bytes_there), "a table here may have 10 MB", "give fewer rows");
   }
   const std::string bytes = read_file(file);
-  std::string_view text = bytes;
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) text.remove_prefix(byte_order_mark.size());
-
-  for (LineReader lines(text); lines.next();) {
+  for (LineReader lines(without_mark(bytes)); lines.next();) {
     const std::string_view line = trimmed(lines.line());
     if (line.empty()) continue;
     if (line.front() == '#') {
       table.comments.emplace_back(trimmed(line.substr(1)));
     } else if (table.columns.empty()) {
       take_header(table, lines.number(), split(line));
+      if (check_header) check_header(table);
     } else {
       take_row(table, lines.number(), split(line));
     }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,10 +27,12 @@ struct NumberTable {
   [[nodiscard]] std::optional<std::size_t> find_column(std::string_view name) const;
 };
 
+using HeaderCheck = std::function<void(const NumberTable&)>;
+
 // A comma between cells, a line of column names first; `#` lines and blank ones may stand anywhere, cells in double quotes.
 // Throws Error (input), one line `FILE:LINE: ...`, for what is no such table, numbers that are not finite, and files of more
-// than 10 MB.
-[[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file);
+// than 10 MB. `check_header` is called when the columns are known and no row is.
+[[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header = {});
 
 // Throws Error (input) about that line of the file; line 0: about the file as a whole.
 [[noreturn]] void refuse_table(const NumberTable& table, std::size_t line, std::string_view what, std::string_view why,

@@ -10,20 +10,29 @@ namespace sunfleck {
 
 namespace {
 
-// tinyobjloader puts 0 in the place of a number it cannot read and knows no lines, so the text is checked before it sees it.
-// Positions are taken from here too: in double precision, correctly rounded.
+// tinyobjloader puts 0 in the place of a number it cannot read, knows no lines, and lets an exponent overflow, so the text is
+// checked before it sees it. Positions are taken from here too: in double precision, correctly rounded.
 class ObjText {
  public:
   explicit ObjText(const MeshSource& source) : source_(source) {}
 
-  // All positions, in order. Every face that follows has corners in range, and a material where the scene names none.
-  std::vector<glm::dvec3> check() {
+  struct Checked {
+    std::vector<glm::dvec3> positions;  // all, in order
+    // The lines that are left for tinyobjloader: faces with corners in range, their materials, objects and groups, and a
+    // position without its numbers for each, which negative corners count.
+    std::string faces;
+  };
+
+  Checked check() {
     if (source_.bytes.find('\0') != source_.bytes.npos)
       refuse(source_, 0, "contains a zero byte", "an OBJ file is text", "write it again as OBJ");
+    if (source_.bytes.find_first_of("\f\v") != source_.bytes.npos)
+      refuse(source_, 0, "contains a form feed or vertical tab", "blanks and tabs part the words of an OBJ file",
+             "write it again as OBJ");
     LineReader lines(source_.bytes);
     while (lines.next()) check_line(lines.number(), lines.line());
     if (highest_ > static_cast<std::int64_t>(positions_.size())) refuse_corner(highest_line_, fmt::to_string(highest_));
-    return std::move(positions_);
+    return {std::move(positions_), std::move(faces_)};
   }
 
  private:
@@ -36,10 +45,11 @@ class ObjText {
       glm::dvec3 position;
       for (int axis = 0; axis < 3; ++axis) position[axis] = coordinate(source_, line, rest);
       positions_.push_back(position);
-    } else if (key == "f") {
-      check_face(line, rest);
-    } else if (key == "usemtl") {
-      has_material_ = !trimmed(rest).empty();
+      faces_ += "v 0 0 0\n";
+    } else if (key == "f" || key == "usemtl" || key == "o" || key == "g") {
+      if (key == "f") check_face(line, rest);
+      if (key == "usemtl") has_material_ = !trimmed(rest).empty();
+      faces_.append(key).append(" ").append(trimmed(rest)).append("\n");
     }
   }
 
@@ -81,6 +91,7 @@ class ObjText {
 
   const MeshSource& source_;
   std::vector<glm::dvec3> positions_;
+  std::string faces_;
   std::int64_t highest_ = 0;  // the highest corner number, which may come before its vertex
   std::size_t highest_line_ = 0;
   bool has_material_ = false;
@@ -141,7 +152,8 @@ ObjFaces& faces(void* user) {
 // tinyobjloader's callbacks rather than its LoadObj: they give material names whose .mtl is missing, polygons as they stand
 // and faces in file order.
 Mesh read_obj(const MeshSource& source) {
-  ObjFaces mesh(source, ObjText(source).check());
+  ObjText::Checked text = ObjText(source).check();
+  ObjFaces mesh(source, text.positions);
   tinyobj::callback_t callback;
   callback.vertex_cb = [](void* user, float, float, float, float) { faces(user).count_vertex(); };
   callback.index_cb = [](void* user, tinyobj::index_t* indices, int count) {
@@ -152,9 +164,9 @@ Mesh read_obj(const MeshSource& source) {
     faces(user).begin_group({names, static_cast<std::size_t>(count)});
   };
   callback.object_cb = [](void* user, const char* name) { faces(user).begin_object(name); };
-  std::istringstream text{std::string(source.bytes)};
+  std::istringstream faces_only(std::move(text.faces));
   std::string warnings, errors;
-  if (!tinyobj::LoadObjWithCallback(text, callback, &mesh, nullptr, &warnings, &errors))
+  if (!tinyobj::LoadObjWithCallback(faces_only, callback, &mesh, nullptr, &warnings, &errors))
     refuse(source, 0, "cannot be read as OBJ", errors, "write the file again");
   return mesh.take();
 }

@@ -1,11 +1,36 @@
 #include "io/packed_array.h"
 
-#include "base/check.h"
-
 #include <zlib.h>
+
+#include <new>
 
 namespace sunfleck {
 namespace {
+
+using nlohmann::json;
+
+// Looks at the nesting only.
+class DepthCheck : public nlohmann::json_sax<json> {
+ public:
+  explicit DepthCheck(std::size_t deepest) : deepest_(deepest) {}
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool start_object(std::size_t) override { return ++depth_ <= deepest_; }
+  bool start_array(std::size_t) override { return ++depth_ <= deepest_; }
+  bool end_object() override { return depth_-- > 0; }
+  bool end_array() override { return depth_-- > 0; }
+  bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
+
+ private:
+  std::size_t deepest_, depth_ = 0;
+};
 
 constexpr std::size_t most_at_once = std::size_t{1} << 30U;  // zlib counts in 32 bits
 
@@ -15,9 +40,15 @@ Bytef* bytes_of(const void* data) {
 
 }  // namespace
 
+json read_cbor(std::string_view bytes, std::size_t deepest) {
+  DepthCheck check(deepest);
+  if (!json::sax_parse(bytes, &check, json::input_format_t::cbor)) throw std::runtime_error("it is cut short or damaged");
+  return json::from_cbor(bytes);
+}
+
 nlohmann::json::binary_t deflated(std::span<const std::byte> bytes) {
   z_stream stream{};
-  EXPECT(deflateInit(&stream, Z_BEST_SPEED), ==, Z_OK);
+  if (deflateInit(&stream, Z_BEST_SPEED) != Z_OK) throw std::bad_alloc();
   nlohmann::json::binary_t packed(std::vector<std::uint8_t>{});
   std::vector<std::uint8_t> chunk(std::size_t{1} << 18U);
   std::size_t given = 0;
@@ -40,7 +71,7 @@ nlohmann::json::binary_t deflated(std::span<const std::byte> bytes) {
 
 bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes) {
   z_stream stream{};
-  EXPECT(inflateInit(&stream), ==, Z_OK);
+  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
   std::size_t given = 0;
   std::size_t got = 0;
   std::byte beyond{};  // one byte more than there may be tells a longer array

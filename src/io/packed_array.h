@@ -1,5 +1,5 @@
 #pragma once
-// Long arrays of numbers as CBOR byte strings: little-endian and deflated (zlib).
+// Long arrays of numbers as CBOR byte strings: little-endian and deflated (zlib). And CBOR read that anyone may have written.
 
 #include "base/error.h"
 
@@ -10,12 +10,30 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sunfleck {
 
 static_assert(std::endian::native == std::endian::little);
+
+// Throws std::runtime_error for bytes that are no CBOR, or lists and maps more than `deepest` within each other: the library's
+// parser goes by recursion as deep as a file has it.
+[[nodiscard]] nlohmann::json read_cbor(std::string_view bytes, std::size_t deepest);
+
+// Throws std::runtime_error for what is no whole number, or none that T holds.
+template <class T>
+[[nodiscard]] T whole(const nlohmann::json& value) {
+  const auto checked = [](auto number) {
+    if (std::in_range<T>(number)) return static_cast<T>(number);
+    throw std::runtime_error("a whole number is out of range");
+  };
+  if (value.is_number_unsigned()) return checked(value.get<std::uint64_t>());
+  if (value.is_number_integer()) return checked(value.get<std::int64_t>());
+  throw std::runtime_error("what should be a whole number is none");
+}
 
 [[nodiscard]] nlohmann::json::binary_t deflated(std::span<const std::byte> bytes);
 

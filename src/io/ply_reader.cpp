@@ -232,14 +232,22 @@ class PlyReader {
   }
 
  private:
+  // The counts are not believed before the bytes for them are seen.
   void check_element(const PlyElement& element) {
-    // The count is not believed before the bytes for it are seen: each property takes one at least.
-    if (!element.properties.empty() && element.count > body_.bytes_left())
+    std::size_t each = 0;
+    for (const PlyProperty& property : element.properties) each += least_bytes(property);
+    if (each > 0 && element.count > (body_.bytes_left() - promised_bytes_) / each)
       refuse(source_, 0, fmt::format("element {} {}", in_quotes(element.name), element.count),
-             fmt::format("only {} bytes follow", body_.bytes_left()), "write the file again");
+             fmt::format("only {} bytes follow", body_.bytes_left() - promised_bytes_), "write the file again");
+    promised_bytes_ += each * element.count;
     if (element.name != "vertex") return;
     check_vertex(element);
     vertices_ += element.count;
+  }
+
+  // A list may be empty; a number in a text has a blank before the next one, and the last one need not.
+  [[nodiscard]] std::size_t least_bytes(const PlyProperty& property) const {
+    return header_.encoding == PlyEncoding::ascii ? 1 : size_of(property.list_size.value_or(property.type));
   }
 
   void check_vertex(const PlyElement& element) {
@@ -309,7 +317,8 @@ class PlyReader {
   PlyHeader header_;
   PlyBody body_;
   MeshBuilder builder_;
-  std::size_t vertices_ = 0;  // in the whole file
+  std::size_t vertices_ = 0;        // in the whole file
+  std::size_t promised_bytes_ = 0;  // by the header so far, at least
   std::vector<std::uint32_t> corners_;
 };
 

@@ -18,7 +18,9 @@ using nlohmann::json;
 constexpr const char* store_format = "sunfleck pictures";
 constexpr int store_version = 1;
 
-constexpr double farthest_m = 1e6;  // of anything in a scene that is drawn
+// What a scene may hold: a mesh to 1e7 m, placed as far from zero and turned.
+constexpr double farthest_m = 1e8;
+constexpr double most_patches = 64e6;
 constexpr std::size_t deepest = 6;  // lists and maps within each other; a good file has four
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -130,7 +132,7 @@ std::vector<FaceOptics> faces_of(const json& list, std::size_t bands) {
 }
 
 void read_surfaces(const json& from, RadiationModel& model) {
-  constexpr double brightest_w_m2 = 1e9;
+  constexpr double brightest_w_m2 = 1e15;
   for (const json& band : from.at("bands")) {
     model.bands.push_back({band.at("name").get<std::string>(), number(band, "direct_w_m2", 0.0, brightest_w_m2),
                            number(band, "diffuse_w_m2", 0.0, brightest_w_m2)});
@@ -150,16 +152,18 @@ void read_surfaces(const json& from, RadiationModel& model) {
   }
   if (from.at("soil").is_null()) return;
   const json& soil = from["soil"];
-  const double finest_m = 1e-4 * std::max(model.plot.size_x_m, model.plot.size_z_m);
-  model.soil = Soil{numbers(soil.at("reflectance"), bands, 0.0, 1.0, "soil"), number(soil, "patch_m", finest_m, farthest_m),
+  model.soil = Soil{numbers(soil.at("reflectance"), bands, 0.0, 1.0, "soil"), number(soil, "patch_m", 0.0, farthest_m),
                     vector_of(soil, "rgb", 1.0)};
+  const Plot& ground = model.plot;
+  require(std::ceil(ground.size_x_m / model.soil->patch_m) * std::ceil(ground.size_z_m / model.soil->patch_m) <= most_patches,
+          "patch_m");
 }
 
 void read_canopy(const json& from, Canopy& canopy, std::size_t optics) {
   for (const json& organ : from.at("organs")) {
-    canopy.organs.push_back({organ.at(0).get<std::uint32_t>(), organ.at(1).get<std::string>(), organ.at(2).get<int>()});
+    canopy.organs.push_back({whole<std::uint32_t>(organ.at(0)), organ.at(1).get<std::string>(), whole<int>(organ.at(2))});
   }
-  const auto triangles = from.at("triangles").get<std::size_t>();
+  const auto triangles = whole<std::size_t>(from.at("triangles"));
   canopy.origin_m = vector_of(from, "origin_m", farthest_m);
   const std::vector<double> period_m = numbers(from.at("period_m"), 2, 0.0, farthest_m, "period_m");
   canopy.period_m = {period_m[0], period_m[1]};
@@ -201,16 +205,16 @@ std::optional<double> error_of(const json& object, const char* key) {
 }
 
 RadiationResult read_result(const json& from, const RadiationModel& model) {
-  constexpr double largest = 1e12;
+  constexpr double largest = 1e30;
   RadiationResult result;
   result.leaf_area_index = number(from, "leaf_area_index", 0.0, largest);
   result.ground_per_ray_m2 = number(from, "ground_per_ray_m2", 0.0, largest);
   const std::size_t elements = model.canopy.size();
-  const auto cells = from.at("cells").get<std::size_t>();
+  const auto cells = whole<std::size_t>(from.at("cells"));
   require(cells == make_counter_layout(model).cells(), "cells");
-  result.direct.rays = from.at("rays").get<std::uint64_t>();
+  result.direct.rays = whole<std::uint64_t>(from.at("rays"));
   result.direct.relative_error = error_of(from, "direct_error");
-  result.indirect.packets = from.at("packets").get<std::uint64_t>();
+  result.indirect.packets = whole<std::uint64_t>(from.at("packets"));
   result.indirect.relative_error = error_of(from, "indirect_error");
   result.elements = unpack<ElementResult>(from.at("landings"), elements);
   result.soil_cells = unpack<std::uint64_t>(from.at("cell_landings"), cells);
@@ -231,34 +235,13 @@ RadiationResult read_result(const json& from, const RadiationModel& model) {
   return result;
 }
 
-// Looks at the nesting only: the library's parser goes as deep as a file has it, and a damaged one may have it too deep.
-struct DepthCheck : nlohmann::json_sax<json> {
-  std::size_t depth = 0;
-
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool key(string_t&) override { return true; }
-  bool start_object(std::size_t) override { return ++depth <= deepest; }
-  bool start_array(std::size_t) override { return ++depth <= deepest; }
-  bool end_object() override { return depth-- > 0; }
-  bool end_array() override { return depth-- > 0; }
-  bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
-};
-
 StoredResult read_checked(const std::string& bytes) {
-  DepthCheck check;
-  if (!json::sax_parse(bytes, &check, json::input_format_t::cbor)) refuse("it is cut short or damaged");
-  const json file = json::from_cbor(bytes);
+  const json file = read_cbor(bytes, deepest);
   if (file.at("format") != store_format) refuse("it is another kind of file");
-  const int version = file.at("version").get<int>();
+  const int version = whole<int>(file.at("version"));
   if (version != store_version) refuse(fmt::format("version {}, this program reads {}", version, store_version));
   StoredResult stored;
-  stored.seed = file.at("seed").get<std::uint64_t>();
+  stored.seed = whole<std::uint64_t>(file.at("seed"));
   stored.complete = file.at("complete").get<bool>();
   Scene& scene = stored.scene;
   scene.title = file.at("title").get<std::string>();

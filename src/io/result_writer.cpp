@@ -123,6 +123,8 @@ const char* stop_name(StopReason stop) {
       return "work done";
     case StopReason::rays_spent:
       return "rays spent";
+    case StopReason::replicates_spent:
+      return "replicates spent";
     case StopReason::time_spent:
       return "time spent";
     case StopReason::interrupted:
@@ -146,7 +148,7 @@ const char* error_target_name(ErrorTarget target) {
 }
 
 std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  const ordered_json summary = {
+  ordered_json summary = {
       {"sunfleck", record.version},
       {"commit", record.commit},
       {"scene", record.title},
@@ -163,7 +165,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"leaf_area_index", result.leaf_area_index},
       {"sun", sun_json(model)},
       {"bands", bands_json(model, result)},
-      {"sunlit_leaf_fraction", number_or_null(result.sunlit_leaf_fraction.value)},
+      {"sunlit_leaf_fraction", number_or_null(as_share(result.sunlit_leaf_fraction).value)},
       {"sunlit_leaf_fraction_error", number_or_null(result.sunlit_leaf_fraction.half_width)},
       {"ground_sunfleck_ratio", number_or_null(result.ground_sunfleck_ratio.value)},
       {"ground_sunfleck_ratio_error", number_or_null(result.ground_sunfleck_ratio.half_width)},
@@ -191,6 +193,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
         {"indirect", record.seconds.indirect},
         {"write", record.seconds.write},
         {"total", record.seconds.total}}}};
+  if (!record.not_written.empty()) summary["not_written"] = record.not_written;
   return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -209,7 +212,7 @@ std::string profile_csv(const RunRecord& record, const RadiationModel& model, co
     const bool top_plane = layer.absorbed.empty();
     append_number(row, top_plane ? std::numeric_limits<double>::quiet_NaN() : layer.leaf_area_index);
     append_estimate(row, layer.sunfleck_ratio);
-    append_estimate(row, layer.sunlit_leaf_fraction);
+    append_estimate(row, as_share(layer.sunlit_leaf_fraction));
     for (std::size_t b = 0; b < model.bands.size(); ++b) {
       append_estimate(row, layer.down[b]);
       append_estimate(row, layer.up[b]);
@@ -236,7 +239,7 @@ std::string organs_csv(const RunRecord& record, const RadiationModel& model, con
     const OrganResult& organ_result = result.organs[o];
     std::string row = fmt::format("{},{},{}", organ.plant, csv_field(organ.name), organ.rank);
     append_number(row, organ_result.area_m2);
-    append_estimate(row, organ_result.sunlit_fraction);
+    append_estimate(row, as_share(organ_result.sunlit_fraction));
     for (std::size_t b = 0; b < model.bands.size(); ++b) {
       const Estimate& absorbed = organ_result.absorbed[b];
       append_number(row, organ_result.direct[b].value);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sunfleck {
 
@@ -23,7 +24,8 @@ struct RunRecord {
   std::string scene_file;
   std::string scene_digest;
   std::uint64_t seed = 1;
-  bool complete = true;  // false: stopped before its work was done
+  bool complete = true;                  // false: stopped before its work was done
+  std::vector<std::string> not_written;  // files that failed
   Accuracy accuracy;
   std::optional<double> grid_m;  // settings that fix or limit the work, as asked for
   std::optional<int> passes;

@@ -22,7 +22,7 @@ constexpr double farthest_m = 1e7;           // no coordinate of a scene lies fa
 
 constexpr NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
 
-GeometryPart read_generator(const TomlTable& table) {
+GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only one there is
   for (const char* key : {"optics", "up", "scale", "heading", "at"}) {
     if (table.has(key)) table.refuse(key, "it is for files; a generated stand fills the plot from its corner", "remove it");
@@ -30,10 +30,12 @@ GeometryPart read_generator(const TomlTable& table) {
   MaizeStand stand;
   stand.rows = static_cast<int>(table.integer("rows", 1, most_rows).value_or(stand.rows));
   stand.per_row = static_cast<int>(table.integer("per_row", 1, most_rows).value_or(stand.per_row));
-  const std::int64_t plants = std::int64_t{stand.rows} * stand.per_row;
-  if (plants > most_plants) {
-    table.refuse(table.has("rows") ? "rows" : "per_row",
-                 fmt::format("rows * per_row gives {} plants, at most {} are possible", plants, most_plants),
+  plants_so_far += std::int64_t{stand.rows} * stand.per_row;
+  if (plants_so_far > most_plants) {
+    table.refuse(table.has("rows")      ? "rows"
+                 : table.has("per_row") ? "per_row"
+                                        : "generator",
+                 fmt::format("rows * per_row gives {} plants, at most {} are possible", plants_so_far, most_plants),
                  "make fewer; a periodic plot repeats them without end");
   }
   const auto spacing_m = table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres"});
@@ -70,6 +72,7 @@ GeometryPart read_file_part(const TomlTable& table, const fs::path& scene_file, 
   }
   MeshImport import;
   import.optics = table.text("optics");
+  import.allow_outside = access.allow_outside;
   if (const auto up = table.word("up", {"y", "z"})) import.up = *up == 0 ? UpAxis::y : UpAxis::z;
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
@@ -79,6 +82,16 @@ GeometryPart read_file_part(const TomlTable& table, const fs::path& scene_file, 
                       .file = find_mesh(table, scene_file, access),
                       .import = import,
                       .placements = std::move(placements)};
+}
+
+void refuse_many(const GeometryPart& part, std::size_t triangles) {
+  constexpr double bytes_each = 200.0;  // of a direct-only run, the tree included
+  const double memory = static_cast<double>(physical_memory_bytes());
+  if (bytes_each * static_cast<double>(triangles) <= memory) return;
+  part.table.refuse(part.source_key(),
+                    fmt::format("{} triangles up to here need about {:.0f} GB of memory, and this machine has {:.0f} GB",
+                                triangles, bytes_each * 1e-9 * static_cast<double>(triangles), 1e-9 * memory),
+                    "place fewer copies, or give a coarser mesh");
 }
 
 void refuse_far(const GeometryPart& part, const Mesh& mesh) {
@@ -98,12 +111,17 @@ const OpticsInput* find_optics(const OpticsByName& defined, const std::string& n
   return found == defined.end() ? nullptr : &found->second;
 }
 
+// As a TOML key: names with other characters stand in quotes.
+std::string key_of(const std::string& name) {
+  return is_plain_name(name) ? name : fmt::format("\"{}\"", printable(name));
+}
+
 [[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
   std::vector<std::string> names;
   for (const auto& [known, input] : defined) names.push_back(known);
   const std::string shown = printable(name);
-  const std::string add = is_soil_name(name) ? fmt::format("add [optics.{}] or [soil]", shown)
-                                             : fmt::format("add [optics.{}] with reflectance", shown);
+  const std::string add = is_soil_name(name) ? fmt::format("add [optics.{}] or [soil]", key_of(name))
+                                             : fmt::format("add [optics.{}] with reflectance", key_of(name));
   const auto nearest = nearest_word(name, names);
   part.table.refuse(part.source_key(), fmt::format("it uses optics \"{}\", which is not defined", shown),
                     nearest ? fmt::format("did you mean {}? else {}", printable(*nearest), add) : add);
@@ -122,21 +140,34 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
 
 std::vector<GeometryPart> read_geometry(const TomlTable& root, const fs::path& scene_file, const SceneAccess& access) {
   std::vector<GeometryPart> parts;
+  std::int64_t plants = 0;  // of all generators
   for (const TomlTable& table : root.tables("geometry")) {
     table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at"});
     if (table.has("generator") && table.has("file")) {
       table.refuse("file", "generator is given too", "keep one of the two, and add another [[geometry]] for the other");
     }
     if (!table.has("generator")) table.require("file", "file = \"stand.glb\", or generator = \"maize\"");
-    parts.push_back(table.has("generator") ? read_generator(table) : read_file_part(table, scene_file, access));
+    parts.push_back(table.has("generator") ? read_generator(table, plants) : read_file_part(table, scene_file, access));
   }
   return parts;
 }
 
-PlacedMesh load_geometry(const GeometryPart& part) {
-  PlacedMesh placed{part.maize ? make_maize(*part.maize) : read_mesh(part.file, part.import), part.placements};
-  refuse_far(part, placed.mesh);
-  return placed;
+std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts) {
+  constexpr std::size_t least_of_plant = 10'000;  // triangles
+  std::vector<PlacedMesh> meshes;
+  std::size_t triangles = 0;
+  for (const GeometryPart& part : parts) {
+    if (part.maize) {
+      const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
+      refuse_many(part, triangles + plants * least_of_plant);
+    }
+    meshes.push_back({part.maize ? make_maize(*part.maize) : read_mesh(part.file, part.import), part.placements});
+    const Mesh& mesh = meshes.back().mesh;
+    refuse_far(part, mesh);
+    triangles += mesh.triangles.size() * part.placements.size();
+    refuse_many(part, triangles);
+  }
+  return meshes;
 }
 
 std::vector<SurfaceOptics> choose_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes,

@@ -138,7 +138,7 @@ std::optional<SunInput> read_sun(const TomlTable& root) {
 }
 
 BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun, const std::optional<SkyInput>& sky,
-                      const std::optional<WeatherInput>& weather) {
+                      const std::optional<WeatherInput>& weather, std::vector<std::string>& warnings) {
   const std::vector<TomlTable> tables = root.tables("band");
   if (tables.empty()) root.require("band", "[[band]] with name = \"PAR\" and direct = 350.0");
   if (tables.empty()) root.refuse("band", "there must be at least one", "add [[band]] with name = \"PAR\" and direct = 350.0");
@@ -152,6 +152,9 @@ BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
     band.umol_per_joule = table.number("umol_per_joule", photons).value_or(0.0);
     input.bands.push_back(std::move(band));
     input.lights.push_back(read_band_light(table, sun.has_value(), sky.has_value(), weather));
+    if (weather && !input.lights.back().share) {
+      warnings.push_back(fmt::format("{}: it has irradiance of its own, so [weather] gives it none", table.place()));
+    }
   }
   return input;
 }

@@ -53,7 +53,8 @@ struct BandsInput {
   std::vector<BandLight> lights;  // [waveband]
 };
 [[nodiscard]] BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
-                                    const std::optional<SkyInput>& sky, const std::optional<WeatherInput>& weather);
+                                    const std::optional<SkyInput>& sky, const std::optional<WeatherInput>& weather,
+                                    std::vector<std::string>& warnings);
 
 // In ascending order of height.
 [[nodiscard]] std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot);
@@ -83,12 +84,16 @@ struct GeometryPart {
 [[nodiscard]] std::vector<GeometryPart> read_geometry(const TomlTable& root, const std::filesystem::path& scene_file,
                                                       const SceneAccess& access);
 
-[[nodiscard]] PlacedMesh load_geometry(const GeometryPart& part);
+// Refuses more triangles than this machine's memory holds, before it takes the memory for their copies.
+[[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts);
 
 // The optics of each name, or Error (input) naming the table whose mesh uses an undefined one. Names of soil that are not
 // defined take the reflectance and colour of [soil].
 [[nodiscard]] std::vector<SurfaceOptics> choose_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes,
                                                        const OpticsByName& defined, const Scene& scene);
+
+// Warnings about what can be read but is seldom meant: lengths in another unit, plants below ground, light forgotten.
+[[nodiscard]] std::vector<std::string> scene_doubts(const Scene& scene);
 
 // Warnings about where the geometry stands in the plot.
 [[nodiscard]] std::vector<std::string> placement_warnings(std::span<const GeometryPart> parts,

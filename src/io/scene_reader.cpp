@@ -16,6 +16,7 @@ namespace sunfleck {
 namespace {
 
 constexpr double farthest_m = 1e7;
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // a million positions in `at`
 constexpr double default_fov_deg = 40.0;
 
 // FNV-1a, 64 bits (Fowler, Noll and Vo).
@@ -122,7 +123,7 @@ std::vector<std::filesystem::path> read_light(const TomlTable& root, const Scene
   }
   std::optional<WeatherInput> weather = read_weather_table(root, scene.file, access, sun, scene.warnings);
   const std::optional<SkyInput> sky = read_sky(root, scene.file, access, sun, weather);
-  BandsInput bands = read_bands(root, sun, sky, weather);
+  BandsInput bands = read_bands(root, sun, sky, weather, scene.warnings);
   scene.model.bands = std::move(bands.bands);
   scene.light.bands = std::move(bands.lights);
   std::vector<std::filesystem::path> files;
@@ -148,7 +149,7 @@ std::vector<std::filesystem::path> read_light(const TomlTable& root, const Scene
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
-  const std::string text = read_file(file);
+  const std::string text = read_file(file, most_bytes);
   const TomlTable root = TomlTable::parse(file.string(), text);
   root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
               "plane", "sensor"});
@@ -167,12 +168,12 @@ Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
   scene.model.sensors = read_sensors(root);
 
   const std::vector<GeometryPart> parts = read_geometry(root, file, access);
-  std::vector<PlacedMesh> meshes;
-  for (const GeometryPart& part : parts) meshes.push_back(load_geometry(part));
+  const std::vector<PlacedMesh> meshes = load_geometry(parts);
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
   scene.model.optics = choose_optics(parts, meshes, optics, scene);
   scene.digest = digest_of(text, light_files, parts);
   warn_of_unused(optics, scene, scene.warnings);
+  for (std::string& warning : scene_doubts(scene)) scene.warnings.push_back(std::move(warning));
   for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
   return scene;
 }

@@ -1,5 +1,6 @@
 // [[plane]] and [[sensor]]: where light is looked at.
 
+#include "io/plane_writer.h"
 #include "io/scene_parts.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
+#include <string>
 
 namespace sunfleck {
 
@@ -49,11 +52,11 @@ PlaneReceiver read_plane(const TomlTable& table, const Plot& plot) {
   return plane;
 }
 
-std::string read_sensor_name(const TomlTable& table, const std::vector<Sensor>& earlier) {
+std::string read_sensor_name(const TomlTable& table, std::set<std::string>& earlier) {
   table.require("name", "name = \"ceptometer\"");
   std::string name = *table.text("name");
   if (!is_plain_name(name)) table.refuse("name", plain_name_rule, "give a name such as ceptometer or row_1");
-  if (std::any_of(earlier.begin(), earlier.end(), [&](const Sensor& other) { return other.name == name; })) {
+  if (!earlier.insert(name).second) {
     table.refuse("name", "another [[sensor]] has this name", "give every sensor a name of its own");
   }
   return name;
@@ -78,7 +81,7 @@ std::vector<glm::dvec3> read_points(const TomlTable& table) {
   return points_m;
 }
 
-Sensor read_sensor(const TomlTable& table, const std::vector<Sensor>& earlier) {
+Sensor read_sensor(const TomlTable& table, std::set<std::string>& earlier) {
   table.allow({"name", "from", "to", "points", "response", "normal"});
   Sensor sensor;
   sensor.name = read_sensor_name(table, earlier);
@@ -108,8 +111,10 @@ std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot) 
   double cells = 0.0;
   for (const TomlTable& table : tables) {
     const PlaneReceiver plane = read_plane(table, plot);
-    if (std::any_of(planes.begin(), planes.end(), [&](const auto& other) { return other.height_m == plane.height_m; })) {
-      table.refuse("height", "another [[plane]] has this height", "give every plane a height of its own");
+    const std::string stem = plane_stem(plane.height_m);
+    if (std::any_of(planes.begin(), planes.end(), [&](const auto& other) { return plane_stem(other.height_m) == stem; })) {
+      table.refuse("height", fmt::format("another [[plane]] has this height, and would be {}.csv too", stem),
+                   "give every plane a height of its own, in whole millimetres");
     }
     planes.push_back(plane);
     cells += static_cast<double>(plane.cells_x) * plane.cells_z;
@@ -125,9 +130,10 @@ std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot) 
 
 std::vector<Sensor> read_sensors(const TomlTable& root) {
   std::vector<Sensor> sensors;
+  std::set<std::string> names;
   std::size_t points = 0;
   for (const TomlTable& table : root.tables("sensor")) {
-    sensors.push_back(read_sensor(table, sensors));
+    sensors.push_back(read_sensor(table, names));
     points += sensors.back().points_m.size();
     if (points > static_cast<std::size_t>(most_points)) {
       table.refuse(table.has("points") ? "points" : "from",

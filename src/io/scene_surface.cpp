@@ -16,6 +16,7 @@ constexpr double most_patches = 64e6;    // cells of the soil's map: 512 MB a fi
 constexpr double default_patches = 4e6;  // cells of a map that was not asked for, on a plot where 0.05 m gives too many
 constexpr double sum_tolerance = 1e-12;  // rounding of reflectance + transmittance as decimal fractions
 constexpr std::size_t most_optics = 65535;
+constexpr std::size_t most_coefficients = 4'000'000;  // optics times bands; 32 bytes each
 
 constexpr NumberRange share{.lo = 0.0, .hi = 1.0, .is_share = true, .cure = "give a share of the light that arrives"};
 
@@ -125,7 +126,12 @@ std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>
 OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& bands) {
   const auto all = root.table("optics");
   if (!all) return {};
-  if (all->keys().size() > most_optics) all->refuse_table(fmt::format("more than {} names", most_optics), "define fewer");
+  const std::size_t names = all->keys().size();
+  if (names > most_optics) all->refuse_table(fmt::format("more than {} names", most_optics), "define fewer");
+  if (names * bands.size() > most_coefficients) {
+    all->refuse_table(fmt::format("{} names with {} bands each, more than {} in all", names, bands.size(), most_coefficients),
+                      "define fewer, or split the bands over scenes");
+  }
   OpticsByName optics;
   for (const std::string& name : all->keys()) {
     if (!all->is_table(name)) {

@@ -14,7 +14,6 @@ namespace sunfleck {
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 constexpr std::size_t not_there = static_cast<std::size_t>(-1);
 constexpr int first_year = 1900, last_year = 2100;  // where the sun's position is known
 constexpr std::string_view time_cure = "write it as 2002-08-08T10:10:00+08:00";
@@ -29,9 +28,7 @@ class StationReader {
   explicit StationReader(const WeatherSource& source) : source_(source) {}
 
   WeatherFile read() {
-    std::string_view text = source_.bytes;
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-    LineReader lines(text);
+    LineReader lines(source_.bytes);
     while (lines.next()) {
       const std::string_view line = trimmed(lines.line());
       if (line.empty() || line.front() == '#') continue;

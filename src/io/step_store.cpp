@@ -23,6 +23,7 @@ constexpr std::string_view step_mark = "SUNSTEP1";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
+constexpr std::size_t deepest = 2;  // lists and maps within each other
 constexpr std::size_t head_bytes = step_mark.size() + sizeof(std::uint32_t);
 
 std::uint32_t check_sum(std::string_view bytes) {
@@ -79,9 +80,21 @@ void remove_steps(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().filename().string().rfind("step_", 0) == 0) files.push_back(entry.path());
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("step_", 0) == 0 || is_left_aside(name, settings_file)) files.push_back(entry.path());
   }
   for (const fs::path& file : files) remove_file(file);
+}
+
+// The settings as noted; not an object if the text is damaged or holds more than plain values.
+ordered_json parse_settings(const std::string& text) {
+  bool plain = true;
+  const auto keep = [&](int depth, ordered_json::parse_event_t, ordered_json&) {
+    plain = plain && depth < 2;
+    return plain;
+  };
+  ordered_json settings = ordered_json::parse(text, keep, false);
+  return plain ? std::move(settings) : ordered_json();
 }
 
 std::string value_text(const ordered_json& settings, const std::string& key) {
@@ -135,7 +148,7 @@ StepStore::Found StepStore::find() const {
   std::error_code error;
   const fs::path file = folder_ / settings_file;
   if (!fs::exists(file, error)) return Found::nothing;
-  ordered_json noted = ordered_json::parse(read_file(file), nullptr, false);
+  ordered_json noted = parse_settings(read_file(file));
   if (!noted.is_object() || !noted.contains(finished_key)) {
     throw_input(printable(file.string()), "it is damaged", "leave --resume out: the day is computed anew");
   }
@@ -199,15 +212,15 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
   std::memcpy(&sum, bytes.data() + step_mark.size(), sizeof sum);
   if (sum != check_sum(content)) return std::nullopt;
   try {
-    const json from = json::from_cbor(content);
+    const json from = read_cbor(content, deepest);
     if (from.at("settings") != settings_ || from.at("step") != step) return std::nullopt;
     StoredStep stored;
     stored.light = read_light(from.at("light"), bands_, organs_);
     stored.fields = unpack<float>(from.at("fields"), field_values_);
     stored.next_work = {from.at("next_rays").get<double>(), from.at("next_packets").get<double>()};
-    stored.rays = from.at("rays").get<std::uint64_t>();
-    stored.packets = from.at("packets").get<std::uint64_t>();
-    stored.lost_rays = from.at("lost_rays").get<std::uint64_t>();
+    stored.rays = whole<std::uint64_t>(from.at("rays"));
+    stored.packets = whole<std::uint64_t>(from.at("packets"));
+    stored.lost_rays = whole<std::uint64_t>(from.at("lost_rays"));
     stored.direct_error = error_of(from.at("direct_error"));
     stored.indirect_error = error_of(from.at("indirect_error"));
     stored.reached_bound = from.at("reached_bound").get<bool>();

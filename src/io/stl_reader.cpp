@@ -18,6 +18,10 @@ static_assert(std::endian::native == std::endian::little, "binary STL is read as
 constexpr std::size_t header_bytes = 84;  // 80 of comment, then the number of triangles
 constexpr std::size_t facet_bytes = 50;   // normal, three corners, 2 bytes of attributes
 
+std::uint32_t swapped(std::uint32_t word) {
+  return word >> 24U | (word >> 8U & 0xFF00U) | (word << 8U & 0xFF0000U) | word << 24U;
+}
+
 std::uint32_t declared_facets(std::string_view bytes) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + header_bytes - sizeof count, sizeof count);
@@ -26,8 +30,12 @@ std::uint32_t declared_facets(std::string_view bytes) {
 
 // Binary files may begin with `solid` too, so the size decides. A text cannot match it: its bytes 80..83 read as a number
 // would ask for more than 6 GB.
+bool has_facets(std::string_view bytes, std::uint32_t count) {
+  return bytes.size() == header_bytes + facet_bytes * std::size_t{count};
+}
+
 bool is_binary_stl(std::string_view bytes) {
-  return bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * std::size_t{declared_facets(bytes)};
+  return bytes.size() >= header_bytes && has_facets(bytes, declared_facets(bytes));
 }
 
 std::string lower_case(std::string_view word) {
@@ -131,6 +139,9 @@ Mesh read_stl(const MeshSource& source) {
     refuse(source, 0, fmt::format("only {} bytes", size), "a binary STL file has at least 84, a text one begins with solid",
            "write the file again");
   const std::uint32_t count = declared_facets(source.bytes);
+  if (has_facets(source.bytes, swapped(count)))
+    refuse(source, 0, fmt::format("its number of triangles is {}, most significant byte first", swapped(count)),
+           "an STL file has the least significant byte first", "write it again with the bytes of each number turned round");
   refuse(source, 0, fmt::format("{} bytes", size),
          fmt::format("a binary STL file of {} triangles has {}", count, header_bytes + facet_bytes * std::size_t{count}),
          "write the file again");

@@ -17,6 +17,9 @@ void append_number(std::string& row, double value);
 // Value and half-width.
 void append_estimate(std::string& row, const Estimate& estimate);
 
+// A share as it is told to users: its estimate, which has no bias, may exceed 1 by chance, the share itself cannot.
+[[nodiscard]] Estimate as_share(Estimate estimate);
+
 // Quoted as RFC 4180 has it if the text holds a comma, a quote or a line break.
 [[nodiscard]] std::string csv_field(std::string_view text);
 

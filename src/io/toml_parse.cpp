@@ -1,12 +1,16 @@
 // From text to a TomlTable: what toml++ leaves unchecked, and its errors as one line.
 
 #include "base/error.h"
+#include "io/file.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_reader.h"
 #include "io/toml_view.h"
 
 #include <fmt/format.h>
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <regex>
 
 namespace sunfleck {
 
@@ -20,15 +24,28 @@ std::size_t count_lines(std::string_view text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+[[noreturn]] void refuse_at(const std::string& file, std::string_view text, std::size_t at, std::string_view what,
+                            std::string_view why, std::string_view cure) {
+  throw_input(fmt::format("{}:{}: {}", file, 1 + count_lines(text.substr(0, at)), what), why, cure);
+}
+
+bool is_ascii(char c) {
+  return static_cast<unsigned char>(c) < 0x80U;
+}
+
 // The place after the string that starts at `begin`; an unterminated one ends at its line or at the text's end, and the
 // parser refuses it later.
-std::size_t end_of_string(std::string_view text, std::size_t begin) {
+std::size_t end_of_string(const std::string& file, std::string_view text, std::size_t begin) {
   const char quote = text[begin];
   const std::string fence(3, quote);
   const bool multi_line = text.substr(begin, 3) == fence;
   std::size_t at = begin + (multi_line ? 3 : 1);
   while (at < text.size()) {
     if (text[at] == '\\' && quote == '"') {
+      const std::size_t next = text.find_first_not_of(" \t\r\n", at + 1);
+      if (next != text.npos && !is_ascii(text[next]))
+        refuse_at(file, text, at, "a backslash before a letter beyond ASCII", "it is no escape",
+                  "move the letter or write \\uXXXX");
       at += 2;
     } else if (multi_line && text.substr(at, 3) == fence) {
       at += 3;
@@ -44,23 +61,28 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-void refuse_deep_keys(const std::string& file, std::string_view text) {
+// Outside strings and comments TOML is ASCII. toml++ 3.3 asks of any other letter there, and behind a line-ending backslash,
+// whether it is a blank, in a function whose behaviour is undefined for most letters; so they are refused before.
+void check_syntax(const std::string& file, std::string_view text) {
   int dots = 0;
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (c == '"' || c == '\'') {
-      at = end_of_string(text, at);
+      if (at > 0 && std::string_view(" \t\r\n=[{,.").find(text[at - 1]) == std::string_view::npos)
+        refuse_at(file, text, at, "a quote inside a word", "texts begin with it", "put a blank or a comma before it");
+      at = end_of_string(file, text, at);
       continue;
     }
     if (c == '#') {
       at = std::min(text.find('\n', at), text.size());
       continue;
     }
+    if (!is_ascii(c))
+      refuse_at(file, text, at, "a letter beyond ASCII", "only texts in quotes and comments may have it", "write it in quotes");
     if (std::string_view("\n=[]{},").find(c) != std::string_view::npos) dots = 0;
-    if (c == '.' && ++dots > max_dots_in_key) {
-      throw_input(fmt::format("{}:{}: a dotted key", file, 1 + count_lines(text.substr(0, at))),
-                  fmt::format("has more than {} dots, deeper than any key of a scene", max_dots_in_key), "shorten it");
-    }
+    if (c == '.' && ++dots > max_dots_in_key)
+      refuse_at(file, text, at, "a dotted key",
+                fmt::format("has more than {} dots, deeper than any key of a scene", max_dots_in_key), "shorten it");
     ++at;
   }
 }
@@ -71,39 +93,85 @@ void refuse_non_text(const std::string& file, std::string_view text) {
   }
   const std::size_t nul = text.find('\0');
   if (nul != std::string_view::npos) {
-    throw_input(fmt::format("{}:{}: a NUL byte", file, 1 + count_lines(text.substr(0, nul))),
-                "a scene is UTF-8 text; this is binary or UTF-16", "give a TOML file saved as UTF-8");
+    refuse_at(file, text, nul, "a NUL byte", "a scene is UTF-8 text; this is binary or UTF-16",
+              "give a TOML file saved as UTF-8");
+  }
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (!is_utf8(text.substr(at, end - at)))
+      refuse_at(file, text, at, "a letter that is not UTF-8", "a scene is UTF-8 text", "save the file as UTF-8");
+    at = end + 1;
   }
 }
 
-// On one line and whole: a file's name is found by its end, so it is not shortened.
-std::string one_line(std::string_view text) {
-  std::string line(text);
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return line;
+// The line without comment and the content of its texts; no longer than a pattern may take.
+std::string bare_line(std::string_view text, std::size_t number) {
+  constexpr std::size_t longest = 300;
+  std::string_view line;
+  for (LineReader lines(text); lines.number() < number && lines.next();) line = lines.line();
+  std::string bare;
+  char quote = '\0';
+  for (const char c : line.substr(0, longest)) {
+    if (quote == '\0' && c == '#') break;
+    const bool closes = c == quote;
+    if (quote == '\0' || closes) bare += c;
+    if (closes)
+      quote = '\0';
+    else if (quote == '\0' && (c == '"' || c == '\''))
+      quote = c;
+  }
+  return bare;
 }
 
-std::string cure_for(std::string_view description) {
-  if (description.find("utf-8") != std::string_view::npos) return "save the file as UTF-8";
-  if (description.find("redefine") != std::string_view::npos) return "keep one of the two";
-  if (description.find("end-of-file") != std::string_view::npos) return "finish it; the file may be cut off";
+struct Cure {
+  const char* sign;
+  const char* cure;
+};
+
+constexpr const char* cure_of_backslash = "write / for each backslash, or put the text in single quotes";
+
+// Signs in the parser's description.
+constexpr Cure cures_by_description[] = {
+    {"utf-8", "save the file as UTF-8"},
+    {"redefine", "keep one of the two"},
+    {"parsing time", "write the time as hh:mm:ss, with seconds"},
+    {"end-of-file", "finish it; the file may be cut off"},
+    {"escape sequence", cure_of_backslash},
+    {"unicode scalar", cure_of_backslash},
+};
+
+// Signs in the line, as regular expressions.
+constexpr Cure cures_by_line[] = {
+    {R"(=\s*(True|TRUE|False|FALSE)\b)", "write true or false"},
+    {R"([0-9]\s*%)", "write the share without a sign, 0.1 for 10 %"},
+    {R"(=\s*[-+]?[0-9]+,[0-9])", "write the number with a point, not a comma"},
+    {R"(=\s*(?!(true|false|inf|nan)\b)([A-Za-z]|\.{0,2}[/\\]))", "put the text in quotes"},
+};
+
+std::string cure_for(std::string_view description, const std::string& line) {
+  for (const auto& [sign, cure] : cures_by_description)
+    if (description.find(sign) != std::string_view::npos) return cure;
+  for (const auto& [sign, cure] : cures_by_line)
+    if (std::regex_search(line, std::regex(sign))) return cure;
   return "correct the TOML syntax there";
 }
 
 }  // namespace
 
 TomlTable TomlTable::parse(const std::string& file, std::string_view text) {
-  const auto name = std::make_shared<const std::string>(one_line(file));
+  const auto name = std::make_shared<const std::string>(printable(file));
+  if (is_mesh_file(file)) {
+    throw_input(fmt::format("{}: not a scene", *name), "this is a mesh", "name it under [[geometry]] of a scene file");
+  }
   refuse_non_text(*name, text);
-  refuse_deep_keys(*name, text);
+  check_syntax(*name, without_mark(text));
   try {
     auto tree = std::make_shared<const toml::table>(toml::parse(text));
     return TomlTable(name, std::move(tree), "", 1);
   } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    throw_input(fmt::format("{}:{}: not valid TOML", *name, std::max<unsigned>(line, 1)), one_line(error.description()),
-                cure_for(error.description()));
+    const unsigned line = std::max<unsigned>(error.source().begin.line, 1);
+    throw_input(fmt::format("{}:{}: not valid TOML", *name, line), printable(error.description()),
+                cure_for(error.description(), bare_line(text, line)));
   }
 }
 

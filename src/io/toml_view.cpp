@@ -7,6 +7,7 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -14,6 +15,9 @@
 namespace sunfleck {
 
 namespace {
+
+constexpr std::size_t longest_text = 4096;  // the longest path of Linux
+constexpr std::size_t longest_shown = 200;  // of what a message repeats
 
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
@@ -41,7 +45,7 @@ std::string kind_of(const toml::node& node) {
 }
 
 std::string value_of(const toml::node& node) {
-  if (const auto* text = node.as_string()) return "\"" + printable(text->get()) + "\"";
+  if (const auto* text = node.as_string()) return "\"" + printable(shortened(text->get(), longest_shown)) + "\"";
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
   if (const auto* real = node.as_floating_point()) return fmt::format("{}", real->get());
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
@@ -76,7 +80,12 @@ bool allows(const NumberRange& range, double value) {
   return (range.lo_open ? value > range.lo : value >= range.lo) && (range.hi_open ? value < range.hi : value <= range.hi);
 }
 
-// Optimal string alignment distance: insert, delete, replace or swap two neighbours (Damerau 1964), row by row.
+bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+// Optimal string alignment distance: insert, delete, replace or swap two neighbours (Damerau 1964), row by row. Upper and
+// lower case count as the same.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -85,9 +94,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     last = row;
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = a[i - 1] == b[j - 1];
+      const bool same = same_letter(a[i - 1], b[j - 1]);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      const bool swapped = i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]);
       if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
@@ -109,7 +118,7 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
     const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer - std::min(word.size(), candidate.size()) > 2) continue;
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance && distance < longer) {
+    if (distance < best_distance && 2 * distance <= longer) {
       best_distance = distance;
       best = candidate;
     }
@@ -127,7 +136,8 @@ const toml::node* TomlTable::find(std::string_view key) const {
 }
 
 std::string TomlTable::dotted(std::string_view key) const {
-  return name_.empty() ? printable(key) : name_ + "." + printable(key);
+  const std::string shown = printable(shortened(key, longest_shown));
+  return name_.empty() ? shown : name_ + "." + shown;
 }
 
 std::string TomlTable::place(std::string_view key) const {
@@ -234,6 +244,7 @@ std::optional<std::string> TomlTable::text(std::string_view key) const {
   const bool control = std::any_of(value.begin(), value.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; });
   if (control) refuse(key, "must be one line without control characters", "take them out");
   if (value.empty()) refuse(key, "must not be empty", "give a text or remove the key");
+  if (value.size() > longest_text) refuse(key, fmt::format("must have at most {} bytes", longest_text), "shorten it");
   return value;
 }
 

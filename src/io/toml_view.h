@@ -32,7 +32,8 @@ struct OffsetTime {
   int offset_minutes = 0;
 };
 
-// The candidate nearest to `word`: at most two edits away, fewer than it has letters. None if there is no such.
+// The candidate nearest to `word`: at most two edits away, upper or lower case aside, and no more than half of the
+// letters. None if there is no such.
 [[nodiscard]] std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 // "did you mean X?" if there is a nearest word, else `otherwise`.
@@ -58,7 +59,7 @@ class TomlTable {
   [[nodiscard]] std::optional<double> number(std::string_view key, const NumberRange& range) const;
   [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, std::int64_t lo, std::int64_t hi) const;
   [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
-  [[nodiscard]] std::optional<std::string> text(std::string_view key) const;  // one line, not empty
+  [[nodiscard]] std::optional<std::string> text(std::string_view key) const;  // one line, not empty, at most 4096 bytes
   // The place of the text found among `words`.
   [[nodiscard]] std::optional<std::size_t> word(std::string_view key, const std::vector<std::string>& words) const;
   // A list of exactly `count` numbers.

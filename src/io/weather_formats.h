@@ -21,7 +21,7 @@ struct WeatherSource {
 [[noreturn]] void refuse(const WeatherSource& source, std::size_t line, std::string_view what, std::string_view why,
                          std::string_view cure);
 
-// A line cut at its commas, blanks about each cell taken off. The views are into `line`.
+// A line cut at its commas, blanks and double quotes about each cell taken off. The views are into `line`.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells);
 
 }  // namespace sunfleck

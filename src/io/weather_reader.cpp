@@ -41,8 +41,8 @@ WeatherFile read_weather(const fs::path& file) {
            "cut out the days of interest");
   }
   const std::string bytes = read_file(file);
-  source.bytes = bytes;
-  if (bytes.empty()) refuse(source, 0, "the file is empty", "weather needs at least one row", "write it again");
+  source.bytes = without_mark(bytes);
+  if (source.bytes.empty()) refuse(source, 0, "the file is empty", "weather needs at least one row", "write it again");
   if (bytes.find('\0') != std::string::npos) {
     refuse(source, 0, "has a zero byte", "weather files are plain text", "save it as text, UTF-8");
   }
@@ -58,7 +58,7 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
   while (true) {
     const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
+    cells.push_back(unquoted(line.substr(0, comma)));
     if (comma == line.npos) return;
     line.remove_prefix(comma + 1);
   }

@@ -1,0 +1,241 @@
+#include "app/option_groups.h"
+
+#include "app/option_checks.h"
+#include "io/exports.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
+
+std::string list_of(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// What only a simulation needs.
+void add_simulation(CLI::App& command, RunOptions& options, OptionWords& words) {
+  CLI::Option_group& group = *command.add_option_group("Simulation");
+  group.add_option("--error", words.both_errors, "Relative error bound of both passes")->check(relative_error());
+  group.add_option("--direct-error", options.direct_error, "Relative error bound of the direct pass")->check(relative_error());
+  group.add_option("--indirect-error", options.indirect_error, "Relative error bound of the indirect pass")
+      ->check(relative_error());
+  group.add_option("--grid", options.grid_m, "Fixed work: spacing of all rays of the run together, m")->check(positive());
+  group.add_option("--passes", options.passes, "Fixed work: exactly so many replicates")->transform(whole_number(8, 65536));
+  group.add_option("--max-seconds", options.max_seconds, "Stop after so many seconds; results are kept")->check(positive());
+  group.add_option("--max-rays", options.max_rays, "Stop before more rays than these; results are kept")
+      ->transform(whole_number(1, std::uint64_t{1} << 62U));
+  group.add_option("--seed", options.seed, "Seed of the random numbers")
+      ->transform(whole_number(0, most_seed))
+      ->capture_default_str();
+  group.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
+}
+
+template <class Options>
+void add_device(CLI::App& command, Options& options) {
+  command.add_option("--device", options.device, "auto, gpu, lavapipe, cpu, a number or a part of a name")
+      ->transform(device_kind())
+      ->check(not_empty())
+      ->capture_default_str();
+  command.add_option("--threads", options.threads, "Threads of the CPU path and of software Vulkan (0: all cores)")
+      ->transform(whole_number(0, 4096))
+      ->capture_default_str();
+  command.add_flag("--quiet", options.quiet, "Say nothing but warnings and errors");
+}
+
+void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words) {
+  constexpr std::uint64_t most_repeat = 9;
+  CLI::Option_group& group = *command.add_option_group("Pictures");
+  group.add_option("--field", words.field, "Light that is shown: " + list_of(field_names()))
+      ->check(one_of(field_names()))
+      ->capture_default_str();
+  group.add_option("--band", options.band, "Band of the pictures (default: the scene's first)")->check(not_empty());
+  group
+      .add_option("--chart", words.chart,
+                  "Classes of equal count, of equal width, hue mapping or a continuous map: " + list_of(chart_names()))
+      ->check(one_of(chart_names()))
+      ->capture_default_str();
+  group.add_option("--view", words.view, "The scene's camera, from above, from the south, upwards: " + list_of(view_names()))
+      ->check(one_of(view_names()))
+      ->capture_default_str();
+  group.add_option("--size", words.size, "Size of the pictures in pixels, WxH")->capture_default_str();
+  group.add_option("--samples", options.samples, "Samples a pixel")->transform(whole_number(1, 256))->capture_default_str();
+  group.add_option("--repeat", options.repeat, "Show a periodic plot amidst its neighbours: so many along each side, odd")
+      ->transform(whole_number(1, most_repeat))
+      ->capture_default_str();
+}
+
+std::vector<std::string> image_words() {
+  std::vector<std::string> words;
+  for (const Picture& picture : all_pictures()) words.push_back(stem_of(picture));
+  words.insert(words.end(), {"profile", "planes", "all", "none"});
+  return words;
+}
+
+std::vector<std::string> export_words() {
+  std::vector<std::string> words;
+  for (const ExportKind kind : export_kinds) words.emplace_back(export_name(kind));
+  return words;
+}
+
+}  // namespace
+
+void add_version(CLI::App& command) {
+  command.set_version_flag("--version", "sunfleck " + version());
+}
+
+void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
+  CLI::App& run = *app.add_subcommand("run", "Simulate a scene: result tables and pictures");
+  add_version(run);
+  run.add_option("scene", options.scene, "Scene file (TOML)")->required()->check(not_empty());
+  run.add_option("-o,--output", options.output, "Result folder (default: results/<scene>)")->check(not_empty());
+  run.add_option("--export", options.exports,
+                 "Values of every triangle for other programs, separated by commas: " + list_of(export_words()))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of(export_words()));
+  run.add_option("--measured", options.measured, "Field data (CSV: height_m, sunfleck_ratio), drawn in profile.png")
+      ->check(not_empty());
+  run.add_option("--compare", options.compare, "Folder of an earlier result, drawn beside this one in profile.png")
+      ->allow_extra_args(false)
+      ->check(not_empty());
+  run.add_option("--images", options.images,
+                 "Pictures, separated by commas: CHART_FIELD, ...; profile, planes; all (these two, and rank and hue of "
+                 "direct, indirect and total) or none")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of(image_words()))
+      ->capture_default_str();
+  run.add_flag("--json", options.json, "Print the summary on standard output, nothing else");
+  add_device(run, options);
+  add_simulation(run, options, words);
+  add_pictures(run, options.pictures, words);
+}
+
+void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
+  CLI::App& day = *app.add_subcommand("day", "The course of a day or several (--max-seconds: of all, --max-rays: of a step)");
+  add_version(day);
+  day.add_option("scene", options.run.scene, "Scene file (TOML) with a place and weather")->required()->check(not_empty());
+  day.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>)")->check(not_empty());
+  day.add_option("--from", options.from, "First step's start, local time HH:MM (default: sunrise)")->check(not_empty());
+  day.add_option("--to", options.to, "Last step's end (default: sunset); a shorter last step ends there too")
+      ->check(not_empty());
+  day.add_option("--step", options.step_min, "Minutes; a step has the light of its middle (default: 60)")
+      ->transform(whole_number(1, 1440));
+  day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
+  day.add_option("--to-date", options.to_date, "Last of several dates, each with the same hours")->check(not_empty());
+  day.add_flag("--resume", options.resume, "Go on with a day that was stopped; its finished steps are kept");
+  day.add_option("--export", options.run.exports, "nc: day.nc, which is written always")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of({"nc"}));
+  day.add_option("--images", options.run.images, "day (the course of the day), none or all (default)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of({"day", "all", "none"}));
+  day.add_option("--band", options.run.pictures.band, "Band of the picture (default: the scene's first)")->check(not_empty());
+  day.add_flag("--json", options.run.json, "Print the summary on standard output, nothing else");
+  add_device(day, options.run);
+  add_simulation(day, options.run, words);
+}
+
+void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
+  CLI::App& render = *app.add_subcommand("render", "Draw one picture of a scene, or of a finished run's folder");
+  add_version(render);
+  render.add_option("scene", options.run.scene, "Scene file (TOML), or the folder of a finished run")
+      ->required()
+      ->check(not_empty());
+  render.add_option("-o,--output", options.file, "Picture, .png, or .exr for the values themselves")->check(not_empty());
+  add_device(render, options.run);
+  add_simulation(render, options.run, words);
+  add_pictures(render, options.run.pictures, words);
+}
+
+void add_validate(CLI::App& app, ValidateOptions& options) {
+  CLI::App& validate = *app.add_subcommand("validate", "Run the cases with known answers on this device");
+  add_version(validate);
+  validate.add_option("-o,--output", options.output, "Result folder (default: results/validate)")->check(not_empty());
+  validate.add_option("--cases", options.cases, "Only cases with one of these words in their names, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(not_empty());
+  validate.add_flag("--json", options.json, "Print the table as JSON on standard output, nothing else");
+  add_device(validate, options);
+}
+
+void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
+  constexpr std::uint64_t most_seeds = 1000;
+  CLI::App& tradeoff = *app.add_subcommand("tradeoff", "Measure a scene's speed against its accuracy: a table and a plot");
+  add_version(tradeoff);
+  tradeoff.add_option("scene", options.run.scene, "Scene file (TOML)")->required()->check(not_empty());
+  tradeoff.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>_tradeoff)")
+      ->check(not_empty());
+  tradeoff.add_option("--for", options.asked_error, "The relative error that a setting is recommended for")
+      ->check(relative_error())
+      ->capture_default_str();
+  tradeoff.add_option("--of", options.quantity, "What it is asked of: canopy, layer, organ, triangle")
+      ->check(one_of({"canopy", "layer", "organ", "triangle"}))
+      ->capture_default_str();
+  tradeoff.add_option("--seeds", options.seeds, "Runs of each setting")
+      ->transform(whole_number(4, most_seeds))
+      ->capture_default_str();
+  tradeoff.add_option("--rays", options.finest_rays, "Rays of the finest grid; packets and the reference follow")
+      ->check(CLI::Range(1e3, 1e9))
+      ->capture_default_str();
+  tradeoff.add_option("--grid", options.run.grid_m, "A spacing of your own, m: measured too, and marked in the plot")
+      ->check(positive());
+  tradeoff
+      .add_option("--meshes", options.meshes,
+                  "Coarser meshes as well: shares of the triangles that are kept, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(relative_error());
+  tradeoff.add_option("--seed", options.run.seed, "Seed of the first run")
+      ->transform(whole_number(0, most_seed))
+      ->capture_default_str();
+  tradeoff.add_option("--max-seconds", options.run.max_seconds, "Stop after so many seconds; results are kept")
+      ->check(positive());
+  tradeoff.add_flag("--allow-outside", options.run.allow_outside, "Accept mesh files outside the scene's folder");
+  tradeoff.add_flag("--json", options.run.json, "Print slopes and recommendation on standard output, nothing else");
+  add_device(tradeoff, options.run);
+}
+
+void add_maize(CLI::App& app, MaizeOptions& options) {
+  CLI::App& maize = *app.add_subcommand("maize", "Write a parametric maize stand as glTF");
+  add_version(maize);
+  maize.add_option("-o,--output", options.output, "File, .glb or .gltf")->check(not_empty())->capture_default_str();
+  maize.add_option("--rows", options.rows, "Lines of plants, along X")
+      ->transform(whole_number(1, most_plants))
+      ->capture_default_str();
+  maize.add_option("--per-row", options.per_row, "Plants in each")
+      ->transform(whole_number(1, most_plants))
+      ->capture_default_str();
+  maize.add_option("--spacing", options.spacing_m, "Along the row and between rows, m")
+      ->expected(2)
+      ->delimiter(',')
+      ->check(positive())
+      ->capture_default_str();
+  maize.add_option("--seed", options.seed, "Seed of the plants' differences")
+      ->transform(whole_number(0, most_seed))
+      ->capture_default_str();
+}
+
+void add_info(CLI::App& app, InfoOptions& options) {
+  CLI::App& info = *app.add_subcommand("info", "Show the devices, and what a scene holds");
+  add_version(info);
+  info.add_option("scene", options.scene, "Scene file (TOML)")->check(not_empty());
+  info.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
+  info.add_flag("--json", options.json, "Print JSON");
+}
+
+}  // namespace sunfleck

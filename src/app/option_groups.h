@@ -1,0 +1,32 @@
+#pragma once
+// The commands and their options as CLI11 is told of them; each fills the plain values of app/options.h.
+
+#include "app/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace sunfleck {
+
+constexpr std::uint64_t most_plants = 10000;  // as in a scene file
+
+// What the command line has in words.
+struct OptionWords {
+  std::optional<double> both_errors;
+  std::string size = "1600x1200";
+  std::string chart = "rank", field = "total", view = "camera";
+};
+
+void add_version(CLI::App& command);
+
+void add_run(CLI::App& app, RunOptions& options, OptionWords& words);
+void add_day(CLI::App& app, DayOptions& options, OptionWords& words);
+void add_render(CLI::App& app, RenderOptions& options, OptionWords& words);
+void add_validate(CLI::App& app, ValidateOptions& options);
+void add_tradeoff(CLI::App& app, TradeoffOptions& options);
+void add_maize(CLI::App& app, MaizeOptions& options);
+void add_info(CLI::App& app, InfoOptions& options);
+
+}  // namespace sunfleck

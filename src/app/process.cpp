@@ -1,0 +1,72 @@
+#include "app/process.h"
+
+#include "base/error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace sunfleck {
+namespace {
+
+// Without a buffer or an exception of its own: memory and standard error may both be gone.
+int fail_with(const char* message, const char* after = "") {
+  std::fputs("sunfleck: ", stderr);
+  std::fputs(message, stderr);
+  std::fputs(after, stderr);
+  std::fputc('\n', stderr);
+  return static_cast<int>(ErrorKind::failure);
+}
+
+int output_lost(int code) {
+  return fail_with(three_part_message("standard output: cannot be written", std::strerror(code),
+                                      "the result files are as far as they were; print to another place")
+                       .c_str());
+}
+
+}  // namespace
+
+void prepare_process() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
+    // The wrong way round, so that use is an error, as it is with a closed stream.
+    if (::fcntl(number, F_GETFD) < 0) static_cast<void>(::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
+}
+
+int finish_output(int status) {
+  errno = 0;
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (!failed || errno == EPIPE) return status;
+  return output_lost(errno != 0 ? errno : EIO);
+}
+
+int report_exception() {
+  try {
+    throw;
+  } catch (const Error& error) {
+    static_cast<void>(fail_with(error.what()));
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    return fail_with("out of memory (the system gives no more); make the scene or the pictures smaller, or free some memory");
+  } catch (const std::length_error&) {
+    return fail_with("out of memory (more is needed than a process can have); make the scene or the pictures smaller");
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return error.code().value() == EPIPE ? 0 : output_lost(error.code().value());
+    return fail_with(error.what(), " (the system refused it); free memory or threads, or give fewer --threads");
+  } catch (const std::exception& error) {
+    return fail_with(error.what(), "; this is a mistake of the program, please report it");
+  }
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,134 @@
+#include "app/tradeoff.h"
+
+#include "app/interrupt.h"
+#include "app/simulation.h"
+#include "app/tradeoff_fit.h"
+#include "app/tradeoff_measure.h"
+#include "app/tradeoff_plan.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "io/file.h"
+#include "io/folder_lock.h"
+#include "io/gnuplot.h"
+#include "io/tradeoff_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* table_file = "tradeoff.csv";
+constexpr const char* plot_file = "tradeoff.png";
+
+Scene read_lit_scene(const RunOptions& options) {
+  Scene scene = read_scene(options.scene, {options.allow_outside});
+  for (const std::string& warning : scene.warnings) warn(warning);
+  RadiationModel& model = scene.model;
+  const bool lamps = std::any_of(model.optics.begin(), model.optics.end(), [](const SurfaceOptics& optics) {
+    return std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w_m2) { return w_m2 > 0.0; });
+  });
+  if (!model.has_beam() && !model.has_sky() && !lamps) {
+    throw_input(printable(options.scene.string()), "no light comes in: every run is exact",
+                "give a scene with a sun above the horizon, a sky or a lamp");
+  }
+  model.planes.clear();
+  model.sensors.clear();
+  return scene;
+}
+
+// Tried before rays are traced, and rid of what an earlier measurement left.
+void prepare(const fs::path& folder, FolderLock& lock, const TradeoffReport& report) {
+  lock.make_folder();
+  check_writable(folder / plot_file);
+  write_file(folder / table_file, tradeoff_csv(report));
+  std::error_code error;
+  fs::remove(folder / plot_file, error);
+}
+
+std::string slopes_line(const TradeoffReport& report, Ladder ladder, std::string_view light) {
+  std::string line;
+  for (const TradeoffFit& fit : report.fits) {
+    if (fit.ladder != ladder) continue;
+    line += fmt::format("{} {} {:.2f}", line.empty() ? "" : ",", quantity_name(fit.quantity), fit.of_rays.exponent);
+  }
+  return line.empty() ? line : fmt::format("  error of {} light falls as rays to the power of{}\n", light, line);
+}
+
+void print_report(const TradeoffReport& report, const fs::path& folder) {
+  std::string text = report.record.title + '\n' + "  " + device_line(report.record.device) + '\n';
+  text += slopes_line(report, Ladder::grids, "direct");
+  text += slopes_line(report, Ladder::packets, "indirect");
+  if (report.recommendation) text += "  " + recommendation_line(*report.recommendation) + '\n';
+  fmt::print("{}{}\n", text, folder.string());
+}
+
+void say_what_lacks(const TradeoffOptions& options, const TradeoffReport& report) {
+  if (!report.record.complete) {
+    const std::string why =
+        interrupted() ? "interrupted" : fmt::format("stopped after --max-seconds {}", *options.run.max_seconds);
+    warn(fmt::format("{} after {} settings; they are kept, marked incomplete", why, report.rungs.size()));
+  }
+  if (!report.recommendation && report.record.complete)
+    warn(fmt::format("no bound is recommended: against this reference no error per {} can be told; give more --rays",
+                     options.quantity));
+}
+
+}  // namespace
+
+int tradeoff(const TradeoffOptions& options) {
+  start_log(options.run.quiet || options.run.json ? Verbosity::quiet : Verbosity::normal);
+  exit_on_interrupts();
+  Stopwatch total;
+  const fs::path folder =
+      options.run.output.empty() ? fs::path("results") / (options.run.scene.stem().string() + "_tradeoff") : options.run.output;
+  FolderLock lock(folder);
+
+  const Scene scene = read_lit_scene(options.run);
+  RunOptions run = options.run;
+  run.passes = tradeoff_replicates;
+  check_grid(run, scene);
+  run.passes.reset();
+  run.grid_m.reset();
+  run.max_seconds.reset();
+  SolveSettings settings = solve_settings(run, scene);
+  settings.element_errors = true;
+
+  const SceneTree tree(scene.model);
+  set_software_threads(options.run.threads);
+  const CpuThreads threads(options.run.threads);
+  const RadiationModel& model = scene.model;
+  Engine engine(options.run.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
+  TradeoffReport report;
+  report.record = make_record(run, scene, settings, engine);
+  report.record.complete = false;
+  report.record.max_seconds = options.run.max_seconds;
+  report.seeds = options.seeds;
+  report.marked_grid_m = options.run.grid_m;
+  watch_for_interrupts();
+  prepare(folder, lock, report);
+  say(device_line(report.record.device));
+
+  report.record.complete = measure_tradeoff(options, settings, {model, tree.layout, engine}, folder / table_file, report);
+  check_validation(engine);
+  report.fits = fit_ladders(report.rungs);
+  report.recommendation = recommend(report.rungs, options.asked_error, asked_quantity(options));
+  report.total_seconds = total.lap();
+  write_file(folder / table_file, tradeoff_csv(report));
+  if (!report.rungs.empty()) {
+    if (const auto problem = draw_plot(tradeoff_plot(report), folder / plot_file)) warn(*problem);
+  }
+  say_what_lacks(options, report);
+  if (options.run.json) {
+    fmt::print("{}", tradeoff_json(report));
+  } else if (!options.run.quiet) {
+    print_report(report, folder);
+  }
+  if (report.record.complete) return exit_done;
+  return interrupted() ? exit_interrupted : exit_short_of_bound;
+}
+
+}  // namespace sunfleck

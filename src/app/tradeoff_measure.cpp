@@ -1,0 +1,257 @@
+#include "app/tradeoff_measure.h"
+
+#include "app/coarse_mesh.h"
+#include "app/interrupt.h"
+#include "app/simulation.h"
+#include "app/tradeoff_error.h"
+#include "app/tradeoff_fit.h"
+#include "app/tradeoff_plan.h"
+#include "base/log.h"
+#include "io/file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// The bounds measured: from here on halved, at least so many, until one meets the asked error, but no more whose runs would
+// have more than this share of the reference's rays or packets. Half the bound takes four times the packets (they fall with the
+// root of their number) and, as their errors fall faster, fewer than four times the rays.
+constexpr double widest_bound = 0.02;
+constexpr std::size_t least_bounds = 3, most_bounds = 10;
+constexpr double growth_per_bound = 4.0;
+constexpr double most_of_reference = 1.0;
+// Seeds of the reference's parts, apart from those of the runs.
+constexpr std::uint64_t reference_seed = std::uint64_t{1} << 40U;
+
+enum class Light { direct, indirect, absorbed };
+
+class Measurement {
+ public:
+  Measurement(const TradeoffOptions& options, const SolveSettings& settings, const Bench& bench, TradeoffReport& report,
+              const std::filesystem::path& table)
+      : options_(options),
+        settings_(settings),
+        bench_(bench),
+        direct_model_(direct_light_model(bench.model)),
+        plan_(plan_tradeoff(bench.model, options.finest_rays, options.run.grid_m)),
+        report_(report),
+        table_(table) {
+    const double per_run = reference_rays() + reference_packets();
+    foreseen_ = per_run + reference_rays() + options.seeds * 0.3 * per_run;
+    for (const double grid_m : plan_.grids_m) foreseen_ += options.seeds * bench.model.plot.area_m2() / (grid_m * grid_m);
+    for (const double packets : plan_.packets) foreseen_ += options.seeds * 2.0 * tradeoff_replicates * packets;
+  }
+
+  // False if it was stopped before all was measured.
+  bool run() {
+    if (!measure_references()) return false;
+    for (std::size_t k = 0; k < plan_.grids_m.size(); ++k) {
+      const SolveSettings settings = grid_settings(settings_, plan_.grids_m[k]);
+      const int seeds = options_.seeds * seeds_factor(plan_.grids_m.size() - 1 - k);
+      if (!measure({Ladder::grids, plan_.grids_m[k], {}}, direct_bench(), settings, seeds)) return false;
+    }
+    for (std::size_t k = 0; k < plan_.packets.size(); ++k) {
+      const SolveSettings settings = packet_settings(settings_, bench_.model, plan_.packets[k]);
+      const int seeds = options_.seeds * seeds_factor(plan_.packets.size() - 1 - k);
+      if (!measure({Ladder::packets, plan_.packets[k], {}}, bench_, settings, seeds)) return false;
+    }
+    if (!measure_bounds()) return false;
+    return std::all_of(options_.meshes.begin(), options_.meshes.end(), [this](double share) { return measure_mesh(share); });
+  }
+
+ private:
+  [[nodiscard]] Bench direct_bench() const { return {direct_model_, bench_.layout, bench_.engine}; }
+  [[nodiscard]] double reference_rays() const {
+    return reference_parts * bench_.model.plot.area_m2() / (plan_.reference_grid_m * plan_.reference_grid_m);
+  }
+  [[nodiscard]] double reference_packets() const { return reference_parts * tradeoff_replicates * plan_.reference_packets; }
+
+  [[nodiscard]] bool stop() const {
+    return interrupted() || (options_.run.max_seconds && seconds() >= *options_.run.max_seconds);
+  }
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  struct Simulated {
+    RadiationResult result;
+    double seconds = 0.0;
+    [[nodiscard]] std::uint64_t rays() const { return result.direct.rays + result.indirect.sky_rays + result.indirect.packets; }
+  };
+
+  // None if it was stopped.
+  std::optional<Simulated> simulate(const Bench& bench, SolveSettings settings, std::uint64_t seed) {
+    if (stop()) return {};
+    settings.seed = seed;
+    Monitor monitor;
+    monitor.interrupted = [this] { return stop(); };
+    monitor.report = [this](const Progress& state) {
+      const double rays = static_cast<double>(rays_ + state.rays);
+      progress_.update({rays_ + state.rays, std::min(0.99, rays / foreseen_), {}, {}});
+    };
+    Stopwatch watch;
+    Simulated run{solve(bench.model, bench.layout, bench.engine.tracer(), settings, monitor)};
+    run.seconds = watch.lap();
+    if (run.result.stop == StopReason::interrupted) return {};
+    rays_ += run.rays();
+    return run;
+  }
+
+  [[nodiscard]] TradeoffReference& reference(Light light) { return references_[static_cast<std::size_t>(light)]; }
+
+  static Light light_of(Ladder ladder) {
+    return ladder == Ladder::grids ? Light::direct : ladder == Ladder::packets ? Light::indirect : Light::absorbed;
+  }
+
+  static RunValues values_of(Light light, const RadiationModel& model, const RadiationResult& result) {
+    return light == Light::indirect ? indirect_values(model, result) : absorbed_values(model, result);
+  }
+
+  bool measure_references() {
+    say(fmt::format("reference: {:.3g} rays{}", reference_rays(),
+                    plan_.packets.empty() ? std::string() : fmt::format(", {:.3g} packets", reference_packets())));
+    std::vector<double> incident;
+    for (std::uint64_t part = 0; part < reference_parts; ++part) {
+      const std::optional<Simulated> full =
+          simulate(bench_, reference_settings(settings_, plan_), options_.run.seed + reference_seed + part);
+      if (!full) return false;
+      incident = incident_w_m2(full->result);
+      reference(Light::absorbed).add(absorbed_values(bench_.model, full->result));
+      count_reference(Ladder::bounds, full->rays());
+      if (!plan_.packets.empty()) {
+        reference(Light::indirect).add(indirect_values(bench_.model, full->result));
+        count_reference(Ladder::packets, full->rays());
+      }
+      if (plan_.grids_m.empty()) continue;
+      const std::optional<Simulated> direct =
+          simulate(direct_bench(), grid_settings(settings_, plan_.reference_grid_m), options_.run.seed + reference_seed + part);
+      if (!direct) return false;
+      reference(Light::direct).add(absorbed_values(direct_model_, direct->result));
+      count_reference(Ladder::grids, direct->rays());
+    }
+    if (!plan_.grids_m.empty()) judge(Ladder::grids, direct_model_, {1.0});
+    if (!plan_.packets.empty()) judge(Ladder::packets, bench_.model, incident);
+    judge(Ladder::bounds, bench_.model, incident);
+    return true;
+  }
+
+  void count_reference(Ladder ladder, std::uint64_t rays) { report_.reference_rays[static_cast<std::size_t>(ladder)] += rays; }
+
+  void judge(Ladder ladder, const RadiationModel& model, const std::vector<double>& incident) {
+    TradeoffReference& truth = reference(light_of(ladder));
+    truth.judge_by(make_norms(model, truth.values(), incident));
+    for (const Quantity quantity : quantities) {
+      report_.reference_error[static_cast<std::size_t>(ladder)][static_cast<std::size_t>(quantity)] = truth.own_error(quantity);
+    }
+  }
+
+  // All seeds of a setting; what they tell is in the report, and on the disk. False if it was stopped meanwhile.
+  bool measure(TradeoffRung rung, const Bench& bench, const SolveSettings& settings, int seeds) {
+    const Light light = light_of(rung.ladder);
+    const TradeoffReference& truth = reference(light);
+    bool whole = true;
+    for (int i = 0; i < seeds && whole; ++i) {
+      const std::uint64_t seed = options_.run.seed + static_cast<std::uint64_t>(i);
+      const std::optional<Simulated> run = simulate(bench, settings, seed);
+      whole = run.has_value();
+      if (!run) break;
+      const RunValues values = values_of(light, bench.model, run->result);
+      TradeoffRun found{seed, run->seconds, run->rays(), {}};
+      for (const Quantity quantity : quantities) {
+        const std::size_t q = static_cast<std::size_t>(quantity);
+        found.errors[q] = quantity == Quantity::triangle && rung.ladder == Ladder::meshes
+                              ? QuantityError{none, none, none, none}
+                              : truth.error(quantity, values[q], settings_.accuracy.confidence, run->result.direct.replicates);
+      }
+      rung.runs.push_back(found);
+      last_direct_ = run->result.direct.rays;
+      last_indirect_ = run->result.indirect.sky_rays + run->result.indirect.packets;
+    }
+    if (rung.runs.empty()) return false;
+    keep(std::move(rung), truth);
+    return whole;
+  }
+
+  void keep(TradeoffRung rung, const TradeoffReference& truth) {
+    std::string line =
+        fmt::format("{}: {:.3g} rays, {:.2g} s, error", setting_name(rung), mean_rays(rung), median_seconds(rung));
+    for (const Quantity quantity : quantities) {
+      const std::size_t q = static_cast<std::size_t>(quantity);
+      std::vector<double> errors;
+      for (const TradeoffRun& run : rung.runs) errors.push_back(run.errors[q].true_error);
+      rung.error[q] = typical_error(errors, truth.own_error(quantity));
+      if (std::isfinite(rung.error[q])) line += fmt::format(", {} {:.2g}", quantity_name(quantity), rung.error[q]);
+    }
+    say(line);
+    report_.rungs.push_back(std::move(rung));
+    write_file(table_, tradeoff_csv(report_));
+  }
+
+  bool measure_bounds() {
+    double bound = widest_bound;
+    for (std::size_t k = 0; k < most_bounds; ++k, bound *= 0.5) {
+      SolveSettings settings = settings_;
+      settings.accuracy.direct = settings.accuracy.indirect = bound;
+      if (!measure({Ladder::bounds, bound, {}}, bench_, settings, options_.seeds)) return false;
+      finest_bound_ = bound;
+      const double most = most_of_reference / growth_per_bound;
+      const bool reference_too_coarse = static_cast<double>(last_direct_) > most * reference_rays() ||
+                                        static_cast<double>(last_indirect_) > most * reference_packets();
+      if (k + 1 < least_bounds) continue;
+      if (reference_too_coarse) break;
+      const auto found = recommend(report_.rungs, options_.asked_error, asked_quantity(options_));
+      if (found && !found->extrapolated) break;
+    }
+    return true;
+  }
+
+  // The finest bound on a coarser mesh: what it is off by is the mesh.
+  bool measure_mesh(double share) {
+    if (stop()) return false;
+    RadiationModel model = bench_.model;
+    model.canopy = coarsened(bench_.model.canopy, share);
+    const double kept =
+        static_cast<double>(model.canopy.size()) / static_cast<double>(std::max<std::size_t>(1, bench_.model.canopy.size()));
+    say(fmt::format("mesh {:g}: {} triangles, {:.3g} of them kept", share, model.canopy.size(), kept));
+    const SceneTree tree(model);
+    Engine engine(options_.run.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
+    SolveSettings settings = settings_;
+    settings.accuracy.direct = settings.accuracy.indirect = finest_bound_;
+    return measure({Ladder::meshes, share, {}}, {model, tree.layout, engine}, settings, options_.seeds);
+  }
+
+  const TradeoffOptions& options_;
+  const SolveSettings& settings_;
+  const Bench bench_;
+  const RadiationModel direct_model_;
+  const TradeoffPlan plan_;
+  TradeoffReport& report_;
+  const std::filesystem::path& table_;
+  std::array<TradeoffReference, 3> references_;  // [light]
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double foreseen_ = 1.0;  // rays and packets, as far as can be told
+  std::uint64_t rays_ = 0, last_direct_ = 0, last_indirect_ = 0;
+  double finest_bound_ = widest_bound;
+  ProgressLine progress_{"measuring"};
+};
+
+}  // namespace
+
+Quantity asked_quantity(const TradeoffOptions& options) {
+  return *std::find_if(quantities.begin(), quantities.end(),
+                       [&](Quantity quantity) { return options.quantity == quantity_name(quantity); });
+}
+
+bool measure_tradeoff(const TradeoffOptions& options, const SolveSettings& settings, const Bench& bench,
+                      const std::filesystem::path& table, TradeoffReport& report) {
+  return Measurement(options, settings, bench, report, table).run();
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,10 @@
+#pragma once
+// sunfleck validate.
+
+#include "app/options.h"
+
+namespace sunfleck {
+
+[[nodiscard]] int validate(const ValidateOptions& options);
+
+}  // namespace sunfleck

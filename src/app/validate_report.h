@@ -1,0 +1,32 @@
+#pragma once
+// The table of known answers: for people, as Markdown and as JSON.
+
+#include "transport/tracer.h"
+#include "validation/known_cases.h"
+
+#include <span>
+#include <string>
+
+namespace sunfleck {
+
+// How the table came about.
+struct ValidationRecord {
+  std::string version;
+  std::string commit;
+  TracerDevice device;
+  bool complete = true;  // false: stopped before all groups were done
+  double seconds = 0.0;
+};
+
+// A line of the table for people, the one above all others, and the one below: how many passed and failed.
+[[nodiscard]] std::string answer_line(const JudgedAnswer& judged);
+[[nodiscard]] std::string answer_heading();
+[[nodiscard]] std::string answer_summary(const ValidationRecord& record, std::span<const JudgedAnswer> answers);
+
+[[nodiscard]] std::size_t count_failed(std::span<const JudgedAnswer> answers);
+
+// validate.md and validate.json; of a case that ended by an error the numbers are left out, or null.
+[[nodiscard]] std::string validation_markdown(const ValidationRecord& record, std::span<const JudgedAnswer> answers);
+[[nodiscard]] std::string validation_json(const ValidationRecord& record, std::span<const JudgedAnswer> answers);
+
+}  // namespace sunfleck

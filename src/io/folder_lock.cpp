@@ -1,0 +1,44 @@
+#include "io/folder_lock.h"
+
+#include "base/error.h"
+#include "io/file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace sunfleck {
+
+FolderLock::FolderLock(std::filesystem::path folder) : folder_(std::move(folder)) {
+  take();
+}
+
+FolderLock::~FolderLock() {
+  if (number_ >= 0) ::close(number_);
+}
+
+void FolderLock::make_folder() {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw_failure(printable(folder_.string()), error.message(), "give a folder that can be written with -o");
+  take();
+}
+
+void FolderLock::take() {
+  if (number_ >= 0) return;
+  const int number = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (number < 0) return;  // not there; one that cannot be read is found out by writing
+  if (::flock(number, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+    number_ = number;
+    return;
+  }
+  ::close(number);
+  throw_failure(printable(folder_.string()), "another run is writing into this folder",
+                "wait until it ends, or give another folder with -o");
+}
+
+}  // namespace sunfleck
