@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program and its tests, and runs them: ./test.sh
-# ./test.sh --full adds clang-tidy, the tests labelled "long", and the physics tests under the sanitizers.
+# ./test.sh --full adds clang-tidy, the tests labelled "long", the physics tests under the sanitizers, the thread sanitizer, the
+# validation layer's thorough checks of the agreement tests, and the share of src's lines that tests execute.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -12,7 +13,7 @@ for argument in "$@"; do
   esac
 done
 
-scripts/install_packages.sh test
+if [ "$full" = yes ]; then scripts/install_packages.sh full; else scripts/install_packages.sh test; fi
 
 echo "== format =="
 find src shaders tests \( -name '*.h' -o -name '*.cpp' \) -not -path 'tests/data/*' -print0 |
@@ -45,3 +46,17 @@ echo "== ${built//_/ } under the address and undefined-behaviour sanitizers =="
 # shellcheck disable=SC2086 # a list of targets
 cmake --build --preset asan --target $built
 "${run_tests[@]}" --test-dir build/asan -L "$checked" -LE long
+[ "$full" = yes ] || exit 0
+
+echo "== unit and physics tests under the thread sanitizer =="
+[ -f build/tsan/build.ninja ] || cmake --preset tsan
+cmake --build --preset tsan
+# Without Vulkan: the sanitizer knows nothing of what a driver's threads do. What it is told to leave out stands in the file.
+VK_ICD_FILENAMES=/none SUNFLECK_REQUIRE_DEVICE=0 TSAN_OPTIONS="suppressions=$PWD/tests/threads/suppressions.txt" \
+  "${run_tests[@]}" --test-dir build/tsan -L '^(unit|physics)$' -LE long
+
+echo "== agreement tests with the validation layer's thorough checks =="
+SUNFLECK_THOROUGH_VALIDATION=1 "${run_tests[@]}" --test-dir build/ci -L '^agreement$'
+
+echo "== coverage =="
+scripts/coverage.sh

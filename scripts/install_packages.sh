@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs those packages of packages.txt that are missing: scripts/install_packages.sh run|test
-# "run" is what the program needs, "test" that and what its tests need. Asks nothing; does nothing where nothing is missing.
+# Installs those packages of packages.txt that are missing: scripts/install_packages.sh run|test|full
+# "run" is what the program needs, "test" that and what its tests need, "full" that and what its longest checks need. Asks nothing; does nothing where nothing is missing.
 set -euo pipefail
 list="$(dirname "${BASH_SOURCE[0]}")/packages.txt"
 
@@ -13,7 +13,8 @@ purpose="${1:-}"
 case "$purpose" in
   run) wanted=$(awk '$1 == "run" { print $2 }' "$list") ;;
   test) wanted=$(awk '$1 == "run" || $1 == "test" { print $2 }' "$list") ;;
-  *) echo "install_packages.sh: '$purpose' (must be run or test); say what the packages are for" >&2; exit 2 ;;
+  full) wanted=$(awk '$1 == "run" || $1 == "test" || $1 == "full" { print $2 }' "$list") ;;
+  *) echo "install_packages.sh: '$purpose' (must be run, test or full); say what the packages are for" >&2; exit 2 ;;
 esac
 
 command -v dpkg-query > /dev/null ||

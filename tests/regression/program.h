@@ -68,7 +68,7 @@ class ProgramTest : public ::testing::Test {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    EXPECT_TRUE(WIFEXITED(state)) << "killed by signal " << WTERMSIG(state);
+    EXPECT_TRUE(WIFEXITED(state) || may_be_killed_) << "killed by signal " << WTERMSIG(state);
     return {WIFEXITED(state) ? WEXITSTATUS(state) : -1, content(out), content(err), elapsed_s()};
   }
 
@@ -91,6 +91,8 @@ class ProgramTest : public ::testing::Test {
   }
 
   TempFolder folder_;
+  std::function<void()> before_program_;  // in the new process
+  bool may_be_killed_ = false;
 
  private:
   static constexpr double longest_run_s = 60.0;
@@ -105,6 +107,8 @@ class ProgramTest : public ::testing::Test {
     const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode);
     const bool ready = out_file >= 0 && err_file >= 0 && ::dup2(out_file, STDOUT_FILENO) >= 0 &&
                        ::dup2(err_file, STDERR_FILENO) >= 0 && ::chdir(folder_.path().c_str()) == 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);  // as in a terminal
+    if (before_program_) before_program_();
     if (ready) ::execv(SUNFLECK_PROGRAM, argv.data());
     ::_exit(126);
   }

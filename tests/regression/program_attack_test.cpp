@@ -2,6 +2,8 @@
 
 #include "regression/program.h"
 
+#include <sys/stat.h>
+
 #include <cstdint>
 
 namespace sunfleck::regression {
@@ -131,6 +133,60 @@ TEST_F(Attacks, AFileOutsideIsForThoseWhoAskForIt) {
   const Arguments quick{"--device", "cpu", "--grid", "0.05", "--images", "none"};
   expect_one_error(run(Arguments{"run", scene.string(), "-o", "out"} + quick), 2, "../good.obj");
   simulate(scene, quick + Arguments{"--allow-outside"});
+}
+
+TEST_F(Attacks, EveryFileOfASceneStaysInItsFolder) {
+  namespace fs = std::filesystem;
+  fs::create_directories(folder_ / "inner");
+  folder_.write("sky.light", "1 0 0 -1\n");
+  folder_.write("station.csv", "time,ghi\n2002-08-08T10:00+08:00,800\n2002-08-08T10:30+08:00,400\n");
+  folder_.write("good.obj", good_obj);
+  fs::create_symlink("../sky.light", folder_ / "inner/link.light");
+  fs::create_symlink("../station.csv", folder_ / "inner/link.csv");
+  fs::create_symlink("../good.obj", folder_ / "inner/link.obj");
+  fs::create_directory_symlink("..", folder_ / "inner/up");
+  const std::string noon = "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n";
+  const Arguments quick{"--device", "cpu", "--grid", "0.05", "--images", "none"};
+  const std::string lights = plot + sun + band + "diffuse = 10.0\n" + leaf + "[sky]\nmodel = \"lights\"\nfile = ";
+  const std::string station =
+      plot + noon + "[[band]]\nname = \"PAR\"\n" + leaf + "[sky]\nmodel = \"uniform\"\n[weather]\nfile = ";
+  const std::string geometry = head + "[[geometry]]\nfile = ";
+  for (const std::string& scene :
+       {lights + "\"link.light\"\n", lights + "\"../sky.light\"\n", lights + "\"up/sky.light\"\n", station + "\"link.csv\"\n",
+        station + "\"../station.csv\"\n", geometry + "\"link.obj\"\n", geometry + "\"up/good.obj\"\n",
+        geometry + "\"" + (folder_ / "good.obj").string() + "\"\n"}) {
+    SCOPED_TRACE(scene);
+    const std::filesystem::path file = folder_.write("inner/scene.toml", scene);
+    expect_one_error(run(Arguments{"run", file.string(), "-o", "out"} + quick), 2, "outside the scene's folder");
+    simulate(file, quick + Arguments{"--allow-outside"});
+  }
+}
+
+// Opening a FIFO that nobody writes to would hang.
+TEST_F(Attacks, WhatIsNoFileEndsAtOnce) {
+  for (const char* name : {"scene.toml", "field.csv"}) ASSERT_EQ(::mkfifo((folder_ / name).c_str(), 0600), 0);
+  std::filesystem::create_directories(folder_ / "folder.toml");
+  std::filesystem::create_directories(folder_ / "result");
+  ASSERT_EQ(::mkfifo((folder_ / "result/pictures.cbor").c_str(), 0600), 0);
+  folder_.write("empty.toml", "");
+  folder_.write("good.toml", plot + sun + band);
+  for (const char* name : {"scene.toml", "folder.toml", "empty.toml", "gone.toml", "/dev/null", "/dev/zero"})
+    expect_one_error(run({"run", name, "--device", "cpu", "-o", "out"}), 2, name);
+  expect_one_error(run({"render", "result", "--device", "cpu", "-o", "a.png"}), 2, "pictures.cbor");
+  expect_one_error(run({"run", "good.toml", "--device", "cpu", "-o", "out", "--measured", "field.csv"}), 2, "field.csv");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+// A name in an older encoding is no reason to refuse a scene, nor to write tables and a summary that nobody can read.
+TEST_F(Attacks, NamesThatAreNotUtf8) {
+  folder_.write("st\xe4nd.toml", head + mesh("good.obj"));
+  folder_.write("good.obj", good_obj);
+  const std::string exports = "csv,nc,vtp,glb,ply,caribu";
+  simulate(folder_ / "st\xe4nd.toml", {"--device", "cpu", "--grid", "0.05", "--size", "160x120", "--export", exports});
+  EXPECT_FALSE(summary().is_discarded());
+  EXPECT_EQ(file("profile.csv").substr(0, 8), "# st?nd\n");
+  folder_.write("n\xe4her.toml", head + "[canopy]\n");
+  expect_one_error(run({"run", (folder_ / "n\xe4her.toml").string(), "--device", "cpu"}), 2, "n?her.toml:11");
 }
 
 }  // namespace

@@ -79,6 +79,15 @@ TEST_F(DayPlanTest, DaylightIsRoundedOutwards) {
   }
 }
 
+// Of a clock 12 hours off, the sun's light lies at both ends of the date.
+TEST_F(DayPlanTest, DaylightPastMidnightTakesTheWholeDate) {
+  for (const char* offset : {"+13:00", "-11:00"}) {
+    const DayPlan plan = plan_day(hours("", "", 60), scene_at(std::string("2002-08-08T10:10:00") + offset));
+    EXPECT_EQ(plan.from_min, 0) << offset;
+    EXPECT_EQ(plan.to_min, 1440) << offset;
+  }
+}
+
 TEST_F(DayPlanTest, PolarDaysAndNights) {
   const DayPlan plan = plan_day(hours("", "", 60), scene_at("2002-06-21T10:10:00+01:00", "80"));
   EXPECT_EQ(plan.course.steps.size(), 24U);

@@ -315,6 +315,21 @@ TEST(GltfReader, RefusesPositionsThatAreNotFinite) {
   EXPECT_THROW(static_cast<void>(read_glb(gltf_document(), {}, binary)), Error);
 }
 
+TEST(GltfReader, RefusesTextInItsOwnWords) {
+  const TempFolder folder;
+  for (const auto& [text, words] :
+       {std::pair("some words\n", "not a glTF file"), std::pair("{\"a\": x}", "malformed JSON (parse")}) {
+    try {
+      static_cast<void>(read_mesh(folder.write("a.glb", text), {}));
+      ADD_FAILURE() << "was read";
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find(words), std::string::npos) << message;
+      EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
+    }
+  }
+}
+
 TEST(GltfReader, RefusesDamagedContainers) {
   const TempFolder folder;
   const std::string good = glb(gltf_document(), gltf_binary());

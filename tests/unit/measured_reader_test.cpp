@@ -50,6 +50,8 @@ TEST_F(Measured, RefusesOtherColumns) {
   EXPECT_EQ(message("0.1,0.2\n0.3,0.4\n"), "field.csv:1: columns '0.1,0.2' " + cure);
   EXPECT_EQ(message("height,ratio\n0.3,0.4\n"), "field.csv:1: columns 'height,ratio' " + cure);
   EXPECT_EQ(message("height_m,sunfleck_ratio,n\n0.3,0.4,3\n"), "field.csv:1: columns 'height_m,sunfleck_ratio,n' " + cure);
+  EXPECT_EQ(message("height;ratio\n0,3;0,4\n"), "field.csv:1: columns 'height;ratio' " + cure);
+  EXPECT_EQ(message("a,b\nx,y\n"), "field.csv:1: columns 'a,b' " + cure);
   EXPECT_EQ(message("#\nheight_m\n0.3\n"), "field.csv:2: columns 'height_m' " + cure);
   EXPECT_EQ(message("height_m;sunfleck_ratio\n0.3\n"), "field.csv:1: columns 'height_m;sunfleck_ratio' " + cure);
   EXPECT_EQ(message("height_m,height_m\n"), "field.csv:1: column 'height_m' twice (names tell columns apart); rename one");

@@ -85,6 +85,13 @@ TEST(Options, ErrorSetsTheBoundsThatNothingElseSets) {
   EXPECT_FALSE(direct.indirect_error);
 }
 
+TEST(Options, KindsOfDevicesStandInAnyCase) {
+  EXPECT_EQ(parse_run({"run", "a.toml", "--device", "CPU"}).device, "cpu");
+  EXPECT_EQ(parse_run({"run", "a.toml", "--device", "Lavapipe"}).device, "lavapipe");
+  EXPECT_EQ(parse_run({"run", "a.toml", "--device", "GPU"}).device, "gpu");
+  EXPECT_EQ(parse_run({"run", "a.toml", "--device", "GeForce"}).device, "GeForce");
+}
+
 TEST(Options, WholeNumbersAreDecimal) {
   EXPECT_EQ(parse_run({"run", "a.toml", "--seed", "010"}).seed, 10U);
   EXPECT_EQ(parse_run({"run", "a.toml", "--seed", "18446744073709551615"}).seed, std::numeric_limits<std::uint64_t>::max());
@@ -98,6 +105,14 @@ TEST(Options, ListsTakeOneWord) {
   EXPECT_EQ(parse_run({"run", "--images", "none", "a.toml"}).scene, "a.toml");
   EXPECT_EQ(parse_run({"run", "--export", "csv", "a.toml"}).scene, "a.toml");
   EXPECT_EQ(parse_run({"run", "a.toml", "--images", "rank_direct,all"}).images.size(), 2U);
+  EXPECT_EQ(parse_run({"run", "a.toml", "--export", " vtp, csv "}).exports, (std::vector<std::string>{"vtp", "csv"}));
+  EXPECT_EQ(parse_run({"run", "a.toml", "--images", "profile , planes"}).images,
+            (std::vector<std::string>{"profile", "planes"}));
+  const auto tradeoff = std::get<TradeoffOptions>(parse({"tradeoff", "a.toml", "--meshes", "0.5, 0.25"}));
+  EXPECT_EQ(tradeoff.meshes, (std::vector<double>{0.5, 0.25}));
+  EXPECT_EQ(std::get<ValidateOptions>(parse({"validate", "--cases", "sun, sky"})).cases,
+            (std::vector<std::string>{"sun", "sky"}));
+  EXPECT_NE(std::get<TextToPrint>(parse({"run", "--help"})).text.find("separated by commas"), std::string::npos);
 }
 
 TEST(Options, OfPicturesAreShared) {
@@ -189,9 +204,16 @@ TEST(Options, HelpAndVersionAreTexts) {
 TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--passes", "4"}),
             "command line: --passes 4 (must be a whole number in 8..65536); see sunfleck run --help");
+  for (const std::string text : {"2%", "0,02", "2"}) {
+    EXPECT_EQ(refusal({"run", "a.toml", "--error", text.c_str()}),
+              "command line: --error " + text +
+                  " (must be a number between 0 and 1, with a point: give 0.02 for 2 percent); see sunfleck run --help");
+  }
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}), "command line: --bogus (not known here); see sunfleck run --help");
-  EXPECT_EQ(refusal({"ran"}), "ran (no command of this program); use run, day, render, maize or info; see sunfleck --help");
-  EXPECT_EQ(refusal({}), "command line (no command); use run, day, render, maize or info; see sunfleck --help");
+  EXPECT_EQ(refusal({"ran"}),
+            "ran (no command of this program); use run, day, render, validate, tradeoff, maize or info; see sunfleck --help");
+  EXPECT_EQ(refusal({}),
+            "command line (no command); use run, day, render, validate, tradeoff, maize or info; see sunfleck --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--size", "3\nx"}),
             "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
   EXPECT_NE(refusal({"view", "a.toml"}).find("view (not in version"), std::string::npos);

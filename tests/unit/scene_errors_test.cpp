@@ -143,6 +143,16 @@ const std::vector<Breakage> breakages = {
     {"LayersTypo", "layers = 12", "layer = 12", "layer = 12", "output.layer", "did you mean layers?"},
     {"SyntaxNoValue", "fov      = 50", "fov = ", "fov =", "TOML", "correct the TOML syntax"},
     {"SyntaxQuote", "\"A test stand\"", "\"A test stand", "title", "TOML", "TOML syntax"},
+    {"SyntaxDecimalComma", "fov      = 50", "fov = 48,85 # \"x\"", "fov =", "TOML", "with a point, not a comma"},
+    {"SyntaxCommaInTable", "PAR = 0.15", "PAR = 0,15", "PAR = 0,15", "TOML", "with a point, not a comma"},
+    {"SyntaxBackslash", "\"A test stand\"", R"("C:\Users")", "title", "TOML", "write / for each backslash"},
+    {"SyntaxEscape", "\"A test stand\"", R"("C:\data")", "title", "TOML", "in single quotes"},
+    {"SyntaxBoolean", "fov      = 50", "fov = True", "fov =", "TOML", "write true or false"},
+    {"SyntaxPercent", "fov      = 50", "fov = 10 %", "fov =", "TOML", "0.1 for 10 %"},
+    {"SyntaxPercentClose", "fov      = 50", "fov = 10%", "fov =", "TOML", "0.1 for 10 %"},
+    {"SyntaxTime", "elevation = 30.0", "time = 2002-08-08T12:00+02:00", "time =", "TOML", "hh:mm:ss"},
+    {"SyntaxBareText", "\"A test stand\"", "stand", "title", "TOML", "put the text in quotes"},
+    {"SyntaxBareFile", "\"plates.obj\"", "./plates.obj", "file    =", "TOML", "put the text in quotes"},
     {"KeyTwice", "fov      = 50", "fov = 50\nfov = 60", "fov = 60", "TOML", "keep one"},
     {"NulByte", "fov      = 50", std::string("fov = 5\0", 8), "fov =", "NUL", "UTF-8"},
 };
@@ -216,6 +226,14 @@ TEST_F(BrokenSceneFile, RefusesWhatIsNoScene) {
   }
 }
 
+TEST_F(BrokenSceneFile, RefusesAMesh) {
+  write(folder_ / "stand.glb", "glTF");
+  const auto message = message_of([&] { static_cast<void>(read_scene(folder_ / "stand.glb")); });
+  ASSERT_TRUE(message);
+  EXPECT_NE(message->find("stand.glb: not a scene (this is a mesh); name it under [[geometry]]"), std::string::npos)
+      << *message;
+}
+
 // Nesting beyond any sense must neither overflow the stack in the parser nor when its tree is freed.
 TEST_F(BrokenSceneFile, DeepNestingIsRefused) {
   constexpr int depth = 200000;
@@ -256,6 +274,9 @@ TEST(NearestWord, IsAtMostTwoEditsAway) {
   EXPECT_EQ(nearest_word("xy", words), std::nullopt);
   EXPECT_EQ(nearest_word("units", words), std::nullopt);
   EXPECT_EQ(nearest_word("", words), std::nullopt);
+  EXPECT_EQ(nearest_word("RGB", words), "rgb");
+  EXPECT_EQ(nearest_word("par", {"NIR", "PAR"}), "PAR");
+  EXPECT_EQ(nearest_word("NIR", {"PAR"}), std::nullopt);
 }
 
 }  // namespace

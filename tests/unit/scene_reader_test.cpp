@@ -237,9 +237,35 @@ TEST_F(SceneReader, WarnsOfGeometryOutsideAnIsolatedPlot) {
   EXPECT_NE(scene.warnings[0].find("at = [[0.75, 0.5, 1.25]]"), std::string::npos) << scene.warnings[0];
   EXPECT_NE(scene.warnings[0].find("X -3..-2.5"), std::string::npos) << scene.warnings[0];
   EXPECT_TRUE(read(replaced(replaced(moved, "[0, 90.0]", "0"), "periodic = false", "periodic = true")).warnings.empty());
-  // Larger than the plot, and about its middle: nothing to say.
+  // Larger than the plot, and about its middle: nothing to say of its place.
   const std::string large = replaced(replaced(good_scene, "scale   = 0.5", "scale = 100"), "[0, 90.0]", "0");
-  EXPECT_TRUE(read(replaced(large, "[[0.5, 0.0, 1.0], [1.5, 0.25, 2.0]]", "[[-49.0, 0.0, -48.5]]")).warnings.empty());
+  const Scene wide = read(replaced(large, "[[0.5, 0.0, 1.0], [1.5, 0.25, 2.0]]", "[[-49.0, 0.0, -48.5]]"));
+  ASSERT_EQ(wide.warnings.size(), 1U);
+  EXPECT_NE(wide.warnings[0].find("200 m above the ground; for a mesh in centimetres"), std::string::npos) << wide.warnings[0];
+}
+
+TEST_F(SceneReader, DoubtsWhatIsSeldomMeant) {
+  const std::string sun = "[sun]\nelevation = 50\nazimuth = 90\n";
+  const std::string soil = "[soil]\nreflectance = 0.1\n";
+  const auto plates = [](const std::string& more) {
+    return "[optics.leaf]\nreflectance = 0.1\n[[geometry]]\nfile = \"plates.obj\"\noptics = \"leaf\"\n" + more;
+  };
+  const std::string lit = replaced(bare_scene, "name = \"PAR\"", "name = \"PAR\"\ndirect = 1") + sun;
+  const std::vector<std::pair<std::string, std::string>> doubtful = {
+      {bare_scene + sun, "band PAR has no light"},
+      {lit + "[sky]\nmodel = \"uniform\"\n", "sky sends no light"},
+      {lit + soil + plates("at = [[0, -5, 0]]\n"), "100 % of the plants' area lies below the ground"},
+      {lit + plates("at = [[0, 200, 0]]\n"), "m above the ground; for a mesh in centimetres add scale = 0.01"},
+  };
+  for (const auto& [text, doubt] : doubtful) {
+    const Scene scene = read(text);
+    const auto& warnings = scene.warnings;
+    const bool found = std::any_of(warnings.begin(), warnings.end(),
+                                   [&](const std::string& warning) { return warning.find(doubt) != std::string::npos; });
+    EXPECT_TRUE(found) << doubt;
+  }
+  EXPECT_TRUE(read(lit).warnings.empty());
+  EXPECT_TRUE(read(bare_scene).warnings.empty());
 }
 
 TEST_F(SceneReader, WarnsOfUnusedOptics) {

@@ -77,6 +77,7 @@ TEST_F(SceneReceivers, RefusesWhatIsNoPlane) {
   expect_refused(head + "cells = [8000, 8000]\n[[plane]]\nheight = 2\n", "height = 2", "plane.height", "use fewer");
   expect_refused(head + "cell = [10, 10]\n", "cell =", "plane.cell", "did you mean cells?");
   expect_refused(head + "[[plane]]\nheight = 0.50\n", "height = 0.50", "plane.height", "height of its own");
+  expect_refused(head + "[[plane]]\nheight = 0.5004\n", "height = 0.5004", "plane.height", "would be plane_0.500.csv too");
   std::string many;
   for (int i = 0; i < 65; ++i) many += fmt::format("[[plane]]\nheight = {}\ncells = [1, 1]\n", i);
   const auto message = message_of([&] { static_cast<void>(read(bare_scene + many)); });

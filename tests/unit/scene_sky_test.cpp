@@ -135,6 +135,8 @@ TEST_F(SceneSky, WeatherIsSplitAndShared) {
   EXPECT_EQ(shares.model.bands[1].direct_w_m2 + shares.model.bands[1].diffuse_w_m2, 0.0);
   EXPECT_EQ(shares.model.bands[2].direct_w_m2, 0.0);
   EXPECT_EQ(shares.model.bands[2].diffuse_w_m2, 7.0);
+  ASSERT_EQ(shares.warnings.size(), 1U);
+  EXPECT_NE(shares.warnings[0].find("it has irradiance of its own"), std::string::npos) << shares.warnings[0];
   const SunPosition sun = *scene.model.sun;
   const Scene erbs = read(plot + moment + uniform + "[weather]\nghi = 800\nsplit = \"erbs\"\n" + par);
   EXPECT_NEAR(erbs.model.bands[0].diffuse_w_m2, 400.0 * erbs_diffuse_share(800.0, sun, 220), 1e-10);

@@ -78,6 +78,15 @@ TEST(StationReader, ReadsPartsInAnyOrderAmongOtherColumns) {
   EXPECT_NEAR(file.weather.intervals[0].length_s, 600.0, 1e-6);
 }
 
+// As R's write.csv writes it.
+TEST(StationReader, ReadsQuotedCells) {
+  const TempFolder folder;
+  const WeatherFile file = read_weather(
+      folder.write("a.csv", "\"time\",\"ghi\"\n\"2002-08-08T10:00:00+08:00\",700\n\"2002-08-08T10:10:00+08:00\", \"710.5\"\n"));
+  ASSERT_EQ(file.weather.intervals.size(), 2U);
+  EXPECT_EQ(file.weather.intervals[1].ghi_w_m2, 710.5);
+}
+
 TEST(StationReader, KnowsTheFormsOfATime) {
   const TempFolder folder;
   for (const char* time : {"2002-08-08T10:10:00+08:00", "2002-08-08T10:10+08:00", "2002-08-08 10:10:00 +0800",

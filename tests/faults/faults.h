@@ -1,0 +1,122 @@
+#pragma once
+// Runs of the program with something failing around it.
+
+#include "regression/program.h"
+#include "support/table.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+namespace sunfleck::faults {
+
+using regression::Arguments;
+using regression::content;
+using regression::Outcome;
+using regression::operator+;
+
+// Every kind of file comes out of it: two leaves that scatter, sun and sky, a facula map and a sensor.
+inline const std::string small_scene =
+    "[plot]\nsize = [1.0, 1.0]\n"
+    "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
+    "[sky]\nmodel = \"uniform\"\n"
+    "[[band]]\nname = \"PAR\"\ndirect = 100.0\ndiffuse = 20.0\n"
+    "[soil]\nreflectance = 0.2\n"
+    "[optics.leaf]\nreflectance = 0.3\ntransmittance = 0.2\n"
+    "[[plane]]\nheight = 0.5\ncells = [4, 4]\n"
+    "[[sensor]]\nname = \"a\"\nfrom = [0.5, 0.2, 0.5]\n"
+    "[[geometry]]\nfile = \"leaves.obj\"\n";
+
+inline const std::string day_scene =
+    "[plot]\nsize = [1.0, 1.0]\n"
+    "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
+    "[[band]]\nname = \"PAR\"\ndirect_normal = 400.0\n"
+    "[soil]\nreflectance = 0.2\n"
+    "[optics.leaf]\nreflectance = 0.3\ntransmittance = 0.2\n"
+    "[[geometry]]\nfile = \"leaves.obj\"\n";
+
+inline const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
+
+// The arguments with another value behind an option they have.
+inline Arguments with(Arguments arguments, const std::string& option, const std::string& value) {
+  *std::next(std::find(arguments.begin(), arguments.end(), option)) = value;
+  return arguments;
+}
+
+class FaultTest : public regression::ProgramTest {
+ protected:
+  FaultTest() {
+    folder_.write("scene.toml", small_scene);
+    folder_.write("day.toml", day_scene);
+    folder_.write("leaves.obj", leaves);
+  }
+
+  // Little work on the CPU path.
+  const Arguments quick_{"--device", "cpu", "--grid", "0.03"};
+  const Arguments run_ = Arguments{"run",        "scene.toml", "-o",    "out",      "--export",
+                                   "csv,nc,vtp", "--size",     "64x64", "--images", "rank_direct,hue_total"} +
+                         quick_;
+  const Arguments day_ =
+      Arguments{"day", "day.toml", "-o", "out", "--from", "10:00", "--to", "13:00", "--images", "none"} + quick_;
+
+  // All files of a folder and below.
+  [[nodiscard]] std::map<std::string, std::string> files(const std::string& of = "out") const {
+    std::map<std::string, std::string> found;
+    if (!std::filesystem::exists(folder_ / of)) return found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / of)) {
+      if (entry.is_regular_file()) {
+        found[std::filesystem::relative(entry.path(), folder_ / of).string()] = content(entry.path());
+      }
+    }
+    return found;
+  }
+
+  // Every file that is there is as in an undisturbed run, or tells that the run is not complete; steps and what an undisturbed
+  // run has not are left out.
+  void expect_whole(const std::map<std::string, std::string>& undisturbed, bool asides_allowed = false) const {
+    for (const auto& [name, bytes] : files()) {
+      if (name.ends_with(".tmp")) {
+        EXPECT_TRUE(asides_allowed) << name << " is left";
+      } else if (name == "summary.json") {
+        const nlohmann::json summary = nlohmann::json::parse(bytes, nullptr, false);
+        ASSERT_TRUE(summary.is_object()) << bytes;
+        EXPECT_FALSE(summary["complete"].get<bool>()) << bytes;
+      } else if (undisturbed.contains(name) && !name.starts_with("steps/")) {
+        EXPECT_TRUE(bytes == undisturbed.at(name)) << name << " differs: " << bytes.size() << " bytes";
+      }
+    }
+  }
+
+  // A failure as a user meets it: one line with place, reason and cure. What was computed may stand on standard output.
+  static void expect_one_line(const Outcome& outcome, const std::string& names, int status = 1) {
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    const std::size_t begin = outcome.err.find("sunfleck: ");
+    ASSERT_NE(begin, std::string::npos) << outcome.err;
+    const std::string line = outcome.err.substr(begin);
+    EXPECT_EQ(line.find('\n'), line.size() - 1) << outcome.err;
+    EXPECT_NE(line.find(names), std::string::npos) << line << "does not name " << names;
+    EXPECT_TRUE(line.find(" (") < line.find("); ")) << line;
+    EXPECT_EQ(line.find("mistake of the program"), std::string::npos) << line;
+  }
+
+  void preload(const std::map<std::string, std::string>& variables) {
+    before_program_ = [variables] {
+      ::setenv("LD_PRELOAD", SUNFLECK_SYSTEM_FAULTS, 1);
+      for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
+    };
+  }
+
+  void fill_disk_after(std::size_t bytes) {
+    preload({{"SUNFLECK_FAULT_FOLDER", (folder_ / "out").string()}, {"SUNFLECK_FAULT_BYTES", std::to_string(bytes)}});
+  }
+
+  [[nodiscard]] static std::size_t size_of(const std::map<std::string, std::string>& files) {
+    std::size_t bytes = 0;
+    for (const auto& [name, file] : files) bytes += file.size();
+    return bytes;
+  }
+};
+
+}  // namespace sunfleck::faults

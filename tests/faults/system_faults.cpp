@@ -1,0 +1,108 @@
+// Preloaded before the program (LD_PRELOAD): a disk that fills up, and a clock that jumps.
+//   SUNFLECK_FAULT_FOLDER=/a/folder SUNFLECK_FAULT_BYTES=1000   files below it take so many bytes in all, then there is no
+//   space SUNFLECK_FAULT_CLOCK=1                                      the time of day jumps by years, to and fro
+
+#include <dlfcn.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <string>
+
+namespace {
+
+template <class Function>
+Function* real(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+long long bytes_at_start() {
+  const char* text = std::getenv("SUNFLECK_FAULT_BYTES");
+  return text != nullptr ? std::atoll(text) : -1;
+}
+
+bool is_below_folder(int file) {
+  static const char* const folder = std::getenv("SUNFLECK_FAULT_FOLDER");
+  if (folder == nullptr) return false;
+  char target[4096];
+  const std::string link = "/proc/self/fd/" + std::to_string(file);
+  const ssize_t length = ::readlink(link.c_str(), target, sizeof target);
+  return length > 0 && std::string(target, static_cast<std::size_t>(length)).rfind(folder, 0) == 0;
+}
+
+// How many of the bytes the disk still takes.
+std::size_t granted(int file, std::size_t bytes) {
+  static std::atomic<long long> left{bytes_at_start()};
+  if (left < 0 || bytes == 0 || !is_below_folder(file)) return bytes;
+  long long before = left;
+  long long take = 0;
+  do {
+    take = std::min<long long>(before, static_cast<long long>(bytes));
+  } while (!left.compare_exchange_weak(before, before - take));
+  return static_cast<std::size_t>(take);
+}
+
+template <class Write>
+ssize_t write_within(int file, std::size_t bytes, const Write& write) {
+  const std::size_t take = granted(file, bytes);
+  if (take == 0 && bytes > 0) {
+    errno = ENOSPC;
+    return -1;
+  }
+  return write(take);
+}
+
+long jump_s() {
+  static const bool jumps = std::getenv("SUNFLECK_FAULT_CLOCK") != nullptr;
+  static std::atomic<unsigned> calls{0};
+  constexpr long years_s = 20L * 365 * 86400;
+  if (!jumps) return 0;
+  return calls++ % 2 == 0 ? years_s : -years_s;
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int file, const void* data, std::size_t bytes) {
+  static auto* const next = real<ssize_t(int, const void*, std::size_t)>("write");
+  return write_within(file, bytes, [&](std::size_t take) { return next(file, data, take); });
+}
+
+ssize_t pwrite(int file, const void* data, std::size_t bytes, off_t at) {
+  static auto* const next = real<ssize_t(int, const void*, std::size_t, off_t)>("pwrite");
+  return write_within(file, bytes, [&](std::size_t take) { return next(file, data, take, at); });
+}
+
+ssize_t pwrite64(int file, const void* data, std::size_t bytes, off64_t at) {
+  static auto* const next = real<ssize_t(int, const void*, std::size_t, off64_t)>("pwrite64");
+  return write_within(file, bytes, [&](std::size_t take) { return next(file, data, take, at); });
+}
+
+int clock_gettime(clockid_t clock, timespec* now) noexcept {
+  static auto* const next = real<int(clockid_t, timespec*)>("clock_gettime");
+  const int status = next(clock, now);
+  if (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE) now->tv_sec += jump_s();
+  return status;
+}
+
+int gettimeofday(timeval* now, void* zone) noexcept {
+  static auto* const next = real<int(timeval*, void*)>("gettimeofday");
+  const int status = next(now, zone);
+  now->tv_sec += jump_s();
+  return status;
+}
+
+std::time_t time(std::time_t* now) noexcept {
+  timespec precise{};
+  clock_gettime(CLOCK_REALTIME, &precise);
+  if (now != nullptr) *now = precise.tv_sec;
+  return precise.tv_sec;
+}
+
+}  // extern "C"

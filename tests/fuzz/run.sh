@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Builds the fuzzers of users' files and runs each of them on the kept corpus, two at a time:
+#   tests/fuzz/run.sh [SECONDS] [TARGET...]     600 seconds and all targets by default
+# Prints executions and findings; exit 1 if there is any finding. Needs Debian's clang and libclang-rt-14-dev.
+# What the fuzzers found new lies in build/fuzz/corpus, what ended them in build/fuzz/findings. To keep them:
+#   tests/fuzz/run.sh --merge      makes the kept corpus the smallest files that reach as much as all of these
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+build=build/fuzz
+kept=tests/fuzz/corpus
+all=$(sed -n 's/^set(SUNFLECK_FUZZ_TARGETS \(.*\))$/\1/p' tests/fuzz/CMakeLists.txt)
+
+merge=no
+if [ "${1:-}" = --merge ]; then
+  merge=yes
+  shift
+else
+  seconds=${1:-600}
+  shift || true
+fi
+targets=${*:-$all}
+
+CC=clang CXX=clang++ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_FUZZ=ON > /dev/null
+# shellcheck disable=SC2046,SC2086
+cmake --build "$build" --target $(printf 'fuzz_%s ' $targets)
+
+merge_one() {
+  local target=$1 smallest
+  smallest=$(mktemp -d)
+  mkdir -p "$build/corpus/$target"
+  "$build/tests/fuzz/fuzz_$target" -merge=1 -use_counters=0 "$smallest" "$kept/$target" "$build/corpus/$target" 2> /dev/null
+  find "$kept/$target" -type f -delete
+  cp "$smallest"/* "$kept/$target/"
+  rm -r "$smallest"
+}
+
+run_one() {
+  local target=$1 dictionary=tests/fuzz/dictionaries/$1.dict found state=0
+  mkdir -p "$build/corpus/$target" "$build/findings/$target"
+  [ -f "$dictionary" ] || dictionary=/dev/null
+  "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
+    -max_len=4096 -dict="$dictionary" -print_final_stats=1 -artifact_prefix="$build/findings/$target/" \
+    "$build/corpus/$target" "$kept/$target" > "$build/$target.log" 2>&1 || state=$?
+  found=$(find "$build/findings/$target" -type f | wc -l)
+  printf '%-14s %10s executions, %s findings\n' "$target" \
+    "$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/$target.log")" "$found"
+  [ "$state" -eq 0 ]
+}
+
+export -f run_one merge_one
+export build kept seconds="${seconds:-}"
+if [ "$merge" = yes ]; then
+  for target in $targets; do merge_one "$target"; done
+else
+  # shellcheck disable=SC2086
+  printf '%s\n' $targets | xargs -P 2 -I{} bash -euo pipefail -c 'run_one {}' \
+    || { echo "a fuzzer ended early; see $build/findings and the logs beside it" >&2; exit 1; }
+fi

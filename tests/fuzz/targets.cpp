@@ -1,0 +1,105 @@
+#include "fuzz/targets.h"
+
+#include "fuzz/support.h"
+#include "io/light_reader.h"
+#include "io/measured_reader.h"
+#include "io/mesh_reader.h"
+#include "io/result_store.h"
+#include "io/scene_reader.h"
+#include "io/weather_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sunfleck::fuzz {
+
+void feed_step(std::string_view bytes);
+void feed_step_settings(std::string_view bytes);
+
+namespace {
+
+void check_mesh(const Mesh& mesh) {
+  const std::size_t triangles = mesh.triangles.size();
+  promise(triangles > 0 && mesh.optics_of.size() == triangles && mesh.organ_of.size() == triangles, "arrays of one length");
+  for (std::size_t t = 0; t < triangles; ++t) {
+    for (int k = 0; k < 3; ++k) promise(mesh.triangles[t][k] < mesh.vertices.size(), "vertex numbers in range");
+    promise(mesh.optics_of[t] < mesh.optics_names.size() && mesh.organ_of[t] < mesh.organs.size(), "names in range");
+  }
+  for (const glm::dvec3& v : mesh.vertices) promise(std::isfinite(v.x + v.y + v.z), "finite positions");
+}
+
+template <int Number>
+void feed_mesh(std::string_view bytes) {
+  static constexpr std::array names{"a.gltf", "a.glb", "a.obj", "a.ply", "a.stl", "a.can", "a.can.gz"};
+  const std::filesystem::path file = write(names[Number], bytes);
+  read_or_refuse([&] { check_mesh(read_mesh(file, {.optics = "leaf", .up = std::nullopt})); });
+}
+
+void check_scene(const Scene& scene) {
+  const Canopy& canopy = scene.model.canopy;
+  for (std::size_t e = 0; e < canopy.size(); ++e) {
+    for (const glm::vec3& corner : canopy.corners[e]) promise(std::isfinite(corner.x + corner.y + corner.z), "finite corners");
+    promise(canopy.optics_of[e] < scene.model.optics.size() && canopy.organ_of[e] < canopy.organs.size(), "names in range");
+  }
+  for (const SurfaceOptics& optics : scene.model.optics)
+    promise(optics.upper.size() == scene.light.bands.size() && optics.lower.size() == optics.upper.size(), "optics by band");
+}
+
+void feed_scene(std::string_view bytes) {
+  // Generated stands take long; their keys are few and have tests of their own.
+  if (bytes.find("maize") != bytes.npos) return;
+  const std::filesystem::path file = write("scene.toml", bytes);
+  for (const ScenePurpose purpose : {ScenePurpose::moment, ScenePurpose::day})
+    read_or_refuse([&] { check_scene(read_scene(file, {.allow_outside = false, .purpose = purpose})); });
+}
+
+void feed_lights(std::string_view bytes) {
+  read_or_refuse([&] {
+    for (const SkyLight& light : read_lights(write("a.light", bytes)))
+      promise(light.weight >= 0.0 && light.to_sky.y > 0.0 && std::isfinite(light.weight), "lights above the horizon");
+  });
+}
+
+void check_weather(const Weather& weather) {
+  promise(!weather.intervals.empty(), "at least one interval");
+  for (const WeatherInterval& interval : weather.intervals)
+    promise(interval.length_s > 0.0 && std::isfinite(interval.length_s), "an interval's length");
+}
+
+void feed_station(std::string_view bytes) {
+  read_or_refuse([&] { check_weather(read_weather(write("a.csv", bytes)).weather); });
+}
+
+void feed_epw(std::string_view bytes) {
+  read_or_refuse([&] { check_weather(read_weather(write("a.epw", bytes)).weather); });
+}
+
+void feed_measured(std::string_view bytes) {
+  read_or_refuse([&] {
+    for (const MeasuredRatio& point : read_measured(write("field.csv", bytes)).points)
+      promise(point.height_m >= 0.0 && point.sunfleck_ratio >= 0.0 && point.sunfleck_ratio <= 1.0, "ratios in 0..1");
+  });
+}
+
+void feed_pictures(std::string_view bytes) {
+  read_or_refuse([&] {
+    const StoredResult stored = read_result_store(write(result_store_file, bytes));
+    promise(stored.result.elements.size() == stored.scene.model.canopy.size(), "a result for each element");
+  });
+}
+
+constexpr std::array all_targets{
+    Target{"scene", feed_scene},       Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
+    Target{"obj", feed_mesh<2>},       Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
+    Target{"can", feed_mesh<5>},       Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
+    Target{"station", feed_station},   Target{"epw", feed_epw},        Target{"measured", feed_measured},
+    Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings}};
+
+}  // namespace
+
+std::span<const Target> targets() {
+  return all_targets;
+}
+
+}  // namespace sunfleck::fuzz

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Builds the program with one deliberate mistake at a time, in a folder of its own, and expects `sunfleck validate` to find it on
+# the CPU path and on software Vulkan: tests/mutants/run.sh [MUTANT ...]. Without names: every *.patch of this folder.
+# SUNFLECK_REQUIRE_DEVICE=1 makes the lack of software Vulkan an error.
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+root="$(cd "$here/../.." && pwd)"
+
+mutants=("$@")
+if [ ${#mutants[@]} -eq 0 ]; then
+  for patch in "$here"/*.patch; do mutants+=("$(basename "$patch" .patch)"); done
+fi
+
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/source"
+cp -a "$root/CMakeLists.txt" "$root/cmake" "$root/src" "$root/shaders" "$work/source"
+export CCACHE_BASEDIR="$work"
+launcher=()
+if command -v ccache > /dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+cmake -S "$work/source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_TESTS=OFF "${launcher[@]}" > /dev/null
+
+# Prints what failed. 0: the mistake was found; 1: it was not.
+found_on() {
+  local device="$1" status=0
+  "$work/build/sunfleck" validate --quiet --device "$device" -o "$work/result" > "$work/failed.txt" 2> "$work/errors.txt" ||
+    status=$?
+  if [ "$status" -eq 3 ] && [ "${SUNFLECK_REQUIRE_DEVICE:-0}" != 1 ]; then
+    echo "  $device: no such device, skipped"
+    return 0
+  fi
+  if [ "$status" -ne 1 ] || ! grep -q FAIL "$work/failed.txt"; then
+    echo "  $device: NOT FOUND (exit status $status)"
+    cat "$work/errors.txt"
+    return 1
+  fi
+  echo "  $device: found, $(grep -c FAIL "$work/failed.txt") cases fail:"
+  sed 's/^/    /' "$work/failed.txt"
+}
+
+missed=0
+for mutant in "${mutants[@]}"; do
+  echo "== $mutant =="
+  patch --quiet --fuzz=0 -p1 -d "$work/source" < "$here/$mutant.patch"
+  cmake --build "$work/build" --target sunfleck > "$work/build.txt" 2>&1 || { cat "$work/build.txt"; exit 1; }
+  for device in cpu lavapipe; do found_on "$device" || missed=$((missed + 1)); done
+  patch --quiet --reverse --fuzz=0 -p1 -d "$work/source" < "$here/$mutant.patch"
+done
+[ "$missed" -eq 0 ] || { echo "$missed mistakes not found"; exit 1; }
+echo "every mistake was found"

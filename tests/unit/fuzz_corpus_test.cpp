@@ -1,0 +1,39 @@
+// The fuzzers' corpus, replayed: what once ended a fuzzer, and the smallest files that between them reach what it reached.
+
+#include "base/log.h"
+#include "fuzz/targets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace sunfleck::fuzz {
+namespace {
+
+class Corpus : public ::testing::TestWithParam<Target> {};
+
+TEST_P(Corpus, IsReadOrRefused) {
+  start_log(Verbosity::quiet);
+  const std::filesystem::path folder = std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  EXPECT_FALSE(files.empty());
+  for (const std::filesystem::path& file : files) {
+    SCOPED_TRACE(file);
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    EXPECT_NO_THROW(GetParam().feed(bytes));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fuzz, Corpus, ::testing::ValuesIn(targets().begin(), targets().end()),
+                         [](const auto& target) { return std::string(target.param.name); });
+
+}  // namespace
+}  // namespace sunfleck::fuzz
