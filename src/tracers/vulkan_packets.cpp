@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "packets.spirv.h"
 #include "packets_storage.spirv.h"
+#include "tracers/packet_order.h"
 
 #include <algorithm>
 #include <utility>
@@ -71,17 +72,22 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
   upload(context_, scene_, std::as_bytes(std::span(&scene, 1)));
   for (std::size_t first = 0; first < packets.size(); first += packets_per_dispatch_) {
     const auto slice = packets.subspan(first, std::min<std::size_t>(packets_per_dispatch_, packets.size() - first));
-    upload(context_, packets_, std::as_bytes(slice));
+    const std::vector<std::uint32_t> order = order_by_direction(slice);
+    std::vector<shared::Packet> sent(slice.size());
+    for (std::size_t k = 0; k < order.size(); ++k) sent[k] = slice[order[k]];
+    upload(context_, packets_, std::as_bytes(std::span(sent)));
     std::vector<std::pair<std::uint32_t, shared::Landing>> finished_on_cpu;
-    shared::PacketPush push{0, static_cast<std::uint32_t>(slice.size()), 0};
+    shared::PacketPush push{0, static_cast<std::uint32_t>(sent.size()), 0};
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
       dispatch(push);
-      push = {0, take_out_stuck(scene, slice, finished_on_cpu), 1};
+      push = {0, take_out_stuck(scene, sent, finished_on_cpu), 1};
       std::swap(inbox_, outbox_);
     }
-    download(context_, landings_, std::as_writable_bytes(landings.subspan(first, slice.size())));
-    for (const auto& [packet, landing] : finished_on_cpu) landings[first + packet] = landing;
+    std::vector<shared::Landing> landed(sent.size());
+    download(context_, landings_, std::as_writable_bytes(std::span(landed)));
+    for (const auto& [packet, landing] : finished_on_cpu) landed[packet] = landing;
+    for (std::size_t k = 0; k < order.size(); ++k) landings[first + order[k]] = landed[k];
   }
   return TraceOutcome::finished;
 }
