@@ -1,0 +1,52 @@
+// From triangles to a tree, ours and Embree's, on one thread each.
+
+#include "bench/benches.h"
+#include "bench/peer.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace sunfleck::bench {
+namespace {
+
+constexpr int fields[] = {16, 158};
+
+void build_ours(benchmark::State& state, int plants) {
+  const Stand& stand = stand_of(plants);
+  for (auto _ : state) benchmark::DoNotOptimize(build_bvh(stand.model.canopy, box_padding_m(stand.model)));
+  state.counters["triangles"] = static_cast<double>(stand.triangles());
+}
+
+void build_embree(benchmark::State& state, int plants) {
+  const Stand& stand = stand_of(plants);
+  for (auto _ : state) {
+    state.PauseTiming();
+    std::optional<Peer> peer(std::in_place, stand, 1);
+    state.ResumeTiming();
+    peer->build();
+    state.PauseTiming();
+    peer.reset();
+    state.ResumeTiming();
+  }
+  state.counters["triangles"] = static_cast<double>(stand.triangles());
+}
+
+}  // namespace
+
+void register_builds() {
+  for (const int plants : fields) {
+    benchmark::RegisterBenchmark(fmt::format("build/embree/plants:{}", plants).c_str(), build_embree, plants)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(fmt::format("build/sunfleck/plants:{}", plants).c_str(), build_ours, plants)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+  }
+}
+
+}  // namespace sunfleck::bench

@@ -1,0 +1,19 @@
+#include "bench/ours.h"
+
+#include "tracers/cpu_tracer.h"
+#include "tracers/vulkan_tracer.h"
+
+namespace sunfleck::bench {
+
+Ours::Ours(const Stand& stand, const GpuContext* context) : Ours(stand, stand.prepared.bvh, context) {}
+
+Ours::Ours(const Stand& stand, const Bvh& bvh, const GpuContext* context) {
+  if (context == nullptr) {
+    tracer_ = std::make_unique<CpuTracer>(bvh, stand.tracer_scene());
+    return;
+  }
+  tree_.emplace(*context, bvh, preferred_fetch(*context, bvh));
+  tracer_ = std::make_unique<VulkanTracer>(*context, bvh, *tree_, stand.tracer_scene(), stand.prepared.layout.words());
+}
+
+}  // namespace sunfleck::bench

@@ -1,0 +1,180 @@
+#include "bench/peer.h"
+
+#include "shared/beam.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+namespace sunfleck::bench {
+namespace {
+
+constexpr std::size_t packets_per_task = 256;
+constexpr unsigned lanes = 8;
+
+// How far a ray looks in the period it is in, and whether that is the end of its way.
+struct Leg {
+  float limit = 0.0F;
+  bool last = false;
+  shared::Crossing crossing{};
+};
+
+Leg leg_of(const shared::PacketBlock& scene, bool endless, const shared::Ray& ray) {
+  const bool down = ray.inverse.y < 0.0F;
+  if (!endless) {
+    const shared::Ground ground = shared::meet_ground(ray, scene.ground);
+    const bool over_plot = down && shared::in_plot(scene.ground, shared::ground_point(ray, ground.t));
+    return {over_plot ? ground.limit : 1e30F, true, {}};
+  }
+  const shared::Ground end = down ? shared::meet_ground(ray, scene.ground) : shared::meet_top(ray, scene.top_y);
+  const shared::Crossing crossing = shared::next_crossing(ray, scene.period, scene.overlap);
+  return {std::min(end.limit, crossing.limit), end.t <= crossing.t, crossing};
+}
+
+RTCRay ray_of(const shared::Ray& ray, float limit) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          0.0F,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0.0F,
+          limit,
+          ~0U,
+          0,
+          0};
+}
+
+// Sums `count` over the packets of all tasks.
+template <class Count>
+std::uint64_t sum_over(std::span<const shared::Packet> packets, const Count& count) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, packets.size(), packets_per_task), std::uint64_t{0},
+      [&](const auto& range, std::uint64_t sum) { return sum + count(packets.subspan(range.begin(), range.size())); },
+      std::plus<>());
+}
+
+// Eight rays on their way side by side. A lane that has come to its end sleeps.
+class Eight {
+ public:
+  Eight(const shared::PacketBlock& scene, bool endless, std::span<const shared::Packet> packets)
+      : scene_(scene), endless_(endless) {
+    for (unsigned lane = 0; lane < packets.size(); ++lane) {
+      ray_[lane] = shared::make_ray(packets[lane].origin, packets[lane].direction);
+      awake_[lane] = -1;
+    }
+  }
+
+  std::uint64_t follow(RTCScene tree) {
+    std::uint64_t met = 0;
+    while (std::any_of(std::begin(awake_), std::end(awake_), [](int lane) { return lane != 0; })) {
+      for (unsigned lane = 0; lane < lanes; ++lane) set_out(lane);
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      rtcIntersect8(awake_, tree, &context, &query_);
+      for (unsigned lane = 0; lane < lanes; ++lane) met += arrive(lane) ? 1 : 0;
+    }
+    return met;
+  }
+
+ private:
+  void set_out(unsigned lane) {
+    if (awake_[lane] == 0) return;
+    leg_[lane] = leg_of(scene_, endless_, ray_[lane]);
+    RTCRay8& to = query_.ray;
+    to.org_x[lane] = ray_[lane].origin.x;
+    to.org_y[lane] = ray_[lane].origin.y;
+    to.org_z[lane] = ray_[lane].origin.z;
+    to.dir_x[lane] = ray_[lane].direction.x;
+    to.dir_y[lane] = ray_[lane].direction.y;
+    to.dir_z[lane] = ray_[lane].direction.z;
+    to.tfar[lane] = leg_[lane].limit;
+    to.mask[lane] = ~0U;
+    query_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  }
+
+  bool arrive(unsigned lane) {
+    if (awake_[lane] == 0) return false;
+    const bool met = query_.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+    if (met || leg_[lane].last) {
+      awake_[lane] = 0;
+    } else {
+      ray_[lane].origin = shared::enter_next_period(ray_[lane], leg_[lane].crossing, scene_.period);
+    }
+    return met;
+  }
+
+  const shared::PacketBlock& scene_;
+  bool endless_;
+  RTCRayHit8 query_{};
+  shared::Ray ray_[lanes];
+  Leg leg_[lanes];
+  alignas(32) int awake_[lanes] = {};
+};
+
+}  // namespace
+
+Peer::Peer(const Stand& stand, int threads)
+    : stand_(stand),
+      device_(rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr)),
+      scene_(rtcNewScene(device_)) {
+  const std::vector<BvhTriangle>& triangles = stand_.prepared.bvh.triangles;
+  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* corner = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
+  auto* number = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
+  for (const BvhTriangle& triangle : triangles) {
+    for (const auto& at : {triangle.a, triangle.b, triangle.c}) corner = std::copy(at.begin(), at.end(), corner);
+  }
+  for (unsigned k = 0; k < 3 * triangles.size(); ++k) number[k] = k;
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+Peer::~Peer() {
+  rtcReleaseScene(scene_);
+  rtcReleaseDevice(device_);
+}
+
+std::uint64_t Peer::follow_each(const shared::PacketBlock& scene, std::span<const shared::Packet> packets) const {
+  const bool endless = stand_.model.plot.periodic;
+  return sum_over(packets, [&](std::span<const shared::Packet> task) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    std::uint64_t met = 0;
+    for (const shared::Packet& packet : task) {
+      shared::Ray ray = shared::make_ray(packet.origin, packet.direction);
+      while (true) {
+        const Leg leg = leg_of(scene, endless, ray);
+        RTCRayHit query{ray_of(ray, leg.limit), {}};
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene_, &context, &query);
+        const bool hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        met += hit ? 1 : 0;
+        if (hit || leg.last) break;
+        ray.origin = shared::enter_next_period(ray, leg.crossing, scene.period);
+      }
+    }
+    return met;
+  });
+}
+
+std::uint64_t Peer::follow_eight(const shared::PacketBlock& scene, std::span<const shared::Packet> packets) const {
+  const bool endless = stand_.model.plot.periodic;
+  return sum_over(packets, [&](std::span<const shared::Packet> task) {
+    std::uint64_t met = 0;
+    for (std::size_t first = 0; first < task.size(); first += lanes) {
+      met += Eight(scene, endless, task.subspan(first, std::min<std::size_t>(lanes, task.size() - first))).follow(scene_);
+    }
+    return met;
+  });
+}
+
+}  // namespace sunfleck::bench

@@ -1,0 +1,68 @@
+#include "bench/rays.h"
+
+#include "shared/beam.h"
+#include "tracers/cpu_tracer.h"
+#include "transport/beam_block.h"
+#include "transport/solve.h"
+
+#include <algorithm>
+#include <random>
+
+namespace sunfleck::bench {
+namespace {
+
+constexpr std::uint64_t seed = 1;
+
+// Passes everything on to the CPU path, and keeps the first packets that leave elements.
+class Recorder final : public Tracer {
+ public:
+  explicit Recorder(const Stand& stand) : tracer_(stand.prepared.bvh, stand.tracer_scene()) {}
+
+  [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override {
+    return tracer_.count_beam(beam, counters, stop);
+  }
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
+    const bool leave = !packets.empty() && packets.front().element != shared::no_element;
+    if (leave && kept_.empty()) kept_.assign(packets.begin(), packets.end());
+    return tracer_.trace(scene, packets, landings, stop);
+  }
+  [[nodiscard]] std::vector<shared::Packet> kept() && { return std::move(kept_); }
+  [[nodiscard]] bool done() const { return !kept_.empty(); }
+
+ private:
+  CpuTracer tracer_;
+  std::vector<shared::Packet> kept_;
+};
+
+}  // namespace
+
+shared::BeamBlock beam_of(const Stand& stand, double rays) {
+  return make_beam_block(stand.model, stand.prepared.layout, rays, seed, 0);
+}
+
+std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order order) {
+  SolveSettings settings;
+  settings.passes = 8;
+  settings.grid_m = std::sqrt(stand.model.plot.area_m2() / (packets * *settings.passes));
+  settings.packets = packets;
+  Recorder recorder(stand);
+  Monitor until_recorded;
+  until_recorded.interrupted = [&recorder] { return recorder.done(); };
+  (void)solve(stand.model, stand.prepared.layout, recorder, settings, until_recorded);
+  std::vector<shared::Packet> result = std::move(recorder).kept();
+  if (order == Order::random) std::shuffle(result.begin(), result.end(), std::mt19937_64(seed));
+  return result;
+}
+
+std::vector<shared::Packet> as_packets(const shared::BeamBlock& beam) {
+  std::vector<shared::Packet> packets(std::size_t{beam.columns} * beam.rows);
+  for (std::uint32_t ray = 0; ray < packets.size(); ++ray) {
+    packets[ray] = {shared::beam_origin(beam, ray), shared::no_element, beam.direction, 0};
+  }
+  return packets;
+}
+
+}  // namespace sunfleck::bench
