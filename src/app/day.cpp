@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -155,14 +156,14 @@ class DayRun {
 
   // Empty if it began with far too little work; what decides that are counts, not the clock.
   std::optional<RadiationResult> solve_step(const SolveSettings& settings) {
-    bool too_little = false;
+    std::atomic<bool> too_little = false;  // the solver's threads read it
     int replicates = 0;
     Monitor monitor;
     monitor.interrupted = [&] { return too_little || clock_.stop(); };
     monitor.report = [&](const Progress& state) {
       ++replicates;
       const bool judged = settings.begin_with && replicates == judged_replicates;
-      too_little = too_little || (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound);
+      if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
       const double done = static_cast<double>(result_.totals.simulated) + state.fraction;
       progress_.update(
           {result_.totals.rays + result_.totals.packets + state.rays, done / lit_steps_, state.relative_error, state.bound});

@@ -30,6 +30,7 @@ SolveSettings solve_settings(const RunOptions& options, const Scene& scene) {
   settings.passes = options.passes;
   settings.max_rays = options.max_rays;
   settings.max_seconds = options.max_seconds;
+  settings.replicates_at_once = options.threads == 1 ? 1 : 2;
   settings.element_errors = !options.exports.empty() || scene.accuracy.of == ErrorTarget::triangle;
   return settings;
 }

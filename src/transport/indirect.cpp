@@ -82,7 +82,7 @@ IndirectPass::IndirectPass(const RadiationModel& model, const CounterLayout& lay
 }
 
 std::optional<IndirectSums> IndirectPass::run(const FirstLandings& first, const std::vector<BandQuanta>& quanta,
-                                              const IndirectSettings& settings, const StopQuestion& stop) {
+                                              const IndirectSettings& settings, const StopQuestion& stop) const {
   Round round(model_, surfaces_, layout_, receivers_, settings, quanta, first);
   if (!let_sky_in(round, stop)) return std::nullopt;
   for (std::size_t b = 0; b < round.start.size(); ++b) {

@@ -64,9 +64,10 @@ class IndirectPass {
                const SkyRays* sky, const PlaneReceivers* receivers);
 
   // Shoots until every band is retired: its unshot flux is below a tenth of the bound times the smaller of what vegetation
-  // and soil absorbed of it, each taken as at least 1 % of the incident flux. None if stopped.
+  // and soil absorbed of it, each taken as at least 1 % of the incident flux. None if stopped. Several threads may run
+  // replicates side by side, if the tracer may be used so.
   [[nodiscard]] std::optional<IndirectSums> run(const FirstLandings& first, const std::vector<BandQuanta>& quanta,
-                                                const IndirectSettings& settings, const StopQuestion& stop);
+                                                const IndirectSettings& settings, const StopQuestion& stop) const;
 
  private:
   struct Round;

@@ -1,12 +1,10 @@
 #include "transport/solve.h"
 
 #include "base/check.h"
-#include "base/random.h"
 #include "bvh/bvh.h"
 #include "light/beam_grid.h"
-#include "transport/beam_landings.h"
-#include "transport/indirect.h"
 #include "transport/planes.h"
+#include "transport/replicate.h"
 #include "transport/sky_rays.h"
 #include "transport/surfaces.h"
 #include "transport/tally.h"
@@ -14,8 +12,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
+#include <future>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 namespace sunfleck {
 namespace {
@@ -46,23 +47,17 @@ class Solver {
  public:
   Solver(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
          const Monitor& monitor)
-      : model_(model),
-        layout_(layout),
-        tracer_(tracer),
-        settings_(settings),
-        monitor_(monitor),
-        surfaces_(model),
-        counters_(layout.words()) {
+      : model_(model), layout_(layout), tracer_(tracer), settings_(settings), monitor_(monitor), surfaces_(model) {
     if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
     if (model.has_sky()) sky_.emplace(model, layout);
-    if (!scatters(model) && !sky_) return;
-    indirect_ = std::make_unique<IndirectPass>(model, layout, surfaces_, tracer, sky_ ? &*sky_ : nullptr, receivers());
+    maker_.emplace(model, layout, surfaces_, tracer, sky_ ? &*sky_ : nullptr, receivers());
+    has_indirect_ = maker_->has_indirect_pass();
   }
 
   RadiationResult run() {
     const int replicates = settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
     if (settings_.begin_with && !fixed()) return begin_as_told(*settings_.begin_with);
-    const bool needs_pilot = !settings_.grid_m || (indirect_ && !settings_.packets);
+    const bool needs_pilot = !settings_.grid_m || (has_indirect_ && !settings_.packets);
     std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
     if (!work) return finish(stop_);
     if (settings_.grid_m) {
@@ -77,8 +72,9 @@ class Solver {
   [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  // True once the run has to end; remembers why.
+  // True once the run has to end; remembers why. Any thread may ask.
   bool must_stop() {
+    const std::lock_guard lock(stop_mutex_);
     if (monitor_.interrupted && monitor_.interrupted()) {
       stop_ = StopReason::interrupted;
       return true;
@@ -114,45 +110,37 @@ class Solver {
     return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
   }
 
-  // Traces the beam of one replicate.
-  TraceOutcome count_beam(const shared::BeamBlock& beam, PlaneSums& passed, const StopQuestion& stop) {
-    if (!receivers_) return tracer_.count_beam(beam, counters_, stop);
-    return count_beam_landings(model_, layout_, *receivers_, tracer_, beam, counters_, passed, stop);
-  }
-
-  // Adds one replicate; false if the run has to end before it is whole.
-  bool add_replicate(std::uint64_t stream) {
-    if (must_stop()) return false;
-    const StopQuestion stop = [this] { return must_stop(); };
-    const std::uint64_t replicate = stream + tally_->replicates();
-    std::optional<shared::BeamBlock> beam;
-    std::fill(counters_.begin(), counters_.end(), 0U);
-    PlaneSums passed;
-    if (receivers_) passed = PlaneSums(*receivers_, model_);
-    if (model_.has_beam()) {
-      beam = make_beam_block(model_, layout_, work_.rays, settings_.seed, replicate);
-      if (count_beam(*beam, passed, stop) == TraceOutcome::stopped) return false;
+  // Adds one replicate, and begins others of the first `until` that may be made beside it; false if the run has to end before
+  // it is whole.
+  bool add_replicate(std::uint64_t stream, std::size_t until) {
+    const std::size_t done = tally_->replicates();
+    const auto begun = [&] { return done + ahead_.size(); };
+    const std::size_t at_once = settings_.max_rays ? 1 : static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
+    while (begun() < std::max(done + 1, std::min(until, done + at_once)))
+      ahead_.push_back(begin_replicate(stream + begun(), at_once));
+    const std::optional<Replicate> replicate = ahead_.front().get();
+    ahead_.pop_front();
+    if (!replicate) {
+      ahead_.clear();  // waits for the others, which are asked to stop as well
+      return false;
     }
-    const DirectSums sums = tally_->sum(counters_);
+    tally_->add(replicate->counters, replicate->sums, replicate->passed, replicate->packets ? &*replicate->packets : nullptr);
     traced_ += grid_rays_;
-    if (!indirect_ || work_.packets == 0.0) {
-      tally_->add(counters_, sums, passed, nullptr);
-      return true;
-    }
-    const Clock::time_point start = Clock::now();
-    const FirstLandings first{beam ? &*beam : nullptr, grid_rays_, sums.met, tally_->scattered(sums),
-                              tally_->scattered_by_zone(sums, passed)};
-    const IndirectSettings how{work_.packets, sky_rays(), settings_.accuracy.indirect, settings_.seed, replicate};
-    const std::optional<IndirectSums> packets = indirect_->run(first, tally_->quanta(), how, stop);
-    indirect_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
-    if (!packets) return false;
-    traced_ += packets->packets + packets->sky_rays;
-    tally_->add(counters_, sums, passed, &*packets);
+    if (replicate->packets) traced_ += replicate->packets->packets + replicate->packets->sky_rays;
+    direct_s_ += replicate->direct_s;
+    indirect_s_ += replicate->indirect_s;
     return true;
   }
 
+  std::future<std::optional<Replicate>> begin_replicate(std::uint64_t number, std::size_t at_once) {
+    const ReplicateOrder order{work_.rays,     grid_rays_, work_.packets, sky_rays(), settings_.accuracy.indirect,
+                               settings_.seed, number};
+    const auto make = [this, order] { return maker_->make(order, *tally_, [this] { return must_stop(); }); };
+    return std::async(at_once > 1 ? std::launch::async : std::launch::deferred, make);
+  }
+
   [[nodiscard]] double direct_error() const { return model_.has_beam() ? tally_->direct_error(settings_.accuracy) : 0.0; }
-  [[nodiscard]] double indirect_error() const { return indirect_ ? tally_->indirect_error(settings_.accuracy) : 0.0; }
+  [[nodiscard]] double indirect_error() const { return has_indirect_ ? tally_->indirect_error(settings_.accuracy) : 0.0; }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
@@ -172,7 +160,7 @@ class Solver {
   // The last run is the pilot. What this scene has that the last one had not starts as small as pilots do.
   RadiationResult begin_as_told(Work work) {
     if (model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
-    if (indirect_) work.packets = std::max(first_pilot_packets, work.packets);
+    if (has_indirect_) work.packets = std::max(first_pilot_packets, work.packets);
     begin(work);
     return run_to_bound();
   }
@@ -219,7 +207,7 @@ class Solver {
       if (!rays) return std::nullopt;
       work.rays = *rays;
     }
-    if (!indirect_) return work;
+    if (!has_indirect_) return work;
     // On a fixed grid at most one packet a ray, and at least as many as the first pilot has.
     double most_of_them = std::min(most, most_packets);
     if (settings_.grid_m) most_of_them = std::min(most_of_them, std::max(first_pilot_packets, work.rays));
@@ -247,7 +235,7 @@ class Solver {
       const double before = seconds();
       begin(pilot);
       while (tally_->replicates() < pilot_replicates) {
-        if (add_replicate(pilot_stream)) continue;
+        if (add_replicate(pilot_stream, pilot_replicates)) continue;
         keep_fallback();
         return std::nullopt;
       }
@@ -277,7 +265,7 @@ class Solver {
 
   RadiationResult run_fixed(int replicates) {
     while (tally_->replicates() < static_cast<std::size_t>(replicates)) {
-      if (spent() || !add_replicate(0)) return finish(stop_);
+      if (spent() || !add_replicate(0, static_cast<std::size_t>(replicates))) return finish(stop_);
       report(static_cast<double>(tally_->replicates()) / replicates);
     }
     return finish(StopReason::work_done);
@@ -287,7 +275,7 @@ class Solver {
     int good_checks = 0;
     std::size_t next_check = first_check;
     while (true) {
-      if (spent() || !add_replicate(0)) return finish(stop_);
+      if (spent() || !add_replicate(0, next_check)) return finish(stop_);
       report(static_cast<double>(tally_->replicates()) / std::max<double>(planned_replicates, next_check));
       if (tally_->replicates() < next_check) continue;
       good_checks = bounds_hold() ? good_checks + 1 : 0;
@@ -325,13 +313,15 @@ class Solver {
       result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
     }
     if (const double error = direct_error(); !std::isnan(error)) result.direct.relative_error = error;
-    result.direct.seconds = seconds() - indirect_seconds_;
-    result.indirect.seconds = indirect_seconds_;
-    if (const double error = indirect_error(); indirect_ && !std::isnan(error)) result.indirect.relative_error = error;
+    // Replicates overlap; each pass has its share of the time that went by.
+    const double busy_s = direct_s_ + indirect_s_;
+    result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
+    result.direct.seconds = seconds() - result.indirect.seconds;
+    if (const double error = indirect_error(); has_indirect_ && !std::isnan(error)) result.indirect.relative_error = error;
     result.next_work = next_work();
     if (!fixed()) {
       result.direct.bound = settings_.accuracy.direct;
-      if (indirect_) result.indirect.bound = settings_.accuracy.indirect;
+      if (has_indirect_) result.indirect.bound = settings_.accuracy.indirect;
     }
     return result;
   }
@@ -344,16 +334,18 @@ class Solver {
   Surfaces surfaces_;
   std::optional<PlaneReceivers> receivers_;
   std::optional<SkyRays> sky_;
-  std::unique_ptr<IndirectPass> indirect_;  // none without a sky where no light goes on after its first landing
+  std::optional<ReplicateMaker> maker_;
+  bool has_indirect_ = false;
   Clock::time_point start_ = Clock::now();
-  std::vector<std::uint32_t> counters_;
   std::unique_ptr<Tally> tally_, fallback_;
+  std::mutex stop_mutex_;
   StopReason stop_ = StopReason::interrupted;
   Work work_;
   std::uint64_t grid_rays_ = 0;  // what the grid makes of the asked rays
   std::uint64_t fallback_rays_ = 0;
   std::uint64_t traced_ = 0, before_run_ = 0;
-  double indirect_seconds_ = 0.0;
+  double direct_s_ = 0.0, indirect_s_ = 0.0;
+  std::deque<std::future<std::optional<Replicate>>> ahead_;  // in the order of their numbers; last, so that it ends first
 };
 
 // A scene without any light: every flux is exactly zero, and shares of the beam do not exist.

@@ -28,6 +28,7 @@ struct SolveSettings {
   std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
   std::optional<double> max_seconds;      // wall time of the simulation
   bool element_errors = false;            // keep the spread of every element
+  int replicates_at_once = 2;             // in the making side by side, where max_rays does not ask for one after the other
 };
 
 struct Progress {
@@ -40,7 +41,7 @@ struct Progress {
 // How a caller watches and ends a run. Both may be empty.
 struct Monitor {
   std::function<void(const Progress&)> report;
-  StopQuestion interrupted;
+  StopQuestion interrupted;  // asked by several threads, one at a time
 };
 
 // Runs the simulation. A run stopped before its second replicate is done falls back on the replicates of its pilot, if it had

@@ -160,7 +160,7 @@ void Tally::check(const DirectSums& sums) const {
   const std::uint64_t sent = model_.plot.periodic ? rays_ : sums.met + sums.lost;
   const std::uint64_t followed = model_.plot.periodic ? rays_ : sent + sums.missed;
   if (landed == sent && followed == rays_) return;
-  throw_failure(fmt::format("replicate {}: {} of {} rays landed, {} were followed", replicates_ + 1, landed, sent, followed),
+  throw_failure(fmt::format("direct pass: {} of {} rays landed, {} were followed", landed, sent, followed),
                 "every ray sent must land, leave or be counted as lost",
                 "run it with --device cpu, and report the device and the scene");
 }

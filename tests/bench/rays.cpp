@@ -48,6 +48,7 @@ std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order
   settings.passes = 8;
   settings.grid_m = std::sqrt(stand.model.plot.area_m2() / (packets * *settings.passes));
   settings.packets = packets;
+  settings.replicates_at_once = 1;
   Recorder recorder(stand);
   Monitor until_recorded;
   until_recorded.interrupted = [&recorder] { return recorder.done(); };

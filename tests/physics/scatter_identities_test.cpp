@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -221,6 +222,46 @@ TEST(ScatterIdentities, SameNumbersWithOneAndTwoThreads) {
     other.seed = 2;
     EXPECT_FALSE(all_numbers(simulate(model, prepared, other)) == numbers[0]);
   }
+}
+
+// Replicates in the making side by side know nothing of each other, whether the work is fixed or sought.
+TEST(ScatterIdentities, SameNumbersHoweverManyReplicatesAtOnce) {
+  const RadiationModel model = leafy_model();
+  const Prepared prepared(model);
+  SolveSettings automatic;
+  automatic.accuracy.direct = 0.01;
+  automatic.accuracy.indirect = 0.02;
+  for (SolveSettings how : {fixed_scatter(model, {.rays = 1e5, .packets = 10000, .replicates = 9}), automatic}) {
+    std::vector<std::vector<std::uint64_t>> numbers;
+    for (const int at_once : {1, 2, 5}) {
+      how.replicates_at_once = at_once;
+      numbers.push_back(all_numbers(simulate(model, prepared, how)));
+    }
+    EXPECT_TRUE(numbers[1] == numbers[0]);
+    EXPECT_TRUE(numbers[2] == numbers[0]);
+  }
+}
+
+// A run that is stopped keeps the replicates that were whole in their order; those in the making are given up.
+TEST(ScatterIdentities, StoppedBetweenReplicatesKeepsTheFirstOnes) {
+  const RadiationModel model = leafy_model();
+  const Prepared prepared(model);
+  SolveSettings settings = fixed_scatter(model, {.rays = 1e5, .packets = 10000, .replicates = 12});
+  settings.replicates_at_once = 3;
+  std::atomic<bool> enough = false;
+  Monitor monitor;
+  int reports = 0;
+  monitor.report = [&](const Progress&) { enough = ++reports >= 4; };
+  monitor.interrupted = [&] { return enough.load(); };
+  CpuTracer tracer(prepared.bvh, tracer_scene(model));
+  const RadiationResult stopped = solve(model, prepared.layout, tracer, settings, monitor);
+  EXPECT_EQ(stopped.stop, StopReason::interrupted);
+  ASSERT_GE(stopped.direct.replicates, 4U);
+  ASSERT_LE(stopped.direct.replicates, 7U);  // three more may have been whole by then
+  SolveSettings fewer = settings;
+  fewer.grid_m = *settings.grid_m * std::sqrt(12.0 / static_cast<double>(stopped.direct.replicates));
+  fewer.passes = static_cast<int>(stopped.direct.replicates);
+  EXPECT_TRUE(all_numbers(stopped) == all_numbers(simulate(model, prepared, fewer)));
 }
 
 }  // namespace

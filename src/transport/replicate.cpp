@@ -1,0 +1,66 @@
+#include "transport/replicate.h"
+
+#include "transport/beam_block.h"
+#include "transport/beam_landings.h"
+
+#include <chrono>
+
+namespace sunfleck {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+TraceOutcome ReplicateMaker::OneAtATime::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                    const StopQuestion& stop) {
+  const std::lock_guard lock(mutex_);
+  return tracer_.count_beam(beam, counters, stop);
+}
+
+TraceOutcome ReplicateMaker::OneAtATime::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                               std::span<shared::Landing> landings, const StopQuestion& stop) {
+  const std::lock_guard lock(mutex_);
+  return tracer_.trace(scene, packets, landings, stop);
+}
+
+ReplicateMaker::ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
+                               Tracer& tracer, const SkyRays* sky, const PlaneReceivers* receivers)
+    : model_(model), layout_(layout), receivers_(receivers), tracer_(tracer) {
+  if (!scatters(model) && sky == nullptr) return;
+  indirect_ = std::make_unique<IndirectPass>(model, layout, surfaces, tracer_, sky, receivers);
+}
+
+TraceOutcome ReplicateMaker::count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop) {
+  if (receivers_ == nullptr) return tracer_.count_beam(beam, replicate.counters, stop);
+  return count_beam_landings(model_, layout_, *receivers_, tracer_, beam, replicate.counters, replicate.passed, stop);
+}
+
+std::optional<Replicate> ReplicateMaker::make(const ReplicateOrder& order, const Tally& tally, const StopQuestion& stop) {
+  if (stop()) return std::nullopt;
+  const Clock::time_point start = Clock::now();
+  std::optional<Replicate> replicate(std::in_place);
+  replicate->counters.resize(layout_.words());
+  if (receivers_ != nullptr) replicate->passed = PlaneSums(*receivers_, model_);
+  std::optional<shared::BeamBlock> beam;
+  if (model_.has_beam()) {
+    beam = make_beam_block(model_, layout_, order.beam_rays, order.seed, order.number);
+    if (count_beam(*beam, *replicate, stop) == TraceOutcome::stopped) return std::nullopt;
+  }
+  replicate->sums = tally.sum(replicate->counters);
+  replicate->direct_s = seconds_since(start);
+  if (!indirect_ || order.packets == 0.0) return replicate;
+  const FirstLandings first{beam ? &*beam : nullptr, order.grid_rays, replicate->sums.met, tally.scattered(replicate->sums),
+                            tally.scattered_by_zone(replicate->sums, replicate->passed)};
+  const IndirectSettings how{order.packets, order.sky_rays, order.bound, order.seed, order.number};
+  replicate->packets = indirect_->run(first, tally.quanta(), how, stop);
+  replicate->indirect_s = seconds_since(start) - replicate->direct_s;
+  if (!replicate->packets) return std::nullopt;
+  return replicate;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,78 @@
+#pragma once
+// Replicates before they are tallied. Several may be in the making at a time: while the tracer is busy with one, the host draws
+// and books the packets of another.
+
+#include "transport/indirect.h"
+#include "transport/planes.h"
+#include "transport/sky_rays.h"
+#include "transport/tally.h"
+#include "transport/tracer.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// What one replicate brings to the tally.
+struct Replicate {
+  std::vector<std::uint32_t> counters;  // words as in transport/counters.h
+  DirectSums sums;
+  PlaneSums passed;
+  std::optional<IndirectSums> packets;  // none without an indirect pass
+  double direct_s = 0.0;                // wall time, waiting for the tracer included
+  double indirect_s = 0.0;
+};
+
+// What is to be made. Replicates with the same seed and number are the same, whatever is made beside them.
+struct ReplicateOrder {
+  double beam_rays = 0.0;       // about how many
+  std::uint64_t grid_rays = 0;  // what the grid makes of them
+  double packets = 0.0;         // of the first round; 0: no indirect pass
+  std::size_t sky_rays = 0;
+  double bound = 0.003;  // as IndirectSettings::bound
+  std::uint64_t seed = 1;
+  std::uint64_t number = 0;
+};
+
+class ReplicateMaker {
+ public:
+  // All must outlive it; receivers and sky may be null.
+  ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, Tracer& tracer,
+                 const SkyRays* sky, const PlaneReceivers* receivers);
+
+  [[nodiscard]] bool has_indirect_pass() const { return indirect_ != nullptr; }
+
+  // None if stopped. The tally tells what landings are worth; it may meanwhile add other replicates. May be called by several
+  // threads at a time, all of which ask `stop`.
+  [[nodiscard]] std::optional<Replicate> make(const ReplicateOrder& order, const Tally& tally, const StopQuestion& stop);
+
+ private:
+  // A tracer that serves one thread after the other.
+  class OneAtATime final : public Tracer {
+   public:
+    explicit OneAtATime(Tracer& tracer) : tracer_(tracer) {}
+    [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
+    [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                          const StopQuestion& stop) override;
+    [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                     std::span<shared::Landing> landings, const StopQuestion& stop) override;
+
+   private:
+    Tracer& tracer_;
+    std::mutex mutex_;
+  };
+
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop);
+
+  const RadiationModel& model_;
+  const CounterLayout& layout_;
+  const PlaneReceivers* receivers_;
+  OneAtATime tracer_;
+  std::unique_ptr<IndirectPass> indirect_;  // none without a sky where no light goes on after its first landing
+};
+
+}  // namespace sunfleck
