@@ -9,7 +9,7 @@
 #include "tree.glsl"
 #include "traverse.glsl"
 
-layout(local_size_x = group_size) in;
+layout(local_size_x = group_size, local_size_x_id = 2) in;
 layout(constant_id = 0) const bool periodic = true;
 layout(constant_id = 1) const bool has_soil = true;
 

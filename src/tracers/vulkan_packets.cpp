@@ -13,30 +13,31 @@ namespace {
 
 constexpr std::size_t outbox_head_bytes = sizeof(std::uint32_t);
 
-ShaderCode packets_shader(const GpuTree& tree) {
+ShaderCode packets_shader(const GpuTree& tree, std::uint32_t group_size) {
   const std::span<const std::uint32_t> spirv = tree.fetch == TreeFetch::texel_buffers
                                                    ? std::span<const std::uint32_t>(packets_spirv)
                                                    : std::span<const std::uint32_t>(packets_storage_spirv);
   std::vector<BufferUse> bindings{tree.use(), tree.use()};
   bindings.resize(7, BufferUse::storage);
-  return {"packets", spirv, bindings, sizeof(shared::PacketPush), shared::group_size};
+  return {"packets", spirv, bindings, sizeof(shared::PacketPush), group_size};
 }
 
 }  // namespace
 
 VulkanPackets::VulkanPackets(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, CpuTracer::Scene scene,
-                             std::uint32_t packets_per_dispatch)
+                             const VulkanChoices& choices)
     : context_(context),
       tree_(tree),
       cpu_(cpu),
-      packets_per_dispatch_(packets_per_dispatch),
+      packets_per_dispatch_(choices.rays_per_dispatch),
       scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
-      packets_(create_buffer(context, BufferUse::storage, packets_per_dispatch * sizeof(shared::Packet), "packets")),
-      landings_(create_buffer(context, BufferUse::storage, packets_per_dispatch * sizeof(shared::Landing), "landings")),
-      inbox_(create_buffer(context, BufferUse::storage, outbox_head_bytes + packets_per_dispatch * sizeof(shared::PausedPacket),
-                           "paused packets")),
+      packets_(create_buffer(context, BufferUse::storage, packets_per_dispatch_ * sizeof(shared::Packet), "packets")),
+      landings_(create_buffer(context, BufferUse::storage, packets_per_dispatch_ * sizeof(shared::Landing), "landings")),
+      inbox_(create_buffer(context, BufferUse::storage,
+                           outbox_head_bytes + packets_per_dispatch_ * sizeof(shared::PausedPacket), "paused packets")),
       outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, "paused packets")),
-      pipeline_(context, packets_shader(tree), {scene.periodic ? 1U : 0U, scene.has_soil ? 1U : 0U}) {}
+      pipeline_(context, packets_shader(tree, choices.group_size),
+                {scene.periodic ? 1U : 0U, scene.has_soil ? 1U : 0U, choices.group_size}) {}
 
 void VulkanPackets::dispatch(const shared::PacketPush& push) {
   const std::uint32_t none = 0;

@@ -6,15 +6,16 @@
 #include "gpu/compute.h"
 #include "tracers/cpu_tracer.h"
 #include "tracers/gpu_tree.h"
+#include "tracers/vulkan_choices.h"
 #include "transport/tracer.h"
 
 namespace sunfleck {
 
 class VulkanPackets {
  public:
-  // All three must outlive it.
+  // All but the choices must outlive it; they are complete.
   VulkanPackets(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, CpuTracer::Scene scene,
-                std::uint32_t packets_per_dispatch);
+                const VulkanChoices& choices);
 
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop);

@@ -21,7 +21,7 @@ constexpr std::uint32_t most_packets_per_dispatch = 1U << 20U;
 
 constexpr std::size_t outbox_head_bytes = sizeof(std::uint32_t);
 
-ShaderCode direct_shader(const GpuTree& tree) {
+ShaderCode direct_shader(const GpuTree& tree, std::uint32_t group_size) {
   const std::span<const std::uint32_t> spirv = tree.fetch == TreeFetch::texel_buffers
                                                    ? std::span<const std::uint32_t>(direct_spirv)
                                                    : std::span<const std::uint32_t>(direct_storage_spirv);
@@ -29,29 +29,31 @@ ShaderCode direct_shader(const GpuTree& tree) {
           spirv,
           {tree.use(), tree.use(), BufferUse::storage, BufferUse::storage, BufferUse::storage, BufferUse::storage},
           sizeof(shared::BeamPush),
-          shared::group_size};
+          group_size};
+}
+
+VulkanChoices completed(VulkanChoices choices, const GpuContext& context) {
+  if (choices.rays_per_dispatch != 0) return choices;
+  choices.rays_per_dispatch = context.description().software ? software_rays_per_dispatch : hardware_rays_per_dispatch;
+  return choices;
 }
 
 }  // namespace
 
 VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
-                           std::size_t counter_words)
-    : VulkanTracer(context, bvh, tree, scene, counter_words,
-                   context.description().software ? software_rays_per_dispatch : hardware_rays_per_dispatch) {}
-
-VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
-                           std::size_t counter_words, std::uint32_t rays_per_dispatch)
+                           std::size_t counter_words, VulkanChoices choices)
     : context_(context),
       cpu_(bvh, scene),
       scene_(scene),
-      rays_per_dispatch_(rays_per_dispatch),
+      choices_(completed(choices, context)),
       tree_(tree),
       beam_(create_buffer(context, BufferUse::storage, sizeof(shared::BeamBlock), "the beam's description")),
       counters_(create_buffer(context, BufferUse::storage, counter_words * sizeof(std::uint32_t), "the counters of landings")),
-      inbox_(create_buffer(context, BufferUse::storage, outbox_head_bytes + rays_per_dispatch * sizeof(shared::PausedRay),
-                           "paused rays")),
+      inbox_(create_buffer(context, BufferUse::storage,
+                           outbox_head_bytes + choices_.rays_per_dispatch * sizeof(shared::PausedRay), "paused rays")),
       outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, "paused rays")),
-      pipeline_(context, direct_shader(tree), {scene.periodic ? 1U : 0U, scene.has_soil ? 1U : 0U}) {}
+      pipeline_(context, direct_shader(tree, choices_.group_size),
+                {scene.periodic ? 1U : 0U, scene.has_soil ? 1U : 0U, choices_.group_size}) {}
 
 TracerDevice VulkanTracer::device() const {
   const DeviceDescription& device = context_.description();
@@ -90,7 +92,7 @@ TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<s
   fill(context_, counters_, 0);
   const std::uint32_t rays = beam.columns * beam.rows;
   for (std::uint32_t first = 0; first < rays;) {
-    const std::uint32_t slice = std::min(rays_per_dispatch_, rays - first);
+    const std::uint32_t slice = std::min(choices_.rays_per_dispatch, rays - first);
     shared::BeamPush push{first, slice, 0};
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
@@ -110,8 +112,9 @@ TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<s
 TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                  std::span<shared::Landing> landings, const StopQuestion& stop) {
   if (!packets_) {
-    packets_ =
-        std::make_unique<VulkanPackets>(context_, tree_, cpu_, scene_, std::min(rays_per_dispatch_, most_packets_per_dispatch));
+    VulkanChoices choices = choices_;
+    choices.rays_per_dispatch = std::min(choices.rays_per_dispatch, most_packets_per_dispatch);
+    packets_ = std::make_unique<VulkanPackets>(context_, tree_, cpu_, scene_, choices);
   }
   return packets_->trace(scene, packets, landings, stop);
 }

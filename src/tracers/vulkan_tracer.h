@@ -7,6 +7,7 @@
 #include "gpu/context.h"
 #include "tracers/cpu_tracer.h"
 #include "tracers/gpu_tree.h"
+#include "tracers/vulkan_choices.h"
 #include "tracers/vulkan_packets.h"
 #include "transport/tracer.h"
 
@@ -18,11 +19,9 @@ class VulkanTracer final : public Tracer {
  public:
   // Context, tree and device tree must outlive the tracer. `counter_words` is the length of the counters of every
   // count_beam. Throws Error (device) naming the limit if the counters are too large for the device, Error (failure) if
-  // its memory runs out. The second form chooses how many rays go into one dispatch; the result is the same.
+  // its memory runs out.
   VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
-               std::size_t counter_words);
-  VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
-               std::size_t counter_words, std::uint32_t rays_per_dispatch);
+               std::size_t counter_words, VulkanChoices choices = {});
 
   [[nodiscard]] TracerDevice device() const override;
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
@@ -41,7 +40,7 @@ class VulkanTracer final : public Tracer {
   const GpuContext& context_;
   CpuTracer cpu_;
   CpuTracer::Scene scene_;
-  std::uint32_t rays_per_dispatch_;
+  VulkanChoices choices_;
   const GpuTree& tree_;
   GpuBuffer beam_, counters_, inbox_, outbox_;
   ComputePipeline pipeline_;

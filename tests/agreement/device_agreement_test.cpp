@@ -42,7 +42,7 @@ std::size_t words_apart(const Counters& a, const Counters& b) {
 
 struct Cut {
   TreeFetch fetch;
-  std::uint32_t rays_per_dispatch;  // 0: as the program chooses
+  VulkanChoices choices;
 };
 
 class DeviceAgreement : public DeviceTest {
@@ -51,11 +51,7 @@ class DeviceAgreement : public DeviceTest {
                                          Cut cut) const {
     const GpuTree tree(context(), prepared.bvh, cut.fetch);
     const auto words = prepared.layout.words();
-    if (cut.rays_per_dispatch == 0) {
-      VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), words);
-      return count(tracer, beam, prepared.layout);
-    }
-    VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), words, cut.rays_per_dispatch);
+    VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), words, cut.choices);
     return count(tracer, beam, prepared.layout);
   }
 
@@ -66,10 +62,10 @@ class DeviceAgreement : public DeviceTest {
     const shared::BeamBlock beam = make_beam_block(model, prepared.layout, rays, 1, 0);
     const Counters expected = count(cpu, beam, prepared.layout);
     expect_all_counted(expected, beam, model.plot.periodic);
-    for (const Cut cut :
-         {Cut{TreeFetch::texel_buffers, 0}, Cut{TreeFetch::storage_buffers, 1000}, Cut{TreeFetch::texel_buffers, 64}}) {
+    for (const Cut& cut : {Cut{TreeFetch::texel_buffers, {}}, Cut{TreeFetch::storage_buffers, {1000, 128}},
+                           Cut{TreeFetch::texel_buffers, {64, 32}}}) {
       EXPECT_EQ(words_apart(count_on_device(model, prepared, beam, cut), expected), 0U)
-          << "in dispatches of " << cut.rays_per_dispatch;
+          << "in dispatches of " << cut.choices.rays_per_dispatch;
     }
     if (doubted_rays == 0) return;
     const shared::BeamBlock few = make_beam_block(model, prepared.layout, doubted_rays, 2, 0);

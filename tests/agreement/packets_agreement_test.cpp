@@ -94,9 +94,9 @@ class PacketsAgreement : public DeviceTest {
       const GpuTree tree(context(), prepared.bvh, fetch);
       VulkanTracer whole(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
       EXPECT_EQ(apart(follow(whole, scene, packets), expected), 0U);
-      for (const std::uint32_t cut : {64U, 1000U}) {
+      for (const VulkanChoices cut : {VulkanChoices{64, 32}, VulkanChoices{1000, 128}}) {
         VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), cut);
-        EXPECT_EQ(apart(follow(tracer, scene, packets), expected), 0U) << "in dispatches of " << cut;
+        EXPECT_EQ(apart(follow(tracer, scene, packets), expected), 0U) << "in dispatches of " << cut.rays_per_dispatch;
       }
     }
     const std::vector<shared::Packet> few(packets.begin(), packets.begin() + static_cast<std::ptrdiff_t>(doubted));

@@ -11,5 +11,6 @@ void register_growth(const GpuContext* context);
 void register_builds();
 void register_safeguards(const GpuContext* context);
 void register_features(const GpuContext* context);
+void register_device(const GpuContext* context);
 
 }  // namespace sunfleck::bench

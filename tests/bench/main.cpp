@@ -6,6 +6,7 @@
 //   safeguard/WHAT/WHO/WITH    with and without a precaution
 //   feature/WHAT/WHO           a whole simulation of fixed work, with one optional feature
 //   solve/paper/WHO            the paper's scene to its bounds; counter "tracing" is what the tracer takes of it, s
+//   device/...                 what gpu_check.sh asks of a device: see bench_device.cpp
 // Ratios are of medians: --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true, as report.sh runs it.
 
 #include "bench/benches.h"
@@ -50,6 +51,7 @@ int run(std::vector<char*> arguments) {
   bench::register_builds();
   bench::register_safeguards(context.get());
   bench::register_features(context.get());
+  bench::register_device(context.get());
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

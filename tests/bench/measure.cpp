@@ -34,20 +34,18 @@ void measure_peer(benchmark::State& state, Rays rays, const Stand& stand, Who wh
   finish(state, stand, all.size());
 }
 
-void measure_beam(benchmark::State& state, const Stand& stand, const GpuContext* context) {
+void measure_beam(benchmark::State& state, const Stand& stand, Tracer& tracer) {
   const shared::BeamBlock beam = beam_of(stand, beam_rays);
   std::vector<std::uint32_t> counters(stand.prepared.layout.words());
-  Ours ours(stand, context);
-  for (auto _ : state) (void)ours.tracer().count_beam(beam, counters, {});
+  for (auto _ : state) (void)tracer.count_beam(beam, counters, {});
   finish(state, stand, std::size_t{beam.columns} * beam.rows);
 }
 
-void measure_packets(benchmark::State& state, Rays rays, const Stand& stand, const GpuContext* context) {
+void measure_packets(benchmark::State& state, Rays rays, const Stand& stand, Tracer& tracer) {
   const std::vector<shared::Packet> all = rays_of(stand, rays);
   const shared::PacketBlock scene = make_packet_block(stand.model, stand.prepared.layout);
   std::vector<shared::Landing> landings(all.size());
-  Ours ours(stand, context);
-  for (auto _ : state) (void)ours.tracer().trace(scene, all, landings, {});
+  for (auto _ : state) (void)tracer.trace(scene, all, landings, {});
   std::size_t met = 0;
   for (const shared::Landing& landing : landings) met += landing.surface < shared::landed_on_ground ? 1 : 0;
   state.counters["met"] = static_cast<double>(met) / static_cast<double>(all.size());
@@ -62,8 +60,13 @@ const char* name_of(Rays rays) {
 
 void measure(benchmark::State& state, Rays rays, const Stand& stand, const Way& way) {
   if (way.who != Who::ours) return measure_peer(state, rays, stand, way.who);
-  if (rays == Rays::beam) return measure_beam(state, stand, way.context);
-  measure_packets(state, rays, stand, way.context);
+  Ours ours(stand, way.context);
+  measure_ours(state, rays, stand, ours.tracer());
+}
+
+void measure_ours(benchmark::State& state, Rays rays, const Stand& stand, Tracer& tracer) {
+  if (rays == Rays::beam) return measure_beam(state, stand, tracer);
+  measure_packets(state, rays, stand, tracer);
 }
 
 }  // namespace sunfleck::bench

@@ -3,6 +3,7 @@
 
 #include "bench/rays.h"
 #include "gpu/context.h"
+#include "transport/tracer.h"
 
 #include <benchmark/benchmark.h>
 
@@ -24,5 +25,6 @@ struct Way {
 // Times the tracing of a million beam rays or a quarter of a million packets; what prepares them is left out. Items are rays;
 // counter "triangles" is the stand's number of them, "met" the share of rays that end on an element, where it is known.
 void measure(benchmark::State& state, Rays rays, const Stand& stand, const Way& way);
+void measure_ours(benchmark::State& state, Rays rays, const Stand& stand, Tracer& tracer);
 
 }  // namespace sunfleck::bench

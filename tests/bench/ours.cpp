@@ -5,15 +5,17 @@
 
 namespace sunfleck::bench {
 
-Ours::Ours(const Stand& stand, const GpuContext* context) : Ours(stand, stand.prepared.bvh, context) {}
+Ours::Ours(const Stand& stand, const GpuContext* context, const OurChoices& choices)
+    : Ours(stand, stand.prepared.bvh, context, choices) {}
 
-Ours::Ours(const Stand& stand, const Bvh& bvh, const GpuContext* context) {
+Ours::Ours(const Stand& stand, const Bvh& bvh, const GpuContext* context, const OurChoices& choices) {
   if (context == nullptr) {
     tracer_ = std::make_unique<CpuTracer>(bvh, stand.tracer_scene());
     return;
   }
-  tree_.emplace(*context, bvh, preferred_fetch(*context, bvh));
-  tracer_ = std::make_unique<VulkanTracer>(*context, bvh, *tree_, stand.tracer_scene(), stand.prepared.layout.words());
+  tree_.emplace(*context, bvh, choices.fetch.value_or(preferred_fetch(*context, bvh)));
+  tracer_ =
+      std::make_unique<VulkanTracer>(*context, bvh, *tree_, stand.tracer_scene(), stand.prepared.layout.words(), choices.cut);
 }
 
 }  // namespace sunfleck::bench

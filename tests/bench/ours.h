@@ -4,6 +4,7 @@
 #include "bench/stand.h"
 #include "gpu/context.h"
 #include "tracers/gpu_tree.h"
+#include "tracers/vulkan_choices.h"
 #include "transport/tracer.h"
 
 #include <memory>
@@ -11,11 +12,17 @@
 
 namespace sunfleck::bench {
 
+// How the Vulkan path works; the program's own choices if nothing is said.
+struct OurChoices {
+  std::optional<TreeFetch> fetch;
+  VulkanChoices cut;
+};
+
 // The CPU path, or the Vulkan path on a device.
 class Ours {
  public:
-  explicit Ours(const Stand& stand, const GpuContext* context = nullptr);
-  Ours(const Stand& stand, const Bvh& bvh, const GpuContext* context);
+  Ours(const Stand& stand, const GpuContext* context, const OurChoices& choices = {});
+  Ours(const Stand& stand, const Bvh& bvh, const GpuContext* context, const OurChoices& choices = {});
 
   [[nodiscard]] Tracer& tracer() { return *tracer_; }
 

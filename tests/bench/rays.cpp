@@ -11,8 +11,6 @@
 namespace sunfleck::bench {
 namespace {
 
-constexpr std::uint64_t seed = 1;
-
 // Passes everything on to the CPU path, and keeps the first packets that leave elements.
 class Recorder final : public Tracer {
  public:
@@ -39,12 +37,13 @@ class Recorder final : public Tracer {
 
 }  // namespace
 
-shared::BeamBlock beam_of(const Stand& stand, double rays) {
-  return make_beam_block(stand.model, stand.prepared.layout, rays, seed, 0);
+shared::BeamBlock beam_of(const Stand& stand, double rays, std::uint64_t replicate) {
+  return make_beam_block(stand.model, stand.prepared.layout, rays, 1, replicate);
 }
 
-std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order order) {
+std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order order, std::uint64_t seed) {
   SolveSettings settings;
+  settings.seed = seed;
   settings.passes = 8;
   settings.grid_m = std::sqrt(stand.model.plot.area_m2() / (packets * *settings.passes));
   settings.packets = packets;

@@ -8,16 +8,16 @@
 
 namespace sunfleck::bench {
 
-// One replicate of about so many beam rays.
-[[nodiscard]] shared::BeamBlock beam_of(const Stand& stand, double rays);
+// About so many beam rays: of replicate number `replicate`.
+[[nodiscard]] shared::BeamBlock beam_of(const Stand& stand, double rays, std::uint64_t replicate = 0);
 
 enum class Order {
   leaf,    // of the tree, as the solver sends packets
   random,  // each starts far from the last
 };
 
-// About so many packets as the solver's first round sends them.
-[[nodiscard]] std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order order);
+// About so many packets as the solver's first round sends them with that seed.
+[[nodiscard]] std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order order, std::uint64_t seed = 1);
 
 // The beam as packets from nowhere, so that other tracers can take the very same rays.
 [[nodiscard]] std::vector<shared::Packet> as_packets(const shared::BeamBlock& beam);

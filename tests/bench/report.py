@@ -14,6 +14,8 @@ import tempfile
 from multiprocessing import get_context
 
 PAPER = "scenes/maize_sparse.toml"
+TITLES = {"cpu": "CPU path", "device": "Vulkan path", "embree1": "Embree, one ray at a time"}
+RAYS = {"beam": "sun's beam", "leaf": "packets from leaves"}
 # Bounds of the table in the README: what must hold, what is aimed at.
 GOALS = {
     "beam/device": (0.50, 0.65),
@@ -28,7 +30,7 @@ def medians(file):
     runs = {}
     for run in json.loads(file.read_text())["benchmarks"]:
         if run["run_type"] == "iteration":
-            runs.setdefault(run["run_name"].removesuffix("/real_time"), []).append(run)
+            runs.setdefault(run["run_name"].removesuffix("/process_time/real_time"), []).append(run)
     return {
         name: {key: statistics.median(run[key] for run in of) for key in of[0] if isinstance(of[0][key], float)}
         for name, of in runs.items()
@@ -113,6 +115,21 @@ def growth(grown):
     return table(["rays, triangles"] + [f"{who}, ns a ray" for who in whos], rows)
 
 
+def plot_growth(grown, file):
+    """Time per ray against triangles, log-log, a line for each tracer and kind of rays."""
+    lines = sorted({tuple(name.split("/")[1:3]) for name in grown})
+    script = [f'set terminal pngcairo size 1000,640 font "DejaVu Sans,13"; set output "{file}"',
+              'set logscale xy; set grid; set key left top; set format x "10^{%T}"',
+              'set xlabel "Triangles"; set ylabel "Time of a ray (ns)"; set yrange [10:*]']
+    blocks = []
+    for rays, who in lines:
+        points = sorted((entry["triangles"], 1e9 / entry["items_per_second"]) for name, entry in grown.items()
+                        if name.split("/")[1:3] == [rays, who])
+        blocks.append("\n".join(f"{x} {y}" for x, y in points) + "\ne\n")
+    titles = ", ".join(f'"-" using 1:2 with linespoints lw 2 title "{TITLES[who]}, {RAYS[rays]}"' for rays, who in lines)
+    subprocess.run(["gnuplot"], input="\n".join(script) + "\nplot " + titles + "\n" + "".join(blocks), text=True, check=True)
+
+
 def run_once(command):
     """Peak memory, bytes, of a command that must succeed."""
     subprocess.run(command, check=True, capture_output=True)
@@ -176,10 +193,13 @@ def main():
     arguments = argparse.ArgumentParser()
     for name in ("--build", "--device", "--work"):
         arguments.add_argument(name, required=True)
+    arguments.add_argument("--plot", help="file of the growth's picture")
     options = arguments.parse_args()
     work = pathlib.Path(options.work)
     program = str(pathlib.Path(options.build) / "sunfleck")
     ratios, runs, grown = (medians(work / f"{name}.json") for name in ("ratios", "runs", "growth"))
+    if options.plot:
+        plot_growth(grown, options.plot)
     context = json.loads((work / "ratios.json").read_text())["context"]
     print(f"{processor()}, {context['num_cpus']} threads; {context.get('device', 'no Vulkan device')}, "
           f"{context.get('driver', '')}; {datetime.date.today()}\n")

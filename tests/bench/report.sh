@@ -1,18 +1,20 @@
 #!/usr/bin/env bash
 # Measures everything that engine speed is judged by and writes one Markdown table of ratios:
-#   tests/bench/report.sh [--device NAME] [--build DIR] [FILE.md]
+#   tests/bench/report.sh [--device NAME] [--build DIR] [--plot GROWTH.png] [FILE.md]
 # NAME as for `sunfleck run`, lavapipe if none is given; DIR holds the program and its tests, build/ci if none is given. Takes
-# about half an hour on two cores, which should have nothing else to do.
+# a quarter of an hour on two cores, which should have nothing else to do.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 device=lavapipe
 build=build/ci
+plot=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --device) device="$2"; shift 2 ;;
     --build) build="$2"; shift 2 ;;
-    -*) echo "report.sh: '$1' (no such option); use --device NAME or --build DIR" >&2; exit 2 ;;
+    --plot) plot=(--plot "$2"); shift 2 ;;
+    -*) echo "report.sh: '$1' (no such option); use --device NAME, --build DIR or --plot FILE" >&2; exit 2 ;;
     *) break ;;
   esac
 done
@@ -21,15 +23,16 @@ out="${1:-/dev/stdout}"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 
-# Repetitions of all benchmarks of a group take turns, so that a noisy machine is noisy for all.
+# measure GROUPS REPETITIONS NAME [option ...]
 measure() {
   "$build/tests/bench/sunfleck_bench" --device="$device" --benchmark_filter="^($1)/" --benchmark_repetitions="$2" \
-    --benchmark_min_time=0.2 --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=false \
-    --benchmark_out="$work/$3.json" --benchmark_out_format=json > "$work/$3.log" || { cat "$work/$3.log" >&2; exit 1; }
+    --benchmark_min_time=0.2 "${@:4}" --benchmark_out="$work/$3.json" --benchmark_out_format=json > "$work/$3.log" ||
+    { cat "$work/$3.log" >&2; exit 1; }
 }
-measure 'trace|build|safeguard' 9 ratios
-measure 'feature|solve' 5 runs
+# Repetitions of all of a group take turns, so that a noisy machine is noisy for all; but large canopies are made once.
+measure 'trace|build|safeguard' 9 ratios --benchmark_enable_random_interleaving=true
+measure 'feature|solve' 5 runs --benchmark_enable_random_interleaving=true
 measure growth 3 growth
 
-python3 tests/bench/report.py --build "$build" --device "$device" --work "$work" > "$work/report.md"
+PYTHONDONTWRITEBYTECODE=1 python3 tests/bench/report.py --build "$build" --device "$device" --work "$work" "${plot[@]}" > "$work/report.md"
 cat "$work/report.md" > "$out"

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Checks the program on a real GPU and measures what to choose there, in one go:
+#   tests/bench/gpu_check.sh [--device NAME] [FILE.md]
+# Builds, runs the agreement tests on that device, compares ten million hits with the CPU path, measures rays a second with each
+# choice (tree fetch, workgroup size) and the host's part, and the time to a picture; writes one Markdown table. Without --device it
+# takes the first device that is not software; `--device lavapipe` tries the script itself. Exit status 3: no such device.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+device=gpu
+if [ "${1:-}" = --device ]; then
+  device="$2"
+  shift 2
+fi
+out="${1:-/dev/stdout}"
+
+build=build/ci
+[ -f "$build/build.ninja" ] || cmake --preset ci
+cmake --build "$build" --target sunfleck sunfleck_bench agreement_tests
+
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+# Fails with the program's own message and status where there is no such device.
+"$build/sunfleck" run scenes/maize_sparse.toml --grid 0.05 -o "$work/first" --device "$device" --images none --quiet
+name="$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["device"]["name"])' "$work/first/summary.json")"
+echo "device: $name" >&2
+
+SUNFLECK_TEST_DEVICE="$name" SUNFLECK_REQUIRE_DEVICE=1 ctest --test-dir "$build" -L '^agreement$' --output-on-failure >&2
+
+"$build/tests/bench/sunfleck_bench" --device="$name" --benchmark_filter='^(device|trace/.*/(cpu|device)|solve/paper/device)' \
+  --benchmark_repetitions=5 --benchmark_min_time=0.2 --benchmark_enable_random_interleaving=true \
+  --benchmark_out="$work/device.json" --benchmark_out_format=json >&2
+
+PYTHONDONTWRITEBYTECODE=1 python3 tests/bench/gpu_report.py --program "$build/sunfleck" --device "$name" --measured "$work/device.json" > "$work/report.md"
+cat "$work/report.md" > "$out"
