@@ -57,10 +57,11 @@ INLINED bool within_edges(const EdgeRay& ray, const BvhTriangle& t) {
   const Float4 z = Float4{t.a[ray.z], t.b[ray.z], t.c[ray.z], ray.origin[2]} - ray.origin[2];
   const Float4 x = Float4{t.a[ray.x], t.b[ray.x], t.c[ray.x], ray.origin[0]} - ray.origin[0] - ray.shear_x * z;
   const Float4 y = Float4{t.a[ray.y], t.b[ray.y], t.c[ray.y], ray.origin[1]} - ray.origin[1] - ray.shear_y * z;
-  constexpr Int4 c_a_b{2, 0, 1, 3};
-  constexpr Int4 b_c_a{1, 2, 0, 3};
-  const Float4 uvw =
-      __builtin_shuffle(x, c_a_b) * __builtin_shuffle(y, b_c_a) - __builtin_shuffle(y, c_a_b) * __builtin_shuffle(x, b_c_a);
+  const Float4 x_cab = __builtin_shufflevector(x, x, 2, 0, 1, 3);
+  const Float4 y_cab = __builtin_shufflevector(y, y, 2, 0, 1, 3);
+  const Float4 x_bca = __builtin_shufflevector(x, x, 1, 2, 0, 3);
+  const Float4 y_bca = __builtin_shufflevector(y, y, 1, 2, 0, 3);
+  const Float4 uvw = x_cab * y_bca - y_cab * x_bca;
   return !(any(uvw < 0.0F) && any(uvw > 0.0F));
 }
 
@@ -90,11 +91,11 @@ INLINED Float8 as_floats(const std::array<std::uint8_t, 8>& bytes) {
 }
 
 // Which lanes of a comparison hold, bit by bit.
-INLINED unsigned bits_of(Int8 holds) {
+INLINED unsigned bits_of(const Int8& holds) {
   Int8 bits = holds & Int8{1, 2, 4, 8, 16, 32, 64, 128};
-  bits |= __builtin_shuffle(bits, Int8{4, 5, 6, 7, 0, 1, 2, 3});
-  bits |= __builtin_shuffle(bits, Int8{2, 3, 0, 1, 6, 7, 4, 5});
-  bits |= __builtin_shuffle(bits, Int8{1, 0, 3, 2, 5, 4, 7, 6});
+  bits |= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 0, 1, 2, 3);
+  bits |= __builtin_shufflevector(bits, bits, 2, 3, 0, 1, 6, 7, 4, 5);
+  bits |= __builtin_shufflevector(bits, bits, 1, 0, 3, 2, 5, 4, 7, 6);
   return static_cast<unsigned>(bits[0]);
 }
 

@@ -67,7 +67,7 @@ void register_device(const GpuContext* context) {
         ->Unit(benchmark::kMillisecond);
   };
   for (const Rays rays : {Rays::beam, Rays::leaf}) {
-    add(fmt::format("device/agree/{}", name_of(rays)), agree, context, rays)->Iterations(1);
+    add(fmt::format("device/agree/{}", name_of(rays)), agree, context, rays)->Iterations(1)->Repetitions(1);
     add(fmt::format("device/fetch/{}/texel", name_of(rays)), with_choice, context, rays,
         OurChoices{TreeFetch::texel_buffers, {}});
     add(fmt::format("device/fetch/{}/storage", name_of(rays)), with_choice, context, rays,

@@ -6,6 +6,7 @@ import datetime
 import json
 import pathlib
 import platform
+import re
 import resource
 import statistics
 import subprocess
@@ -30,7 +31,8 @@ def medians(file):
     runs = {}
     for run in json.loads(file.read_text())["benchmarks"]:
         if run["run_type"] == "iteration":
-            runs.setdefault(run["run_name"].removesuffix("/process_time/real_time"), []).append(run)
+            name = re.sub(r"/(iterations:\d+|repeats:\d+|process_time|real_time)", "", run["run_name"])
+            runs.setdefault(name, []).append(run)
     return {
         name: {key: statistics.median(run[key] for run in of) for key in of[0] if isinstance(of[0][key], float)}
         for name, of in runs.items()
