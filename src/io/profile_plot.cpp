@@ -149,7 +149,7 @@ void add_panel(PlotScript& script, std::size_t panel, double panel_height_px, co
 
 // What stands under the title.
 std::string note_on(const std::vector<ProfileCurve>& curves, const std::optional<MeasuredProfile>& measured, bool beam) {
-  const std::string intervals = interval_note(curves);
+  std::string intervals = interval_note(curves);
   if (!measured || !beam) return intervals;
   return fmt::format("Agreement with field data: {}   \u00b7   {}",
                      agreement_figures(agreement(curves.front().profile, *measured)), intervals);

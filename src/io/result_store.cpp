@@ -110,7 +110,7 @@ double number(const json& object, const char* key, double lo, double hi) {
 }
 
 std::vector<double> numbers(const json& list, std::size_t count, double lo, double hi, const char* what) {
-  const auto values = list.get<std::vector<double>>();
+  auto values = list.get<std::vector<double>>();
   require(values.size() == count, what);
   for (const double value : values) require(value >= lo && value <= hi, what);
   return values;

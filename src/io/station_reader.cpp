@@ -42,7 +42,7 @@ class StationReader {
     }
     if (columns_.count == 0) refuse(source_, 0, "no line of column names found", "there is no row", "begin with time,ghi");
     if (intervals_.size() < 2) {
-      refuse(source_, 0, fmt::format("{} row found", intervals_.size() == 0 ? "no" : "one"),
+      refuse(source_, 0, fmt::format("{} row found", intervals_.empty() ? "no" : "one"),
              "an interval's length is the step to the next one's start, so two are needed", "add rows");
     }
     set_lengths();

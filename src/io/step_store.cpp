@@ -137,8 +137,8 @@ void remove_day_steps(const fs::path& result_folder) {
   fs::remove(folder, not_empty);
 }
 
-StepStore::StepStore(fs::path result_folder, const RadiationModel& model, const ordered_json& settings)
-    : folder_(std::move(result_folder) / steps_folder),
+StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model, const ordered_json& settings)
+    : folder_(result_folder / steps_folder),
       settings_(settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace)),
       bands_(model.bands.size()),
       organs_(model.canopy.organs.size()),

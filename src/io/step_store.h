@@ -38,7 +38,7 @@ void remove_day_steps(const std::filesystem::path& result_folder);
 class StepStore {
  public:
   // `settings`: a JSON object of plain values.
-  StepStore(std::filesystem::path result_folder, const RadiationModel& model, const nlohmann::ordered_json& settings);
+  StepStore(const std::filesystem::path& result_folder, const RadiationModel& model, const nlohmann::ordered_json& settings);
 
   enum class Found { nothing, begun, finished };
   // What an earlier day left. Throws Error (input), naming the first difference, if its settings were others.

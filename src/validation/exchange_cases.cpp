@@ -99,7 +99,8 @@ void compare_plates(CaseBench& bench, std::size_t count) {
   const RadiationModel model = plates_over_soil(count, false);
   const RadiationResult result = bench.simulate(model, case_work(model, 1e5, 8192));
   for (std::size_t b = 0; b < (count == 1 ? 2 : stacks.size()); ++b) {
-    const auto& [name, stack] = stacks[b];
+    const char* const name = stacks[b].first;
+    const PlateStack& stack = stacks[b].second;
     const PlateLight light = light_on_plates(count, stack);
     const auto row = [&](const std::string& what) {
       return fmt::format("{} plate{}, {}, {}", count, count > 1 ? "s" : "", name, what);

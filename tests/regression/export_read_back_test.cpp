@@ -61,7 +61,7 @@ class ExportReadBack : public ::testing::Test {
   }
   [[nodiscard]] json read(ExportKind kind) const {
     const std::string script = script_of(kind);
-    const json found = json::parse(output_of(script + " '" + (folder_ / export_file(kind)).string() + "'"), nullptr, false);
+    json found = json::parse(output_of(script + " '" + (folder_ / export_file(kind)).string() + "'"), nullptr, false);
     EXPECT_FALSE(found.is_discarded()) << "python3-vtk9, python3-meshio, python3-netcdf4 and python3-xarray must be installed";
     return found;
   }

@@ -57,7 +57,7 @@ inline void expect_sound(const RadiationModel& model, const RadiationResult& res
 }
 
 inline RadiationResult simulate_soundly(const RadiationModel& model, const SolveSettings& settings) {
-  const RadiationResult result = simulate(model, settings);
+  RadiationResult result = simulate(model, settings);
   expect_sound(model, result);
   return result;
 }
