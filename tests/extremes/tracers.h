@@ -23,7 +23,7 @@ class EveryTracer : public DeviceTest {
     const Prepared prepared(model);
     const shared::PacketBlock scene = make_packet_block(model, prepared.layout);
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
-    const std::vector<shared::Landing> expected = landings_of(cpu, scene, packets);
+    std::vector<shared::Landing> expected = landings_of(cpu, scene, packets);
     CpuTracer doubter(prepared.bvh, tracer_scene(model), CpuWalk::every_element);
     expect_same(landings_of(doubter, scene, packets), expected, "every element tested");
     for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {

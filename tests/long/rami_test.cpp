@@ -43,7 +43,7 @@ RadiationResult run(const Stand& stand, double rays, double packets) {
   RadiationModel model = scattering_model(stand.mesh, stand.plot, stand.sun, std::array{stand.optics});
   model.soil->patch_m = stand.plot.size_x_m / 100.0;
   const ScatterWork work{.rays = rays, .packets = packets, .replicates = replicates, .bound = 0.001};
-  const RadiationResult result = simulate(model, fixed_scatter(model, work));
+  RadiationResult result = simulate(model, fixed_scatter(model, work));
   EXPECT_EQ(result.lost_rays, 0U);
   EXPECT_EQ(result.bands[0].ledger.residual(), 0);
   std::printf("%zu triangles, leaf area index %.4f, beam on soil %.5f, %.0f s\n", model.canopy.size(), result.leaf_area_index,

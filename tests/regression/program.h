@@ -77,7 +77,7 @@ class ProgramTest : public ::testing::Test {
   // `run SCENE ... -o out`, which has to end with `status`.
   Outcome simulate(const std::filesystem::path& scene, const Arguments& more, int status = 0, const std::string& to = "out",
                    const Watch& watch = {}) const {
-    const Outcome outcome = run(Arguments{"run", scene.string(), "-o", to} + more, watch);
+    Outcome outcome = run(Arguments{"run", scene.string(), "-o", to} + more, watch);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     return outcome;
   }

@@ -49,7 +49,7 @@ class Tradeoff : public ProgramTest {
     std::ofstream(folder_ / "leaf.obj") << leaf_mesh;
   }
   Outcome tradeoff(const Arguments& more, int status = 0, const Watch& watch = {}) const {
-    const Outcome outcome = run(Arguments{"tradeoff", "leaf.toml", "-o", "out", "--device", "cpu"} + more, watch);
+    Outcome outcome = run(Arguments{"tradeoff", "leaf.toml", "-o", "out", "--device", "cpu"} + more, watch);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     return outcome;
   }

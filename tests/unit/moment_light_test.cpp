@@ -80,7 +80,7 @@ class DayRules : public SceneFolder {
  protected:
   [[nodiscard]] std::optional<std::string> refusal(const std::string& text) const {
     const Scene scene = read(text, {.purpose = ScenePurpose::day});
-    const auto message = message_of([&] { check_day(scene); });
+    auto message = message_of([&] { check_day(scene); });
     if (message) expect_three_parts(*message);
     return message;
   }
