@@ -66,7 +66,8 @@ TEST(SensorsForward, ReadTheProfile) {
       Sensor grid{"", {}, SensorResponse::cosine, normal};
       for (int i = 0; i < across * across; ++i) {  // one in each cell
         const double x = random.uniform(), z = random.uniform();
-        grid.points_m.emplace_back((i % across + x) / across, plane.height_m, (i / across + z) / across);
+        const int column = i % across, row = i / across;
+        grid.points_m.emplace_back((column + x) / across, plane.height_m, (row + z) / across);
       }
       model.sensors = {grid};
       const bool downward = normal.y > 0.0;
