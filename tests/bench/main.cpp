@@ -7,7 +7,7 @@
 //   feature/WHAT/WHO           a whole simulation of fixed work, with one optional feature
 //   solve/paper/WHO            the paper's scene to its bounds; counter "tracing" is what the tracer takes of it, s
 //   device/...                 what gpu_check.sh asks of a device: see bench_device.cpp
-// Ratios are of medians: --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true, as report.sh runs it.
+// Ratios are of medians: --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true, as report.sh runs it.
 
 #include "bench/benches.h"
 

@@ -30,8 +30,8 @@ measure() {
     { cat "$work/$3.log" >&2; exit 1; }
 }
 # Repetitions of all of a group take turns, so that a noisy machine is noisy for all; but large canopies are made once.
-measure 'trace|build|safeguard' 9 ratios --benchmark_enable_random_interleaving=true
-measure 'feature|solve' 5 runs --benchmark_enable_random_interleaving=true
+measure 'trace|build|safeguard' 5 ratios --benchmark_enable_random_interleaving=true
+measure 'feature|solve' 3 runs --benchmark_enable_random_interleaving=true
 measure growth 3 growth
 
 PYTHONDONTWRITEBYTECODE=1 python3 tests/bench/report.py --build "$build" --device "$device" --work "$work" "${plot[@]}" > "$work/report.md"
