@@ -1,5 +1,8 @@
 #include "tracers/packet_order.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +12,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t window = 512;
+constexpr std::size_t windows_per_task = 16;
 constexpr std::size_t sectors = 128;  // of the sphere: 16 an octant
 
 // The octahedron's faces, each cut into a grid by two of the direction's shares.
@@ -39,10 +43,13 @@ void order_window(std::span<const shared::Packet> packets, std::uint32_t first, 
 
 std::vector<std::uint32_t> order_by_direction(std::span<const shared::Packet> packets) {
   std::vector<std::uint32_t> order(packets.size());
-  for (std::size_t first = 0; first < packets.size(); first += window) {
-    const std::size_t count = std::min(window, packets.size() - first);
-    order_window(packets.subspan(first, count), static_cast<std::uint32_t>(first), std::span(order).subspan(first, count));
-  }
+  const std::size_t windows = (packets.size() + window - 1) / window;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows, windows_per_task), [&](const auto& range) {
+    for (std::size_t first = range.begin() * window; first < std::min(range.end() * window, packets.size()); first += window) {
+      const std::size_t count = std::min(window, packets.size() - first);
+      order_window(packets.subspan(first, count), static_cast<std::uint32_t>(first), std::span(order).subspan(first, count));
+    }
+  });
   return order;
 }
 

@@ -5,6 +5,9 @@
 #include "packets_storage.spirv.h"
 #include "tracers/packet_order.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -20,6 +23,14 @@ ShaderCode packets_shader(const GpuTree& tree, std::uint32_t group_size) {
   std::vector<BufferUse> bindings{tree.use(), tree.use()};
   bindings.resize(7, BufferUse::storage);
   return {"packets", spirv, bindings, sizeof(shared::PacketPush), group_size};
+}
+
+// On all cores: while packets are brought into order the device has nothing to do.
+template <class Action>
+void for_each_index(std::size_t count, const Action& action) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) action(k);
+  });
 }
 
 }  // namespace
@@ -74,21 +85,21 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
   for (std::size_t first = 0; first < packets.size(); first += packets_per_dispatch_) {
     const auto slice = packets.subspan(first, std::min<std::size_t>(packets_per_dispatch_, packets.size() - first));
     const std::vector<std::uint32_t> order = order_by_direction(slice);
-    std::vector<shared::Packet> sent(slice.size());
-    for (std::size_t k = 0; k < order.size(); ++k) sent[k] = slice[order[k]];
-    upload(context_, packets_, std::as_bytes(std::span(sent)));
+    sent_.resize(slice.size());
+    for_each_index(order.size(), [&](std::size_t k) { sent_[k] = slice[order[k]]; });
+    upload(context_, packets_, std::as_bytes(std::span(sent_)));
     std::vector<std::pair<std::uint32_t, shared::Landing>> finished_on_cpu;
-    shared::PacketPush push{0, static_cast<std::uint32_t>(sent.size()), 0};
+    shared::PacketPush push{0, static_cast<std::uint32_t>(sent_.size()), 0};
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
       dispatch(push);
-      push = {0, take_out_stuck(scene, sent, finished_on_cpu), 1};
+      push = {0, take_out_stuck(scene, sent_, finished_on_cpu), 1};
       std::swap(inbox_, outbox_);
     }
-    std::vector<shared::Landing> landed(sent.size());
-    download(context_, landings_, std::as_writable_bytes(std::span(landed)));
-    for (const auto& [packet, landing] : finished_on_cpu) landed[packet] = landing;
-    for (std::size_t k = 0; k < order.size(); ++k) landings[first + order[k]] = landed[k];
+    landed_.resize(sent_.size());
+    download(context_, landings_, std::as_writable_bytes(std::span(landed_)));
+    for (const auto& [packet, landing] : finished_on_cpu) landed_[packet] = landing;
+    for_each_index(order.size(), [&](std::size_t k) { landings[first + order[k]] = landed_[k]; });
   }
   return TraceOutcome::finished;
 }

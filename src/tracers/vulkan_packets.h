@@ -32,6 +32,8 @@ class VulkanPackets {
   std::uint32_t packets_per_dispatch_;
   GpuBuffer scene_, packets_, landings_, inbox_, outbox_;
   ComputePipeline pipeline_;
+  std::vector<shared::Packet> sent_;     // of one dispatch, in the order of packet_order.h
+  std::vector<shared::Landing> landed_;  // theirs
 };
 
 }  // namespace sunfleck

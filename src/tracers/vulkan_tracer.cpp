@@ -85,6 +85,16 @@ std::uint32_t VulkanTracer::take_out_stuck_rays(const shared::BeamBlock& beam, s
   return static_cast<std::uint32_t>(rays.size());
 }
 
+void VulkanTracer::add_landings(std::span<std::uint32_t> counters) const {
+  constexpr std::size_t words_at_a_time = std::size_t{1} << 20U;
+  std::vector<std::uint32_t> landed(std::min(words_at_a_time, counters.size()));
+  for (std::size_t first = 0; first < counters.size(); first += landed.size()) {
+    const std::span<std::uint32_t> part = std::span(landed).first(std::min(landed.size(), counters.size() - first));
+    download(context_, counters_, std::as_writable_bytes(part), first * sizeof(std::uint32_t));
+    for (std::size_t word = 0; word < part.size(); ++word) counters[first + word] += part[word];
+  }
+}
+
 TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                       const StopQuestion& stop) {
   EXPECT(counters.size_bytes(), ==, counters_.bytes);
@@ -103,9 +113,7 @@ TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<s
     }
     first += slice;
   }
-  std::vector<std::uint32_t> landed(counters.size());
-  download(context_, counters_, std::as_writable_bytes(std::span(landed)));
-  for (std::size_t word = 0; word < landed.size(); ++word) counters[word] += landed[word];
+  add_landings(counters);
   return TraceOutcome::finished;
 }
 

@@ -31,6 +31,8 @@ class VulkanTracer final : public Tracer {
 
  private:
   void dispatch(const shared::BeamPush& push);
+  // Adds what the device has counted.
+  void add_landings(std::span<std::uint32_t> counters) const;
   // The rays that paused in the last dispatch.
   [[nodiscard]] std::uint32_t paused_count() const;
   // Rays that one period kept too long are followed to their end on the CPU; the others go on in the next dispatch.

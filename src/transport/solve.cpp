@@ -115,7 +115,7 @@ class Solver {
   bool add_replicate(std::uint64_t stream, std::size_t until) {
     const std::size_t done = tally_->replicates();
     const auto begun = [&] { return done + ahead_.size(); };
-    const std::size_t at_once = settings_.max_rays ? 1 : static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
+    const std::size_t at_once = replicates_at_once();
     while (begun() < std::max(done + 1, std::min(until, done + at_once)))
       ahead_.push_back(begin_replicate(stream + begun(), at_once));
     const std::optional<Replicate> replicate = ahead_.front().get();
@@ -130,6 +130,12 @@ class Solver {
     direct_s_ += replicate->direct_s;
     indirect_s_ += replicate->indirect_s;
     return true;
+  }
+
+  // Without an indirect pass the host has next to nothing to do meanwhile, and memory is better saved.
+  [[nodiscard]] std::size_t replicates_at_once() const {
+    if (settings_.max_rays || !has_indirect_) return 1;
+    return static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
   }
 
   std::future<std::optional<Replicate>> begin_replicate(std::uint64_t number, std::size_t at_once) {

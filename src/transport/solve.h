@@ -28,7 +28,7 @@ struct SolveSettings {
   std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
   std::optional<double> max_seconds;      // wall time of the simulation
   bool element_errors = false;            // keep the spread of every element
-  int replicates_at_once = 2;             // in the making side by side, where max_rays does not ask for one after the other
+  int replicates_at_once = 2;             // in the making side by side, where there is an indirect pass and no max_rays
 };
 
 struct Progress {
