@@ -16,6 +16,8 @@ from multiprocessing import get_context
 
 PAPER = "scenes/maize_sparse.toml"
 TITLES = {"cpu": "CPU path", "device": "Vulkan path", "embree1": "Embree, one ray at a time"}
+COLOURS = {"cpu": "#0072b2", "device": "#d55e00", "embree1": "#666666"}
+DASHES = {"beam": 1, "leaf": 2}
 RAYS = {"beam": "sun's beam", "leaf": "packets from leaves"}
 # Bounds of the table in the README: what must hold, what is aimed at.
 GOALS = {
@@ -121,14 +123,15 @@ def plot_growth(grown, file):
     """Time per ray against triangles, log-log, a line for each tracer and kind of rays."""
     lines = sorted({tuple(name.split("/")[1:3]) for name in grown})
     script = [f'set terminal pngcairo size 1000,640 font "DejaVu Sans,13"; set output "{file}"',
-              'set logscale xy; set grid; set key left top; set format x "10^{%T}"',
-              'set xlabel "Triangles"; set ylabel "Time of a ray (ns)"; set yrange [10:*]']
+              'set logscale xy; set grid; set key right bottom reverse Left; set format x "10^{%T}"',
+              'set xlabel "Triangles"; set ylabel "Time of a ray (ns)"; set xrange [2e4:2e7]; set yrange [30:2000]']
     blocks = []
     for rays, who in lines:
         points = sorted((entry["triangles"], 1e9 / entry["items_per_second"]) for name, entry in grown.items()
                         if name.split("/")[1:3] == [rays, who])
         blocks.append("\n".join(f"{x} {y}" for x, y in points) + "\ne\n")
-    titles = ", ".join(f'"-" using 1:2 with linespoints lw 2 title "{TITLES[who]}, {RAYS[rays]}"' for rays, who in lines)
+    titles = ", ".join(f'"-" using 1:2 with linespoints lw 2 lc rgb "{COLOURS[who]}" dt {DASHES[rays]} pt 7 '
+                       f'title "{TITLES[who]}, {RAYS[rays]}"' for rays, who in lines)
     subprocess.run(["gnuplot"], input="\n".join(script) + "\nplot " + titles + "\n" + "".join(blocks), text=True, check=True)
 
 
