@@ -70,7 +70,7 @@ NearestHit finished_hit(Ray ray, HitRank best) {
   hit.t = best.t;
   hit.element = best.element;
   hit.triangle = best.triangle;
-  hit.found = best.element != 0xffffffffu;
+  hit.found = best.element != no_element;
   uint first = 3u * best.triangle;
   TriangleHit met = meet_triangle(ray, corner_of(TRIANGLE_WORDS(first)), corner_of(TRIANGLE_WORDS(first + 1u)),
                                   corner_of(TRIANGLE_WORDS(first + 2u)));
@@ -91,7 +91,7 @@ NearestHit nearest_hit(Ray ray, float limit, uint own_element, uint own_image, i
 #else
 NearestHit nearest_hit(Ray ray, float limit, inout uint steps) {
 #endif
-  HitRank best = HitRank(limit, 0xffffffffu, 0u);
+  HitRank best = HitRank(limit, no_element, 0u);
   uint octant = (ray.inverse.x < 0.0 ? 4u : 0u) | (ray.inverse.y < 0.0 ? 2u : 0u) | (ray.inverse.z < 0.0 ? 1u : 0u);
   uvec2 stack[max_depth];
   uint depth = 0u;

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <bit>
-#include <limits>
 
 // One copy of the walk for processors with eight lanes, one for all; which is chosen when the program starts. Both find the
 // same hits: boxes need not be met exactly, and triangles are computed alike.
@@ -78,7 +77,7 @@ void meet(const Bvh& bvh, std::uint32_t triangle, const shared::Ray& ray, float 
 CpuHit no_hit(float limit) {
   CpuHit best;
   best.t = limit;
-  best.element = std::numeric_limits<std::uint32_t>::max();
+  best.element = shared::no_element;
   return best;
 }
 

@@ -51,13 +51,12 @@ class Solver {
     if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
     if (model.has_sky()) sky_.emplace(model, layout);
     maker_.emplace(model, layout, surfaces_, tracer, sky_ ? &*sky_ : nullptr, receivers());
-    has_indirect_ = maker_->has_indirect_pass();
   }
 
   RadiationResult run() {
     const int replicates = settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
     if (settings_.begin_with && !fixed()) return begin_as_told(*settings_.begin_with);
-    const bool needs_pilot = !settings_.grid_m || (has_indirect_ && !settings_.packets);
+    const bool needs_pilot = !settings_.grid_m || (has_indirect() && !settings_.packets);
     std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
     if (!work) return finish(stop_);
     if (settings_.grid_m) {
@@ -69,6 +68,7 @@ class Solver {
   }
 
  private:
+  [[nodiscard]] bool has_indirect() const { return maker_->has_indirect_pass(); }
   [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -134,7 +134,7 @@ class Solver {
 
   // Without an indirect pass the host has next to nothing to do meanwhile, and memory is better saved.
   [[nodiscard]] std::size_t replicates_at_once() const {
-    if (settings_.max_rays || !has_indirect_) return 1;
+    if (settings_.max_rays || !has_indirect()) return 1;
     return static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
   }
 
@@ -146,7 +146,7 @@ class Solver {
   }
 
   [[nodiscard]] double direct_error() const { return model_.has_beam() ? tally_->direct_error(settings_.accuracy) : 0.0; }
-  [[nodiscard]] double indirect_error() const { return has_indirect_ ? tally_->indirect_error(settings_.accuracy) : 0.0; }
+  [[nodiscard]] double indirect_error() const { return has_indirect() ? tally_->indirect_error(settings_.accuracy) : 0.0; }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
@@ -166,7 +166,7 @@ class Solver {
   // The last run is the pilot. What this scene has that the last one had not starts as small as pilots do.
   RadiationResult begin_as_told(Work work) {
     if (model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
-    if (has_indirect_) work.packets = std::max(first_pilot_packets, work.packets);
+    if (has_indirect()) work.packets = std::max(first_pilot_packets, work.packets);
     begin(work);
     return run_to_bound();
   }
@@ -213,7 +213,7 @@ class Solver {
       if (!rays) return std::nullopt;
       work.rays = *rays;
     }
-    if (!has_indirect_) return work;
+    if (!has_indirect()) return work;
     // On a fixed grid at most one packet a ray, and at least as many as the first pilot has.
     double most_of_them = std::min(most, most_packets);
     if (settings_.grid_m) most_of_them = std::min(most_of_them, std::max(first_pilot_packets, work.rays));
@@ -323,11 +323,11 @@ class Solver {
     const double busy_s = direct_s_ + indirect_s_;
     result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
     result.direct.seconds = seconds() - result.indirect.seconds;
-    if (const double error = indirect_error(); has_indirect_ && !std::isnan(error)) result.indirect.relative_error = error;
+    if (const double error = indirect_error(); has_indirect() && !std::isnan(error)) result.indirect.relative_error = error;
     result.next_work = next_work();
     if (!fixed()) {
       result.direct.bound = settings_.accuracy.direct;
-      if (has_indirect_) result.indirect.bound = settings_.accuracy.indirect;
+      if (has_indirect()) result.indirect.bound = settings_.accuracy.indirect;
     }
     return result;
   }
@@ -341,7 +341,6 @@ class Solver {
   std::optional<PlaneReceivers> receivers_;
   std::optional<SkyRays> sky_;
   std::optional<ReplicateMaker> maker_;
-  bool has_indirect_ = false;
   Clock::time_point start_ = Clock::now();
   std::unique_ptr<Tally> tally_, fallback_;
   std::mutex stop_mutex_;

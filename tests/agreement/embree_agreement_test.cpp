@@ -3,6 +3,7 @@
 
 #include "agreement/scenes.h"
 #include "shared/beam.h"
+#include "support/embree.h"
 
 #include <gtest/gtest.h>
 
@@ -34,18 +35,7 @@ class Judge {
  public:
   explicit Judge(const Bvh& bvh) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float), 3 * bvh.triangles.size()));
-    auto* numbers = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                   3 * sizeof(unsigned), bvh.triangles.size()));
-    for (const BvhTriangle& triangle : bvh.triangles) {
-      for (const auto& at : {triangle.a, triangle.b, triangle.c}) vertices = std::copy(at.begin(), at.end(), vertices);
-    }
-    for (unsigned k = 0; k < 3 * bvh.triangles.size(); ++k) numbers[k] = k;
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
+    attach_references(device_, scene_, bvh);
     rtcCommitScene(scene_);
   }
   ~Judge() {

@@ -1,6 +1,7 @@
 // From triangles to a tree, ours and Embree's, on one thread each.
 
 #include "bench/benches.h"
+#include "bench/measure.h"
 #include "bench/peer.h"
 
 #include <benchmark/benchmark.h>
@@ -38,14 +39,8 @@ void build_embree(benchmark::State& state, int plants) {
 
 void register_builds() {
   for (const int plants : fields) {
-    benchmark::RegisterBenchmark(fmt::format("build/embree/plants:{}", plants).c_str(), build_embree, plants)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(fmt::format("build/sunfleck/plants:{}", plants).c_str(), build_ours, plants)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
+    add_benchmark(fmt::format("build/embree/plants:{}", plants), build_embree, plants);
+    add_benchmark(fmt::format("build/sunfleck/plants:{}", plants), build_ours, plants);
   }
 }
 

@@ -60,20 +60,15 @@ void with_choice(benchmark::State& state, const GpuContext* context, Rays rays, 
 
 void register_device(const GpuContext* context) {
   if (context == nullptr) return;
-  const auto add = [&](const std::string& name, auto... measure) {
-    return benchmark::RegisterBenchmark(name.c_str(), measure...)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
-  };
   for (const Rays rays : {Rays::beam, Rays::leaf}) {
-    add(fmt::format("device/agree/{}", name_of(rays)), agree, context, rays)->Iterations(1)->Repetitions(1);
-    add(fmt::format("device/fetch/{}/texel", name_of(rays)), with_choice, context, rays,
-        OurChoices{TreeFetch::texel_buffers, {}});
-    add(fmt::format("device/fetch/{}/storage", name_of(rays)), with_choice, context, rays,
-        OurChoices{TreeFetch::storage_buffers, {}});
+    add_benchmark(fmt::format("device/agree/{}", name_of(rays)), agree, context, rays)->Iterations(1)->Repetitions(1);
+    add_benchmark(fmt::format("device/fetch/{}/texel", name_of(rays)), with_choice, context, rays,
+                  OurChoices{TreeFetch::texel_buffers, {}});
+    add_benchmark(fmt::format("device/fetch/{}/storage", name_of(rays)), with_choice, context, rays,
+                  OurChoices{TreeFetch::storage_buffers, {}});
     for (const std::uint32_t size : {32U, 64U, 128U}) {
-      add(fmt::format("device/group/{}/{}", name_of(rays), size), with_choice, context, rays, OurChoices{{}, {0, size}});
+      add_benchmark(fmt::format("device/group/{}/{}", name_of(rays), size), with_choice, context, rays,
+                    OurChoices{{}, {0, size}});
     }
   }
 }

@@ -2,6 +2,7 @@
 // feature. solve: the paper's scene to its bounds.
 
 #include "bench/benches.h"
+#include "bench/measure.h"
 #include "bench/ours.h"
 #include "transport/sensors.h"
 #include "transport/solve.h"
@@ -121,23 +122,14 @@ void simulate_paper(benchmark::State& state, const GpuContext* context) {
 
 void register_features(const GpuContext* context) {
   const auto add = [](const Feature& feature, const char* who, const GpuContext* on) {
-    benchmark::RegisterBenchmark(fmt::format("feature/{}/{}", feature.name, who).c_str(), simulate_feature, on, feature)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
+    add_benchmark(fmt::format("feature/{}/{}", feature.name, who), simulate_feature, on, feature);
   };
   for (const Feature& feature : all_features()) {
     add(feature, "cpu", nullptr);
     if (context != nullptr) add(feature, "device", context);
   }
-  const auto add_paper = [](const char* name, const GpuContext* on) {
-    benchmark::RegisterBenchmark(name, simulate_paper, on)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
-  };
-  add_paper("solve/paper/cpu", nullptr);
-  if (context != nullptr) add_paper("solve/paper/device", context);
+  add_benchmark("solve/paper/cpu", simulate_paper, static_cast<const GpuContext*>(nullptr));
+  if (context != nullptr) add_benchmark("solve/paper/device", simulate_paper, context);
 }
 
 }  // namespace sunfleck::bench

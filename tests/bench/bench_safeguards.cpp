@@ -1,6 +1,7 @@
 // What precautions cost: padded boxes, the element that a packet leaves left out.
 
 #include "bench/benches.h"
+#include "bench/measure.h"
 #include "bench/ours.h"
 #include "bench/rays.h"
 #include "transport/indirect.h"
@@ -43,11 +44,8 @@ void with_own_element(benchmark::State& state, const GpuContext* context, Precau
 template <class Measure>
 void add(const std::string& name, const GpuContext* context, const Measure& measure) {
   for (const auto& [with, precaution] : {std::pair("with", Precaution::taken), std::pair("without", Precaution::left_out)}) {
-    benchmark::RegisterBenchmark(fmt::format("safeguard/{}/{}/{}", name, context == nullptr ? "cpu" : "device", with).c_str(),
-                                 measure, context, precaution)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
+    add_benchmark(fmt::format("safeguard/{}/{}/{}", name, context == nullptr ? "cpu" : "device", with), measure, context,
+                  precaution);
   }
 }
 

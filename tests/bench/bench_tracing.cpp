@@ -22,11 +22,7 @@ const char* name_of(Plots plots) {
 }
 
 void add(const std::string& name, Rays rays, int plants, Plots plots, const Way& way) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [=](benchmark::State& state) { measure(state, rays, stand_of(plants, plots), way); })
-      ->MeasureProcessCPUTime()
-      ->UseRealTime()
-      ->Unit(benchmark::kMillisecond);
+  add_benchmark(name, [=](benchmark::State& state) { measure(state, rays, stand_of(plants, plots), way); });
 }
 
 std::vector<Way> ours(const GpuContext* context) {

@@ -1,6 +1,7 @@
 #include "bench/peer.h"
 
 #include "shared/beam.h"
+#include "support/embree.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
@@ -123,19 +124,7 @@ Peer::Peer(const Stand& stand, int threads)
     : stand_(stand),
       device_(rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr)),
       scene_(rtcNewScene(device_)) {
-  const std::vector<BvhTriangle>& triangles = stand_.prepared.bvh.triangles;
-  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* corner = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
-  auto* number = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
-  for (const BvhTriangle& triangle : triangles) {
-    for (const auto& at : {triangle.a, triangle.b, triangle.c}) corner = std::copy(at.begin(), at.end(), corner);
-  }
-  for (unsigned k = 0; k < 3 * triangles.size(); ++k) number[k] = k;
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_, geometry);
-  rtcReleaseGeometry(geometry);
+  test::attach_references(device_, scene_, stand.prepared.bvh);
 }
 
 Peer::~Peer() {

@@ -1,0 +1,29 @@
+#pragma once
+// Embree, the outside judge and the measure of speed, over the same triangles as our tree.
+
+#include "bvh/bvh.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+
+namespace sunfleck::test {
+
+// Gives the scene the references of one period, in the order of the tree's leaves; it is not committed yet.
+inline void attach_references(RTCDevice device, RTCScene scene, const Bvh& bvh) {
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), 3 * bvh.triangles.size()));
+  auto* numbers = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                 3 * sizeof(unsigned), bvh.triangles.size()));
+  for (const BvhTriangle& triangle : bvh.triangles) {
+    for (const auto& at : {triangle.a, triangle.b, triangle.c}) vertices = std::copy(at.begin(), at.end(), vertices);
+  }
+  for (unsigned k = 0; k < 3 * bvh.triangles.size(); ++k) numbers[k] = k;
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+}  // namespace sunfleck::test
