@@ -317,7 +317,7 @@ int run_day(const DayOptions& options) {
   Scene scene = read_day_scene(options.run);
   const DayPlan plan = plan_day(options, scene);
   SolveSettings settings = solve_settings(options.run, scene);
-  settings.element_errors = true;
+  settings.element_errors = ElementErrors::keep;
   settings.max_seconds.reset();
   check_grid(options.run, scene);
   static_cast<void>(picture_band(scene.model, options.run.pictures.band));

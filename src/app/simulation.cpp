@@ -31,7 +31,8 @@ SolveSettings solve_settings(const RunOptions& options, const Scene& scene) {
   settings.max_rays = options.max_rays;
   settings.max_seconds = options.max_seconds;
   settings.replicates_at_once = options.threads == 1 ? 1 : 2;
-  settings.element_errors = !options.exports.empty() || scene.accuracy.of == ErrorTarget::triangle;
+  const bool of_elements = !options.exports.empty() || scene.accuracy.of == ErrorTarget::triangle;
+  settings.element_errors = of_elements ? ElementErrors::keep : ElementErrors::skip;
   return settings;
 }
 

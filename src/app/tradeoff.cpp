@@ -95,7 +95,7 @@ int tradeoff(const TradeoffOptions& options) {
   run.grid_m.reset();
   run.max_seconds.reset();
   SolveSettings settings = solve_settings(run, scene);
-  settings.element_errors = true;
+  settings.element_errors = ElementErrors::keep;
 
   const SceneTree tree(scene.model);
   set_software_threads(options.run.threads);

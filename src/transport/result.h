@@ -112,6 +112,7 @@ struct RadiationResult {
   std::vector<LayerResult> layers;          // [layer, bottom first, + 1 for the top plane]
   std::vector<ElementResult> elements;      // [element]
   std::vector<double> element_error;        // [waveband * elements + element], W m-2, of absorbed; empty unless asked for
+  std::vector<double> side_error;           // [(2 * element + side) * bands + band], W m-2, of incident; empty unless asked for
   std::vector<std::uint64_t> soil_cells;    // [cell of the soil's map], landings of beam rays
   std::vector<std::int64_t> side_indirect;  // [(2 * element + side) * bands + band], quanta of other light; empty if none
   std::vector<std::int64_t> cell_indirect;  // [cell * bands + band]

@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "bvh/bvh.h"
 #include "light/beam_grid.h"
+#include "transport/darkness.h"
 #include "transport/planes.h"
 #include "transport/replicate.h"
 #include "transport/sky_rays.h"
@@ -99,8 +100,7 @@ class Solver {
       incidence.rays = grid.rays();
       incidence.ground_per_ray_m2 = grid.horizontal_area_per_ray_m2();
     }
-    tally_ = std::make_unique<Tally>(model_, layout_, surfaces_, receivers(), incidence,
-                                     settings_.element_errors ? ElementErrors::keep : ElementErrors::skip);
+    tally_ = std::make_unique<Tally>(model_, layout_, surfaces_, receivers(), incidence, settings_.element_errors);
   }
 
   // A fixed grid is the sky's as well.
@@ -129,7 +129,21 @@ class Solver {
     if (replicate->packets) traced_ += replicate->packets->packets + replicate->packets->sky_rays;
     direct_s_ += replicate->direct_s;
     indirect_s_ += replicate->indirect_s;
+    hand_over();
     return true;
+  }
+
+  // The result so far, to whoever watches.
+  void hand_over() {
+    if (!monitor_.wants_result || !monitor_.wants_result()) return;
+    const bool use_fallback = fallback_ && work_of(*tally_, grid_rays_) < work_of(*fallback_, fallback_rays_);
+    monitor_.receive_result(use_fallback ? result_of(*fallback_, fallback_rays_, StopReason::interrupted)
+                                         : result_of(*tally_, grid_rays_, StopReason::interrupted));
+  }
+
+  [[nodiscard]] static double work_of(const Tally& tally, std::uint64_t grid_rays) {
+    return static_cast<double>(tally.replicates()) * static_cast<double>(grid_rays) +
+           static_cast<double>(tally.packets() + tally.sky_rays());
   }
 
   // Without an indirect pass the host has next to nothing to do meanwhile, and memory is better saved.
@@ -145,8 +159,14 @@ class Solver {
     return std::async(at_once > 1 ? std::launch::async : std::launch::deferred, make);
   }
 
-  [[nodiscard]] double direct_error() const { return model_.has_beam() ? tally_->direct_error(settings_.accuracy) : 0.0; }
-  [[nodiscard]] double indirect_error() const { return has_indirect() ? tally_->indirect_error(settings_.accuracy) : 0.0; }
+  [[nodiscard]] double direct_error(const Tally& tally) const {
+    return model_.has_beam() ? tally.direct_error(settings_.accuracy) : 0.0;
+  }
+  [[nodiscard]] double indirect_error(const Tally& tally) const {
+    return has_indirect() ? tally.indirect_error(settings_.accuracy) : 0.0;
+  }
+  [[nodiscard]] double direct_error() const { return direct_error(*tally_); }
+  [[nodiscard]] double indirect_error() const { return indirect_error(*tally_); }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
@@ -311,20 +331,27 @@ class Solver {
     } else if (!tally_) {
       begin({first_pilot_rays, first_pilot_packets});
     }
-    RadiationResult result = tally_->result(settings_.accuracy.confidence);
+    RadiationResult result = result_of(*tally_, grid_rays_, reason);
+    result.next_work = next_work();
+    return result;
+  }
+
+  [[nodiscard]] RadiationResult result_of(const Tally& tally, std::uint64_t grid_rays, StopReason reason) const {
+    RadiationResult result = tally.result(settings_.accuracy.confidence);
     result.stop = reason;
-    result.direct.replicates = tally_->replicates();
-    result.direct.rays = tally_->replicates() * grid_rays_;
+    result.direct.replicates = tally.replicates();
+    result.direct.rays = tally.replicates() * grid_rays;
     if (result.direct.rays > 0) {
       result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
     }
-    if (const double error = direct_error(); !std::isnan(error)) result.direct.relative_error = error;
+    if (const double error = direct_error(tally); !std::isnan(error)) result.direct.relative_error = error;
     // Replicates overlap; each pass has its share of the time that went by.
     const double busy_s = direct_s_ + indirect_s_;
     result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
     result.direct.seconds = seconds() - result.indirect.seconds;
-    if (const double error = indirect_error(); has_indirect() && !std::isnan(error)) result.indirect.relative_error = error;
-    result.next_work = next_work();
+    if (const double error = indirect_error(tally); has_indirect() && !std::isnan(error)) {
+      result.indirect.relative_error = error;
+    }
     if (!fixed()) {
       result.direct.bound = settings_.accuracy.direct;
       if (has_indirect()) result.indirect.bound = settings_.accuracy.indirect;
@@ -353,32 +380,11 @@ class Solver {
   std::deque<std::future<std::optional<Replicate>>> ahead_;  // in the order of their numbers; last, so that it ends first
 };
 
-// A scene without any light: every flux is exactly zero, and shares of the beam do not exist.
-RadiationResult without_light(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
-  const Surfaces surfaces(model);
-  std::optional<PlaneReceivers> receivers;
-  if (!model.planes.empty()) receivers.emplace(model, layout, surfaces);
-  Tally tally(model, layout, surfaces, receivers ? &*receivers : nullptr, {},
-              settings.element_errors ? ElementErrors::keep : ElementErrors::skip);
-  const std::vector<std::uint32_t> nothing(layout.words());
-  for (int replicate = 0; replicate < pilot_replicates; ++replicate) tally.add(nothing, tally.sum(nothing), {}, nullptr);
-  RadiationResult result = tally.result(settings.accuracy.confidence);
-  result.stop = StopReason::bound_reached;
-  result.direct.relative_error = 0.0;
-  if (!settings.grid_m && !settings.passes) result.direct.bound = settings.accuracy.direct;
-  return result;
-}
-
-bool has_lamps(const RadiationModel& model) {
-  const std::vector<BandQuanta> quanta = make_band_quanta(model, {});
-  return std::any_of(quanta.begin(), quanta.end(), [](const BandQuanta& band) { return band.lamps > 0; });
-}
-
 }  // namespace
 
 RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
                       const Monitor& monitor) {
-  if (!model.has_beam() && !model.has_sky() && !has_lamps(model)) return without_light(model, layout, settings);
+  if (is_dark(model)) return dark_result(model, layout, settings);
   return Solver(model, layout, tracer, settings, monitor).run();
 }
 

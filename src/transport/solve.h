@@ -27,8 +27,8 @@ struct SolveSettings {
   std::optional<double> packets;          // fixed work, beside grid_m: packets in the first round of each replicate
   std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
   std::optional<double> max_seconds;      // wall time of the simulation
-  bool element_errors = false;            // keep the spread of every element
-  int replicates_at_once = 2;             // in the making side by side, where there is an indirect pass and no max_rays
+  ElementErrors element_errors = ElementErrors::skip;
+  int replicates_at_once = 2;  // in the making side by side, where there is an indirect pass and no max_rays
 };
 
 struct Progress {
@@ -38,10 +38,14 @@ struct Progress {
   double bound = 0.0;
 };
 
-// How a caller watches and ends a run. Both may be empty.
+// How a caller watches and ends a run. All may be empty.
 struct Monitor {
   std::function<void(const Progress&)> report;
   StopQuestion interrupted;  // asked by several threads, one at a time
+  // Asked after each replicate, pilots' too; what is known by then is handed over if the answer is yes: the replicates so far,
+  // or the last pilot's while those have fewer rays and packets. Its `stop` is interrupted. Errors are NaN after a single one.
+  std::function<bool()> wants_result;
+  std::function<void(RadiationResult)> receive_result;
 };
 
 // Runs the simulation. A run stopped before its second replicate is done falls back on the replicates of its pilot, if it had

@@ -54,6 +54,7 @@ Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Sur
   element_hits_.resize(model.canopy.size());
   absorbed_spread_.resize(model.canopy.size() * bands);
   if (scatters(model) || model.has_sky()) indirect_spread_.resize(model.canopy.size() * bands);
+  if (element_errors == ElementErrors::keep_sides) side_spread_.resize(2 * model.canopy.size() * bands);
 }
 
 // Areas by organ and layer, and the area of its element that a landing stands for: the beam's cross-section over the cosine

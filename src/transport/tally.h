@@ -16,8 +16,6 @@
 
 namespace sunfleck {
 
-enum class ElementErrors { skip, keep };
-
 // Landings of one replicate's beam rays, summed from its counters.
 struct DirectSums {
   struct Landings {
@@ -54,6 +52,8 @@ class Tally {
            const IndirectSums* indirect);
 
   [[nodiscard]] std::size_t replicates() const { return replicates_; }
+  [[nodiscard]] std::uint64_t packets() const { return packets_; }
+  [[nodiscard]] std::uint64_t sky_rays() const { return sky_rays_; }
 
   // The figure compared with the direct bound: the largest half-width, relative to its value, of the first-hit flux on
   // vegetation and on the ground, either judged against at least 1 % of the incident flux; for organs also that of every
@@ -112,6 +112,7 @@ class Tally {
   [[nodiscard]] std::vector<OrganResult> organ_results(double quantile) const;
   [[nodiscard]] std::vector<LayerResult> layer_results(double quantile) const;
   [[nodiscard]] std::vector<double> element_errors(double quantile) const;
+  [[nodiscard]] std::vector<double> side_errors(double quantile) const;
 
   const RadiationModel& model_;
   const CounterLayout& layout_;
@@ -144,6 +145,7 @@ class Tally {
   std::vector<Spread> direct_spread_;    // [element], landings; these three empty if errors are skipped
   std::vector<Spread> absorbed_spread_;  // [band * elements + element], W m-2 of element
   std::vector<Spread> indirect_spread_;  // [band * elements + element], W m-2 of element
+  std::vector<Spread> side_spread_;      // [(2 * element + side) * bands + band], W m-2 of element; empty unless kept
 };
 
 }  // namespace sunfleck

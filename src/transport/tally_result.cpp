@@ -152,8 +152,9 @@ void Tally::add_elements(std::span<const std::uint32_t> counters, const Indirect
                   model_.plot.area_m2() * per_area;
         }
         landed += other;
-        absorbed += (sides[side] * ground_per_ray_m2_ * beam_w_m2(b) * per_area + other) *
-                    absorptance(model_.canopy.optics_of[e], side, b);
+        const double incident = sides[side] * ground_per_ray_m2_ * beam_w_m2(b) * per_area + other;
+        absorbed += incident * absorptance(model_.canopy.optics_of[e], side, b);
+        if (!side_spread_.empty()) side_spread_[(2 * e + side) * bands + b].add(incident);
       }
       absorbed_spread_[b * elements_.size() + e].add(absorbed);
       if (!indirect_spread_.empty()) indirect_spread_[b * elements_.size() + e].add(landed);
@@ -240,6 +241,18 @@ std::vector<double> Tally::element_errors(double quantile) const {
   return errors;
 }
 
+std::vector<double> Tally::side_errors(double quantile) const {
+  std::vector<double> errors;
+  errors.reserve(side_spread_.size());
+  for (std::size_t place = 0; place < side_spread_.size(); ++place) {
+    const std::size_t bands = bands_.size();
+    const double mean = side_spread_[place].sum / static_cast<double>(replicates_);
+    const bool enough = element_hits_[place / bands / 2] >= least_landings;
+    errors.push_back(enough ? half_width(side_spread_[place], quantile) + mean * unshot_share(place % bands) : none);
+  }
+  return errors;
+}
+
 RadiationResult Tally::result(double confidence) const {
   const double quantile = t_quantile(confidence, replicates_);
   RadiationResult result;
@@ -252,6 +265,7 @@ RadiationResult Tally::result(double confidence) const {
   result.layers = layer_results(quantile);
   result.elements = elements_;
   result.element_error = element_errors(quantile);
+  result.side_error = side_errors(quantile);
   result.soil_cells = soil_cells_;
   result.side_indirect = side_landed_;
   result.cell_indirect = cell_landed_;

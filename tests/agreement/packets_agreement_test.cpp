@@ -164,7 +164,7 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
     const RadiationModel model = paper_model(leaves, plot, paper_sun());
     SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8, .bound = 0.01});
-    fixed.element_errors = true;
+    fixed.element_errors = ElementErrors::keep;
     expect_same_run(model, fixed);
     expect_same_run(without_soil(model), fixed);
     expect_same_run(model, automatic);

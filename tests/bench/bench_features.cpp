@@ -110,7 +110,7 @@ void simulate_feature(benchmark::State& state, const GpuContext* context, const 
   settings.passes = 8;
   settings.packets = 1U << 15U;
   settings.grid_m = std::sqrt(stand.model.plot.area_m2() / (*settings.packets * *settings.passes));
-  settings.element_errors = feature.element_errors;
+  settings.element_errors = feature.element_errors ? ElementErrors::keep : ElementErrors::skip;
   time_solve(state, stand, context, settings);
 }
 

@@ -79,7 +79,7 @@ TEST(Furnace, EveryWallSeesTheSame) {
   for (const bool furnished : {false, true}) {
     const RadiationModel model = furnace(furnished ? furnished_box(4) : box(4).mesh());
     SolveSettings settings = fixed_packets(model, 8192, replicates);
-    settings.element_errors = true;
+    settings.element_errors = ElementErrors::keep;
     const RadiationResult result = simulate_soundly(model, settings);
     std::printf("%s: %.1f million packets, %.1f s\n", furnished ? "with leaves" : "empty",
                 static_cast<double>(result.indirect.packets) * 1e-6, result.indirect.seconds);

@@ -205,7 +205,7 @@ TEST(ScatterIdentities, SameNumbersWithOneAndTwoThreads) {
   const RadiationModel model = leafy_model();
   const Prepared prepared(model);
   SolveSettings settings = fixed_scatter(model, {.rays = 2e5, .packets = 20000, .replicates = 8});
-  settings.element_errors = true;
+  settings.element_errors = ElementErrors::keep;
   SolveSettings automatic;
   automatic.accuracy.direct = 0.01;
   automatic.accuracy.indirect = 0.02;

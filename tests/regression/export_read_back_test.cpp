@@ -44,7 +44,7 @@ struct Simulated {
 
   Simulated() {
     SolveSettings settings = test::fixed_work(model, 400'000, 8);
-    settings.element_errors = true;
+    settings.element_errors = ElementErrors::keep;
     result = test::simulate(model, settings);
   }
 };

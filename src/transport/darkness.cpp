@@ -1,0 +1,44 @@
+#include "transport/darkness.h"
+
+#include "transport/band_quanta.h"
+#include "transport/planes.h"
+#include "transport/surfaces.h"
+#include "transport/tally.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+// An interval needs a few replicates.
+constexpr int replicates = 8;
+
+bool has_lamps(const RadiationModel& model) {
+  const std::vector<BandQuanta> quanta = make_band_quanta(model, {});
+  return std::any_of(quanta.begin(), quanta.end(), [](const BandQuanta& band) { return band.lamps > 0; });
+}
+
+}  // namespace
+
+bool is_dark(const RadiationModel& model) {
+  return !model.has_beam() && !model.has_sky() && !has_lamps(model);
+}
+
+RadiationResult dark_result(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
+  const Surfaces surfaces(model);
+  std::optional<PlaneReceivers> receivers;
+  if (!model.planes.empty()) receivers.emplace(model, layout, surfaces);
+  Tally tally(model, layout, surfaces, receivers ? &*receivers : nullptr, {}, settings.element_errors);
+  const std::vector<std::uint32_t> nothing(layout.words());
+  for (int k = 0; k < replicates; ++k) tally.add(nothing, tally.sum(nothing), {}, nullptr);
+  RadiationResult result = tally.result(settings.accuracy.confidence);
+  result.stop = StopReason::bound_reached;
+  result.direct.relative_error = 0.0;
+  if (!settings.grid_m && !settings.passes) result.direct.bound = settings.accuracy.direct;
+  return result;
+}
+
+}  // namespace sunfleck
