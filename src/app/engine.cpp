@@ -11,11 +11,8 @@
 namespace sunfleck {
 namespace {
 
-#ifdef NDEBUG
-constexpr Validation validation = Validation::off;
-#else
-constexpr Validation validation = Validation::on;
-#endif
+// Long enough that its overhead is small, short enough that a hand on the mouse does not notice.
+constexpr double dispatch_beside_drawing_s = 0.02;
 
 DeviceWish wish_of(const std::string& device) {
   if (device == "auto") return {DeviceWish::Kind::any, 0, ""};
@@ -36,24 +33,46 @@ bool any_usable_device() {
 
 std::unique_ptr<GpuContext> open_device(const std::string& device) {
   if (device == "cpu" || (device == "auto" && !any_usable_device())) return nullptr;
-  return std::make_unique<GpuContext>(wish_of(device), validation);
+  return std::make_unique<GpuContext>(wish_of(device), build_validation);
 }
 
-Engine::Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words)
+Engine::Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words, EngineUse use)
     : bvh_(bvh), context_(open_device(device)) {
-  if (!context_) {
-    tracer_ = std::make_unique<CpuTracer>(bvh, scene);
-    return;
+  const double seconds = use == EngineUse::drawn_meanwhile ? dispatch_beside_drawing_s : 0.0;
+  if (context_) {
+    open_vulkan(scene, counter_words, seconds);
+  } else {
+    auto cpu = std::make_unique<CpuTracer>(bvh, scene);
+    if (seconds > 0.0) cpu->answer_within(seconds);
+    tracer_ = std::move(cpu);
   }
+  if (use == EngineUse::one_thread) return;
+  turn_ = std::make_unique<DeviceTurn>();
+  in_turns_ = std::make_unique<TurnTakingTracer>(*tracer_, *turn_);
+}
+
+void Engine::open_vulkan(CpuTracer::Scene scene, std::size_t counter_words, double seconds_per_dispatch) {
+  const Bvh& bvh = bvh_;
   const TreeFetch fetch = preferred_fetch(*context_, bvh);
   if (fetch == TreeFetch::storage_buffers)
     say("the tree is too large for this device's texel buffers: storage buffers are used");
   tree_ = std::make_unique<GpuTree>(*context_, bvh, fetch);
-  tracer_ = std::make_unique<VulkanTracer>(*context_, bvh, *tree_, scene, counter_words);
+  VulkanChoices choices;
+  choices.seconds_per_dispatch = seconds_per_dispatch;
+  tracer_ = std::make_unique<VulkanTracer>(*context_, bvh, *tree_, scene, counter_words, choices);
 }
 
 std::unique_ptr<CanopyViewer> Engine::viewer(CanopyLook look) const {
-  return context_ ? view_with_gpu(*context_, *tree_, bvh_, std::move(look)) : view_with_cpu(bvh_, std::move(look));
+  const auto make = [&] {
+    return context_ ? view_with_gpu(*context_, *tree_, bvh_, std::move(look)) : view_with_cpu(bvh_, std::move(look));
+  };
+  if (!turn_) return make();
+  std::unique_ptr<CanopyViewer> viewer;
+  {
+    const DrawingTurn turn(*turn_);
+    viewer = make();
+  }
+  return std::make_unique<TurnTakingViewer>(std::move(viewer), *turn_);
 }
 
 std::vector<std::string> Engine::validation_messages() const {

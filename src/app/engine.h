@@ -6,6 +6,7 @@
 #include "tracers/canopy_view.h"
 #include "tracers/cpu_tracer.h"
 #include "tracers/gpu_tree.h"
+#include "tracers/shared_device.h"
 #include "transport/tracer.h"
 
 #include <memory>
@@ -14,16 +15,28 @@
 
 namespace sunfleck {
 
+// Only builds with checks have the validation layer look.
+#ifdef NDEBUG
+inline constexpr Validation build_validation = Validation::off;
+#else
+inline constexpr Validation build_validation = Validation::on;
+#endif
+
 // The Vulkan device of that name on the command line (auto | gpu | lavapipe | cpu | INDEX | NAME); none stands for the CPU
 // path. Throws Error (device) if there is none such.
 [[nodiscard]] std::unique_ptr<GpuContext> open_device(const std::string& device);
 
+// Whether a window draws while the tracer is at work, from another thread.
+enum class EngineUse { one_thread, drawn_meanwhile };
+
 class Engine {
  public:
-  // `device` as in open_device. Tree and engine live together: the tree must outlive it.
-  Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words);
+  // `device` as in open_device. Tree and engine live together: the tree must outlive it. Where it is drawn meanwhile, one
+  // thread at a time may use the tracer and one at a time a viewer: they take turns, short ones.
+  Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words,
+         EngineUse use = EngineUse::one_thread);
 
-  [[nodiscard]] Tracer& tracer() { return *tracer_; }
+  [[nodiscard]] Tracer& tracer() { return in_turns_ ? *in_turns_ : *tracer_; }
   [[nodiscard]] TracerDevice device() const { return tracer_->device(); }
   // The engine must outlive it.
   [[nodiscard]] std::unique_ptr<CanopyViewer> viewer(CanopyLook look) const;
@@ -31,10 +44,14 @@ class Engine {
   [[nodiscard]] std::vector<std::string> validation_messages() const;
 
  private:
+  void open_vulkan(CpuTracer::Scene scene, std::size_t counter_words, double seconds_per_dispatch);
+
   const Bvh& bvh_;
   std::unique_ptr<GpuContext> context_;  // none on the CPU path
   std::unique_ptr<GpuTree> tree_;
   std::unique_ptr<Tracer> tracer_;
+  std::unique_ptr<DeviceTurn> turn_;  // these two only where it is drawn meanwhile
+  std::unique_ptr<TurnTakingTracer> in_turns_;
 };
 
 }  // namespace sunfleck

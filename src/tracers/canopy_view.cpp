@@ -155,9 +155,12 @@ shared::SeenSurface see_sample(const Bvh& bvh, const std::vector<shared::ViewBlo
 // What both viewers begin with.
 class LookingViewer : public CanopyViewer {
  protected:
-  LookingViewer(const Bvh& bvh, CanopyLook look)
-      : bvh_(bvh), offsets_(std::move(look.offsets)), views_(views_of_copies(bvh, look)) {
-    EXPECT(offsets_.size(), ==, std::size_t{look.view.samples});
+  LookingViewer(const Bvh& bvh, CanopyLook look) : bvh_(bvh) { take(std::move(look)); }
+
+  void take(CanopyLook look) {
+    EXPECT(look.offsets.size(), ==, std::size_t{look.view.samples});
+    views_ = views_of_copies(bvh_, look);
+    offsets_ = std::move(look.offsets);
   }
 
   [[nodiscard]] std::uint32_t sample_count(std::uint32_t first_row, std::uint32_t rows) const {
@@ -180,6 +183,8 @@ class LookingViewer : public CanopyViewer {
 class CpuViewer final : public LookingViewer {
  public:
   CpuViewer(const Bvh& bvh, CanopyLook look) : LookingViewer(bvh, std::move(look)) {}
+
+  void aim(CanopyLook look) override { take(std::move(look)); }
 
   std::vector<shared::SeenSurface> see(std::uint32_t first_row, std::uint32_t rows, const StopQuestion& stop) override {
     const std::uint32_t samples = sample_count(first_row, rows);
@@ -218,17 +223,14 @@ GpuBuffer upload_storage(const GpuContext& context, std::span<const T> data, con
 class GpuViewer final : public LookingViewer {
  public:
   GpuViewer(const GpuContext& context, const GpuTree& tree, const Bvh& bvh, CanopyLook look)
-      : LookingViewer(bvh, std::move(look)),
-        context_(context),
-        tree_(tree),
-        slice_(samples_per_slice()),
-        pipeline_(context, view_shader(tree), {}),
-        blocks_(upload_storage(context, std::span<const shared::ViewBlock>(views()), "the cameras")),
-        places_(upload_storage(context, std::span<const glm::vec2>(offsets()), "the places of samples")),
-        directions_(create_buffer(context, BufferUse::storage, is_fisheye() ? slice_ * sizeof(glm::vec3) : 0,
-                                  "the directions of a fisheye")),
-        slice_seen_(
-            create_buffer(context, BufferUse::storage, slice_ * sizeof(shared::SeenSurface), "the surfaces of a picture")) {}
+      : LookingViewer(bvh, std::move(look)), context_(context), tree_(tree), pipeline_(context, view_shader(tree), {}) {
+    prepare();
+  }
+
+  void aim(CanopyLook look) override {
+    take(std::move(look));
+    prepare();
+  }
 
   std::vector<shared::SeenSurface> see(std::uint32_t first_row, std::uint32_t rows, const StopQuestion& stop) override {
     const std::uint32_t samples = sample_count(first_row, rows);
@@ -251,6 +253,20 @@ class GpuViewer final : public LookingViewer {
   }
 
  private:
+  // What is large enough from an earlier look stays.
+  void prepare() {
+    slice_ = samples_per_slice();
+    blocks_ = upload_storage(context_, std::span<const shared::ViewBlock>(views()), "the cameras");
+    places_ = upload_storage(context_, std::span<const glm::vec2>(offsets()), "the places of samples");
+    make_room(directions_, is_fisheye() ? slice_ * sizeof(glm::vec3) : 0, "the directions of a fisheye");
+    make_room(slice_seen_, slice_ * sizeof(shared::SeenSurface), "the surfaces of a picture");
+  }
+
+  void make_room(GpuBuffer& buffer, std::size_t bytes, const char* what) {
+    if (*buffer.buffer && buffer.bytes >= bytes) return;
+    buffer = create_buffer(context_, BufferUse::storage, bytes, what);
+  }
+
   [[nodiscard]] bool is_fisheye() const { return views()[0].kind == shared::view_fisheye; }
 
   [[nodiscard]] std::uint32_t samples_per_slice() const {
@@ -276,7 +292,7 @@ class GpuViewer final : public LookingViewer {
 
   const GpuContext& context_;
   const GpuTree& tree_;
-  std::uint32_t slice_;
+  std::uint32_t slice_ = 0;
   ComputePipeline pipeline_;
   GpuBuffer blocks_, places_, directions_, slice_seen_;
   std::vector<glm::vec3> host_directions_;

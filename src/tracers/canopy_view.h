@@ -38,6 +38,9 @@ class CanopyViewer {
  public:
   virtual ~CanopyViewer() = default;
 
+  // Another look from here on; much cheaper than another viewer.
+  virtual void aim(CanopyLook look) = 0;
+
   // [row][column][sample] of `rows` rows from the picture's row `first_row` on, fewer than 2^32 samples. Empty if stopped.
   // However the picture is cut into rows, a sample sees the same.
   [[nodiscard]] virtual std::vector<shared::SeenSurface> see(std::uint32_t first_row, std::uint32_t rows,

@@ -9,9 +9,6 @@
 namespace sunfleck {
 namespace {
 
-// Packets between two questions whether to stop.
-constexpr std::size_t packets_per_slice = std::size_t{1} << 17U;
-
 shared::Landing landing_of(const CpuHit& hit) {
   return {2 * hit.element + hit.lower, hit.triangle, hit.weight_b, hit.weight_c};
 }
@@ -60,12 +57,15 @@ shared::Landing CpuTracer::follow_packet(const shared::PacketBlock& scene, const
 
 TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                               std::span<shared::Landing> landings, const StopQuestion& stop) {
-  for (std::size_t first = 0; first < packets.size(); first += packets_per_slice) {
+  for (std::size_t first = 0; first < packets.size();) {
     if (stop && stop()) return TraceOutcome::stopped;
-    const std::size_t end = std::min(packets.size(), first + packets_per_slice);
+    const DispatchClock clock;
+    const std::size_t end = std::min(packets.size(), first + packet_budget_.rays());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, 256), [&](const auto& range) {
       for (std::size_t k = range.begin(); k < range.end(); ++k) landings[k] = follow_packet(scene, packets[k], 0);
     });
+    packet_budget_.took(static_cast<std::uint32_t>(end - first), clock.seconds());
+    first = end;
   }
   return TraceOutcome::finished;
 }

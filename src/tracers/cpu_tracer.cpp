@@ -8,19 +8,29 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 
 namespace sunfleck {
 namespace {
 
-// Rays between two questions whether to stop: a fraction of a second.
+// The most between two questions whether to stop: a fraction of a second.
 constexpr std::uint32_t rays_per_slice = 1U << 18U;
+constexpr std::uint32_t packets_per_slice = 1U << 17U;
 
 void count(std::span<std::uint32_t> counters, std::size_t word) {
   std::atomic_ref<std::uint32_t>(counters[word]).fetch_add(1, std::memory_order_relaxed);
 }
 
 }  // namespace
+
+CpuTracer::CpuTracer(const Bvh& bvh, Scene scene, CpuWalk walk)
+    : bvh_(bvh), scene_(scene), walk_(walk), beam_budget_(rays_per_slice, 0.0), packet_budget_(packets_per_slice, 0.0) {}
+
+void CpuTracer::answer_within(double seconds) {
+  beam_budget_ = DispatchBudget(rays_per_slice, seconds);
+  packet_budget_ = DispatchBudget(packets_per_slice, seconds);
+}
 
 TracerDevice CpuTracer::device() const {
   return {"cpu", walk_ == CpuWalk::tree ? "CPU path" : "CPU path, every element tested", "", true};
@@ -87,14 +97,17 @@ void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRa
 
 TraceOutcome CpuTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters, const StopQuestion& stop) {
   const std::uint32_t rays = beam.columns * beam.rows;
-  for (std::uint32_t first = 0; first < rays; first += rays_per_slice) {
+  for (std::uint32_t first = 0; first < rays;) {
     if (stop && stop()) return TraceOutcome::stopped;
-    const std::uint32_t end = rays - first < rays_per_slice ? rays : first + rays_per_slice;
+    const DispatchClock clock;
+    const std::uint32_t end = first + std::min(beam_budget_.rays(), rays - first);
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, 256), [&](const auto& range) {
       for (std::uint32_t ray = range.begin(); ray < range.end(); ++ray) {
         finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, counters);
       }
     });
+    beam_budget_.took(end - first, clock.seconds());
+    first = end;
   }
   return TraceOutcome::finished;
 }

@@ -5,6 +5,7 @@
 #include "bvh/bvh.h"
 #include "shared/layout.h"
 #include "tracers/cpu_walk.h"
+#include "tracers/dispatch_budget.h"
 #include "transport/tracer.h"
 
 #include <memory>
@@ -21,7 +22,10 @@ class CpuTracer final : public Tracer {
     bool periodic = true;
     bool has_soil = true;
   };
-  CpuTracer(const Bvh& bvh, Scene scene, CpuWalk walk = CpuWalk::tree) : bvh_(bvh), scene_(scene), walk_(walk) {}
+  CpuTracer(const Bvh& bvh, Scene scene, CpuWalk walk = CpuWalk::tree);
+
+  // From here on it asks whether to stop about that often.
+  void answer_within(double seconds);
 
   [[nodiscard]] TracerDevice device() const override;
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
@@ -52,6 +56,7 @@ class CpuTracer final : public Tracer {
   const Bvh& bvh_;
   Scene scene_;
   CpuWalk walk_;
+  DispatchBudget beam_budget_, packet_budget_;  // rays between two questions whether to stop
 };
 
 // Threads of the CPU path from here on, for as long as the object lives; 0: as many as there are cores.

@@ -9,8 +9,9 @@ namespace sunfleck {
 
 // What comes out does not depend on any of these.
 struct VulkanChoices {
-  std::uint32_t rays_per_dispatch = 0;            // 0: as suits software or hardware
+  std::uint32_t rays_per_dispatch = 0;            // at most; 0: as suits software or hardware
   std::uint32_t group_size = shared::group_size;  // threads a workgroup, at most 128
+  double seconds_per_dispatch = 0.0;              // about, however fast the device is; 0: any
 };
 
 }  // namespace sunfleck

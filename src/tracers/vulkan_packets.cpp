@@ -41,6 +41,7 @@ VulkanPackets::VulkanPackets(const GpuContext& context, const GpuTree& tree, con
       tree_(tree),
       cpu_(cpu),
       packets_per_dispatch_(choices.rays_per_dispatch),
+      budget_(choices.rays_per_dispatch, choices.seconds_per_dispatch),
       scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
       packets_(create_buffer(context, BufferUse::storage, packets_per_dispatch_ * sizeof(shared::Packet), "packets")),
       landings_(create_buffer(context, BufferUse::storage, packets_per_dispatch_ * sizeof(shared::Landing), "landings")),
@@ -82,8 +83,8 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
                                   std::span<shared::Landing> landings, const StopQuestion& stop) {
   EXPECT(landings.size(), ==, packets.size());
   upload(context_, scene_, std::as_bytes(std::span(&scene, 1)));
-  for (std::size_t first = 0; first < packets.size(); first += packets_per_dispatch_) {
-    const auto slice = packets.subspan(first, std::min<std::size_t>(packets_per_dispatch_, packets.size() - first));
+  for (std::size_t first = 0; first < packets.size();) {
+    const auto slice = packets.subspan(first, std::min<std::size_t>(budget_.rays(), packets.size() - first));
     const std::vector<std::uint32_t> order = order_by_direction(slice);
     sent_.resize(slice.size());
     for_each_index(order.size(), [&](std::size_t k) { sent_[k] = slice[order[k]]; });
@@ -92,7 +93,9 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
     shared::PacketPush push{0, static_cast<std::uint32_t>(sent_.size()), 0};
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
+      const DispatchClock clock;
       dispatch(push);
+      budget_.took(push.count, clock.seconds());
       push = {0, take_out_stuck(scene, sent_, finished_on_cpu), 1};
       std::swap(inbox_, outbox_);
     }
@@ -100,6 +103,7 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
     download(context_, landings_, std::as_writable_bytes(std::span(landed_)));
     for (const auto& [packet, landing] : finished_on_cpu) landed_[packet] = landing;
     for_each_index(order.size(), [&](std::size_t k) { landings[first + order[k]] = landed_[k]; });
+    first += slice.size();
   }
   return TraceOutcome::finished;
 }

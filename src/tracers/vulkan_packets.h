@@ -5,6 +5,7 @@
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
 #include "tracers/cpu_tracer.h"
+#include "tracers/dispatch_budget.h"
 #include "tracers/gpu_tree.h"
 #include "tracers/vulkan_choices.h"
 #include "transport/tracer.h"
@@ -30,6 +31,7 @@ class VulkanPackets {
   const GpuTree& tree_;
   const CpuTracer& cpu_;
   std::uint32_t packets_per_dispatch_;
+  DispatchBudget budget_;
   GpuBuffer scene_, packets_, landings_, inbox_, outbox_;
   ComputePipeline pipeline_;
   std::vector<shared::Packet> sent_;     // of one dispatch, in the order of packet_order.h

@@ -46,6 +46,7 @@ VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuT
       cpu_(bvh, scene),
       scene_(scene),
       choices_(completed(choices, context)),
+      budget_(choices_.rays_per_dispatch, choices_.seconds_per_dispatch),
       tree_(tree),
       beam_(create_buffer(context, BufferUse::storage, sizeof(shared::BeamBlock), "the beam's description")),
       counters_(create_buffer(context, BufferUse::storage, counter_words * sizeof(std::uint32_t), "the counters of landings")),
@@ -102,11 +103,13 @@ TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<s
   fill(context_, counters_, 0);
   const std::uint32_t rays = beam.columns * beam.rows;
   for (std::uint32_t first = 0; first < rays;) {
-    const std::uint32_t slice = std::min(choices_.rays_per_dispatch, rays - first);
+    const std::uint32_t slice = std::min(budget_.rays(), rays - first);
     shared::BeamPush push{first, slice, 0};
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
+      const DispatchClock clock;
       dispatch(push);
+      budget_.took(push.count, clock.seconds());
       push = {0, paused_count(), 1};
       if (push.count > 0) push.count = take_out_stuck_rays(beam, push.count, counters);
       std::swap(inbox_, outbox_);

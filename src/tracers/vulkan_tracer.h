@@ -6,6 +6,7 @@
 #include "gpu/compute.h"
 #include "gpu/context.h"
 #include "tracers/cpu_tracer.h"
+#include "tracers/dispatch_budget.h"
 #include "tracers/gpu_tree.h"
 #include "tracers/vulkan_choices.h"
 #include "tracers/vulkan_packets.h"
@@ -43,6 +44,7 @@ class VulkanTracer final : public Tracer {
   CpuTracer cpu_;
   CpuTracer::Scene scene_;
   VulkanChoices choices_;
+  DispatchBudget budget_;
   const GpuTree& tree_;
   GpuBuffer beam_, counters_, inbox_, outbox_;
   ComputePipeline pipeline_;
