@@ -20,9 +20,8 @@ Colouring ranked(const FieldValues& values, const RankScale& scale) {
   return colouring;
 }
 
-Colouring mapped(const FieldValues& values) {
+Colouring mapped(const FieldValues& values, const MapScale& scale) {
   constexpr int steps = 64;
-  const MapScale scale = make_map_scale(values.w_m2, values.area_m2);
   Colouring colouring;
   colouring.colours.reserve(values.w_m2.size());
   for (const double value : values.w_m2) colouring.colours.push_back(map_colour(scale, value));
@@ -90,20 +89,22 @@ SurfaceColours surface_colours(const RadiationModel& model, const CounterLayout&
   return surfaces;
 }
 
-Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces, const std::string& title) {
+Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces, const std::string& title,
+                       std::optional<double> top_w_m2) {
   Colouring colouring;
   switch (chart) {
     case ChartKind::rank:
       colouring = ranked(values, equal_count_ranks(values.w_m2, values.area_m2));
       break;
     case ChartKind::rank_interval:
-      colouring = ranked(values, equal_interval_ranks(values.w_m2, values.area_m2));
+      colouring =
+          ranked(values, top_w_m2 ? rank_scale_to(*top_w_m2, values.w_m2) : equal_interval_ranks(values.w_m2, values.area_m2));
       break;
     case ChartKind::hue:
       colouring = hue_mapped(values, surfaces);
       break;
     case ChartKind::map:
-      colouring = mapped(values);
+      colouring = mapped(values, top_w_m2 ? map_scale_to(*top_w_m2, values.w_m2) : make_map_scale(values.w_m2, values.area_m2));
       break;
   }
   colouring.legend_title = title;

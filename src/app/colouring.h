@@ -29,8 +29,8 @@ struct SurfaceColours {
 };
 [[nodiscard]] SurfaceColours surface_colours(const RadiationModel& model, const CounterLayout& layout);
 
-// `title` is the field's, with its unit.
+// `title` is the field's, with its unit; `top_w_m2` as in PictureOptions.
 [[nodiscard]] Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces,
-                                     const std::string& title);
+                                     const std::string& title, std::optional<double> top_w_m2 = {});
 
 }  // namespace sunfleck

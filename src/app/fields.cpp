@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sunfleck {
 namespace {
 
@@ -20,6 +22,8 @@ double irradiance(LightField field, double direct_w_m2, double sky_w_m2, double 
       return sky_w_m2;
     case LightField::indirect:
       return indirect_w_m2;
+    case LightField::scattered:
+      return std::max(0.0, indirect_w_m2 - sky_w_m2);  // the sky's part is never larger but by rounding
     case LightField::total:
     case LightField::absorbed:
       return direct_w_m2 + indirect_w_m2;
@@ -35,6 +39,8 @@ std::string field_title(LightField field, const std::string& band) {
       return fmt::format("Direct {} irradiance, W m⁻²", band);
     case LightField::sky:
       return fmt::format("{} irradiance from the sky, W m⁻²", band);
+    case LightField::scattered:
+      return fmt::format("Scattered {} irradiance, W m⁻²", band);
     case LightField::indirect:
       return fmt::format("Indirect {} irradiance, W m⁻²", band);
     case LightField::total:
@@ -48,6 +54,7 @@ std::string field_title(LightField field, const std::string& band) {
 bool has_field(const RadiationModel& model, LightField field) {
   if (field == LightField::direct) return model.has_beam();
   if (field == LightField::sky) return model.has_sky();
+  if (field == LightField::scattered) return scatters(model);
   const bool indirect = model.has_sky() || scatters(model);
   return field == LightField::indirect ? indirect : indirect || model.has_beam();
 }

@@ -5,7 +5,7 @@
 namespace sunfleck {
 
 std::vector<std::string> field_names() {
-  return {"direct", "sky", "indirect", "total", "absorbed"};
+  return {"direct", "sky", "indirect", "total", "absorbed", "scattered"};
 }
 
 std::vector<std::string> chart_names() {

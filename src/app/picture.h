@@ -1,13 +1,15 @@
 #pragma once
 // What pictures are asked for, and how they are looked at.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace sunfleck {
 
-// Irradiance by the beam's first landings, by the sky unscattered, by all but the beam, by everything; or what is absorbed.
-enum class LightField { direct, sky, indirect, total, absorbed };
+// Irradiance by the beam's first landings, by the sky unscattered, by all but the beam, by everything; what is absorbed; or
+// irradiance by all but beam and unscattered sky, which is scattered light and that of lamps.
+enum class LightField { direct, sky, indirect, total, absorbed, scattered };
 
 enum class ChartKind { rank, rank_interval, hue, map };
 
@@ -25,8 +27,9 @@ struct PictureOptions {
   std::string band;  // empty: the scene's first
   ViewKind view = ViewKind::camera;
   int width = 1600, height = 1200;
-  int samples = 4;  // a pixel
-  int repeat = 1;   // of a periodic plot: odd, so many plots along X and along Z, itself in the middle
+  int samples = 4;                 // a pixel
+  int repeat = 1;                  // of a periodic plot: odd, so many plots along X and along Z, itself in the middle
+  std::optional<double> top_w_m2;  // where the scales of rank_interval and map end; none: as the values suggest
 };
 
 // As on the command line, in the order of the enumerations.

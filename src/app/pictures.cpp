@@ -23,26 +23,6 @@ namespace {
 // Where a canopy photograph is taken from: between the plants, above the clods of the soil.
 constexpr double fisheye_height_m = 0.1;
 
-Camera camera_of(const Drawing& drawing, const PictureOptions& options) {
-  const RadiationModel& model = drawing.scene.model;
-  const double aspect = static_cast<double>(options.width) / options.height;
-  const auto& pose = drawing.scene.camera;
-  if (options.view == ViewKind::camera && pose) return look_at(pose->position_m, pose->look_at_m, pose->fov_rad, aspect);
-  if (options.view == ViewKind::fisheye) return fisheye_view(open_spot(model, fisheye_height_m), aspect);
-  const Box elements = bounds(model.canopy);
-  glm::dvec3 lo(0.0);
-  glm::dvec3 hi(model.plot.size_x_m, drawing.layout.layers.height_m, model.plot.size_z_m);
-  if (model.canopy.size() > 0) {
-    lo = glm::min(lo, glm::dvec3(elements.lo) + model.canopy.origin_m);
-    hi = glm::max(hi, glm::dvec3(elements.hi) + model.canopy.origin_m);
-  }
-  const glm::dvec3 beside = 0.5 * (options.repeat - 1) * glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
-  lo -= beside;
-  hi += beside;
-  if (options.view == ViewKind::top) return top_view(lo, hi, aspect);
-  return options.view == ViewKind::side ? side_view(lo, hi, aspect) : three_quarter_view(lo, hi, aspect);
-}
-
 std::string subtitle_line(const RadiationModel& model, const RadiationResult& result) {
   constexpr double degree = std::numbers::pi / 180.0;
   std::string line;
@@ -67,30 +47,15 @@ std::string footer_line(LightField field, const RadiationResult& result, const s
   return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
 }
 
-SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, const RowBand& rows,
-                           const PictureOptions& options) {
-  SurfaceImage image{options.width, rows.count, options.samples, {}, {}, {}, rows.first};
-  image.surface.reserve(samples.size());
-  image.depth_m.reserve(samples.size());
-  if (options.repeat > 1) image.neighbour.reserve(samples.size());
-  for (const shared::SeenSurface& sample : samples) {
-    image.surface.push_back(sample.surface);
-    image.depth_m.push_back(sample.depth);
-    if (options.repeat > 1) image.neighbour.push_back(sample.copy != 0 ? 1 : 0);
-  }
-  return image;
-}
-
 // One look at a scene: a picture's rows, band by band.
 class Look {
  public:
   Look(const Drawing& drawing, const PictureOptions& options, const Camera& camera)
-      : options_(options), viewer_(drawing.engine.viewer(canopy_look(drawing, options, camera))) {}
+      : options_(options), viewer_(drawing.engine.viewer(picture_look(drawing.scene.model, drawing.layout, options, camera))) {}
 
   // Hands over every band of rows, top to bottom; false if stopped.
   template <class Receive>
   [[nodiscard]] bool each_band(const StopQuestion& stop, const Receive& receive) const {
-    static_assert(SurfaceImage::nothing == shared::seen_nothing);
     for (const RowBand& rows : row_bands(options_.width, options_.height, options_.samples)) {
       const auto samples = viewer_->see(static_cast<std::uint32_t>(rows.first), static_cast<std::uint32_t>(rows.count), stop);
       if (samples.empty()) return false;
@@ -100,21 +65,6 @@ class Look {
   }
 
  private:
-  static CanopyLook canopy_look(const Drawing& drawing, const PictureOptions& options, const Camera& camera) {
-    const RadiationModel& model = drawing.scene.model;
-    CanopyLook look;
-    look.view = make_view_block(camera, {options.width, options.height, options.samples}, model.canopy.origin_m);
-    look.view.elements = static_cast<std::uint32_t>(model.canopy.size());
-    look.view.ground = make_ground_map(drawing.layout);
-    look.offsets = sample_offsets(options.samples);
-    if (options.repeat == 1) return look;
-    // Seen from the side, copies in front would hide the plot itself.
-    const bool from_the_side = options.view == ViewKind::camera || options.view == ViewKind::side;
-    look.copies = {options.repeat, model.canopy.period_m,
-                   from_the_side ? SeenCopies::Which::not_before_plot : SeenCopies::Which::all};
-    return look;
-  }
-
   const PictureOptions& options_;
   std::unique_ptr<CanopyViewer> viewer_;
 };
@@ -146,21 +96,85 @@ void check_field(const RadiationModel& model, const Picture& picture) {
   throw_input("picture " + stem_of(picture), why, "ask for another field");
 }
 
+ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout) {
+  const Box elements = bounds(model.canopy);
+  ShownBox box{glm::dvec3(0.0), glm::dvec3(model.plot.size_x_m, layout.layers.height_m, model.plot.size_z_m)};
+  if (model.canopy.size() > 0) {
+    box.lo_m = glm::min(box.lo_m, glm::dvec3(elements.lo) + model.canopy.origin_m);
+    box.hi_m = glm::max(box.hi_m, glm::dvec3(elements.hi) + model.canopy.origin_m);
+  }
+  return box;
+}
+
+Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options) {
+  const RadiationModel& model = scene.model;
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const auto& pose = scene.camera;
+  if (options.view == ViewKind::camera && pose) return look_at(pose->position_m, pose->look_at_m, pose->fov_rad, aspect);
+  if (options.view == ViewKind::fisheye) return fisheye_view(open_spot(model, fisheye_height_m), aspect);
+  auto [lo, hi] = shown_box(model, layout);
+  const glm::dvec3 beside = 0.5 * (options.repeat - 1) * glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
+  lo -= beside;
+  hi += beside;
+  if (options.view == ViewKind::top) return top_view(lo, hi, aspect);
+  return options.view == ViewKind::side ? side_view(lo, hi, aspect) : three_quarter_view(lo, hi, aspect);
+}
+
+CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,
+                        const Camera& camera) {
+  CanopyLook look;
+  look.view = make_view_block(camera, {options.width, options.height, options.samples}, model.canopy.origin_m);
+  look.view.elements = static_cast<std::uint32_t>(model.canopy.size());
+  look.view.ground = make_ground_map(layout);
+  look.offsets = sample_offsets(options.samples);
+  if (options.repeat == 1) return look;
+  // Seen from the side, copies in front would hide the plot itself.
+  const bool from_the_side = options.view == ViewKind::camera || options.view == ViewKind::side;
+  look.copies = {options.repeat, model.canopy.period_m,
+                 from_the_side ? SeenCopies::Which::not_before_plot : SeenCopies::Which::all};
+  return look;
+}
+
+SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, const RowBand& rows,
+                           const PictureOptions& options) {
+  static_assert(SurfaceImage::nothing == shared::seen_nothing);
+  SurfaceImage image{options.width, rows.count, options.samples, {}, {}, {}, rows.first};
+  image.surface.reserve(samples.size());
+  image.depth_m.reserve(samples.size());
+  if (options.repeat > 1) image.neighbour.reserve(samples.size());
+  for (const shared::SeenSurface& sample : samples) {
+    image.surface.push_back(sample.surface);
+    image.depth_m.push_back(sample.depth);
+    if (options.repeat > 1) image.neighbour.push_back(sample.copy != 0 ? 1 : 0);
+  }
+  return image;
+}
+
+ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
+                           const SurfaceColours& surfaces) {
+  const RadiationModel& model = source.model;
+  const std::size_t band = picture_band(model, options.band);
+  const FieldValues values = field_values(model, source.layout, source.result, band, picture.field);
+  Colouring colouring =
+      colour_field(picture.chart, values, surfaces, field_title(picture.field, model.bands[band].name), options.top_w_m2);
+  return {std::move(colouring.colours),
+          {source.title, subtitle_line(model, source.result), colouring.legend_title, colouring.legend,
+           footer_line(picture.field, source.result, colouring.note), colouring.bar}};
+}
+
 bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
                  const StopQuestion& stop, const ChartReceiver& receive) {
   const RadiationModel& model = drawing.scene.model;
-  const std::size_t band = picture_band(model, options.band);
-  const Camera camera = camera_of(drawing, options);
+  const Camera camera = picture_camera(drawing.scene, drawing.layout, options);
   const ChartFrame frame{options.width, options.height, camera, model.plot, drawing.layout.layers.height_m};
   const SurfaceColours surfaces = surface_colours(model, drawing.layout);
   std::vector<ChartCanvas> canvases;
   std::vector<ChartText> texts;
   for (const Picture& picture : pictures) {
-    Colouring colouring = colour_field(picture.chart, field_values(model, drawing.layout, drawing.result, band, picture.field),
-                                       surfaces, field_title(picture.field, model.bands[band].name));
-    canvases.emplace_back(frame, std::move(colouring.colours));
-    texts.push_back({drawing.scene.title, subtitle_line(model, drawing.result), colouring.legend_title, colouring.legend,
-                     footer_line(picture.field, drawing.result, colouring.note), colouring.bar});
+    ChartContent content =
+        chart_content({drawing.scene.title, model, drawing.layout, drawing.result}, options, picture, surfaces);
+    canvases.emplace_back(frame, std::move(content.colours));
+    texts.push_back(std::move(content.text));
   }
   const Look look(drawing, options, camera);
   const bool seen = look.each_band(stop, [&](const SurfaceImage& rows) {
@@ -180,7 +194,7 @@ std::optional<ExrImage> draw_values(const Drawing& drawing, const PictureOptions
   const std::size_t band = picture_band(model, options.band);
   const FieldValues values = field_values(model, drawing.layout, drawing.result, band, field);
   ValueImage image;
-  const Look look(drawing, options, camera_of(drawing, options));
+  const Look look(drawing, options, picture_camera(drawing.scene, drawing.layout, options));
   const bool seen =
       look.each_band(stop, [&](const SurfaceImage& rows) { append_rows(image, resolve_values(rows, values.w_m2)); });
   if (!seen) return std::nullopt;

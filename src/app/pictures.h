@@ -1,13 +1,17 @@
 #pragma once
 // From a result to its pictures.
 
+#include "app/colouring.h"
 #include "app/engine.h"
 #include "app/picture.h"
 #include "io/exr_writer.h"
 #include "io/scene_reader.h"
 #include "transport/counters.h"
 #include "transport/result.h"
+#include "view/camera.h"
+#include "view/chart.h"
 #include "view/image.h"
+#include "view/surface_image.h"
 
 #include <cstddef>
 #include <functional>
@@ -31,6 +35,39 @@ struct Drawing {
   const RadiationResult& result;
   const Engine& engine;
 };
+
+// The parts that draw_charts is made of, for who draws one scene again and again.
+
+// Plot and canopy.
+struct ShownBox {
+  glm::dvec3 lo_m, hi_m;
+};
+[[nodiscard]] ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout);
+
+// The scene's own camera, or the view asked for.
+[[nodiscard]] Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options);
+
+// How a viewer looks through that camera: size, samples and copies of the plot are those of the options.
+[[nodiscard]] CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,
+                                      const Camera& camera);
+
+// What the viewer saw, rows of a picture of those options.
+[[nodiscard]] SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, const RowBand& rows,
+                                         const PictureOptions& options);
+
+// Colours and words of one chart. `title` is the scene's.
+struct ChartContent {
+  std::vector<Colour> colours;  // linear, [surface number]
+  ChartText text;
+};
+struct ChartSource {
+  const std::string& title;
+  const RadiationModel& model;
+  const CounterLayout& layout;
+  const RadiationResult& result;
+};
+[[nodiscard]] ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
+                                         const SurfaceColours& surfaces);
 
 // Draws charts of one view: the scene is looked at once for all of them. Each is handed over as soon as it is finished, in
 // order. False if stopped before the last.

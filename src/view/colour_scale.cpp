@@ -113,6 +113,19 @@ RankScale equal_interval_ranks(std::span<const double> values, std::span<const d
   return equal_interval_ranks(groups_by_value(values, weights), values);
 }
 
+RankScale rank_scale_to(double top, std::span<const double> values) {
+  EXPECT(top, >, 0.0);
+  RankScale scale;
+  for (int k = 0; k <= rank_count; ++k) scale.bounds[k] = top * k / rank_count;
+  scale.open = largest_of(values) > top;
+  return scale;
+}
+
+MapScale map_scale_to(double top, std::span<const double> values) {
+  EXPECT(top, >, 0.0);
+  return {top, largest_of(values) > top};
+}
+
 MapScale make_map_scale(std::span<const double> values, std::span<const double> weights) {
   const std::vector<Group> groups = groups_by_value(values, weights);
   MapScale scale{quantile(groups, map_top_share)};

@@ -51,6 +51,10 @@ struct MapScale {
 };
 [[nodiscard]] MapScale make_map_scale(std::span<const double> values, std::span<const double> weights);
 
+// The same two scales, from 0 to a top that is given (> 0).
+[[nodiscard]] RankScale rank_scale_to(double top, std::span<const double> values);
+[[nodiscard]] MapScale map_scale_to(double top, std::span<const double> values);
+
 // The colour of a value in the map; of 0 where the scale has no length.
 [[nodiscard]] Colour map_colour(const MapScale& scale, double value);
 

@@ -69,6 +69,10 @@ void mix_encoded(std::array<std::uint8_t, 3>& pixel, const std::array<std::uint8
 
 }  // namespace
 
+std::span<const unsigned char> Typeface::file() {
+  return dejavu_sans;
+}
+
 Typeface::Typeface() : font_(std::make_unique<stbtt_fontinfo>()) {
   const int ready = stbtt_InitFont(font_.get(), dejavu_sans, stbtt_GetFontOffsetForIndex(dejavu_sans, 0));
   ENSURE(ready, !=, 0);

@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 #include <string_view>
 
 struct stbtt_fontinfo;
@@ -16,6 +17,10 @@ class Typeface {
  public:
   Typeface();
   ~Typeface();
+
+  // Its TrueType file, for who sets text by other means.
+  [[nodiscard]] static std::span<const unsigned char> file();
+
   Typeface(const Typeface&) = delete;
   Typeface& operator=(const Typeface&) = delete;
 

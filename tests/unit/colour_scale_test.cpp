@@ -282,5 +282,18 @@ TEST(Srgb, FollowsTheStandard) {
   EXPECT_EQ(to_srgb({-1.0, 2.0, 0.0}), (std::array<std::uint8_t, 3>{0, 255, 0}));
 }
 
+TEST(GivenTop, EndsBothScalesThere) {
+  const std::vector<double> values{0.0, 30.0, 80.0, 120.0};
+  const RankScale ranks = rank_scale_to(100.0, values);
+  EXPECT_EQ(ranks.bounds, (std::array<double, 6>{0.0, 20.0, 40.0, 60.0, 80.0, 100.0}));
+  EXPECT_TRUE(ranks.open) << "120 lies above";
+  EXPECT_EQ(rank_of(ranks, 30.0), 1);
+  EXPECT_EQ(rank_of(ranks, 120.0), 4);
+  EXPECT_FALSE(rank_scale_to(120.0, values).open);
+  EXPECT_EQ(map_scale_to(100.0, values).top, 100.0);
+  EXPECT_TRUE(map_scale_to(100.0, values).open);
+  EXPECT_FALSE(map_scale_to(200.0, values).open);
+}
+
 }  // namespace
 }  // namespace sunfleck
