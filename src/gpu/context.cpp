@@ -1,5 +1,7 @@
 #include "gpu/context.h"
 
+#include "gpu/instance.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,72 +21,10 @@ namespace sunfleck {
 
 namespace {
 
-constexpr std::uint32_t api_version = VK_API_VERSION_1_2;
-constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* no_vulkan_cure = "install a Vulkan driver (Debian: mesa-vulkan-drivers) or use the CPU path";
-
 struct FoundDevice {
   DeviceDescription description;
   vk::PhysicalDeviceType type;
 };
-
-vk::raii::Context open_loader() {
-  try {
-    return {};
-  } catch (const std::exception& error) {
-    throw_device("no Vulkan device", error.what(), no_vulkan_cure);
-  }
-}
-
-bool has_layer(const vk::raii::Context& loader, std::string_view name) {
-  const auto layers = loader.enumerateInstanceLayerProperties();
-  return std::any_of(layers.begin(), layers.end(), [&](const auto& layer) { return name == layer.layerName.data(); });
-}
-
-bool has_extension(const std::vector<vk::ExtensionProperties>& extensions, std::string_view name) {
-  return std::any_of(extensions.begin(), extensions.end(), [&](const auto& one) { return name == one.extensionName.data(); });
-}
-
-vk::raii::Instance create_instance(const vk::raii::Context& loader, Validation validation) {
-  std::vector<const char*> layers;
-  std::vector<const char*> extensions;
-  vk::InstanceCreateFlags flags;
-  if (has_extension(loader.enumerateInstanceExtensionProperties(), VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
-    extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
-    flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
-  }
-  const vk::ApplicationInfo application("sunfleck", 1, nullptr, 0, api_version);
-  const std::vector<vk::ValidationFeatureEnableEXT> thorough = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation,
-                                                                vk::ValidationFeatureEnableEXT::eGpuAssisted,
-                                                                vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot};
-  const vk::ValidationFeaturesEXT features(thorough);
-  if (validation != Validation::off) {
-    if (!has_layer(loader, validation_layer)) {
-      throw_device("Vulkan validation", fmt::format("{} is not installed", validation_layer),
-                   "install it (Debian: vulkan-validationlayers) or run without validation");
-    }
-    layers.push_back(validation_layer);
-    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-  }
-  if (validation == Validation::thorough) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
-  return {loader, vk::InstanceCreateInfo(flags, &application, layers, extensions,
-                                         validation == Validation::thorough ? &features : nullptr)};
-}
-
-VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
-  std::string line = data->pMessage;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  static_cast<std::vector<std::string>*>(messages)->push_back(std::move(line));
-  return VK_FALSE;
-}
-
-vk::raii::DebugUtilsMessengerEXT create_messenger(const vk::raii::Instance& instance, std::vector<std::string>& messages) {
-  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-  return {instance,
-          vk::DebugUtilsMessengerCreateInfoEXT({}, Severity::eWarning | Severity::eError,
-                                               vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, keep_message, &messages)};
-}
 
 std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& physical) {
   const auto families = physical.getQueueFamilyProperties();
@@ -256,7 +196,7 @@ std::vector<DeviceDescription> list_devices() {
   std::vector<DeviceDescription> descriptions;
   try {
     const vk::raii::Context loader = open_loader();
-    const vk::raii::Instance instance = create_instance(loader, Validation::off);
+    const vk::raii::Instance instance = create_instance(loader, Validation::off, {});
     for (const auto& physical : enumerate(instance)) descriptions.push_back(describe(physical).description);
   } catch (const Error&) {            // no loader
   } catch (const vk::SystemError&) {  // no driver
@@ -266,7 +206,7 @@ std::vector<DeviceDescription> list_devices() {
 
 bool validation_installed() {
   try {
-    return has_layer(open_loader(), validation_layer);
+    return has_layer(open_loader(), validation_layer_name);
   } catch (const Error&) {
     return false;
   }
@@ -274,7 +214,7 @@ bool validation_installed() {
 
 GpuContext::GpuContext(const DeviceWish& wish, Validation validation) : loader_(open_loader()) {
   try {
-    instance_ = create_instance(loader_, validation);
+    instance_ = create_instance(loader_, validation, {});
   } catch (const vk::SystemError& error) {
     throw_device(wish_text(wish), fmt::format("no driver answers: {}", error.what()), no_vulkan_cure);
   }

@@ -1,0 +1,94 @@
+#pragma once
+// A device that draws into a window: on each image of the swapchain a picture, copied pixel by pixel, and what others record
+// over it.
+
+#include "gpu/context.h"
+#include "gpu/window.h"
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+class Presenter {
+ public:
+  // The instance must outlive it. `device`: name of the one preferred. Throws Error (device) if none can draw into the surface.
+  Presenter(const vk::raii::Instance& instance, vk::raii::SurfaceKHR surface, const std::string& device);
+  ~Presenter();
+  Presenter(const Presenter&) = delete;
+  Presenter& operator=(const Presenter&) = delete;
+
+  // What draws over the picture is made for these.
+  struct Handles {
+    VkPhysicalDevice physical;
+    VkDevice device;
+    std::uint32_t family;
+    VkQueue queue;
+    VkDescriptorPool pool;
+    VkRenderPass pass;
+    std::uint32_t images;
+  };
+  [[nodiscard]] Handles handles() const;
+  [[nodiscard]] const DeviceDescription& description() const { return description_; }
+
+  // Draws one frame in a window of that size, or none where the window is just changing its size. `overlay` records into a
+  // command buffer within the render pass.
+  void draw(glm::ivec2 size_px, const WindowPicture& picture, bool changed, std::uint32_t background,
+            const std::function<void(VkCommandBuffer)>& overlay);
+
+  // Runs commands and waits for them.
+  void run(const std::function<void(VkCommandBuffer)>& commands);
+
+  void wait_idle() const { device_.waitIdle(); }
+
+ private:
+  struct Target {
+    vk::Image image;
+    vk::raii::ImageView view{nullptr};
+    vk::raii::Framebuffer framebuffer{nullptr};
+    vk::raii::Semaphore drawn{nullptr};
+  };
+  // Pixels on their way to the device.
+  struct Pixels {
+    vk::raii::DeviceMemory memory{nullptr};
+    vk::raii::Buffer buffer{nullptr};
+    std::uint32_t* data = nullptr;
+    std::size_t room = 0;  // pixels
+    int width = 0, height = 0;
+    glm::ivec2 at{0};
+  };
+
+  void take_device(const vk::raii::Instance& instance, const std::string& device);
+  void create_device();
+  void create_pass();
+  void create_swapchain(glm::ivec2 size_px);
+  void take_pixels(const WindowPicture& picture);
+  void record(const Target& target, std::uint32_t background, const std::function<void(VkCommandBuffer)>& overlay);
+  void copy_pixels(const Target& target) const;
+  [[nodiscard]] bool present(std::uint32_t image);
+  void wait_for_last_frame();
+
+  vk::raii::SurfaceKHR surface_;
+  vk::raii::PhysicalDevice physical_{nullptr};
+  vk::raii::Device device_{nullptr};
+  vk::raii::Queue queue_{nullptr};
+  vk::raii::CommandPool commands_pool_{nullptr};
+  vk::raii::CommandBuffer commands_{nullptr};
+  vk::raii::DescriptorPool descriptors_{nullptr};
+  vk::raii::RenderPass pass_{nullptr};
+  vk::raii::Semaphore acquired_{nullptr};
+  vk::raii::Fence finished_{nullptr};
+  bool in_flight_ = false;
+  Pixels pixels_;
+  vk::raii::SwapchainKHR swapchain_{nullptr};
+  std::vector<Target> targets_;
+  glm::ivec2 size_px_{0};
+  std::uint32_t family_ = 0;
+  vk::SurfaceFormatKHR format_;
+  DeviceDescription description_;
+};
+
+}  // namespace sunfleck
