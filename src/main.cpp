@@ -5,6 +5,7 @@
 #include "app/render.h"
 #include "app/tradeoff.h"
 #include "app/validate.h"
+#include "viewer/view.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,7 @@ struct Dispatch {
   int operator()(const sunfleck::RunOptions& options) const { return sunfleck::run(options); }
   int operator()(const sunfleck::DayOptions& options) const { return sunfleck::run_day(options); }
   int operator()(const sunfleck::RenderOptions& options) const { return sunfleck::render(options); }
+  int operator()(const sunfleck::ViewOptions& options) const { return sunfleck::view(options); }
   int operator()(const sunfleck::ValidateOptions& options) const { return sunfleck::validate(options); }
   int operator()(const sunfleck::TradeoffOptions& options) const { return sunfleck::tradeoff(options); }
   int operator()(const sunfleck::MaizeOptions& options) const { return sunfleck::write_maize(options); }

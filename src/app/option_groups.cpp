@@ -62,6 +62,10 @@ void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words
   group.add_option("--view", words.view, "The scene's camera, from above, from the south, upwards: " + list_of(view_names()))
       ->check(one_of(view_names()))
       ->capture_default_str();
+  group
+      .add_option("--range", options.top_w_m2,
+                  "Upper end of the scale of rank-interval and map, W m-2 (default: nearly the largest value)")
+      ->check(positive());
   group.add_option("--size", words.size, "Size of the pictures in pixels, WxH")->capture_default_str();
   group.add_option("--samples", options.samples, "Samples a pixel")->transform(whole_number(1, 256))->capture_default_str();
   group.add_option("--repeat", options.repeat, "Show a periodic plot amidst its neighbours: so many along each side, odd")
@@ -157,6 +161,18 @@ void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
   add_device(render, options.run);
   add_simulation(render, options.run, words);
   add_pictures(render, options.run.pictures, words);
+}
+
+void add_view(CLI::App& app, ViewOptions& options, OptionWords& words) {
+  CLI::App& view = *app.add_subcommand("view", "Look at a scene in a window: move the sun, see the light");
+  add_version(view);
+  view.add_option("scene", options.run.scene, "Scene file (TOML)")->required()->check(not_empty());
+  view.add_option("-o,--output", options.run.output, "Where pictures and results are saved (default: results/<scene>)")
+      ->check(not_empty());
+  view.add_flag("--json", options.run.json, "Print a line of JSON on standard output for each thing that happens");
+  add_device(view, options.run);
+  add_simulation(view, options.run, words);
+  add_pictures(view, options.run.pictures, words);
 }
 
 void add_validate(CLI::App& app, ValidateOptions& options) {

@@ -24,6 +24,7 @@ void add_version(CLI::App& command);
 void add_run(CLI::App& app, RunOptions& options, OptionWords& words);
 void add_day(CLI::App& app, DayOptions& options, OptionWords& words);
 void add_render(CLI::App& app, RenderOptions& options, OptionWords& words);
+void add_view(CLI::App& app, ViewOptions& options, OptionWords& words);
 void add_validate(CLI::App& app, ValidateOptions& options);
 void add_tradeoff(CLI::App& app, TradeoffOptions& options);
 void add_maize(CLI::App& app, MaizeOptions& options);

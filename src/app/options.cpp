@@ -16,7 +16,9 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::array commands_to_come{"view", "convert"};
+constexpr int usual_window_width = 1280;
+constexpr int usual_window_height = 800;
+constexpr std::array commands_to_come{"convert"};
 
 void read_size(const std::string& size, PictureOptions& options) {
   int width = 0;
@@ -87,6 +89,17 @@ RenderOptions finished(RenderOptions options, const OptionWords& words, const CL
   return options;
 }
 
+ViewOptions finished(ViewOptions options, const OptionWords& words, const CLI::App& command) {
+  read_errors(words, options.run);
+  read_pictures(words, options.run.pictures);
+  if (command.count("--size") == 0) {
+    options.run.pictures.width = usual_window_width;
+    options.run.pictures.height = usual_window_height;
+  }
+  options.picture = read_picture(words);
+  return options;
+}
+
 void check_stand(const MaizeOptions& options) {
   const std::uint64_t plants = static_cast<std::uint64_t>(options.rows) * static_cast<std::uint64_t>(options.per_row);
   if (plants <= most_plants) return;
@@ -100,12 +113,12 @@ void check_stand(const MaizeOptions& options) {
   const std::string first = argc > 1 ? printable(argv[1]) : "";
   if (std::find(commands_to_come.begin(), commands_to_come.end(), first) != commands_to_come.end()) {
     throw_input(first, fmt::format("not in version {} yet", version()),
-                "use run, day, render, validate, tradeoff, maize or info");
+                "use run, day, render, view, validate, tradeoff, maize or info");
   }
   const auto chosen = app.get_subcommands();
   if (chosen.empty() && (first.empty() || first[0] != '-')) {
     throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "no command of this program",
-                "use run, day, render, validate, tradeoff, maize or info; see sunfleck --help");
+                "use run, day, render, view, validate, tradeoff, maize or info; see sunfleck --help");
   }
   const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
   const std::vector<std::string> unknown = app.remaining(true);
@@ -140,12 +153,14 @@ Command parse_command_line(int argc, const char* const* argv) {
   MaizeOptions maize;
   InfoOptions info;
   RenderOptions render;
+  ViewOptions view;
   ValidateOptions validate;
   TradeoffOptions tradeoff;
   OptionWords words;
   add_run(app, run, words);
   add_day(app, day, words);
   add_render(app, render, words);
+  add_view(app, view, words);
   add_validate(app, validate);
   add_tradeoff(app, tradeoff);
   add_maize(app, maize);
@@ -167,6 +182,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   if (app.got_subcommand("validate")) return validate;
   if (app.got_subcommand("tradeoff")) return tradeoff;
   if (app.got_subcommand("day")) return finished(day, words);
+  if (app.got_subcommand("view")) return finished(view, words, *app.get_subcommand("view"));
   if (app.got_subcommand("render")) return finished(render, words, *app.get_subcommand("render"));
   return finished(run, words, *app.get_subcommand("run"));
 }

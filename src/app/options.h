@@ -53,6 +53,11 @@ struct RenderOptions {
   std::string simulating;  // the first option given that only a simulation needs; empty: none
 };
 
+struct ViewOptions {
+  RunOptions run;  // output: where pictures and results are saved; json: a line on standard output for each event
+  Picture picture;
+};
+
 struct ValidateOptions {
   std::filesystem::path output;    // empty: results/validate
   std::vector<std::string> cases;  // parts of names: only those; empty: all
@@ -89,8 +94,8 @@ struct InfoOptions {
 struct TextToPrint {
   std::string text;
 };
-using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, ValidateOptions, TradeoffOptions, MaizeOptions,
-                             InfoOptions>;
+using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, ViewOptions, ValidateOptions, TradeoffOptions,
+                             MaizeOptions, InfoOptions>;
 
 // Throws Error (input) on bad usage.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);

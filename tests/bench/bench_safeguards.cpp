@@ -1,15 +1,19 @@
-// What precautions cost: padded boxes, the element that a packet leaves left out.
+// What precautions cost: padded boxes, the element that a packet leaves left out, edges that no ray slips through.
 
 #include "bench/benches.h"
 #include "bench/measure.h"
 #include "bench/ours.h"
 #include "bench/rays.h"
+#include "shared/beam.h"
+#include "shared/intersect.h"
 #include "transport/indirect.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <string>
 #include <vector>
 
@@ -41,6 +45,47 @@ void with_own_element(benchmark::State& state, const GpuContext* context, Precau
   for (auto _ : state) (void)ours.tracer().trace(scene, packets, landings, {});
 }
 
+// Moeller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection": two edges share no arithmetic, so that a ray
+// may pass between two triangles.
+float plain_distance(const shared::Ray& ray, const BvhTriangle& triangle) {
+  const glm::vec3 a(triangle.a[0], triangle.a[1], triangle.a[2]);
+  const glm::vec3 to_b = glm::vec3(triangle.b[0], triangle.b[1], triangle.b[2]) - a;
+  const glm::vec3 to_c = glm::vec3(triangle.c[0], triangle.c[1], triangle.c[2]) - a;
+  const glm::vec3 p = glm::cross(ray.direction, to_c);
+  const float determinant = glm::dot(to_b, p);
+  const float inverse = 1.0F / determinant;
+  const glm::vec3 from_a = ray.origin - a;
+  const float u = glm::dot(from_a, p) * inverse;
+  if (!(u >= 0.0F && u <= 1.0F)) return 0.0F;
+  const glm::vec3 q = glm::cross(from_a, to_b);
+  const float v = glm::dot(ray.direction, q) * inverse;
+  return v >= 0.0F && u + v <= 1.0F ? glm::dot(to_c, q) * inverse : 0.0F;
+}
+
+float watertight_distance(const shared::Ray& ray, const BvhTriangle& triangle) {
+  const auto corner = [](const auto& words) { return glm::vec3(words[0], words[1], words[2]); };
+  const shared::TriangleHit hit = shared::meet_triangle(ray, corner(triangle.a), corner(triangle.b), corner(triangle.c));
+  return hit.met ? hit.t : 0.0F;
+}
+
+// One ray against as many triangles as it meets on its way: neighbours in the tree.
+void with_watertight_edges(benchmark::State& state, const GpuContext*, Precaution precaution) {
+  const Stand& stand = stand_of(paper_plants);
+  const shared::BeamBlock beam = beam_of(stand, 1U << 14U);
+  const std::vector<BvhTriangle>& triangles = stand.prepared.bvh.triangles;
+  constexpr std::size_t tests_a_ray = 16;
+  for (auto _ : state) {
+    float sum = 0.0F;
+    for (std::uint32_t number = 0; number < beam.columns * beam.rows; ++number) {
+      const shared::Ray ray = shared::make_ray(shared::beam_origin(beam, number), beam.direction);
+      const std::size_t first = (std::size_t{number} * 7919) % (triangles.size() - tests_a_ray);
+      for (std::size_t k = first; k < first + tests_a_ray; ++k)
+        sum += precaution == Precaution::taken ? watertight_distance(ray, triangles[k]) : plain_distance(ray, triangles[k]);
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+}
+
 template <class Measure>
 void add(const std::string& name, const GpuContext* context, const Measure& measure) {
   for (const auto& [with, precaution] : {std::pair("with", Precaution::taken), std::pair("without", Precaution::left_out)}) {
@@ -54,6 +99,7 @@ void add(const std::string& name, const GpuContext* context, const Measure& meas
 void register_safeguards(const GpuContext* context) {
   add("padding", nullptr, with_padding);
   add("own_element", nullptr, with_own_element);
+  add("watertight", nullptr, with_watertight_edges);
   if (context == nullptr) return;
   add("padding", context, with_padding);
   add("own_element", context, with_own_element);

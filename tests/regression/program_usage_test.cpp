@@ -78,7 +78,7 @@ TEST_F(Usage, OfCommandsAndFiles) {
 }
 
 TEST_F(Usage, OfCommandsToCome) {
-  for (const char* command : {"view", "convert"}) {
+  for (const char* command : {"convert"}) {
     expect_one_error(run({command, scene_, "--from", "08:00"}), 2, std::string(command) + " (not in version");
   }
 }

@@ -163,7 +163,7 @@ TEST(Options, OfMorePicturesOfARun) {
 TEST(Pictures, HaveNamesOfTheirOwn) {
   std::set<std::string> stems;
   for (const Picture& picture : all_pictures()) stems.insert(stem_of(picture));
-  EXPECT_EQ(stems.size(), 20U);
+  EXPECT_EQ(stems.size(), 24U);
   std::vector<std::string> usual;
   for (const Picture& picture : usual_pictures()) usual.push_back(stem_of(picture));
   EXPECT_EQ(usual, (std::vector<std::string>{"rank_direct", "rank_indirect", "rank_total", "hue_direct", "hue_indirect",
@@ -201,6 +201,23 @@ TEST(Options, HelpAndVersionAreTexts) {
   EXPECT_EQ(std::get<TextToPrint>(parse({"run", "--version"})).text, "sunfleck " + version() + "\n");
 }
 
+TEST(Options, OfTheWindow) {
+  const auto plain = std::get<ViewOptions>(parse({"view", "a.toml"}));
+  EXPECT_EQ(plain.run.pictures.width, 1280);
+  EXPECT_EQ(plain.run.pictures.height, 800);
+  EXPECT_FALSE(plain.run.json);
+  const auto options =
+      std::get<ViewOptions>(parse({"view", "a.toml", "--size", "700x500", "--chart", "map", "--field", "scattered", "--range",
+                                   "120", "--json", "--error", "0.02", "-o", "out", "--view", "top"}));
+  EXPECT_EQ(options.run.pictures.height, 500);
+  EXPECT_EQ(options.picture, (Picture{ChartKind::map, LightField::scattered}));
+  EXPECT_EQ(options.run.pictures.top_w_m2, 120.0);
+  EXPECT_EQ(options.run.pictures.view, ViewKind::top);
+  EXPECT_EQ(options.run.direct_error, 0.02);
+  EXPECT_EQ(options.run.output, "out");
+  EXPECT_TRUE(options.run.json);
+}
+
 TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--passes", "4"}),
             "command line: --passes 4 (must be a whole number in 8..65536); see sunfleck run --help");
@@ -210,13 +227,14 @@ TEST(Options, MistakesAreNamed) {
                   " (must be a number between 0 and 1, with a point: give 0.02 for 2 percent); see sunfleck run --help");
   }
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}), "command line: --bogus (not known here); see sunfleck run --help");
-  EXPECT_EQ(refusal({"ran"}),
-            "ran (no command of this program); use run, day, render, validate, tradeoff, maize or info; see sunfleck --help");
+  EXPECT_EQ(
+      refusal({"ran"}),
+      "ran (no command of this program); use run, day, render, view, validate, tradeoff, maize or info; see sunfleck --help");
   EXPECT_EQ(refusal({}),
-            "command line (no command); use run, day, render, validate, tradeoff, maize or info; see sunfleck --help");
+            "command line (no command); use run, day, render, view, validate, tradeoff, maize or info; see sunfleck --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--size", "3\nx"}),
             "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
-  EXPECT_NE(refusal({"view", "a.toml"}).find("view (not in version"), std::string::npos);
+  EXPECT_NE(refusal({"convert", "a.toml"}).find("convert (not in version"), std::string::npos);
 }
 
 }  // namespace

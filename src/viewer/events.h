@@ -1,0 +1,24 @@
+#pragma once
+// What happens in a window, as lines of JSON on standard output, for programs that drive it and for logs.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace sunfleck {
+
+enum class EventLines { off, on };
+
+class Events {
+ public:
+  explicit Events(EventLines lines) : lines_(lines) {}
+
+  // {"event": NAME, ...fields}, on a line of its own, at once.
+  void tell(const std::string& name, const nlohmann::json& fields) const;
+  [[nodiscard]] bool wanted() const { return lines_ == EventLines::on; }
+
+ private:
+  EventLines lines_;
+};
+
+}  // namespace sunfleck

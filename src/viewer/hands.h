@@ -1,0 +1,34 @@
+#pragma once
+// Mouse and keyboard over the picture: they move the camera and pick. Dear ImGui; within a frame.
+
+#include "viewer/state.h"
+
+#include <glm/vec2.hpp>
+#include <optional>
+
+namespace sunfleck {
+
+// Where the picture lies in the window, and how large the scene is.
+struct Stage {
+  float left_px = 0.0F, width_px = 0.0F, height_px = 0.0F;
+  glm::dvec3 lo_m{0.0}, hi_m{0.0};
+};
+
+class Hands {
+ public:
+  // Moves state.hand by what was done since the last frame. Returns the pixel of the picture that was clicked.
+  [[nodiscard]] std::optional<glm::ivec2> steer(ViewerState& state, const Stage& stage, double now_s);
+
+  // Whether the camera will be moved on: a button is held, or it has moved a moment ago.
+  [[nodiscard]] bool busy(double now_s) const;
+
+ private:
+  bool drag(ViewerState& state, const Stage& stage);
+  bool fly_by_keys(ViewerState& state, const Stage& stage) const;
+
+  bool pressed_on_picture_ = false;
+  bool dragged_ = false;
+  double last_motion_s_ = -1.0;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,246 @@
+#include "viewer/live_light.h"
+
+#include "app/losses.h"
+#include "app/result_folder.h"
+#include "base/error.h"
+#include "io/file.h"
+#include "io/folder_lock.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+// Landings of beams are kept for other optics while they fit into this.
+constexpr std::size_t most_beam_bytes = std::size_t{512} << 20U;
+// Errors of single sides are kept while they fit into this: a field of ten million triangles does without.
+constexpr std::size_t most_side_bytes = std::size_t{256} << 20U;
+// Between two results of one wish: to be drawn they must be copied and painted, which shall take but a small part of the time.
+constexpr double least_pause_s = 0.15;
+constexpr double pause_per_second = 0.25;
+
+// The scene without its triangles.
+Scene light_of_scene(Scene& scene) {
+  Canopy canopy = std::exchange(scene.model.canopy, {});
+  Scene light = scene;
+  scene.model.canopy = std::move(canopy);
+  return light;
+}
+
+SolveSettings live_settings(const RunOptions& options, const Scene& scene) {
+  SolveSettings settings = solve_settings(options, scene);
+  const std::size_t side_bytes = 2 * scene.model.canopy.size() * scene.model.bands.size() * 2 * sizeof(double);
+  if (side_bytes <= most_side_bytes) settings.element_errors = ElementErrors::keep_sides;
+  return settings;
+}
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+std::uint64_t rays_of(const RadiationResult& result) {
+  return result.direct.rays + result.indirect.packets + result.indirect.sky_rays;
+}
+
+}  // namespace
+
+LiveLight::LiveLight(Scene scene, const SceneTree& tree, Engine& engine, const RunOptions& options,
+                     std::function<void()> notify)
+    : original_(light_of_scene(scene)),
+      tree_(tree),
+      engine_(engine),
+      options_(options),
+      notify_(std::move(notify)),
+      beams_(engine.tracer(), most_beam_bytes),
+      settings_(live_settings(options, scene)),
+      scene_(std::move(scene)),
+      wish_(wish_of(original_)) {
+  scene_.model.planes.clear();  // nothing of them is shown
+  scene_.model.sensors.clear();
+  asked_ = 1;
+  asked_at_ = Clock::now();
+  worker_ = std::thread([this] { work(); });
+}
+
+LiveLight::~LiveLight() {
+  {
+    const std::lock_guard lock(news_mutex_);
+    quitting_ = true;
+  }
+  order_.notify_all();
+  worker_.join();
+}
+
+std::uint64_t LiveLight::ask(const LightWish& wish) {
+  std::uint64_t number = 0;
+  {
+    const std::lock_guard lock(news_mutex_);
+    wish_ = wish;
+    number = ++asked_;
+    asked_at_ = Clock::now();
+  }
+  order_.notify_all();
+  return number;
+}
+
+void LiveLight::save(const std::filesystem::path& folder) {
+  {
+    const std::lock_guard lock(news_mutex_);
+    save_folder_ = folder;
+    save_asked_ = true;
+    news_.saving = true;
+    news_.saved.reset();
+  }
+  order_.notify_all();
+}
+
+LightNews LiveLight::news() const {
+  const std::lock_guard lock(news_mutex_);
+  return news_;
+}
+
+bool LiveLight::wait_for_order() {
+  std::unique_lock lock(news_mutex_);
+  order_.wait(lock, [this] { return quitting_ || asked_ != news_.wish || (save_asked_ && news_.version > 0); });
+  return !quitting_;
+}
+
+void LiveLight::work() {
+  while (wait_for_order()) {
+    LightWish wish;
+    std::uint64_t number = 0;
+    {
+      const std::lock_guard lock(news_mutex_);
+      wish = wish_;
+      number = asked_;
+    }
+    std::string problem;
+    try {
+      if (number != news().wish) {
+        simulate_wish(wish, number);
+      } else if (save_asked_ && result_) {
+        save_if_asked(*result_);
+      }
+      continue;
+    } catch (const Error& error) {
+      problem = error.what();
+    } catch (const std::bad_alloc&) {
+      problem = "out of memory (the system gives no more); close other programs or load a smaller scene";
+    }
+    {
+      const std::lock_guard lock(news_mutex_);
+      news_.wish = number;
+      news_.problem = problem;
+    }
+    notify_();
+  }
+}
+
+bool LiveLight::wants_result() const {
+  if (save_asked_) return true;
+  const std::lock_guard lock(news_mutex_);
+  const double pause_s = std::max(least_pause_s, pause_per_second * seconds_between(asked_at_, Clock::now()));
+  return news_.result_wish != news_.wish || seconds_between(last_result_, Clock::now()) >= pause_s;
+}
+
+void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
+  {
+    const std::lock_guard lock(result_mutex_);
+    // What is there belongs to the light before; it goes as soon as the scene no longer tells how it came about.
+    grant(wish, original_, scene_.model);
+    const bool changed = wish != wish_of(original_);
+    scene_.title = original_.title + (changed ? " (light changed)" : "");
+    scene_.digest = original_.digest + (changed ? "-changed-in-view" : "");
+    result_.reset();
+  }
+  {
+    const std::lock_guard lock(news_mutex_);
+    news_.wish = number;
+    news_.problem.clear();
+  }
+  Monitor monitor;
+  monitor.interrupted = [this, number] { return superseded(number); };
+  monitor.wants_result = [this] { return wants_result(); };
+  monitor.receive_result = [this, number](RadiationResult result) { take_result(std::move(result), number, false); };
+  RadiationResult result = solve(scene_.model, tree_.layout, beams_, settings_, monitor);
+  if (!superseded(number)) take_result(std::move(result), number, true);
+}
+
+void LiveLight::take_result(RadiationResult result, std::uint64_t number, bool complete) {
+  if (superseded(number)) return;
+  tell(result, number, complete);
+  {
+    const std::lock_guard lock(result_mutex_);
+    result_ = std::move(result);
+    stamp_ = {news().version, number, complete};
+  }
+  notify_();
+  if (save_asked_) save_if_asked(*result_);
+}
+
+void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool complete) {
+  const std::lock_guard lock(news_mutex_);
+  last_result_ = Clock::now();
+  news_.seconds = seconds_between(asked_at_, last_result_);
+  if (news_.result_wish != number) news_.first_seconds = news_.seconds;
+  ++news_.version;
+  news_.result_wish = number;
+  news_.complete = complete;
+  news_.stop = result.stop;
+  news_.rays = rays_of(result);
+  news_.spared_beams = beams_.spared();
+  news_.sun = scene_.model.sun;
+  news_.direct_error = result.direct.relative_error;
+  news_.indirect_error = result.indirect.relative_error;
+  news_.direct_bound = settings_.accuracy.direct;
+  news_.indirect_bound = settings_.accuracy.indirect;
+  news_.bands = result.bands;
+  news_.layers = result.layers;
+  news_.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
+  news_.leaf_area_index = result.leaf_area_index;
+}
+
+void LiveLight::save_if_asked(const RadiationResult& result) {
+  std::filesystem::path folder;
+  {
+    const std::lock_guard lock(news_mutex_);
+    folder = save_folder_;
+  }
+  std::string outcome;
+  try {
+    write(folder, result);
+    outcome = fmt::format("saved in {}{}", folder.string(), is_done(result.stop) ? "" : " (not complete)");
+  } catch (const Error& error) {
+    outcome = error.what();
+  }
+  {
+    const std::lock_guard lock(news_mutex_);
+    save_asked_ = false;
+    news_.saving = false;
+    news_.saved = outcome;
+  }
+  notify_();
+}
+
+void LiveLight::write(const std::filesystem::path& folder, const RadiationResult& result) {
+  FolderLock lock(folder);
+  prepare_folder(folder, lock);
+  RunOptions options = options_;
+  options.quiet = true;
+  options.json = false;
+  RunRecord record = make_record(options, scene_, settings_, engine_);
+  record.complete = is_done(result.stop);
+  record.seconds.direct = result.direct.seconds;
+  record.seconds.indirect = result.indirect.seconds;
+  Losses losses;
+  const bool all = write_results(folder, options, record, {scene_, tree_.layout, result, engine_}, {}, losses);
+  record.not_written = losses.names();
+  record.complete = record.complete && all && record.not_written.empty();
+  publish(folder, options, record, scene_.model, result, losses);
+  losses.complain();
+}
+
+}  // namespace sunfleck

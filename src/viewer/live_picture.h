@@ -1,0 +1,137 @@
+#pragma once
+// The picture in a window: looked at and painted beside whatever else goes on, roughly while the camera moves and finely once
+// it rests.
+
+#include "app/pictures.h"
+#include "viewer/live_light.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace sunfleck {
+
+struct PictureWish {
+  Camera camera;
+  PictureOptions options;  // size, samples, repeat; band and top of the scale; the view is the camera's
+  Picture picture;
+  std::optional<std::uint32_t> picked;  // element
+  bool moving = false;                  // the camera will be another one soon
+};
+
+// Whether two wishes see the same, or colour it the same.
+[[nodiscard]] bool same_look(const PictureWish& a, const PictureWish& b);
+[[nodiscard]] bool same_style(const PictureWish& a, const PictureWish& b);
+
+// What a picked element is and receives.
+struct PickedElement {
+  std::uint32_t element = 0;
+  std::string organ, optics;
+  std::int64_t plant = 0, rank = 0;
+  double area_m2 = 0.0;
+  struct Face {
+    double direct_w_m2 = 0.0, sky_w_m2 = 0.0, scattered_w_m2 = 0.0;  // incident
+    double half_width_w_m2 = 0.0;                                    // of their sum; NaN where too few rays tell
+    [[nodiscard]] double total_w_m2() const { return direct_w_m2 + sky_w_m2 + scattered_w_m2; }
+  };
+  Face upper, lower;
+  double absorbed_w_m2 = 0.0, absorbed_half_width_w_m2 = 0.0;
+};
+
+enum class Fineness { preview, one_sample, full };
+
+struct LivePictureFrame {
+  std::uint64_t number = 0;           // rises with every frame
+  std::vector<std::uint32_t> pixels;  // [row][column], 0x00RRGGBB
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> surface;  // [row][column], what the first sample sees, or SurfaceImage::nothing
+  Fineness fineness = Fineness::preview;
+  LightStamp light;
+  std::uint64_t look = 0;  // number of the wish's camera and size
+  double look_s = 0.0, paint_s = 0.0;
+  std::optional<PickedElement> picked;
+};
+
+class LivePicture {
+ public:
+  // All must outlive it. `notify` is called from the drawing thread when there is a new frame.
+  LivePicture(const LiveLight& light, const SceneTree& tree, const Engine& engine, std::function<void()> notify);
+  ~LivePicture();
+  LivePicture(const LivePicture&) = delete;
+  LivePicture& operator=(const LivePicture&) = delete;
+
+  // Returns the number of this look: the last one's if camera, size, samples and copies are the same.
+  std::uint64_t ask(const PictureWish& wish);
+  // The light has news.
+  void light_changed();
+
+  // None before the first one.
+  [[nodiscard]] std::shared_ptr<const LivePictureFrame> frame() const;
+  [[nodiscard]] std::string problem() const;
+
+  // The last frame's picture as a PNG. Throws Error (failure).
+  void save(const std::filesystem::path& file) const;
+
+ private:
+  // A look and how far it got.
+  struct Sight {
+    PictureWish wish;
+    std::uint64_t look = 0;
+    SurfaceImage seen;
+    Fineness fineness = Fineness::preview;
+    double look_s = 0.0;
+  };
+  // Colours and words, of some light and some wish.
+  struct Content {
+    LightStamp light;
+    PictureWish wish;
+    ChartContent chart;
+    std::optional<PickedElement> picked;
+  };
+
+  void work();
+  [[nodiscard]] bool wait_for_work();
+  void draw_once();
+  enum class Haste { to_the_end, give_up_for_next };
+  [[nodiscard]] bool look_at(Sight& sight, Fineness fineness, Haste haste);
+  [[nodiscard]] std::vector<shared::SeenSurface> see(const PictureOptions& options, const Camera& camera,
+                                                     const StopQuestion& stop);
+  [[nodiscard]] int preview_step(const PictureOptions& options) const;
+  void refresh_content(const PictureWish& wish);
+  void paint(const Sight& sight);
+
+  const LiveLight& light_;
+  const SceneTree& tree_;
+  const Engine& engine_;
+  std::function<void()> notify_;
+
+  std::atomic<bool> quitting_ = false;
+  std::atomic<std::uint64_t> look_ = 0;
+
+  mutable std::mutex mutex_;  // of the next ones
+  std::condition_variable order_;
+  std::optional<PictureWish> wish_;
+  std::uint64_t wish_number_ = 0;
+  std::uint64_t light_number_ = 0;
+  std::shared_ptr<const LivePictureFrame> frame_;
+  std::string problem_;
+
+  // Of the drawing thread alone.
+  std::unique_ptr<CanopyViewer> viewer_;
+  std::optional<Sight> sight_;
+  std::optional<Content> content_;
+  std::optional<SurfaceColours> surfaces_;
+  std::uint64_t drawn_wish_ = 0, drawn_light_ = 0;  // numbers
+  double samples_per_second_ = 1e6;
+
+  std::thread worker_;
+};
+
+}  // namespace sunfleck

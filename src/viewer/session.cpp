@@ -1,0 +1,38 @@
+#include "viewer/session.h"
+
+#include "app/pictures.h"
+
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file) {
+  Scene scene = read_scene(file, {options.run.allow_outside});
+  check_view(scene.model, options.run.pictures);
+  check_grid(options.run, scene);
+  return scene;
+}
+
+// The folder and the name of what is saved follow the scene that is looked at.
+RunOptions run_options(const ViewOptions& options, const std::filesystem::path& file) {
+  RunOptions run = options.run;
+  run.scene = file;
+  return run;
+}
+
+}  // namespace
+
+Session::Session(const ViewOptions& options, const std::filesystem::path& scene_file, const std::function<void()>& notify)
+    : file(scene_file),
+      scene_(checked_scene(options, file)),
+      title(scene_.title),
+      light_of_scene(wish_of(scene_)),
+      warnings(scene_.warnings),
+      tree(scene_.model),
+      engine(options.run.device, tree.bvh, {scene_.model.plot.periodic, scene_.model.soil.has_value()}, tree.layout.words(),
+             EngineUse::drawn_meanwhile),
+      light(std::move(scene_), tree, engine, run_options(options, file), notify),
+      picture(light, tree, engine, notify) {}
+
+}  // namespace sunfleck

@@ -1,0 +1,63 @@
+#pragma once
+// What a window shows and what its user has set.
+
+#include "app/picture.h"
+#include "view/camera_motion.h"
+#include "viewer/light_wish.h"
+#include "viewer/live_light.h"
+#include "viewer/live_picture.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace sunfleck {
+
+struct ViewerState {
+  // Set by the user.
+  LightWish light;
+  HandCamera hand;
+  bool camera_as_given = true;  // nobody has moved it since the view was chosen: it goes on to fit the window
+  PictureOptions options;
+  Picture picture;
+  std::optional<std::uint32_t> picked;
+  bool panel = true;
+  bool playing = false;
+  double play_step_min = 10.0;
+  bool own_range = false;
+  double range_top_w_m2 = 500.0;
+
+  // Told to the user.
+  LightNews news;
+  std::shared_ptr<const LivePictureFrame> frame;
+  std::string message;  // one line
+  bool message_is_problem = false;
+  std::string title, device, drawing_device, plot_text;
+  std::vector<std::string> bands;
+  std::vector<std::string> optics_names;
+  double frame_ms = 0.0;
+  double rays_per_second = 0.0;
+
+  // Where the panel's controls lie, px: left, top, right, bottom.
+  std::map<std::string, std::array<float, 4>> controls;
+
+  [[nodiscard]] std::size_t band() const;  // number of the one shown
+};
+
+// Whether the frame tells of the element that is picked; a moment after the click it does.
+[[nodiscard]] bool is_picked_shown(const ViewerState& state);
+
+// What the panel was asked for, once.
+struct PanelOrders {
+  std::optional<ViewKind> view;
+  bool fit = false;
+  bool copy_camera = false;
+  bool save_picture = false;
+  bool save_result = false;
+  bool reset_light = false;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,399 @@
+#include "viewer/viewer.h"
+
+#include "app/interrupt.h"
+#include "app/pictures.h"
+#include "app/result_folder.h"
+#include "app/simulation.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "io/file.h"
+#include "light/sun_events.h"
+#include "viewer/panel.h"
+#include "viewer/reports.h"
+
+#include <imgui.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// A frame at least so often while something changes by itself, and while nothing does.
+constexpr double busy_wait_s = 0.03;
+constexpr double idle_wait_s = 0.25;
+constexpr double look_at_file_s = 0.5;
+constexpr double message_s = 8.0;
+// While a day is played each moment is shown at least so long, once it has a first picture.
+constexpr double played_moment_s = 0.35;
+constexpr std::uint32_t background = 0x00e8ecf0;
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+}  // namespace
+
+std::size_t ViewerState::band() const {
+  const auto found = std::find(bands.begin(), bands.end(), options.band);
+  return found == bands.end() ? 0 : static_cast<std::size_t>(found - bands.begin());
+}
+
+bool is_picked_shown(const ViewerState& state) {
+  return state.picked && state.frame && state.frame->picked && state.frame->picked->element == *state.picked;
+}
+
+Viewer::Viewer(const ViewOptions& options, Window& window)
+    : options_(options), window_(window), events_(options.run.json ? EventLines::on : EventLines::off) {
+  state_.options = options.run.pictures;
+  state_.picture = options.picture;
+  state_.own_range = options.run.pictures.top_w_m2.has_value();
+  state_.range_top_w_m2 = options.run.pictures.top_w_m2.value_or(state_.range_top_w_m2);
+  state_.message = "Loading …";
+  if (window_.begin_frame(0.0)) {
+    const glm::vec2 size(window_.size_px());
+    draw_message(state_, 0.0F, size.x, size.y);
+    window_.end_frame({}, true, background);
+  }
+  enter(std::make_unique<Session>(options_, options.run.scene, &Window::wake));
+  state_.message.clear();
+}
+
+// Camera and charts stay as they are when a scene is loaded anew; its light is its own.
+void Viewer::enter(std::unique_ptr<Session> session) {
+  const bool another = session_ && session_->file != session->file;
+  if (session_) leaving_ = std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); });
+  session_ = std::move(session);
+  const Scene& scene = session_->light.geometry();
+  std::error_code error;
+  scene_written_ = fs::last_write_time(session_->file, error);
+  state_.light = session_->light_of_scene;
+  state_.news = {};
+  state_.title = session_->title;
+  state_.device = device_line(session_->engine.device());
+  state_.drawing_device = window_.device().name;
+  state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), scene.model.plot.size_x_m,
+                                 scene.model.plot.size_z_m, scene.model.plot.periodic ? ", endless" : "");
+  state_.bands.clear();
+  for (const Waveband& band : scene.model.bands) state_.bands.push_back(band.name);
+  state_.optics_names.clear();
+  for (const SurfaceOptics& optics : scene.model.optics) state_.optics_names.push_back(optics.name);
+  if (state_.band() == 0) state_.options.band.clear();
+  state_.picked.reset();
+  state_.playing = false;
+  if (another || !asked_picture_) choose_view(another ? ViewKind::camera : options_.run.pictures.view);
+  asked_light_ = state_.light;
+  asked_light_at_s_ = now_s();
+  light_number_ = 1;
+  told_first_ = told_done_ = 0;
+  asked_picture_.reset();
+  shown_frame_ = 0;
+  told_saved_.reset();
+  for (const std::string& warning : session_->warnings) warn(warning);
+  if (!session_->warnings.empty()) say_to_user(session_->warnings.front(), false);
+  window_.set_title("sunfleck: " + session_->title);
+  events_.tell("loaded", {{"scene", session_->file.string()},
+                          {"triangles", scene.model.canopy.size()},
+                          {"device", session_->engine.device().name},
+                          {"window", window_.device().name}});
+}
+
+void Viewer::load(const fs::path& file) {
+  if (loading_.valid()) return;  // one at a time; the file is looked at again
+  say_to_user(fmt::format("Loading {} …", file.filename().string()), false);
+  loading_ = std::async(std::launch::async,
+                        [options = options_, file] { return std::make_unique<Session>(options, file, &Window::wake); });
+}
+
+void Viewer::finish_loading() {
+  if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  try {
+    enter(loading_.get());
+    say_to_user("Loaded.", false);
+  } catch (const Error& error) {
+    say_to_user(error.what(), true);
+  } catch (const std::bad_alloc&) {
+    say_to_user("out of memory (the scene does not fit); load a smaller one", true);
+  }
+}
+
+void Viewer::watch_scene_file() {
+  for (const fs::path& file : window_.take_dropped_files()) {
+    if (file.extension() == ".toml") {
+      load(file);
+    } else {
+      say_to_user(fmt::format("{} (no scene file); drop a .toml", printable(file.filename().string())), true);
+    }
+  }
+  if (now_s() < next_look_at_file_s_ || loading_.valid()) return;
+  next_look_at_file_s_ = now_s() + look_at_file_s;
+  std::error_code error;
+  const auto written = fs::last_write_time(session_->file, error);
+  if (error || written == scene_written_) return;  // while an editor replaces it, it may be away
+  scene_written_ = written;
+  load(session_->file);
+}
+
+int Viewer::run() {
+  while (window_.is_open() && !interrupted()) frame();
+  tell_end();
+  return interrupted() ? exit_interrupted : exit_done;
+}
+
+bool Viewer::at_work() const {
+  const LightNews& news = state_.news;
+  const bool light = news.problem.empty() && (!news.complete || news.result_wish != light_number_);
+  const bool picture = !state_.frame || state_.frame->fineness != Fineness::full || state_.frame->light.version != news.version;
+  return light || picture || state_.playing || loading_.valid() || hands_.busy(now_s());
+}
+
+Stage Viewer::stage() const {
+  const glm::ivec2 size = window_.size_px();
+  const float left =
+      state_.panel ? std::min(panel_width * static_cast<float>(window_.scale()), 0.6F * static_cast<float>(size.x)) : 0.0F;
+  const ShownBox box = shown_box(session_->light.geometry().model, session_->tree.layout);
+  return {std::floor(left), static_cast<float>(size.x) - std::floor(left), static_cast<float>(size.y), box.lo_m, box.hi_m};
+}
+
+void Viewer::frame() {
+  const bool drawn = window_.begin_frame(at_work() ? busy_wait_s : idle_wait_s);
+  const Clock::time_point start = Clock::now();
+  finish_loading();
+  watch_scene_file();
+  take_news();
+  take_picture();
+  if (!drawn) return;
+  const Stage place = stage();
+  if (now_s() > message_until_s_) state_.message.clear();
+  PanelOrders orders;
+  if (state_.panel) orders = draw_panel(state_, place.left_px, place.height_px);
+  draw_message(state_, place.left_px, place.width_px, place.height_px);
+  if (const auto clicked = hands_.steer(state_, place, now_s())) pick(*clicked);
+  take_keys();
+  obey(orders);
+  play();
+  place_camera(stage());
+  ask_for_light();
+  ask_for_picture();
+  tell_controls();
+  WindowPicture picture;
+  if (state_.frame) {
+    const int left = static_cast<int>(stage().left_px);
+    picture = {state_.frame->pixels, state_.frame->width, state_.frame->height, {left, 0}};
+  }
+  window_.end_frame(picture, std::exchange(new_pixels_, false), background);
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  frame_times_s_.push_back(seconds);
+  state_.frame_ms = 1e3 * seconds;
+}
+
+void Viewer::take_news() {
+  const std::uint64_t version = state_.news.version;
+  state_.news = session_->light.news();
+  const LightNews& news = state_.news;
+  if (news.version != version) {
+    session_->picture.light_changed();
+    if (news.seconds > 0.0) state_.rays_per_second = static_cast<double>(news.rays) / news.seconds;
+  }
+  if (news.saved && news.saved != told_saved_) {
+    told_saved_ = news.saved;
+    const bool done = news.saved->rfind("saved", 0) == 0;
+    say_to_user(*news.saved, !done);
+    events_.tell(done ? "saved" : "problem",
+                 {{done ? "folder" : "text", done ? result_folder(options_.run).string() : *news.saved}});
+  }
+  if (!news.problem.empty() && state_.message != news.problem) say_to_user(news.problem, true);
+  if (const std::string problem = session_->picture.problem(); !problem.empty()) say_to_user(problem, true);
+}
+
+void Viewer::take_picture() {
+  const auto frame = session_->picture.frame();
+  if (!frame || frame->number == shown_frame_) return;
+  shown_frame_ = frame->number;
+  state_.frame = frame;
+  new_pixels_ = true;
+  const double since_s = now_s() - asked_light_at_s_;
+  if (frame->light.wish == light_number_ && frame->fineness != Fineness::preview && told_first_ != light_number_) {
+    told_first_ = light_number_;
+    events_.tell("first_picture", {{"wish", light_number_}, {"seconds", since_s}});
+  }
+  if (frame->light.wish == light_number_ && frame->fineness == Fineness::full && frame->light.complete) {
+    if (told_done_ != light_number_) {
+      told_done_ = light_number_;
+      events_.tell("converged", converged_fields(state_.news, state_.band()));
+    }
+    events_.tell("picture",
+                 {{"look", frame->look}, {"wish", frame->light.wish}, {"width", frame->width}, {"height", frame->height}});
+  }
+  if (picked_told_ || !is_picked_shown(state_)) return;
+  picked_told_ = true;
+  events_.tell("picked", picked_fields(*frame->picked));
+}
+
+void Viewer::take_keys() {
+  constexpr int escape = 27;
+  PanelOrders orders;
+  for (const KeyPress& press : window_.take_key_presses()) {
+    if (press.control) {
+      if (press.key == 'Q') window_.close();
+      continue;
+    }
+    orders.fit = orders.fit || press.key == 'F';
+    orders.save_picture = orders.save_picture || press.key == 'P';
+    if (press.key >= '1' && press.key <= '4') orders.view = static_cast<ViewKind>(press.key - '1');
+    if (press.key == 'H') state_.panel = !state_.panel;
+    if (press.key == ' ' && state_.light.sun.by_clock) state_.playing = !state_.playing;
+    if (press.key == escape) state_.picked.reset();
+  }
+  obey(orders);
+}
+
+void Viewer::choose_view(ViewKind view) {
+  state_.options.view = view;
+  state_.camera_as_given = true;
+}
+
+void Viewer::obey(const PanelOrders& orders) {
+  if (orders.view) choose_view(*orders.view);
+  if (orders.fit) {
+    const Stage place = stage();
+    fit(state_.hand, place.lo_m, place.hi_m);
+    state_.camera_as_given = false;
+  }
+  if (orders.copy_camera) {
+    const std::string toml = camera_toml(state_.hand);
+    if (!toml.empty()) window_.set_clipboard(toml);
+    say_to_user(toml.empty() ? "This view has no place in a scene file; render it with --view." : "Camera copied.", false);
+    if (!toml.empty()) events_.tell("camera_copied", {{"toml", toml}});
+  }
+  if (orders.reset_light) {
+    state_.light = session_->light_of_scene;
+    state_.playing = false;
+  }
+  if (orders.save_picture) save_picture();
+  if (orders.save_result && !state_.news.saving) {
+    options_.run.scene = session_->file;
+    session_->light.save(result_folder(options_.run));
+    say_to_user(fmt::format("Saving in {} …", result_folder(options_.run).string()), false);
+  }
+}
+
+void Viewer::save_picture() {
+  options_.run.scene = session_->file;
+  const fs::path folder = result_folder(options_.run);
+  try {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    fs::path file;
+    do {
+      file = folder / fmt::format("view_{}_{:03d}.png", stem_of(state_.picture), ++saved_pictures_);
+    } while (fs::exists(file, error));
+    session_->picture.save(file);
+    say_to_user("Saved " + printable(file.string()), false);
+    events_.tell("saved", {{"file", file.string()}});
+  } catch (const Error& error) {
+    say_to_user(error.what(), true);
+  }
+}
+
+// A view that nobody has moved fits the window as `render` would fit its picture.
+void Viewer::place_camera(const Stage& place) {
+  state_.options.width = std::max(64, static_cast<int>(place.width_px));
+  state_.options.height = std::max(64, static_cast<int>(place.height_px));
+  const double aspect = static_cast<double>(state_.options.width) / state_.options.height;
+  if (state_.camera_as_given) {
+    const Camera camera = picture_camera(session_->light.geometry(), session_->tree.layout, state_.options);
+    state_.hand = in_hand(camera, 0.5 * (place.lo_m + place.hi_m));
+  } else if (state_.hand.camera.kind == Projection::fisheye) {
+    state_.hand.camera = fisheye_view(state_.hand.camera.position_m, aspect);
+  } else {
+    state_.hand.camera.aspect = aspect;
+  }
+}
+
+void Viewer::pick(glm::ivec2 pixel) {
+  if (!state_.frame) return;
+  const LivePictureFrame& frame = *state_.frame;
+  state_.picked.reset();
+  picked_told_ = false;
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= frame.width || pixel.y >= frame.height) return;
+  const std::uint32_t surface = frame.surface[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(frame.width) +
+                                              static_cast<std::size_t>(pixel.x)];
+  if (surface / 2 < session_->light.geometry().model.canopy.size()) state_.picked = surface / 2;
+}
+
+// From sunrise to sunset, over and over.
+void Viewer::play() {
+  SunWish& sun = state_.light.sun;
+  if (!state_.playing || !sun.by_clock) return;
+  if (told_first_ != light_number_ || now_s() - asked_light_at_s_ < played_moment_s) return;
+  double first_h = 0.0;
+  double last_h = 24.0;
+  try {
+    const Place where{sun.latitude_deg / degrees, sun.longitude_deg / degrees, sun.altitude_m};
+    const SunEvents events = sun_events({sun.year, sun.month, sun.day, sun.offset_minutes}, where);
+    SunWish midnight = sun;
+    midnight.hour = 0.0;
+    if (events.sunrise) first_h = std::clamp(seconds_between(time_of(midnight), *events.sunrise) / 3600.0, 0.0, 24.0);
+    if (events.sunset) last_h = std::clamp(seconds_between(time_of(midnight), *events.sunset) / 3600.0, 0.0, 24.0);
+  } catch (const Error& error) {
+    say_to_user(error.what(), true);
+    state_.playing = false;
+    return;
+  }
+  sun.hour += state_.play_step_min / 60.0;
+  if (sun.hour < first_h || sun.hour > last_h) sun.hour = std::min(last_h, first_h + state_.play_step_min / 60.0);
+}
+
+void Viewer::ask_for_light() {
+  if (state_.light == *asked_light_) return;
+  const std::string because = first_difference(*asked_light_, state_.light);
+  asked_light_ = state_.light;
+  asked_light_at_s_ = now_s();
+  light_number_ = session_->light.ask(state_.light);
+  events_.tell("restarted", {{"wish", light_number_}, {"because", because}});
+}
+
+void Viewer::ask_for_picture() {
+  PictureWish wish{state_.hand.camera, state_.options, state_.picture, state_.picked, hands_.busy(now_s())};
+  if (asked_picture_ && same_look(*asked_picture_, wish) && same_style(*asked_picture_, wish) &&
+      asked_picture_->moving == wish.moving) {
+    return;
+  }
+  asked_picture_ = wish;
+  static_cast<void>(session_->picture.ask(wish));
+}
+
+void Viewer::say_to_user(const std::string& message, bool problem) {
+  if (problem && message != state_.message) {
+    warn(message);
+    events_.tell("problem", {{"text", message}});
+  }
+  state_.message = message;
+  state_.message_is_problem = problem;
+  message_until_s_ = now_s() + message_s;
+}
+
+void Viewer::tell_controls() {
+  if (!events_.wanted()) return;
+  json fields = json::object();
+  for (const auto& [name, place] : state_.controls) fields[name] = {place[0], place[1], place[2], place[3]};
+  state_.controls.clear();
+  const json controls = {{"picture", {stage().left_px, 0, stage().width_px, stage().height_px}}, {"controls", fields}};
+  const std::string text = controls.dump();
+  if (text == told_controls_) return;
+  told_controls_ = text;
+  events_.tell("controls", controls);
+}
+
+void Viewer::tell_end() {
+  if (frame_times_s_.empty()) return;
+  events_.tell("closed", frame_fields(frame_times_s_));
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,86 @@
+#pragma once
+// The loop of the window: input, what follows from it, and a frame.
+
+#include "app/options.h"
+#include "gpu/window.h"
+#include "viewer/events.h"
+#include "viewer/hands.h"
+#include "viewer/session.h"
+#include "viewer/state.h"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+class Viewer {
+ public:
+  // Loads the scene; the window must outlive it. Throws as Session does.
+  Viewer(const ViewOptions& options, Window& window);
+
+  // Until the window is closed or the program interrupted. Returns the exit status.
+  [[nodiscard]] int run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void enter(std::unique_ptr<Session> session);
+  void load(const std::filesystem::path& file);
+  void finish_loading();
+  void watch_scene_file();
+
+  void frame();
+  [[nodiscard]] Stage stage() const;
+  void take_news();
+  void take_picture();
+  void take_keys();
+  void obey(const PanelOrders& orders);
+  void choose_view(ViewKind view);
+  void place_camera(const Stage& stage);
+  void pick(glm::ivec2 pixel);
+  void play();
+  void ask_for_light();
+  void ask_for_picture();
+  void save_picture();
+  void say_to_user(const std::string& message, bool problem);
+  void tell_controls();
+  void tell_end();
+  [[nodiscard]] double now_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  [[nodiscard]] bool at_work() const;
+
+  ViewOptions options_;
+  Window& window_;
+  Events events_;
+  Clock::time_point start_ = Clock::now();
+
+  std::future<void> leaving_;  // of the session before; ends in its own time
+  std::unique_ptr<Session> session_;
+  std::future<std::unique_ptr<Session>> loading_;
+  std::filesystem::file_time_type scene_written_;
+  double next_look_at_file_s_ = 0.0;
+
+  ViewerState state_;
+  Hands hands_;
+  std::optional<LightWish> asked_light_;
+  std::optional<PictureWish> asked_picture_;
+  double asked_light_at_s_ = 0.0;
+  std::uint64_t light_number_ = 0;  // of the last wish
+  std::uint64_t told_first_ = 0;    // wishes whose first picture and whose end were told
+  std::uint64_t told_done_ = 0;
+  std::uint64_t shown_frame_ = 0;
+  bool new_pixels_ = true;
+  int saved_pictures_ = 0;
+  double message_until_s_ = 0.0;
+  std::string told_controls_;
+  std::optional<std::string> told_saved_;
+  bool picked_told_ = false;
+  std::vector<double> frame_times_s_;
+};
+
+}  // namespace sunfleck

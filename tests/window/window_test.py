@@ -1,0 +1,368 @@
+"""The window as a user drives it: python3 window_test.py PROGRAM OUT [unittest's arguments]
+
+Starts `sunfleck view` on a display of its own, with software Vulkan, moves a real mouse over it and looks at the screen. Screen
+shots stay in OUT. Exit status 77 where the display's programs are missing.
+"""
+
+import json
+import os
+import queue
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy
+
+from screen import HEIGHT, WIDTH, Screen, read_png, write_png
+
+PROGRAM, OUT = sys.argv[1:3]
+PATIENCE_S = 120.0
+SIZE = (1000, 840)
+NEEDED = ("Xvfb", "xdotool", "twm")
+
+SCENE = """title = "Two leaves"
+[plot]
+size = [1.0, 1.0]
+[sun]
+elevation = 60.0
+azimuth = 120.0
+[[band]]
+name = "PAR"
+direct = 350.0
+[soil]
+reflectance = 0.15
+patch = 0.02
+[optics.leaf]
+reflectance = 0.12
+transmittance = 0.06
+[accuracy]
+direct = 0.005
+indirect = 0.01
+[[geometry]]
+file = "leaves.obj"
+optics = "leaf"
+up = "y"
+"""
+# A leaf of plant 1 in the plot's middle, one of plant 2 above its north-eastern corner.
+MESH = """o plant1_leaf4
+v 0.35 0.4 0.35
+v 0.35 0.4 0.65
+v 0.65 0.4 0.65
+v 0.65 0.4 0.35
+f 1 2 3
+f 1 3 4
+o plant2_leaf7
+v 0.05 0.6 0.05
+v 0.05 0.6 0.25
+v 0.25 0.6 0.25
+v 0.25 0.6 0.05
+f 5 6 7
+f 5 7 8
+"""
+
+
+class Window:
+    """The program, and the events that it tells."""
+
+    def __init__(self, screen, folder, *arguments, scene="leaves.toml"):
+        self.screen = screen
+        self.validation = os.path.join(folder, "validation.txt")
+        settings = os.path.join(folder, "vk_layer_settings.txt")
+        with open(settings, "w", encoding="utf-8") as file:
+            file.write("khronos_validation.debug_action = VK_DBG_LAYER_ACTION_LOG_MSG\n"
+                       f"khronos_validation.log_filename = {self.validation}\n"
+                       "khronos_validation.report_flags = error,warn\n")
+        environment = {**screen.environment, "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+                       "VK_LAYER_SETTINGS_PATH": settings}
+        self.errors = open(os.path.join(folder, "stderr.txt"), "w+", encoding="utf-8")
+        self.process = subprocess.Popen(
+            [PROGRAM, "view", scene, "--json", "--device", "lavapipe", "--size", f"{SIZE[0]}x{SIZE[1]}", *arguments],
+            cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=self.errors, text=True)
+        self.controls = {}
+        self.stage = [0, 0, *SIZE]
+        self.events = []
+        self.lines = queue.Queue()
+        threading.Thread(target=self.listen, daemon=True).start()
+
+    def listen(self):
+        for line in self.process.stdout:
+            self.lines.put(json.loads(line))
+        self.lines.put(None)
+
+    def take(self, event):
+        if event["event"] == "controls":
+            self.controls = event["controls"]
+            self.stage = event["picture"]
+        self.events.append(event)
+
+    def wait_for(self, name, **fields):
+        """The next event of that name with these values."""
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            try:
+                event = self.lines.get(timeout=1.0)
+            except queue.Empty:
+                continue
+            if event is None:
+                self.errors.seek(0)
+                raise AssertionError(f"the program ended before {name}: {self.errors.read()}")
+            self.take(event)
+            if event["event"] == name and all(event.get(key) == value for key, value in fields.items()):
+                return event
+        raise AssertionError(f"no {name} {fields} within {PATIENCE_S:.0f} s; last: {self.events[-3:]}")
+
+    def listen_for(self, seconds):
+        """All events of the next seconds."""
+        end = time.monotonic() + seconds
+        heard = []
+        while time.monotonic() < end:
+            try:
+                event = self.lines.get(timeout=0.05)
+            except queue.Empty:
+                continue
+            if event is None:
+                raise AssertionError("the program ended")
+            self.take(event)
+            heard.append(event)
+        return heard
+
+    def place(self, control, share=0.5):
+        """The middle of a control, or a place along it. Waits until it is drawn."""
+        while control not in self.controls:
+            self.wait_for("controls")
+        left, top, right, bottom = self.controls[control]
+        return left + share * (right - left), 0.5 * (top + bottom)
+
+    def in_picture(self, x, y):
+        left, top, width, height = self.stage
+        return left + x * width, top + y * height
+
+    def picture(self):
+        """What the screen shows of the picture, the pointer away from it."""
+        self.screen.do("mousemove", WIDTH - 1, HEIGHT - 1)
+        time.sleep(0.4)
+        left, top, width, height = map(int, self.stage)
+        return self.screen.shot()[top:top + height, left:left + width]
+
+    def focus(self):
+        self.screen.do("mousemove", *map(int, self.in_picture(0.02, 0.98)))
+        time.sleep(0.2)
+
+    def key(self, name):
+        self.focus()
+        self.screen.do("key", name)
+
+    def leave(self):
+        """Closes the window; returns the last event and the exit status."""
+        self.key("ctrl+q")
+        event = self.wait_for("closed")
+        status = self.process.wait(PATIENCE_S)
+        return event, status
+
+    def validation_messages(self):
+        if not os.path.exists(self.validation):
+            return ""
+        with open(self.validation, encoding="utf-8") as file:
+            return file.read()
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        self.process.stdout.close()
+        self.errors.close()
+
+
+class WindowTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        self.write("leaves.toml", SCENE)
+        self.write("leaves.obj", MESH)
+        self.screen = Screen(self.folder)
+        self.addCleanup(self.screen.close)
+
+    def write(self, name, text):
+        file = os.path.join(self.folder, name)
+        with open(file + ".new", "w", encoding="utf-8") as out:
+            out.write(text)
+        os.replace(file + ".new", file)
+
+    def open(self, *arguments):
+        window = Window(self.screen, self.folder, *arguments)
+        self.addCleanup(window.stop)
+        window.wait_for("loaded")
+        window.wait_for("controls")
+        self.assertIsNone(self.screen.manager.poll(), "the window manager has ended")
+        window.name = self.screen.do("search", "--name", "sunfleck").split()[0]
+        self.screen.do("windowmove", "--sync", window.name, 0, 0)
+        window.wait_for("picture", wish=1)
+        return window
+
+    def keep_shot(self, name):
+        write_png(os.path.join(OUT, name + ".png"), self.screen.shot())
+
+    def expect_clean_end(self, window):
+        event, status = window.leave()
+        self.assertEqual(status, 0)
+        self.assertEqual(window.validation_messages(), "")
+        print(f"{self.id()}: {event['frames']} frames, median {event['frame_ms']:.0f} ms, 99 % {event['frame_ms_99']:.0f} ms")
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, check=True, capture_output=True, text=True).stdout
+
+    def test_moving_the_sun_changes_light_and_picture(self):
+        window = self.open()
+        before = window.picture()
+        self.keep_shot("start")
+        self.screen.drag(window.place("elevation", 0.55), window.place("elevation", 0.3))
+        event = window.wait_for("restarted", because="sun")
+        first = window.wait_for("first_picture")
+        self.assertGreaterEqual(first["wish"], event["wish"])
+        window.wait_for("picture", wish=window.wait_for("converged")["wish"])
+        after = window.picture()
+        self.keep_shot("sun_moved")
+        self.assertGreater(numpy.mean(numpy.any(before != after, axis=2)), 0.01)
+        self.expect_clean_end(window)
+
+    def test_orbiting_does_not_begin_the_simulation_anew(self):
+        window = self.open()
+        before = window.picture()
+        self.screen.drag(window.in_picture(0.4, 0.6), window.in_picture(0.6, 0.5))
+        heard = window.listen_for(0.5)
+        if not any(event["event"] == "picture" for event in heard):
+            heard.append(window.wait_for("picture"))
+        self.screen.do("mousemove", *map(int, window.in_picture(0.5, 0.5)))
+        self.screen.do("click", 4)  # the wheel
+        heard.append(window.wait_for("picture"))
+        heard += window.listen_for(1.0)
+        self.assertNotIn("restarted", [event["event"] for event in heard])
+        after = window.picture()
+        self.keep_shot("orbited")
+        self.assertGreater(numpy.mean(numpy.any(before != after, axis=2)), 0.05)
+        self.expect_clean_end(window)
+
+    def test_picking_names_the_organ(self):
+        window = self.open("--view", "top")
+        # The middle of the plot is the middle of leaf 4; the picture's margins keep it off the window's middle.
+        seen = window.picture().astype(int)
+        for organ, plant, rank, corner in (("leaf", 1, 4, (0.5, 0.5)), ("leaf", 2, 7, (0.15, 0.15))):
+            self.screen.do("mousemove", *map(int, self.plot_to_screen(window, seen, corner)))
+            self.screen.do("click", 1)
+            event = window.wait_for("picked")
+            self.assertEqual((event["organ"], event["plant"], event["rank"]), (organ, plant, rank))
+            # Half of the square, lit by nothing but the beam and the light of the soil.
+            self.assertAlmostEqual(event["area_m2"], 0.045 if plant == 1 else 0.02, places=6)
+            self.assertAlmostEqual(event["upper"]["direct"] / 350.0, 1.0, delta=0.02)
+            self.assertEqual(event["lower"]["direct"], 0.0)
+            self.assertGreater(event["lower"]["scattered"], 0.0)
+            self.assertGreater(event["upper"]["error"], 0.0)
+            self.assertLess(event["upper"]["error"], 0.05 * event["upper"]["irradiance"])
+        self.keep_shot("picked")
+        self.expect_clean_end(window)
+
+    def plot_to_screen(self, window, seen, place):
+        """Where a place of the square plot (X, Z in metres) is in a picture from above: north is up and east right, the plot's
+        western and southern border are black, its eastern one is the red axis."""
+        black = numpy.all(seen < 100, axis=2)
+        red = (seen[:, :, 0] > 150) & (seen[:, :, 1] < 80) & (seen[:, :, 2] < 80)
+        west, east, south = black.mean(axis=0).argmax(), red.mean(axis=0).argmax(), black.mean(axis=1).argmax()
+        x, z = place
+        return window.stage[0] + east - z * (east - west), window.stage[1] + south - (1.0 - x) * (east - west)
+
+    def test_survives_other_sizes_and_being_minimised(self):
+        window = self.open()
+        for width, height in ((640, 480), (1050, 800)):
+            self.screen.do("windowsize", window.name, width, height)
+            event = window.wait_for("picture", height=height)
+            self.assertEqual(event["width"], width - int(window.stage[0]))
+        self.screen.do("windowminimize", window.name)
+        time.sleep(1.5)
+        hidden = self.screen.shot()
+        self.screen.do("windowmap", window.name)
+        time.sleep(1.5)
+        self.assertGreater(numpy.mean(numpy.any(hidden != self.screen.shot(), axis=2)), 0.3)
+        self.screen.drag(window.place("azimuth", 0.3), window.place("azimuth", 0.5))
+        window.wait_for("converged")
+        self.expect_clean_end(window)
+
+    def test_converges_to_what_render_draws_and_run_computes(self):
+        window = self.open("--chart", "hue")
+        converged = [event for event in window.events if event["event"] == "converged"][0]
+        window.key("h")
+        window.wait_for("picture", width=SIZE[0], height=SIZE[1])
+        shown = window.picture()
+        self.keep_shot("without_panel")
+        self.run_program("render", "leaves.toml", "--device", "lavapipe", "--chart", "hue", "--size",
+                         f"{SIZE[0]}x{SIZE[1]}", "-o", "rendered.png", "--quiet")
+        rendered = read_png(os.path.join(self.folder, "rendered.png"))
+        far = numpy.any(numpy.abs(shown.astype(int) - rendered.astype(int)) > 1, axis=2)
+        self.assertLessEqual(far.mean(), 0.001)
+        summary = json.loads(self.run_program("run", "leaves.toml", "--device", "lavapipe", "--images", "none", "--json"))
+        band = summary["bands"][0]
+        for key in ("absorbed_vegetation", "absorbed_soil", "reflected"):
+            self.assertEqual(converged[key], band[key])
+        self.assertEqual(converged["direct_error"], summary["direct"]["relative_error"])
+        self.expect_clean_end(window)
+
+    def test_a_broken_scene_file_is_told_and_the_last_good_one_goes_on(self):
+        window = self.open()
+        self.write("leaves.toml", SCENE.replace("reflectance = 0.12", "reflectance = 1.2"))
+        event = window.wait_for("problem")
+        self.assertIn("reflectance", event["text"])
+        time.sleep(0.5)
+        self.keep_shot("broken_scene")
+        self.screen.drag(window.place("azimuth", 0.3), window.place("azimuth", 0.5))
+        window.wait_for("converged")
+        self.write("leaves.toml", SCENE.replace("reflectance = 0.12", "reflectance = 0.2"))
+        window.wait_for("loaded")
+        window.wait_for("picture", wish=1)
+        self.expect_clean_end(window)
+
+    def test_optics_keep_the_beams_and_results_are_saved(self):
+        window = self.open()
+        self.screen.do("mousemove", *map(int, window.place("section/Optics")))
+        self.screen.do("click", 1)
+        time.sleep(0.5)
+        window.listen_for(0.5)
+        self.screen.drag(window.place("reflectance/leaf", 0.1), window.place("reflectance/leaf", 0.4))
+        window.wait_for("restarted", because="optics")
+        converged = window.wait_for("converged")
+        self.assertGreater(converged["spared_beams"], 0)
+        self.keep_shot("optics")
+        self.screen.do("mousemove", *map(int, window.place("save_result")))
+        self.screen.do("click", 1)
+        window.wait_for("saved")
+        with open(os.path.join(self.folder, "results", "leaves", "summary.json"), encoding="utf-8") as file:
+            summary = json.load(file)
+        self.assertTrue(summary["complete"])
+        self.assertIn("changed", summary["scene_digest"])
+        self.assertEqual(summary["bands"][0]["absorbed_vegetation"], converged["absorbed_vegetation"])
+        window.key("p")
+        saved = window.wait_for("saved")
+        above_message = slice(0, SIZE[1] - 80)
+        stored = read_png(os.path.join(self.folder, saved["file"]))
+        self.assertTrue(numpy.array_equal(stored[above_message], window.picture()[above_message]))
+        self.expect_clean_end(window)
+
+    def test_without_a_display_other_commands_are_named(self):
+        environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        done = subprocess.run([PROGRAM, "view", "leaves.toml"], cwd=self.folder, env=environment, capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertIn("sunfleck render", done.stderr)
+        self.assertIn("sunfleck run", done.stderr)
+
+
+if __name__ == "__main__":
+    missing = [name for name in NEEDED if shutil.which(name) is None]
+    if missing and os.environ.get("SUNFLECK_REQUIRE_DEVICE") != "1":
+        print("skipped, missing:", *missing)
+        sys.exit(77)
+    os.makedirs(OUT, exist_ok=True)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
