@@ -81,13 +81,13 @@ std::string local_time_text(const UtcTime& time, int offset_minutes) {
 StepLight step_light(const RadiationModel& model, const RadiationResult& result) {
   StepLight light;
   for (const BandResult& band : result.bands) {
-    StepBand terms{{band.incident, 0.0}, band.absorbed_vegetation, band.absorbed_soil,
-                   band.reflected,       band.transmitted,         band.unshot};
+    StepBand step{{band.incident, 0.0}, band.absorbed_vegetation, band.absorbed_soil,
+                  band.reflected,       band.transmitted,         band.unshot};
     if (!model.plot.periodic) {
-      terms.incident.half_width = band.absorbed_vegetation.half_width + band.absorbed_soil.half_width +
-                                  band.reflected.half_width + band.transmitted.half_width;
+      step.incident.half_width = band.absorbed_vegetation.half_width + band.absorbed_soil.half_width +
+                                 band.reflected.half_width + band.transmitted.half_width;
     }
-    light.bands.push_back(terms);
+    light.bands.push_back(step);
   }
   for (const OrganResult& organ : result.organs) {
     light.organ_absorbed.insert(light.organ_absorbed.end(), organ.absorbed.begin(), organ.absorbed.end());

@@ -10,8 +10,6 @@
 namespace sunfleck {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 constexpr int width_px = 1600;
 constexpr int height_px = 900;
 constexpr double panel_left_px[] = {150.0, 640.0, 1130.0};

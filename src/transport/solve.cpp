@@ -48,7 +48,7 @@ class Solver {
  public:
   Solver(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
          const Monitor& monitor)
-      : model_(model), layout_(layout), tracer_(tracer), settings_(settings), monitor_(monitor), surfaces_(model) {
+      : model_(model), layout_(layout), settings_(settings), monitor_(monitor), surfaces_(model) {
     if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
     if (model.has_sky()) sky_.emplace(model, layout);
     maker_.emplace(model, layout, surfaces_, tracer, sky_ ? &*sky_ : nullptr, receivers());
@@ -361,7 +361,6 @@ class Solver {
 
   const RadiationModel& model_;
   const CounterLayout& layout_;
-  Tracer& tracer_;
   const SolveSettings& settings_;
   const Monitor& monitor_;
   Surfaces surfaces_;

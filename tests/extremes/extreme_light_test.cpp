@@ -216,8 +216,9 @@ TEST_F(ExtremeLight, ManyLeavesInAKilometre) {
     MeshMaker maker;
     Random random(5);
     for (int k = 0; k < 1024; ++k) {
+      const int row = k / 32;
       const double x = (k % 32 + random.uniform(0.0, 0.8)) * size_m / 32.0;
-      const double z = (k / 32 + random.uniform(0.0, 0.8)) * size_m / 32.0;
+      const double z = (row + random.uniform(0.0, 0.8)) * size_m / 32.0;
       maker.level(x, x + leaf_m, z, z + leaf_m, size_m / 512.0);
     }
     for (const double elevation : {90.0, 30.0}) {

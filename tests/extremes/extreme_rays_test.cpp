@@ -22,8 +22,9 @@ Mesh gridded_square(int axis, int cells, double place) {
   MeshMaker maker;
   const double step = 1.0 / cells;
   for (int k = 0; k < cells * cells; ++k) {
+    const int row = k / cells;
     const double u = step * (k % cells);
-    const double v = step * (k / cells);
+    const double v = step * row;
     const auto at = [&](double a, double b) {
       glm::dvec3 point(place);
       point[(axis + 1) % 3] = a;
@@ -46,14 +47,16 @@ bool on_element(const shared::Landing& landing) {
 // At every corner, edge and middle of the cells, from both sides: nothing slips through.
 TEST_F(ExtremeRays, MeetTheGridTheyAreAlignedWith) {
   constexpr int cells = 16;
+  constexpr int places = 2 * cells + 1;
   for (int axis = 0; axis < 3; ++axis) {
     const RadiationModel model = black_model(gridded_square(axis, cells, 0.5), unit_stand, sun_at(90, 0));
     std::vector<shared::Packet> packets;
-    for (int k = 0; k < (2 * cells + 1) * (2 * cells + 1); ++k) {
+    for (int k = 0; k < places * places; ++k) {
+      const int row = k / places;
       for (const float side : {0.25F, -0.25F}) {
         glm::vec3 origin(0.5F + side);
-        origin[(axis + 1) % 3] = static_cast<float>(k % (2 * cells + 1)) / (2.0F * cells);
-        origin[(axis + 2) % 3] = static_cast<float>(k / (2 * cells + 1)) / (2.0F * cells);
+        origin[(axis + 1) % 3] = static_cast<float>(k % places) / (2.0F * cells);
+        origin[(axis + 2) % 3] = static_cast<float>(row) / (2.0F * cells);
         glm::vec3 direction(0.0F);
         direction[axis] = -side;
         packets.push_back(ray(origin, direction));
@@ -68,9 +71,11 @@ TEST_F(ExtremeRays, ZenithSunOverGriddedSoil) {
   for (const int cells : {16, 10}) {  // 10: corners are rounded to the plot's grid, alike for neighbours
     const RadiationModel model = black_model(gridded_square(1, cells, 0.0), unit_plot, sun_at(90, 0));
     std::vector<shared::Packet> packets;
-    for (int k = 0; k < (2 * cells + 1) * (2 * cells + 1); ++k) {
-      const float x = static_cast<float>(k % (2 * cells + 1)) / (2.0F * static_cast<float>(cells));
-      const float z = static_cast<float>(k / (2 * cells + 1)) / (2.0F * static_cast<float>(cells));
+    const int places = 2 * cells + 1;
+    for (int k = 0; k < places * places; ++k) {
+      const int row = k / places;
+      const float x = static_cast<float>(k % places) / (2.0F * static_cast<float>(cells));
+      const float z = static_cast<float>(row) / (2.0F * static_cast<float>(cells));
       for (const float zero : {0.0F, -0.0F}) packets.push_back(ray({x, 0.75F, z}, {zero, -1.0F, zero}));
     }
     for (const shared::Landing& landing : follow(model, packets)) EXPECT_TRUE(on_element(landing)) << cells;

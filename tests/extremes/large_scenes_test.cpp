@@ -17,8 +17,9 @@ std::string level_triangles() {
   const auto add = [&](const auto& value) { stl.append(reinterpret_cast<const char*>(&value), sizeof value); };
   add(count);
   for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t row = k / 1000;
     const float x = static_cast<float>(k % 1000) * 1e-3F;
-    const float z = static_cast<float>(k / 1000) * 1e-3F;
+    const float z = static_cast<float>(row) * 1e-3F;
     const float y = 0.1F + static_cast<float>(k % 7) * 0.1F;
     for (const float value : {0.0F, 1.0F, 0.0F, x, y, z, x, y, z + 1e-3F, x + 1e-3F, y, z}) add(value);
     add(std::uint16_t{0});
@@ -31,7 +32,10 @@ class LargeScenes : public ProgramTest {
   void SetUp() override {
     folder_.write("level.stl", level_triangles());
     std::string at;
-    for (int k = 0; k < 100; ++k) at += fmt::format("{}[{}.0, 0.0, {:.1f}]", k > 0 ? ", " : "", k % 10, 0.1 * (k / 10));
+    for (int k = 0; k < 100; ++k) {
+      const int row = k / 10;
+      at += fmt::format("{}[{}.0, 0.0, {:.1f}]", k > 0 ? ", " : "", k % 10, 0.1 * row);
+    }
     folder_.write("scene.toml",
                   "[plot]\nsize = [10.0, 1.0]\n[sun]\nelevation = 90.0\nazimuth = 0.0\n[[band]]\nname = \"PAR\"\n"
                   "direct = 1.0\n[soil]\nreflectance = 0.0\n[optics.leaf]\nreflectance = 0.0\n[[geometry]]\n"

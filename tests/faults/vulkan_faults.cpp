@@ -165,21 +165,22 @@ PFN_vkVoidFunction replacement(std::size_t number) {
   }
 }
 
-// The link to what comes after this layer; the next layer shall find its own.
+// The link to what comes after this layer, none if the loader gave none; the next layer shall find its own.
 template <class Link, class Info>
 auto* take_link(const Info* info, VkStructureType type) {
   auto* link = static_cast<Link*>(const_cast<void*>(info->pNext));
   while (link != nullptr && (link->sType != type || link->function != VK_LAYER_LINK_INFO)) {
     link = static_cast<Link*>(const_cast<void*>(link->pNext));
   }
-  auto* found = link->u.pLayerInfo;
-  link->u.pLayerInfo = found->pNext;
+  auto* found = link == nullptr ? nullptr : link->u.pLayerInfo;
+  if (found != nullptr) link->u.pLayerInfo = found->pNext;
   return found;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator,
                                                VkInstance* instance) {
   const auto* link = take_link<VkLayerInstanceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+  if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
   next_instance_proc = link->pfnNextGetInstanceProcAddr;
   const auto next = reinterpret_cast<PFN_vkCreateInstance>(next_instance_proc(nullptr, "vkCreateInstance"));
   const VkResult result = next(info, allocator, instance);
@@ -190,6 +191,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
 VKAPI_ATTR VkResult VKAPI_CALL create_device_of(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
                                                 const VkAllocationCallbacks* allocator, VkDevice* device) {
   const auto* link = take_link<VkLayerDeviceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+  if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
   next_device_proc = link->pfnNextGetDeviceProcAddr;
   if (fails(create_device)) return asked_result();
   const auto next = reinterpret_cast<PFN_vkCreateDevice>(watched[create_device].next);

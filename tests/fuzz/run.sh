@@ -36,11 +36,11 @@ merge_one() {
 }
 
 run_one() {
-  local target=$1 dictionary=tests/fuzz/dictionaries/$1.dict found state=0
+  local target=$1 words=tests/fuzz/dictionaries/$1.dict dictionary=() found state=0
   mkdir -p "$build/corpus/$target" "$build/findings/$target"
-  [ -f "$dictionary" ] || dictionary=/dev/null
+  [ ! -f "$words" ] || dictionary=("-dict=$words")  # libFuzzer refuses an empty one
   "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
-    -max_len=4096 -dict="$dictionary" -print_final_stats=1 -artifact_prefix="$build/findings/$target/" \
+    -max_len=4096 "${dictionary[@]}" -print_final_stats=1 -artifact_prefix="$build/findings/$target/" \
     "$build/corpus/$target" "$kept/$target" > "$build/$target.log" 2>&1 || state=$?
   found=$(find "$build/findings/$target" -type f | wc -l)
   printf '%-14s %10s executions, %s findings\n' "$target" \

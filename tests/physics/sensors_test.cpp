@@ -239,7 +239,8 @@ TEST(Sensors, AnEndlessPlotHasNoEdge) {
   give_sky(model, 1.0);
   Sensor inside{"", {}, SensorResponse::cosine, up}, outside = inside;
   for (int i = 0; i < 64; ++i) {
-    inside.points_m.emplace_back((i % 8 + 0.37) / 8.0, 0.3, (i / 8 + 0.41) / 8.0);
+    const int row = i / 8;
+    inside.points_m.emplace_back((i % 8 + 0.37) / 8.0, 0.3, (row + 0.41) / 8.0);
     outside.points_m.push_back(inside.points_m.back() +
                                glm::dvec3(-7.0 * model.canopy.period_m.x, 0, 3.0 * model.canopy.period_m.y));
   }

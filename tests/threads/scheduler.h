@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -49,27 +50,30 @@ inline int default_concurrency() {
 }
 }  // namespace info
 
+// Each thread's pieces are dealt beforehand, in turn: were they taken by whoever comes first, a short loop would be over before
+// the second thread has started, and nothing would have been tested.
 template <class Value, class Body>
 void parallel_for(const blocked_range<Value>& range, const Body& body) {
-  constexpr auto order = std::memory_order_relaxed;  // shares out pieces, and orders nothing else
-  std::atomic<Value> next{range.begin()};
+  const std::size_t allowed = global_control::active_value(global_control::max_allowed_parallelism);
+  const std::size_t workers = std::min<std::size_t>(allowed, info::default_concurrency());
   std::exception_ptr error;
   std::mutex of_error;
-  const auto work = [&] {
+  const auto work = [&](std::size_t worker) {
     try {
       const auto grain = static_cast<Value>(range.grainsize());
-      for (Value begin = next.fetch_add(grain, order); begin < range.end(); begin = next.fetch_add(grain, order)) {
-        body(blocked_range<Value>(begin, begin + std::min<Value>(grain, range.end() - begin), range.grainsize()));
+      std::size_t piece = 0;
+      for (Value begin = range.begin(), end; begin < range.end(); begin = end, ++piece) {
+        end = begin + std::min<Value>(grain, range.end() - begin);
+        if (piece % workers == worker) body(blocked_range<Value>(begin, end, range.grainsize()));
       }
     } catch (...) {
       const std::lock_guard lock(of_error);
       error = std::current_exception();
     }
   };
-  const std::size_t allowed = global_control::active_value(global_control::max_allowed_parallelism);
-  std::vector<std::thread> threads(std::min<std::size_t>(allowed, info::default_concurrency()) - 1);
-  for (std::thread& thread : threads) thread = std::thread(work);
-  work();
+  std::vector<std::thread> threads;
+  for (std::size_t worker = 1; worker < workers; ++worker) threads.emplace_back(work, worker);
+  work(0);
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
 }

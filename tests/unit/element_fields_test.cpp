@@ -14,7 +14,6 @@ namespace sunfleck {
 namespace {
 
 using regression::Table;
-using test::awkward_name;
 using test::awkward_record;
 using test::two_triangles;
 using test::two_triangles_result;

@@ -269,9 +269,11 @@ TEST_P(Maize, EachStemStandsInTheMiddleOfItsCell) {
     if (organ.name == "stem" && v.y == 0.0) foot[organ.plant].push_back(v);
   }
   for (int i = 0; i < stand.rows * stand.per_row; ++i) {
+    const int row = i / stand.per_row;
+    const int place = i % stand.per_row;
     for (const glm::dvec3& v : foot[i + 1]) {
-      EXPECT_NEAR(v.x, (i % stand.per_row + 0.5) * stand.spacing_in_row_m, 0.015);
-      EXPECT_NEAR(v.z, (i / stand.per_row + 0.5) * stand.spacing_between_rows_m, 0.015);
+      EXPECT_NEAR(v.x, (place + 0.5) * stand.spacing_in_row_m, 0.015);
+      EXPECT_NEAR(v.z, (row + 0.5) * stand.spacing_between_rows_m, 0.015);
     }
     EXPECT_FALSE(foot[i + 1].empty());
   }

@@ -26,10 +26,9 @@ std::vector<Key> keys(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Organ& organ = mesh.organs[mesh.organ_of[i]];
     std::array<float, 9> corners{};
+    auto coordinate = corners.begin();
     for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis)
-        corners[static_cast<std::size_t>(3 * corner + axis)] =
-            static_cast<float>(mesh.vertices[mesh.triangles[i][corner]][axis]);
+      for (int axis = 0; axis < 3; ++axis) *coordinate++ = static_cast<float>(mesh.vertices[mesh.triangles[i][corner]][axis]);
     all.emplace_back(organ.plant, organ.name, organ.rank, mesh.optics_names[mesh.optics_of[i]], corners);
   }
   std::sort(all.begin(), all.end());

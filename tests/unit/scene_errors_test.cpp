@@ -213,7 +213,7 @@ TEST_F(BrokenSceneFile, RefusesWhatIsNoScene) {
   const std::vector<std::string> texts = {"",
                                           " \n\n",
                                           "# only a comment\n",
-                                          "\xff\xfe[\0p\0",
+                                          {'\xff', '\xfe', '[', '\0', 'p', '\0'},  // as UTF-16 begins
                                           std::string(1000, '\0'),
                                           "title = \"\xc3\"\n",
                                           "# \xff\n",

@@ -260,8 +260,9 @@ TEST_F(SceneReader, DoubtsWhatIsSeldomMeant) {
   for (const auto& [text, doubt] : doubtful) {
     const Scene scene = read(text);
     const auto& warnings = scene.warnings;
-    const bool found = std::any_of(warnings.begin(), warnings.end(),
-                                   [&](const std::string& warning) { return warning.find(doubt) != std::string::npos; });
+    const bool found = std::any_of(warnings.begin(), warnings.end(), [&doubt = doubt](const std::string& warning) {
+      return warning.find(doubt) != std::string::npos;
+    });
     EXPECT_TRUE(found) << doubt;
   }
   EXPECT_TRUE(read(lit).warnings.empty());
