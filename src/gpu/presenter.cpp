@@ -137,8 +137,8 @@ Presenter::Handles Presenter::handles() const {
 }
 
 void Presenter::create_swapchain(glm::ivec2 size_px) {
+  wait_for_last_frame();
   device_.waitIdle();
-  in_flight_ = false;
   const auto capabilities = physical_.getSurfaceCapabilitiesKHR(*surface_);
   vk::Extent2D extent = capabilities.currentExtent;
   if (extent.width == std::numeric_limits<std::uint32_t>::max()) {
@@ -150,6 +150,7 @@ void Presenter::create_swapchain(glm::ivec2 size_px) {
   targets_.clear();
   size_px_ = {extent.width, extent.height};
   if (extent.width == 0 || extent.height == 0) return;
+  fits_ = true;
   std::uint32_t images = std::max(2U, capabilities.minImageCount);
   if (capabilities.maxImageCount > 0) images = std::min(images, capabilities.maxImageCount);
   vk::raii::SwapchainKHR old = std::move(swapchain_);
@@ -200,7 +201,6 @@ void Presenter::take_pixels(const WindowPicture& picture) {
   }
   pixels_.width = picture.width;
   pixels_.height = picture.height;
-  pixels_.at = picture.at;
   if (format_.format == vk::Format::eB8G8R8A8Unorm) {
     std::copy(picture.pixels.begin(), picture.pixels.end(), pixels_.data);
     return;
@@ -262,16 +262,17 @@ bool Presenter::present(std::uint32_t image) {
 void Presenter::draw(glm::ivec2 size_px, const WindowPicture& picture, bool changed, std::uint32_t background,
                      const std::function<void(VkCommandBuffer)>& overlay) {
   wait_for_last_frame();
-  if (size_px != size_px_ || targets_.empty()) create_swapchain(size_px);
-  if (targets_.empty()) return;
   if (changed) take_pixels(picture);
+  pixels_.at = picture.at;
+  if (size_px != size_px_ || !fits_) create_swapchain(size_px);
+  if (targets_.empty()) return;
   std::uint32_t image = 0;
   try {
     const auto [result, number] = swapchain_.acquireNextImage(patience_ns, *acquired_, nullptr);
     if (result == vk::Result::eTimeout || result == vk::Result::eNotReady) return;
     image = number;
   } catch (const vk::OutOfDateKHRError&) {
-    targets_.clear();
+    fits_ = false;
     return;
   }
   record(targets_[image], background, overlay);
@@ -281,10 +282,7 @@ void Presenter::draw(glm::ivec2 size_px, const WindowPicture& picture, bool chan
   const vk::CommandBuffer commands = *commands_;
   queue_.submit(vk::SubmitInfo(acquired, wait_before, commands, drawn), *finished_);
   in_flight_ = true;
-  if (!present(image)) {
-    wait_for_last_frame();
-    targets_.clear();
-  }
+  fits_ = present(image);
 }
 
 void Presenter::run(const std::function<void(VkCommandBuffer)>& commands) {

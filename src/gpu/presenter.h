@@ -86,6 +86,7 @@ class Presenter {
   vk::raii::SwapchainKHR swapchain_{nullptr};
   std::vector<Target> targets_;
   glm::ivec2 size_px_{0};
+  bool fits_ = false;  // the swapchain fits the window
   std::uint32_t family_ = 0;
   vk::SurfaceFormatKHR format_;
   DeviceDescription description_;

@@ -28,6 +28,8 @@ Waveband lit_band(const Waveband& band, const BandLight& light, const Broadband&
   return lit;
 }
 
+}  // namespace
+
 MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& sun, const std::optional<UtcTime>& time) {
   Broadband broadband;
   if (scene.light.weather) {
@@ -46,8 +48,6 @@ MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& su
   }
   return light;
 }
-
-}  // namespace
 
 MomentLight light_at(const Scene& scene, const UtcTime& time) {
   EXPECT(scene.moment.has_value(), ==, true);

@@ -11,6 +11,11 @@ struct MomentLight {
   std::optional<SkyModel> sky;  // as in RadiationModel
 };
 
+// Under a sun that stands anywhere, which a scene with weather must have (EXPECT); `time` is the weather's, none where the
+// scene has none. Otherwise as light_at.
+[[nodiscard]] MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& sun,
+                                      const std::optional<UtcTime>& time);
+
 // At another time than the scene's own, which must have a time and place (EXPECT). With the sun at or below the horizon there
 // is no beam; sky light is what the scene or its weather says. Throws Error (input), naming the time, where the weather has
 // nothing for it.

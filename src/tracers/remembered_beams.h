@@ -5,6 +5,7 @@
 #include "shared/layout.h"
 #include "transport/tracer.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,7 +40,7 @@ class RememberedBeams final : public Tracer {
   Tracer& tracer_;
   std::size_t most_bytes_;
   std::size_t bytes_ = 0;
-  std::uint64_t spared_ = 0;
+  std::atomic<std::uint64_t> spared_ = 0;
   std::vector<Beam> beams_;
   std::vector<std::uint32_t> counted_;  // of one beam
 };

@@ -247,7 +247,8 @@ std::vector<double> Tally::side_errors(double quantile) const {
   for (std::size_t place = 0; place < side_spread_.size(); ++place) {
     const std::size_t bands = bands_.size();
     const double mean = side_spread_[place].sum / static_cast<double>(replicates_);
-    const bool enough = element_hits_[place / bands / 2] >= least_landings;
+    // A side that nothing fell on tells nothing, however often the other was hit.
+    const bool enough = mean > 0.0 && element_hits_[place / bands / 2] >= least_landings;
     errors.push_back(enough ? half_width(side_spread_[place], quantile) + mean * unshot_share(place % bands) : none);
   }
   return errors;

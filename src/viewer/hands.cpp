@@ -30,6 +30,8 @@ bool Hands::busy(double now_s) const {
 
 bool Hands::drag(ViewerState& state, const Stage& stage) {
   const ImGuiIO& io = ImGui::GetIO();
+  // In the frame of the press the mouse has come from elsewhere.
+  if (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)) return false;
   if (!pressed_on_picture_ || (io.MouseDelta.x == 0.0F && io.MouseDelta.y == 0.0F)) return false;
   const ImVec2 from_press = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0.0F);
   const bool shifts = io.MouseDown[ImGuiMouseButton_Right] || io.MouseDown[ImGuiMouseButton_Middle] || io.KeyShift;

@@ -35,11 +35,6 @@ SunWish sun_wish(const Scene& scene) {
   return wish;
 }
 
-BandWish band_wish(const Waveband& band) {
-  const double total = band.direct_w_m2 + band.diffuse_w_m2;
-  return {total, total > 0.0 ? band.diffuse_w_m2 / total : 0.0};
-}
-
 SurfaceWish surface_wish(const SurfaceOptics& optics) {
   SurfaceWish wish;
   for (const FaceOptics& face : optics.upper) wish.upper.push_back({face.reflectance, face.transmittance});
@@ -79,21 +74,44 @@ std::optional<SkyModel> sky_of(const SkyWish& wish, const Scene& scene) {
   return sky;
 }
 
-// The scene's own moment is left to the digit, so that a window that nobody touched shows what `run` computes.
+// Only what matters: fields that a choice leaves out of use are all alike.
+SunWish in_use(SunWish sun) {
+  if (sun.by_clock) {
+    sun.elevation_deg = sun.azimuth_deg = 0.0;
+    return sun;
+  }
+  SunWish angles;
+  angles.shines = sun.shines;
+  angles.elevation_deg = sun.elevation_deg;
+  angles.azimuth_deg = sun.azimuth_deg;
+  return angles;
+}
+
+SkyWish in_use(const SkyWish& sky) {
+  SkyWish wish{sky.kind};
+  if (sky.kind == SkyWishKind::general) wish.cie_type = sky.cie_type;
+  if (sky.kind == SkyWishKind::all_weather) wish = sky;
+  return wish;
+}
+
+// The scene's own moment is left to the digit, so that a window that nobody touched shows what `run` computes. A sun that does
+// not shine still tells what time it is.
 void grant_light(const LightWish& wish, const Scene& scene, RadiationModel& model) {
   const LightWish own = wish_of(scene);
   model.sun = scene.model.sun;
   model.bands = scene.model.bands;
   model.sky = scene.model.sky;
-  if (wish.sun != own.sun) {
-    model.sun = wish.sun.shines ? std::optional(position_of(wish.sun)) : std::nullopt;
-    if (wish.sun.shines && wish.sun.by_clock && scene.moment) {
-      const MomentLight light = light_at(scene, time_of(wish.sun));
-      model.bands = light.bands;
-      model.sky = light.sky;
-    }
+  if (in_use(wish.sun) != in_use(own.sun)) {
+    std::optional<UtcTime> time;
+    if (scene.moment) time = scene.moment->time;
+    if (wish.sun.by_clock) time = time_of(wish.sun);
+    const SunPosition sun = position_of(wish.sun);
+    MomentLight light = light_under(scene, sun, time);
+    model.bands = std::move(light.bands);
+    model.sky = std::move(light.sky);
+    model.sun = wish.sun.shines ? std::optional(sun) : std::nullopt;
   }
-  if (wish.sky != own.sky) model.sky = sky_of(wish.sky, scene);
+  if (in_use(wish.sky) != in_use(own.sky)) model.sky = sky_of(wish.sky, scene);
   if (wish.own_irradiance) {
     for (std::size_t b = 0; b < model.bands.size(); ++b) {
       const BandWish& band = wish.bands[b];
@@ -125,6 +143,11 @@ void grant_optics(const LightWish& wish, const Scene& scene, RadiationModel& mod
 
 }  // namespace
 
+BandWish band_wish(const Waveband& band) {
+  const double total = band.direct_w_m2 + band.diffuse_w_m2;
+  return {total, total > 0.0 ? band.diffuse_w_m2 / total : 0.0};
+}
+
 LightWish wish_of(const Scene& scene) {
   LightWish wish;
   wish.sun = sun_wish(scene);
@@ -136,9 +159,9 @@ LightWish wish_of(const Scene& scene) {
 }
 
 std::string first_difference(const LightWish& one, const LightWish& other) {
-  if (one.sun != other.sun) return "sun";
-  if (one.sky != other.sky) return "sky";
-  if (one.own_irradiance != other.own_irradiance || one.bands != other.bands) return "irradiance";
+  if (in_use(one.sun) != in_use(other.sun)) return "sun";
+  if (in_use(one.sky) != in_use(other.sky)) return "sky";
+  if (one.own_irradiance != other.own_irradiance || (one.own_irradiance && one.bands != other.bands)) return "irradiance";
   if (one.optics != other.optics || one.soil_reflectance != other.soil_reflectance) return "optics";
   return "";
 }

@@ -63,6 +63,9 @@ struct LightWish {
   friend bool operator==(const LightWish&, const LightWish&) = default;
 };
 
+// As the band is lit.
+[[nodiscard]] BandWish band_wish(const Waveband& band);
+
 // As the scene is.
 [[nodiscard]] LightWish wish_of(const Scene& scene);
 

@@ -9,6 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace sunfleck {
@@ -41,6 +44,12 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
   return std::chrono::duration<double>(to - from).count();
 }
 
+std::string what_went_wrong(const std::exception& error) {
+  const bool memory =
+      dynamic_cast<const std::bad_alloc*>(&error) != nullptr || dynamic_cast<const std::length_error*>(&error) != nullptr;
+  return memory ? "out of memory (the system gives no more); close other programs or load a smaller scene" : error.what();
+}
+
 std::uint64_t rays_of(const RadiationResult& result) {
   return result.direct.rays + result.indirect.packets + result.indirect.sky_rays;
 }
@@ -56,6 +65,7 @@ LiveLight::LiveLight(Scene scene, const SceneTree& tree, Engine& engine, const R
       notify_(std::move(notify)),
       beams_(engine.tracer(), most_beam_bytes),
       settings_(live_settings(options, scene)),
+      has_receivers_(!scene.model.planes.empty() || !scene.model.sensors.empty()),
       scene_(std::move(scene)),
       wish_(wish_of(original_)) {
   scene_.model.planes.clear();  // nothing of them is shown
@@ -121,14 +131,12 @@ void LiveLight::work() {
     try {
       if (number != news().wish) {
         simulate_wish(wish, number);
-      } else if (save_asked_ && result_) {
-        save_if_asked(*result_);
+      } else if (save_asked_) {
+        save_if_asked();
       }
       continue;
-    } catch (const Error& error) {
-      problem = error.what();
-    } catch (const std::bad_alloc&) {
-      problem = "out of memory (the system gives no more); close other programs or load a smaller scene";
+    } catch (const std::exception& error) {
+      problem = what_went_wrong(error);
     }
     {
       const std::lock_guard lock(news_mutex_);
@@ -151,7 +159,7 @@ void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
     const std::lock_guard lock(result_mutex_);
     // What is there belongs to the light before; it goes as soon as the scene no longer tells how it came about.
     grant(wish, original_, scene_.model);
-    const bool changed = wish != wish_of(original_);
+    const bool changed = !first_difference(wish_of(original_), wish).empty();
     scene_.title = original_.title + (changed ? " (light changed)" : "");
     scene_.digest = original_.digest + (changed ? "-changed-in-view" : "");
     result_.reset();
@@ -171,14 +179,16 @@ void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
 
 void LiveLight::take_result(RadiationResult result, std::uint64_t number, bool complete) {
   if (superseded(number)) return;
-  tell(result, number, complete);
+  // There before it is told of, so that who hears of it finds it.
+  const std::uint64_t version = news().version + 1;
   {
     const std::lock_guard lock(result_mutex_);
     result_ = std::move(result);
-    stamp_ = {news().version, number, complete};
+    stamp_ = {version, number, complete};
   }
+  tell(*result_, number, complete);
   notify_();
-  if (save_asked_) save_if_asked(*result_);
+  if (save_asked_) save_if_asked();
 }
 
 void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool complete) {
@@ -193,6 +203,7 @@ void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool c
   news_.rays = rays_of(result);
   news_.spared_beams = beams_.spared();
   news_.sun = scene_.model.sun;
+  news_.incoming = scene_.model.bands;
   news_.direct_error = result.direct.relative_error;
   news_.indirect_error = result.indirect.relative_error;
   news_.direct_bound = settings_.accuracy.direct;
@@ -203,18 +214,21 @@ void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool c
   news_.leaf_area_index = result.leaf_area_index;
 }
 
-void LiveLight::save_if_asked(const RadiationResult& result) {
+void LiveLight::save_if_asked() {
   std::filesystem::path folder;
   {
     const std::lock_guard lock(news_mutex_);
     folder = save_folder_;
   }
-  std::string outcome;
+  SaveOutcome outcome;
   try {
-    write(folder, result);
-    outcome = fmt::format("saved in {}{}", folder.string(), is_done(result.stop) ? "" : " (not complete)");
-  } catch (const Error& error) {
-    outcome = error.what();
+    if (!result_) throw_failure(folder.string(), "there is no result to save", "change the light, or load the scene again");
+    write(folder, *result_);
+    outcome.done = true;
+    outcome.text = fmt::format("saved in {}{}", folder.string(), is_done(result_->stop) ? "" : " (not complete)");
+    if (has_receivers_) outcome.text += "; planes and sensors are left to `run`";
+  } catch (const std::exception& error) {
+    outcome.text = what_went_wrong(error);
   }
   {
     const std::lock_guard lock(news_mutex_);
@@ -238,6 +252,7 @@ void LiveLight::write(const std::filesystem::path& folder, const RadiationResult
   Losses losses;
   const bool all = write_results(folder, options, record, {scene_, tree_.layout, result, engine_}, {}, losses);
   record.not_written = losses.names();
+  if (has_receivers_) record.not_written.emplace_back("planes and sensors");
   record.complete = record.complete && all && record.not_written.empty();
   publish(folder, options, record, scene_.model, result, losses);
   losses.complain();

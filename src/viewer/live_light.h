@@ -23,6 +23,12 @@
 
 namespace sunfleck {
 
+// What became of an order to save.
+struct SaveOutcome {
+  bool done = false;
+  std::string text;  // one line
+};
+
 // A result in numbers small enough to be copied at every frame.
 struct LightNews {
   std::uint64_t wish = 0;                     // number of the wish that is being simulated, or was last; from 1 on
@@ -35,6 +41,7 @@ struct LightNews {
   std::uint64_t rays = 0;                     // of the result, packets and sky rays included
   std::uint64_t spared_beams = 0;             // replicates of the direct pass that were remembered, since the scene was loaded
   std::optional<SunPosition> sun;
+  std::vector<Waveband> incoming;  // [band], what comes in
   std::optional<double> direct_error, indirect_error;
   double direct_bound = 0.0, indirect_bound = 0.0;
   std::vector<BandResult> bands;
@@ -42,7 +49,7 @@ struct LightNews {
   Estimate sunlit_leaf_fraction;
   double leaf_area_index = 0.0;
   std::string problem;               // one line, why the last wish was not granted; empty if it was
-  std::optional<std::string> saved;  // what became of the last order to save, once it is done
+  std::optional<SaveOutcome> saved;  // what became of the last order to save, once it is known
   bool saving = false;
 };
 
@@ -65,7 +72,7 @@ class LiveLight {
   // Begins anew with other light; returns the wish's number.
   std::uint64_t ask(const LightWish& wish);
 
-  // Writes the result as `run` does into a folder, complete or not, as soon as there is one.
+  // Writes the result as `run` does into a folder, complete or not, as soon as there is one; all but planes and sensors.
   void save(const std::filesystem::path& folder);
 
   [[nodiscard]] LightNews news() const;
@@ -90,7 +97,7 @@ class LiveLight {
   void simulate_wish(const LightWish& wish, std::uint64_t number);
   void take_result(RadiationResult result, std::uint64_t number, bool complete);
   void tell(const RadiationResult& result, std::uint64_t number, bool complete);
-  void save_if_asked(const RadiationResult& result);
+  void save_if_asked();
   void write(const std::filesystem::path& folder, const RadiationResult& result);
   [[nodiscard]] bool superseded(std::uint64_t number) const { return quitting_ || asked_ != number; }
   [[nodiscard]] bool wants_result() const;
@@ -102,6 +109,7 @@ class LiveLight {
   std::function<void()> notify_;
   RememberedBeams beams_;
   SolveSettings settings_;
+  bool has_receivers_;  // planes or sensors, of which a window knows nothing
 
   std::atomic<bool> quitting_ = false;
   std::atomic<std::uint64_t> asked_ = 0;  // number of the last wish

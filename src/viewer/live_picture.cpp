@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <exception>
 #include <limits>
 #include <new>
 #include <utility>
@@ -93,6 +94,16 @@ PickedElement describe(const Scene& scene, const RadiationResult& result, std::u
 
 }  // namespace
 
+void write_frame(const LivePictureFrame& frame, const std::filesystem::path& file) {
+  Image image{frame.width, frame.height, {}};
+  image.pixels.reserve(frame.pixels.size());
+  for (const std::uint32_t word : frame.pixels) {
+    image.pixels.push_back({static_cast<std::uint8_t>(word >> 16U & 0xffU), static_cast<std::uint8_t>(word >> 8U & 0xffU),
+                            static_cast<std::uint8_t>(word & 0xffU)});
+  }
+  write_png(image, file);
+}
+
 bool same_look(const PictureWish& a, const PictureWish& b) {
   return same_camera(a.camera, b.camera) && a.options.width == b.options.width && a.options.height == b.options.height &&
          a.options.samples == b.options.samples && a.options.repeat == b.options.repeat;
@@ -146,18 +157,6 @@ std::string LivePicture::problem() const {
   return problem_;
 }
 
-void LivePicture::save(const std::filesystem::path& file) const {
-  const std::shared_ptr<const LivePictureFrame> shown = frame();
-  if (!shown) throw_failure(file.string(), "there is no picture yet", "wait for the first one");
-  Image image{shown->width, shown->height, {}};
-  image.pixels.reserve(shown->pixels.size());
-  for (const std::uint32_t word : shown->pixels) {
-    image.pixels.push_back({static_cast<std::uint8_t>(word >> 16U & 0xffU), static_cast<std::uint8_t>(word >> 8U & 0xffU),
-                            static_cast<std::uint8_t>(word & 0xffU)});
-  }
-  write_png(image, file);
-}
-
 bool LivePicture::wait_for_work() {
   std::unique_lock lock(mutex_);
   order_.wait(lock, [this] {
@@ -172,18 +171,21 @@ bool LivePicture::wait_for_work() {
 void LivePicture::work() {
   while (wait_for_work()) {
     std::string problem;
+    bool over = false;
     try {
       draw_once();
-    } catch (const Error& error) {
-      problem = error.what();
     } catch (const std::bad_alloc&) {
-      problem = "out of memory (the system gives no more); make the window smaller";
+      problem = "out of memory (the system gives no more); make the window smaller, or take fewer samples";
+    } catch (const std::exception& error) {
+      problem = error.what();
+      over = true;  // a device that fails once fails again: the window goes on without a new picture, and says so
     }
-    const std::lock_guard lock(mutex_);
-    problem_ = problem;
-    if (problem.empty()) continue;
-    quitting_ = true;  // a device that fails once fails again: the window goes on without a new picture, and says so
-    notify_();
+    {
+      const std::lock_guard lock(mutex_);
+      problem_ = problem;
+      quitting_ = quitting_ || over;
+    }
+    if (!problem.empty()) notify_();
   }
 }
 
@@ -261,7 +263,7 @@ bool LivePicture::look_at(Sight& sight, Fineness fineness, Haste haste) {
     options.height = std::max(1, options.height / step);
   }
   StopQuestion stop;
-  if (haste == Haste::give_up_for_next) stop = [&] { return quitting_ || look_ != sight.look; };
+  if (haste == Haste::give_up_for_next) stop = [&] { return quitting_ || wish_number_ != drawn_wish_; };
   const std::vector<shared::SeenSurface> samples = see(options, sight.wish.camera, stop);
   if (samples.empty()) return false;
   sight.seen = surface_image(samples, {0, options.height}, options);

@@ -59,6 +59,9 @@ struct LivePictureFrame {
   std::optional<PickedElement> picked;
 };
 
+// Its picture as a PNG. Throws Error (failure).
+void write_frame(const LivePictureFrame& frame, const std::filesystem::path& file);
+
 class LivePicture {
  public:
   // All must outlive it. `notify` is called from the drawing thread when there is a new frame.
@@ -75,9 +78,6 @@ class LivePicture {
   // None before the first one.
   [[nodiscard]] std::shared_ptr<const LivePictureFrame> frame() const;
   [[nodiscard]] std::string problem() const;
-
-  // The last frame's picture as a PNG. Throws Error (failure).
-  void save(const std::filesystem::path& file) const;
 
  private:
   // A look and how far it got.
@@ -114,11 +114,11 @@ class LivePicture {
 
   std::atomic<bool> quitting_ = false;
   std::atomic<std::uint64_t> look_ = 0;
+  std::atomic<std::uint64_t> wish_number_ = 0;  // of the last wish
 
   mutable std::mutex mutex_;  // of the next ones
   std::condition_variable order_;
   std::optional<PictureWish> wish_;
-  std::uint64_t wish_number_ = 0;
   std::uint64_t light_number_ = 0;
   std::shared_ptr<const LivePictureFrame> frame_;
   std::string problem_;

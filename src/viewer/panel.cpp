@@ -93,7 +93,8 @@ void draw_state(const ViewerState& state) {
   const double reached = std::max(news.direct_error.value_or(1.0) / std::max(1e-9, news.direct_bound),
                                   news.indirect_error.value_or(0.0) / std::max(1e-9, news.indirect_bound));
   const float done = current && news.complete ? 1.0F : static_cast<float>(std::min(0.99, 1.0 / (reached * reached)));
-  const std::string phase = !current ? "begins anew"
+  const std::string phase = !news.problem.empty() ? "not possible"
+                            : !current            ? "begins anew"
                             : news.complete
                                 ? fmt::format("{}, {:.1f} s", is_done(news.stop) ? "done" : "stopped short", news.seconds)
                                 : fmt::format("{:.1f} s", news.seconds);
@@ -122,8 +123,9 @@ void draw_clock(ViewerState& state) {
   if (ImGui::InputInt("Year", &sun.year)) sun.year = std::clamp(sun.year, 1900, 2100);
   slider(state, "latitude", "Latitude °N", sun.latitude_deg, {-90.0, 90.0, "%.2f"});
   slider(state, "longitude", "Longitude °E", sun.longitude_deg, {-180.0, 180.0, "%.2f"});
-  text(fmt::format("UTC {:+03d}:{:02d}", sun.offset_minutes / 60, std::abs(sun.offset_minutes) % 60));
-  ImGui::SameLine();
+  double offset_h = sun.offset_minutes / 60.0;
+  if (slider(state, "utc_offset", "UTC offset, h", offset_h, {-12.0, 14.0, "%+.2f"}))
+    sun.offset_minutes = static_cast<int>(std::lround(60.0 * offset_h));
   if (button(state, "play", state.playing ? "Stop" : "Play the day")) state.playing = !state.playing;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(5.0F * ImGui::GetFontSize());
@@ -166,9 +168,7 @@ void draw_sky(ViewerState& state) {
     slider(state, "dhi", "DHI, W m⁻²", sky.dhi_w_m2, {1.0, 600.0, "%.0f"});
   }
   if (ImGui::Checkbox("Own irradiance", &state.light.own_irradiance) && state.light.own_irradiance) {
-    for (std::size_t b = 0; b < state.light.bands.size() && b < state.news.bands.size(); ++b) {
-      if (state.light.bands[b].total_w_m2 == 0.0) state.light.bands[b].total_w_m2 = state.news.bands[b].incident;
-    }
+    for (std::size_t b = 0; b < state.news.incoming.size(); ++b) state.light.bands[b] = band_wish(state.news.incoming[b]);
   }
   note(state, "own_irradiance");
   if (!state.light.own_irradiance) return;
@@ -209,7 +209,7 @@ void draw_optics(ViewerState& state) {
   }
   if (state.light.soil_reflectance.empty()) return;
   text("soil");
-  slider(state, "reflectance/soil", "reflectance", state.light.soil_reflectance[band], {0.0, 1.0, "%.3f"});
+  slider(state, "soil_reflectance", "reflectance", state.light.soil_reflectance[band], {0.0, 1.0, "%.3f"});
 }
 
 void draw_picture(ViewerState& state) {

@@ -14,6 +14,18 @@ Scene checked_scene(const ViewOptions& options, const std::filesystem::path& fil
   return scene;
 }
 
+std::filesystem::file_time_type time_written(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::last_write_time(file, error);
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& things) {
+  std::vector<std::string> names;
+  for (const Named& thing : things) names.push_back(thing.name);
+  return names;
+}
+
 // The folder and the name of what is saved follow the scene that is looked at.
 RunOptions run_options(const ViewOptions& options, const std::filesystem::path& file) {
   RunOptions run = options.run;
@@ -25,11 +37,15 @@ RunOptions run_options(const ViewOptions& options, const std::filesystem::path& 
 
 Session::Session(const ViewOptions& options, const std::filesystem::path& scene_file, const std::function<void()>& notify)
     : file(scene_file),
+      written(time_written(scene_file)),
       scene_(checked_scene(options, file)),
       title(scene_.title),
       light_of_scene(wish_of(scene_)),
+      bands(names_of(scene_.model.bands)),
+      optics(names_of(scene_.model.optics)),
       warnings(scene_.warnings),
       tree(scene_.model),
+      box(shown_box(scene_.model, tree.layout)),
       engine(options.run.device, tree.bvh, {scene_.model.plot.periodic, scene_.model.soil.has_value()}, tree.layout.words(),
              EngineUse::drawn_meanwhile),
       light(std::move(scene_), tree, engine, run_options(options, file), notify),

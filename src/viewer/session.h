@@ -2,6 +2,7 @@
 // One scene in a window, with all that works on it.
 
 #include "app/options.h"
+#include "app/pictures.h"
 #include "viewer/live_light.h"
 #include "viewer/live_picture.h"
 
@@ -19,15 +20,18 @@ class Session {
   Session(const ViewOptions& options, const std::filesystem::path& scene_file, const std::function<void()>& notify);
 
   std::filesystem::path file;
+  const std::filesystem::file_time_type written;  // before it was read
 
  private:
   Scene scene_;  // until `light` takes it over
 
  public:
   const std::string title;
-  const LightWish light_of_scene;           // to begin with
-  const std::vector<std::string> warnings;  // of the scene, one line each
+  const LightWish light_of_scene;                // to begin with
+  const std::vector<std::string> bands, optics;  // their names
+  const std::vector<std::string> warnings;       // of the scene, one line each
   SceneTree tree;
+  const ShownBox box;
   Engine engine;
   LiveLight light;
   LivePicture picture;

@@ -2,7 +2,6 @@
 
 #include "app/interrupt.h"
 #include "app/pictures.h"
-#include "app/result_folder.h"
 #include "app/simulation.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -60,18 +59,21 @@ Viewer::Viewer(const ViewOptions& options, Window& window)
     draw_message(state_, 0.0F, size.x, size.y);
     window_.end_frame({}, true, background);
   }
-  enter(std::make_unique<Session>(options_, options.run.scene, &Window::wake));
   state_.message.clear();
+  enter(std::make_unique<Session>(options_, options.run.scene, &Window::wake));
 }
 
 // Camera and charts stay as they are when a scene is loaded anew; its light is its own.
 void Viewer::enter(std::unique_ptr<Session> session) {
   const bool another = session_ && session_->file != session->file;
-  if (session_) leaving_ = std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); });
+  const auto ended = [](const std::future<void>& one) {
+    return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
+  leaving_.erase(std::remove_if(leaving_.begin(), leaving_.end(), ended), leaving_.end());
+  if (session_) leaving_.push_back(std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); }));
   session_ = std::move(session);
   const Scene& scene = session_->light.geometry();
-  std::error_code error;
-  scene_written_ = fs::last_write_time(session_->file, error);
+  scene_written_ = session_->written;
   state_.light = session_->light_of_scene;
   state_.news = {};
   state_.title = session_->title;
@@ -79,10 +81,8 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.drawing_device = window_.device().name;
   state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), scene.model.plot.size_x_m,
                                  scene.model.plot.size_z_m, scene.model.plot.periodic ? ", endless" : "");
-  state_.bands.clear();
-  for (const Waveband& band : scene.model.bands) state_.bands.push_back(band.name);
-  state_.optics_names.clear();
-  for (const SurfaceOptics& optics : scene.model.optics) state_.optics_names.push_back(optics.name);
+  state_.bands = session_->bands;
+  state_.optics_names = session_->optics;
   if (state_.band() == 0) state_.options.band.clear();
   state_.picked.reset();
   state_.playing = false;
@@ -93,7 +93,9 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   told_first_ = told_done_ = 0;
   asked_picture_.reset();
   shown_frame_ = 0;
-  told_saved_.reset();
+  save_told_ = true;
+  placed_.reset();
+  told_problems_ = {};
   for (const std::string& warning : session_->warnings) warn(warning);
   if (!session_->warnings.empty()) say_to_user(session_->warnings.front(), false);
   window_.set_title("sunfleck: " + session_->title);
@@ -104,7 +106,10 @@ void Viewer::enter(std::unique_ptr<Session> session) {
 }
 
 void Viewer::load(const fs::path& file) {
-  if (loading_.valid()) return;  // one at a time; the file is looked at again
+  if (loading_.valid()) {  // one at a time
+    to_load_ = file;
+    return;
+  }
   say_to_user(fmt::format("Loading {} …", file.filename().string()), false);
   loading_ = std::async(std::launch::async,
                         [options = options_, file] { return std::make_unique<Session>(options, file, &Window::wake); });
@@ -114,12 +119,13 @@ void Viewer::finish_loading() {
   if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   try {
     enter(loading_.get());
-    say_to_user("Loaded.", false);
-  } catch (const Error& error) {
-    say_to_user(error.what(), true);
+    if (session_->warnings.empty()) say_to_user("Loaded.", false);
   } catch (const std::bad_alloc&) {
     say_to_user("out of memory (the scene does not fit); load a smaller one", true);
+  } catch (const std::exception& error) {
+    say_to_user(error.what(), true);
   }
+  if (to_load_) load(*std::exchange(to_load_, std::nullopt));
 }
 
 void Viewer::watch_scene_file() {
@@ -156,8 +162,8 @@ Stage Viewer::stage() const {
   const glm::ivec2 size = window_.size_px();
   const float left =
       state_.panel ? std::min(panel_width * static_cast<float>(window_.scale()), 0.6F * static_cast<float>(size.x)) : 0.0F;
-  const ShownBox box = shown_box(session_->light.geometry().model, session_->tree.layout);
-  return {std::floor(left), static_cast<float>(size.x) - std::floor(left), static_cast<float>(size.y), box.lo_m, box.hi_m};
+  return {std::floor(left), static_cast<float>(size.x) - std::floor(left), static_cast<float>(size.y), session_->box.lo_m,
+          session_->box.hi_m};
 }
 
 void Viewer::frame() {
@@ -200,20 +206,31 @@ void Viewer::take_news() {
     session_->picture.light_changed();
     if (news.seconds > 0.0) state_.rays_per_second = static_cast<double>(news.rays) / news.seconds;
   }
-  if (news.saved && news.saved != told_saved_) {
-    told_saved_ = news.saved;
-    const bool done = news.saved->rfind("saved", 0) == 0;
-    say_to_user(*news.saved, !done);
-    events_.tell(done ? "saved" : "problem",
-                 {{done ? "folder" : "text", done ? result_folder(options_.run).string() : *news.saved}});
+  if (news.saved && !save_told_) {
+    save_told_ = true;
+    say_to_user(news.saved->text, !news.saved->done);
+    if (news.saved->done) events_.tell("saved", {{"folder", save_folder().string()}});
   }
-  if (!news.problem.empty() && state_.message != news.problem) say_to_user(news.problem, true);
-  if (const std::string problem = session_->picture.problem(); !problem.empty()) say_to_user(problem, true);
+  if (news.wish == light_number_) tell_problem(told_problems_[0], news.problem);
+  tell_problem(told_problems_[1], session_->picture.problem());
+  if (saving_picture_.valid() && saving_picture_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    const SaveOutcome outcome = saving_picture_.get();
+    say_to_user((outcome.done ? "Saved " : "") + outcome.text, !outcome.done);
+    if (outcome.done) events_.tell("saved", {{"file", outcome.text}});
+  }
+}
+
+// Once for each problem, as long as it lasts.
+void Viewer::tell_problem(std::string& told, const std::string& problem) {
+  if (problem == told) return;
+  told = problem;
+  if (!problem.empty()) say_to_user(problem, true);
 }
 
 void Viewer::take_picture() {
   const auto frame = session_->picture.frame();
-  if (!frame || frame->number == shown_frame_) return;
+  // What it shows must be known: the news that go with it may come in the next round.
+  if (!frame || frame->number == shown_frame_ || frame->light.version > state_.news.version) return;
   shown_frame_ = frame->number;
   state_.frame = frame;
   new_pixels_ = true;
@@ -277,28 +294,34 @@ void Viewer::obey(const PanelOrders& orders) {
   }
   if (orders.save_picture) save_picture();
   if (orders.save_result && !state_.news.saving) {
-    options_.run.scene = session_->file;
-    session_->light.save(result_folder(options_.run));
-    say_to_user(fmt::format("Saving in {} …", result_folder(options_.run).string()), false);
+    save_told_ = false;
+    session_->light.save(save_folder());
+    say_to_user(fmt::format("Saving in {} …", save_folder().string()), false);
   }
 }
 
+// Beside what `run` writes into results/<scene>, not in its place.
+fs::path Viewer::save_folder() const {
+  return options_.run.output.empty() ? fs::path("results") / (session_->file.stem().string() + "_view") : options_.run.output;
+}
+
 void Viewer::save_picture() {
-  options_.run.scene = session_->file;
-  const fs::path folder = result_folder(options_.run);
-  try {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    fs::path file;
-    do {
-      file = folder / fmt::format("view_{}_{:03d}.png", stem_of(state_.picture), ++saved_pictures_);
-    } while (fs::exists(file, error));
-    session_->picture.save(file);
-    say_to_user("Saved " + printable(file.string()), false);
-    events_.tell("saved", {{"file", file.string()}});
-  } catch (const Error& error) {
-    say_to_user(error.what(), true);
-  }
+  if (saving_picture_.valid() || !state_.frame) return;
+  const fs::path folder = save_folder();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  fs::path file;
+  do {
+    file = folder / fmt::format("view_{}_{:03d}.png", stem_of(state_.picture), ++saved_pictures_);
+  } while (fs::exists(file, error));
+  saving_picture_ = std::async(std::launch::async, [frame = state_.frame, file] {
+    try {
+      write_frame(*frame, file);
+      return SaveOutcome{true, file.string()};
+    } catch (const std::exception& problem) {
+      return SaveOutcome{false, problem.what()};
+    }
+  });
 }
 
 // A view that nobody has moved fits the window as `render` would fit its picture.
@@ -306,7 +329,9 @@ void Viewer::place_camera(const Stage& place) {
   state_.options.width = std::max(64, static_cast<int>(place.width_px));
   state_.options.height = std::max(64, static_cast<int>(place.height_px));
   const double aspect = static_cast<double>(state_.options.width) / state_.options.height;
+  const Placed now{state_.options.view, state_.options.width, state_.options.height};
   if (state_.camera_as_given) {
+    if (std::exchange(placed_, now) == now) return;
     const Camera camera = picture_camera(session_->light.geometry(), session_->tree.layout, state_.options);
     state_.hand = in_hand(camera, 0.5 * (place.lo_m + place.hi_m));
   } else if (state_.hand.camera.kind == Projection::fisheye) {
@@ -317,7 +342,7 @@ void Viewer::place_camera(const Stage& place) {
 }
 
 void Viewer::pick(glm::ivec2 pixel) {
-  if (!state_.frame) return;
+  if (!state_.frame || shown_frame_ == 0) return;  // or it is a picture of the scene before
   const LivePictureFrame& frame = *state_.frame;
   state_.picked.reset();
   picked_told_ = false;
@@ -331,7 +356,8 @@ void Viewer::pick(glm::ivec2 pixel) {
 void Viewer::play() {
   SunWish& sun = state_.light.sun;
   if (!state_.playing || !sun.by_clock) return;
-  if (told_first_ != light_number_ || now_s() - asked_light_at_s_ < played_moment_s) return;
+  const bool refused = state_.news.wish == light_number_ && !state_.news.problem.empty();
+  if ((told_first_ != light_number_ && !refused) || now_s() - asked_light_at_s_ < played_moment_s) return;
   double first_h = 0.0;
   double last_h = 24.0;
   try {

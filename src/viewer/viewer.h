@@ -8,6 +8,7 @@
 #include "viewer/session.h"
 #include "viewer/state.h"
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -30,6 +31,13 @@ class Viewer {
  private:
   using Clock = std::chrono::steady_clock;
 
+  // What a camera that nobody has moved was made for.
+  struct Placed {
+    ViewKind view;
+    int width, height;
+    friend bool operator==(const Placed&, const Placed&) = default;
+  };
+
   void enter(std::unique_ptr<Session> session);
   void load(const std::filesystem::path& file);
   void finish_loading();
@@ -48,6 +56,8 @@ class Viewer {
   void ask_for_light();
   void ask_for_picture();
   void save_picture();
+  [[nodiscard]] std::filesystem::path save_folder() const;
+  void tell_problem(std::string& told, const std::string& problem);
   void say_to_user(const std::string& message, bool problem);
   void tell_controls();
   void tell_end();
@@ -59,13 +69,14 @@ class Viewer {
   Events events_;
   Clock::time_point start_ = Clock::now();
 
-  std::future<void> leaving_;  // of the session before; ends in its own time
+  std::vector<std::future<void>> leaving_;  // of sessions before; they end in their own time
   std::unique_ptr<Session> session_;
   std::future<std::unique_ptr<Session>> loading_;
   std::filesystem::file_time_type scene_written_;
   double next_look_at_file_s_ = 0.0;
 
   ViewerState state_;
+  std::optional<Placed> placed_;
   Hands hands_;
   std::optional<LightWish> asked_light_;
   std::optional<PictureWish> asked_picture_;
@@ -78,7 +89,10 @@ class Viewer {
   int saved_pictures_ = 0;
   double message_until_s_ = 0.0;
   std::string told_controls_;
-  std::optional<std::string> told_saved_;
+  bool save_told_ = true;
+  std::future<SaveOutcome> saving_picture_;
+  std::array<std::string, 2> told_problems_;  // of light and picture
+  std::optional<std::filesystem::path> to_load_;
   bool picked_told_ = false;
   std::vector<double> frame_times_s_;
 };

@@ -50,15 +50,28 @@ class Screen:
     def do(self, *words):
         """One xdotool command, such as do("key", "h"); returns what it prints."""
         return subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, capture_output=True,
-                              text=True).stdout.strip()
+                              text=True, timeout=60).stdout.strip()
 
     def drag(self, start, end, button=1, steps=8):
         self.do("mousemove", *map(int, start))
         self.do("mousedown", button)
+        time.sleep(0.4)  # for a frame to see it go down here, and below to see where it ends before it goes up
         for k in range(1, steps + 1):
             self.do("mousemove", *(int(a + (b - a) * k / steps) for a, b in zip(start, end)))
             time.sleep(0.03)
+        time.sleep(0.4)
         self.do("mouseup", button)
+
+    def still_shot(self):
+        """A shot once two in a row are alike."""
+        last = self.shot()
+        for _ in range(100):
+            time.sleep(0.25)
+            now = self.shot()
+            if numpy.array_equal(last, now):
+                break
+            last = now
+        return now
 
     def shot(self):
         """The screen as an array of rows, columns, red-green-blue."""
