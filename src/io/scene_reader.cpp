@@ -1,6 +1,7 @@
 #include "io/scene_reader.h"
 
 #include "base/error.h"
+#include "io/digest.h"
 #include "io/file.h"
 #include "io/moment_light.h"
 #include "io/scene_parts.h"
@@ -18,18 +19,6 @@ namespace {
 constexpr double farthest_m = 1e7;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // a million positions in `at`
 constexpr double default_fov_deg = 40.0;
-
-// FNV-1a, 64 bits (Fowler, Noll and Vo).
-class Digest {
- public:
-  void add(std::string_view bytes) {
-    for (const char c : bytes) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }
-
- private:
-  std::uint64_t state_ = 0xcbf29ce484222325ULL;
-};
 
 std::string read_title(const TomlTable& root, const std::filesystem::path& file) {
   return root.text("title").value_or(printable(file.stem().string()));

@@ -1,7 +1,10 @@
 #include "viewer/light_wish.h"
 
 #include "base/error.h"
+#include "io/digest.h"
 #include "io/moment_light.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
@@ -164,6 +167,35 @@ std::string first_difference(const LightWish& one, const LightWish& other) {
   if (one.own_irradiance != other.own_irradiance || (one.own_irradiance && one.bands != other.bands)) return "irradiance";
   if (one.optics != other.optics || one.soil_reflectance != other.soil_reflectance) return "optics";
   return "";
+}
+
+std::string digest_of(const LightWish& wish) {
+  Digest digest;
+  const auto add = [&](double number) { digest.add(fmt::format("{} ", number)); };
+  const SunWish sun = in_use(wish.sun);
+  for (const double number :
+       {static_cast<double>(sun.shines), static_cast<double>(sun.by_clock), static_cast<double>(sun.year),
+        static_cast<double>(sun.month), static_cast<double>(sun.day), sun.hour, static_cast<double>(sun.offset_minutes),
+        sun.latitude_deg, sun.longitude_deg, sun.altitude_m, sun.elevation_deg, sun.azimuth_deg}) {
+    add(number);
+  }
+  const SkyWish sky = in_use(wish.sky);
+  for (const double number : {static_cast<double>(sky.kind), static_cast<double>(sky.cie_type), sky.dni_w_m2, sky.dhi_w_m2})
+    add(number);
+  for (const BandWish& band : wish.own_irradiance ? wish.bands : std::vector<BandWish>()) {
+    add(band.total_w_m2);
+    add(band.diffuse_share);
+  }
+  for (const SurfaceWish& surface : wish.optics) {
+    for (const auto* faces : {&surface.upper, &surface.lower}) {
+      for (const FaceWish& face : *faces) {
+        add(face.reflectance);
+        add(face.transmittance);
+      }
+    }
+  }
+  for (const double reflectance : wish.soil_reflectance) add(reflectance);
+  return digest.text();
 }
 
 UtcTime time_of(const SunWish& sun) {

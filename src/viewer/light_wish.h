@@ -72,6 +72,9 @@ struct LightWish {
 // What differs, for the log: "sun", "sky", "irradiance", "optics"; the first that does. Empty where nothing does.
 [[nodiscard]] std::string first_difference(const LightWish& one, const LightWish& other);
 
+// A mark of the light that a wish makes: as Digest::text, the same for wishes between which first_difference finds none.
+[[nodiscard]] std::string digest_of(const LightWish& wish);
+
 // Local date and time of a wish by the clock, in UTC. Throws Error (input) for a date that does not exist.
 [[nodiscard]] UtcTime time_of(const SunWish& sun);
 

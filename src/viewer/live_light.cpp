@@ -161,7 +161,7 @@ void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
     grant(wish, original_, scene_.model);
     const bool changed = !first_difference(wish_of(original_), wish).empty();
     scene_.title = original_.title + (changed ? " (light changed)" : "");
-    scene_.digest = original_.digest + (changed ? "-changed-in-view" : "");
+    scene_.digest = original_.digest + (changed ? "-changed-" + digest_of(wish) : "");
     result_.reset();
   }
   {

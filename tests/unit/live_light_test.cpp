@@ -266,6 +266,10 @@ TEST(LightWish, FieldsOutOfUseChangeNothing) {
   wish.sun.elevation_deg = 1.0;
   wish.bands[0].total_w_m2 = 1.0;
   EXPECT_EQ(first_difference(wish_of(scene), wish), "");
+  EXPECT_EQ(digest_of(wish_of(scene)), digest_of(wish));
+  LightWish other = wish;
+  other.optics.at(0).lower.at(1).transmittance += 0.01;
+  EXPECT_NE(digest_of(other), digest_of(wish));
   RadiationModel model = scene.model;
   grant(wish, scene, model);
   EXPECT_EQ(model.sun->elevation_rad, scene.model.sun->elevation_rad);

@@ -1,0 +1,25 @@
+#pragma once
+// A short mark of what something was made from.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace sunfleck {
+
+// FNV-1a, 64 bits (Fowler, Noll and Vo).
+class Digest {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  }
+  // 16 hexadecimal digits.
+  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace sunfleck

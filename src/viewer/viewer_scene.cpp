@@ -1,0 +1,108 @@
+// Which scene the window shows: loading, entering, and watching its file.
+
+#include "app/simulation.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "io/file.h"
+#include "viewer/viewer.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double look_at_file_s = 0.5;
+
+}  // namespace
+
+// Camera and charts stay as they are when a scene is loaded anew; its light is its own.
+void Viewer::enter(std::unique_ptr<Session> session) {
+  const bool another = session_ && session_->file != session->file;
+  const auto ended = [](const std::future<void>& one) {
+    return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
+  leaving_.erase(std::remove_if(leaving_.begin(), leaving_.end(), ended), leaving_.end());
+  if (session_) leaving_.push_back(std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); }));
+  session_ = std::move(session);
+  const Scene& scene = session_->light.geometry();
+  scene_written_ = session_->written;
+  state_.light = session_->light_of_scene;
+  state_.news = {};
+  state_.title = session_->title;
+  state_.device = device_line(session_->engine.device());
+  state_.drawing_device = window_.device().name;
+  state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), scene.model.plot.size_x_m,
+                                 scene.model.plot.size_z_m, scene.model.plot.periodic ? ", endless" : "");
+  state_.bands = session_->bands;
+  state_.optics_names = session_->optics;
+  if (state_.band() == 0) state_.options.band.clear();
+  state_.picked.reset();
+  state_.playing = false;
+  if (another || !asked_picture_) choose_view(another ? ViewKind::camera : options_.run.pictures.view);
+  asked_light_ = state_.light;
+  asked_light_at_s_ = now_s();
+  light_number_ = 1;
+  told_first_ = told_done_ = 0;
+  asked_picture_.reset();
+  shown_frame_ = 0;
+  save_told_ = true;
+  placed_.reset();
+  told_problems_ = {};
+  for (const std::string& warning : session_->warnings) warn(warning);
+  if (!session_->warnings.empty()) say_to_user(session_->warnings.front(), false);
+  window_.set_title("sunfleck: " + session_->title);
+  events_.tell("loaded", {{"scene", session_->file.string()},
+                          {"triangles", scene.model.canopy.size()},
+                          {"device", session_->engine.device().name},
+                          {"window", window_.device().name}});
+}
+
+void Viewer::load(const fs::path& file) {
+  if (loading_.valid()) {  // one at a time
+    to_load_ = file;
+    return;
+  }
+  say_to_user(fmt::format("Loading {} …", file.filename().string()), false);
+  loading_ = std::async(std::launch::async,
+                        [options = options_, file] { return std::make_unique<Session>(options, file, &Window::wake); });
+}
+
+void Viewer::finish_loading() {
+  if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  try {
+    enter(loading_.get());
+    if (session_->warnings.empty()) say_to_user("Loaded.", false);
+  } catch (const std::bad_alloc&) {
+    say_to_user("out of memory (the scene does not fit); load a smaller one", true);
+  } catch (const std::exception& error) {
+    say_to_user(error.what(), true);
+  }
+  if (to_load_) load(*std::exchange(to_load_, std::nullopt));
+}
+
+void Viewer::watch_scene_file() {
+  for (const fs::path& file : window_.take_dropped_files()) {
+    if (file.extension() == ".toml") {
+      load(file);
+    } else {
+      say_to_user(fmt::format("{} (no scene file); drop a .toml", printable(file.filename().string())), true);
+    }
+  }
+  if (now_s() < next_look_at_file_s_ || loading_.valid()) return;
+  next_look_at_file_s_ = now_s() + look_at_file_s;
+  std::error_code error;
+  const auto written = fs::last_write_time(session_->file, error);
+  if (error || written == scene_written_) return;  // while an editor replaces it, it may be away
+  scene_written_ = written;
+  load(session_->file);
+}
+
+}  // namespace sunfleck
