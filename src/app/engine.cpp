@@ -52,14 +52,13 @@ Engine::Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene
 }
 
 void Engine::open_vulkan(CpuTracer::Scene scene, std::size_t counter_words, double seconds_per_dispatch) {
-  const Bvh& bvh = bvh_;
-  const TreeFetch fetch = preferred_fetch(*context_, bvh);
+  const TreeFetch fetch = preferred_fetch(*context_, bvh_);
   if (fetch == TreeFetch::storage_buffers)
     say("the tree is too large for this device's texel buffers: storage buffers are used");
-  tree_ = std::make_unique<GpuTree>(*context_, bvh, fetch);
+  tree_ = std::make_unique<GpuTree>(*context_, bvh_, fetch);
   VulkanChoices choices;
   choices.seconds_per_dispatch = seconds_per_dispatch;
-  tracer_ = std::make_unique<VulkanTracer>(*context_, bvh, *tree_, scene, counter_words, choices);
+  tracer_ = std::make_unique<VulkanTracer>(*context_, bvh_, *tree_, scene, counter_words, choices);
 }
 
 std::unique_ptr<CanopyViewer> Engine::viewer(CanopyLook look) const {

@@ -167,7 +167,7 @@ void add_view(CLI::App& app, ViewOptions& options, OptionWords& words) {
   CLI::App& view = *app.add_subcommand("view", "Look at a scene in a window: move the sun, see the light");
   add_version(view);
   view.add_option("scene", options.run.scene, "Scene file (TOML)")->required()->check(not_empty());
-  view.add_option("-o,--output", options.run.output, "Where pictures and results are saved (default: results/<scene>)")
+  view.add_option("-o,--output", options.run.output, "Where pictures and results are saved (default: results/<scene>_view)")
       ->check(not_empty());
   view.add_flag("--json", options.run.json, "Print a line of JSON on standard output for each thing that happens");
   add_device(view, options.run);

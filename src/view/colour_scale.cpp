@@ -71,10 +71,15 @@ double largest_of(std::span<const double> values) {
   return values.empty() ? 0.0 : std::max(0.0, *std::max_element(values.begin(), values.end()));
 }
 
-RankScale equal_interval_ranks(std::span<const Group> groups, std::span<const double> values) {
-  const double top = groups.empty() ? largest_of(values) : quantile(above_zero(groups), rank_top_share);
+RankScale even_ranks(double top) {
   RankScale scale;
   for (int k = 0; k <= rank_count; ++k) scale.bounds[k] = top * k / rank_count;
+  return scale;
+}
+
+RankScale equal_interval_ranks(std::span<const Group> groups, std::span<const double> values) {
+  const double top = groups.empty() ? largest_of(values) : quantile(above_zero(groups), rank_top_share);
+  RankScale scale = even_ranks(top);
   scale.open = !groups.empty() && groups.back().value > top;
   return scale;
 }
@@ -115,8 +120,7 @@ RankScale equal_interval_ranks(std::span<const double> values, std::span<const d
 
 RankScale rank_scale_to(double top, std::span<const double> values) {
   EXPECT(top, >, 0.0);
-  RankScale scale;
-  for (int k = 0; k <= rank_count; ++k) scale.bounds[k] = top * k / rank_count;
+  RankScale scale = even_ranks(top);
   scale.open = largest_of(values) > top;
   return scale;
 }

@@ -195,7 +195,6 @@ void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool c
   const std::lock_guard lock(news_mutex_);
   last_result_ = Clock::now();
   news_.seconds = seconds_between(asked_at_, last_result_);
-  if (news_.result_wish != number) news_.first_seconds = news_.seconds;
   ++news_.version;
   news_.result_wish = number;
   news_.complete = complete;
@@ -210,8 +209,6 @@ void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool c
   news_.indirect_bound = settings_.accuracy.indirect;
   news_.bands = result.bands;
   news_.layers = result.layers;
-  news_.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
-  news_.leaf_area_index = result.leaf_area_index;
 }
 
 void LiveLight::save_if_asked() {

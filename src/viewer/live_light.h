@@ -37,7 +37,6 @@ struct LightNews {
   bool complete = false;                      // nothing more is to come of this wish
   StopReason stop = StopReason::interrupted;  // why: the bounds are reached, or a limit is
   double seconds = 0.0;                       // from the wish to the result
-  double first_seconds = 0.0;                 // from the wish to its first result
   std::uint64_t rays = 0;                     // of the result, packets and sky rays included
   std::uint64_t spared_beams = 0;             // replicates of the direct pass that were remembered, since the scene was loaded
   std::optional<SunPosition> sun;
@@ -46,8 +45,6 @@ struct LightNews {
   double direct_bound = 0.0, indirect_bound = 0.0;
   std::vector<BandResult> bands;
   std::vector<LayerResult> layers;
-  Estimate sunlit_leaf_fraction;
-  double leaf_area_index = 0.0;
   std::string problem;               // one line, why the last wish was not granted; empty if it was
   std::optional<SaveOutcome> saved;  // what became of the last order to save, once it is known
   bool saving = false;

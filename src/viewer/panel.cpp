@@ -101,8 +101,9 @@ void draw_state(const ViewerState& state) {
   ImGui::ProgressBar(current ? done : 0.0F, {-1.0F, 0.0F}, phase.c_str());
   text(error_text("Direct", news.direct_error, news.direct_bound));
   text(error_text("Indirect", news.indirect_error, news.indirect_bound));
-  text(fmt::format("{:.2f} million rays, {:.2f} million a second", static_cast<double>(news.rays) * 1e-6,
-                   state.rays_per_second * 1e-6));
+  const auto rays = static_cast<double>(news.rays);
+  text(fmt::format("{:.2f} million rays, {:.2f} million a second", 1e-6 * rays,
+                   news.seconds > 0.0 ? 1e-6 * rays / news.seconds : 0.0));
   const double look_ms = state.frame ? 1e3 * (state.frame->look_s + state.frame->paint_s) : 0.0;
   text(fmt::format("Frame {:.0f} ms, picture {:.0f} ms", state.frame_ms, look_ms));
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));

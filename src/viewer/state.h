@@ -35,11 +35,10 @@ struct ViewerState {
   std::shared_ptr<const LivePictureFrame> frame;
   std::string message;  // one line
   bool message_is_problem = false;
-  std::string title, device, drawing_device, plot_text;
+  std::string title, device, plot_text;
   std::vector<std::string> bands;
   std::vector<std::string> optics_names;
   double frame_ms = 0.0;
-  double rays_per_second = 0.0;
 
   // Where the panel's controls lie, px: left, top, right, bottom.
   std::map<std::string, std::array<float, 4>> controls;

@@ -119,10 +119,7 @@ void Viewer::take_news() {
   const std::uint64_t version = state_.news.version;
   state_.news = session_->light.news();
   const LightNews& news = state_.news;
-  if (news.version != version) {
-    session_->picture.light_changed();
-    if (news.seconds > 0.0) state_.rays_per_second = static_cast<double>(news.rays) / news.seconds;
-  }
+  if (news.version != version) session_->picture.light_changed();
   if (news.saved && !save_told_) {
     save_told_ = true;
     say_to_user(news.saved->text, !news.saved->done);
@@ -190,6 +187,7 @@ void Viewer::take_keys() {
 void Viewer::choose_view(ViewKind view) {
   state_.options.view = view;
   state_.camera_as_given = true;
+  placed_.reset();
 }
 
 void Viewer::obey(const PanelOrders& orders) {

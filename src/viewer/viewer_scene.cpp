@@ -38,7 +38,6 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.news = {};
   state_.title = session_->title;
   state_.device = device_line(session_->engine.device());
-  state_.drawing_device = window_.device().name;
   state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), scene.model.plot.size_x_m,
                                  scene.model.plot.size_z_m, scene.model.plot.periodic ? ", endless" : "");
   state_.bands = session_->bands;

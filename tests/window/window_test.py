@@ -269,6 +269,9 @@ class WindowTest(unittest.TestCase):
         after = window.picture()
         self.keep_shot("orbited")
         self.assertGreater(numpy.mean(numpy.any(before != after, axis=2)), 0.05)
+        window.key("1")
+        window.wait_for("picture")
+        self.assertTrue(numpy.array_equal(window.picture(), before), "the scene's own camera is back")
         self.expect_clean_end(window)
 
     def test_picking_names_the_organ(self):
