@@ -79,7 +79,7 @@ TEST_F(Signals, ThatKillLeaveNoFileHalfWritten) {
     SCOPED_TRACE(moment.count());
     const Outcome outcome = run(whole_run_, send_after(moment, {SIGKILL}));
     if (outcome.status != 0) {
-      expect_whole(whole, true);
+      expect_whole_after_kill(whole);
       folder_.write("other.csv.12.tmp", "mine");
     }
   }
