@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -58,14 +59,42 @@ Mesh read_format(const MeshSource& source, MeshFormat format) {
 }
 
 // To the scene's axes and metres. Elements are kept in single precision, so that is where a coordinate must still be finite.
-void place(const MeshSource& source, Mesh& mesh, UpAxis up, double scale) {
+void place(const std::string& where, Mesh& mesh, UpAxis up, double scale) {
   for (glm::dvec3& v : mesh.vertices) {
     if (up == UpAxis::z) v = {-v.y, v.z, -v.x};
     v *= scale;
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(largest <= std::numeric_limits<float>::max()))
-      refuse(source, 0, fmt::format("a coordinate of {} m after scaling by {}", largest, scale),
-             "single precision ends at 3.4e38", "check the file's numbers and scale");
+    if (std::isnan(v.x + v.y + v.z) || largest > std::numeric_limits<float>::max())
+      throw_input(fmt::format("{}: a vertex at ({}, {}, {}) m after scaling by {}", where, v.x, v.y, v.z, scale),
+                  "it must be finite, below 3.4e38", "check its numbers and scale");
+  }
+}
+
+// The number of the first that is out of range.
+std::optional<std::size_t> first_beyond(std::span<const std::uint32_t> numbers, std::size_t count) {
+  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) { return number >= count; });
+  if (found == numbers.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - numbers.begin());
+}
+
+void check_numbers(const std::string& where, const char* what, std::span<const std::uint32_t> numbers, std::size_t triangles,
+                   std::size_t count) {
+  if (numbers.size() != triangles)
+    throw_input(fmt::format("{}: {} {} numbers", where, numbers.size(), what), fmt::format("there are {} triangles", triangles),
+                "give one for each triangle");
+  const auto beyond = first_beyond(numbers, count);
+  if (!beyond) return;
+  throw_input(fmt::format("{}: {} number {} of triangle {}", where, what, numbers[*beyond], *beyond),
+              fmt::format("there are {}, counted from 0", count), "correct the numbers");
+}
+
+void check_corners(const std::string& where, const Mesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const glm::uvec3& corners = mesh.triangles[t];
+    const std::uint32_t largest = std::max({corners.x, corners.y, corners.z});
+    if (largest < mesh.vertices.size()) continue;
+    throw_input(fmt::format("{}: vertex number {} of triangle {}", where, largest, t),
+                fmt::format("there are {}, counted from 0", mesh.vertices.size()), "correct the triangles");
   }
 }
 
@@ -87,13 +116,24 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import) {
     Mesh mesh = read_format(source, format);
     if (mesh.triangles.empty())
       refuse(source, 0, "no triangle found", "a mesh needs at least one", "check that surfaces were exported");
-    place(source, mesh, import.up.value_or(format == MeshFormat::can ? UpAxis::z : UpAxis::y), import.scale);
+    place(printable(file.string()), mesh, import.up.value_or(format == MeshFormat::can ? UpAxis::z : UpAxis::y), import.scale);
     return mesh;
   } catch (const std::bad_alloc&) {
     throw_failure(fmt::format("{}: cannot be held", printable(file.string())), "memory ran out", "read a smaller mesh");
   } catch (const std::length_error&) {
     throw_failure(fmt::format("{}: cannot be held", printable(file.string())), "memory ran out", "read a smaller mesh");
   }
+}
+
+Mesh import_mesh(Mesh mesh, const std::string& place_of_mesh, const MeshImport& import) {
+  EXPECT(import.scale, >, 0.0);
+  if (mesh.triangles.empty())
+    throw_input(place_of_mesh + ": no triangle", "a mesh needs at least one", "give some, or leave the mesh out");
+  check_corners(place_of_mesh, mesh);
+  check_numbers(place_of_mesh, "optics", mesh.optics_of, mesh.triangles.size(), mesh.optics_names.size());
+  check_numbers(place_of_mesh, "organ", mesh.organ_of, mesh.triangles.size(), mesh.organs.size());
+  place(place_of_mesh, mesh, import.up.value_or(UpAxis::y), import.scale);
+  return mesh;
 }
 
 void refuse(const MeshSource& source, std::size_t line, std::string_view what, std::string_view why, std::string_view cure) {

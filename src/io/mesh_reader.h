@@ -26,6 +26,11 @@ struct MeshImport {
 // without a material where `optics` is not given.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import);
 
+// The same for a mesh at hand, whose optics are all named: checked, turned to the scene's axes (y is up unless told otherwise)
+// and scaled. Throws Error (input), beginning with `place`: no triangle, arrays of different lengths, an index out of range, a
+// coordinate that is not finite.
+[[nodiscard]] Mesh import_mesh(Mesh mesh, const std::string& place, const MeshImport& import);
+
 // True if read_mesh has a reader for this name.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& file);
 

@@ -45,7 +45,7 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
   }
   const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max());
   if (seed) stand.seed = static_cast<std::uint64_t>(*seed);
-  return GeometryPart{.table = table, .maize = stand, .file = {}, .import = {}, .placements = {Placement{}}};
+  return GeometryPart{.table = table, .maize = stand, .mesh = nullptr, .file = {}, .import = {}, .placements = {Placement{}}};
 }
 
 fs::path find_mesh(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
@@ -66,7 +66,14 @@ std::vector<Placement> read_placements(const TomlTable& table) {
   return placements;
 }
 
-GeometryPart read_file_part(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
+const Mesh* find_given_mesh(const TomlTable& table, const SceneText& source) {
+  const std::string name = *table.text("mesh");
+  const auto found = source.meshes.find(name);
+  if (found == source.meshes.end()) table.refuse("mesh", "no mesh of that name is given", "correct the name");
+  return &found->second;
+}
+
+GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, const SceneAccess& access) {
   for (const char* key : {"rows", "per_row", "spacing", "seed"}) {
     if (table.has(key)) table.refuse(key, "it is for generator = \"maize\"", "remove it; place a file's copies with `at`");
   }
@@ -77,9 +84,11 @@ GeometryPart read_file_part(const TomlTable& table, const fs::path& scene_file, 
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
   std::vector<Placement> placements = read_placements(table);
+  const bool given = table.has("mesh");
   return GeometryPart{.table = table,
                       .maize = std::nullopt,
-                      .file = find_mesh(table, scene_file, access),
+                      .mesh = given ? find_given_mesh(table, source) : nullptr,
+                      .file = given ? fs::path() : find_mesh(table, source.file, access),
                       .import = import,
                       .placements = std::move(placements)};
 }
@@ -104,6 +113,12 @@ void refuse_far(const GeometryPart& part, const Mesh& mesh) {
                       fmt::format("it reaches to {:.3g} m, at most {:.0e} m is possible", farthest, farthest_m),
                       "give its unit with scale, e.g. scale = 0.001 for millimetres");
   }
+}
+
+Mesh load_mesh(const GeometryPart& part) {
+  if (part.maize) return make_maize(*part.maize);
+  return part.mesh != nullptr ? import_mesh(*part.mesh, part.table.place("mesh"), part.import)
+                              : read_mesh(part.file, part.import);
 }
 
 const OpticsInput* find_optics(const OpticsByName& defined, const std::string& name) {
@@ -136,18 +151,36 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
   return optics;
 }
 
+void allow_keys(const TomlTable& table, const SceneText& source) {
+  constexpr std::initializer_list<std::string_view> keys = {"generator", "rows", "per_row", "spacing", "seed", "file",
+                                                            "optics",    "up",   "scale",   "heading", "at"};
+  constexpr std::initializer_list<std::string_view> with_mesh = {"generator", "rows",   "per_row", "spacing", "seed",    "file",
+                                                                 "mesh",      "optics", "up",      "scale",   "heading", "at"};
+  table.allow(source.meshes.empty() ? keys : with_mesh);
+}
+
+// Of generator, file and mesh, one.
+void require_one_source(const TomlTable& table) {
+  for (const char* other : {"file", "mesh"}) {
+    if (!table.has(other)) continue;
+    for (const char* first : {"generator", "file"}) {
+      if (std::string_view(first) == other || !table.has(first)) continue;
+      table.refuse(other, fmt::format("{} is given too", first),
+                   "keep one of the two, and add another [[geometry]] for the other");
+    }
+  }
+  if (!table.has("generator") && !table.has("mesh")) table.require("file", "file = \"stand.glb\", or generator = \"maize\"");
+}
+
 }  // namespace
 
-std::vector<GeometryPart> read_geometry(const TomlTable& root, const fs::path& scene_file, const SceneAccess& access) {
+std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access) {
   std::vector<GeometryPart> parts;
   std::int64_t plants = 0;  // of all generators
   for (const TomlTable& table : root.tables("geometry")) {
-    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at"});
-    if (table.has("generator") && table.has("file")) {
-      table.refuse("file", "generator is given too", "keep one of the two, and add another [[geometry]] for the other");
-    }
-    if (!table.has("generator")) table.require("file", "file = \"stand.glb\", or generator = \"maize\"");
-    parts.push_back(table.has("generator") ? read_generator(table, plants) : read_file_part(table, scene_file, access));
+    allow_keys(table, source);
+    require_one_source(table);
+    parts.push_back(table.has("generator") ? read_generator(table, plants) : read_mesh_part(table, source, access));
   }
   return parts;
 }
@@ -161,7 +194,7 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts) {
       const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
       refuse_many(part, triangles + plants * least_of_plant);
     }
-    meshes.push_back({part.maize ? make_maize(*part.maize) : read_mesh(part.file, part.import), part.placements});
+    meshes.push_back({load_mesh(part), part.placements});
     const Mesh& mesh = meshes.back().mesh;
     refuse_far(part, mesh);
     triangles += mesh.triangles.size() * part.placements.size();

@@ -74,14 +74,16 @@ using OpticsByName = std::map<std::string, OpticsInput>;
 // One [[geometry]] table, read but not yet loaded.
 struct GeometryPart {
   TomlTable table;
-  std::optional<MaizeStand> maize;  // else `file`
+  std::optional<MaizeStand> maize;  // one of these three
+  const Mesh* mesh = nullptr;       // of the SceneText
   std::filesystem::path file;       // where it lies, symbolic links resolved
   MeshImport import;
   std::vector<Placement> placements;
 
-  [[nodiscard]] std::string_view source_key() const { return maize ? "generator" : "file"; }
+  [[nodiscard]] std::string_view source_key() const { return maize ? "generator" : mesh != nullptr ? "mesh" : "file"; }
 };
-[[nodiscard]] std::vector<GeometryPart> read_geometry(const TomlTable& root, const std::filesystem::path& scene_file,
+// The source must outlive the parts.
+[[nodiscard]] std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source,
                                                       const SceneAccess& access);
 
 // Refuses more triangles than this machine's memory holds, before it takes the memory for their copies.

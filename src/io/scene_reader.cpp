@@ -91,13 +91,28 @@ void warn_of_unused(const OpticsByName& optics, const Scene& scene, std::vector<
   }
 }
 
+template <class T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+void add_mesh(Digest& digest, const Mesh& mesh) {
+  digest.add(bytes_of(mesh.vertices));
+  digest.add(bytes_of(mesh.triangles));
+  digest.add(bytes_of(mesh.optics_of));
+  digest.add(bytes_of(mesh.organ_of));
+  for (const std::string& name : mesh.optics_names) digest.add(name + "\n");
+  for (const Organ& organ : mesh.organs) digest.add(fmt::format("{} {} {}\n", organ.plant, organ.name, organ.rank));
+}
+
 std::string digest_of(std::string_view text, std::span<const std::filesystem::path> files,
                       std::span<const GeometryPart> parts) {
   Digest digest;
   digest.add(text);
   for (const std::filesystem::path& file : files) digest.add(read_file(file));
   for (const GeometryPart& part : parts) {
-    if (!part.maize) digest.add(read_file(part.file));
+    if (part.mesh != nullptr) add_mesh(digest, *part.mesh);
+    if (!part.file.empty()) digest.add(read_file(part.file));
   }
   return digest.text();
 }
@@ -138,8 +153,12 @@ std::vector<std::filesystem::path> read_light(const TomlTable& root, const Scene
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
-  const std::string text = read_file(file, most_bytes);
-  const TomlTable root = TomlTable::parse(file.string(), text);
+  return read_scene(SceneText{file, read_file(file, most_bytes), {}}, access);
+}
+
+Scene read_scene(const SceneText& source, const SceneAccess& access) {
+  const std::filesystem::path& file = source.file;
+  const TomlTable root = TomlTable::parse(file.string(), source.text);
   root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
               "plane", "sensor"});
 
@@ -156,11 +175,11 @@ Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
   scene.model.planes = read_planes(root, scene.model.plot);
   scene.model.sensors = read_sensors(root);
 
-  const std::vector<GeometryPart> parts = read_geometry(root, file, access);
+  const std::vector<GeometryPart> parts = read_geometry(root, source, access);
   const std::vector<PlacedMesh> meshes = load_geometry(parts);
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
   scene.model.optics = choose_optics(parts, meshes, optics, scene);
-  scene.digest = digest_of(text, light_files, parts);
+  scene.digest = digest_of(source.text, light_files, parts);
   warn_of_unused(optics, scene, scene.warnings);
   for (std::string& warning : scene_doubts(scene)) scene.warnings.push_back(std::move(warning));
   for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));

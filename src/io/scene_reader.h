@@ -1,6 +1,7 @@
 #pragma once
 // The scene file (TOML): the only place that knows its keys, degrees and the units of users.
 
+#include "canopy/mesh.h"
 #include "light/sun.h"
 #include "light/weather.h"
 #include "transport/accuracy.h"
@@ -8,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,5 +73,16 @@ struct SceneAccess {
 
 // Reads, checks and assembles a scene. Throws Error (input), one line `file:line: key ...`, before any work starts.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, const SceneAccess& access = {});
+
+// A scene that is at hand as text, and meshes at hand as triangles.
+struct SceneText {
+  std::filesystem::path file;  // its name in messages; files that the text names are looked for in its folder. Need not exist
+  std::string text;            // TOML, with the keys of a scene file
+  std::map<std::string, Mesh> meshes;  // what `mesh = "NAME"` stands for in a [[geometry]], in place of `file`
+};
+
+// The same for such a scene. A mesh goes through `up`, `scale`, `heading` and `at` like one from a file (y is up unless told
+// otherwise); besides, refuses meshes whose arrays do not fit together or hold numbers that are not finite.
+[[nodiscard]] Scene read_scene(const SceneText& source, const SceneAccess& access = {});
 
 }  // namespace sunfleck

@@ -1,0 +1,100 @@
+// Scenes that are at hand as text, with meshes at hand as triangles.
+
+#include "support/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sunfleck::test {
+namespace {
+
+const std::string head =
+    "[plot]\nsize = [1.0, 1.0]\n[sun]\nelevation = 60.0\nazimuth = 90.0\n[[band]]\nname = \"PAR\"\ndirect = 100.0\n"
+    "[optics.leaf]\nreflectance = 0.1\n";
+
+Mesh leaf() {
+  Mesh mesh;
+  mesh.vertices = {{0.2, 0.5, 0.2}, {0.2, 0.5, 0.8}, {0.8, 0.5, 0.2}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.optics_of = {0};
+  mesh.organ_of = {0};
+  mesh.optics_names = {"leaf"};
+  mesh.organs = {{3, "leaf", 7}};
+  return mesh;
+}
+
+Scene read(const Mesh& mesh, const std::string& more = "") {
+  return read_scene(SceneText{"given.toml", head + "[[geometry]]\nmesh = \"a\"\n" + more, {{"a", mesh}}});
+}
+
+TEST(SceneText, HoldsAMesh) {
+  const Scene scene = read(leaf());
+  ASSERT_EQ(scene.model.canopy.size(), 1U);
+  EXPECT_EQ(scene.model.canopy.organs.front(), (Organ{3, "leaf", 7}));
+  EXPECT_EQ(scene.title, "given");
+  EXPECT_NEAR(area_m2(scene.model.canopy.corners.front()), 0.18, 1e-6);
+}
+
+TEST(SceneText, PlacesAMeshLikeAFile) {
+  const Scene scene = read(leaf(), "up = \"z\"\nscale = 0.5\nat = [[0, 0, 0], [0.1, 0, 0]]\n");
+  EXPECT_EQ(scene.model.canopy.size(), 2U);
+  EXPECT_NEAR(area_m2(scene.model.canopy.corners.front()), 0.045, 1e-6);
+  EXPECT_NEAR(unit_normal(scene.model.canopy.corners.front()).z, 1.0, 1e-6) << "z-up: y = north = -X";
+}
+
+TEST(SceneText, IsMarkedByItsMeshes) {
+  Mesh other = leaf();
+  other.vertices[0].y += 1e-9;
+  EXPECT_EQ(read(leaf()).digest, read(leaf()).digest);
+  EXPECT_NE(read(leaf()).digest, read(other).digest);
+  other = leaf();
+  other.organs[0].rank = 8;
+  EXPECT_NE(read(leaf()).digest, read(other).digest);
+}
+
+TEST(SceneText, RefusesMeshesThatDoNotFitTogether) {
+  const auto refused = [](const auto& change, const std::string& words) {
+    Mesh mesh = leaf();
+    change(mesh);
+    const auto message = message_of([&] { static_cast<void>(read(mesh)); });
+    ASSERT_TRUE(message.has_value()) << words;
+    EXPECT_NE(message->find(words), std::string::npos) << *message;
+    EXPECT_EQ(message->rfind("given.toml:12: geometry.mesh", 0), 0U) << *message;
+  };
+  refused([](Mesh& mesh) { mesh.triangles.clear(); }, "no triangle");
+  refused([](Mesh& mesh) { mesh.triangles[0].y = 3; }, "vertex number 3 of triangle 0");
+  refused([](Mesh& mesh) { mesh.optics_of[0] = 1; }, "optics number 1 of triangle 0");
+  refused([](Mesh& mesh) { mesh.optics_of.push_back(0); }, "2 optics numbers");
+  refused([](Mesh& mesh) { mesh.organ_of.clear(); }, "0 organ numbers");
+  refused([](Mesh& mesh) { mesh.organ_of[0] = 9; }, "organ number 9 of triangle 0");
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e39}) {
+      refused([&](Mesh& mesh) { mesh.vertices[1][axis] = bad; }, "must be finite");
+    }
+  }
+}
+
+TEST(SceneText, WantsOneSourceOfTriangles) {
+  for (const char* more : {"file = \"plates.obj\"\n", "generator = \"maize\"\n"}) {
+    const auto message = message_of([&] { static_cast<void>(read(leaf(), more)); });
+    ASSERT_TRUE(message.has_value());
+    EXPECT_NE(message->find("is given too"), std::string::npos) << *message;
+  }
+  const auto unknown = message_of([] {
+    static_cast<void>(read_scene(SceneText{"given.toml", head + "[[geometry]]\nmesh = \"b\"\n", {{"a", leaf()}}}));
+  });
+  ASSERT_TRUE(unknown.has_value());
+  EXPECT_NE(unknown->find("no mesh of that name"), std::string::npos) << *unknown;
+}
+
+TEST(SceneText, HasNoMeshesInAFile) {
+  const auto message = message_of([] {
+    static_cast<void>(read_scene(SceneText{"given.toml", head + "[[geometry]]\nmesh = \"a\"\n", {}}));
+  });
+  ASSERT_TRUE(message.has_value());
+  EXPECT_NE(message->find("mesh"), std::string::npos) << *message;
+}
+
+}  // namespace
+}  // namespace sunfleck::test
