@@ -88,13 +88,18 @@ RadiationResult simulate(const RadiationModel& model, const CounterLayout& layou
   monitor.report = [&](const Progress& state) {
     progress.update({state.rays, state.fraction, state.relative_error, state.bound});
   };
+  return simulate(model, layout, engine, settings, monitor);
+}
+
+RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
+                         const SolveSettings& settings, const Monitor& monitor) {
   RadiationResult result = solve(model, layout, engine.tracer(), settings, monitor);
   if (model.sensors.empty() || result.stop == StopReason::interrupted) return result;
   SensorSettings sensors;
   sensors.rays = sensor_rays(settings);
   sensors.seed = settings.seed;
   sensors.confidence = settings.accuracy.confidence;
-  if (auto readings = measure_sensors(model, layout, engine.tracer(), sensors, interrupted)) {
+  if (auto readings = measure_sensors(model, layout, engine.tracer(), sensors, monitor.interrupted)) {
     result.sensors = std::move(*readings);
   } else {
     result.stop = StopReason::interrupted;

@@ -54,6 +54,10 @@ void check_grid(const RunOptions& options, const Scene& scene);
 [[nodiscard]] RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
                                        const SolveSettings& settings);
 
+// The same, watched and ended by somebody else.
+[[nodiscard]] RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
+                                       const SolveSettings& settings, const Monitor& monitor);
+
 // Throws Error (failure) for a message of the validation layer: that is our own mistake, and nothing that was computed can be
 // trusted.
 void check_validation(const Engine& engine);

@@ -131,15 +131,19 @@ std::string key_of(const std::string& name) {
   return is_plain_name(name) ? name : fmt::format("\"{}\"", printable(name));
 }
 
-[[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
+// What to do about an undefined name.
+std::string cure_of_undefined(const std::string& name, const OpticsByName& defined) {
   std::vector<std::string> names;
   for (const auto& [known, input] : defined) names.push_back(known);
-  const std::string shown = printable(name);
   const std::string add = is_soil_name(name) ? fmt::format("add [optics.{}] or [soil]", key_of(name))
                                              : fmt::format("add [optics.{}] with reflectance", key_of(name));
   const auto nearest = nearest_word(name, names);
-  part.table.refuse(part.source_key(), fmt::format("it uses optics \"{}\", which is not defined", shown),
-                    nearest ? fmt::format("did you mean {}? else {}", printable(*nearest), add) : add);
+  return nearest ? fmt::format("did you mean {}? else {}", printable(*nearest), add) : add;
+}
+
+[[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
+  part.table.refuse(part.source_key(), fmt::format("it uses optics \"{}\", which is not defined", printable(name)),
+                    cure_of_undefined(name, defined));
 }
 
 SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
@@ -152,11 +156,11 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
 }
 
 void allow_keys(const TomlTable& table, const SceneText& source) {
-  constexpr std::initializer_list<std::string_view> keys = {"generator", "rows", "per_row", "spacing", "seed", "file",
-                                                            "optics",    "up",   "scale",   "heading", "at"};
-  constexpr std::initializer_list<std::string_view> with_mesh = {"generator", "rows",   "per_row", "spacing", "seed",    "file",
-                                                                 "mesh",      "optics", "up",      "scale",   "heading", "at"};
-  table.allow(source.meshes.empty() ? keys : with_mesh);
+  if (source.meshes.empty()) {
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at"});
+  } else {
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at"});
+  }
 }
 
 // Of generator, file and mesh, one.
@@ -203,8 +207,8 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts) {
   return meshes;
 }
 
-std::vector<SurfaceOptics> choose_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes,
-                                         const OpticsByName& defined, const Scene& scene) {
+void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
+                  const Scene& scene) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (const std::string& name : meshes[i].mesh.optics_names) {
       const bool known = find_optics(defined, name) != nullptr || (is_soil_name(name) && scene.model.soil);
@@ -215,10 +219,18 @@ std::vector<SurfaceOptics> choose_optics(std::span<const GeometryPart> parts, st
       refuse_undefined(parts[i], *own, defined);
     }
   }
+}
+
+std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<const std::string> names,
+                                           const OpticsByName& defined, const std::optional<Soil>& soil) {
   std::vector<SurfaceOptics> chosen;
-  for (const std::string& name : scene.model.canopy.optics_names) {
+  for (const std::string& name : names) {
     const OpticsInput* input = find_optics(defined, name);
-    chosen.push_back(input != nullptr ? input->optics : soil_optics(name, *scene.model.soil));
+    if (input == nullptr && !(is_soil_name(name) && soil)) {
+      root.refuse_table(fmt::format("the canopy uses optics \"{}\", which is not defined", printable(name)),
+                        cure_of_undefined(name, defined));
+    }
+    chosen.push_back(input != nullptr ? input->optics : soil_optics(name, *soil));
   }
   return chosen;
 }

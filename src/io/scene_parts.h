@@ -89,10 +89,14 @@ struct GeometryPart {
 // Refuses more triangles than this machine's memory holds, before it takes the memory for their copies.
 [[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts);
 
-// The optics of each name, or Error (input) naming the table whose mesh uses an undefined one. Names of soil that are not
-// defined take the reflectance and colour of [soil].
-[[nodiscard]] std::vector<SurfaceOptics> choose_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes,
-                                                       const OpticsByName& defined, const Scene& scene);
+// Refuses the table whose mesh uses undefined optics. Names of soil need none of their own where there is [soil].
+void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
+                  const Scene& scene);
+
+// The optics of those names; names of soil that are not defined take the reflectance and colour of [soil]. Refuses the whole
+// text where one is missing.
+[[nodiscard]] std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<const std::string> names,
+                                                         const OpticsByName& defined, const std::optional<Soil>& soil);
 
 // Warnings about what can be read but is seldom meant: lengths in another unit, plants below ground, light forgotten.
 [[nodiscard]] std::vector<std::string> scene_doubts(const Scene& scene);

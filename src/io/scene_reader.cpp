@@ -150,6 +150,48 @@ std::vector<std::filesystem::path> read_light(const TomlTable& root, const Scene
   return files;
 }
 
+TomlTable parse_scene(const SceneText& source) {
+  TomlTable root = TomlTable::parse(source.file.string(), source.text);
+  root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
+              "plane", "sensor"});
+  return root;
+}
+
+struct LightParts {
+  std::vector<std::filesystem::path> files;  // that the tables of light name
+  OpticsByName optics;
+};
+
+LightParts read_all_but_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access, Scene& scene) {
+  LightParts parts;
+  scene.file = source.file;
+  scene.title = read_title(root, source.file);
+  scene.model.plot = read_plot(root);
+  parts.files = read_light(root, access, scene);
+  scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, scene.warnings);
+  parts.optics = read_optics(root, scene.model.bands);
+  scene.accuracy = read_accuracy(root);
+  scene.camera = read_camera(root);
+  scene.model.layers = read_layers(root, scene.model.layers);
+  scene.model.planes = read_planes(root, scene.model.plot);
+  scene.model.sensors = read_sensors(root);
+  return parts;
+}
+
+// What the tree and the counters of a canopy were made for.
+void check_same_ground(const TomlTable& root, const RadiationModel& model, const RadiationModel& other) {
+  const auto refuse = [&](const char* what) {
+    root.refuse_table(fmt::format("{} is not as it was, and the canopy's tree was made for that", what),
+                      "change light and optics alone, or begin anew with the whole scene");
+  };
+  const bool same_plot = model.plot.size_x_m == other.plot.size_x_m && model.plot.size_z_m == other.plot.size_z_m &&
+                         model.plot.periodic == other.plot.periodic;
+  if (!same_plot) refuse("[plot]");
+  if (model.soil.has_value() != other.soil.has_value()) refuse("the presence of [soil]");
+  if (model.soil && model.soil->patch_m != other.soil->patch_m) refuse("soil.patch");
+  if (model.layers != other.layers) refuse("output.layers");
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
@@ -157,33 +199,35 @@ Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
 }
 
 Scene read_scene(const SceneText& source, const SceneAccess& access) {
-  const std::filesystem::path& file = source.file;
-  const TomlTable root = TomlTable::parse(file.string(), source.text);
-  root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
-              "plane", "sensor"});
-
+  const TomlTable root = parse_scene(source);
   Scene scene;
-  scene.file = file;
-  scene.title = read_title(root, file);
-  scene.model.plot = read_plot(root);
-  const std::vector<std::filesystem::path> light_files = read_light(root, access, scene);
-  scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, scene.warnings);
-  const OpticsByName optics = read_optics(root, scene.model.bands);
-  scene.accuracy = read_accuracy(root);
-  scene.camera = read_camera(root);
-  scene.model.layers = read_layers(root, scene.model.layers);
-  scene.model.planes = read_planes(root, scene.model.plot);
-  scene.model.sensors = read_sensors(root);
+  LightParts light = read_all_but_geometry(root, source, access, scene);
 
   const std::vector<GeometryPart> parts = read_geometry(root, source, access);
   const std::vector<PlacedMesh> meshes = load_geometry(parts);
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
-  scene.model.optics = choose_optics(parts, meshes, optics, scene);
-  scene.digest = digest_of(source.text, light_files, parts);
-  warn_of_unused(optics, scene, scene.warnings);
+  check_optics(parts, meshes, light.optics, scene);
+  scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, light.optics, scene.model.soil);
+  scene.digest = digest_of(source.text, light.files, parts);
+  warn_of_unused(light.optics, scene, scene.warnings);
   for (std::string& warning : scene_doubts(scene)) scene.warnings.push_back(std::move(warning));
   for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
   return scene;
+}
+
+void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
+  const TomlTable root = parse_scene(source);
+  Scene other;
+  const LightParts light = read_all_but_geometry(root, source, access, other);
+  const std::vector<GeometryPart> none;
+  check_same_ground(root, scene.model, other.model);
+  other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, light.optics, other.model.soil);
+  Digest digest;
+  digest.add(scene.digest);
+  digest.add(digest_of(source.text, light.files, none));
+  other.digest = digest.text();
+  other.model.canopy = std::move(scene.model.canopy);
+  scene = std::move(other);
 }
 
 }  // namespace sunfleck

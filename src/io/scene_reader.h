@@ -85,4 +85,9 @@ struct SceneText {
 // otherwise); besides, refuses meshes whose arrays do not fit together or hold numbers that are not finite.
 [[nodiscard]] Scene read_scene(const SceneText& source, const SceneAccess& access = {});
 
+// Gives a scene all that a text says but geometry, which is not looked at: the canopy stays as it is. Warnings are those of the
+// new light. Throws Error (input), and leaves the scene as it was, besides for optics that the canopy uses and the text does
+// not define, and for another plot, layers or soil cells than the scene has: its tree and counters were made for these.
+void relight(Scene& scene, const SceneText& source, const SceneAccess& access = {});
+
 }  // namespace sunfleck

@@ -40,7 +40,7 @@ TEST(SceneText, PlacesAMeshLikeAFile) {
   const Scene scene = read(leaf(), "up = \"z\"\nscale = 0.5\nat = [[0, 0, 0], [0.1, 0, 0]]\n");
   EXPECT_EQ(scene.model.canopy.size(), 2U);
   EXPECT_NEAR(area_m2(scene.model.canopy.corners.front()), 0.045, 1e-6);
-  EXPECT_NEAR(unit_normal(scene.model.canopy.corners.front()).z, 1.0, 1e-6) << "z-up: y = north = -X";
+  EXPECT_NEAR(unit_normal(scene.model.canopy.corners.front()).x, -1.0, 1e-6) << "z-up: y = north = -X";
 }
 
 TEST(SceneText, IsMarkedByItsMeshes) {
