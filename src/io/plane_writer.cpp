@@ -37,12 +37,6 @@ std::string head(const RunRecord& record, const PlaneResult& plane, const FleckS
   return text + '\n';
 }
 
-// NaN where no ray crosses the cell.
-double sunfleck_of(const PlaneResult& plane, std::size_t cell) {
-  if (plane.crossing.empty() || plane.crossing[cell] == 0) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(plane.reached[cell]) / static_cast<double>(plane.crossing[cell]);
-}
-
 }  // namespace
 
 std::string plane_stem(double height_m) {
@@ -72,6 +66,15 @@ PlaneIrradiance plane_irradiance(const RadiationModel& model, const RadiationRes
   return irradiance;
 }
 
+std::vector<double> plane_sunfleck(const PlaneResult& plane) {
+  std::vector<double> shares(std::size_t{plane.cells_x} * plane.cells_z, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t cell = 0; cell < plane.crossing.size(); ++cell) {
+    if (plane.crossing[cell] > 0)
+      shares[cell] = static_cast<double>(plane.reached[cell]) / static_cast<double>(plane.crossing[cell]);
+  }
+  return shares;
+}
+
 std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result, std::size_t plane) {
   EXPECT(plane, <, result.planes.size());
   const PlaneResult& from = result.planes[plane];
@@ -83,13 +86,14 @@ std::string plane_csv(const RunRecord& record, const RadiationModel& model, cons
   text += '\n';
   std::vector<PlaneIrradiance> irradiance;
   for (std::size_t b = 0; b < model.bands.size(); ++b) irradiance.push_back(plane_irradiance(model, result, plane, b));
+  const std::vector<double> sunfleck = plane_sunfleck(from);
   for (std::size_t cell = 0; cell < std::size_t{from.cells_x} * from.cells_z; ++cell) {
     const std::size_t x = cell % from.cells_x;
     const std::size_t z = cell / from.cells_x;
     fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g}",
                    (static_cast<double>(x) + 0.5) / from.cells_x * model.plot.size_x_m,
                    (static_cast<double>(z) + 0.5) / from.cells_z * model.plot.size_z_m);
-    append_number(text, sunfleck_of(from, cell));
+    append_number(text, sunfleck[cell]);
     for (const PlaneIrradiance& band : irradiance) {
       append_number(text, band.direct_w_m2[cell]);
       append_number(text, band.total_w_m2[cell]);

@@ -20,6 +20,9 @@ struct PlaneIrradiance {
 [[nodiscard]] PlaneIrradiance plane_irradiance(const RadiationModel& model, const RadiationResult& result, std::size_t plane,
                                                std::size_t band);
 
+// [cell], the share of the cell that the direct beam reaches; NaN where no ray would cross it.
+[[nodiscard]] std::vector<double> plane_sunfleck(const PlaneResult& plane);
+
 // PLANE.csv: a row per cell, x fastest; x_m, z_m are its centre, sunfleck is empty where no ray would cross it.
 [[nodiscard]] std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                     std::size_t plane);

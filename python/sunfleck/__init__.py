@@ -1,0 +1,24 @@
+"""sunfleck: how sunlight spreads in three-dimensional plant canopies.
+
+    import sunfleck
+
+    result = sunfleck.run("scenes/maize_sparse.toml", error=0.01)
+    result.bands["PAR"]["absorbed_vegetation"]   # W m-2 of ground
+    result["PAR_absorbed"]                       # W m-2, one number for each triangle
+
+The same engine as the program `sunfleck`: same scene files, same options, same numbers, bit for bit. Axes are X south, Y up,
+Z west; lengths are metres, fluxes W m-2, angles degrees. `Simulation` keeps tree and device for scenes that are simulated again
+under other light; `day` runs the course of days; `sun_position` and `sky` need no canopy; `sunfleck.caribu` speaks CARIBU's
+vocabulary.
+"""
+
+from ._core import commit as __commit__
+from ._core import version as __version__
+from ._errors import DeviceError, InputError, SunfleckError
+from ._light import Sky, sky, sun_position
+from ._result import Result
+from ._simulation import UNCHANGED, Simulation, run
+
+__all__ = [
+    "UNCHANGED", "DeviceError", "InputError", "Result", "Simulation", "Sky", "SunfleckError", "run", "sky", "sun_position",
+]  # fmt: skip

@@ -1,0 +1,70 @@
+"""Checks of the numbers that say how much work is done."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Mapping
+from typing import Any, Union
+
+import numpy as np
+
+from . import _core
+from ._errors import refuse
+
+Number = Union[int, float, np.integer, np.floating]
+
+
+def real(value: Any, name: str) -> float:
+    """A finite number."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        refuse(f"{name}: {type(value).__name__}", "must be a number", "give one")
+    if not math.isfinite(value):
+        refuse(f"{name} = {value}", "must be finite", "give a number")
+    return float(value)
+
+
+def above_zero(value: Any, name: str) -> float:
+    number = real(value, name)
+    if number <= 0.0:
+        refuse(f"{name} = {value}", "must be above 0", "give a larger one")
+    return number
+
+
+def whole(value: Any, name: str, lo: int, hi: int) -> int:
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
+    try:
+        number = operator.index(value)
+    except TypeError:
+        refuse(f"{name} = {value!r}", "must be a whole number", f"give one of {lo}..{hi}")
+    if isinstance(value, (bool, np.bool_)) or not lo <= number <= hi:
+        refuse(f"{name} = {value!r}", f"must lie in {lo}..{hi}", "give another")
+    return number
+
+
+def bound(value: Any, name: str) -> float:
+    number = real(value, name)
+    if not 0.0 < number < 1.0:
+        refuse(f"{name} = {value}", "must lie between 0 and 1", "give 0.01 for one percent")
+    return number
+
+
+def work_options(work: Mapping[str, Any]) -> Any:
+    """The keyword arguments of run() that limit its work, checked, as the compiled part takes them."""
+    both = work["error"]
+    checked = {
+        "direct_error": bound(value, "direct_error") if (value := _first(work["direct_error"], both)) is not None else None,
+        "indirect_error": bound(value, "indirect_error") if (value := _first(work["indirect_error"], both)) is not None else None,
+        "grid": above_zero(work["grid"], "grid") if work["grid"] is not None else None,
+        "passes": whole(work["passes"], "passes", 8, 65536) if work["passes"] is not None else None,
+        "max_seconds": above_zero(work["max_seconds"], "max_seconds") if work["max_seconds"] is not None else None,
+        "max_rays": whole(work["max_rays"], "max_rays", 1, 2**63 - 1) if work["max_rays"] is not None else None,
+        "seed": whole(work["seed"], "seed", 0, 2**64 - 1),
+        "triangle_errors": bool(work["triangle_errors"]),
+    }
+    return _core.RunOptions(**checked)
+
+
+def _first(one: Any, other: Any) -> Any:
+    return one if one is not None else other

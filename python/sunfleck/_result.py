@@ -1,0 +1,151 @@
+"""What a simulation found, as arrays."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+
+from ._errors import refuse
+
+if TYPE_CHECKING:
+    import xarray
+
+_EXPORTS = ("csv", "nc", "vtp", "glb", "ply", "caribu")
+_UNITS = {"area_m2": "m2", "x": "m", "y": "m", "z": "m"}
+
+
+class Result:
+    """One simulation's numbers. BAND stands for the name of a band, such as PAR.
+
+    Fluxes are in W m-2 of the band's own unit of irradiance; errors are half-widths of confidence intervals, unshot flux
+    included, NaN where there are too few hits for one. Axes: X south, Y up, Z west, metres. Arrays are computed when they are
+    asked for; those of the triangles are views of memory that the result owns, and cannot be written to.
+    """
+
+    def __init__(self, outcome: Any) -> None:
+        self._outcome = outcome
+
+    @property
+    def complete(self) -> bool:
+        """Whether the asked work was done, or the asked bounds were reached."""
+        return self._outcome.complete
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """summary.json: energy balance, errors reached, device, seconds, settings."""
+        return json.loads(self._outcome.summary())
+
+    @property
+    def bands(self) -> dict[str, dict[str, Any]]:
+        """The energy balance of each band by its name, W m-2 of ground: incident, absorbed_vegetation, absorbed_soil, reflected,
+        transmitted, unshot; their half-widths in `error`; `residual`, the quanta that are missing from the sum, is 0."""
+        return {band["name"]: band for band in self.summary["bands"]}
+
+    @functools.cached_property
+    def triangles(self) -> dict[str, Any]:
+        """The columns of triangles.csv as arrays of shape (triangles,), in the order of the scene's geometry.
+
+        plant, rank; organ and optics as indices into the lists organ_name and optics_name; area_m2 (one-sided); x, y, z
+        (centroid after wrapping, m); BAND_direct_upper, BAND_direct_lower, BAND_indirect_upper, BAND_indirect_lower, with a sky
+        BAND_sky_upper, BAND_sky_lower (incident on a face, W m-2), BAND_total (incident on both), BAND_absorbed, BAND_error
+        (half-width of BAND_absorbed).
+        """
+        return self._outcome.triangles()
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        """A column of `triangles`: result["PAR_absorbed"]."""
+        try:
+            return self.triangles[column]
+        except KeyError:
+            refuse(f"result[{column!r}]", "there is no such column of triangles", f"use one of {', '.join(self.triangles)}")
+            raise
+
+    @functools.cached_property
+    def organs(self) -> dict[str, Any]:
+        """The columns of organs.csv as arrays of shape (organs,): plant, organ (a list of names), rank, area_m2, sunlit_fraction
+        and its _error, BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), BAND_error (relative)."""
+        return self._outcome.organs()
+
+    @functools.cached_property
+    def profile(self) -> dict[str, np.ndarray]:
+        """The columns of profile.csv as arrays of shape (layers + 1,), bottom first, the last row being the top plane: height_m,
+        leaf_area_index, sunfleck_ratio, sunlit_leaf_fraction, BAND_down, BAND_up, BAND_absorbed, each with its _error."""
+        return self._outcome.profile()
+
+    @functools.cached_property
+    def planes(self) -> list[dict[str, Any]]:
+        """A dict for each [[plane]]: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its _error, and maps of shape
+        (cells along Z, cells along X): sunfleck, BAND_direct, BAND_total (W m-2 downwards)."""
+        return self._outcome.planes()
+
+    @functools.cached_property
+    def sensors(self) -> list[dict[str, Any]]:
+        """A dict for each [[sensor]]: name, and arrays of shape (points,): x, y, z, BAND_direct, BAND_sky, BAND_scattered with
+        their _error."""
+        return self._outcome.sensors()
+
+    @functools.cached_property
+    def corners(self) -> np.ndarray:
+        """The triangles' corners, m, shape (triangles, 3 corners, 3 axes), as they were traced: wrapped into the plot."""
+        return self._outcome.corners()
+
+    def table(self, name: str) -> str:
+        """The text of profile.csv, organs.csv, triangles.csv or sensors.csv, byte for byte as the program writes it."""
+        return self._outcome.table(name)
+
+    def save(
+        self, folder: Union[str, os.PathLike], *, export: Iterable[str] = ("csv",), images: Union[str, Iterable[str]] = "none"
+    ) -> None:
+        """Writes a result folder, as `sunfleck run -o FOLDER --export ... --images ...` does; an earlier result there is replaced.
+
+        `export`: of csv, nc, vtp, glb, ply, caribu. `images`: "none", "all", or file stems such as "rank_total".
+        """
+        exports = [export] if isinstance(export, str) else list(export)
+        for name in exports:
+            if name not in _EXPORTS:
+                refuse(f"export: {name!r}", "no such format", f"use {', '.join(_EXPORTS)}")
+        self._outcome.write(os.fspath(folder), exports, [images] if isinstance(images, str) else list(images))
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The variables of results.nc as an xarray Dataset: fields by `triangle`, the profile by `plane_height`, the balance by
+        `band`; in each other sensor or map a user looks at the lists `planes` and `sensors`. Needs xarray."""
+        import xarray
+
+        columns = dict(self.triangles)
+        names = {kind: columns.pop(f"{kind}_name") for kind in ("organ", "optics")}
+        data = xarray.Dataset(attrs={"title": self.summary["scene"], "seed": self.summary["seed"]})
+        for name, values in columns.items():
+            data[name] = ("triangle", values, {"units": _units(name)})
+        for kind, words in names.items():
+            data[kind].attrs.update(flag_values=np.arange(len(words)), flag_meanings=" ".join(words))
+        data = data.set_coords(["plant", "rank", "organ", "optics", "x", "y", "z"])
+        for name, values in self.profile.items():
+            if name.endswith(("_down", "_up", "_down_error", "_up_error")) or name.startswith("sunfleck_ratio"):
+                data[name] = ("plane_height", values, {"units": "1" if name.startswith("sunfleck") else "W m-2"})
+        data = data.assign_coords(plane_height=("plane_height", self.profile["height_m"], {"units": "m"}))
+        data = data.assign_coords(band=list(self.bands))
+        for term in ("incident", "absorbed_vegetation", "absorbed_soil", "reflected", "transmitted", "unshot"):
+            data[term] = ("band", [band[term] for band in self.bands.values()], {"units": "W m-2"})
+        for term in ("absorbed_vegetation", "absorbed_soil", "reflected", "transmitted"):
+            errors = [np.nan if band["error"][term] is None else band["error"][term] for band in self.bands.values()]
+            data[f"{term}_error"] = ("band", errors, {"units": "W m-2"})
+        return data.assign(
+            plot_area_m2=((), self.summary["plot_area_m2"], {"units": "m2"}),
+            leaf_area_index=((), self.summary["leaf_area_index"], {"units": "1"}),
+        )
+
+    def __repr__(self) -> str:
+        summary = self.summary
+        state = "complete" if self.complete else summary["stopped"]
+        return f"<sunfleck.Result of {summary['scene']!r}: {summary['triangles']} triangles, {', '.join(self.bands)}, {state}>"
+
+
+def _units(name: str) -> str:
+    if name in ("plant", "rank", "organ", "optics"):
+        return "1"
+    return _UNITS.get(name, "W m-2")

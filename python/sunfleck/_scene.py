@@ -1,0 +1,203 @@
+"""Scenes as Python has them: the path of a file, or a dict with the keys of one, meshes as numpy arrays."""
+
+from __future__ import annotations
+
+import datetime
+import os
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+import tomli_w
+
+from . import _core
+from ._errors import refuse
+
+Scene = Union[str, os.PathLike, Mapping[str, Any]]
+
+_MESH_KEYS = ("vertices", "triangles", "optics", "organ", "plant", "rank")
+_PLACE_KEYS = ("up", "scale", "heading", "at")
+_DICT_NAME = "scene"  # what messages call a scene that is no file
+
+
+class SceneSource:
+    """A scene taken apart: text for the reader, meshes beside it, and the folder in which files are looked for."""
+
+    def __init__(self, scene: Scene, folder: Union[str, os.PathLike, None] = None) -> None:
+        self.meshes: dict[str, Any] = {}
+        self._tables: Union[dict[str, Any], None] = None
+        if isinstance(scene, Mapping):
+            self.file = Path(folder or ".") / _DICT_NAME
+            self._tables = self._take_meshes(scene)
+            self.text: Union[str, None] = _toml(self._tables)
+            return
+        if not isinstance(scene, (str, os.PathLike)):
+            refuse(f"scene: {type(scene).__name__}", "must be the path of a scene file or a dict with its keys", "give one of the two")
+        if folder is not None:
+            refuse("folder", "a scene file has one of its own", "leave it out")
+        self.file = Path(scene)
+        self.text = None
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """The keys of the scene."""
+        if self._tables is None:
+            with open(self.file, "rb") as stream:
+                self._tables = tomllib.load(stream)
+        return self._tables
+
+    def text_with(self, changes: Mapping[str, Any]) -> str:
+        """The text with other tables of light and optics; None takes a table away."""
+        tables = {key: value for key, value in self.tables.items() if key != "geometry"}
+        for key, value in changes.items():
+            if value is None:
+                tables.pop(key, None)
+            elif key == "optics":
+                tables[key] = {**tables.get(key, {}), **_plain(value, key)}
+            elif key == "soil":
+                tables[key] = {**tables.get(key, {}), **_plain(value, key)}
+            else:
+                tables[key] = _plain(value, key)
+        return _toml(tables)
+
+    def _take_meshes(self, scene: Mapping[str, Any]) -> dict[str, Any]:
+        tables = {}
+        for key, value in scene.items():
+            if key == "geometry":
+                parts = [value] if isinstance(value, Mapping) else value
+                if not isinstance(parts, Sequence) or isinstance(parts, str):
+                    refuse("geometry", "must be a list of dicts", "put the dict into [ ]")
+                tables[key] = [self._take_mesh(part, number) for number, part in enumerate(parts)]
+            else:
+                tables[str(key)] = _plain(value, str(key))
+        return tables
+
+    def _take_mesh(self, part: Any, number: int) -> dict[str, Any]:
+        place = f"geometry[{number}]"
+        if not isinstance(part, Mapping):
+            refuse(f"{place}: {type(part).__name__}", "must be a dict", "give file, generator or vertices and triangles")
+        if "vertices" not in part:
+            return _plain(part, place)
+        unknown = sorted(set(part) - set(_MESH_KEYS) - set(_PLACE_KEYS))
+        if unknown:
+            refuse(f"{place}.{unknown[0]}", "not known beside vertices", f"use {', '.join(_MESH_KEYS + _PLACE_KEYS)}")
+        name = f"mesh{number}"
+        self.meshes[name] = _mesh(part, place)
+        return {"mesh": name, **_plain({key: part[key] for key in _PLACE_KEYS if key in part}, place)}
+
+
+def _toml(tables: Mapping[str, Any]) -> str:
+    return tomli_w.dumps(tables)
+
+
+def _plain(value: Any, place: str) -> Any:
+    """Numpy's numbers and arrays, tuples and paths as TOML has them."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item, f"{place}.{key}") for key, item in value.items() if item is not None}
+    if isinstance(value, (bool, int, float, str, datetime.datetime)):
+        return _moment(value, place) if place.endswith(".time") else value
+    if isinstance(value, np.generic):
+        return _plain(value.item(), place)
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist(), place)
+    if isinstance(value, (list, tuple)):
+        return [_plain(item, f"{place}[{number}]") for number, item in enumerate(value)]
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    refuse(f"{place}: {type(value).__name__}", "a scene knows numbers, texts, times, lists and dicts", "convert it")
+
+
+def _moment(value: Any, place: str) -> Any:
+    """A time as a datetime: texts are read as ISO 8601."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return datetime.datetime.fromisoformat(value)
+    except ValueError:
+        refuse(f'{place} = "{value}"', "must be a date and time", "write 2002-08-08T10:10:00+08:00")
+
+
+def _array(value: Any, name: str, kinds: str, wanted: str) -> np.ndarray:
+    array = np.asarray(value)
+    if array.dtype.kind not in kinds:
+        refuse(f"{name}: dtype {array.dtype}", f"must be {wanted}", f"convert it, e.g. with numpy.asarray({name.split('.')[-1]}, ...)")
+    return array
+
+
+def _vertices(value: Any, place: str) -> np.ndarray:
+    array = _array(value, f"{place}.vertices", "fiu", "numbers, metres")
+    if array.ndim not in (2, 3) or array.shape[-1] != 3 or (array.ndim == 3 and array.shape[1] != 3):
+        refuse(f"{place}.vertices: shape {array.shape}", "must be (n, 3), or (m, 3, 3) for the corners of m triangles", "reshape it")
+    bad = np.argwhere(~np.isfinite(array).reshape(-1, 3).all(axis=1))
+    if bad.size:
+        refuse(f"{place}.vertices: NaN or infinity at vertex {bad[0, 0]}", "all must be finite", "remove or repair it")
+    return array
+
+
+def _triangles(part: Mapping[str, Any], vertices: np.ndarray, place: str) -> np.ndarray:
+    name = f"{place}.triangles"
+    if "triangles" not in part:
+        if vertices.ndim != 3:
+            refuse(name, "is missing", "give vertex numbers of shape (m, 3), or vertices of shape (m, 3, 3)")
+        return np.arange(3 * len(vertices), dtype=np.uint32).reshape(-1, 3)
+    array = _array(part["triangles"], name, "iu", "whole numbers")
+    if array.ndim != 2 or array.shape[1] != 3:
+        refuse(f"{name}: shape {array.shape}", "must be (m, 3)", "give three vertex numbers for each triangle")
+    count = vertices.size // 3
+    if array.size and (array.min() < 0 or array.max() >= count):
+        worst = array.min() if array.min() < 0 else array.max()
+        refuse(f"{name}: vertex number {worst}", f"there are {count}, counted from 0", "correct the triangles")
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def _numbers(part: Mapping[str, Any], key: str, fallback: int, count: int, place: str) -> np.ndarray:
+    """One whole number for all triangles, or one each."""
+    name = f"{place}.{key}"
+    array = _array(part.get(key, fallback), name, "iu", "whole numbers")
+    if array.ndim > 1 or (array.ndim == 1 and len(array) != count):
+        refuse(f"{name}: shape {array.shape}", f"must be one number, or one for each of {count} triangles", "correct its length")
+    if array.size and (array.min() < 0 or array.max() > 2**31 - 1):
+        refuse(f"{name}: {array.min() if array.min() < 0 else array.max()}", "must lie in 0..2147483647", "number from 0 or 1 on")
+    return np.broadcast_to(array, (count,))
+
+
+def _names(part: Mapping[str, Any], key: str, fallback: Any, count: int, place: str) -> tuple[list[str], np.ndarray]:
+    """One name for all triangles, or one each: the names that occur, and the number of each triangle's."""
+    name = f"{place}.{key}"
+    value = part.get(key, fallback)
+    if value is None:
+        refuse(name, "is missing", "give the name of an [optics] table for all triangles, or one for each")
+    if isinstance(value, str):
+        return [value], np.zeros(count, dtype=np.uint32)
+    array = _array(value, name, "UO", "names")
+    if array.shape != (count,):
+        refuse(f"{name}: shape {array.shape}", f"must be one name, or one for each of {count} triangles", "correct its length")
+    if not all(isinstance(item, str) for item in array.tolist()):
+        refuse(f"{name}: something that is no text", "must be names", "give a list of str")
+    found, first, inverse = np.unique(array.astype(str), return_index=True, return_inverse=True)
+    order = np.argsort(first, kind="stable")  # as they come
+    rank = np.empty(len(order), dtype=np.uint32)
+    rank[order] = np.arange(len(order), dtype=np.uint32)
+    return [str(found[i]) for i in order], rank[inverse]
+
+
+def _mesh(part: Mapping[str, Any], place: str) -> Any:
+    vertices = _vertices(part["vertices"], place)
+    triangles = _triangles(part, vertices, place)
+    count = len(triangles)
+    if count == 0:
+        refuse(f"{place}.triangles: none", "a mesh needs at least one", "give some, or leave this geometry out")
+    optics_names, optics = _names(part, "optics", None, count, place)
+    kind_names, kinds = (optics_names, optics) if "organ" not in part else _names(part, "organ", None, count, place)
+    plants = _numbers(part, "plant", 1, count, place)
+    ranks = _numbers(part, "rank", 0, count, place)
+    keys = np.stack([plants.astype(np.int64), kinds.astype(np.int64), ranks.astype(np.int64)], axis=1)
+    found, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first, kind="stable")
+    number = np.empty(len(order), dtype=np.uint32)
+    number[order] = np.arange(len(order), dtype=np.uint32)
+    organs = [(int(found[i, 0]), kind_names[found[i, 1]], int(found[i, 2])) for i in order]
+    flat = np.ascontiguousarray(vertices.reshape(-1, 3), dtype=np.float64)
+    return _core.Mesh(flat, triangles, optics, optics_names, number[inverse.reshape(-1)], organs)

@@ -1,0 +1,361 @@
+"""CARIBU's vocabulary (Chelle and Andrieu 1998; alinea.caribu of OpenAlea) on sunfleck's engine: change one import.
+
+    from sunfleck.caribu import CaribuScene
+
+    scene = CaribuScene({"leaf": [[(0, 0, 1), (1, 0, 1), (0, 1, 1)]]}, light=[(100, (0, 0, -1))], pattern=(0, 0, 1, 1),
+                        opt={"par": (0.10, 0.05)})
+    raw, aggregated = scene.run(direct=False, infinite=True)
+    aggregated["par"]["Eabs"]["leaf"]
+
+Axes are CARIBU's: z up, y north, x east. What it computes instead of projections and nested radiosity, and with what error, is
+what `sunfleck run` computes; an infinite canopy has no limits.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from ._errors import refuse
+from ._options import bound, real
+from ._result import Result
+from ._simulation import Simulation
+
+Light = tuple[float, Sequence[float]]
+Material = Union[tuple[float], tuple[float, float], tuple[float, float, float, float]]
+
+_METRES = {"mm": 0.001, "cm": 0.01, "dm": 0.1, "m": 1.0, "dam": 10.0, "hm": 100.0, "km": 1000.0}
+_LEAST_SHARE_OF_EXTENT = 1e-3  # a canopy that is a line or a point from above still gets a plot
+
+
+class CaribuScene:
+    """Triangles under lights.
+
+    scene: {primitive: [triangle, ...]}, a triangle being three points (x, y, z).
+    light: [(energy, (x, y, z)), ...]: irradiance of a horizontal plane, and the way the light travels (z < 0).
+    pattern: (xmin, ymin, xmax, ymax), or ((xmin, ymin), (xmax, ymax)): the domain that an infinite canopy repeats.
+    opt: {band: {primitive: material}} or {band: material}, a material being (reflectance,) of an opaque surface, (reflectance,
+        transmittance), or (reflectance_sup, transmittance_sup, reflectance_inf, transmittance_inf).
+    soil_reflectance: {band: reflectance}, or one number for all bands.
+    soil_mesh: anything but None puts a soil under a canopy that is not infinite; infinite ones always have one.
+    z_soil: its height (default: 0, or the lowest point below).
+    scene_unit: of the points and the pattern: mm, cm, dm, m, dam, hm or km. Energies are per square metre.
+
+    Raises InputError (a ValueError) for what is not like that.
+    """
+
+    default_light: Light = (1.0, (0.0, 0.0, -1.0))
+    default_material: Material = (0.06, 0.07)
+    default_soil_reflectance = 0.15
+    default_band = "default_band"
+    units = dict(_METRES)
+
+    def __init__(
+        self,
+        scene: Mapping[Any, Sequence[Any]],
+        light: Optional[Sequence[Light]] = None,
+        pattern: Optional[Sequence[Any]] = None,
+        opt: Optional[Mapping[str, Any]] = None,
+        soil_reflectance: Union[float, Mapping[str, float], None] = None,
+        soil_mesh: Any = None,
+        z_soil: Optional[float] = None,
+        scene_unit: str = "m",
+    ) -> None:
+        if scene_unit not in _METRES:
+            refuse(f"scene_unit = {scene_unit!r}", "not known", f"use {', '.join(_METRES)}")
+        self.scene_unit = scene_unit
+        self.scene = _checked_scene(scene)
+        self.light = [_checked_light(one, number) for number, one in enumerate(light or [self.default_light])]
+        self.pattern = _checked_pattern(pattern)
+        bands = list(opt) if opt else list(soil_reflectance) if isinstance(soil_reflectance, Mapping) else [self.default_band]
+        self.material = {band: self._materials(opt[band] if opt else self.default_material, band) for band in bands}
+        self.soil_reflectance = {band: self._soil_of(soil_reflectance, band) for band in bands}
+        self.soil_mesh = soil_mesh
+        self.z_soil = None if z_soil is None else real(z_soil, "z_soil")
+        self.soil_aggregated: dict[str, dict[str, float]] = {}
+        self.result: Optional[Result] = None
+
+    def run(
+        self,
+        direct: bool = True,
+        infinite: bool = False,
+        d_sphere: float = 0.5,
+        layers: int = 10,
+        height: Optional[float] = None,
+        screen_size: int = 1536,
+        screen_resolution: Optional[float] = None,
+        sensors: Any = None,
+        split_face: bool = False,
+        simplify: bool = False,
+        *,
+        error: float = 0.01,
+        seed: int = 1,
+        device: str = "auto",
+        threads: int = 0,
+    ) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The light on every triangle, and by primitive: (raw, aggregated).
+
+        direct: the first landing alone; False: scattered light too. infinite: the pattern repeats without end.
+        d_sphere, layers, height, screen_size, screen_resolution, split_face: of CARIBU's own methods; nothing here depends on them.
+        simplify: leaves the level of bands out, where there is one.
+        error: relative error bound of what the primitives receive; seed, device, threads: as in sunfleck.run.
+
+        raw[band][quantity][primitive] is a list by triangle, aggregated[band][quantity][primitive] the mean by area, of area the
+        sum. Quantities: area (m2, one-sided), Eabs, Ei, Ei_sup, Ei_inf (absorbed, incident on both faces, on the upper and on the
+        lower, per area of one face, in the lights' unit), and Eabs_error, the half-width of its 95 % confidence interval (of an
+        aggregate: as if errors of its triangles were independent; NaN where too few rays tell). The upper face is that from which
+        the corners run counter-clockwise. soil_aggregated and result, the simulation's own, are set.
+        """
+        if sensors is not None:
+            refuse("sensors", "not known here", "give the whole scene to sunfleck.run, with [[sensor]] or [[plane]]")
+        if infinite and self.pattern is None:
+            refuse("pattern", "an infinite canopy repeats it, and there is none", "give (xmin, ymin, xmax, ymax)")
+        error = bound(error, "error")
+        with tempfile.TemporaryDirectory(prefix="sunfleck") as folder:
+            tables = self._tables(direct, infinite, Path(folder))
+            simulation = Simulation(tables, folder=folder, device=device, threads=threads)
+        self.result = simulation.run(error=error, seed=seed)
+        raw = {band: self._raw(band, number, direct) for number, band in enumerate(self.material)}
+        aggregated = {band: _aggregated(values) for band, values in raw.items()}
+        self._book_soil(direct, infinite)
+        if simplify and len(raw) == 1:
+            return next(iter(raw.values())), next(iter(aggregated.values()))
+        return raw, aggregated
+
+    def _materials(self, given: Any, band: str) -> dict[Any, Material]:
+        if not isinstance(given, Mapping):
+            return dict.fromkeys(self.scene, _checked_material(given, f"opt[{band!r}]"))
+        fallback = given.get("default")
+        materials = {}
+        for primitive in self.scene:
+            material = given.get(primitive, fallback)
+            if material is None:
+                refuse(f"opt[{band!r}]", f"primitive {primitive!r} has none", "give its material, or one of 'default'")
+            materials[primitive] = _checked_material(material, f"opt[{band!r}][{primitive!r}]")
+        return materials
+
+    def _soil_of(self, given: Union[float, Mapping[str, float], None], band: str) -> float:
+        value = given.get(band, self.default_soil_reflectance) if isinstance(given, Mapping) else given
+        reflectance = self.default_soil_reflectance if value is None else real(value, f"soil_reflectance[{band!r}]")
+        if not 0.0 <= reflectance <= 1.0:
+            refuse(f"soil_reflectance[{band!r}] = {value}", "must lie in 0..1", "give a share")
+        return reflectance
+
+    def _tables(self, direct: bool, infinite: bool, folder: Path) -> dict[str, Any]:
+        unit = _METRES[self.scene_unit]
+        corners = unit * np.concatenate([triangles for triangles in self.scene.values()])
+        x_lo, y_lo, x_hi, y_hi = self._domain(corners, unit)
+        lowest = float(corners[..., 2].min())
+        z_soil = min(0.0, lowest) if self.z_soil is None else unit * self.z_soil
+        counts = [len(triangles) for triangles in self.scene.values()]
+        tables: dict[str, Any] = {
+            "title": "CARIBU scene",
+            "plot": {"size": [y_hi - y_lo, x_hi - x_lo], "periodic": infinite},
+            "accuracy": {"of": "organ"},
+            "geometry": [
+                {
+                    "vertices": corners,
+                    "optics": np.repeat(self._optics_names(direct), counts),
+                    "organ": "leaf",
+                    "plant": np.repeat(np.arange(1, len(counts) + 1), counts),
+                    "up": "z",
+                    "at": [[y_hi, -z_soil, x_hi]],
+                }
+            ],
+        }
+        bands = self._band_names(direct)
+        tables["optics"] = {name: _surface(materials, bands) for name, materials in self._optics(direct).items()}
+        if infinite or self.soil_mesh is not None:
+            reflectance = [0.0] if direct else list(self.soil_reflectance.values())
+            tables["soil"] = {"reflectance": dict(zip(bands, reflectance))}
+        tables.update(self._light_tables(bands, folder))
+        return tables
+
+    def _domain(self, corners: np.ndarray, unit: float) -> tuple[float, float, float, float]:
+        if self.pattern is not None:
+            return tuple(unit * edge for edge in self.pattern)
+        lo, hi = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+        least = max(_LEAST_SHARE_OF_EXTENT * float((hi - lo).max()), 1e-6)
+        spare = np.maximum(0.5 * (least - (hi - lo)), 0.0)
+        return tuple(float(edge) for edge in (*(lo - spare)[:2], *(hi + spare)[:2]))
+
+    def _band_names(self, direct: bool) -> list[str]:
+        """Names that tables can have. Without scattered light one band tells of all."""
+        return ["b0"] if direct else [f"b{number}" for number in range(len(self.material))]
+
+    def _optics(self, direct: bool) -> dict[str, list[Material]]:
+        """The materials that occur, by the name of their table: one for each band."""
+        if direct:
+            return {"black": [(0.0,)]}
+        return {f"m{number}": list(materials) for number, materials in enumerate(self._distinct())}
+
+    def _distinct(self) -> list[tuple[Material, ...]]:
+        return list(dict.fromkeys(self._of_all_bands(primitive) for primitive in self.scene))
+
+    def _of_all_bands(self, primitive: Any) -> tuple[Material, ...]:
+        return tuple(self.material[band][primitive] for band in self.material)
+
+    def _optics_names(self, direct: bool) -> list[str]:
+        if direct:
+            return ["black"] * len(self.scene)
+        number = {materials: f"m{index}" for index, materials in enumerate(self._distinct())}
+        return [number[self._of_all_bands(primitive)] for primitive in self.scene]
+
+    def _light_tables(self, bands: list[str], folder: Path) -> dict[str, Any]:
+        shining = [(energy, way) for energy, way in self.light if energy > 0.0]
+        if len(shining) > 1:
+            lines = [f"{energy!r} {x!r} {y!r} {z!r}\n" for energy, (x, y, z) in shining]
+            (folder / "lights.light").write_text("".join(lines))
+            total = math.fsum(energy for energy, _ in shining)
+            return {
+                "sky": {"model": "lights", "file": "lights.light"},
+                "band": [{"name": band, "diffuse": total} for band in bands],
+            }
+        if not shining:
+            return {"band": [{"name": band} for band in bands]}
+        energy, (x, y, z) = shining[0]
+        elevation = math.degrees(math.atan2(-z, math.hypot(x, y)))
+        azimuth = math.degrees(math.atan2(-x, -y)) % 360.0
+        return {
+            "sun": {"elevation": elevation, "azimuth": azimuth},
+            "band": [{"name": band, "direct": energy} for band in bands],
+        }
+
+    def _raw(self, band: str, number: int, direct: bool) -> dict[str, dict[Any, list[float]]]:
+        name = "b0" if direct else f"b{number}"
+        column = self.result.triangles
+        upper = column[f"{name}_direct_upper"] + column[f"{name}_indirect_upper"]
+        lower = column[f"{name}_direct_lower"] + column[f"{name}_indirect_lower"]
+        absorbed, half_width = column[f"{name}_absorbed"], column[f"{name}_error"]
+        if direct:
+            counts = [len(triangles) for triangles in self.scene.values()]
+            faces = np.array([_absorptances(self.material[band][primitive]) for primitive in self.scene])
+            upper_share, lower_share = np.repeat(faces, counts, axis=0).T
+            absorbed = upper * upper_share + lower * lower_share
+            half_width = half_width * np.maximum(upper_share, lower_share)
+        values = {
+            "area": column["area_m2"], "Eabs": absorbed, "Ei": upper + lower, "Ei_sup": upper, "Ei_inf": lower,
+            "Eabs_error": half_width,
+        }  # fmt: skip
+        return {quantity: self._by_primitive(array) for quantity, array in values.items()}
+
+    def _by_primitive(self, values: np.ndarray) -> dict[Any, list[float]]:
+        ends = np.cumsum([len(triangles) for triangles in self.scene.values()])[:-1]
+        return {primitive: part.tolist() for primitive, part in zip(self.scene, np.split(values, ends))}
+
+    def _book_soil(self, direct: bool, infinite: bool) -> None:
+        self.soil_aggregated = {}
+        if not infinite and self.soil_mesh is None:
+            return
+        area = self.result.summary["plot_area_m2"]
+        for number, band in enumerate(self.material):
+            reflectance = self.soil_reflectance[band]
+            absorbed = self.result.bands["b0" if direct else f"b{number}"]["absorbed_soil"]
+            # What a black soil absorbs is what falls on it.
+            incident = absorbed if direct else absorbed / (1.0 - reflectance) if reflectance < 1.0 else math.nan
+            kept = (1.0 - reflectance) * incident if direct else absorbed
+            self.soil_aggregated[band] = {"area": area, "Ei": incident, "Eabs": kept}
+
+
+def _absorptances(material: Material) -> tuple[float, float]:
+    """Of the upper and the lower face."""
+    reflectance_up, transmittance_up, reflectance_down, transmittance_down = _faces(material)
+    return 1.0 - reflectance_up - transmittance_up, 1.0 - reflectance_down - transmittance_down
+
+
+def _faces(material: Material) -> tuple[float, float, float, float]:
+    if len(material) == 1:
+        return material[0], 0.0, material[0], 0.0
+    return material if len(material) == 4 else (*material, *material)
+
+
+def _surface(materials: list[Material], bands: list[str]) -> dict[str, Any]:
+    """An [optics] table, a material for each band."""
+    faces = [_faces(material) for material in materials]
+    side = lambda first: {  # noqa: E731
+        "reflectance": {band: face[first] for band, face in zip(bands, faces)},
+        "transmittance": {band: face[first + 1] for band, face in zip(bands, faces)},
+    }
+    return {"upper": side(0), "lower": side(2)}
+
+
+def _aggregated(raw: Mapping[str, Mapping[Any, list[float]]]) -> dict[str, dict[Any, float]]:
+    sums: dict[str, dict[Any, float]] = {quantity: {} for quantity in raw}
+    for primitive, areas in raw["area"].items():
+        area = np.asarray(areas)
+        total = float(area.sum())
+        for quantity, values in raw.items():
+            value = np.asarray(values[primitive])
+            if quantity == "area":
+                sums[quantity][primitive] = total
+            elif total == 0.0:
+                sums[quantity][primitive] = 0.0
+            elif quantity == "Eabs_error":
+                lit = area > 0.0
+                sums[quantity][primitive] = float(np.sqrt(((area * value)[lit] ** 2).sum())) / total
+            else:
+                sums[quantity][primitive] = float((area * value).sum()) / total
+    return sums
+
+
+def _checked_scene(scene: Any) -> dict[Any, np.ndarray]:
+    if isinstance(scene, (str, os.PathLike)):
+        refuse("scene", "a file", "run files with `sunfleck run STAND.can --optics ... --light ... --domain ...`, or convert them")
+    if not isinstance(scene, Mapping) or not scene:
+        refuse(f"scene: {type(scene).__name__}", "must be a dict with at least one primitive", "give {name: [triangle, ...]}")
+    checked = {}
+    for primitive, triangles in scene.items():
+        try:
+            array = np.asarray(triangles, dtype=float)
+        except (TypeError, ValueError):
+            array = np.empty(0)
+        if array.ndim != 3 or array.shape[1:] != (3, 3):
+            refuse(f"scene[{primitive!r}]: shape {array.shape}", "must be a list of triangles of three points (x, y, z)", "reshape it")
+        if not np.isfinite(array).all():
+            refuse(f"scene[{primitive!r}]", "it holds NaN or infinity", "remove or repair these triangles")
+        checked[primitive] = array
+    return checked
+
+
+def _checked_light(light: Any, number: int) -> Light:
+    place = f"light[{number}]"
+    try:
+        energy, (x, y, z) = light
+    except (TypeError, ValueError):
+        refuse(place, "must be (energy, (x, y, z))", "give the irradiance of a level plane and the way the light travels")
+    energy, way = real(energy, f"{place} energy"), tuple(real(value, f"{place} direction") for value in (x, y, z))
+    if energy < 0.0:
+        refuse(f"{place} energy = {energy}", "must not be negative", "give an irradiance")
+    if way[2] >= 0.0:
+        refuse(f"{place} direction = {way}", "light travels downwards, z < 0", "turn its sign")
+    return energy, way
+
+
+def _checked_pattern(pattern: Any) -> Optional[tuple[float, float, float, float]]:
+    if pattern is None:
+        return None
+    flat = np.asarray(pattern, dtype=object).ravel().tolist()
+    if len(flat) != 4:
+        refuse(f"pattern: {len(flat)} numbers", "must be (xmin, ymin, xmax, ymax)", "give four")
+    x_lo, y_lo, x_hi, y_hi = (real(value, "pattern") for value in flat)
+    if not (x_lo < x_hi and y_lo < y_hi):
+        refuse(f"pattern = {tuple(flat)}", "it has no area", "give (xmin, ymin, xmax, ymax)")
+    return x_lo, y_lo, x_hi, y_hi
+
+
+def _checked_material(material: Any, place: str) -> Material:
+    if not isinstance(material, Sequence) or isinstance(material, str) or len(material) not in (1, 2, 4):
+        refuse(
+            f"{place} = {material!r}", "must be (reflectance,), (reflectance, transmittance) or four of them by face", "give a tuple"
+        )
+    checked = tuple(real(value, place) for value in material)
+    for reflectance, transmittance in (_faces(checked)[:2], _faces(checked)[2:]):
+        if reflectance < 0.0 or transmittance < 0.0 or reflectance + transmittance > 1.0:
+            refuse(f"{place} = {material!r}", "reflectance and transmittance are shares, together at most 1", "correct them")
+    return checked

@@ -1,0 +1,10 @@
+#pragma once
+// Sun and sky alone, without a canopy.
+
+#include <pybind11/pybind11.h>
+
+namespace sunfleck {
+
+void bind_light(pybind11::module_& module);
+
+}  // namespace sunfleck

@@ -1,0 +1,44 @@
+// The compiled part of the Python module; what users see of it stands in python/sunfleck.
+
+#include "app/options.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "python/light.h"
+#include "python/outcome.h"
+#include "python/simulation.h"
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+
+namespace {
+
+namespace py = pybind11;
+
+// The kinds of Error as Python's; `errors` holds the classes.
+void translate(const sunfleck::Error& error, const py::object& errors) {
+  const char* name = "SunfleckError";
+  if (error.kind() == sunfleck::ErrorKind::input) name = "InputError";
+  if (error.kind() == sunfleck::ErrorKind::device) name = "DeviceError";
+  PyErr_SetString(errors.attr(name).ptr(), error.what());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  sunfleck::start_log(sunfleck::Verbosity::quiet);
+  // Never destroyed: the interpreter is gone before what is static here.
+  static const py::object& errors = *new py::object(py::module_::import("sunfleck._errors"));
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const sunfleck::Error& error) {
+      translate(error, errors);
+    }
+  });
+  module.attr("version") = sunfleck::version();
+  module.attr("commit") = sunfleck::commit();
+  sunfleck::bind_light(module);
+  sunfleck::bind_outcome(module);
+  sunfleck::bind_simulation(module);
+}

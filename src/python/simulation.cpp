@@ -1,0 +1,128 @@
+#include "python/simulation.h"
+
+#include "app/repeated_simulation.h"
+#include "base/error.h"
+#include "python/arrays.h"
+#include "python/long_work.h"
+#include "python/outcome.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace sunfleck {
+namespace {
+
+namespace py = pybind11;
+
+// A scene's text with its meshes, or none where the file itself is to be read.
+SceneText text_of(const std::filesystem::path& file, const std::string& text, std::map<std::string, Mesh> meshes) {
+  return {file, text, std::move(meshes)};
+}
+
+class Simulation {
+ public:
+  Simulation(const std::filesystem::path& file, const std::optional<std::string>& text, std::map<std::string, Mesh> meshes,
+             bool allow_outside, const std::string& device, int threads)
+      : access_{.allow_outside = allow_outside} {
+    const py::gil_scoped_release release;
+    Scene scene = text ? read_scene(text_of(file, *text, std::move(meshes)), access_) : read_scene(file, access_);
+    simulation_.emplace(std::move(scene), device, threads);
+  }
+
+  void relight(const std::filesystem::path& file, const std::string& text) {
+    const Turn turn(busy_);
+    const py::gil_scoped_release release;
+    simulation_->relight(text_of(file, text, {}), access_);
+  }
+
+  std::unique_ptr<Outcome> run(const RunOptions& options, const py::object& progress) {
+    const Turn turn(busy_);
+    std::optional<SimulatedScene> simulated;
+    do_long_work([&](const Monitor& monitor) { simulated = simulation_->run(options, monitor); }, progress);
+    return std::make_unique<Outcome>(std::move(*simulated));
+  }
+
+  [[nodiscard]] std::vector<std::string> warnings() const { return simulation_->scene().warnings; }
+  [[nodiscard]] std::size_t triangles() const { return simulation_->scene().model.canopy.size(); }
+  [[nodiscard]] std::size_t tree_bytes() const { return simulation_->tree_bytes(); }
+  [[nodiscard]] py::dict device() const {
+    const TracerDevice device = simulation_->device();
+    py::dict dict;
+    dict["kind"] = device.kind;
+    dict["name"] = device.name;
+    dict["driver"] = device.driver;
+    return dict;
+  }
+  // Degrees; None without a sun.
+  [[nodiscard]] py::object sun() const {
+    const auto& sun = simulation_->scene().model.sun;
+    constexpr double degree = 3.14159265358979323846 / 180.0;
+    if (!sun) return py::none();
+    return py::make_tuple(sun->elevation_rad / degree, sun->azimuth_rad / degree);
+  }
+
+ private:
+  // One call at a time: while it traces, the interpreter's other threads run.
+  class Turn {
+   public:
+    explicit Turn(std::atomic<bool>& busy) : busy_(busy) {
+      if (busy.exchange(true)) {
+        throw_failure("Simulation", "it is at work in another thread, one call at a time is possible",
+                      "wait for it, or make a Simulation for each thread");
+      }
+    }
+    ~Turn() { busy_ = false; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    std::atomic<bool>& busy_;
+  };
+
+  SceneAccess access_;
+  std::optional<RepeatedSimulation> simulation_;
+  std::atomic<bool> busy_ = false;
+};
+
+// How the work is limited, as the options of `run`.
+RunOptions run_options(std::optional<double> direct_error, std::optional<double> indirect_error, std::optional<double> grid_m,
+                       std::optional<int> passes, std::optional<double> max_seconds, std::optional<std::uint64_t> max_rays,
+                       std::uint64_t seed, bool triangle_errors) {
+  RunOptions options;
+  options.direct_error = direct_error;
+  options.indirect_error = indirect_error;
+  options.grid_m = grid_m;
+  options.passes = passes;
+  options.max_seconds = max_seconds;
+  options.max_rays = max_rays;
+  options.seed = seed;
+  if (triangle_errors) options.exports = {"csv"};
+  return options;
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+  py::class_<Mesh>(module, "Mesh").def(py::init(&mesh_of));
+  py::class_<RunOptions>(module, "RunOptions")
+      .def(py::init(&run_options), py::kw_only(), py::arg("direct_error"), py::arg("indirect_error"), py::arg("grid"),
+           py::arg("passes"), py::arg("max_seconds"), py::arg("max_rays"), py::arg("seed"), py::arg("triangle_errors"));
+  py::class_<Simulation>(module, "Simulation")
+      .def(py::init<const std::filesystem::path&, const std::optional<std::string>&, std::map<std::string, Mesh>, bool,
+                    const std::string&, int>())
+      .def("relight", &Simulation::relight)
+      .def("run", &Simulation::run)
+      .def_property_readonly("warnings", &Simulation::warnings)
+      .def_property_readonly("triangles", &Simulation::triangles)
+      .def_property_readonly("tree_bytes", &Simulation::tree_bytes)
+      .def_property_readonly("device", &Simulation::device)
+      .def_property_readonly("sun", &Simulation::sun);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,157 @@
+"""CARIBU's vocabulary: known answers, and the numbers of sunfleck.run."""
+
+import math
+
+import numpy as np
+import pytest
+import sunfleck
+from sunfleck.caribu import CaribuScene
+
+LOWER = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+UPPER = [(0, 0, 1e-3), (1, 0, 1e-3), (0, 1, 1e-3)]
+OTHER_HALF = [(1, 0, 0), (1, 1, 0), (0, 1, 0)]
+HALVES = {"lower": [LOWER, OTHER_HALF], "upper": [UPPER]}
+SQUARE = (0, 0, 1, 1)
+
+
+def within(values, expected, error):
+    """Within three half-widths of the asked relative error."""
+    return values == pytest.approx(expected, rel=3 * error, abs=3 * error)
+
+
+def test_first_hits_of_a_zenith_light():
+    raw, aggregated = CaribuScene(HALVES, pattern=SQUARE).run(error=0.002)
+    quantities = raw["default_band"]
+    assert set(quantities) == {"area", "Eabs", "Ei", "Ei_sup", "Ei_inf", "Eabs_error"}
+    assert quantities["area"]["lower"] == pytest.approx([0.5, 0.5])
+    assert within(quantities["Ei"]["lower"], [0.0, 1.0], 0.002)
+    of_both = aggregated["default_band"]
+    assert of_both["area"]["lower"] == pytest.approx(1.0) and within(of_both["Ei"]["lower"], 0.5, 0.002)
+    assert within(of_both["Ei_sup"]["upper"], 1.0, 0.002) and of_both["Ei_inf"]["upper"] == 0.0
+    assert within(of_both["Eabs"]["upper"], 1.0 - 0.06 - 0.07, 0.002)
+
+
+def test_bands_and_faces():
+    materials = {
+        "par": {"lower": (0.1,), "upper": (0.1, 0.05)},
+        "nir": {"lower": (0.5,), "upper": (0.4, 0.3, 0.2, 0.1)},
+    }
+    scene = CaribuScene({"upper": [UPPER[::-1]], "lower": [OTHER_HALF]}, pattern=SQUARE, opt=materials)
+    _, aggregated = scene.run(error=0.002)
+    assert within(aggregated["par"]["Eabs"]["upper"], 0.85, 0.002)
+    assert within(aggregated["nir"]["Ei_inf"]["upper"], 1.0, 0.002), "its lower face looks up"
+    assert within(aggregated["nir"]["Eabs"]["upper"], 0.7, 0.002)
+    assert within(aggregated["nir"]["Eabs"]["lower"], 0.5, 0.002)
+
+
+def test_one_band_may_stand_alone():
+    raw, aggregated = CaribuScene(HALVES, pattern=SQUARE, opt={"par": (0.1,)}).run(simplify=True, error=0.01)
+    assert "Eabs" in raw and "Eabs" in aggregated
+
+
+@pytest.mark.parametrize("unit, metres", [("m", 1.0), ("cm", 0.01)])
+def test_units_change_nothing_but_areas(unit, metres):
+    scaled = {name: (np.asarray(triangles) / metres).tolist() for name, triangles in HALVES.items()}
+    pattern = tuple(edge / metres for edge in SQUARE)
+    _, aggregated = CaribuScene(scaled, pattern=pattern, scene_unit=unit).run(error=0.002, simplify=True)
+    assert aggregated["area"]["upper"] == pytest.approx(0.5)
+    assert within(aggregated["Ei"]["upper"], 1.0, 0.002)
+
+
+def test_infinite_canopy_over_soil():
+    """A plate that fills the pattern, over soil: two parallel planes, whose exchange is a geometric series."""
+    plate = {"plate": [[(0, 0, 1), (1, 0, 1), (0, 1, 1)], [(1, 0, 1), (1, 1, 1), (0, 1, 1)]]}
+    reflectance, transmittance, soil = 0.4, 0.3, 0.35
+    scene = CaribuScene(plate, light=[(200.0, (0.3, -0.2, -1.0))], pattern=SQUARE, opt={"nir": (reflectance, transmittance)}, soil_reflectance=soil)
+    _, aggregated = scene.run(direct=False, infinite=True, error=0.002, simplify=True)
+    between = 200.0 * transmittance / (1.0 - soil * reflectance)  # what comes down below the plate
+    absorbed = (1.0 - reflectance - transmittance) * (200.0 + soil * between)
+    assert within(aggregated["Eabs"]["plate"], absorbed, 0.002)
+    assert within(aggregated["Ei_sup"]["plate"], 200.0, 0.002)
+    assert within(aggregated["Ei_inf"]["plate"], soil * between, 0.002)
+    assert within(scene.soil_aggregated["nir"]["Ei"], between, 0.002)
+    assert within(scene.soil_aggregated["nir"]["Eabs"], (1.0 - soil) * between, 0.002)
+
+
+def checkerboards(heights=(15, 10, 5), side=20, cells=8):
+    """Layers of which each lets half of what reaches it through: squares of a board, those of one colour."""
+    step = side / cells
+    layers = {}
+    for height in heights:
+        layers[height] = []
+        for i in range(cells):
+            for j in range(cells):
+                if (i + j) % 2:
+                    continue
+                x, y = i * step, j * step
+                layers[height] += [
+                    [(x, y, height), (x + step, y, height), (x, y + step, height)],
+                    [(x + step, y, height), (x + step, y + step, height), (x, y + step, height)],
+                ]
+    return layers
+
+
+def test_lists_of_lights():
+    """A full layer receives what the lights shed, whatever their directions; the layer below nothing."""
+    full = {"top": [[(0, 0, 2), (4, 0, 2), (0, 4, 2)], [(4, 0, 2), (4, 4, 2), (0, 4, 2)]], "below": [[(0, 0, 1), (1, 0, 1), (0, 1, 1)]]}
+    lights = [(5.0, (0, 0, -1)), (2.0, (1, 1, -1)), (0.0, (0, 1, -1)), (3.0, (-2, 1, -0.5))]
+    _, aggregated = CaribuScene(full, light=lights, pattern=(0, 0, 4, 4), opt={"par": (0.1,)}).run(infinite=True, error=0.005, simplify=True)
+    assert within(aggregated["Ei"]["top"], 10.0, 0.005)
+    assert aggregated["Ei"]["below"] == 0.0
+
+
+def test_light_comes_from_where_it_comes():
+    """Facing west: lit by light that travels east, on the side it faces."""
+    wall = {"wall": [[(0.5, 0.2, 0.2), (0.5, 0.2, 0.8), (0.5, 0.8, 0.2)]]}  # counter-clockwise seen from the west
+    for x, lit in ((1.0, "Ei_sup"), (-1.0, "Ei_inf")):
+        _, aggregated = CaribuScene(wall, light=[(1.0, (x, 0.0, -1.0))], pattern=SQUARE).run(error=0.005, simplify=True)
+        assert within(aggregated[lit]["wall"], 1.0, 0.005), "of a sun of 45 degrees: as much as a level plane"
+        assert aggregated["Ei"]["wall"] == aggregated[lit]["wall"]
+    _, aggregated = CaribuScene(wall, light=[(1.0, (0.0, 1.0, -1.0))], pattern=SQUARE).run(error=0.005, simplify=True)
+    assert within(aggregated["Ei"]["wall"], 0.0, 0.005), "edge on"
+
+
+def test_numbers_are_those_of_sunfleck():
+    scene = CaribuScene(checkerboards(), light=[(1.0, (0.2, 0.4, -1.0))], pattern=(0, 0, 20, 20), opt={"par": (0.2, 0.1)})
+    raw, aggregated = scene.run(direct=False, infinite=True, error=0.01)
+    assert np.array_equal(np.concatenate([raw["par"]["Eabs"][height] for height in scene.scene]), scene.result["b0_absorbed"])
+    absorbed = sum(aggregated["par"]["Eabs"][h] * aggregated["par"]["area"][h] for h in scene.scene) / 400.0
+    assert absorbed == pytest.approx(scene.result.bands["b0"]["absorbed_vegetation"], rel=1e-9)
+    again, _ = scene.run(direct=False, infinite=True, error=0.01)
+    assert again == raw or all(math.isnan(x) for x in raw["par"]["Eabs_error"][15])
+
+
+BAD = {
+    "no scene": (lambda: CaribuScene({}), "must be a dict"),
+    "a file": (lambda: CaribuScene("stand.can"), "a file"),
+    "points of two": (lambda: CaribuScene({"a": [[(0, 0), (1, 0), (0, 1)]]}), "scene['a']"),
+    "ragged triangles": (lambda: CaribuScene({"a": [LOWER, LOWER[:2]]}), "scene['a']"),
+    "NaN": (lambda: CaribuScene({"a": [[(0, 0, math.nan), (1, 0, 0), (0, 1, 0)]]}), "NaN"),
+    "light upwards": (lambda: CaribuScene(HALVES, light=[(1.0, (0, 0, 1))]), "light[0] direction"),
+    "negative light": (lambda: CaribuScene(HALVES, light=[(-1.0, (0, 0, -1))]), "must not be negative"),
+    "light of two": (lambda: CaribuScene(HALVES, light=[(1.0, (0, -1))]), "light[0]"),
+    "a unit": (lambda: CaribuScene(HALVES, scene_unit="inch"), "scene_unit"),
+    "a pattern of three": (lambda: CaribuScene(HALVES, pattern=(0, 0, 1)), "pattern"),
+    "a pattern without area": (lambda: CaribuScene(HALVES, pattern=(0, 0, 0, 1)), "no area"),
+    "a material of three": (lambda: CaribuScene(HALVES, opt={"par": (0.1, 0.1, 0.1)}), "opt['par']"),
+    "a material above one": (lambda: CaribuScene(HALVES, opt={"par": (0.6, 0.5)}), "together at most 1"),
+    "a missing material": (lambda: CaribuScene(HALVES, opt={"par": {"upper": (0.1,)}}), "primitive 'lower' has none"),
+    "soil above one": (lambda: CaribuScene(HALVES, soil_reflectance=1.5), "soil_reflectance"),
+    "no pattern": (lambda: CaribuScene(HALVES).run(infinite=True), "pattern"),
+    "sensors": (lambda: CaribuScene(HALVES, pattern=SQUARE).run(sensors={}), "sensors"),
+    "no error": (lambda: CaribuScene(HALVES, pattern=SQUARE).run(error=0.0), "error"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_input(name):
+    work, words = BAD[name]
+    with pytest.raises(ValueError) as error:
+        work()
+    message = str(error.value)
+    assert words in message and "\n" not in message and "); " in message
+
+
+def test_dark():
+    _, aggregated = CaribuScene(HALVES, light=[(0.0, (0, 0, -1))], pattern=SQUARE).run(simplify=True)
+    assert aggregated["Ei"]["upper"] == 0.0 and sunfleck.__version__

@@ -1,0 +1,153 @@
+"""Bad input is a ValueError of one line: where, what, why, and what to do."""
+
+import datetime
+import re
+
+import numpy as np
+import pytest
+import sunfleck
+from conftest import LEAVES, TABLES, WORK, with_arrays
+
+NAN = float("nan")
+FLAT = LEAVES.reshape(-1, 3)
+NUMBERS = np.arange(9).reshape(3, 3)
+
+
+def spoilt(index, value):
+    vertices = LEAVES.copy()
+    vertices[index] = value
+    return vertices
+
+
+MESHES = {
+    "a shape of two": ({"vertices": FLAT[:, :2], "triangles": NUMBERS}, "vertices: shape (9, 2)"),
+    "a flat list": ({"vertices": FLAT.ravel(), "triangles": NUMBERS}, "vertices: shape (27,)"),
+    "four corners": ({"vertices": np.zeros((3, 4, 3))}, "vertices: shape (3, 4, 3)"),
+    "text": ({"vertices": FLAT.astype(str), "triangles": NUMBERS}, "vertices: dtype <U32"),
+    "complex numbers": ({"vertices": FLAT.astype(complex), "triangles": NUMBERS}, "vertices: dtype complex128"),
+    "objects": ({"vertices": FLAT.astype(object), "triangles": NUMBERS}, "vertices: dtype object"),
+    "NaN": ({"vertices": spoilt((1, 2, 0), NAN)}, "NaN or infinity at vertex 5"),
+    "infinity": ({"vertices": spoilt((2, 0, 1), np.inf)}, "NaN or infinity at vertex 6"),
+    "far away": ({"vertices": spoilt((2, 0, 1), 1e39)}, "must be finite"),
+    "no triangles": ({"vertices": FLAT}, "triangles (is missing)"),
+    "an empty mesh": ({"vertices": np.zeros((0, 3, 3))}, "a mesh needs at least one"),
+    "triangles of two": ({"vertices": FLAT, "triangles": NUMBERS[:, :2]}, "triangles: shape (3, 2)"),
+    "triangles of floats": ({"vertices": FLAT, "triangles": NUMBERS.astype(float)}, "triangles: dtype float64"),
+    "a number too large": ({"vertices": FLAT, "triangles": NUMBERS + 1}, "vertex number 9"),
+    "a number below zero": ({"vertices": FLAT, "triangles": NUMBERS - 1}, "vertex number -1"),
+    "missing optics": ({"vertices": LEAVES, "optics": None}, "optics (is missing)"),
+    "undefined optics": ({"vertices": LEAVES, "optics": "petal"}, 'uses optics "petal", which is not defined'),
+    "too few optics": ({"vertices": LEAVES, "optics": ["leaf"]}, "optics: shape (1,)"),
+    "optics by number": ({"vertices": LEAVES, "optics": [0, 0, 0]}, "optics: dtype int64"),
+    "optics that are no names": ({"vertices": LEAVES, "optics": np.array(["leaf", None, 1], object)}, "something that is no text"),
+    "too many plants": ({"vertices": LEAVES, "plant": [1, 2]}, "plant: shape (2,)"),
+    "half plants": ({"vertices": LEAVES, "plant": 1.5}, "plant: dtype float64"),
+    "negative plants": ({"vertices": LEAVES, "plant": -1}, "plant: -1"),
+    "ranks of text": ({"vertices": LEAVES, "rank": ["1", "2", "3"]}, "rank: dtype <U1"),
+    "an unknown key": ({"vertices": LEAVES, "colour": "red"}, "geometry[0].colour"),
+    "no scale": ({"vertices": LEAVES, "scale": 0.0}, "geometry.scale"),
+}
+
+
+def one_line(error, words):
+    message = str(error.value)
+    assert words in message
+    assert "\n" not in message and " (" in message and "); " in message
+    return message
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_meshes(name):
+    mesh, words = MESHES[name]
+    mesh = {"optics": "leaf", **mesh}
+    if mesh["optics"] is None:
+        del mesh["optics"]
+    with pytest.raises(ValueError) as error:
+        sunfleck.run({**TABLES, "geometry": [mesh]}, **WORK)
+    one_line(error, words)
+
+
+SCENES = {
+    "an unknown key": ({"colour": 1}, "colour"),
+    "a wrong type": ({"plot": "large"}, "plot"),
+    "NaN": ({"plot": {"size": [NAN, 1.0]}}, "plot.size"),
+    "more than all": ({"optics": {"leaf": {"reflectance": 0.9, "transmittance": 0.2}, "stem": {"reflectance": 0.1}}}, "optics.leaf"),
+    "no bands": ({"band": []}, "band"),
+    "a direct band without sun": ({"sun": None}, "direct"),
+    "an object": ({"title": object()}, "title: object"),
+    "a time that is none": ({"sun": {"time": "soon", "latitude": 1.0, "longitude": 2.0}}, 'sun.time = "soon"'),
+    "a time without offset": (
+        {"sun": {"time": datetime.datetime(2002, 8, 8), "latitude": 1.0, "longitude": 2.0}},
+        "sun.time",
+    ),
+    "geometry that is no list": ({"geometry": "maize"}, "geometry"),
+    "geometry that is no dict": ({"geometry": ["maize"]}, "geometry[0]: str"),
+    "a file that is not there": ({"geometry": [{"file": "none.obj"}]}, "there is no such file"),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_scenes(name):
+    change, words = SCENES[name]
+    scene = {key: value for key, value in {**with_arrays(), **change}.items() if value is not None}
+    with pytest.raises(ValueError) as error:
+        sunfleck.run(scene, **WORK)
+    message = one_line(error, words)
+    assert not re.match(r"\S*:\d+: ", message), "lines of a text that nobody saw are not named"
+
+
+OPTIONS = {
+    "error": [0.0, 1.0, -1.0, NAN, "0.01", True],
+    "grid": [0.0, -1.0, np.inf, "fine", 1e-9],
+    "passes": [7, 0, -8, 8.5, "8", True],
+    "max_seconds": [0.0, -1.0, NAN],
+    "max_rays": [0, -1, 1.5],
+    "seed": [-1, 2**64, "one", 0.5],
+    "threads": [-1, 5000, "two"],
+}
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_options(name):
+    for value in OPTIONS[name]:
+        with pytest.raises(ValueError) as error:
+            sunfleck.run(with_arrays(), **{"device": "cpu", name: value})
+        one_line(error, name)
+
+
+def test_scenes_that_are_no_scenes(tmp_path):
+    for scene in (None, 3, [], b"x"):
+        with pytest.raises(ValueError):
+            sunfleck.run(scene)
+    with pytest.raises(ValueError, match="none.toml"):
+        sunfleck.run(tmp_path / "none.toml")
+    (tmp_path / "broken.toml").write_text("[plot\n")
+    with pytest.raises(ValueError, match="broken.toml:"):
+        sunfleck.run(tmp_path / "broken.toml")
+
+
+def test_devices_that_are_not_there():
+    with pytest.raises(sunfleck.DeviceError, match=r"\(.*\); "):
+        sunfleck.run(with_arrays(), device="no such device")
+
+
+def test_light_that_does_not_fit_leaves_all_as_it_was():
+    simulation = sunfleck.Simulation(with_arrays(), device="cpu")
+    before = simulation.run(grid=0.05, passes=8).table("triangles.csv")
+    for light, words in (
+        ({"sun": {"elevation": 100.0, "azimuth": 0.0}}, "sun.elevation"),
+        ({"sky": {"model": "grey"}}, "sky.model"),
+        ({"sun": None}, "direct"),
+        ({"optics": {"leaf": {"reflectance": 2.0}}}, "optics.leaf"),
+        ({"soil": {"patch": 0.5}}, "soil.patch"),
+        ({"band": [{"name": "PAR"}]}, "NIR"),
+    ):
+        with pytest.raises(ValueError) as error:
+            simulation.run(grid=0.05, passes=8, **light)
+        one_line(error, words)
+        assert simulation.run(grid=0.05, passes=8).table("triangles.csv") == before
+
+
+def test_doubts_are_warnings():
+    with pytest.warns(UserWarning, match="the sun is not above the horizon"):
+        sunfleck.run({**with_arrays(), "sun": {"elevation": -3.0, "azimuth": 0.0}}, **WORK)

@@ -1,0 +1,101 @@
+"""While it traces: progress, exceptions, Ctrl-C, and other threads."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+import sunfleck
+from conftest import with_arrays
+
+ENDLESS = {"error": 1e-7, "device": "cpu"}
+
+
+def test_progress_is_told():
+    told = []
+    result = sunfleck.run(with_arrays(), device="cpu", error=0.02, progress=told.append)
+    assert result.complete and told
+    assert all(set(state) == {"rays", "fraction", "relative_error", "bound"} for state in told)
+    assert [state["rays"] for state in told] == sorted(state["rays"] for state in told)
+    assert 0.0 <= told[-1]["fraction"] <= 1.0
+
+
+def test_exceptions_of_progress_end_the_work():
+    class Enough(Exception):
+        pass
+
+    def stop(state):
+        raise Enough
+
+    simulation = sunfleck.Simulation(with_arrays(), device="cpu")
+    with pytest.raises(Enough):
+        simulation.run(error=1e-7, progress=stop)
+    assert simulation.run(grid=0.1, passes=8).complete, "it goes on being of use"
+
+
+def test_limits_are_kept():
+    result = sunfleck.run(with_arrays(), **ENDLESS, max_seconds=0.3)
+    assert not result.complete and result.summary["stopped"] != "work done"
+
+
+def test_other_threads_run_meanwhile():
+    ticks = 0
+    done = threading.Event()
+
+    def count():
+        nonlocal ticks
+        while not done.is_set():
+            ticks += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    try:
+        sunfleck.run(with_arrays(), **ENDLESS, max_seconds=0.5)
+    finally:
+        done.set()
+        thread.join()
+    assert ticks > 20
+
+
+def test_one_call_at_a_time():
+    simulation = sunfleck.Simulation(with_arrays(), device="cpu")
+    begun = threading.Event()
+    thread = threading.Thread(target=lambda: simulation.run(error=1e-7, max_seconds=1.0, progress=lambda _: begun.set()))
+    thread.start()
+    assert begun.wait(20)
+    with pytest.raises(sunfleck.SunfleckError, match="at work in another thread"):
+        simulation.run()
+    thread.join()
+
+
+def test_simulations_of_several_threads():
+    expected = sunfleck.run(with_arrays(), grid=0.05, passes=8, device="cpu").table("triangles.csv")
+    found = []
+    work = lambda: found.append(sunfleck.run(with_arrays(), grid=0.05, passes=8, device="cpu").table("triangles.csv"))  # noqa: E731
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [expected] * 4
+
+
+@pytest.mark.parametrize("device", ["cpu", "lavapipe"])
+def test_interrupts_are_heard(device):
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1])\n"
+        "import conftest, sunfleck\n"
+        "try:\n"
+        f"    sunfleck.run(conftest.with_arrays(), error=1e-7, device={device!r}, progress=lambda _: print('begun', flush=True))\n"
+        "except KeyboardInterrupt:\n"
+        "    print('interrupted', flush=True)\n"
+    )
+    child = subprocess.Popen([sys.executable, "-B", "-c", code, os.path.dirname(__file__)], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "begun\n"
+    child.send_signal(signal.SIGINT)
+    rest, _ = child.communicate(timeout=30)
+    assert rest.splitlines()[-1] == "interrupted" and child.returncode == 0

@@ -1,0 +1,117 @@
+"""Arrays: views of what the result owns; xarray; folders; memory."""
+
+import gc
+import os
+import resource
+
+import numpy as np
+import pytest
+import sunfleck
+from conftest import WORK, files_of, with_arrays
+
+
+@pytest.fixture(scope="module")
+def result():
+    return sunfleck.run(with_arrays(), **WORK)
+
+
+def test_columns_are_views(result):
+    first, second = result._outcome.triangles(), result._outcome.triangles()
+    for name, column in first.items():
+        if isinstance(column, np.ndarray):
+            assert np.shares_memory(column, second[name]), name
+            assert not column.flags.writeable
+            assert column.shape == (3,)
+
+
+def test_views_outlive_their_result():
+    column = sunfleck.run(with_arrays(), **WORK)["PAR_absorbed"]
+    expected = column.copy()
+    gc.collect()
+    junk = [np.full(3, i, dtype=float) for i in range(10000)]
+    assert np.array_equal(column, expected) and len(junk) == 10000
+
+
+def test_xarray(result):
+    data = result.to_xarray()
+    assert data.sizes == {"triangle": 3, "plane_height": 5, "band": 2}
+    assert np.array_equal(data["NIR_absorbed"], result["NIR_absorbed"])
+    assert data["NIR_absorbed"].attrs["units"] == "W m-2"
+    assert float(data["absorbed_soil"].sel(band="PAR")) == result.bands["PAR"]["absorbed_soil"]
+    assert np.array_equal(data["PAR_down"], result.profile["PAR_down"])
+    assert "absorbed" not in data and "sunlit_leaf_fraction" not in data
+
+
+def test_is_told_in_a_line(result):
+    assert repr(result) == "<sunfleck.Result of 'three leaves': 3 triangles, PAR, NIR, complete>"
+
+
+def test_unknown_columns_are_named(result):
+    with pytest.raises(ValueError, match="there is no such column"):
+        result["PAR_absorbd"]
+
+
+def test_folders_are_replaced(result, tmp_path):
+    result.save(tmp_path / "out", export=["csv", "ply"], images=["rank_total"])
+    assert {"triangles.csv", "canopy.ply", "rank_total.png"} <= set(files_of(tmp_path / "out"))
+    result.save(tmp_path / "out", export=[])
+    assert "triangles.csv" not in files_of(tmp_path / "out")
+    with pytest.raises(ValueError, match="no such format"):
+        result.save(tmp_path / "out", export=["doc"])
+
+
+def test_folders_that_cannot_be_written_are_told(result, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(sunfleck.SunfleckError, match=r"\(.*\); "):
+        result.save(tmp_path / "file" / "out")
+
+
+def memory_kib():
+    with open("/proc/self/statm") as stream:
+        return int(stream.read().split()[1]) * resource.getpagesize() // 1024
+
+
+BLACK = {
+    "plot": {"size": [1.0, 1.0]},
+    "sun": {"elevation": 50.0, "azimuth": 130.0},
+    "band": [{"name": "PAR", "direct": 100.0}],
+    "optics": {"leaf": {"reflectance": 0.0}, "stem": {"reflectance": 0.0}},
+}
+
+
+@pytest.mark.parametrize(
+    "device, calls, scene",
+    [("cpu", 1000, with_arrays(BLACK)), ("cpu", 120, with_arrays()), ("lavapipe", 120, with_arrays())],
+    ids=["beam", "all", "vulkan"],
+)
+def test_calls_leak_nothing(device, calls, scene):
+    simulation = sunfleck.Simulation(scene, device=device)
+
+    def call(number):
+        result = simulation.run(sun={"elevation": 20.0 + number % 60, "azimuth": 130.0}, grid=0.1, passes=8, progress=lambda _: None)
+        assert result["PAR_absorbed"].shape == (3,) and result.summary and result.profile
+        assert len(result.planes) == len(result.sensors) == len(scene.get("plane", []))
+        with pytest.raises(ValueError):
+            simulation.run(sun={"elevation": 200.0, "azimuth": 0.0})
+
+    descriptors = len(os.listdir("/proc/self/fd"))
+    for number in range(calls // 4):
+        call(number)
+    settled = memory_kib()
+    for number in range(calls - calls // 4):
+        call(number)
+    # A leak of 8 KiB a call would be seen in 750 calls; what the allocator keeps for itself is less.
+    assert memory_kib() - settled < 4096
+    assert len(os.listdir("/proc/self/fd")) <= descriptors
+
+
+def test_simulations_leak_nothing():
+    def once():
+        return sunfleck.run(with_arrays(), **{**WORK, "grid": 0.1}).complete
+
+    for _ in range(20):
+        assert once()
+    settled = memory_kib()
+    for _ in range(60):
+        assert once()
+    assert memory_kib() - settled < 4096
