@@ -14,11 +14,13 @@ vocabulary.
 
 from ._core import commit as __commit__
 from ._core import version as __version__
+from ._day import DayResult, day
 from ._errors import DeviceError, InputError, SunfleckError
 from ._light import Sky, sky, sun_position
 from ._result import Result
 from ._simulation import UNCHANGED, Simulation, run
 
 __all__ = [
-    "UNCHANGED", "DeviceError", "InputError", "Result", "Simulation", "Sky", "SunfleckError", "run", "sky", "sun_position",
+    "UNCHANGED", "DayResult", "DeviceError", "InputError", "Result", "Simulation", "Sky", "SunfleckError", "day", "run", "sky",
+    "sun_position",
 ]  # fmt: skip

@@ -1,12 +1,12 @@
 #include "app/day.h"
 
 #include "app/day_plan.h"
+#include "app/day_steps.h"
 #include "app/interrupt.h"
 #include "app/result_folder.h"
 #include "app/simulation.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "base/random.h"
 #include "io/day_netcdf.h"
 #include "io/day_plot.h"
 #include "io/day_summary.h"
@@ -18,7 +18,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -35,39 +34,6 @@ constexpr const char* organs_file = "organs_day.csv";
 constexpr const char* fields_file = "day.nc";
 constexpr const char* plot_file = "day.png";
 constexpr const char* resume_hint = ", then go on with --resume";
-
-// next_work foresees replicates of which sixteen reach 0.7 of the bounds, so that a run rarely fails its checks: half of its
-// work is spare. With fewer packets each, a step makes as many replicates as it takes, and the spare work is what lies between
-// two checks. Rays cost little beside packets, and a beam that lags behind would cost all packets of more replicates.
-constexpr double share_of_next_packets = 0.4;
-// The sun may have moved to where much more work is needed, as when the first beams reach the ground. Where after so many
-// replicates the error is still so many bounds, a step begins anew with pilots: it would need 75 replicates, not some 20.
-constexpr int judged_replicates = 12;
-constexpr double most_bounds = 2.5;
-
-template <class T>
-ordered_json value_or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-// All that the bytes of a finished step depend on.
-ordered_json step_settings(const DayOptions& options, const Scene& scene, const SolveSettings& settings, const DayPlan& plan) {
-  return {{"sunfleck", version()},
-          {"scene_digest", scene.digest},
-          {"date", plan.course.dates.front()},
-          {"to_date", plan.course.dates.back()},
-          {"step_min", options.step_min},
-          {"from", clock_text(plan.from_min)},
-          {"to", clock_text(plan.to_min)},
-          {"seed", settings.seed},
-          {"direct_error", settings.accuracy.direct},
-          {"indirect_error", settings.accuracy.indirect},
-          {"confidence", settings.accuracy.confidence},
-          {"of", error_target_name(settings.accuracy.of)},
-          {"grid_m", value_or_null(settings.grid_m)},
-          {"passes", value_or_null(settings.passes)},
-          {"max_rays", value_or_null(settings.max_rays)}};
-}
 
 // The day's limit of time ends it between rays like Ctrl-C, not by smaller replicates: the bytes do not depend on the clock.
 class DayClock {
@@ -93,7 +59,7 @@ class DayRun {
  public:
   DayRun(Scene& scene, const DayPlan& plan, const SolveSettings& settings, const SceneTree& tree, Engine& engine,
          const StepStore& store, const DayClock& clock)
-      : model_(scene.model), plan_(plan), settings_(settings), tree_(tree), engine_(engine), store_(store), clock_(clock) {
+      : model_(scene.model), plan_(plan), store_(store), clock_(clock), steps_(model_, plan, settings, tree.layout, engine) {
     const auto& steps = plan.course.steps;
     lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.night(); }));
   }
@@ -112,80 +78,22 @@ class DayRun {
         store_.write(i, *step);
         tell(i, *step);
       }
-      count(*step);
-      next_work_ = step->next_work;
+      steps_.count(*step);
       result_.lights.push_back(std::move(step->light));
     }
+    result_.totals = steps_.totals();
     return std::move(result_);
   }
 
  private:
-  // Empty if stopped meanwhile.
   std::optional<StoredStep> simulate_step(std::size_t i) {
-    const MomentLight& light = plan_.lights[i];
-    model_.sun = light.sun;
-    model_.bands = light.bands;
-    model_.sky = light.sky;
-    SolveSettings settings = settings_;
-    settings.seed = RandomStream(settings_.seed, i).word();
-    if (next_work_ && !settings.grid_m && !settings.passes) {
-      settings.begin_with = Work{next_work_->rays, share_of_next_packets * next_work_->packets};
-    }
-    const double begin_s = clock_.seconds();
-    std::optional<RadiationResult> attempt = solve_step(settings);
-    if (!attempt) {
-      settings.begin_with.reset();
-      attempt = solve_step(settings);
-    }
-    const RadiationResult& result = *attempt;
-    check_validation(engine_);
-    if (result.stop == StopReason::interrupted) return std::nullopt;
-    StoredStep step;
-    step.light = step_light(model_, result);
-    step.fields = day_fields(model_, result);
-    step.next_work = result.next_work;
-    step.rays = result.direct.rays;
-    step.packets = result.indirect.packets;
-    step.lost_rays = result.lost_rays;
-    step.direct_error = result.direct.relative_error;
-    step.indirect_error = result.indirect.relative_error;
-    step.reached_bound = is_done(result.stop);
-    step.seconds = clock_.seconds() - begin_s;
-    return step;
-  }
-
-  // Empty if it began with far too little work; what decides that are counts, not the clock.
-  std::optional<RadiationResult> solve_step(const SolveSettings& settings) {
-    std::atomic<bool> too_little = false;  // the solver's threads read it
-    int replicates = 0;
-    Monitor monitor;
-    monitor.interrupted = [&] { return too_little || clock_.stop(); };
-    monitor.report = [&](const Progress& state) {
-      ++replicates;
-      const bool judged = settings.begin_with && replicates == judged_replicates;
-      if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
-      const double done = static_cast<double>(result_.totals.simulated) + state.fraction;
-      progress_.update(
-          {result_.totals.rays + result_.totals.packets + state.rays, done / lit_steps_, state.relative_error, state.bound});
+    const DayTotals& totals = steps_.totals();
+    const auto report = [&](const Progress& state) {
+      const double done = static_cast<double>(totals.simulated) + state.fraction;
+      progress_.update({totals.rays + totals.packets + state.rays, done / lit_steps_, state.relative_error, state.bound});
     };
-    RadiationResult result = solve(model_, tree_.layout, engine_.tracer(), settings, monitor);
-    if (too_little) return std::nullopt;
-    return result;
-  }
-
-  void count(const StoredStep& step) {
-    DayTotals& totals = result_.totals;
-    const auto worse = [](std::optional<double>& worst, const std::optional<double>& error) {
-      if (error) worst = std::max(worst.value_or(0.0), *error);
-    };
-    ++totals.simulated;
-    totals.short_of_bound += step.reached_bound ? 0 : 1;
-    totals.rays += step.rays;
-    totals.packets += step.packets;
-    totals.lost_rays += step.lost_rays;
-    worse(totals.direct_error, step.direct_error);
-    worse(totals.indirect_error, step.indirect_error);
-    totals.seconds += step.seconds;
+    return steps_.simulate(
+        i, [this] { return clock_.stop(); }, report);
   }
 
   void tell(std::size_t i, const StoredStep& step) const {
@@ -201,13 +109,10 @@ class DayRun {
 
   RadiationModel& model_;
   const DayPlan& plan_;
-  const SolveSettings& settings_;
-  const SceneTree& tree_;
-  Engine& engine_;
   const StepStore& store_;
   const DayClock& clock_;
+  DaySteps steps_;
   double lit_steps_ = 0.0;
-  std::optional<Work> next_work_;
   DayResult result_;
   ProgressLine progress_{"day"};
 };
@@ -321,7 +226,7 @@ int run_day(const DayOptions& options) {
   settings.max_seconds.reset();
   check_grid(options.run, scene);
   static_cast<void>(picture_band(scene.model, options.run.pictures.band));
-  const ordered_json kept_settings = step_settings(options, scene, settings, plan);
+  const ordered_json kept_settings = day_settings(options, scene, settings, plan);
   StepStore store(folder, scene.model, kept_settings);
   const StepStore::Found found = options.resume ? store.find() : StepStore::Found::nothing;
   if (found == StepStore::Found::finished) return tell_finished(folder, options.run);

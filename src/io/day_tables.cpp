@@ -18,13 +18,13 @@ std::string stopped_line(const DayCourse& course, std::span<const StepLight> lig
   return fmt::format("# incomplete: the first {} of {} steps\n", lights.size(), course.steps.size());
 }
 
+}  // namespace
+
 std::vector<double> organ_areas_m2(const Canopy& canopy) {
   std::vector<double> areas(canopy.organs.size());
   for (std::size_t e = 0; e < canopy.size(); ++e) areas[canopy.organ_of[e]] += area_m2(canopy.corners[e]);
   return areas;
 }
-
-}  // namespace
 
 std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                     std::span<const StepLight> lights) {

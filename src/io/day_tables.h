@@ -6,8 +6,11 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sunfleck {
+
+[[nodiscard]] std::vector<double> organ_areas_m2(const Canopy& canopy);  // [organ], one-sided
 
 // `lights` are those of the first steps of the course: all of them, or those done before the day was stopped, which the
 // tables say in a line of their own.

@@ -3,6 +3,7 @@
 #include "app/options.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "python/day.h"
 #include "python/light.h"
 #include "python/outcome.h"
 #include "python/simulation.h"
@@ -41,4 +42,5 @@ PYBIND11_MODULE(_core, module) {
   sunfleck::bind_light(module);
   sunfleck::bind_outcome(module);
   sunfleck::bind_simulation(module);
+  sunfleck::bind_day(module);
 }

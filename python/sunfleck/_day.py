@@ -1,0 +1,133 @@
+"""The course of days."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import warnings
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+import numpy as np
+
+from . import _core
+from ._options import whole, work_options
+from ._scene import Scene, SceneSource
+from ._simulation import Progress, without_line_numbers
+
+if TYPE_CHECKING:
+    import xarray
+
+
+class DayResult:
+    """The numbers of a day or several, as `sunfleck day` gives them; BAND stands for the name of a band."""
+
+    def __init__(self, core: Any) -> None:
+        self._core = core
+
+    @property
+    def complete(self) -> bool:
+        """Whether all steps were done and reached their bounds."""
+        return self._core.complete
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """summary.json."""
+        return json.loads(self._core.summary())
+
+    @functools.cached_property
+    def steps(self) -> dict[str, Any]:
+        """The columns of day.csv as arrays of shape (steps,): time (a list of texts, start of the step with offset), step_s,
+        elevation_deg, azimuth_deg (of the middle), BAND_incident, BAND_absorbed_vegetation, BAND_absorbed_soil, BAND_reflected
+        (W m-2 of ground), sunlit_leaf_fraction, each of these with its _error, a half-width."""
+        return self._core.steps()
+
+    @functools.cached_property
+    def organs(self) -> dict[str, Any]:
+        """What organs absorbed: date (a list), organ (a list of names), plant, rank, area_m2, all by organ, and arrays of shape
+        (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), BAND_error (relative), with photon units BAND_absorbed_mol_m2."""
+        return self._core.organs()
+
+    @functools.cached_property
+    def triangles(self) -> dict[str, np.ndarray]:
+        """The fields of day.nc, single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
+        BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed, BAND_error. Nights are 0."""
+        return self._core.triangles()
+
+    def table(self, name: str) -> str:
+        """The text of day.csv or organs_day.csv, byte for byte as the program writes it."""
+        return self._core.table(name)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """`steps` and `triangles` as an xarray Dataset with the dimensions time (UTC) and triangle. Needs xarray."""
+        import xarray
+
+        times = np.array([_utc(text) for text in self.steps["time"]], dtype="datetime64[ns]")
+        data = xarray.Dataset(coords={"time": times}, attrs={"title": self.summary["scene"], "seed": self.summary["seed"]})
+        for name, values in self.steps.items():
+            if name != "time":
+                data[name] = ("time", values)
+        for name, values in self.triangles.items():
+            data[name] = (("time", "triangle"), values, {"units": "W m-2"})
+        return data
+
+    def __repr__(self) -> str:
+        steps = self.steps["time"]
+        state = "complete" if self.complete else "not complete"
+        return f"<sunfleck.DayResult of {self.summary['scene']!r}: {len(steps)} steps, {state}>"
+
+
+def _utc(text: str) -> np.datetime64:
+    import datetime
+
+    moment = datetime.datetime.fromisoformat(text).astimezone(datetime.timezone.utc)
+    return np.datetime64(moment.replace(tzinfo=None))
+
+
+def day(
+    scene: Scene,
+    *,
+    start: Optional[str] = None,
+    stop: Optional[str] = None,
+    step: int = 60,
+    date: Optional[str] = None,
+    to_date: Optional[str] = None,
+    folder: Union[str, os.PathLike, None] = None,
+    device: str = "auto",
+    threads: int = 0,
+    allow_outside: bool = False,
+    error: Optional[float] = None,
+    direct_error: Optional[float] = None,
+    indirect_error: Optional[float] = None,
+    grid: Optional[float] = None,
+    passes: Optional[int] = None,
+    max_seconds: Optional[float] = None,
+    max_rays: Optional[int] = None,
+    seed: int = 1,
+    progress: Optional[Progress] = None,
+) -> DayResult:
+    """Simulates the course of a day or several, one tree for all: the numbers of `sunfleck day`, bit for bit.
+
+    scene, folder, device, threads, allow_outside: as for `Simulation`; the scene needs a place, and [weather] or direct_normal.
+    start, stop: local clock "HH:MM" (default: sunrise and sunset). step: minutes. date, to_date: "YYYY-MM-DD" (default: the
+        scene's own). error ... seed, progress: as for `Simulation.run`; bounds hold for each step, max_seconds for all together.
+    Raises InputError (a ValueError) for bad input; KeyboardInterrupt after Ctrl-C.
+    """
+    work = work_options(
+        {
+            "error": error, "direct_error": direct_error, "indirect_error": indirect_error, "grid": grid, "passes": passes,
+            "max_seconds": max_seconds, "max_rays": max_rays, "seed": seed, "triangle_errors": True,
+        }
+    )  # fmt: skip
+    when = (str(start or ""), str(stop or ""), str(date or ""), str(to_date or ""))
+    options = _core.DayOptions(work, *when, whole(step, "step", 1, 24 * 60), str(device), whole(threads, "threads", 0, 1024))
+    source = SceneSource(scene, folder)
+    arguments = (os.fspath(source.file), source.text, source.meshes, allow_outside, options, progress)
+    if source.text is None:
+        core = _core.day(*arguments)
+    else:
+        with without_line_numbers(source):
+            core = _core.day(*arguments)
+    for line in core.warnings:
+        warnings.warn(line, stacklevel=2)
+    return DayResult(core)

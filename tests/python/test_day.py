@@ -1,0 +1,79 @@
+"""The course of a day: the numbers of `sunfleck day`, bit for bit."""
+
+import netCDF4
+import numpy as np
+import pytest
+import sunfleck
+import tomli_w
+from conftest import OBJ, TABLES, body, files_of, program, with_arrays, with_file
+
+PLACE = {"time": "2002-08-08T10:10:00+08:00", "latitude": 40.0, "longitude": 116.0}
+BANDS = [{"name": "PAR", "direct_normal": 400.0, "diffuse": 40.0, "umol_per_joule": 4.57}, {"name": "NIR", "direct_normal": 300.0}]
+DAY = {**{key: TABLES[key] for key in ("title", "plot", "sky", "soil", "optics", "plane")}, "sun": PLACE, "band": BANDS}
+HOURS = {"start": "04:00", "stop": "09:00", "step": 60, "device": "cpu"}
+OPTIONS = ["--from", "04:00", "--to", "09:00", "--step", "60", "--device", "cpu", "--images", "none"]
+
+
+@pytest.fixture
+def day_file(tmp_path):
+    (tmp_path / "leaves.obj").write_text(OBJ)
+    file = tmp_path / "scene.toml"
+    text = tomli_w.dumps(with_file(DAY)).replace(f'"{PLACE["time"]}"', PLACE["time"])
+    file.write_text(text)
+    return file
+
+
+@pytest.mark.parametrize("work, options", [({"grid": 0.03}, ["--grid", "0.03"]), ({"error": 0.05}, ["--error", "0.05"])], ids=["grid", "bound"])
+def test_tables_are_those_of_the_program(day_file, tmp_path, work, options):
+    program("day", day_file, "-o", tmp_path / "out", *OPTIONS, *options)
+    day = sunfleck.day(day_file, **HOURS, **work)
+    files = files_of(tmp_path / "out")
+    for name in ("day.csv", "organs_day.csv"):
+        assert day.table(name).encode() == files[name]
+    with netCDF4.Dataset(tmp_path / "out" / "day.nc") as file:
+        for name, values in day.triangles.items():
+            assert np.array_equal(np.ma.filled(file[name][:], np.nan), values, equal_nan=True), name
+    assert day.complete
+
+
+def test_arrays_hold_what_the_tables_hold():
+    day = sunfleck.day(with_arrays(DAY), **HOURS, grid=0.05, passes=8)
+    heads, *rows = [line.split(",") for line in body(day.table("day.csv")).splitlines()]
+    assert len(rows) == 5 and float(rows[0][2]) < 0.0, "it begins at night"
+    for number, row in enumerate(rows):
+        for head, cell in zip(heads, row):
+            value = day.steps[head][number]
+            assert cell == (value if isinstance(value, str) else "" if np.isnan(value) else f"{value:.9g}"), head
+    heads, *rows = [line.split(",") for line in body(day.table("organs_day.csv")).splitlines()]
+    organs = day.organs
+    assert organs["PAR_absorbed_mol_m2"].shape == (1, 2)
+    for number, row in enumerate(rows):
+        assert row[:4] == [organs["date"][0], str(organs["plant"][number]), organs["organ"][number], str(organs["rank"][number])]
+        for head, cell in zip(heads[5:], row[5:]):
+            assert cell == f"{organs[head][0, number]:.9g}", head
+
+
+def test_xarray():
+    data = sunfleck.day(with_arrays(DAY), **HOURS, grid=0.05, passes=8).to_xarray()
+    assert data.sizes == {"time": 5, "triangle": 3}
+    assert data["time"].values[0] == np.datetime64("2002-08-07T20:00")
+    assert float(data["PAR_absorbed"].isel(time=0).sum()) == 0.0 < float(data["PAR_absorbed"].isel(time=4).sum())
+
+
+def test_limits_and_bad_times():
+    short = sunfleck.day(with_arrays(DAY), **HOURS, error=1e-6, max_seconds=0.3)
+    assert not short.complete and len(short.steps["time"]) < 5
+    for bad, words in (({"start": "25:00"}, "25:00"), ({"step": 0}, "step"), ({"date": "2002-02-30"}, "2002-02-30"), ({"step": 7.5}, "step")):
+        with pytest.raises(ValueError) as error:
+            sunfleck.day(with_arrays(DAY), **{**HOURS, **bad}, grid=0.1)
+        assert words in str(error.value) and "\n" not in str(error.value)
+    fixed = {**DAY, "band": [{"name": "PAR", "direct": 1.0}, {"name": "NIR"}]}
+    with pytest.raises(ValueError, match="direct"):
+        sunfleck.day(with_arrays(fixed), **HOURS, grid=0.1)
+
+
+def test_progress_is_of_the_whole_day():
+    told = []
+    sunfleck.day(with_arrays(DAY), **HOURS, error=0.02, progress=told.append)
+    fractions = [state["fraction"] for state in told]
+    assert told and 0.0 <= min(fractions) and max(fractions) <= 1.0
