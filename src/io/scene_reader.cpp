@@ -101,6 +101,7 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   digest.add(bytes_of(mesh.triangles));
   digest.add(bytes_of(mesh.optics_of));
   digest.add(bytes_of(mesh.organ_of));
+  digest.add(bytes_of(mesh.labels));
   for (const std::string& name : mesh.optics_names) digest.add(name + "\n");
   for (const Organ& organ : mesh.organs) digest.add(fmt::format("{} {} {}\n", organ.plant, organ.name, organ.rank));
 }
