@@ -185,7 +185,7 @@ class CaribuSceneText {
       text_ += fmt::format("\n[sky]\nmodel = \"lights\"\nfile  = {}\n", toml_string(names_.light));
     }
     for (const NamedOptics& band : bands_)
-      text_ += fmt::format("\n[[band]]\nname    = \"{}\"\n{} = {}\n", band.band, beam ? "direct " : "diffuse", sum);
+      text_ += fmt::format("\n[[band]]\nname    = \"{}\"\n{} = {:.15g}\n", band.band, beam ? "direct " : "diffuse", sum);
   }
 
   void add_optics() {

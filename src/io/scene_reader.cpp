@@ -196,6 +196,10 @@ void check_same_ground(const TomlTable& root, const RadiationModel& model, const
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
+  if (is_mesh_file(file)) {
+    throw_input(fmt::format("{}: not a scene", printable(file.string())), "this is a mesh",
+                "name it under [[geometry]] of a scene file");
+  }
   return read_scene(SceneText{file, read_file(file, most_bytes), {}}, access);
 }
 
