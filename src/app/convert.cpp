@@ -13,7 +13,7 @@
 #include <fmt/ranges.h>
 #include <meshoptimizer.h>
 
-#include <algorithm>
+#include <optional>
 #include <system_error>
 
 namespace sunfleck {
@@ -126,13 +126,15 @@ NamedFile named_file(const fs::path& folder, const fs::path& file) {
   return {file, file.filename(), true};
 }
 
-// A file of the same content that is there already will do.
-void copy_beside(const fs::path& folder, const NamedFile& file) {
+// What has to be written for its copy: nothing where a file of the same content is there already.
+std::optional<std::string> bytes_to_copy(const fs::path& folder, const NamedFile& file) {
+  if (!file.copied) return std::nullopt;
   const fs::path to = folder / file.name;
-  const std::string bytes = read_file(file.from);
+  std::string bytes = read_file(file.from);
   std::error_code error;
-  if (!fs::exists(fs::symlink_status(to, error))) return write_file(to, bytes);
-  if (fs::is_regular_file(fs::symlink_status(to, error)) && read_file(to) == bytes) return;
+  const fs::file_status there = fs::symlink_status(to, error);
+  if (!fs::exists(there)) return bytes;
+  if (fs::is_regular_file(there) && read_file(to) == bytes) return std::nullopt;
   throw_input(printable(to.string()),
               fmt::format("another file than {}, which the scene needs beside it", printable(file.from.string())),
               "give the scene another folder");
@@ -142,10 +144,13 @@ int write_as_scene(const ConvertOptions& options) {
   const fs::path folder = options.output.parent_path();
   const CaribuSet set = caribu_set(options.input, options.stand, options.allow_outside);
   const NamedFile canopy = named_file(folder, set.canopy);
-  const NamedFile light = named_file(folder, set.light);
+  NamedFile light = named_file(folder, set.light);
   const CaribuScene made = caribu_scene(set, {canopy.name.generic_string(), light.name.generic_string()});
-  if (canopy.copied) copy_beside(folder, canopy);
-  if (light.copied && made.names_light) copy_beside(folder, light);
+  light.copied = light.copied && made.names_light;
+  const std::optional<std::string> canopy_bytes = bytes_to_copy(folder, canopy);
+  const std::optional<std::string> light_bytes = bytes_to_copy(folder, light);
+  if (canopy_bytes) write_file(folder / canopy.name, *canopy_bytes);
+  if (light_bytes) write_file(folder / light.name, *light_bytes);
   const Scene scene = read_scene(SceneText{options.output, made.text, {}}, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   write_file(options.output, made.text);
