@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/convert.h"
 #include "app/day.h"
 #include "app/options.h"
 #include "app/process.h"
@@ -25,6 +26,7 @@ struct Dispatch {
   int operator()(const sunfleck::ValidateOptions& options) const { return sunfleck::validate(options); }
   int operator()(const sunfleck::TradeoffOptions& options) const { return sunfleck::tradeoff(options); }
   int operator()(const sunfleck::MaizeOptions& options) const { return sunfleck::write_maize(options); }
+  int operator()(const sunfleck::ConvertOptions& options) const { return sunfleck::convert(options); }
   int operator()(const sunfleck::InfoOptions& options) const { return sunfleck::show_info(options); }
 };
 

@@ -2,6 +2,7 @@
 
 #include "app/interrupt.h"
 #include "app/result_folder.h"
+#include "app/scene_source.h"
 #include "app/simulation.h"
 #include "base/log.h"
 #include "canopy/maize.h"
@@ -19,7 +20,7 @@ int run(const RunOptions& options) {
   const std::filesystem::path folder = result_folder(options);
   FolderLock lock(folder);
 
-  const Scene scene = read_scene(options.scene, {options.allow_outside});
+  const Scene scene = load_scene(options.scene, options.stand, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   const RadiationModel& model = scene.model;
   const SolveSettings settings = solve_settings(options, scene);

@@ -4,6 +4,7 @@
 #include "app/day_steps.h"
 #include "app/interrupt.h"
 #include "app/result_folder.h"
+#include "app/scene_source.h"
 #include "app/simulation.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -201,7 +202,7 @@ int warn_if_stopped(const DayCourse& course, const DayResult& day, const RunOpti
 }
 
 Scene read_day_scene(const RunOptions& options) {
-  Scene scene = read_scene(options.scene, {options.allow_outside, ScenePurpose::day});
+  Scene scene = load_scene(options.scene, options.stand, {options.allow_outside, ScenePurpose::day});
   for (const std::string& warning : scene.warnings) warn(warning);
   if (!scene.model.planes.empty() || !scene.model.sensors.empty()) say("planes and sensors are left to `run`");
   scene.model.planes.clear();

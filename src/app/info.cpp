@@ -1,9 +1,9 @@
 #include "app/commands.h"
 
+#include "app/scene_source.h"
 #include "base/log.h"
 #include "bvh/bvh.h"
 #include "gpu/context.h"
-#include "io/scene_reader.h"
 #include "light/sun_events.h"
 #include "transport/counters.h"
 #include "transport/solve.h"
@@ -91,7 +91,7 @@ ordered_json sun_json(const Scene& scene) {
 }
 
 void add_scene(ordered_json& info, const InfoOptions& options) {
-  const Scene scene = read_scene(options.scene, {options.allow_outside});
+  const Scene scene = load_scene(options.scene, options.stand, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   const CounterLayout layout = make_counter_layout(scene.model);
   const Bvh bvh = build_bvh(scene.model.canopy, box_padding_m(scene.model));

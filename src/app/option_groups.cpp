@@ -35,6 +35,23 @@ void add_simulation(CLI::App& command, RunOptions& options, OptionWords& words) 
   group.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
 }
 
+void add_stand(CLI::App& command, StandFiles& stand) {
+  CLI::Option_group& group = *command.add_option_group("A mesh in place of the scene, with CARIBU's files");
+  group
+      .add_option(
+          "--optics", stand.optics,
+          "Optical properties, .opt, a file for each band: par.opt,nir.opt are the bands PAR and NIR; NAME=FILE names one")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(not_empty());
+  group.add_option("--light", stand.light, "Light, .light: one direction is the sun, several are a sky")->check(not_empty());
+  group.add_option("--domain", stand.domain, "Plot that repeats without end, .8 (default: an isolated stand)")
+      ->check(not_empty());
+  group.add_option("--scale", stand.scale, "Metres in a unit of the mesh and the domain: 0.01 for centimetres (default: 1)")
+      ->check(positive());
+}
+
 template <class Options>
 void add_device(CLI::App& command, Options& options) {
   command.add_option("--device", options.device, "auto, gpu, lavapipe, cpu, a number or a part of a name")
@@ -95,10 +112,11 @@ void add_version(CLI::App& command) {
 void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
   CLI::App& run = *app.add_subcommand("run", "Simulate a scene: result tables and pictures");
   add_version(run);
-  run.add_option("scene", options.scene, "Scene file (TOML)")->required()->check(not_empty());
+  run.add_option("scene", options.scene, "Scene file (TOML), or a .can with CARIBU's files")->required()->check(not_empty());
   run.add_option("-o,--output", options.output, "Result folder (default: results/<scene>)")->check(not_empty());
   run.add_option("--export", options.exports,
-                 "Values of every triangle for other programs, separated by commas: " + list_of(export_words()))
+                 "Values of every triangle for other programs, separated by commas: " + list_of(export_words()) +
+                     " (always for a .can)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(without_blanks())
@@ -117,6 +135,7 @@ void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
       ->check(one_of(image_words()))
       ->capture_default_str();
   run.add_flag("--json", options.json, "Print the summary on standard output, nothing else");
+  add_stand(run, options.stand);
   add_device(run, options);
   add_simulation(run, options, words);
   add_pictures(run, options.pictures, words);
@@ -154,10 +173,13 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
 void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
   CLI::App& render = *app.add_subcommand("render", "Draw one picture of a scene, or of a finished run's folder");
   add_version(render);
-  render.add_option("scene", options.run.scene, "Scene file (TOML), or the folder of a finished run")
+  render
+      .add_option("scene", options.run.scene,
+                  "Scene file (TOML), or a .can with CARIBU's files, or the folder of a finished run")
       ->required()
       ->check(not_empty());
   render.add_option("-o,--output", options.file, "Picture, .png, or .exr for the values themselves")->check(not_empty());
+  add_stand(render, options.run.stand);
   add_device(render, options.run);
   add_simulation(render, options.run, words);
   add_pictures(render, options.run.pictures, words);
@@ -166,10 +188,13 @@ void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
 void add_view(CLI::App& app, ViewOptions& options, OptionWords& words) {
   CLI::App& view = *app.add_subcommand("view", "Look at a scene in a window: move the sun, see the light");
   add_version(view);
-  view.add_option("scene", options.run.scene, "Scene file (TOML)")->required()->check(not_empty());
+  view.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")
+      ->required()
+      ->check(not_empty());
   view.add_option("-o,--output", options.run.output, "Where pictures and results are saved (default: results/<scene>_view)")
       ->check(not_empty());
   view.add_flag("--json", options.run.json, "Print a line of JSON on standard output for each thing that happens");
+  add_stand(view, options.run.stand);
   add_device(view, options.run);
   add_simulation(view, options.run, words);
   add_pictures(view, options.run.pictures, words);
@@ -192,7 +217,9 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
   constexpr std::uint64_t most_seeds = 1000;
   CLI::App& tradeoff = *app.add_subcommand("tradeoff", "Measure a scene's speed against its accuracy: a table and a plot");
   add_version(tradeoff);
-  tradeoff.add_option("scene", options.run.scene, "Scene file (TOML)")->required()->check(not_empty());
+  tradeoff.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")
+      ->required()
+      ->check(not_empty());
   tradeoff.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>_tradeoff)")
       ->check(not_empty());
   tradeoff.add_option("--for", options.asked_error, "The relative error that a setting is recommended for")
@@ -223,6 +250,7 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
       ->check(positive());
   tradeoff.add_flag("--allow-outside", options.run.allow_outside, "Accept mesh files outside the scene's folder");
   tradeoff.add_flag("--json", options.run.json, "Print slopes and recommendation on standard output, nothing else");
+  add_stand(tradeoff, options.run.stand);
   add_device(tradeoff, options.run);
 }
 
@@ -246,10 +274,28 @@ void add_maize(CLI::App& app, MaizeOptions& options) {
       ->capture_default_str();
 }
 
+void add_convert(CLI::App& app, ConvertOptions& options) {
+  CLI::App& convert = *app.add_subcommand(
+      "convert", "Turn a mesh with CARIBU's files into a scene, or a mesh or scene into another kind of mesh");
+  add_version(convert);
+  convert.add_option("in", options.input, "Mesh (.glb, .gltf, .obj, .ply, .stl, .can, .can.gz) or scene file (.toml)")
+      ->required()
+      ->check(not_empty());
+  convert
+      .add_option("out", options.output,
+                  "Scene file (.toml), with --optics and --light; or mesh (.glb, .gltf, .obj, .ply, .can)")
+      ->required()
+      ->check(not_empty());
+  add_stand(convert, options.stand);
+  convert.add_flag("--z-up", options.z_up, "The input's axes are x east, y north, z up, as a .can's always are");
+  convert.add_flag("--allow-outside", options.allow_outside, "Accept files outside the folder of the scene or glTF");
+}
+
 void add_info(CLI::App& app, InfoOptions& options) {
   CLI::App& info = *app.add_subcommand("info", "Show the devices, and what a scene holds");
   add_version(info);
-  info.add_option("scene", options.scene, "Scene file (TOML)")->check(not_empty());
+  info.add_option("scene", options.scene, "Scene file (TOML), or a .can with CARIBU's files")->check(not_empty());
+  add_stand(info, options.stand);
   info.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
   info.add_flag("--json", options.json, "Print JSON");
 }

@@ -28,6 +28,7 @@ void add_view(CLI::App& app, ViewOptions& options, OptionWords& words);
 void add_validate(CLI::App& app, ValidateOptions& options);
 void add_tradeoff(CLI::App& app, TradeoffOptions& options);
 void add_maize(CLI::App& app, MaizeOptions& options);
+void add_convert(CLI::App& app, ConvertOptions& options);
 void add_info(CLI::App& app, InfoOptions& options);
 
 }  // namespace sunfleck

@@ -2,7 +2,9 @@
 
 #include "app/option_groups.h"
 #include "base/error.h"
+#include "io/exports.h"
 #include "io/file.h"
+#include "io/mesh_reader.h"
 #include "version.h"
 
 #include <fmt/format.h>
@@ -10,7 +12,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 
 namespace sunfleck {
@@ -18,7 +19,6 @@ namespace {
 
 constexpr int usual_window_width = 1280;
 constexpr int usual_window_height = 800;
-constexpr std::array commands_to_come{"convert"};
 
 void read_size(const std::string& size, PictureOptions& options) {
   int width = 0;
@@ -63,7 +63,15 @@ void check_images(const RunOptions& options) {
               "none stands alone, without other pictures, --chart and --field", "leave none out, or the others");
 }
 
+// CARIBU's users expect its table.
+void add_caribu_table(RunOptions& options) {
+  const std::string table = export_name(ExportKind::caribu);
+  const bool given = std::find(options.exports.begin(), options.exports.end(), table) != options.exports.end();
+  if (is_can_file(options.scene) && !given) options.exports.push_back(table);
+}
+
 RunOptions finished(RunOptions options, const OptionWords& words, const CLI::App& command) {
+  add_caribu_table(options);
   read_errors(words, options);
   read_pictures(words, options.pictures);
   if (command.count("--chart") + command.count("--field") > 0) options.extra_picture = read_picture(words);
@@ -83,7 +91,7 @@ RenderOptions finished(RenderOptions options, const OptionWords& words, const CL
   options.picture = read_picture(words);
   options.chart_given = command.count("--chart") > 0;
   for (const char* name : {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--max-seconds", "--max-rays",
-                           "--seed", "--allow-outside"}) {
+                           "--seed", "--allow-outside", "--optics", "--light", "--domain", "--scale"}) {
     if (options.simulating.empty() && command.count(name) > 0) options.simulating = name;
   }
   return options;
@@ -111,14 +119,10 @@ void check_stand(const MaizeOptions& options) {
 // CLI11's message in three parts. Its own checks say `OPTION: what is wrong`, ours `OPTION: VALUE (why)`.
 [[noreturn]] void throw_usage(const CLI::ParseError& error, const CLI::App& app, int argc, const char* const* argv) {
   const std::string first = argc > 1 ? printable(argv[1]) : "";
-  if (std::find(commands_to_come.begin(), commands_to_come.end(), first) != commands_to_come.end()) {
-    throw_input(first, fmt::format("not in version {} yet", version()),
-                "use run, day, render, view, validate, tradeoff, maize or info");
-  }
   const auto chosen = app.get_subcommands();
   if (chosen.empty() && (first.empty() || first[0] != '-')) {
     throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "no command of this program",
-                "use run, day, render, view, validate, tradeoff, maize or info; see sunfleck --help");
+                "use run, day, render, view, validate, tradeoff, maize, convert or info; see sunfleck --help");
   }
   const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
   const std::vector<std::string> unknown = app.remaining(true);
@@ -136,6 +140,13 @@ void check_stand(const MaizeOptions& options) {
 
 }  // namespace
 
+std::string StandFiles::first_given() const {
+  if (!optics.empty()) return "--optics";
+  if (!light.empty()) return "--light";
+  if (!domain.empty()) return "--domain";
+  return scale ? "--scale" : "";
+}
+
 std::string version() {
   return SUNFLECK_VERSION;
 }
@@ -151,6 +162,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   RunOptions run;
   DayOptions day;
   MaizeOptions maize;
+  ConvertOptions convert;
   InfoOptions info;
   RenderOptions render;
   ViewOptions view;
@@ -164,6 +176,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   add_validate(app, validate);
   add_tradeoff(app, tradeoff);
   add_maize(app, maize);
+  add_convert(app, convert);
   add_info(app, info);
   try {
     app.parse(argc, argv);
@@ -178,6 +191,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     check_stand(maize);
     return maize;
   }
+  if (app.got_subcommand("convert")) return convert;
   if (app.got_subcommand("info")) return info;
   if (app.got_subcommand("validate")) return validate;
   if (app.got_subcommand("tradeoff")) return tradeoff;

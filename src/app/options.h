@@ -12,8 +12,19 @@
 
 namespace sunfleck {
 
+// CARIBU's files beside a mesh that stands in a scene's place.
+struct StandFiles {
+  std::vector<std::string> optics;      // FILE or NAME=FILE, one for each band
+  std::filesystem::path light, domain;  // may be empty
+  std::optional<double> scale;          // metres in a unit of the mesh and the domain; default 1
+
+  // The option given first in this order, for messages; empty without any.
+  [[nodiscard]] std::string first_given() const;
+};
+
 struct RunOptions {
-  std::filesystem::path scene;
+  std::filesystem::path scene;  // or a mesh, with `stand`
+  StandFiles stand;
   std::filesystem::path output;        // empty: results/<stem of the scene>
   std::string device = "auto";         // auto | gpu | lavapipe | cpu | INDEX | NAME
   std::optional<double> direct_error;  // replace the scene's bounds
@@ -84,8 +95,16 @@ struct MaizeOptions {
   std::uint64_t seed = 1;
 };
 
+struct ConvertOptions {
+  std::filesystem::path input, output;
+  StandFiles stand;
+  bool z_up = false;  // the input's z axis points up, which a .can's does anyway
+  bool allow_outside = false;
+};
+
 struct InfoOptions {
   std::filesystem::path scene;  // may be empty: devices only
+  StandFiles stand;
   bool allow_outside = false;
   bool json = false;
 };
@@ -95,7 +114,7 @@ struct TextToPrint {
   std::string text;
 };
 using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, ViewOptions, ValidateOptions, TradeoffOptions,
-                             MaizeOptions, InfoOptions>;
+                             MaizeOptions, ConvertOptions, InfoOptions>;
 
 // Throws Error (input) on bad usage.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);

@@ -2,6 +2,7 @@
 
 #include "app/interrupt.h"
 #include "app/pictures.h"
+#include "app/scene_source.h"
 #include "app/simulation.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -29,7 +30,7 @@ bool is_exr(const fs::path& file) {
 fs::path picture_file(const RenderOptions& options, bool finished_run) {
   fs::path file = options.file;
   const fs::path name = stem_of(options.picture) + ".png";
-  if (file.empty()) file = finished_run ? options.run.scene / name : fs::path(options.run.scene.stem().string() + "_") += name;
+  if (file.empty()) file = finished_run ? options.run.scene / name : fs::path(scene_stem(options.run.scene) + "_") += name;
   if (file.extension() != ".png" && !is_exr(file)) {
     throw_input(fmt::format("-o {}", printable(file.string())), "the name must end in .png or .exr",
                 "give a picture.png, or a values.exr for the values themselves");
@@ -57,7 +58,7 @@ struct Source {
 Source read_source(const RenderOptions& options, bool finished_run) {
   const fs::path& place = options.run.scene;
   if (!finished_run) {
-    Source source{read_scene(place, {options.run.allow_outside}), std::nullopt};
+    Source source{load_scene(place, options.run.stand, {options.run.allow_outside}), std::nullopt};
     for (const std::string& warning : source.scene.warnings) warn(warning);
     return source;
   }

@@ -4,6 +4,7 @@
 #include "app/fields.h"
 #include "app/interrupt.h"
 #include "app/report.h"
+#include "app/scene_source.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "io/exports.h"
@@ -193,7 +194,7 @@ void remove_files(const std::filesystem::path& folder, const std::vector<std::st
 }  // namespace
 
 std::filesystem::path result_folder(const RunOptions& options) {
-  return options.output.empty() ? std::filesystem::path("results") / options.scene.stem() : options.output;
+  return options.output.empty() ? std::filesystem::path("results") / scene_stem(options.scene) : options.output;
 }
 
 void prepare_folder(const std::filesystem::path& folder, FolderLock& lock) {

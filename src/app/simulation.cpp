@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "bvh/bvh.h"
+#include "io/exports.h"
 #include "light/beam_grid.h"
 #include "transport/sensors.h"
 
@@ -31,7 +32,10 @@ SolveSettings solve_settings(const RunOptions& options, const Scene& scene) {
   settings.max_rays = options.max_rays;
   settings.max_seconds = options.max_seconds;
   settings.replicates_at_once = options.threads == 1 ? 1 : 2;
-  const bool of_elements = !options.exports.empty() || scene.accuracy.of == ErrorTarget::triangle;
+  // CARIBU's table has no errors.
+  const bool shown = std::any_of(options.exports.begin(), options.exports.end(),
+                                 [](const std::string& name) { return name != export_name(ExportKind::caribu); });
+  const bool of_elements = shown || scene.accuracy.of == ErrorTarget::triangle;
   settings.element_errors = of_elements ? ElementErrors::keep : ElementErrors::skip;
   return settings;
 }

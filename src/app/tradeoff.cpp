@@ -1,6 +1,7 @@
 #include "app/tradeoff.h"
 
 #include "app/interrupt.h"
+#include "app/scene_source.h"
 #include "app/simulation.h"
 #include "app/tradeoff_fit.h"
 #include "app/tradeoff_measure.h"
@@ -25,7 +26,7 @@ constexpr const char* table_file = "tradeoff.csv";
 constexpr const char* plot_file = "tradeoff.png";
 
 Scene read_lit_scene(const RunOptions& options) {
-  Scene scene = read_scene(options.scene, {options.allow_outside});
+  Scene scene = load_scene(options.scene, options.stand, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   RadiationModel& model = scene.model;
   const bool lamps = std::any_of(model.optics.begin(), model.optics.end(), [](const SurfaceOptics& optics) {
@@ -84,7 +85,7 @@ int tradeoff(const TradeoffOptions& options) {
   exit_on_interrupts();
   Stopwatch total;
   const fs::path folder =
-      options.run.output.empty() ? fs::path("results") / (options.run.scene.stem().string() + "_tradeoff") : options.run.output;
+      options.run.output.empty() ? fs::path("results") / (scene_stem(options.run.scene) + "_tradeoff") : options.run.output;
   FolderLock lock(folder);
 
   const Scene scene = read_lit_scene(options.run);

@@ -132,6 +132,10 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
   canopy.organ_of.reserve(elements);
   canopy.optics_of.reserve(elements);
 
+  const bool labelled =
+      std::any_of(parts.begin(), parts.end(), [](const PlacedMesh& part) { return !part.mesh.labels.empty(); });
+  if (labelled) canopy.labels.reserve(elements);
+
   const DoubleBox box = bounds_of(parts);
   const Wrapper wrapper(plot);
   if (plot.periodic) canopy.period_m = wrapper.period_m();
@@ -157,6 +161,7 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
         canopy.corners.push_back({glm::vec3(corners_m[0]), glm::vec3(corners_m[1]), glm::vec3(corners_m[2])});
         canopy.organ_of.push_back(first_organ + mesh.organ_of[t]);
         canopy.optics_of.push_back(optics[mesh.optics_of[t]]);
+        if (labelled) canopy.labels.push_back(mesh.labels.empty() ? no_label : mesh.labels[t]);
       }
     }
   }

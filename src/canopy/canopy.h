@@ -33,6 +33,7 @@ struct Canopy {
   std::vector<std::uint16_t> optics_of;   // [element]
   std::vector<Organ> organs;              // [organ]
   std::vector<std::string> optics_names;  // [optics]
+  std::vector<std::uint64_t> labels;      // [element], as in Mesh
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
 };

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Organ {
   friend bool operator==(const Organ&, const Organ&) = default;
 };
 
+constexpr std::uint64_t no_label = std::numeric_limits<std::uint64_t>::max();
+
 struct Mesh {
   std::vector<glm::dvec3> vertices;       // [vertex], m
   std::vector<glm::uvec3> triangles;      // [triangle], vertex numbers; the counter-clockwise side is the upper face
@@ -25,6 +28,8 @@ struct Mesh {
   std::vector<std::uint32_t> organ_of;    // [triangle], index into organs
   std::vector<std::string> optics_names;  // as the file's materials are called
   std::vector<Organ> organs;              // no two equal
+  std::vector<std::uint64_t> labels;      // [triangle], as a .can file has them: O PPPPP LLL EEE as one number, or no_label;
+                                          // empty without any
 };
 
 // A copy of a mesh in the scene: turned clockwise seen from above, then moved.

@@ -18,8 +18,9 @@ constexpr std::size_t most_growth = 100;
 constexpr std::size_t harmless_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_corners = 1000;
 
-// Digits O PPPPP LLL EEE; the element number EEE is of no use here.
+// Digits O PPPPP LLL EEE.
 struct CanLabel {
+  std::uint64_t number = 0;
   std::uint32_t species = 0;  // 0 is soil
   std::uint32_t plant = 0;
   int leaf = 0;  // 0 is the stem
@@ -30,8 +31,8 @@ CanLabel parse_label(const MeshSource& source, std::size_t line, std::string_vie
   if (!digits || *digits < 0 || word.size() > 12 || word.find_first_not_of("0123456789") != word.npos)
     refuse(source, line, fmt::format("label {}", in_quotes(word)), "must be at most 12 digits, O PPPPP LLL EEE",
            "write species, plant, leaf and element number as one number");
-  return {static_cast<std::uint32_t>(*digits / 100'000'000'000), static_cast<std::uint32_t>(*digits / 1'000'000 % 100'000),
-          static_cast<int>(*digits / 1000 % 1000)};
+  return {static_cast<std::uint64_t>(*digits), static_cast<std::uint32_t>(*digits / 100'000'000'000),
+          static_cast<std::uint32_t>(*digits / 1'000'000 % 100'000), static_cast<int>(*digits / 1000 % 1000)};
 }
 
 Organ organ_of(const CanLabel& label) {
@@ -88,7 +89,7 @@ class CanReader {
       refuse(source_, line, fmt::format("{} after the last corner", in_quotes(more)),
              fmt::format("{} corners have {} coordinates", corners, 3 * corners), "correct the number of corners");
     const Organ organ = organ_of(label);
-    builder_.add_polygon(corners_, builder_.optics(organ.name), builder_.organ(organ));
+    builder_.add_polygon(corners_, builder_.optics(organ.name), builder_.organ(organ), label.number);
   }
 
   const MeshSource& source_;

@@ -14,8 +14,8 @@ constexpr std::uint32_t most_plant = 99'999;
 constexpr int most_leaf = 999;
 
 [[noreturn]] void refuse(const char* what, std::int64_t number, std::int64_t most) {
-  throw_failure(fmt::format("caribu.csv: {} {} has no label", what, number),
-                fmt::format("CARIBU's labels number them 0..{}", most), "export csv or another format");
+  throw_failure(fmt::format("{} {} has no label", what, number), fmt::format("CARIBU's labels number them 0..{}", most),
+                "choose another format");
 }
 
 // leaf2 is of species 2; leaf, and names that end otherwise, of species 1.
@@ -42,14 +42,23 @@ std::string caribu_label(const Organ& organ, std::size_t number_in_organ) {
   return fmt::format("{}{:05}{:03}{:03}", species, organ.plant, leaf, number_in_organ % element_numbers);
 }
 
+std::string caribu_label_as_read(const Organ& organ, std::uint64_t label) {
+  constexpr std::uint64_t below_plant = 1'000'000;
+  constexpr std::uint64_t plants = 100'000;
+  if (organ.plant > most_plant) refuse("plant", organ.plant, most_plant);
+  return fmt::format("{}{:05}{:06}", label / below_plant / plants, organ.plant, label % below_plant);
+}
+
 std::string caribu_csv(const ExportData& data) {
   const ElementFields& fields = data.fields;
   const Canopy& canopy = data.model.canopy;
   std::vector<std::string> labels;
   std::vector<std::size_t> next_number(canopy.organs.size());
   for (std::size_t e = 0; e < fields.size(); ++e) {
-    const std::uint32_t organ = canopy.organ_of[e];
-    labels.push_back(caribu_label(canopy.organs[organ], next_number[organ]++));
+    const std::uint32_t number = canopy.organ_of[e];
+    const Organ& organ = canopy.organs[number];
+    const std::uint64_t label = canopy.labels.empty() ? no_label : canopy.labels[e];
+    labels.push_back(label == no_label ? caribu_label(organ, next_number[number]++) : caribu_label_as_read(organ, label));
   }
   std::string text;
   for (const RecordEntry& entry : record_entries(data.record, data.model)) {

@@ -33,6 +33,10 @@ struct ExportData {
 // triangle's number in its organ modulo 1000. Throws Error (failure) where a number has too many digits.
 [[nodiscard]] std::string caribu_label(const Organ& organ, std::size_t number_in_organ);
 
+// The same of an element whose file had this label: as it was, but for the plant, which other meshes or copies before it
+// renumber.
+[[nodiscard]] std::string caribu_label_as_read(const Organ& organ, std::uint64_t label);
+
 // The record of a run as text: what it was asked for, not on what or how fast it ran.
 struct RecordEntry {
   std::string key;

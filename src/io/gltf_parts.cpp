@@ -15,7 +15,7 @@ namespace sunfleck {
 
 std::string node_name(const Organ& organ) {
   const bool ends_in_digit = !organ.name.empty() && std::isdigit(static_cast<unsigned char>(organ.name.back())) != 0;
-  const std::string rank = organ.rank == 0 ? "" : fmt::format("{}{}", ends_in_digit ? "_" : "", organ.rank);
+  const std::string rank = organ.rank == 0 && !ends_in_digit ? "" : fmt::format("{}{}", ends_in_digit ? "_" : "", organ.rank);
   return fmt::format("plant{}_{}{}", organ.plant, organ.name, rank);
 }
 

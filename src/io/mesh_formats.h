@@ -90,8 +90,10 @@ class MeshBuilder {
   // Plant 1, named as the optics, rank 0: for triangles without an organ.
   [[nodiscard]] std::uint32_t default_organ(std::uint32_t optics);
 
-  // Cuts a polygon of at least three vertex numbers, all in range, into the fan about its first corner.
-  void add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ);
+  // Cuts a polygon of at least three vertex numbers, all in range, into the fan about its first corner. A file gives all of
+  // its polygons labels, or none.
+  void add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ,
+                   std::optional<std::uint64_t> label = std::nullopt);
 
   [[nodiscard]] Mesh take() { return std::move(mesh_); }
 

@@ -104,6 +104,10 @@ bool is_mesh_file(const std::filesystem::path& file) {
   return format_of(file) != MeshFormat::unknown;
 }
 
+bool is_can_file(const std::filesystem::path& file) {
+  return format_of(file) == MeshFormat::can;
+}
+
 Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import) {
   EXPECT(import.scale, >, 0.0);
   const MeshFormat format = format_of(file);
@@ -132,6 +136,9 @@ Mesh import_mesh(Mesh mesh, const std::string& place_of_mesh, const MeshImport& 
   check_corners(place_of_mesh, mesh);
   check_numbers(place_of_mesh, "optics", mesh.optics_of, mesh.triangles.size(), mesh.optics_names.size());
   check_numbers(place_of_mesh, "organ", mesh.organ_of, mesh.triangles.size(), mesh.organs.size());
+  if (!mesh.labels.empty() && mesh.labels.size() != mesh.triangles.size())
+    throw_input(fmt::format("{}: {} labels", place_of_mesh, mesh.labels.size()),
+                fmt::format("there are {} triangles", mesh.triangles.size()), "give one for each triangle, or none");
   place(place_of_mesh, mesh, import.up.value_or(UpAxis::y), import.scale);
   return mesh;
 }
@@ -286,7 +293,8 @@ std::uint32_t MeshBuilder::default_organ(std::uint32_t optics) {
   return organ({1, mesh_.optics_names[optics], 0});
 }
 
-void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ) {
+void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ,
+                              std::optional<std::uint64_t> label) {
   DCHECK(corners.size(), >=, 3U);
   if (mesh_.triangles.size() + corners.size() > most_vertices)
     refuse(source_, 0, fmt::format("more than {} triangles", most_vertices), "one file may hold that many", "split the file");
@@ -294,6 +302,7 @@ void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint3
     mesh_.triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
     mesh_.optics_of.push_back(optics);
     mesh_.organ_of.push_back(organ);
+    if (label) mesh_.labels.push_back(*label);
   }
 }
 

@@ -33,5 +33,6 @@ struct MeshImport {
 
 // True if read_mesh has a reader for this name.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& file);
+[[nodiscard]] bool is_can_file(const std::filesystem::path& file);  // .can or .can.gz
 
 }  // namespace sunfleck

@@ -4,10 +4,13 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "io/gltf_parts.h"
+#include "io/mesh_text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <limits>
 #include <map>
 #include <utility>
@@ -106,10 +109,37 @@ class GltfWriter {
   tinygltf::Model model_;
 };
 
+// In lower case.
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
 }  // namespace
 
+bool is_writable_mesh(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  return ending == ".glb" || ending == ".gltf" || ending == ".obj" || ending == ".ply" || ending == ".can";
+}
+
+void write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  if (!is_writable_mesh(file))
+    throw_input(fmt::format("{}: unknown kind of mesh", printable(file.string())),
+                fmt::format("its name ends in '{}'", printable(ending)), fmt::format("let it end in {}", writable_meshes));
+  if (ending == ".obj")
+    write_file(file, obj_text(mesh));
+  else if (ending == ".ply")
+    write_file(file, ply_mesh_bytes(mesh));
+  else if (ending == ".can")
+    write_file(file, can_text(mesh));
+  else
+    write_gltf(mesh, file);
+}
+
 void write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
+  const std::string ending = ending_of(file);
   const std::string name = printable(file.string());
   if (ending != ".glb" && ending != ".gltf")
     throw_input(fmt::format("{}: cannot be written as glTF", name), fmt::format("its name ends in '{}'", printable(ending)),

@@ -101,6 +101,7 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   digest.add(bytes_of(mesh.triangles));
   digest.add(bytes_of(mesh.optics_of));
   digest.add(bytes_of(mesh.organ_of));
+  digest.add(bytes_of(mesh.labels));
   for (const std::string& name : mesh.optics_names) digest.add(name + "\n");
   for (const Organ& organ : mesh.organs) digest.add(fmt::format("{} {} {}\n", organ.plant, organ.name, organ.rank));
 }
@@ -195,6 +196,10 @@ void check_same_ground(const TomlTable& root, const RadiationModel& model, const
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
+  if (is_mesh_file(file)) {
+    throw_input(fmt::format("{}: not a scene", printable(file.string())), "this is a mesh",
+                "name it under [[geometry]] of a scene file");
+  }
   return read_scene(SceneText{file, read_file(file, most_bytes), {}}, access);
 }
 

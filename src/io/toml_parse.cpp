@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_reader.h"
 #include "io/toml_view.h"
 
 #include <fmt/format.h>
@@ -160,9 +159,6 @@ std::string cure_for(std::string_view description, const std::string& line) {
 
 TomlTable TomlTable::parse(const std::string& file, std::string_view text) {
   const auto name = std::make_shared<const std::string>(printable(file));
-  if (is_mesh_file(file)) {
-    throw_input(fmt::format("{}: not a scene", *name), "this is a mesh", "name it under [[geometry]] of a scene file");
-  }
   refuse_non_text(*name, text);
   check_syntax(*name, without_mark(text));
   try {

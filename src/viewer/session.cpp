@@ -1,6 +1,7 @@
 #include "viewer/session.h"
 
 #include "app/pictures.h"
+#include "app/scene_source.h"
 
 #include <utility>
 
@@ -8,7 +9,9 @@ namespace sunfleck {
 namespace {
 
 Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file) {
-  Scene scene = read_scene(file, {options.run.allow_outside});
+  // A file that was dropped on the window is a scene file.
+  const StandFiles stand = file == options.run.scene ? options.run.stand : StandFiles{};
+  Scene scene = load_scene(file, stand, {options.run.allow_outside});
   check_view(scene.model, options.run.pictures);
   check_grid(options.run, scene);
   return scene;

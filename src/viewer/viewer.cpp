@@ -2,6 +2,7 @@
 
 #include "app/interrupt.h"
 #include "app/pictures.h"
+#include "app/scene_source.h"
 #include "app/simulation.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -217,7 +218,7 @@ void Viewer::obey(const PanelOrders& orders) {
 
 // Beside what `run` writes into results/<scene>, not in its place.
 fs::path Viewer::save_folder() const {
-  return options_.run.output.empty() ? fs::path("results") / (session_->file.stem().string() + "_view") : options_.run.output;
+  return options_.run.output.empty() ? fs::path("results") / (scene_stem(session_->file) + "_view") : options_.run.output;
 }
 
 void Viewer::save_picture() {

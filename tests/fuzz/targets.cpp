@@ -1,6 +1,7 @@
 #include "fuzz/targets.h"
 
 #include "fuzz/support.h"
+#include "io/caribu_reader.h"
 #include "io/light_reader.h"
 #include "io/measured_reader.h"
 #include "io/mesh_reader.h"
@@ -61,6 +62,28 @@ void feed_lights(std::string_view bytes) {
   });
 }
 
+void feed_opt(std::string_view bytes) {
+  read_or_refuse([&] {
+    const CaribuOptics optics = read_opt(write("a.opt", bytes));
+    const auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
+    promise(!optics.species.empty() && optics.species.size() <= most_species && share(optics.soil_reflectance),
+            "species and soil");
+    for (const SpeciesOptics& species : optics.species) {
+      promise(share(species.stem_reflectance), "a stem's share");
+      for (const FaceOptics& face : {species.upper, species.lower})
+        promise(share(face.reflectance) && share(face.transmittance) && face.absorptance() > -1e-9, "shares of a leaf");
+    }
+  });
+}
+
+void feed_domain(std::string_view bytes) {
+  read_or_refuse([&] {
+    const CaribuDomain domain = read_domain(write("a.8", bytes));
+    promise(domain.x_min < domain.x_max && domain.y_min < domain.y_max, "a rectangle");
+    promise(std::isfinite(domain.x_min) && std::isfinite(domain.x_max), "finite borders");
+  });
+}
+
 void check_weather(const Weather& weather) {
   promise(!weather.intervals.empty(), "at least one interval");
   for (const WeatherInterval& interval : weather.intervals)
@@ -94,7 +117,8 @@ constexpr std::array all_targets{
     Target{"obj", feed_mesh<2>},       Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
     Target{"can", feed_mesh<5>},       Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
     Target{"station", feed_station},   Target{"epw", feed_epw},        Target{"measured", feed_measured},
-    Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings}};
+    Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
+    Target{"opt", feed_opt},           Target{"domain", feed_domain}};
 
 }  // namespace
 

@@ -77,12 +77,6 @@ TEST_F(Usage, OfCommandsAndFiles) {
   expect_one_error(run({"info", "--jsn"}), 2, "--jsn");
 }
 
-TEST_F(Usage, OfCommandsToCome) {
-  for (const char* command : {"convert"}) {
-    expect_one_error(run({command, scene_, "--from", "08:00"}), 2, std::string(command) + " (not in version");
-  }
-}
-
 TEST_F(Usage, OfDevices) {
   expect_refused({"run", scene_, "--device", "nonexistent"}, "\"nonexistent\"", 3);
   expect_refused({"run", scene_, "--device", "99"}, "99", 3);
@@ -108,7 +102,8 @@ TEST_F(Usage, OfTheStand) {
 }
 
 TEST_F(Usage, HelpAndVersionAreNoErrors) {
-  for (const Arguments& arguments : {Arguments{"--help"}, {"run", "--help"}, {"maize", "-h"}, {"info", "--help"}}) {
+  for (const Arguments& arguments :
+       {Arguments{"--help"}, {"run", "--help"}, {"maize", "-h"}, {"convert", "--help"}, {"info", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.err, "");

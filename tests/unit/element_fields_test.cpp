@@ -139,6 +139,19 @@ TEST(Caribu, Labels) {
   EXPECT_NE(message_of({1, "leaf", -1}), "");
 }
 
+TEST(Caribu, LabelsOfTheFile) {
+  EXPECT_EQ(caribu_label_as_read({7, "leaf2", 12}, 200007012345), "200007012345");
+  EXPECT_EQ(caribu_label_as_read({107, "leaf2", 12}, 200007012345), "200107012345") << "a copy has plants of its own";
+  EXPECT_EQ(caribu_label_as_read({0, "soil", 0}, 799), "000000000799");
+  RadiationModel model = two_triangles();
+  model.canopy.labels = {no_label, 100001007042};
+  const RadiationResult result = two_triangles_result();
+  const ElementFields fields = make_element_fields(model, result);
+  const Table table(caribu_csv({awkward_record(), model, result, fields, {}}));
+  EXPECT_EQ(table.cell(0, "label"), "100001007000");
+  EXPECT_EQ(table.cell(1, "label"), "100002007042") << "the plant is the element's, which may be a copy's";
+}
+
 TEST(Caribu, Table) {
   const RadiationModel model = two_triangles();
   const RadiationResult result = two_triangles_result();

@@ -1,5 +1,6 @@
 // Files that promise more than they hold, lead elsewhere or are no files at all, for every reader of users' files.
 
+#include "io/caribu_reader.h"
 #include "io/file.h"
 #include "io/light_reader.h"
 #include "io/measured_reader.h"
@@ -9,6 +10,7 @@
 #include "io/result_store.h"
 #include "io/step_store.h"
 #include "io/weather_reader.h"
+#include "support/caribu_files.h"
 #include "support/mesh_files.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"
@@ -45,6 +47,8 @@ std::vector<Reader> readers_of_text() {
       {"a.stl", stl_text_square(), read_any_mesh},
       {"a.ply", ply_text_square(), read_any_mesh},
       {"a.gltf", R"({"asset":{"version":"2.0"}})", read_any_mesh},
+      {"a.opt", grey_opt, [](const fs::path& file) { static_cast<void>(read_opt(file)); }},
+      {"a.8", filter_domain, [](const fs::path& file) { static_cast<void>(read_domain(file)); }},
       {"a.light", "1 0 0 -1\n", [](const fs::path& file) { static_cast<void>(read_lights(file)); }},
       {"a.csv", station_csv, [](const fs::path& file) { static_cast<void>(read_weather(file)); }},
       {"field.csv", "height_m,sunfleck_ratio\n0,0.5\n", [](const fs::path& file) { static_cast<void>(read_measured(file)); }}};

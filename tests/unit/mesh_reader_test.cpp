@@ -96,6 +96,8 @@ TEST(MeshReader, CanLabelsGiveOrgans) {
   EXPECT_EQ(mesh.organ_of, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 1, 0}));
   EXPECT_EQ(mesh.optics_names, (std::vector<std::string>{"leaf", "soil", "stem", "stem2", "leaf2"}));
   EXPECT_EQ(mesh.optics_of, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 1, 0}));
+  EXPECT_EQ(mesh.labels,
+            (std::vector<std::uint64_t>{100012007001, 797, 100012000001, 200003000001, 299999999999, 797, 100012007002}));
 }
 
 TEST(MeshReader, PolygonsBecomeFansInFileOrder) {

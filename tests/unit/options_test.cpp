@@ -218,6 +218,29 @@ TEST(Options, OfTheWindow) {
   EXPECT_TRUE(options.run.json);
 }
 
+TEST(Options, OfCaribusFiles) {
+  const auto run = std::get<RunOptions>(parse({"run", "a.can.gz", "--optics", "par.opt, NIR=b.opt", "--optics", "c.opt",
+                                               "--light", "x.light", "--domain", "x.8", "--scale", "0.01", "--export", "csv"}));
+  EXPECT_EQ(run.stand.optics, (std::vector<std::string>{"par.opt", "NIR=b.opt", "c.opt"}));
+  EXPECT_EQ(run.stand.light, "x.light");
+  EXPECT_EQ(run.stand.domain, "x.8");
+  EXPECT_EQ(run.stand.scale, 0.01);
+  EXPECT_EQ(run.exports, (std::vector<std::string>{"csv", "caribu"})) << "CARIBU's table is written for a .can";
+  EXPECT_EQ(std::get<RunOptions>(parse({"run", "a.can", "--export", "caribu"})).exports, std::vector<std::string>{"caribu"});
+  const auto plain = std::get<RunOptions>(parse({"run", "a.toml"}));
+  EXPECT_TRUE(plain.exports.empty());
+  EXPECT_EQ(plain.stand.first_given(), "");
+  EXPECT_EQ(std::get<InfoOptions>(parse({"info", "a.can", "--light", "x.light"})).stand.first_given(), "--light");
+  EXPECT_EQ(std::get<RenderOptions>(parse({"render", "out", "--domain", "x.8"})).simulating, "--domain");
+  EXPECT_EQ(std::get<ViewOptions>(parse({"view", "a.can", "--scale", "2"})).run.stand.first_given(), "--scale");
+  EXPECT_NE(refusal({"day", "a.can", "--optics", "a.opt"}).find("--optics (not known here)"), std::string::npos);
+  const auto convert = std::get<ConvertOptions>(parse({"convert", "a.obj", "b.glb", "--z-up"}));
+  EXPECT_EQ(convert.input, "a.obj");
+  EXPECT_EQ(convert.output, "b.glb");
+  EXPECT_TRUE(convert.z_up);
+  EXPECT_NE(refusal({"convert", "a.obj"}).find("out"), std::string::npos);
+}
+
 TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--passes", "4"}),
             "command line: --passes 4 (must be a whole number in 8..65536); see sunfleck run --help");
@@ -227,14 +250,14 @@ TEST(Options, MistakesAreNamed) {
                   " (must be a number between 0 and 1, with a point: give 0.02 for 2 percent); see sunfleck run --help");
   }
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}), "command line: --bogus (not known here); see sunfleck run --help");
+  EXPECT_EQ(refusal({"ran"}),
+            "ran (no command of this program); use run, day, render, view, validate, tradeoff, maize, convert or info; see "
+            "sunfleck --help");
   EXPECT_EQ(
-      refusal({"ran"}),
-      "ran (no command of this program); use run, day, render, view, validate, tradeoff, maize or info; see sunfleck --help");
-  EXPECT_EQ(refusal({}),
-            "command line (no command); use run, day, render, view, validate, tradeoff, maize or info; see sunfleck --help");
+      refusal({}),
+      "command line (no command); use run, day, render, view, validate, tradeoff, maize, convert or info; see sunfleck --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--size", "3\nx"}),
             "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
-  EXPECT_NE(refusal({"convert", "a.toml"}).find("convert (not in version"), std::string::npos);
 }
 
 }  // namespace

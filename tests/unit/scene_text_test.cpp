@@ -68,6 +68,7 @@ TEST(SceneText, RefusesMeshesThatDoNotFitTogether) {
   refused([](Mesh& mesh) { mesh.optics_of.push_back(0); }, "2 optics numbers");
   refused([](Mesh& mesh) { mesh.organ_of.clear(); }, "0 organ numbers");
   refused([](Mesh& mesh) { mesh.organ_of[0] = 9; }, "organ number 9 of triangle 0");
+  refused([](Mesh& mesh) { mesh.labels = {1, 2}; }, "2 labels");
   for (int axis = 0; axis < 3; ++axis) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e39}) {
       refused([&](Mesh& mesh) { mesh.vertices[1][axis] = bad; }, "must be finite");

@@ -1,0 +1,173 @@
+#include "io/caribu_reader.h"
+
+#include "io/file.h"
+#include "io/mesh_formats.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 20U;  // such files have a dozen lines
+constexpr double sum_tolerance = 1e-12;                          // rounding of R + T as decimal fractions
+
+// The lines that say something, one after the other.
+class CaribuLines {
+ public:
+  explicit CaribuLines(const MeshSource& source) : source_(source), lines_(without_mark(source.bytes)) {}
+
+  bool next() {
+    while (lines_.next()) {
+      rest_ = trimmed(lines_.line().substr(0, lines_.line().find('#')));
+      if (!rest_.empty()) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool has_more() const { return !trimmed(rest_).empty(); }
+  std::string_view word() { return next_word(rest_); }
+
+  double number(std::string_view what, std::string_view form) {
+    const std::string_view text = word();
+    if (text.empty()) refuse_here(fmt::format("{} is missing", what), "the line ends too early", form);
+    const std::optional<double> value = parse_number(text);
+    if (!value) refuse_here(fmt::format("{} = {}", what, in_quotes(text)), "must be a finite number", form);
+    return *value;
+  }
+
+  void end_of_line(std::string_view form) {
+    if (const std::string_view more = word(); !more.empty())
+      refuse_here(fmt::format("{} at the end of the line", in_quotes(more)), "nothing more is known here", form);
+  }
+
+  [[noreturn]] void refuse_here(std::string_view what, std::string_view why, std::string_view cure) const {
+    refuse(source_, lines_.number(), what, why, cure);
+  }
+
+ private:
+  const MeshSource& source_;
+  LineReader lines_;
+  std::string_view rest_;
+};
+
+class OptReader {
+ public:
+  explicit OptReader(const MeshSource& source) : source_(source), lines_(source) {}
+
+  CaribuOptics read() {
+    while (lines_.next()) {
+      const std::string_view key = lines_.word();
+      if (key == "n")
+        read_count();
+      else if (key == "s")
+        read_soil();
+      else if (key == "e")
+        read_species();
+      else
+        lines_.refuse_here(fmt::format("line begins with {}", in_quotes(key)), "only n, s and e are known", species_form);
+    }
+    if (!count_) refuse(source_, 0, "the number of species is missing", "an .opt file begins with it", count_form);
+    if (!has_soil_) refuse(source_, 0, "the soil is missing", "an .opt file has its reflectance", soil_form);
+    if (optics_.species.size() != *count_)
+      refuse(source_, 0, fmt::format("{} species", optics_.species.size()), fmt::format("the line n announces {}", *count_),
+             "correct that line, or add what is missing");
+    return std::move(optics_);
+  }
+
+ private:
+  static constexpr std::string_view count_form = "write: n COUNT";
+  static constexpr std::string_view soil_form = "write: s d REFLECTANCE";
+  static constexpr std::string_view species_form = "write: e d Rstem d Rup Tup d Rdown Tdown";
+
+  void read_count() {
+    if (count_) lines_.refuse_here("n is given twice", "there is one number of species", "remove one of the lines");
+    const std::string_view word = lines_.word();
+    const std::optional<std::int64_t> count = parse_integer(word);
+    if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_species))
+      lines_.refuse_here(fmt::format("number of species {}", in_quotes(word)),
+                         fmt::format("must be a whole number in 1..{}", most_species), count_form);
+    count_ = static_cast<std::size_t>(*count);
+    lines_.end_of_line(count_form);
+  }
+
+  void read_soil() {
+    if (has_soil_) lines_.refuse_here("s is given twice", "there is one soil", "remove one of the lines");
+    has_soil_ = true;
+    optics_.soil_reflectance = read_face({"soil reflectance", ""}, soil_form).reflectance;
+    lines_.end_of_line(soil_form);
+  }
+
+  void read_species() {
+    if (optics_.species.size() == most_species)
+      lines_.refuse_here("one species too many", fmt::format("an .opt file may have {}", most_species), "remove this line");
+    SpeciesOptics species;
+    species.stem_reflectance = read_face({"Rstem", ""}, species_form).reflectance;
+    species.upper = read_face({"Rup", "Tup"}, species_form);
+    species.lower = read_face({"Rdown", "Tdown"}, species_form);
+    optics_.species.push_back(species);
+    lines_.end_of_line(species_form);
+  }
+
+  // `d` with a reflectance, and a transmittance where that has a name.
+  FaceOptics read_face(const std::array<std::string_view, 2>& names, std::string_view form) {
+    if (const std::string_view kind = lines_.word(); kind != "d")
+      lines_.refuse_here(fmt::format("{} before {}", in_quotes(kind), names[0]), "must be d: surfaces are Lambertian", form);
+    FaceOptics face;
+    face.reflectance = read_share(names[0], form);
+    if (names[1].empty()) return face;
+    face.transmittance = read_share(names[1], form);
+    const double sum = face.reflectance + face.transmittance;
+    if (sum > 1.0 + sum_tolerance)
+      lines_.refuse_here(fmt::format("{} + {} = {}", names[0], names[1], sum), "must be at most 1", "lower one of the two");
+    return face;
+  }
+
+  double read_share(std::string_view name, std::string_view form) {
+    const double value = lines_.number(name, form);
+    if (!(value >= 0.0 && value <= 1.0))
+      lines_.refuse_here(fmt::format("{} = {}", name, value), "must lie in 0..1", "give a share of the light that arrives");
+    return value;
+  }
+
+  const MeshSource& source_;
+  CaribuLines lines_;
+  std::optional<std::size_t> count_;
+  bool has_soil_ = false;
+  CaribuOptics optics_;
+};
+
+}  // namespace
+
+CaribuOptics read_opt(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file, most_bytes);
+  const MeshSource source{file, bytes, {}};
+  return OptReader(source).read();
+}
+
+CaribuDomain read_domain(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 4> names{"xmin", "ymin", "xmax", "ymax"};
+  constexpr std::string_view form = "write: xmin ymin on one line, xmax ymax on the next";
+  const std::string bytes = read_file(file, most_bytes);
+  const MeshSource source{file, bytes, {}};
+  CaribuLines lines(source);
+  std::array<double, 4> values{};
+  std::size_t count = 0;
+  while (lines.next()) {
+    while (lines.has_more()) {
+      if (count == values.size()) lines.refuse_here("more than four numbers", "a domain is a rectangle", form);
+      values[count] = lines.number(names[count], form);
+      ++count;
+    }
+  }
+  if (count < values.size()) refuse(source, 0, fmt::format("{} is missing", names[count]), "a domain has four numbers", form);
+  const CaribuDomain domain{values[0], values[1], values[2], values[3]};
+  for (const auto& [lo, hi, axis] : {std::tuple{domain.x_min, domain.x_max, 'x'}, {domain.y_min, domain.y_max, 'y'}}) {
+    if (!(lo < hi))
+      refuse(source, 0, fmt::format("{}min = {}, {}max = {}", axis, lo, axis, hi), "the second must be the larger", form);
+  }
+  return domain;
+}
+
+}  // namespace sunfleck
