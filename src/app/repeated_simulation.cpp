@@ -27,7 +27,7 @@ void SimulatedScene::write(const RunOptions& options) const {
   losses.complain();
 }
 
-RepeatedSimulation::RepeatedSimulation(Scene scene, std::string device, int threads)
+RepeatedSimulation::RepeatedSimulation(Scene scene, const std::string& device, int threads)
     : scene_(std::make_shared<Scene>(std::move(scene))), threads_(threads) {
   set_software_threads(threads);
   const CpuThreads limit(threads);

@@ -39,7 +39,7 @@ class RepeatedSimulation {
  public:
   // `device` as on the command line; `threads` of the CPU path, 0: all cores. Software Vulkan takes its number from the first
   // simulation of a process. Throws Error (device).
-  RepeatedSimulation(Scene scene, std::string device, int threads);
+  RepeatedSimulation(Scene scene, const std::string& device, int threads);
 
   // As relight of io/scene_reader.h; results at hand stay what they are.
   void relight(const SceneText& light, const SceneAccess& access);

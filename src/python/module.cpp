@@ -30,6 +30,7 @@ PYBIND11_MODULE(_core, module) {
   sunfleck::start_log(sunfleck::Verbosity::quiet);
   // Never destroyed: the interpreter is gone before what is static here.
   static const py::object& errors = *new py::object(py::module_::import("sunfleck._errors"));
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): so pybind11 wants it
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);
