@@ -155,7 +155,7 @@ TEST_F(CaribuProgram, EveryCommandOfAScene) {
 }
 
 TEST_F(CaribuProgram, MistakesAreOneLine) {
-  const auto refused = [&](Arguments more, const std::string& names, const std::string& scene = "stand.can") {
+  const auto refused = [&](const Arguments& more, const std::string& names, const std::string& scene = "stand.can") {
     SCOPED_TRACE(::testing::PrintToString(more));
     expect_one_error(run(Arguments{"run", scene, "-o", "out"} + more), 2, names);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
