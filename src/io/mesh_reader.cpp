@@ -66,7 +66,7 @@ void place(const std::string& where, Mesh& mesh, UpAxis up, double scale) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (std::isnan(v.x + v.y + v.z) || largest > std::numeric_limits<float>::max())
       throw_input(fmt::format("{}: a vertex at ({}, {}, {}) m after scaling by {}", where, v.x, v.y, v.z, scale),
-                  "it must be finite, below 3.4e38", "check its numbers and scale");
+                  "it must be finite in single precision, below 3.4e38", "check its numbers and scale");
   }
 }
 
