@@ -3,6 +3,7 @@
 #include "app/day.h"
 #include "app/options.h"
 #include "app/process.h"
+#include "app/ranks.h"
 #include "app/render.h"
 #include "app/tradeoff.h"
 #include "app/validate.h"
@@ -35,7 +36,9 @@ struct Dispatch {
 int main(int argc, char** argv) {
   sunfleck::prepare_process();
   try {
-    return sunfleck::finish_output(std::visit(Dispatch{}, sunfleck::parse_command_line(argc, argv)));
+    const sunfleck::Command command = sunfleck::parse_command_line(argc, argv);
+    if (sunfleck::is_left_to_rank_0(command)) return 0;
+    return sunfleck::finish_output(std::visit(Dispatch{}, command));
   } catch (...) {
     return sunfleck::report_exception();
   }

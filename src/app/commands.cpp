@@ -1,6 +1,7 @@
 #include "app/commands.h"
 
 #include "app/interrupt.h"
+#include "app/ranks.h"
 #include "app/result_folder.h"
 #include "app/scene_source.h"
 #include "app/simulation.h"
@@ -12,21 +13,44 @@
 
 namespace sunfleck {
 
-int run(const RunOptions& options) {
-  start_log(options.quiet || options.json ? Verbosity::quiet : Verbosity::normal);
+namespace {
+
+int help_with_run(const RunOptions& options, Ranks& ranks) {
+  return ranks.help([&](const auto& serve) {
+    const Scene scene = read_scene(options.scene, {options.allow_outside});
+    const SceneTree tree(scene.model);
+    set_software_threads(options.threads);
+    const CpuThreads threads(options.threads);
+    Engine engine({options.device, options.device_turn}, tree.bvh, tracer_scene(scene.model), tree.layout.words());
+    const SolveSettings settings = solve_settings(options, scene);
+    serve({scene, tree.layout, engine, settings, {}});
+  });
+}
+
+}  // namespace
+
+int run(const RunOptions& asked) {
+  start_log(asked.quiet || asked.json ? Verbosity::quiet : Verbosity::normal);
   exit_on_interrupts();
   Stopwatch total;
   Stopwatch watch;
+  Ranks ranks;
+  const RunOptions options = ranks.own_options(asked);
+  if (ranks.helps()) return help_with_run(options, ranks);
   const std::filesystem::path folder = result_folder(options);
   FolderLock lock(folder);
 
   const Scene scene = load_scene(options.scene, options.stand, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   const RadiationModel& model = scene.model;
-  const SolveSettings settings = solve_settings(options, scene);
+  SolveSettings settings = solve_settings(options, scene);
   check_pictures(options, model);
   check_grid(options, scene);
   const Companions companions = read_companions(options, model);
+  RunKeeper keeper(folder, options, scene, settings);
+  const RunKeeper::Found found = options.resume ? keeper.find(model, make_counter_layout(model)) : RunKeeper::Found::nothing;
+  if (found == RunKeeper::Found::finished) return tell_finished(folder, options, "run");
+  settings.go_on_from = keeper.state();
   RunRecord::Seconds seconds;
   seconds.load = watch.lap();
 
@@ -35,14 +59,17 @@ int run(const RunOptions& options) {
 
   set_software_threads(options.threads);
   const CpuThreads threads(options.threads);
-  Engine engine(options.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
+  Engine engine({options.device, options.device_turn}, tree.bvh, tracer_scene(model), tree.layout.words());
   RunRecord record = make_record(options, scene, settings, engine);
+  record.ranks = ranks.count();
+  ranks.gather(scene, tree.layout, settings);
   watch_for_interrupts();
-  prepare_folder(folder, lock);
+  prepare_folder(folder, lock, found == RunKeeper::Found::begun ? EarlierRun::goes_on : EarlierRun::goes);
+  if (options.resume) say(keeper.resume_line());
   say(device_line(record.device));
   seconds.device = watch.lap();
 
-  RadiationResult result = simulate(model, tree.layout, engine, settings);
+  RadiationResult result = simulate(model, tree.layout, engine, settings, {&keeper, &ranks});
   check_validation(engine);
   seconds.direct = result.direct.seconds;
   seconds.indirect = result.indirect.seconds;
@@ -57,12 +84,14 @@ int run(const RunOptions& options) {
   check_validation(engine);
   record.not_written = losses.names();
   record.complete = record.complete && record.not_written.empty();
-  warn_if_short(settings, result);
+  const std::string hint = keeper.holds_state() ? "; --resume goes on" : "";
+  warn_if_short(settings, result, hint);
   seconds.write = watch.lap();
   seconds.total = total.lap();
   record.seconds = seconds;
   publish(folder, options, record, model, result, losses);
-  losses.complain();
+  if (record.complete && losses.names().empty()) keeper.finish();
+  losses.complain(hint);
   return exit_status(result.stop);
 }
 

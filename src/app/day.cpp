@@ -3,6 +3,7 @@
 #include "app/day_plan.h"
 #include "app/day_steps.h"
 #include "app/interrupt.h"
+#include "app/ranks.h"
 #include "app/result_folder.h"
 #include "app/scene_source.h"
 #include "app/simulation.h"
@@ -39,13 +40,15 @@ constexpr const char* resume_hint = ", then go on with --resume";
 // The day's limit of time ends it between rays like Ctrl-C, not by smaller replicates: the bytes do not depend on the clock.
 class DayClock {
  public:
-  explicit DayClock(std::optional<double> max_seconds) : max_seconds_(max_seconds) {}
+  DayClock(std::optional<double> max_seconds, const Ranks& ranks) : ranks_(ranks), max_seconds_(max_seconds) {}
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
+  [[nodiscard]] bool interrupted() const { return sunfleck::interrupted() || ranks_.interrupted(); }
   [[nodiscard]] bool stop() const { return interrupted() || (max_seconds_ && seconds() >= *max_seconds_); }
 
  private:
+  const Ranks& ranks_;
   std::optional<double> max_seconds_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -58,9 +61,14 @@ struct DayResult {
 
 class DayRun {
  public:
-  DayRun(Scene& scene, const DayPlan& plan, const SolveSettings& settings, const SceneTree& tree, Engine& engine,
+  DayRun(Scene& scene, const DayPlan& plan, const SolveSettings& settings, const SceneTree& tree, Engine& engine, Ranks& ranks,
          const StepStore& store, const DayClock& clock)
-      : model_(scene.model), plan_(plan), store_(store), clock_(clock), steps_(model_, plan, settings, tree.layout, engine) {
+      : model_(scene.model),
+        plan_(plan),
+        ranks_(ranks),
+        store_(store),
+        clock_(clock),
+        steps_(model_, plan, settings, tree.layout, engine, ranks.helpers()) {
     const auto& steps = plan.course.steps;
     lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.night(); }));
   }
@@ -88,6 +96,7 @@ class DayRun {
 
  private:
   std::optional<StoredStep> simulate_step(std::size_t i) {
+    ranks_.set_stage(i);
     const DayTotals& totals = steps_.totals();
     const auto report = [&](const Progress& state) {
       const double done = static_cast<double>(totals.simulated) + state.fraction;
@@ -110,6 +119,7 @@ class DayRun {
 
   RadiationModel& model_;
   const DayPlan& plan_;
+  Ranks& ranks_;
   const StepStore& store_;
   const DayClock& clock_;
   DaySteps steps_;
@@ -175,25 +185,12 @@ DayResult run_steps(DayRun day) {
   }
 }
 
-// A day whose results are there already.
-int tell_finished(const fs::path& folder, const RunOptions& options) {
-  const std::string summary = read_file(folder / summary_file);
-  const ordered_json finished = ordered_json::parse(summary, nullptr, false);
-  const bool complete = finished.is_object() && finished.contains("complete") && finished["complete"] == true;
-  if (options.json) {
-    fmt::print("{}", summary);
-  } else {
-    say(fmt::format("{}: this day is finished, nothing to resume", printable(folder.string())));
-  }
-  return complete ? exit_done : exit_short_of_bound;
-}
-
-int warn_if_stopped(const DayCourse& course, const DayResult& day, const RunOptions& options) {
+int warn_if_stopped(const DayCourse& course, const DayResult& day, const RunOptions& options, bool interrupted) {
   if (day.lights.size() < course.steps.size()) {
-    const std::string why = interrupted() ? "interrupted" : fmt::format("stopped after --max-seconds {}", *options.max_seconds);
+    const std::string why = interrupted ? "interrupted" : fmt::format("stopped after --max-seconds {}", *options.max_seconds);
     warn(fmt::format("{} after {} of {} steps; they are kept, and --resume goes on", why, day.lights.size(),
                      course.steps.size()));
-    return interrupted() ? exit_interrupted : exit_short_of_bound;
+    return interrupted ? exit_interrupted : exit_short_of_bound;
   }
   if (day.totals.short_of_bound == 0) return exit_done;
   warn(fmt::format("{} of {} steps stopped at --max-rays {} short of their bound; the results are marked incomplete",
@@ -210,13 +207,30 @@ Scene read_day_scene(const RunOptions& options) {
   return scene;
 }
 
+int help_with_day(const DayOptions& options, Ranks& ranks) {
+  return ranks.help([&](const auto& serve) {
+    Scene scene = read_day_scene(options.run);
+    const DayPlan plan = plan_day(options, scene);
+    const SceneTree tree(scene.model);
+    set_software_threads(options.run.threads);
+    const CpuThreads threads(options.run.threads);
+    Engine engine({options.run.device, options.run.device_turn}, tree.bvh, tracer_scene(scene.model), tree.layout.words());
+    const SolveSettings settings = solve_settings(options.run, scene);
+    serve({scene, tree.layout, engine, settings, [&](std::uint64_t step) { set_light(scene.model, plan.lights.at(step)); }});
+  });
+}
+
 }  // namespace
 
-int run_day(const DayOptions& options) {
-  start_log(options.run.quiet || options.run.json ? Verbosity::quiet : Verbosity::normal);
+int run_day(const DayOptions& asked) {
+  start_log(asked.run.quiet || asked.run.json ? Verbosity::quiet : Verbosity::normal);
   exit_on_interrupts();
   Stopwatch total;
   Stopwatch watch;
+  Ranks ranks;
+  DayOptions options = asked;
+  options.run = ranks.own_options(asked.run);
+  if (ranks.helps()) return help_with_day(options, ranks);
   const fs::path folder = result_folder(options.run);
   FolderLock lock(folder);
 
@@ -229,8 +243,8 @@ int run_day(const DayOptions& options) {
   static_cast<void>(picture_band(scene.model, options.run.pictures.band));
   const ordered_json kept_settings = day_settings(options, scene, settings, plan);
   StepStore store(folder, scene.model, kept_settings);
-  const StepStore::Found found = options.resume ? store.find() : StepStore::Found::nothing;
-  if (found == StepStore::Found::finished) return tell_finished(folder, options.run);
+  const StepStore::Found found = options.run.resume ? store.find() : StepStore::Found::nothing;
+  if (found == StepStore::Found::finished) return tell_finished(folder, options.run, "day");
   RunRecord::Seconds seconds;
   seconds.load = watch.lap();
 
@@ -239,9 +253,11 @@ int run_day(const DayOptions& options) {
   set_software_threads(options.run.threads);
   const CpuThreads threads(options.run.threads);
   const RadiationModel& model = scene.model;
-  Engine engine(options.run.device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words());
+  Engine engine({options.run.device, options.run.device_turn}, tree.bvh, tracer_scene(model), tree.layout.words());
   RunRecord record = make_record(options.run, scene, settings, engine);
   record.max_seconds = options.run.max_seconds;
+  record.ranks = ranks.count();
+  ranks.gather(scene, tree.layout, settings);
   watch_for_interrupts();
   if (found == StepStore::Found::begun) {
     reopen_folder(folder);
@@ -252,11 +268,12 @@ int run_day(const DayOptions& options) {
   say(device_line(record.device));
   seconds.device = watch.lap();
 
-  const DayClock clock(options.run.max_seconds);
-  const DayResult day = run_steps(DayRun(scene, plan, settings, tree, engine, store, clock));
+  const DayClock clock(options.run.max_seconds, ranks);
+  const DayResult day = run_steps(DayRun(scene, plan, settings, tree, engine, ranks, store, clock));
+  ranks.release();
   watch.lap();
 
-  const int status = warn_if_stopped(plan.course, day, options.run);
+  const int status = warn_if_stopped(plan.course, day, options.run, clock.interrupted());
   record.complete = status == exit_done;
   Losses losses;
   write_results(folder, options, record, model, plan.course, day, store, losses);

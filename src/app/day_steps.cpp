@@ -46,16 +46,19 @@ ordered_json day_settings(const DayOptions& options, const Scene& scene, const S
           {"max_rays", value_or_null(settings.max_rays)}};
 }
 
+void set_light(RadiationModel& model, const MomentLight& light) {
+  model.sun = light.sun;
+  model.bands = light.bands;
+  model.sky = light.sky;
+}
+
 DaySteps::DaySteps(RadiationModel& model, const DayPlan& plan, const SolveSettings& settings, const CounterLayout& layout,
-                   Engine& engine)
-    : model_(model), plan_(plan), settings_(settings), layout_(layout), engine_(engine) {}
+                   Engine& engine, ReplicateHelpers* helpers)
+    : model_(model), plan_(plan), settings_(settings), layout_(layout), engine_(engine), helpers_(helpers) {}
 
 std::optional<StoredStep> DaySteps::simulate(std::size_t step, const StopQuestion& stop,
                                              const std::function<void(const Progress&)>& report) {
-  const MomentLight& light = plan_.lights[step];
-  model_.sun = light.sun;
-  model_.bands = light.bands;
-  model_.sky = light.sky;
+  set_light(model_, plan_.lights[step]);
   SolveSettings settings = settings_;
   settings.seed = RandomStream(settings_.seed, step).word();
   if (next_work_ && !settings.grid_m && !settings.passes) {
@@ -97,7 +100,7 @@ std::optional<RadiationResult> DaySteps::solve_step(const SolveSettings& setting
     if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
     if (report) report(state);
   };
-  RadiationResult result = solve(model_, layout_, engine_.tracer(), settings, monitor);
+  RadiationResult result = solve(model_, layout_, engine_.tracer(), settings, monitor, helpers_);
   if (too_little) return std::nullopt;
   return result;
 }

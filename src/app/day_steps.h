@@ -20,12 +20,15 @@ namespace sunfleck {
 [[nodiscard]] nlohmann::ordered_json day_settings(const DayOptions& options, const Scene& scene, const SolveSettings& settings,
                                                   const DayPlan& plan);
 
+// Puts a model under the light of a moment.
+void set_light(RadiationModel& model, const MomentLight& light);
+
 // Each step begins with the work that the step before it found to be needed, so that steps come in their order.
 class DaySteps {
  public:
-  // All must outlive it. Steps have their own seeds, drawn from that of the settings, which have no limit of time.
+  // All must outlive it; helpers may be null. Steps have their own seeds, drawn from that of the settings, which have no limit of time.
   DaySteps(RadiationModel& model, const DayPlan& plan, const SolveSettings& settings, const CounterLayout& layout,
-           Engine& engine);
+           Engine& engine, ReplicateHelpers* helpers = nullptr);
 
   // Puts the model under the light of a step by day, and simulates it. Empty if stopped meanwhile. `report` may be empty.
   // Throws as `solve` does.
@@ -46,6 +49,7 @@ class DaySteps {
   const SolveSettings& settings_;
   const CounterLayout& layout_;
   Engine& engine_;
+  ReplicateHelpers* helpers_;
   std::optional<Work> next_work_;
   DayTotals totals_;
 };

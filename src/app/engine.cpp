@@ -14,14 +14,15 @@ namespace {
 // Long enough that its overhead is small, short enough that a hand on the mouse does not notice.
 constexpr double dispatch_beside_drawing_s = 0.02;
 
-DeviceWish wish_of(const std::string& device) {
-  if (device == "auto") return {DeviceWish::Kind::any, 0, ""};
-  if (device == "gpu") return {DeviceWish::Kind::hardware, 0, ""};
-  if (device == "lavapipe") return {DeviceWish::Kind::software, 0, ""};
+DeviceWish wish_of(const DeviceAsked& device) {
+  const std::string& name = device.name;
+  if (name == "auto") return {DeviceWish::Kind::any, 0, "", device.turn};
+  if (name == "gpu") return {DeviceWish::Kind::hardware, 0, "", device.turn};
+  if (name == "lavapipe") return {DeviceWish::Kind::software, 0, ""};
   int index = 0;
-  const auto [end, error] = std::from_chars(device.data(), device.data() + device.size(), index);
-  if (error == std::errc() && end == device.data() + device.size()) return {DeviceWish::Kind::index, index, ""};
-  return {DeviceWish::Kind::name, 0, device};
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+  if (error == std::errc() && end == name.data() + name.size()) return {DeviceWish::Kind::index, index, ""};
+  return {DeviceWish::Kind::name, 0, name, device.turn};
 }
 
 bool any_usable_device() {
@@ -31,12 +32,12 @@ bool any_usable_device() {
 
 }  // namespace
 
-std::unique_ptr<GpuContext> open_device(const std::string& device) {
-  if (device == "cpu" || (device == "auto" && !any_usable_device())) return nullptr;
+std::unique_ptr<GpuContext> open_device(const DeviceAsked& device) {
+  if (device.name == "cpu" || (device.name == "auto" && !any_usable_device())) return nullptr;
   return std::make_unique<GpuContext>(wish_of(device), build_validation);
 }
 
-Engine::Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words, EngineUse use)
+Engine::Engine(const DeviceAsked& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words, EngineUse use)
     : bvh_(bvh), context_(open_device(device)) {
   const double seconds = use == EngineUse::drawn_meanwhile ? dispatch_beside_drawing_s : 0.0;
   if (context_) {

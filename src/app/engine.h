@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -22,9 +23,16 @@ inline constexpr Validation build_validation = Validation::off;
 inline constexpr Validation build_validation = Validation::on;
 #endif
 
-// The Vulkan device of that name on the command line (auto | gpu | lavapipe | cpu | INDEX | NAME); none stands for the CPU
-// path. Throws Error (device) if there is none such.
-[[nodiscard]] std::unique_ptr<GpuContext> open_device(const std::string& device);
+// A device as the command line names it (auto | gpu | lavapipe | cpu | INDEX | NAME). Processes that share a machine take turns
+// at its devices: DeviceWish::turn.
+struct DeviceAsked {
+  DeviceAsked(std::string asked, int own_turn = 0) : name(std::move(asked)), turn(own_turn) {}
+  std::string name;
+  int turn;
+};
+
+// That Vulkan device; none stands for the CPU path. Throws Error (device) if there is none such.
+[[nodiscard]] std::unique_ptr<GpuContext> open_device(const DeviceAsked& device);
 
 // Whether a window draws while the tracer is at work, from another thread.
 enum class EngineUse { one_thread, drawn_meanwhile };
@@ -33,7 +41,7 @@ class Engine {
  public:
   // `device` as in open_device. Tree and engine live together: the tree must outlive it. Where it is drawn meanwhile, one
   // thread at a time may use the tracer and one at a time a viewer: they take turns, short ones.
-  Engine(const std::string& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words,
+  Engine(const DeviceAsked& device, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words,
          EngineUse use = EngineUse::one_thread);
 
   [[nodiscard]] Tracer& tracer() { return in_turns_ ? *in_turns_ : *tracer_; }

@@ -134,6 +134,7 @@ void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
       ->transform(without_blanks())
       ->check(one_of(image_words()))
       ->capture_default_str();
+  run.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed, from its last kept replicate");
   run.add_flag("--json", options.json, "Print the summary on standard output, nothing else");
   add_stand(run, options.stand);
   add_device(run, options);
@@ -153,7 +154,7 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
       ->transform(whole_number(1, 1440));
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
   day.add_option("--to-date", options.to_date, "Last of several dates, each with the same hours")->check(not_empty());
-  day.add_flag("--resume", options.resume, "Go on with a day that was stopped; its finished steps are kept");
+  day.add_flag("--resume", options.run.resume, "Go on with a day that was stopped; its finished steps are kept");
   day.add_option("--export", options.run.exports, "nc: day.nc, which is written always")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -27,6 +27,7 @@ struct RunOptions {
   StandFiles stand;
   std::filesystem::path output;        // empty: results/<stem of the scene>
   std::string device = "auto";         // auto | gpu | lavapipe | cpu | INDEX | NAME
+  int device_turn = 0;                 // see DeviceAsked; not on the command line
   std::optional<double> direct_error;  // replace the scene's bounds
   std::optional<double> indirect_error;
   std::optional<double> grid_m;
@@ -41,6 +42,7 @@ struct RunOptions {
   std::vector<std::string> images{"all"};      // file stems, all or none
   std::optional<Picture> extra_picture;        // beside them, where --chart or --field asks for it
   PictureOptions pictures;
+  bool resume = false;
   bool allow_outside = false;
   bool quiet = false;
   bool json = false;
@@ -53,7 +55,6 @@ struct DayOptions {
   std::string date;      // YYYY-MM-DD; empty: the scene's own
   std::string to_date;   // empty: one date
   int step_min = 60;     // the last step ends at `to`
-  bool resume = false;
 };
 
 struct RenderOptions {

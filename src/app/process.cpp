@@ -1,6 +1,7 @@
 #include "app/process.h"
 
 #include "base/error.h"
+#include "cluster/launch.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -20,6 +21,7 @@ namespace {
 
 // Without a buffer or an exception of its own: memory and standard error may both be gone.
 int fail_with(const char* message, const char* after = "") {
+  if (is_silent_rank()) return static_cast<int>(ErrorKind::failure);
   std::fputs("sunfleck: ", stderr);
   std::fputs(message, stderr);
   std::fputs(after, stderr);

@@ -10,7 +10,7 @@ void prepare_process();
 // At the very end: what was printed has to arrive, or the run failed. A reader that wanted no more is no failure.
 [[nodiscard]] int finish_output(int status);
 
-// From a catch block: says in one line what is being thrown. Returns the exit status.
+// From a catch block: says in one line what is being thrown, unless rank 0 of an MPI job will say it. Returns the exit status.
 [[nodiscard]] int report_exception();
 
 }  // namespace sunfleck

@@ -5,6 +5,7 @@
 #include "app/interrupt.h"
 #include "app/report.h"
 #include "app/scene_source.h"
+#include "app/simulation.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "io/exports.h"
@@ -15,12 +16,14 @@
 #include "io/plane_writer.h"
 #include "io/profile_plot.h"
 #include "io/result_store.h"
+#include "io/run_store.h"
 #include "io/sensor_writer.h"
 #include "io/step_store.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace sunfleck {
@@ -165,8 +168,8 @@ bool write_pictures(const std::filesystem::path& folder, const RunOptions& optio
 
 // The names of all files but the summary that some run writes into its folder.
 bool is_file_of_runs(const std::string& name) {
-  std::vector<std::string> names{profile_file, profile_plot_file, organs_file, sensors_file, result_store_file,
-                                 "day.csv",    "organs_day.csv",  "day.nc",    "day.png"};
+  std::vector<std::string> names{profile_file,   profile_plot_file, organs_file,      sensors_file, result_store_file,
+                                 run_state_file, "day.csv",         "organs_day.csv", "day.nc",     "day.png"};
   for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
   for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
   return is_plane_file(name) || std::find(names.begin(), names.end(), name) != names.end();
@@ -197,16 +200,19 @@ std::filesystem::path result_folder(const RunOptions& options) {
   return options.output.empty() ? std::filesystem::path("results") / scene_stem(options.scene) : options.output;
 }
 
-void prepare_folder(const std::filesystem::path& folder, FolderLock& lock) {
+void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, EarlierRun earlier) {
   lock.make_folder();
   std::error_code error;
   const bool of_earlier_run = std::filesystem::exists(folder / summary_file, error);
-  std::vector<std::string> earlier;
-  if (of_earlier_run) earlier = names_in(folder, is_file_of_runs);
-  for (const std::string& name : earlier) check_writable(folder / name);
+  const auto goes = [earlier](const std::string& name) {
+    return is_file_of_runs(name) && (earlier == EarlierRun::goes || name != run_state_file);
+  };
+  std::vector<std::string> going;
+  if (of_earlier_run) going = names_in(folder, goes);
+  for (const std::string& name : going) check_writable(folder / name);
   reopen_folder(folder);
   if (of_earlier_run) remove_day_steps(folder);
-  remove_files(folder, earlier);
+  remove_files(folder, going);
 }
 
 void reopen_folder(const std::filesystem::path& folder) {
@@ -244,6 +250,18 @@ bool write_results(const std::filesystem::path& folder, const RunOptions& option
                  [&] { write_result_store(folder / result_store_file, record, drawing.scene, drawing.result); });
   write_plots(folder, options, record, drawing, companions, losses);
   return write_pictures(folder, options, drawing, losses);
+}
+
+int tell_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
+  const std::string summary = read_file(folder / summary_file);
+  const nlohmann::json finished = nlohmann::json::parse(summary, nullptr, false);
+  const bool complete = finished.is_object() && finished.contains("complete") && finished["complete"] == true;
+  if (options.json) {
+    fmt::print("{}", summary);
+  } else {
+    say(fmt::format("{}: this {} is finished, nothing to resume", printable(folder.string()), work));
+  }
+  return complete ? exit_done : exit_short_of_bound;
 }
 
 void publish(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace sunfleck {
@@ -18,11 +19,13 @@ namespace sunfleck {
 // Where a run's results go.
 [[nodiscard]] std::filesystem::path result_folder(const RunOptions& options);
 
-// Made, locked, and tried, before rays are traced: nothing of that shall be lost for want of a folder. What an earlier run left
-// goes, so that the folder never holds pieces of two. Throws Error (failure).
-void prepare_folder(const std::filesystem::path& folder, FolderLock& lock);
+// What an earlier run left: all goes, so that the folder never holds pieces of two; or the state that is gone on from stays.
+enum class EarlierRun { goes, goes_on };
 
-// The same for a run that goes on with what it left there.
+// Made, locked, and tried, before rays are traced: nothing of that shall be lost for want of a folder. Throws Error (failure).
+void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, EarlierRun earlier = EarlierRun::goes);
+
+// The same for a day that goes on with what it left there.
 void reopen_folder(const std::filesystem::path& folder);
 
 // What is drawn beside a run's own profile, read before any work starts. Throws Error (input).
@@ -39,6 +42,10 @@ void check_pictures(const RunOptions& options, const RadiationModel& model);
 // all pictures were drawn.
 [[nodiscard]] bool write_results(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,
                                  const Drawing& drawing, const Companions& companions, Losses& losses);
+
+// For a folder whose `work`, run or day, is finished: says so, or prints its summary where --json asks for it. Returns the exit
+// status.
+[[nodiscard]] int tell_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work);
 
 // The summary into its file, and to the user what was asked for; that too where the file is lost.
 void publish(const std::filesystem::path& folder, const RunOptions& options, const RunRecord& record,

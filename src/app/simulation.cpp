@@ -1,6 +1,7 @@
 #include "app/simulation.h"
 
 #include "app/interrupt.h"
+#include "app/ranks.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "bvh/bvh.h"
@@ -51,6 +52,10 @@ void check_grid(const RunOptions& options, const Scene& scene) {
       "give a wider grid or more --passes");
 }
 
+CpuTracer::Scene tracer_scene(const RadiationModel& model) {
+  return {model.plot.periodic, model.soil.has_value()};
+}
+
 RunRecord make_record(const RunOptions& options, const Scene& scene, const SolveSettings& settings, const Engine& engine) {
   RunRecord record;
   record.version = version();
@@ -82,32 +87,44 @@ std::uint32_t sensor_rays(const SolveSettings& settings) {
   return static_cast<std::uint32_t>(std::clamp(3.0 / bound, 64.0, 16384.0));
 }
 
+// Into the result; interrupted if the readings are not whole.
+void read_sensors(const RadiationModel& model, const CounterLayout& layout, Engine& engine, const SolveSettings& settings,
+                  const StopQuestion& stop, RadiationResult& result) {
+  if (model.sensors.empty() || result.stop == StopReason::interrupted) return;
+  SensorSettings sensors;
+  sensors.rays = sensor_rays(settings);
+  sensors.seed = settings.seed;
+  sensors.confidence = settings.accuracy.confidence;
+  if (auto readings = measure_sensors(model, layout, engine.tracer(), sensors, stop)) {
+    result.sensors = std::move(*readings);
+  } else {
+    result.stop = StopReason::interrupted;
+  }
+}
+
 }  // namespace
 
 RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
-                         const SolveSettings& settings) {
+                         const SolveSettings& settings, const SimulationAids& aids) {
   ProgressLine progress("simulating");
   Monitor monitor;
-  monitor.interrupted = interrupted;
+  const auto is_interrupted = [&aids] { return interrupted() || (aids.ranks != nullptr && aids.ranks->interrupted()); };
+  monitor.interrupted = is_interrupted;
   monitor.report = [&](const Progress& state) {
     progress.update({state.rays, state.fraction, state.relative_error, state.bound});
   };
-  return simulate(model, layout, engine, settings, monitor);
+  if (aids.keeper != nullptr) aids.keeper->attend(monitor);
+  ReplicateHelpers* helpers = aids.ranks != nullptr ? aids.ranks->helpers() : nullptr;
+  RadiationResult result = solve(model, layout, engine.tracer(), settings, monitor, helpers);
+  if (aids.ranks != nullptr) aids.ranks->release();
+  read_sensors(model, layout, engine, settings, interrupted, result);
+  return result;
 }
 
 RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
                          const SolveSettings& settings, const Monitor& monitor) {
   RadiationResult result = solve(model, layout, engine.tracer(), settings, monitor);
-  if (model.sensors.empty() || result.stop == StopReason::interrupted) return result;
-  SensorSettings sensors;
-  sensors.rays = sensor_rays(settings);
-  sensors.seed = settings.seed;
-  sensors.confidence = settings.accuracy.confidence;
-  if (auto readings = measure_sensors(model, layout, engine.tracer(), sensors, monitor.interrupted)) {
-    result.sensors = std::move(*readings);
-  } else {
-    result.stop = StopReason::interrupted;
-  }
+  read_sensors(model, layout, engine, settings, monitor.interrupted, result);
   return result;
 }
 
@@ -122,7 +139,7 @@ bool is_done(StopReason stop) {
   return stop == StopReason::bound_reached || stop == StopReason::work_done;
 }
 
-void warn_if_short(const SolveSettings& settings, const RadiationResult& result) {
+void warn_if_short(const SolveSettings& settings, const RadiationResult& result, std::string_view cure) {
   if (is_done(result.stop)) return;
   std::string line = "interrupted";
   if (result.stop == StopReason::time_spent)
@@ -136,7 +153,7 @@ void warn_if_short(const SolveSettings& settings, const RadiationResult& result)
     if (result.direct.relative_error) line += fmt::format(", relative error {:.2g}", *result.direct.relative_error);
     if (result.direct.bound) line += fmt::format(" of {:.2g}", *result.direct.bound);
   }
-  warn(line + "; the results are kept, marked incomplete");
+  warn(fmt::format("{}; the results are kept, marked incomplete{}", line, cure));
 }
 
 int exit_status(StopReason stop) {

@@ -3,6 +3,7 @@
 
 #include "app/engine.h"
 #include "app/options.h"
+#include "app/run_keeper.h"
 #include "io/result_writer.h"
 #include "io/scene_reader.h"
 #include "transport/counters.h"
@@ -10,8 +11,11 @@
 #include "transport/solve.h"
 
 #include <chrono>
+#include <string_view>
 
 namespace sunfleck {
+
+class Ranks;
 
 inline constexpr int exit_done = 0;
 inline constexpr int exit_failed = 1;
@@ -50,9 +54,17 @@ void check_grid(const RunOptions& options, const Scene& scene);
 // The device in use, as one line for the user.
 [[nodiscard]] std::string device_line(const TracerDevice& device);
 
+// Who takes part in a simulation besides; either may be null.
+struct SimulationAids {
+  RunKeeper* keeper = nullptr;  // has the state kept
+  Ranks* ranks = nullptr;       // released once the replicates are done
+};
+
+[[nodiscard]] CpuTracer::Scene tracer_scene(const RadiationModel& model);
+
 // Simulates, sensors included, with a progress line; ends at Ctrl-C.
 [[nodiscard]] RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
-                                       const SolveSettings& settings);
+                                       const SolveSettings& settings, const SimulationAids& aids = {});
 
 // The same, watched and ended by somebody else.
 [[nodiscard]] RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
@@ -65,7 +77,7 @@ void check_validation(const Engine& engine);
 [[nodiscard]] bool is_done(StopReason stop);
 [[nodiscard]] int exit_status(StopReason stop);
 
-// Says in one line what ended a run early; nothing about others.
-void warn_if_short(const SolveSettings& settings, const RadiationResult& result);
+// Says in one line what ended a run early, and `cure`; nothing about others.
+void warn_if_short(const SolveSettings& settings, const RadiationResult& result, std::string_view cure = "");
 
 }  // namespace sunfleck

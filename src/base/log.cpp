@@ -56,7 +56,9 @@ std::string duration_text(double seconds) {
 void start_log(Verbosity verbosity) {
   auto logger = std::make_shared<spdlog::logger>("sunfleck", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern("%v");
-  logger->set_level(verbosity == Verbosity::quiet ? spdlog::level::warn : spdlog::level::info);
+  logger->set_level(verbosity == Verbosity::normal  ? spdlog::level::info
+                    : verbosity == Verbosity::quiet ? spdlog::level::warn
+                                                    : spdlog::level::off);
   spdlog::set_default_logger(std::move(logger));
 }
 

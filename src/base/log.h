@@ -9,9 +9,9 @@
 
 namespace sunfleck {
 
-enum class Verbosity { quiet, normal };
+enum class Verbosity { silent, quiet, normal };
 
-// Sets up the log on standard error. Quiet says nothing but warnings and errors.
+// Sets up the log on standard error. Quiet says nothing but warnings and errors, silent nothing at all.
 void start_log(Verbosity verbosity);
 
 void say(std::string_view line);   // plain line

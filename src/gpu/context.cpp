@@ -146,12 +146,13 @@ int preference(const FoundDevice& found) {
 
 // The number of the best device that fits the wish.
 std::size_t choose(const DeviceWish& wish, const std::vector<FoundDevice>& all) {
-  std::optional<std::size_t> best;
+  std::vector<std::optional<int>> preferences(all.size());
   std::string names;
   for (std::size_t i = 0; i < all.size(); ++i) {
     names += fmt::format("{}{}: {}", i == 0 ? "" : ", ", i, all[i].description.name);
-    if (fits(wish, all[i].description, i) && (!best || preference(all[i]) < preference(all[*best]))) best = i;
+    if (fits(wish, all[i].description, i)) preferences[i] = preference(all[i]);
   }
+  const std::optional<std::size_t> best = smallest_in_turn(preferences, wish.turn);
   if (all.empty()) throw_device(wish_text(wish), "this machine has no Vulkan device", no_vulkan_cure);
   if (!best) {
     throw_device(wish_text(wish), fmt::format("this machine has only {}", names), "choose one of these or use the CPU path");
@@ -210,6 +211,17 @@ bool validation_installed() {
   } catch (const Error&) {
     return false;
   }
+}
+
+std::optional<std::size_t> smallest_in_turn(std::span<const std::optional<int>> values, int turn) {
+  std::vector<std::size_t> smallest;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!values[i] || (!smallest.empty() && *values[i] > *values[smallest.front()])) continue;
+    if (!smallest.empty() && *values[i] < *values[smallest.front()]) smallest.clear();
+    smallest.push_back(i);
+  }
+  if (smallest.empty()) return std::nullopt;
+  return smallest[static_cast<std::size_t>(turn) % smallest.size()];
 }
 
 GpuContext::GpuContext(const DeviceWish& wish, Validation validation) : loader_(open_loader()) {

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
@@ -27,6 +29,7 @@ struct DeviceWish {
   enum class Kind { any, hardware, software, index, name } kind = Kind::any;
   int index = 0;
   std::string name;
+  int turn = 0;  // of several that are as good as each other the one that is so many places behind the first, counted round
 };
 
 struct DeviceLimits {
@@ -47,6 +50,10 @@ struct Staging {
 
 // Threads of software Vulkan; must come before the first context or list of devices. 0: as many as there are cores.
 void set_software_threads(int threads);
+
+// The place of the smallest of the values that are there; of several equal ones the one whose turn it is. None if none is
+// there.
+[[nodiscard]] std::optional<std::size_t> smallest_in_turn(std::span<const std::optional<int>> values, int turn);
 
 // All devices of this machine; empty where there is no Vulkan at all. Never throws for lack of a driver.
 [[nodiscard]] std::vector<DeviceDescription> list_devices();

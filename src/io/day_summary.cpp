@@ -84,6 +84,7 @@ std::string day_summary_json(const DaySummary& day) {
   settings["scene_file"] = record.scene_file;
   settings["max_seconds"] = value_or_null(record.max_seconds);
   settings["threads"] = record.threads;
+  settings["ranks"] = record.ranks;
   const auto bound = [fixed](double asked) { return fixed ? ordered_json(nullptr) : ordered_json(asked); };
   ordered_json summary = {
       {"sunfleck", record.version},

@@ -104,7 +104,8 @@ ordered_json settings_json(const RunRecord& record) {
           {"passes", value_or_null(record.passes)},
           {"max_rays", value_or_null(record.max_rays)},
           {"max_seconds", value_or_null(record.max_seconds)},
-          {"threads", record.threads}};
+          {"threads", record.threads},
+          {"ranks", record.ranks}};
 }
 
 std::size_t plant_count(const Canopy& canopy) {

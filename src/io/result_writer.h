@@ -32,6 +32,7 @@ struct RunRecord {
   std::optional<std::uint64_t> max_rays;
   std::optional<double> max_seconds;
   int threads = 0;  // 0: all
+  int ranks = 1;    // processes that shared the work
   TracerDevice device;
   struct Seconds {
     double load = 0.0, bvh = 0.0, device = 0.0, direct = 0.0, indirect = 0.0, write = 0.0, total = 0.0;

@@ -3,13 +3,12 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "io/packed_array.h"
+#include "io/sealed_file.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace sunfleck {
@@ -23,12 +22,6 @@ constexpr std::string_view step_mark = "SUNSTEP1";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
-constexpr std::size_t deepest = 2;  // lists and maps within each other
-constexpr std::size_t head_bytes = step_mark.size() + sizeof(std::uint32_t);
-
-std::uint32_t check_sum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 // Every number of a step's light, in the order of the file.
 template <class Light, class Visit>
@@ -86,21 +79,6 @@ void remove_steps(const fs::path& folder) {
   for (const fs::path& file : files) remove_file(file);
 }
 
-// The settings as noted; not an object if the text is damaged or holds more than plain values.
-ordered_json parse_settings(const std::string& text) {
-  bool plain = true;
-  const auto keep = [&](int depth, ordered_json::parse_event_t, ordered_json&) {
-    plain = plain && depth < 2;
-    return plain;
-  };
-  ordered_json settings = ordered_json::parse(text, keep, false);
-  return plain ? std::move(settings) : ordered_json();
-}
-
-std::string value_text(const ordered_json& settings, const std::string& key) {
-  return settings.contains(key) ? printable(settings[key].dump()) : "not given";
-}
-
 }  // namespace
 
 std::vector<LightColumn> day_columns(const RadiationModel& model) {
@@ -154,16 +132,7 @@ StepStore::Found StepStore::find() const {
   }
   const bool finished = noted[finished_key] == true;
   noted.erase(finished_key);
-  const ordered_json now = ordered_json::parse(settings_);
-  for (const ordered_json* settings : {&now, static_cast<const ordered_json*>(&noted)}) {
-    for (const auto& [key, value] : settings->items()) {
-      if (now.contains(key) && noted.contains(key) && now[key] == noted[key]) continue;
-      throw_input(fmt::format("--resume {}", printable(folder_.parent_path().string())),
-                  fmt::format("that day has other settings: {} was {}, now {}", printable(key), value_text(noted, key),
-                              value_text(now, key)),
-                  "give the same, or leave --resume out to compute the day anew");
-    }
-  }
+  expect_same_settings(ordered_json::parse(settings_), noted, "that day", folder_.parent_path());
   return finished ? Found::finished : Found::begun;
 }
 
@@ -194,25 +163,16 @@ void StepStore::write(std::size_t step, const StoredStep& stored) const {
                         {"indirect_error", error_json(stored.indirect_error)},
                         {"reached_bound", stored.reached_bound},
                         {"seconds", stored.seconds}};
-  std::string bytes(head_bytes, '\0');
-  json::to_cbor(content, bytes);
-  const std::uint32_t sum = check_sum(std::string_view(bytes).substr(head_bytes));
-  std::copy(step_mark.begin(), step_mark.end(), bytes.begin());
-  std::memcpy(bytes.data() + step_mark.size(), &sum, sizeof sum);
-  write_file(file_of(step), bytes);
+  write_file(file_of(step), sealed(step_mark, content));
 }
 
 std::optional<StoredStep> StepStore::read(std::size_t step) const {
   std::error_code error;
   if (!fs::is_regular_file(file_of(step), error)) return std::nullopt;
-  const std::string bytes = read_file(file_of(step));
-  if (bytes.size() < head_bytes || bytes.compare(0, step_mark.size(), step_mark) != 0) return std::nullopt;
-  const std::string_view content = std::string_view(bytes).substr(head_bytes);
-  std::uint32_t sum = 0;
-  std::memcpy(&sum, bytes.data() + step_mark.size(), sizeof sum);
-  if (sum != check_sum(content)) return std::nullopt;
+  const std::optional<json> content = unsealed(step_mark, read_file(file_of(step)));
+  if (!content) return std::nullopt;
   try {
-    const json from = read_cbor(content, deepest);
+    const json& from = *content;
     if (from.at("settings") != settings_ || from.at("step") != step) return std::nullopt;
     StoredStep stored;
     stored.light = read_light(from.at("light"), bands_, organs_);

@@ -3,8 +3,7 @@
 // a day that was cut short goes on where it stopped.
 //
 // settings.json says what the steps were computed with and whether the day is finished; its steps are gone then.
-// step_00007.bin is step 7, from 0: eight letters, a check sum (CRC-32, little-endian) of the rest, then a CBOR map (RFC 8949)
-// with long arrays as byte strings, little-endian and deflated (zlib).
+// step_00007.bin is step 7, from 0, as in io/sealed_file.h; long arrays are byte strings, little-endian and deflated (zlib).
 
 #include "io/day_course.h"
 #include "io/element_fields.h"

@@ -79,6 +79,19 @@ class PlaneTally {
 
   [[nodiscard]] std::vector<PlaneResult> results(double quantile) const;
 
+  // Hands every sum to `archive`; see tally_sums.cpp.
+  template <class Self, class Archive>
+  static void visit_sums(Self& self, Archive& archive) {
+    for (auto& means : self.means_) {
+      archive.visit(means.sunfleck);
+      archive.visit(means.down);
+    }
+    archive.visit(self.reached_);
+    archive.visit(self.crossing_);
+    archive.visit(self.down_);
+    archive.visit(self.through_down_);
+  }
+
  private:
   struct Means {
     ReplicateMean sunfleck;

@@ -1,5 +1,6 @@
 #include "transport/replicate.h"
 
+#include "light/beam_grid.h"
 #include "transport/beam_block.h"
 #include "transport/beam_landings.h"
 
@@ -28,15 +29,43 @@ TraceOutcome ReplicateMaker::OneAtATime::trace(const shared::PacketBlock& scene,
   return tracer_.trace(scene, packets, landings, stop);
 }
 
-ReplicateMaker::ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
-                               Tracer& tracer, const SkyRays* sky, const PlaneReceivers* receivers)
-    : model_(model), layout_(layout), receivers_(receivers), tracer_(tracer) {
-  if (!scatters(model) && sky == nullptr) return;
-  indirect_ = std::make_unique<IndirectPass>(model, layout, surfaces, tracer_, sky, receivers);
+ReplicateMaker::ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer)
+    : model_(model), layout_(layout), surfaces_(model), tracer_(tracer) {
+  if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
+  if (model.has_sky()) sky_.emplace(model, layout);
+  if (!scatters(model) && !sky_) return;
+  indirect_ = std::make_unique<IndirectPass>(model, layout, surfaces_, tracer_, sky_ ? &*sky_ : nullptr, receivers());
+}
+
+Incidence ReplicateMaker::incidence(double beam_rays) const {
+  Incidence incidence;
+  incidence.sky_ground_m2 = sky_ ? sky_->ground_m2() : 0.0;
+  if (!model_.has_beam()) return incidence;
+  const BeamGrid grid = make_grid(model_, layout_, beam_rays);
+  incidence.rays = grid.rays();
+  incidence.ground_per_ray_m2 = grid.horizontal_area_per_ray_m2();
+  return incidence;
+}
+
+Tally ReplicateMaker::tally(const Incidence& incidence, ElementErrors element_errors) const {
+  return {model_, layout_, surfaces_, receivers(), incidence, element_errors};
+}
+
+Replicate ReplicateMaker::blank(const ReplicateOrder& order) const {
+  Replicate blank;
+  blank.counters.resize(layout_.words());
+  if (receivers_) blank.passed = PlaneSums(*receivers_, model_);
+  if (!indirect_ || order.packets == 0.0) return blank;
+  blank.packets.emplace(model_, layout_, surfaces_);
+  if (receivers_) blank.packets->receivers = blank.passed;
+  if (!sky_) return blank;
+  blank.packets->side_sky.resize(blank.packets->side_landed.size());
+  blank.packets->cell_sky.resize(blank.packets->cell_landed.size());
+  return blank;
 }
 
 TraceOutcome ReplicateMaker::count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop) {
-  if (receivers_ == nullptr) return tracer_.count_beam(beam, replicate.counters, stop);
+  if (!receivers_) return tracer_.count_beam(beam, replicate.counters, stop);
   return count_beam_landings(model_, layout_, *receivers_, tracer_, beam, replicate.counters, replicate.passed, stop);
 }
 
@@ -45,7 +74,7 @@ std::optional<Replicate> ReplicateMaker::make(const ReplicateOrder& order, const
   const Clock::time_point start = Clock::now();
   std::optional<Replicate> replicate(std::in_place);
   replicate->counters.resize(layout_.words());
-  if (receivers_ != nullptr) replicate->passed = PlaneSums(*receivers_, model_);
+  if (receivers_) replicate->passed = PlaneSums(*receivers_, model_);
   std::optional<shared::BeamBlock> beam;
   if (model_.has_beam()) {
     beam = make_beam_block(model_, layout_, order.beam_rays, order.seed, order.number);

@@ -5,6 +5,7 @@
 #include "transport/indirect.h"
 #include "transport/planes.h"
 #include "transport/sky_rays.h"
+#include "transport/surfaces.h"
 #include "transport/tally.h"
 #include "transport/tracer.h"
 
@@ -40,11 +41,20 @@ struct ReplicateOrder {
 
 class ReplicateMaker {
  public:
-  // All must outlive it; receivers and sky may be null.
-  ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, Tracer& tracer,
-                 const SkyRays* sky, const PlaneReceivers* receivers);
+  // All must outlive it, and the model must stay as it is.
+  ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer);
 
   [[nodiscard]] bool has_indirect_pass() const { return indirect_ != nullptr; }
+  [[nodiscard]] bool has_sky() const { return sky_.has_value(); }
+
+  // Of replicates with about so many beam rays.
+  [[nodiscard]] Incidence incidence(double beam_rays) const;
+
+  // What adds up replicates of that incidence. The maker must outlive it.
+  [[nodiscard]] Tally tally(const Incidence& incidence, ElementErrors element_errors) const;
+
+  // A replicate in which nothing landed, as large as an ordered one.
+  [[nodiscard]] Replicate blank(const ReplicateOrder& order) const;
 
   // None if stopped. The tally tells what landings are worth; it may meanwhile add other replicates. May be called by several
   // threads at a time, all of which ask `stop`.
@@ -68,9 +78,13 @@ class ReplicateMaker {
 
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop);
 
+  [[nodiscard]] const PlaneReceivers* receivers() const { return receivers_ ? &*receivers_ : nullptr; }
+
   const RadiationModel& model_;
   const CounterLayout& layout_;
-  const PlaneReceivers* receivers_;
+  Surfaces surfaces_;
+  std::optional<PlaneReceivers> receivers_;
+  std::optional<SkyRays> sky_;
   OneAtATime tracer_;
   std::unique_ptr<IndirectPass> indirect_;  // none without a sky where no light goes on after its first landing
 };

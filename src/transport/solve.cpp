@@ -1,20 +1,16 @@
 #include "transport/solve.h"
 
 #include "base/check.h"
-#include "bvh/bvh.h"
 #include "light/beam_grid.h"
 #include "transport/darkness.h"
-#include "transport/planes.h"
 #include "transport/replicate.h"
-#include "transport/sky_rays.h"
-#include "transport/surfaces.h"
+#include "transport/replicate_helpers.h"
+#include "transport/replicate_queue.h"
 #include "transport/tally.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
-#include <future>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -25,7 +21,6 @@ namespace {
 constexpr int pilot_replicates = 8;
 constexpr double first_pilot_rays = 16384;
 constexpr double first_pilot_packets = 4096;
-constexpr double most_packets = 0x1p24;
 // A pilot foretells work up to so many times its own; beyond, a larger pilot follows, at a few percent of the cost.
 constexpr double trusted_refinement = 16;
 // The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation G3), more slowly while its cells are
@@ -35,7 +30,6 @@ constexpr double packet_slope = 0.5;
 // Replicates that the work is chosen for, and the part of the bound aimed at, so that the checks rarely fail by chance.
 constexpr int planned_replicates = 16;
 constexpr double aimed_part_of_bound = 0.7;
-constexpr int first_check = 12;
 // Rays of the sky for each packet of the first round, where the work is not fixed, and the most of one replicate.
 constexpr double sky_rays_per_packet = 2.0;
 constexpr double most_sky_rays = 0x1p22;
@@ -47,15 +41,16 @@ using Clock = std::chrono::steady_clock;
 class Solver {
  public:
   Solver(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
-         const Monitor& monitor)
-      : model_(model), layout_(layout), settings_(settings), monitor_(monitor), surfaces_(model) {
-    if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
-    if (model.has_sky()) sky_.emplace(model, layout);
-    maker_.emplace(model, layout, surfaces_, tracer, sky_ ? &*sky_ : nullptr, receivers());
-  }
+         const Monitor& monitor, ReplicateHelpers* helpers)
+      : model_(model),
+        settings_(settings),
+        monitor_(monitor),
+        maker_(model, layout, tracer),
+        queue_(maker_, settings.max_rays ? nullptr : helpers, replicates_at_once(), [this] { return must_stop(); }) {}
 
   RadiationResult run() {
     const int replicates = settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
+    if (settings_.go_on_from != nullptr) return go_on(*settings_.go_on_from, replicates);
     if (settings_.begin_with && !fixed()) return begin_as_told(*settings_.begin_with);
     const bool needs_pilot = !settings_.grid_m || (has_indirect() && !settings_.packets);
     std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
@@ -69,7 +64,7 @@ class Solver {
   }
 
  private:
-  [[nodiscard]] bool has_indirect() const { return maker_->has_indirect_pass(); }
+  [[nodiscard]] bool has_indirect() const { return maker_.has_indirect_pass(); }
   [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -87,43 +82,31 @@ class Solver {
     return false;
   }
 
-  [[nodiscard]] const PlaneReceivers* receivers() const { return receivers_ ? &*receivers_ : nullptr; }
-
-  void begin(const Work& work) {
+  // Begins a series of replicates; those of the pilots have numbers apart.
+  void begin(const Work& work, std::uint64_t stream = 0) {
+    queue_.end();
     work_ = work;
-    grid_rays_ = 0;
-    Incidence incidence;
-    incidence.sky_ground_m2 = sky_ ? sky_->ground_m2() : 0.0;
-    if (model_.has_beam()) {
-      const BeamGrid grid = make_grid(model_, layout_, work.rays);
-      grid_rays_ = grid.rays();
-      incidence.rays = grid.rays();
-      incidence.ground_per_ray_m2 = grid.horizontal_area_per_ray_m2();
-    }
-    tally_ = std::make_unique<Tally>(model_, layout_, surfaces_, receivers(), incidence, settings_.element_errors);
+    begun_with_ = 0;
+    const Incidence incidence = maker_.incidence(work.rays);
+    grid_rays_ = incidence.rays;
+    tally_ = std::make_unique<Tally>(maker_.tally(incidence, settings_.element_errors));
+    queue_.begin({work.rays, grid_rays_, work.packets, sky_rays(), settings_.accuracy.indirect, settings_.seed, stream},
+                 *tally_);
   }
 
   // A fixed grid is the sky's as well.
   [[nodiscard]] std::size_t sky_rays() const {
-    if (!sky_) return 0;
+    if (!maker_.has_sky()) return 0;
     const double rays = settings_.grid_m && !settings_.packets ? work_.rays : sky_rays_per_packet * work_.packets;
     return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
   }
 
-  // Adds one replicate, and begins others of the first `until` that may be made beside it; false if the run has to end before
-  // it is whole.
-  bool add_replicate(std::uint64_t stream, std::size_t until) {
-    const std::size_t done = tally_->replicates();
-    const auto begun = [&] { return done + ahead_.size(); };
-    const std::size_t at_once = replicates_at_once();
-    while (begun() < std::max(done + 1, std::min(until, done + at_once)))
-      ahead_.push_back(begin_replicate(stream + begun(), at_once));
-    const std::optional<Replicate> replicate = ahead_.front().get();
-    ahead_.pop_front();
-    if (!replicate) {
-      ahead_.clear();  // waits for the others, which are asked to stop as well
-      return false;
-    }
+  // Adds one replicate, and has others begun, of the first `certain` ones or, where hands would be idle, of the first
+  // `possible` ones; false if the run has to end before it is whole.
+  bool add_replicate(std::size_t certain, std::size_t possible) {
+    const std::optional<Replicate> replicate =
+        queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
+    if (!replicate) return false;
     tally_->add(replicate->counters, replicate->sums, replicate->passed, replicate->packets ? &*replicate->packets : nullptr);
     traced_ += grid_rays_;
     if (replicate->packets) traced_ += replicate->packets->packets + replicate->packets->sky_rays;
@@ -141,22 +124,15 @@ class Solver {
                                          : result_of(*tally_, grid_rays_, StopReason::interrupted));
   }
 
-  [[nodiscard]] static double work_of(const Tally& tally, std::uint64_t grid_rays) {
-    return static_cast<double>(tally.replicates()) * static_cast<double>(grid_rays) +
-           static_cast<double>(tally.packets() + tally.sky_rays());
+  // Rays and packets.
+  [[nodiscard]] static std::uint64_t work_of(const Tally& tally, std::uint64_t grid_rays) {
+    return tally.replicates() * grid_rays + tally.packets() + tally.sky_rays();
   }
 
   // Without an indirect pass the host has next to nothing to do meanwhile, and memory is better saved.
   [[nodiscard]] std::size_t replicates_at_once() const {
     if (settings_.max_rays || !has_indirect()) return 1;
     return static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
-  }
-
-  std::future<std::optional<Replicate>> begin_replicate(std::uint64_t number, std::size_t at_once) {
-    const ReplicateOrder order{work_.rays,     grid_rays_, work_.packets, sky_rays(), settings_.accuracy.indirect,
-                               settings_.seed, number};
-    const auto make = [this, order] { return maker_->make(order, *tally_, [this] { return must_stop(); }); };
-    return std::async(at_once > 1 ? std::launch::async : std::launch::deferred, make);
   }
 
   [[nodiscard]] double direct_error(const Tally& tally) const {
@@ -205,7 +181,7 @@ class Solver {
     next.rays *= scale(direct_error(), settings_.accuracy.direct, ray_slope);
     next.packets *= scale(indirect_error(), settings_.accuracy.indirect, packet_slope);
     next.rays = std::min(next.rays, static_cast<double>(max_grid_rays));
-    next.packets = std::min(next.packets, most_packets);
+    next.packets = std::min(next.packets, most_first_packets);
     return next;
   }
 
@@ -235,7 +211,7 @@ class Solver {
     }
     if (!has_indirect()) return work;
     // On a fixed grid at most one packet a ray, and at least as many as the first pilot has.
-    double most_of_them = std::min(most, most_packets);
+    double most_of_them = std::min(most, most_first_packets);
     if (settings_.grid_m) most_of_them = std::min(most_of_them, std::max(first_pilot_packets, work.rays));
     if (most_of_them <= first_pilot_packets) {
       work.packets = most_of_them;
@@ -259,9 +235,9 @@ class Solver {
                          t_quantile(settings_.accuracy.confidence, pilot_replicates);
     while (true) {
       const double before = seconds();
-      begin(pilot);
+      begin(pilot, pilot_stream);
       while (tally_->replicates() < pilot_replicates) {
-        if (add_replicate(pilot_stream, pilot_replicates)) continue;
+        if (add_replicate(pilot_replicates, pilot_replicates)) continue;
         keep_fallback();
         return std::nullopt;
       }
@@ -289,34 +265,56 @@ class Solver {
     tally_.reset();
   }
 
+  RadiationResult go_on(const SolveState& state, int replicates) {
+    begin(state.work, state.replicates());
+    ENSURE(tally_->restore(state.sums), ==, true);
+    begun_with_ = tally_->replicates();
+    traced_ = work_of(*tally_, grid_rays_);
+    next_check_ = state.next_check;
+    good_checks_ = state.good_checks;
+    return fixed() ? run_fixed(replicates) : run_to_bound();
+  }
+
   RadiationResult run_fixed(int replicates) {
-    while (tally_->replicates() < static_cast<std::size_t>(replicates)) {
-      if (spent() || !add_replicate(0, static_cast<std::size_t>(replicates))) return finish(stop_);
+    const auto all = static_cast<std::size_t>(replicates);
+    while (tally_->replicates() < all) {
+      if (spent() || !add_replicate(all, all)) return finish(stop_);
       report(static_cast<double>(tally_->replicates()) / replicates);
+      if (monitor_.wants_state && monitor_.wants_state()) keep_state();
     }
     return finish(StopReason::work_done);
   }
 
   RadiationResult run_to_bound() {
-    int good_checks = 0;
-    std::size_t next_check = first_check;
     while (true) {
-      if (spent() || !add_replicate(0, next_check)) return finish(stop_);
-      report(static_cast<double>(tally_->replicates()) / std::max<double>(planned_replicates, next_check));
-      if (tally_->replicates() < next_check) continue;
-      good_checks = bounds_hold() ? good_checks + 1 : 0;
-      if (good_checks == 2) return finish(StopReason::bound_reached);
-      if (tally_->replicates() >= most_replicates) return finish(StopReason::replicates_spent);
-      next_check = std::min(most_replicates, next_check + std::max<std::size_t>(4, next_check / 8));
+      // The run cannot end before the next check, nor there if that were the first good one.
+      const std::size_t certain = good_checks_ == 0 ? check_after(next_check_) : next_check_;
+      if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
+      report(static_cast<double>(tally_->replicates()) / std::max<double>(planned_replicates, next_check_));
+      if (tally_->replicates() >= next_check_) {
+        good_checks_ = bounds_hold() ? good_checks_ + 1 : 0;
+        if (good_checks_ == 2) return finish(StopReason::bound_reached);
+        if (tally_->replicates() >= most_replicates) return finish(StopReason::replicates_spent);
+        next_check_ = check_after(next_check_);
+      }
+      if (monitor_.wants_state && monitor_.wants_state()) keep_state();
     }
+  }
+
+  [[nodiscard]] static std::size_t check_after(std::size_t check) {
+    return std::min(most_replicates, check + std::max<std::size_t>(4, check / 8));
+  }
+
+  void keep_state() const {
+    if (!monitor_.receive_state || tally_->replicates() < 2) return;
+    monitor_.receive_state({work_, next_check_, good_checks_, tally_->sums()});
   }
 
   // True if the next replicate would need more rays than are left.
   bool spent() {
     if (!settings_.max_rays) return false;
     const std::size_t done = tally_->replicates();
-    if (done == 0) before_run_ = traced_;
-    const std::uint64_t run = traced_ - before_run_;
+    const std::uint64_t run = work_of(*tally_, grid_rays_);
     const std::uint64_t next = done > 0 ? run / done : grid_rays_;
     if (run + next <= *settings_.max_rays) return false;
     stop_ = StopReason::rays_spent;
@@ -324,6 +322,9 @@ class Solver {
   }
 
   RadiationResult finish(StopReason reason) {
+    queue_.end();
+    const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
+    if (stopped && tally_) keep_state();
     const bool use_fallback = fallback_ && (!tally_ || tally_->replicates() < 2);
     if (use_fallback) {
       tally_ = std::move(fallback_);
@@ -360,13 +361,9 @@ class Solver {
   }
 
   const RadiationModel& model_;
-  const CounterLayout& layout_;
   const SolveSettings& settings_;
   const Monitor& monitor_;
-  Surfaces surfaces_;
-  std::optional<PlaneReceivers> receivers_;
-  std::optional<SkyRays> sky_;
-  std::optional<ReplicateMaker> maker_;
+  ReplicateMaker maker_;
   Clock::time_point start_ = Clock::now();
   std::unique_ptr<Tally> tally_, fallback_;
   std::mutex stop_mutex_;
@@ -374,17 +371,19 @@ class Solver {
   Work work_;
   std::uint64_t grid_rays_ = 0;  // what the grid makes of the asked rays
   std::uint64_t fallback_rays_ = 0;
-  std::uint64_t traced_ = 0, before_run_ = 0;
+  std::uint64_t traced_ = 0;
+  std::size_t next_check_ = first_check, good_checks_ = 0;
+  std::size_t begun_with_ = 0;  // replicates that an earlier process made
   double direct_s_ = 0.0, indirect_s_ = 0.0;
-  std::deque<std::future<std::optional<Replicate>>> ahead_;  // in the order of their numbers; last, so that it ends first
+  ReplicateQueue queue_;  // last, so that it ends first
 };
 
 }  // namespace
 
 RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
-                      const Monitor& monitor) {
+                      const Monitor& monitor, ReplicateHelpers* helpers) {
   if (is_dark(model)) return dark_result(model, layout, settings);
-  return Solver(model, layout, tracer, settings, monitor).run();
+  return Solver(model, layout, tracer, settings, monitor, helpers).run();
 }
 
 }  // namespace sunfleck

@@ -7,6 +7,7 @@
 #include "transport/counters.h"
 #include "transport/model.h"
 #include "transport/result.h"
+#include "transport/solve_state.h"
 #include "transport/tracer.h"
 
 #include <cstdint>
@@ -14,6 +15,8 @@
 #include <optional>
 
 namespace sunfleck {
+
+class ReplicateHelpers;
 
 // Replicates of a run whose grid is fixed, but not their number.
 inline constexpr int fixed_grid_replicates = 16;
@@ -28,7 +31,8 @@ struct SolveSettings {
   std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
   std::optional<double> max_seconds;      // wall time of the simulation
   ElementErrors element_errors = ElementErrors::skip;
-  int replicates_at_once = 2;  // in the making side by side, where there is an indirect pass and no max_rays
+  int replicates_at_once = 2;              // in the making side by side, where there is an indirect pass and no max_rays
+  const SolveState* go_on_from = nullptr;  // of a run with the same settings; null: from the beginning
 };
 
 struct Progress {
@@ -46,11 +50,16 @@ struct Monitor {
   // or the last pilot's while those have fewer rays and packets. Its `stop` is interrupted. Errors are NaN after a single one.
   std::function<bool()> wants_result;
   std::function<void(RadiationResult)> receive_result;
+  // Asked after each replicate but the pilots'; the state is handed over if the answer is yes, and at the end of a run that
+  // was stopped. From the second replicate on.
+  std::function<bool()> wants_state;
+  std::function<void(const SolveState&)> receive_state;
 };
 
-// Runs the simulation. A run stopped before its second replicate is done falls back on the replicates of its pilot, if it had
-// one. Throws Error (failure) if the ledger of any band does not close, or rays and landings do not tally.
+// Runs the simulation; with helpers, unless there is a max_rays, they make replicates too, and the result is the same. A run
+// stopped before its second replicate is done falls back on the replicates of its pilot, if it had one. Throws Error (failure)
+// if the ledger of any band does not close, or rays and landings do not tally, and what helpers throw.
 [[nodiscard]] RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
-                                    const SolveSettings& settings, const Monitor& monitor);
+                                    const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers = nullptr);
 
 }  // namespace sunfleck

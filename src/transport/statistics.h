@@ -17,6 +17,10 @@ struct Estimate {
 // Running mean and sum of squared deviations (Welford 1962, Technometrics 4:419).
 class ReplicateMean {
  public:
+  ReplicateMean() = default;
+  // As it was when it had these.
+  ReplicateMean(std::size_t count, double mean, double squares) : count_(count), mean_(mean), squares_(squares) {}
+
   void add(double value) {
     ++count_;
     const double delta = value - mean_;
@@ -26,6 +30,7 @@ class ReplicateMean {
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] double squares() const { return squares_; }
   // Of the mean; NaN below two replicates.
   [[nodiscard]] double standard_error() const;
   [[nodiscard]] Estimate estimate(double t_quantile) const { return {mean_, t_quantile * standard_error()}; }

@@ -8,6 +8,7 @@
 #include "transport/planes.h"
 #include "transport/result.h"
 #include "transport/surfaces.h"
+#include "transport/tally_sums.h"
 
 #include <cstdint>
 #include <optional>
@@ -55,6 +56,12 @@ class Tally {
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
   [[nodiscard]] std::uint64_t sky_rays() const { return sky_rays_; }
 
+  // What it takes to go on adding in another tally, of the same incidence. Their number depends on the model alone.
+  [[nodiscard]] TallySums sums() const;
+
+  // False if there are too few or too many.
+  [[nodiscard]] bool restore(const TallySums& sums);
+
   // The figure compared with the direct bound: the largest half-width, relative to its value, of the first-hit flux on
   // vegetation and on the ground, either judged against at least 1 % of the incident flux; for organs also that of every
   // organ with at least a tenth of the mean organ's flux; for triangles the area-weighted root-mean-square half-width of the
@@ -89,6 +96,9 @@ class Tally {
     }
   };
 
+  // Hands every sum to `archive`, the same for const and other tallies.
+  template <class Self, class Archive>
+  static void visit_sums(Self& self, Archive& archive);
   void measure_elements();
   [[nodiscard]] const QuantaSplit& split_of(std::size_t optics, std::size_t side, std::size_t band) const;
   void split_rays();

@@ -1,0 +1,124 @@
+#include "app/run_keeper.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "io/exports.h"
+#include "io/file.h"
+#include "io/result_writer.h"
+#include "io/sealed_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr const char* summary_file = "summary.json";
+constexpr int most_share = 50;  // of the time that goes into keeping the state: 1 in so many
+constexpr std::chrono::seconds shortest_pause{1};
+
+template <class T>
+ordered_json value_or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+// All that the bytes of the tables depend on and summary.json tells.
+ordered_json run_settings(const Scene& scene, const SolveSettings& settings) {
+  return {{"command", "run"},
+          {"sunfleck", version()},
+          {"scene_digest", scene.digest},
+          {"seed", settings.seed},
+          {"direct_error", settings.accuracy.direct},
+          {"indirect_error", settings.accuracy.indirect},
+          {"confidence", settings.accuracy.confidence},
+          {"of", error_target_name(settings.accuracy.of)},
+          {"grid_m", value_or_null(settings.grid_m)},
+          {"passes", value_or_null(settings.passes)},
+          {"max_rays", value_or_null(settings.max_rays)}};
+}
+
+// The settings and what the sums are kept for.
+ordered_json state_settings(ordered_json settings, ElementErrors element_errors) {
+  settings["of_triangles"] = element_errors != ElementErrors::skip;
+  return settings;
+}
+
+}  // namespace
+
+RunKeeper::RunKeeper(fs::path folder, const RunOptions& options, const Scene& scene, const SolveSettings& settings)
+    : folder_(std::move(folder)),
+      exports_(options.exports),
+      element_errors_(settings.element_errors),
+      settings_(run_settings(scene, settings)),
+      store_(folder_, state_settings(settings_, element_errors_)) {}
+
+RunKeeper::Found RunKeeper::find(const RadiationModel& model, const CounterLayout& layout) {
+  if (is_finished()) return Found::finished;
+  found_ = store_.read(blank_state(model, layout, element_errors_));
+  return found_ ? Found::begun : Found::nothing;
+}
+
+// The summary of a finished run tells its settings; one that is no summary of ours tells nothing.
+bool RunKeeper::is_finished() const {
+  std::error_code error;
+  if (!fs::is_regular_file(folder_ / summary_file, error)) return false;
+  const json summary = json::parse(read_file(folder_ / summary_file), nullptr, false);
+  if (!summary.is_object() || summary.value("complete", json()) != true) return false;
+  const json none;
+  const json settings = summary.value("settings", json::object());
+  ordered_json noted;
+  for (const auto& [key, value] : settings_.items()) {
+    const json& place = settings.is_object() && settings.contains(key) ? settings : summary;
+    noted[key] = key == "command" ? summary.value(key, json("run")) : place.value(key, none);
+  }
+  expect_same_settings(settings_, noted, "that finished run", folder_);
+  for (const ExportKind kind : export_kinds) {
+    const bool asked = std::find(exports_.begin(), exports_.end(), export_name(kind)) != exports_.end();
+    if (!asked || fs::exists(folder_ / export_file(kind), error)) continue;
+    throw_input(fmt::format("--export {}", export_name(kind)),
+                fmt::format("the run in {} is finished, and has no {}", printable(folder_.string()), export_file(kind)),
+                "leave --resume out to compute it anew");
+  }
+  return true;
+}
+
+std::string RunKeeper::resume_line() const {
+  if (found_) return fmt::format("going on after {} replicates", found_->replicates());
+  return fmt::format("{}: nothing to go on from, the run begins anew", printable(folder_.string()));
+}
+
+void RunKeeper::attend(Monitor& monitor) {
+  begin_ = last_ = Clock::now();
+  monitor.wants_state = [this] { return is_due(); };
+  monitor.receive_state = [this](const SolveState& state) { keep(state); };
+}
+
+bool RunKeeper::is_due() {
+  begin_ = Clock::now();
+  return !failed_ && begin_ - last_ >= pause_;
+}
+
+void RunKeeper::keep(const SolveState& state) {
+  if (failed_) return;
+  try {
+    store_.write(state);
+    written_ = true;
+  } catch (const Error& error) {
+    failed_ = true;
+    warn(fmt::format("{}; the run goes on, but --resume will find no later state than this", error.what()));
+  }
+  last_ = Clock::now();
+  pause_ = std::max<Clock::duration>(shortest_pause, most_share * (last_ - begin_));
+}
+
+void RunKeeper::finish() const {
+  store_.remove();
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,14 @@
+#pragma once
+// All that a tally has added up, as plain numbers in an order of its own; the first integer is the number of replicates.
+
+#include <cstdint>
+#include <vector>
+
+namespace sunfleck {
+
+struct TallySums {
+  std::vector<std::int64_t> integers;
+  std::vector<double> reals;
+};
+
+}  // namespace sunfleck
