@@ -26,7 +26,8 @@ void set_light(RadiationModel& model, const MomentLight& light);
 // Each step begins with the work that the step before it found to be needed, so that steps come in their order.
 class DaySteps {
  public:
-  // All must outlive it; helpers may be null. Steps have their own seeds, drawn from that of the settings, which have no limit of time.
+  // All must outlive it; helpers may be null. Steps have their own seeds, drawn from that of the settings, which have no limit
+  // of time.
   DaySteps(RadiationModel& model, const DayPlan& plan, const SolveSettings& settings, const CounterLayout& layout,
            Engine& engine, ReplicateHelpers* helpers = nullptr);
 

@@ -8,7 +8,7 @@
 namespace sunfleck {
 
 TracingKit::TracingKit(const RadiationModel& model, const std::string& device)
-    : tree(model), engine(device, tree.bvh, {model.plot.periodic, model.soil.has_value()}, tree.layout.words()) {}
+    : tree(model), engine({device}, tree.bvh, tracer_scene(model), tree.layout.words()) {}
 
 void SimulatedScene::write(const RunOptions& options) const {
   const std::filesystem::path folder = result_folder(options);
