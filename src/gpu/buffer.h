@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "gpu/context.h"
@@ -14,17 +15,16 @@ enum class BufferUse {
   uniform_texel,  // read-only, fetched as four 32-bit unsigned words a texel (usamplerBuffer)
 };
 
-// The format of every uniform_texel buffer: bits come through unchanged. On lavapipe (Mesa 22.3.6) random fetches of it take as
-// long as those of R32G32B32A32_SFLOAT (within 4 %) and 0.4 times as long as those from a storage buffer.
-constexpr vk::Format texel_format = vk::Format::eR32G32B32A32Uint;
-
-// A device-local buffer with its memory; a texel buffer has its view too.
+// A device-local buffer with its memory.
 struct GpuBuffer {
+  struct Handles;  // gpu/handles.h
+  struct Destroy {
+    void operator()(Handles* handles) const noexcept;
+  };
+
   BufferUse use = BufferUse::storage;
   std::size_t bytes = 0;
-  vk::raii::DeviceMemory memory{nullptr};
-  vk::raii::Buffer buffer{nullptr};
-  vk::raii::BufferView view{nullptr};
+  std::unique_ptr<Handles, Destroy> handles;  // none: there is no such buffer yet
 };
 
 // `bytes` may be 0: the buffer then has room for one texel, so that it can be bound. Throws Error (failure) naming `what` when

@@ -1,5 +1,7 @@
 #include "gpu/compute.h"
 
+#include "gpu/handles.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +19,12 @@ vk::DescriptorType descriptor_type(BufferUse use) {
 
 }  // namespace
 
+void ComputePipeline::Destroy::operator()(Handles* handles) const noexcept {
+  delete handles;
+}
+
 ComputePipeline::ComputePipeline(const GpuContext& context, const ShaderCode& code, const Specialisation& constants)
-    : context_(context), code_(code) {
+    : context_(context), code_(code), handles_(new Handles) {
   // What any device guarantees (Vulkan specification, table "Required Limits").
   EXPECT(code.push_bytes, <=, 128u);
   EXPECT(code.push_bytes % 4, ==, 0u);
@@ -34,7 +40,7 @@ ComputePipeline::ComputePipeline(const GpuContext& context, const ShaderCode& co
 }
 
 void ComputePipeline::create_layouts() {
-  const auto& device = context_.device();
+  const auto& device = context_.handles().device;
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   std::vector<vk::DescriptorPoolSize> sizes;
   for (const BufferUse use : code_.bindings) {
@@ -42,25 +48,25 @@ void ComputePipeline::create_layouts() {
     bindings.emplace_back(number, descriptor_type(use), 1, vk::ShaderStageFlagBits::eCompute);
     sizes.emplace_back(descriptor_type(use), 1);
   }
-  set_layout_ = device.createDescriptorSetLayout({{}, bindings});
-  pool_ = device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
-  const vk::DescriptorSetLayout set_layout = *set_layout_;
-  set_ = std::move(device.allocateDescriptorSets({*pool_, set_layout}).front());
+  handles_->set_layout = device.createDescriptorSetLayout({{}, bindings});
+  handles_->pool = device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+  const vk::DescriptorSetLayout set_layout = *handles_->set_layout;
+  handles_->set = std::move(device.allocateDescriptorSets({*handles_->pool, set_layout}).front());
   const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, code_.push_bytes);
   vk::PipelineLayoutCreateInfo info({}, set_layout);
   if (code_.push_bytes > 0) info.setPushConstantRanges(push);
-  layout_ = device.createPipelineLayout(info);
+  handles_->layout = device.createPipelineLayout(info);
 }
 
 void ComputePipeline::create_pipeline(const Specialisation& constants) {
-  const auto& device = context_.device();
+  const auto& device = context_.handles().device;
   std::vector<vk::SpecializationMapEntry> entries;
   for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, 4 * i, 4);
   const vk::SpecializationInfo specialisation(static_cast<std::uint32_t>(entries.size()), entries.data(), 4 * constants.size(),
                                               constants.data());
   const vk::raii::ShaderModule module = device.createShaderModule({{}, code_.spirv.size_bytes(), code_.spirv.data()});
   const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &specialisation);
-  pipeline_ = device.createComputePipeline(nullptr, {{}, stage, *layout_});
+  handles_->pipeline = device.createComputePipeline(nullptr, {{}, stage, *handles_->layout});
 }
 
 // Done for every run: a handle alone does not tell whether a buffer is still the one that was bound, since a new buffer may
@@ -72,10 +78,11 @@ void ComputePipeline::bind(std::span<const GpuBuffer* const> buffers) {
   for (std::uint32_t i = 0; i < buffers.size(); ++i) {
     const GpuBuffer& buffer = *buffers[i];
     EXPECT(static_cast<int>(buffer.use), ==, static_cast<int>(code_.bindings[i]));
-    infos[i] = vk::DescriptorBufferInfo(*buffer.buffer, 0, VK_WHOLE_SIZE);
-    writes[i] = vk::WriteDescriptorSet(*set_, i, 0, 1, descriptor_type(buffer.use), nullptr, &infos[i], &*buffer.view);
+    infos[i] = vk::DescriptorBufferInfo(*buffer.handles->buffer, 0, VK_WHOLE_SIZE);
+    writes[i] = vk::WriteDescriptorSet(*handles_->set, i, 0, 1, descriptor_type(buffer.use), nullptr, &infos[i],
+                                       &*buffer.handles->view);
   }
-  context_.device().updateDescriptorSets(writes, {});
+  context_.handles().device.updateDescriptorSets(writes, {});
 }
 
 void ComputePipeline::run(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) {
@@ -83,12 +90,12 @@ void ComputePipeline::run(std::uint64_t threads, std::span<const std::byte> push
   EXPECT(push.size(), ==, code_.push_bytes);
   bind(buffers);
   if (threads == 0) return;
-  const auto& commands = context_.begin_commands();
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, *set_, {});
-  if (!push.empty()) commands.pushConstants<std::byte>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+  const auto& commands = begin_commands(context_);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *handles_->pipeline);
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *handles_->layout, 0, *handles_->set, {});
+  if (!push.empty()) commands.pushConstants<std::byte>(*handles_->layout, vk::ShaderStageFlagBits::eCompute, 0, push);
   commands.dispatch(static_cast<std::uint32_t>((threads + code_.group_size - 1) / code_.group_size), 1, 1);
-  context_.submit_and_wait();
+  submit_and_wait(context_);
 }
 
 std::uint64_t ComputePipeline::max_threads() const {

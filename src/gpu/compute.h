@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,17 +39,18 @@ class ComputePipeline {
   [[nodiscard]] std::uint64_t max_threads() const;
 
  private:
+  struct Handles;  // gpu/handles.h
+  struct Destroy {
+    void operator()(Handles* handles) const noexcept;
+  };
+
   void create_layouts();
   void create_pipeline(const Specialisation& constants);
   void bind(std::span<const GpuBuffer* const> buffers);
 
   const GpuContext& context_;
   ShaderCode code_;
-  vk::raii::DescriptorSetLayout set_layout_{nullptr};
-  vk::raii::PipelineLayout layout_{nullptr};
-  vk::raii::Pipeline pipeline_{nullptr};
-  vk::raii::DescriptorPool pool_{nullptr};
-  vk::raii::DescriptorSet set_{nullptr};
+  std::unique_ptr<Handles, Destroy> handles_;
 };
 
 }  // namespace sunfleck

@@ -1,5 +1,6 @@
 #include "gpu/context.h"
 
+#include "gpu/handles.h"
 #include "gpu/instance.h"
 
 #include <fmt/format.h>
@@ -182,6 +183,36 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical) {
   return limits;
 }
 
+void create_device(GpuContext::Handles& handles) {
+  const std::uint32_t family = compute_family(handles.physical).value();
+  const float priority = 1.0f;
+  const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
+  // A device that is Vulkan only through a translation must be told that this is known.
+  constexpr const char* portability_subset = "VK_KHR_portability_subset";
+  std::vector<const char*> extensions;
+  if (has_extension(handles.physical.enumerateDeviceExtensionProperties(), portability_subset))
+    extensions.push_back(portability_subset);
+  vk::PhysicalDeviceVulkan12Features features;
+  features.scalarBlockLayout = VK_TRUE;
+  handles.device = vk::raii::Device(handles.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, nullptr, &features));
+  handles.queue = handles.device.getQueue(family, 0);
+  handles.pool = handles.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
+  auto commands = handles.device.allocateCommandBuffers({*handles.pool, vk::CommandBufferLevel::ePrimary, 1});
+  handles.commands = std::move(commands.front());
+  handles.fence = handles.device.createFence({});
+}
+
+void create_staging(GpuContext::Handles& handles) {
+  using Usage = vk::BufferUsageFlagBits;
+  using Property = vk::MemoryPropertyFlagBits;
+  auto& [memory, buffer, data] = handles.staging;
+  buffer = handles.device.createBuffer({{}, Staging::bytes, Usage::eTransferSrc | Usage::eTransferDst});
+  memory = allocate(handles, buffer.getMemoryRequirements(), Property::eHostVisible | Property::eHostCoherent,
+                    Property::eHostCached);  // uncached memory is very slow to read
+  buffer.bindMemory(*memory, 0);
+  data = static_cast<std::byte*>(memory.mapMemory(0, VK_WHOLE_SIZE));
+}
+
 }  // namespace
 
 void set_software_threads(int threads) {
@@ -224,17 +255,17 @@ std::optional<std::size_t> smallest_in_turn(std::span<const std::optional<int>> 
   return smallest[static_cast<std::size_t>(turn) % smallest.size()];
 }
 
-GpuContext::GpuContext(const DeviceWish& wish, Validation validation) : loader_(open_loader()) {
+GpuContext::GpuContext(const DeviceWish& wish, Validation validation) : handles_(new Handles{open_loader()}) {
   try {
-    instance_ = create_instance(loader_, validation, {});
+    handles_->instance = create_instance(handles_->loader, validation, {});
   } catch (const vk::SystemError& error) {
     throw_device(wish_text(wish), fmt::format("no driver answers: {}", error.what()), no_vulkan_cure);
   }
-  if (validation != Validation::off) messenger_ = create_messenger(instance_, messages_);
+  if (validation != Validation::off) handles_->messenger = create_messenger(handles_->instance, messages_);
   take_device(wish);
   try {
-    create_device();
-    create_staging();
+    create_device(*handles_);
+    create_staging(*handles_);
   } catch (const vk::SystemError& error) {
     throw_call_failed(*this, fmt::format("Vulkan device {}", description_.name), error);
   }
@@ -243,84 +274,60 @@ GpuContext::GpuContext(const DeviceWish& wish, Validation validation) : loader_(
 GpuContext::~GpuContext() = default;
 
 void GpuContext::take_device(const DeviceWish& wish) {
-  auto physicals = enumerate(instance_);
+  auto physicals = enumerate(handles_->instance);
   std::vector<FoundDevice> all;
   for (const auto& physical : physicals) all.push_back(describe(physical));
   const std::size_t chosen = choose(wish, all);
-  physical_ = std::move(physicals[chosen]);
+  handles_->physical = std::move(physicals[chosen]);
   description_ = all[chosen].description;
-  limits_ = read_limits(physical_);
+  limits_ = read_limits(handles_->physical);
 }
 
-void GpuContext::create_device() {
-  const std::uint32_t family = compute_family(physical_).value();
-  const float priority = 1.0f;
-  const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
-  // A device that is Vulkan only through a translation must be told that this is known.
-  constexpr const char* portability_subset = "VK_KHR_portability_subset";
-  std::vector<const char*> extensions;
-  if (has_extension(physical_.enumerateDeviceExtensionProperties(), portability_subset))
-    extensions.push_back(portability_subset);
-  vk::PhysicalDeviceVulkan12Features features;
-  features.scalarBlockLayout = VK_TRUE;
-  device_ = vk::raii::Device(physical_, vk::DeviceCreateInfo({}, queue, {}, extensions, nullptr, &features));
-  queue_ = device_.getQueue(family, 0);
-  pool_ = device_.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
-  commands_ = std::move(device_.allocateCommandBuffers({*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
-  fence_ = device_.createFence({});
-}
-
-void GpuContext::create_staging() {
-  using Usage = vk::BufferUsageFlagBits;
-  using Property = vk::MemoryPropertyFlagBits;
-  staging_.buffer = device_.createBuffer({{}, Staging::bytes, Usage::eTransferSrc | Usage::eTransferDst});
-  staging_.memory = allocate(staging_.buffer.getMemoryRequirements(), Property::eHostVisible | Property::eHostCoherent,
-                             Property::eHostCached);  // uncached memory is very slow to read
-  staging_.buffer.bindMemory(*staging_.memory, 0);
-  staging_.data = static_cast<std::byte*>(staging_.memory.mapMemory(0, VK_WHOLE_SIZE));
-}
-
-vk::raii::DeviceMemory GpuContext::allocate(const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags required,
-                                            vk::MemoryPropertyFlags preferred) const {
-  const auto memory = physical_.getMemoryProperties();
+vk::raii::DeviceMemory allocate(const GpuContext::Handles& context, const vk::MemoryRequirements& needs,
+                                vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred) {
+  const auto memory = context.physical.getMemoryProperties();
   for (const auto wanted : {required | preferred, required}) {
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
       const bool allowed = (needs.memoryTypeBits >> i & 1u) != 0;
-      if (allowed && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return device_.allocateMemory({needs.size, i});
+      if (allowed && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) {
+        return context.device.allocateMemory({needs.size, i});
+      }
     }
   }
   throw vk::OutOfDeviceMemoryError("no memory type fits");
 }
 
-const vk::raii::CommandBuffer& GpuContext::begin_commands() const {
+const vk::raii::CommandBuffer& begin_commands(const GpuContext& context) {
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
+  const vk::raii::CommandBuffer& commands = context.handles().commands;
   try {
-    commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   } catch (const vk::SystemError& error) {
-    throw_call_failed(*this, fmt::format("Vulkan device {}", description_.name), error);
+    throw_call_failed(context, fmt::format("Vulkan device {}", context.description().name), error);
   }
   const vk::MemoryBarrier barrier(Access::eTransferWrite | Access::eShaderWrite,
                                   Access::eTransferRead | Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite);
   const auto stages = Stage::eTransfer | Stage::eComputeShader;
-  commands_.pipelineBarrier(stages, stages, {}, barrier, {}, {});
-  return commands_;
+  commands.pipelineBarrier(stages, stages, {}, barrier, {}, {});
+  return commands;
 }
 
-void GpuContext::submit_and_wait() const {
+void submit_and_wait(const GpuContext& context) {
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
+  const GpuContext::Handles& handles = context.handles();
   const vk::MemoryBarrier barrier(Access::eTransferWrite | Access::eShaderWrite, Access::eHostRead);
-  commands_.pipelineBarrier(Stage::eTransfer | Stage::eComputeShader, Stage::eHost, {}, barrier, {}, {});
+  handles.commands.pipelineBarrier(Stage::eTransfer | Stage::eComputeShader, Stage::eHost, {}, barrier, {}, {});
   try {
-    commands_.end();
-    const vk::CommandBuffer handle = *commands_;
-    queue_.submit(vk::SubmitInfo({}, {}, handle), *fence_);
-    const auto result = device_.waitForFences(*fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    handles.commands.end();
+    const vk::CommandBuffer commands = *handles.commands;
+    handles.queue.submit(vk::SubmitInfo({}, {}, commands), *handles.fence);
+    const auto result = handles.device.waitForFences(*handles.fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
     ENSURE(static_cast<int>(result), ==, static_cast<int>(vk::Result::eSuccess));
-    device_.resetFences(*fence_);
+    handles.device.resetFences(*handles.fence);
   } catch (const vk::SystemError& error) {
-    throw_call_failed(*this, fmt::format("Vulkan device {}", description_.name), error);
+    throw_call_failed(context, fmt::format("Vulkan device {}", context.description().name), error);
   }
 }
 

@@ -1,13 +1,13 @@
 #pragma once
-// Vulkan instance, device and queue; compute only. Not one word about what is computed.
+// Vulkan instance, device and queue; compute only. Not one word about what is computed, and none of Vulkan itself: that
+// stands in gpu/handles.h, for it takes a compiler seconds to read.
 
-#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
-#include <vulkan/vulkan_raii.hpp>
 
 namespace sunfleck {
 
@@ -40,14 +40,6 @@ struct DeviceLimits {
   std::uint64_t heap_bytes = 0;               // largest device-local heap
 };
 
-// Host-visible, coherent memory, mapped for good, through which all data travel to and from the device.
-struct Staging {
-  static constexpr std::size_t bytes = std::size_t{16} << 20;
-  vk::raii::DeviceMemory memory{nullptr};
-  vk::raii::Buffer buffer{nullptr};
-  std::byte* data = nullptr;
-};
-
 // Threads of software Vulkan; must come before the first context or list of devices. 0: as many as there are cores.
 void set_software_threads(int threads);
 
@@ -77,44 +69,17 @@ class GpuContext {
   [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const { return messages_; }
 
-  [[nodiscard]] const vk::raii::Device& device() const { return device_; }
-  [[nodiscard]] const vk::raii::PhysicalDevice& physical_device() const { return physical_; }
-  [[nodiscard]] const Staging& staging() const { return staging_; }
-
-  // Memory of a type that has all `required` properties, and the `preferred` ones too if there is such a type. Vulkan-Hpp's
-  // exceptions pass through.
-  [[nodiscard]] vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags required,
-                                                vk::MemoryPropertyFlags preferred) const;
-
-  // The one command buffer, emptied and begun. What earlier submissions wrote is visible to the transfers and compute
-  // shaders recorded here; barriers between commands of the same recording are the caller's. Throws Error (failure).
-  [[nodiscard]] const vk::raii::CommandBuffer& begin_commands() const;
-  // Ends that command buffer, submits it and waits; then its writes are visible to the host. Throws Error (failure) if the
-  // device is lost.
-  void submit_and_wait() const;
+  // What Vulkan knows it by (gpu/handles.h).
+  struct Handles;
+  [[nodiscard]] const Handles& handles() const { return *handles_; }
 
  private:
   void take_device(const DeviceWish& wish);
-  void create_device();
-  void create_staging();
 
   std::vector<std::string> messages_;
-  vk::raii::Context loader_;
-  vk::raii::Instance instance_{nullptr};
-  vk::raii::DebugUtilsMessengerEXT messenger_{nullptr};
-  vk::raii::PhysicalDevice physical_{nullptr};
-  vk::raii::Device device_{nullptr};
-  vk::raii::Queue queue_{nullptr};
-  vk::raii::CommandPool pool_{nullptr};
-  vk::raii::CommandBuffer commands_{nullptr};
-  vk::raii::Fence fence_{nullptr};
-  Staging staging_;
+  std::unique_ptr<Handles> handles_;
   DeviceDescription description_;
   DeviceLimits limits_;
 };
-
-// Every Vulkan call that fails after a device was chosen ends here: Error (failure) saying `what` was being done, on which
-// device, and why.
-[[noreturn]] void throw_call_failed(const GpuContext& context, const std::string& what, const vk::SystemError& error);
 
 }  // namespace sunfleck

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
+#include <vulkan/vulkan_raii.hpp>
 
 namespace sunfleck {
 

@@ -263,7 +263,7 @@ class GpuViewer final : public LookingViewer {
   }
 
   void make_room(GpuBuffer& buffer, std::size_t bytes, const char* what) {
-    if (*buffer.buffer && buffer.bytes >= bytes) return;
+    if (buffer.handles && buffer.bytes >= bytes) return;
     buffer = create_buffer(context_, BufferUse::storage, bytes, what);
   }
 

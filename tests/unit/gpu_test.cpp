@@ -11,6 +11,7 @@
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
 #include "gpu/context.h"
+#include "gpu/handles.h"
 #include "gpu_test.spirv.h"
 #include "support/device.h"
 
@@ -218,7 +219,7 @@ TEST_F(GpuTest, WishesThatNothingFitsListTheDevices) {
 TEST_F(GpuTest, ValidationTellsOfMisuse) {
   if (!validation_installed()) GTEST_SKIP() << "no validation layer on this machine";
   const GpuContext own({}, Validation::on);
-  static_cast<void>(own.device().createBuffer({{}, 0, vk::BufferUsageFlagBits::eStorageBuffer}));
+  static_cast<void>(own.handles().device.createBuffer({{}, 0, vk::BufferUsageFlagBits::eStorageBuffer}));
   ASSERT_FALSE(own.validation_messages().empty());
   EXPECT_NE(own.validation_messages().front().find("VUID-VkBufferCreateInfo-size"), std::string::npos);
 }
