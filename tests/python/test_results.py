@@ -81,7 +81,7 @@ BLACK = {
 
 @pytest.mark.parametrize(
     "device, calls, scene",
-    [("cpu", 1000, with_arrays(BLACK)), ("cpu", 120, with_arrays()), ("lavapipe", 120, with_arrays())],
+    [("cpu", 1000, with_arrays(BLACK)), ("cpu", 60, with_arrays()), ("lavapipe", 60, with_arrays())],
     ids=["beam", "all", "vulkan"],
 )
 def test_calls_leak_nothing(device, calls, scene):
