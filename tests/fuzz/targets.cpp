@@ -16,6 +16,7 @@ namespace sunfleck::fuzz {
 
 void feed_step(std::string_view bytes);
 void feed_step_settings(std::string_view bytes);
+void feed_run_state(std::string_view bytes);
 
 namespace {
 
@@ -90,11 +91,12 @@ void feed_pictures(std::string_view bytes) {
 }
 
 constexpr std::array all_targets{
-    Target{"scene", feed_scene},       Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
-    Target{"obj", feed_mesh<2>},       Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
-    Target{"can", feed_mesh<5>},       Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
-    Target{"station", feed_station},   Target{"epw", feed_epw},        Target{"measured", feed_measured},
-    Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings}};
+    Target{"scene", feed_scene},        Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
+    Target{"obj", feed_mesh<2>},        Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
+    Target{"can", feed_mesh<5>},        Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
+    Target{"station", feed_station},    Target{"epw", feed_epw},        Target{"measured", feed_measured},
+    Target{"pictures", feed_pictures},  Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
+    Target{"run_state", feed_run_state}};
 
 }  // namespace
 
