@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* summary_file = "summary.json";
 constexpr int most_share = 50;  // of the time that goes into keeping the state: 1 in so many
-constexpr std::chrono::seconds shortest_pause{1};
+constexpr std::chrono::milliseconds shortest_pause{500};
 
 template <class T>
 ordered_json value_or_null(const std::optional<T>& value) {
@@ -56,7 +56,8 @@ RunKeeper::RunKeeper(fs::path folder, const RunOptions& options, const Scene& sc
       exports_(options.exports),
       element_errors_(settings.element_errors),
       settings_(run_settings(scene, settings)),
-      store_(folder_, state_settings(settings_, element_errors_)) {}
+      store_(folder_, state_settings(settings_, element_errors_)),
+      pause_(shortest_pause) {}
 
 RunKeeper::Found RunKeeper::find(const RadiationModel& model, const CounterLayout& layout) {
   if (is_finished()) return Found::finished;

@@ -16,7 +16,7 @@
 namespace sunfleck {
 
 // The state is written after a finished replicate once fifty times as long has passed as writing it took the last time, and
-// at least a second: keeping it costs at most 2 % of the time. And once more at the end of a run that is stopped.
+// at least half a second: keeping it costs at most 2 % of the time. And once more at the end of a run that is stopped.
 class RunKeeper {
  public:
   RunKeeper(std::filesystem::path folder, const RunOptions& options, const Scene& scene, const SolveSettings& settings);
@@ -55,7 +55,7 @@ class RunKeeper {
   std::optional<SolveState> found_;
   bool written_ = false, failed_ = false;
   Clock::time_point begin_ = Clock::now(), last_ = begin_;
-  Clock::duration pause_ = std::chrono::seconds(1);
+  Clock::duration pause_;
 };
 
 }  // namespace sunfleck

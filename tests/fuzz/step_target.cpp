@@ -1,6 +1,7 @@
-// The steps that a day keeps to be resumed.
+// What days and runs keep to be resumed.
 
 #include "fuzz/support.h"
+#include "io/run_store.h"
 #include "io/step_store.h"
 
 #include <zlib.h>
@@ -13,8 +14,17 @@ namespace sunfleck::fuzz {
 
 void feed_step(std::string_view bytes);
 void feed_step_settings(std::string_view bytes);
+void feed_run_state(std::string_view bytes);
 
 namespace {
+
+// The file that an eight-letter mark and the right check sum make of any bytes, so that more than the check sum is tried.
+std::string sealed_as(std::string file, std::string_view bytes) {
+  const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  file.resize(file.size() + sizeof sum);
+  std::memcpy(file.data() + 8, &sum, sizeof sum);
+  return file.append(bytes);
+}
 
 RadiationModel small_model() {
   RadiationModel model;
@@ -31,14 +41,9 @@ StepStore store() {
 
 }  // namespace
 
-// The bytes follow the file's letters and their own check sum, so that more than the check sum is tried.
 void feed_step(std::string_view bytes) {
   std::filesystem::create_directories(folder() / "steps");
-  const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-  std::string file = "SUNSTEP1";
-  file.resize(file.size() + sizeof sum);
-  std::memcpy(file.data() + 8, &sum, sizeof sum);
-  static_cast<void>(write("steps/step_00007.bin", file.append(bytes)));
+  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP1", bytes)));
   read_or_refuse([] {
     const auto step = store().read(7);
     if (step) promise(step->light.bands.size() == 2 && step->light.organ_absorbed.size() == 4, "a step of this scene");
@@ -49,6 +54,18 @@ void feed_step_settings(std::string_view bytes) {
   std::filesystem::create_directories(folder() / "steps");
   static_cast<void>(write("steps/settings.json", bytes));
   read_or_refuse([] { static_cast<void>(store().find()); });
+}
+
+void feed_run_state(std::string_view bytes) {
+  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS1", bytes)));
+  SolveState blank;
+  blank.work.rays = 1.0;
+  blank.sums.integers.resize(3);
+  blank.sums.reals.resize(2);
+  read_or_refuse([&] {
+    const auto state = RunStore(folder(), {{"scene_digest", "0123"}, {"seed", 1}}).read(blank);
+    promise(state && state->replicates() >= 2 && state->sums.reals.size() == 2, "a state of this run");
+  });
 }
 
 }  // namespace sunfleck::fuzz

@@ -17,6 +17,7 @@ namespace sunfleck::fuzz {
 
 void feed_step(std::string_view bytes);
 void feed_step_settings(std::string_view bytes);
+void feed_run_state(std::string_view bytes);
 
 namespace {
 
@@ -118,7 +119,7 @@ constexpr std::array all_targets{
     Target{"can", feed_mesh<5>},       Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
     Target{"station", feed_station},   Target{"epw", feed_epw},        Target{"measured", feed_measured},
     Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
-    Target{"opt", feed_opt},           Target{"domain", feed_domain}};
+    Target{"opt", feed_opt},           Target{"domain", feed_domain},  Target{"run_state", feed_run_state}};
 
 }  // namespace
 

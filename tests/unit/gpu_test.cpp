@@ -216,6 +216,16 @@ TEST_F(GpuTest, WishesThatNothingFitsListTheDevices) {
   if (all_software) device_error([&] { open_device(DeviceWish::Kind::hardware, 0, ""); });
 }
 
+TEST(Turns, GoRoundTheBest) {
+  const std::vector<std::optional<int>> values{4, 0, std::nullopt, 1, 0, 0};
+  std::vector<std::size_t> taken;
+  for (int turn = 0; turn < 7; ++turn) taken.push_back(smallest_in_turn(values, turn).value());
+  EXPECT_EQ(taken, (std::vector<std::size_t>{1, 4, 5, 1, 4, 5, 1}));
+  EXPECT_EQ(smallest_in_turn(std::vector<std::optional<int>>{std::nullopt, 7}, 3), 1U);
+  EXPECT_EQ(smallest_in_turn(std::vector<std::optional<int>>{std::nullopt}, 0), std::nullopt);
+  EXPECT_EQ(smallest_in_turn({}, 2), std::nullopt);
+}
+
 TEST_F(GpuTest, ValidationTellsOfMisuse) {
   if (!validation_installed()) GTEST_SKIP() << "no validation layer on this machine";
   const GpuContext own({}, Validation::on);

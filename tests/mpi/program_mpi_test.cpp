@@ -1,0 +1,248 @@
+// The program as the processes of an MPI job: any number of them gives the same bytes as one, also after one was killed.
+
+#include "regression/program.h"
+
+#include <algorithm>
+#include <map>
+
+namespace sunfleck {
+namespace {
+
+using regression::Arguments;
+using regression::content;
+using regression::Outcome;
+using regression::operator+;
+namespace fs = std::filesystem;
+
+// Two bands that scatter, sun and sky, a facula map and a sensor.
+const std::string scene =
+    "[plot]\nsize = [1.0, 1.0]\n"
+    "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
+    "[sky]\nmodel = \"uniform\"\n"
+    "[[band]]\nname = \"PAR\"\ndirect = 100.0\ndiffuse = 20.0\n"
+    "[[band]]\nname = \"NIR\"\ndirect = 90.0\ndiffuse = 10.0\n"
+    "[soil]\nreflectance = { PAR = 0.1, NIR = 0.3 }\n"
+    "[optics.leaf]\nreflectance = { PAR = 0.1, NIR = 0.4 }\ntransmittance = { PAR = 0.1, NIR = 0.4 }\n"
+    "[[plane]]\nheight = 0.5\ncells = [4, 4]\n"
+    "[[sensor]]\nname = \"a\"\nfrom = [0.5, 0.2, 0.5]\n"
+    "[[geometry]]\nfile = \"leaves.obj\"\n";
+
+const std::string day_scene =
+    "[plot]\nsize = [1.0, 1.0]\n"
+    "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
+    "[sky]\nmodel = \"perez\"\n"
+    "[weather]\nclear_sky = \"ineichen\"\n"
+    "[[band]]\nname = \"PAR\"\n"
+    "[soil]\nreflectance = 0.2\n"
+    "[optics.leaf]\nreflectance = 0.3\ntransmittance = 0.2\n"
+    "[[geometry]]\nfile = \"leaves.obj\"\n";
+
+const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
+
+class Mpi : public regression::ProgramTest {
+ protected:
+  using Files = std::map<std::string, std::string>;
+
+  Mpi() {
+    folder_.write("scene.toml", scene);
+    folder_.write("day.toml", day_scene);
+    folder_.write("leaves.obj", leaves);
+    before_program_ = [] {
+      for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"}) ::setenv(name, "1", 1);
+    };
+  }
+
+  [[nodiscard]] static Arguments alone(const Arguments& arguments) { return Arguments{SUNFLECK_ITSELF} + arguments; }
+  [[nodiscard]] static Arguments by(int ranks, const Arguments& arguments) {
+    return Arguments{SUNFLECK_MPIRUN, "--oversubscribe", "--bind-to", "none", "-n", std::to_string(ranks)} + alone(arguments);
+  }
+  [[nodiscard]] static Arguments into(const std::string& out, const Arguments& arguments) {
+    return arguments + Arguments{"-o", out};
+  }
+
+  // What has to be the same bytes.
+  [[nodiscard]] Files tables(const std::string& of) const {
+    Files found;
+    for (const auto& entry : fs::directory_iterator(folder_ / of)) {
+      const std::string name = entry.path().filename().string();
+      if (entry.path().extension() == ".csv") found[name] = content(entry.path());
+    }
+    return found;
+  }
+  // Of a run by the plain program.
+  [[nodiscard]] Files plain(const Arguments& arguments) const {
+    const Outcome outcome = run(alone(into("plain", arguments)));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return tables("plain");
+  }
+  void expect_same(const Files& expected, const std::string& of) const {
+    const Files found = tables(of);
+    EXPECT_EQ(found.size(), expected.size());
+    for (const auto& [name, bytes] : expected)
+      EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << of << ": " << name;
+    EXPECT_EQ(summary(of)["complete"], true);
+    EXPECT_FALSE(exists("run_state.bin", of));
+  }
+
+  // The process of a job that runs on this machine; 0 if it is not there.
+  [[nodiscard]] static pid_t process_of(pid_t launcher, int rank) {
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      const std::string number = entry.path().filename().string();
+      if (number.find_first_not_of("0123456789") != std::string::npos) continue;
+      const std::string variables = content(entry.path() / "environ");
+      const std::string variable = "OMPI_COMM_WORLD_RANK=" + std::to_string(rank);
+      if (variables.find(variable + '\0') == std::string::npos || parent_of(entry.path()) != launcher) continue;
+      return std::stoi(number);
+    }
+    return 0;
+  }
+
+  // Sends the signal once, when the run has kept its state: to a rank, or to the launcher (-1).
+  Watch signal_when_kept(int signal, int rank) {
+    return [this, signal, rank](pid_t launcher, const std::string&) {
+      if (sent_to_ != 0 || !exists("run_state.bin")) return;
+      sent_to_ = rank < 0 ? launcher : process_of(launcher, rank);
+      if (sent_to_ != 0) ::kill(sent_to_, signal);
+    };
+  }
+
+  // Little work, in many replicates: some seconds by one process.
+  const Arguments small_{"run", "scene.toml", "--device", "cpu", "--images", "none", "--export", "csv", "--error", "0.02"};
+  const Arguments long_{"run",      "scene.toml", "--device", "cpu", "--images", "none",
+                        "--export", "csv",        "--passes", "800", "--error",  "0.1"};
+  const Arguments day_{"day",     "day.toml", "--device", "cpu",   "--images", "none",
+                       "--error", "0.02",     "--from",   "10:00", "--to",     "14:00"};
+  pid_t sent_to_ = 0;
+
+  [[nodiscard]] static bool is_at_work(pid_t process) {
+    const std::string status = content(fs::path("/proc") / std::to_string(process) / "status");
+    return !status.empty() && status.find("\nState:\tZ") == std::string::npos;
+  }
+
+ private:
+  [[nodiscard]] static pid_t parent_of(const fs::path& process) {
+    const std::string status = content(process / "status");
+    const std::size_t line = status.find("\nPPid:");
+    return line == std::string::npos ? 0 : std::stoi(status.substr(line + 6));
+  }
+};
+
+TEST_F(Mpi, GivesTheTablesOfThePlainProgram) {
+  const Files expected = plain(small_);
+  EXPECT_EQ(expected.size(), 6U);  // organs, profile, sensors, triangles, the map and its sunflecks
+  for (const int ranks : {1, 2, 3}) {
+    const std::string out = "by" + std::to_string(ranks);
+    const Outcome outcome = run(by(ranks, into(out, small_)));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    expect_same(expected, out);
+    EXPECT_EQ(summary(out)["settings"]["ranks"], ranks);
+    EXPECT_EQ(outcome.err.find("3 ranks") != std::string::npos, ranks == 3) << outcome.err;
+  }
+}
+
+TEST_F(Mpi, GivesTheSameDay) {
+  const Files expected = plain(day_);
+  EXPECT_EQ(expected.size(), 2U);
+  const std::string fields = file("day.nc", "plain");
+  for (const int ranks : {2, 3}) {
+    const std::string out = "by" + std::to_string(ranks);
+    const Outcome outcome = run(by(ranks, into(out, day_)));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    expect_same(expected, out);
+    EXPECT_TRUE(file("day.nc", out) == fields);
+  }
+}
+
+TEST_F(Mpi, GoesOnAfterAnyRankWasKilled) {
+  const Files expected = plain(long_);
+  may_be_killed_ = true;
+  for (const int rank : {0, 1}) {
+    sent_to_ = 0;
+    const Outcome killed = run(by(2, into("out", long_)), signal_when_kept(SIGKILL, rank));
+    ASSERT_NE(sent_to_, 0) << killed.err;
+    EXPECT_NE(killed.status, 0);
+    EXPECT_NE(killed.err.find("rank " + std::to_string(rank)), std::string::npos) << killed.err;
+    EXPECT_EQ(summary()["complete"], false);
+    ASSERT_TRUE(exists("run_state.bin"));
+    const Arguments again = into("out", long_) + Arguments{"--resume"};
+    const Outcome resumed = run(rank == 0 ? by(3, again) : alone(again));
+    EXPECT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_NE(resumed.err.find("going on after "), std::string::npos) << resumed.err;
+    expect_same(expected, "out");
+  }
+}
+
+TEST_F(Mpi, EndsCleanlyWhenOneRankIsToldTo) {
+  const Outcome ended = run(by(2, into("out", long_)), signal_when_kept(SIGTERM, 1));
+  ASSERT_NE(sent_to_, 0) << ended.err;
+  EXPECT_EQ(ended.status, 130) << ended.err;
+  EXPECT_NE(ended.err.find("interrupted after "), std::string::npos) << ended.err;
+  EXPECT_EQ(summary()["complete"], false);
+  EXPECT_EQ(tables("out").size(), 5U);  // a run that is stopped does not ask its sensors
+}
+
+// The launcher leaves its processes a second, and not one of them to itself.
+TEST_F(Mpi, LeavesNothingBehindButAStateAfterCtrlC) {
+  pid_t worker = 0;
+  const auto signal = signal_when_kept(SIGINT, -1);
+  const Outcome ended = run(by(2, into("out", long_)), [&](pid_t launcher, const std::string& err) {
+    if (worker == 0) worker = process_of(launcher, 1);
+    if (worker != 0) signal(launcher, err);
+  });
+  ASSERT_NE(sent_to_, 0) << ended.err;
+  EXPECT_NE(ended.status, 0);
+  EXPECT_TRUE(exists("run_state.bin"));
+  // Whoever adopted it may not have buried it yet.
+  for (int wait = 0; is_at_work(worker) && wait < 1000; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(is_at_work(worker));
+}
+
+TEST_F(Mpi, SaysWhatIsWrongOnce) {
+  const auto lines = [](const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find("sunfleck: "); at != std::string::npos; at = text.find("sunfleck: ", at + 1)) ++count;
+    return count;
+  };
+  const std::map<std::string, std::pair<Arguments, int>> cases{
+      {"--bogus (", {{"run", "scene.toml", "--bogus"}, 2}},  // before MPI is started, and after
+      {"no such device", {{"run", "scene.toml", "-o", "out", "--device", "no such device"}, 3}}};
+  for (const auto& [names, failing] : cases) {
+    const Outcome outcome = run(by(3, failing.first));
+    EXPECT_EQ(outcome.status, failing.second) << outcome.err;
+    EXPECT_EQ(lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(names), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Mpi, LeavesOtherCommandsToTheFirstRank) {
+  const Outcome version = run(by(3, {"--version"}));
+  EXPECT_EQ(version.status, 0) << version.err;
+  EXPECT_EQ(std::count(version.out.begin(), version.out.end(), '\n'), 1) << version.out;
+  const Outcome info = run(by(2, {"info", "scene.toml", "--json"}));
+  EXPECT_EQ(info.status, 0) << info.err;
+  EXPECT_TRUE(nlohmann::json::accept(info.out)) << info.out;
+}
+
+// Runs that have nothing to do with each other, one on each rank.
+TEST_F(Mpi, IsNotUsedWhereItIsSwitchedOff) {
+  folder_.write("other.toml", scene + "scale = 0.5\n");
+  const std::string task =
+      "SUNFLECK_MPI=off exec \"$0\" run $([ $OMPI_COMM_WORLD_RANK = 0 ] && echo scene.toml || echo other.toml)"
+      " --device cpu --images none --error 0.1 --quiet";
+  const Arguments launcher = by(2, {});
+  const Outcome farm = run(Arguments(launcher.begin(), launcher.end() - 1) + Arguments{"/bin/sh", "-c", task, SUNFLECK_ITSELF});
+  EXPECT_EQ(farm.status, 0) << farm.err;
+  for (const char* name : {"scene", "other"}) {
+    EXPECT_EQ(summary(std::string("results/") + name)["complete"], true);
+    EXPECT_EQ(summary(std::string("results/") + name)["settings"]["ranks"], 1);
+  }
+  const Outcome joined = run(Arguments(launcher.begin(), launcher.end() - 1) +
+                             Arguments{"/bin/sh", "-c", task.substr(task.find("exec")), SUNFLECK_ITSELF});
+  EXPECT_EQ(joined.status, 2) << joined.err;
+  EXPECT_NE(joined.err.find("SUNFLECK_MPI=off"), std::string::npos) << joined.err;
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,158 @@
+// Runs that were stopped or killed, and go on.
+
+#include "regression/program.h"
+
+#include <algorithm>
+#include <map>
+
+namespace sunfleck {
+namespace {
+
+using regression::Arguments;
+using regression::content;
+using regression::expect_one_error;
+using regression::Outcome;
+using regression::operator+;
+
+// Two bands that scatter, sun and sky, a facula map and a sensor.
+const std::string scene =
+    "[plot]\nsize = [1.0, 1.0]\n"
+    "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
+    "[sky]\nmodel = \"uniform\"\n"
+    "[[band]]\nname = \"PAR\"\ndirect = 100.0\ndiffuse = 20.0\n"
+    "[[band]]\nname = \"NIR\"\ndirect = 90.0\ndiffuse = 10.0\n"
+    "[soil]\nreflectance = { PAR = 0.1, NIR = 0.3 }\n"
+    "[optics.leaf]\nreflectance = { PAR = 0.1, NIR = 0.4 }\ntransmittance = { PAR = 0.1, NIR = 0.4 }\n"
+    "[[plane]]\nheight = 0.5\ncells = [4, 4]\n"
+    "[[sensor]]\nname = \"a\"\nfrom = [0.5, 0.2, 0.5]\n"
+    "[[geometry]]\nfile = \"leaves.obj\"\n";
+
+const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
+
+class Resume : public regression::ProgramTest {
+ protected:
+  Resume() {
+    folder_.write("scene.toml", scene);
+    folder_.write("leaves.obj", leaves);
+  }
+
+  [[nodiscard]] std::map<std::string, std::string> tables(const std::string& of) const {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / of)) {
+      if (entry.path().extension() == ".csv") found[entry.path().filename().string()] = content(entry.path());
+    }
+    return found;
+  }
+  void expect_same_tables(const std::string& left, const std::string& right) const {
+    const auto expected = tables(left);
+    EXPECT_GE(expected.size(), 6U);
+    const auto found = tables(right);
+    EXPECT_EQ(found.size(), expected.size());
+    for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name;
+  }
+
+  // One signal, once it has kept its state and some milliseconds more have passed.
+  [[nodiscard]] Watch signal_when_kept(int signal, int more_ms) const {
+    using Clock = std::chrono::steady_clock;
+    return [this, signal, more_ms, kept = Clock::time_point(), sent = false](pid_t child, const std::string&) mutable {
+      if (kept == Clock::time_point() && exists("run_state.bin")) kept = Clock::now();
+      if (sent || kept == Clock::time_point() || Clock::now() - kept < std::chrono::milliseconds(more_ms)) return;
+      sent = true;
+      ::kill(child, signal);
+    };
+  }
+
+  Outcome go(const Arguments& more, int status = 0, const std::string& to = "out", const Watch& watch = {}) const {
+    return simulate("scene.toml", work_ + more, status, to, watch);
+  }
+
+  // Some seconds in many replicates.
+  const Arguments work_{"--device", "cpu", "--images", "none", "--export", "csv", "--passes", "800", "--error", "0.1"};
+};
+
+TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
+  EXPECT_NE(go({}, 0, "whole").err.find("device: "), std::string::npos);
+  EXPECT_FALSE(exists("run_state.bin", "whole"));
+  may_be_killed_ = true;
+  go({}, -1, "out", signal_when_kept(SIGKILL, 3));
+  EXPECT_EQ(summary()["complete"], false);
+  go({"--resume"}, -1, "out", signal_when_kept(SIGKILL, 300));
+  may_be_killed_ = false;
+  const Outcome stopped = go({"--resume"}, 130, "out", signal_when_kept(SIGINT, 200));
+  EXPECT_NE(stopped.err.find("--resume goes on"), std::string::npos) << stopped.err;
+  const auto replicates = summary()["direct"]["replicates"].get<int>();
+  EXPECT_GT(replicates, 2);
+  // Not one replicate is lost at Ctrl-C.
+  const Outcome last = go({"--resume"});
+  EXPECT_NE(last.err.find("going on after " + std::to_string(replicates) + " replicates"), std::string::npos) << last.err;
+  EXPECT_EQ(summary()["complete"], true);
+  EXPECT_FALSE(exists("run_state.bin"));
+  expect_same_tables("whole", "out");
+  const Outcome again = go({"--resume"});
+  EXPECT_NE(again.err.find("this run is finished, nothing to resume"), std::string::npos) << again.err;
+  expect_same_tables("whole", "out");
+}
+
+TEST_F(Resume, GoesOnAfterALimitOfTime) {
+  go({}, 0, "whole");
+  const Outcome stopped = go({"--max-seconds", "0.3"}, 1);
+  EXPECT_NE(stopped.err.find("--max-seconds 0.3"), std::string::npos);
+  EXPECT_TRUE(exists("run_state.bin"));
+  go({"--resume", "--max-seconds", "100"});
+  expect_same_tables("whole", "out");
+}
+
+TEST_F(Resume, BeginsAnewWhereNothingIsKept) {
+  const Outcome outcome =
+      simulate("scene.toml", Arguments{"--device", "cpu", "--images", "none", "--passes", "8", "--error", "0.1", "--resume"});
+  EXPECT_NE(outcome.err.find("out: nothing to go on from, the run begins anew"), std::string::npos) << outcome.err;
+  EXPECT_EQ(summary()["complete"], true);
+}
+
+TEST_F(Resume, GoesOnWithTheSameSettingsOnly) {
+  go({}, 130, "out", signal_when_kept(SIGINT, 0));
+  const auto before = tables("out");
+  const std::string state = file("run_state.bin");
+  const Arguments again = Arguments{"run", "scene.toml", "-o", "out", "--resume"} + work_;
+  const auto changed = [&](const std::string& option, const std::string& value) {
+    Arguments other = again;
+    *std::next(std::find(other.begin(), other.end(), option)) = value;
+    return other;
+  };
+  expect_one_error(run(again + Arguments{"--seed", "2"}), 2, "that run has other settings: seed was 1, now 2");
+  expect_one_error(run(changed("--passes", "801")), 2, "passes was 800, now 801");
+  expect_one_error(run(changed("--error", "0.2")), 2, "direct_error was 0.1, now 0.2");
+  Arguments coarse = again;
+  const auto exports = std::find(coarse.begin(), coarse.end(), "--export");
+  coarse.erase(exports, exports + 2);
+  expect_one_error(run(coarse), 2, "of_triangles was true, now false");
+  folder_.write("leaves.obj", leaves + "f 1 2 4\n");
+  expect_one_error(run(again), 2, "scene_digest was ");
+  folder_.write("leaves.obj", leaves);
+  std::string damaged = state;
+  damaged[damaged.size() / 2] ^= 1;
+  folder_.write("out/run_state.bin", damaged);
+  expect_one_error(run(again), 2, "out/run_state.bin (it is damaged)");
+  folder_.write("out/run_state.bin", state);
+  EXPECT_TRUE(tables("out") == before);
+  // Another table of the triangles may be asked for.
+  EXPECT_EQ(run(changed("--export", "nc")).status, 0);
+  EXPECT_TRUE(exists("results.nc"));
+  EXPECT_FALSE(exists("triangles.csv")) << "of the run that was stopped";
+}
+
+TEST_F(Resume, TakesAFinishedRunForWhatItIs) {
+  const Arguments quick{"run",      "scene.toml", "-o",       "out", "--device", "cpu",
+                        "--images", "none",       "--passes", "8",   "--error",  "0.1"};
+  ASSERT_EQ(run(quick + Arguments{"--export", "csv"}).status, 0);
+  const Arguments again = quick + Arguments{"--resume"};
+  expect_one_error(run(again + Arguments{"--seed", "2"}), 2, "that finished run has other settings: seed was 1, now 2");
+  expect_one_error(run(again + Arguments{"--export", "csv,nc"}), 2,
+                   "--export nc (the run in out is finished, and has no results.nc)");
+  const Outcome json = run(again + Arguments{"--json"});
+  EXPECT_EQ(json.status, 0);
+  EXPECT_EQ(json.out, file("summary.json"));
+}
+
+}  // namespace
+}  // namespace sunfleck
