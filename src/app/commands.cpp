@@ -21,7 +21,7 @@ int help_with_run(const RunOptions& options, Ranks& ranks) {
     const SceneTree tree(scene.model);
     set_software_threads(options.threads);
     const CpuThreads threads(options.threads);
-    Engine engine({options.device, options.device_turn}, tree.bvh, tracer_scene(scene.model), tree.layout.words());
+    Engine engine({options.device, options.device_turn}, tree.bvh, traced_scene(scene.model), tree.layout.words());
     const SolveSettings settings = solve_settings(options, scene);
     serve({scene, tree.layout, engine, settings, {}});
   });
@@ -59,7 +59,7 @@ int run(const RunOptions& asked) {
 
   set_software_threads(options.threads);
   const CpuThreads threads(options.threads);
-  Engine engine({options.device, options.device_turn}, tree.bvh, tracer_scene(model), tree.layout.words());
+  Engine engine({options.device, options.device_turn}, tree.bvh, traced_scene(model), tree.layout.words());
   RunRecord record = make_record(options, scene, settings, engine);
   record.ranks = ranks.count();
   ranks.gather(scene, tree.layout, settings);

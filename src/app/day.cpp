@@ -214,7 +214,7 @@ int help_with_day(const DayOptions& options, Ranks& ranks) {
     const SceneTree tree(scene.model);
     set_software_threads(options.run.threads);
     const CpuThreads threads(options.run.threads);
-    Engine engine({options.run.device, options.run.device_turn}, tree.bvh, tracer_scene(scene.model), tree.layout.words());
+    Engine engine({options.run.device, options.run.device_turn}, tree.bvh, traced_scene(scene.model), tree.layout.words());
     const SolveSettings settings = solve_settings(options.run, scene);
     serve({scene, tree.layout, engine, settings, [&](std::uint64_t step) { set_light(scene.model, plan.lights.at(step)); }});
   });
@@ -253,7 +253,7 @@ int run_day(const DayOptions& asked) {
   set_software_threads(options.run.threads);
   const CpuThreads threads(options.run.threads);
   const RadiationModel& model = scene.model;
-  Engine engine({options.run.device, options.run.device_turn}, tree.bvh, tracer_scene(model), tree.layout.words());
+  Engine engine({options.run.device, options.run.device_turn}, tree.bvh, traced_scene(model), tree.layout.words());
   RunRecord record = make_record(options.run, scene, settings, engine);
   record.max_seconds = options.run.max_seconds;
   record.ranks = ranks.count();

@@ -106,7 +106,7 @@ int render(const RenderOptions& options) {
   const SceneTree tree(model);
   set_software_threads(options.run.threads);
   const CpuThreads threads(options.run.threads);
-  Engine engine(options.run.device, tree.bvh, tracer_scene(model), tree.layout.words());
+  Engine engine(options.run.device, tree.bvh, traced_scene(model), tree.layout.words());
   watch_for_interrupts();
   int status = exit_done;
   if (!source.result) {

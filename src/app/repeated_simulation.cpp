@@ -8,7 +8,7 @@
 namespace sunfleck {
 
 TracingKit::TracingKit(const RadiationModel& model, const std::string& device)
-    : tree(model), engine({device}, tree.bvh, tracer_scene(model), tree.layout.words()) {}
+    : tree(model), engine({device}, tree.bvh, traced_scene(model), tree.layout.words()) {}
 
 void SimulatedScene::write(const RunOptions& options) const {
   const std::filesystem::path folder = result_folder(options);

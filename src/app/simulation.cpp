@@ -52,7 +52,7 @@ void check_grid(const RunOptions& options, const Scene& scene) {
       "give a wider grid or more --passes");
 }
 
-CpuTracer::Scene tracer_scene(const RadiationModel& model) {
+CpuTracer::Scene traced_scene(const RadiationModel& model) {
   return {model.plot.periodic, model.soil.has_value()};
 }
 

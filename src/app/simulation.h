@@ -60,7 +60,7 @@ struct SimulationAids {
   Ranks* ranks = nullptr;       // released once the replicates are done
 };
 
-[[nodiscard]] CpuTracer::Scene tracer_scene(const RadiationModel& model);
+[[nodiscard]] CpuTracer::Scene traced_scene(const RadiationModel& model);
 
 // Simulates, sensors included, with a progress line; ends at Ctrl-C.
 [[nodiscard]] RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,

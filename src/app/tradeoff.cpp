@@ -102,7 +102,7 @@ int tradeoff(const TradeoffOptions& options) {
   set_software_threads(options.run.threads);
   const CpuThreads threads(options.run.threads);
   const RadiationModel& model = scene.model;
-  Engine engine(options.run.device, tree.bvh, tracer_scene(model), tree.layout.words());
+  Engine engine(options.run.device, tree.bvh, traced_scene(model), tree.layout.words());
   TradeoffReport report;
   report.record = make_record(run, scene, settings, engine);
   report.record.complete = false;

@@ -221,7 +221,7 @@ class Measurement {
         static_cast<double>(model.canopy.size()) / static_cast<double>(std::max<std::size_t>(1, bench_.model.canopy.size()));
     say(fmt::format("mesh {:g}: {} triangles, {:.3g} of them kept", share, model.canopy.size(), kept));
     const SceneTree tree(model);
-    Engine engine(options_.run.device, tree.bvh, tracer_scene(model), tree.layout.words());
+    Engine engine(options_.run.device, tree.bvh, traced_scene(model), tree.layout.words());
     SolveSettings settings = settings_;
     settings.accuracy.direct = settings.accuracy.indirect = finest_bound_;
     return measure({Ladder::meshes, share, {}}, {model, tree.layout, engine}, settings, options_.seeds);

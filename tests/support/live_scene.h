@@ -66,7 +66,7 @@ struct LiveScene {
   explicit LiveScene(const std::filesystem::path& file)
       : scene(read_scene(file)),
         tree(scene.model),
-        engine("cpu", tree.bvh, {scene.model.plot.periodic, scene.model.soil.has_value()}, tree.layout.words(),
+        engine({"cpu"}, tree.bvh, {scene.model.plot.periodic, scene.model.soil.has_value()}, tree.layout.words(),
                EngineUse::drawn_meanwhile) {
     options.scene = file;
     options.device = "cpu";
