@@ -69,7 +69,8 @@ int run(const RunOptions& asked) {
   say(device_line(record.device));
   seconds.device = watch.lap();
 
-  RadiationResult result = simulate(model, tree.layout, engine, settings, {&keeper, &ranks});
+  RadiationResult result = simulate(model, tree.layout, engine, settings, SimulationAids{&keeper, &ranks});
+  ranks.release();
   check_validation(engine);
   seconds.direct = result.direct.seconds;
   seconds.indirect = result.indirect.seconds;

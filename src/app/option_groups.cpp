@@ -110,7 +110,7 @@ void add_version(CLI::App& command) {
 }
 
 void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
-  CLI::App& run = *app.add_subcommand("run", "Simulate a scene: result tables and pictures");
+  CLI::App& run = *app.add_subcommand("run", "Simulate a scene: result tables and pictures; by several processes under mpirun");
   add_version(run);
   run.add_option("scene", options.scene, "Scene file (TOML), or a .can with CARIBU's files")->required()->check(not_empty());
   run.add_option("-o,--output", options.output, "Result folder (default: results/<scene>)")->check(not_empty());
@@ -143,7 +143,9 @@ void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
 }
 
 void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
-  CLI::App& day = *app.add_subcommand("day", "The course of a day or several (--max-seconds: of all, --max-rays: of a step)");
+  CLI::App& day = *app.add_subcommand(
+      "day",
+      "The course of a day or several (--max-seconds: of all, --max-rays: of a step); by several processes under mpirun");
   add_version(day);
   day.add_option("scene", options.run.scene, "Scene file (TOML) with a place and weather")->required()->check(not_empty());
   day.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>)")->check(not_empty());

@@ -87,21 +87,6 @@ std::uint32_t sensor_rays(const SolveSettings& settings) {
   return static_cast<std::uint32_t>(std::clamp(3.0 / bound, 64.0, 16384.0));
 }
 
-// Into the result; interrupted if the readings are not whole.
-void read_sensors(const RadiationModel& model, const CounterLayout& layout, Engine& engine, const SolveSettings& settings,
-                  const StopQuestion& stop, RadiationResult& result) {
-  if (model.sensors.empty() || result.stop == StopReason::interrupted) return;
-  SensorSettings sensors;
-  sensors.rays = sensor_rays(settings);
-  sensors.seed = settings.seed;
-  sensors.confidence = settings.accuracy.confidence;
-  if (auto readings = measure_sensors(model, layout, engine.tracer(), sensors, stop)) {
-    result.sensors = std::move(*readings);
-  } else {
-    result.stop = StopReason::interrupted;
-  }
-}
-
 }  // namespace
 
 RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
@@ -114,17 +99,22 @@ RadiationResult simulate(const RadiationModel& model, const CounterLayout& layou
     progress.update({state.rays, state.fraction, state.relative_error, state.bound});
   };
   if (aids.keeper != nullptr) aids.keeper->attend(monitor);
-  ReplicateHelpers* helpers = aids.ranks != nullptr ? aids.ranks->helpers() : nullptr;
-  RadiationResult result = solve(model, layout, engine.tracer(), settings, monitor, helpers);
-  if (aids.ranks != nullptr) aids.ranks->release();
-  read_sensors(model, layout, engine, settings, interrupted, result);
-  return result;
+  return simulate(model, layout, engine, settings, monitor, aids.ranks != nullptr ? aids.ranks->helpers() : nullptr);
 }
 
 RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
-                         const SolveSettings& settings, const Monitor& monitor) {
-  RadiationResult result = solve(model, layout, engine.tracer(), settings, monitor);
-  read_sensors(model, layout, engine, settings, monitor.interrupted, result);
+                         const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers) {
+  RadiationResult result = solve(model, layout, engine.tracer(), settings, monitor, helpers);
+  if (model.sensors.empty() || result.stop == StopReason::interrupted) return result;
+  SensorSettings sensors;
+  sensors.rays = sensor_rays(settings);
+  sensors.seed = settings.seed;
+  sensors.confidence = settings.accuracy.confidence;
+  if (auto readings = measure_sensors(model, layout, engine.tracer(), sensors, monitor.interrupted)) {
+    result.sensors = std::move(*readings);
+  } else {
+    result.stop = StopReason::interrupted;
+  }
   return result;
 }
 

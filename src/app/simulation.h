@@ -57,7 +57,7 @@ void check_grid(const RunOptions& options, const Scene& scene);
 // Who takes part in a simulation besides; either may be null.
 struct SimulationAids {
   RunKeeper* keeper = nullptr;  // has the state kept
-  Ranks* ranks = nullptr;       // released once the replicates are done
+  Ranks* ranks = nullptr;       // make replicates too
 };
 
 [[nodiscard]] CpuTracer::Scene traced_scene(const RadiationModel& model);
@@ -68,7 +68,8 @@ struct SimulationAids {
 
 // The same, watched and ended by somebody else.
 [[nodiscard]] RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
-                                       const SolveSettings& settings, const Monitor& monitor);
+                                       const SolveSettings& settings, const Monitor& monitor,
+                                       ReplicateHelpers* helpers = nullptr);
 
 // Throws Error (failure) for a message of the validation layer: that is our own mistake, and nothing that was computed can be
 // trusted.
