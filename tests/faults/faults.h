@@ -85,8 +85,8 @@ class FaultTest : public regression::ProgramTest {
     }
   }
 
-  // The same after a kill, which may leave files aside, and may have come between the last file and the program's end: a summary
-  // that tells of a complete run then has all files of one beside it.
+  // The same after a kill, which may leave files aside, and may have come between the last file and the program's end: a
+  // summary that tells of a complete run then has all files of one beside it.
   void expect_whole_after_kill(const std::map<std::string, std::string>& undisturbed) const {
     expect_files_whole(undisturbed);
     if (!exists_in_out("summary.json") || !tells_complete()) return;
@@ -123,9 +123,7 @@ class FaultTest : public regression::ProgramTest {
   }
 
  private:
-  [[nodiscard]] bool exists_in_out(const std::string& name) const {
-    return std::filesystem::exists(folder_ / "out" / name);
-  }
+  [[nodiscard]] bool exists_in_out(const std::string& name) const { return std::filesystem::exists(folder_ / "out" / name); }
 
   [[nodiscard]] bool tells_complete() const {
     const std::string bytes = content(folder_ / "out" / "summary.json");
