@@ -25,8 +25,10 @@ dpkg-deb --info "$package"
 
 echo "== dependencies =="
 depends=$(dpkg-deb --field "$package" Depends)
+# By name, or as something that another package provides.
+there=$(dpkg-query -W -f '${db:Status-Status} ${Package} ${Provides}\n' | sed -n 's/^installed //p' | sed 's/([^)]*)//g' | tr -s ', ' '\n')
 for needed in $(echo "$depends" | tr ',' '\n' | sed 's/|.*//; s/(.*//'); do
-  dpkg-query -W -f '${db:Status-Status}\n' "$needed" 2> /dev/null | grep -q '^installed$' || fail "depends on $needed, which is not installed"
+  grep -qxF "$needed" <<< "$there" || fail "depends on $needed, which is not installed"
 done
 for needed in libc6 libtbb12 libnetcdf19 libvulkan1; do
   echo "$depends" | grep -q "$needed" || fail "$needed is no dependency: $depends"
