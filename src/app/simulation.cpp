@@ -93,8 +93,7 @@ RadiationResult simulate(const RadiationModel& model, const CounterLayout& layou
                          const SolveSettings& settings, const SimulationAids& aids) {
   ProgressLine progress("simulating");
   Monitor monitor;
-  const auto is_interrupted = [&aids] { return interrupted() || (aids.ranks != nullptr && aids.ranks->interrupted()); };
-  monitor.interrupted = is_interrupted;
+  monitor.interrupted = [&aids] { return interrupted() || (aids.ranks != nullptr && aids.ranks->interrupted()); };
   monitor.report = [&](const Progress& state) {
     progress.update({state.rays, state.fraction, state.relative_error, state.bound});
   };

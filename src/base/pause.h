@@ -18,7 +18,7 @@ class Pause {
 
  private:
   using Duration = std::chrono::microseconds;
-  static constexpr Duration shortest{20}, longest{2000};
+  static constexpr Duration shortest{20}, longest{500};
   Duration next_ = shortest;
 };
 
