@@ -103,6 +103,7 @@ def day(
     passes: Optional[int] = None,
     max_seconds: Optional[float] = None,
     max_rays: Optional[int] = None,
+    memory: Optional[int] = None,
     seed: int = 1,
     progress: Optional[Progress] = None,
 ) -> DayResult:
@@ -116,7 +117,8 @@ def day(
     work = work_options(
         {
             "error": error, "direct_error": direct_error, "indirect_error": indirect_error, "grid": grid, "passes": passes,
-            "max_seconds": max_seconds, "max_rays": max_rays, "seed": seed, "triangle_errors": True,
+            "max_seconds": max_seconds, "max_rays": max_rays, "memory": memory, "seed": seed,
+            "triangle_errors": True,
         }
     )  # fmt: skip
     when = (str(start or ""), str(stop or ""), str(date or ""), str(to_date or ""))

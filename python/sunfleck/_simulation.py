@@ -115,6 +115,7 @@ class Simulation:
         passes: Optional[int] = None,
         max_seconds: Optional[float] = None,
         max_rays: Optional[int] = None,
+        memory: Optional[int] = None,
         seed: int = 1,
         triangle_errors: bool = True,
         progress: Optional[Progress] = None,
@@ -124,14 +125,17 @@ class Simulation:
         sun ... optics: as in `relight`; they stay until they are changed again.
         error, direct_error, indirect_error: relative error bounds, in place of the scene's [accuracy].
         grid (m), passes: fixed work instead. max_seconds, max_rays: stop there; `complete` of the result is then False.
+        memory: bytes for replicates in the making, by default a quarter of what is free.
         triangle_errors: whether the errors of single triangles are kept, 32 bytes a triangle and band.
-        progress: called about ten times a second with {"rays", "fraction", "relative_error", "bound"}; an exception from it ends
+        progress: called about ten times a second with {"stage", "rays", "fraction", "seconds_left", "pass",
+            "relative_error", "bound"}; an exception from it ends
             the simulation and is raised here, as KeyboardInterrupt is after Ctrl-C.
         """
         options = work_options(
             {
                 "error": error, "direct_error": direct_error, "indirect_error": indirect_error, "grid": grid, "passes": passes,
-                "max_seconds": max_seconds, "max_rays": max_rays, "seed": seed, "triangle_errors": triangle_errors,
+                "max_seconds": max_seconds, "max_rays": max_rays, "memory": memory, "seed": seed,
+                "triangle_errors": triangle_errors,
             }
         )  # fmt: skip
         self.relight(sun=sun, sky=sky, band=band, weather=weather, soil=soil, optics=optics)

@@ -86,7 +86,7 @@ int run(const RunOptions& asked) {
   record.not_written = losses.names();
   record.complete = record.complete && record.not_written.empty();
   const std::string hint = keeper.holds_state() ? "; --resume goes on" : "";
-  warn_if_short(settings, result, hint);
+  warn_if_short(settings, model, result, hint);
   seconds.write = watch.lap();
   seconds.total = total.lap();
   record.seconds = seconds;

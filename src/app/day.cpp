@@ -100,7 +100,12 @@ class DayRun {
     const DayTotals& totals = steps_.totals();
     const auto report = [&](const Progress& state) {
       const double done = static_cast<double>(totals.simulated) + state.fraction;
-      progress_.update({totals.rays + totals.packets + state.rays, done / lit_steps_, state.relative_error, state.bound});
+      ProgressLine::State shown = progress_state(state);
+      shown.rays = totals.rays + totals.packets + state.rays;
+      shown.fraction = done / lit_steps_;
+      shown.seconds_left.reset();
+      if (totals.simulated > 0) shown.stage = "";
+      progress_.update(shown);
     };
     return steps_.simulate(
         i, [this] { return clock_.stop(); }, report);

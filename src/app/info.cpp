@@ -1,21 +1,23 @@
 #include "app/commands.h"
 
+#include "app/interrupt.h"
+#include "app/memory_forecast.h"
 #include "app/scene_source.h"
+#include "base/error.h"
 #include "base/log.h"
-#include "bvh/bvh.h"
 #include "gpu/context.h"
+#include "io/file.h"
 #include "light/sun_events.h"
-#include "transport/counters.h"
-#include "transport/solve.h"
-#include "transport/surfaces.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -28,29 +30,6 @@ ordered_json device_json(const DeviceDescription& device) {
           {"driver", device.driver},
           {"usable", device.unusable.empty()},
           {"lacks", device.unusable}};
-}
-
-// What a run without exports needs at its height. Measured on a million and ten million triangles, direct alone and scattering
-// in two bands: the CPU path takes 0.58 to 0.77 of it; software Vulkan, whose copy of the tree is in the same memory, 0.97
-// to 1.04.
-std::uint64_t memory_bytes(const RadiationModel& model, const CounterLayout& layout, const Bvh& bvh) {
-  constexpr std::uint64_t program = std::uint64_t{128} << 20U;  // with a Vulkan driver
-  constexpr std::uint64_t canopy = sizeof(Triangle) + sizeof(std::uint32_t) + sizeof(std::uint16_t);
-  constexpr std::uint64_t building = 64 + sizeof(Reference);  // a reference, beside its place in the finished tree
-  constexpr std::uint64_t tallies = 3;                        // the run's, its pilot's, and the result
-  constexpr std::uint64_t numbering = 3 * sizeof(std::uint32_t);
-  constexpr std::uint64_t stored = 100;  // an element packed for the folder's store, and again as the file's text
-  const std::uint64_t elements = model.canopy.size();
-  const std::uint64_t tree = bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(BvhTriangle);
-  const std::uint64_t counters = std::uint64_t{layout.words()} * sizeof(std::uint32_t);
-  std::uint64_t sums = tallies * (elements * sizeof(ElementResult) + layout.cells() * sizeof(std::uint64_t));
-  if (scatters(model) || model.has_sky()) {
-    const std::uint64_t places = (2 * elements + layout.cells()) * model.bands.size() * (model.has_sky() ? 2 : 1);
-    sums += (tallies + 1) * places * sizeof(std::int64_t);
-  }
-  const std::uint64_t solving = elements * numbering + counters + sums;
-  const std::uint64_t host = std::max({bvh.triangles.size() * building, solving, elements * stored});
-  return program + elements * canopy + tree + host + tree + counters;  // the last two: the device's copy
 }
 
 std::string clock_time(const std::optional<UtcTime>& utc, int offset_minutes) {
@@ -90,11 +69,39 @@ ordered_json sun_json(const Scene& scene) {
   return sun;
 }
 
-void add_scene(ordered_json& info, const InfoOptions& options) {
-  const Scene scene = load_scene(options.scene, options.stand, {options.allow_outside});
-  for (const std::string& warning : scene.warnings) warn(warning);
-  const CounterLayout layout = make_counter_layout(scene.model);
-  const Bvh bvh = build_bvh(scene.model.canopy, box_padding_m(scene.model));
+// Copies of triangles, by the organ they belong to and the organ they lie on.
+ordered_json copies_json(const Canopy& canopy) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> triangles;
+  for (const Copy& copy : canopy.copies) ++triangles[{canopy.organ_of[copy.element], canopy.organ_of[copy.original]}];
+  const auto organ_json = [&](std::uint32_t number) {
+    const Organ& organ = canopy.organs[number];
+    return ordered_json{{"plant", organ.plant}, {"organ", organ.name}, {"rank", organ.rank}};
+  };
+  ordered_json copies = ordered_json::array();
+  for (const auto& [organs, count] : triangles) {
+    ordered_json entry = organ_json(organs.first);
+    entry["triangles"] = count;
+    entry["coincide_with"] = organ_json(organs.second);
+    copies.push_back(std::move(entry));
+  }
+  return copies;
+}
+
+// The memory that a run with these options needs, and what it is needed for.
+void add_memory(ordered_json& info, const Scene& scene, const RunOptions& options) {
+  const SceneTree tree(scene.model);
+  set_software_threads(options.threads);
+  const CpuThreads threads(options.threads);
+  Engine engine({options.device}, tree.bvh, traced_scene(scene.model), tree.layout.words());
+  const auto memory = forecast_memory(scene.model, tree, engine, solve_settings(options, scene));
+  if (!memory) throw_failure("info", "interrupted", "start it again");
+  info["memory_bytes"] = memory->bytes;
+  info["memory_device"] = engine.device().name;
+  info["replicates_at_once"] = memory->run.at_once;
+  info["replicate_bytes"] = static_cast<std::uint64_t>(memory->run.replicate_bytes);
+}
+
+void add_scene(ordered_json& info, const Scene& scene) {
   double area = 0.0;
   ordered_json by_optics = ordered_json::object();
   std::vector<double> optics_area(scene.model.canopy.optics_names.size());
@@ -109,9 +116,25 @@ void add_scene(ordered_json& info, const InfoOptions& options) {
   info["organs"] = scene.model.canopy.organs.size();
   info["area_m2"] = area;
   info["area_by_optics_m2"] = by_optics;
+  info["coincident_triangles"] = scene.model.canopy.copies.size();
+  info["coincident_organs"] = copies_json(scene.model.canopy);
   info["plot_area_m2"] = scene.model.plot.area_m2();
-  info["memory_bytes"] = memory_bytes(scene.model, layout, bvh);
   info["sun"] = sun_json(scene);
+}
+
+void print_copies(const ordered_json& info) {
+  constexpr std::size_t most_lines = 10;
+  const ordered_json& organs = info["coincident_organs"];
+  if (organs.empty()) return;
+  fmt::print("{} triangles coincide with earlier ones and take no light:\n", info["coincident_triangles"].get<std::size_t>());
+  const auto name = [](const ordered_json& organ) {
+    return fmt::format("{} of plant {}", printable(organ["organ"].get<std::string>()), organ["plant"].get<std::uint32_t>());
+  };
+  for (std::size_t k = 0; k < std::min(organs.size(), most_lines); ++k) {
+    fmt::print("  {} of {} with {}\n", organs[k]["triangles"].get<std::size_t>(), name(organs[k]),
+               name(organs[k]["coincide_with"]));
+  }
+  if (organs.size() > most_lines) fmt::print("  and those of {} more organs (--json lists all)\n", organs.size() - most_lines);
 }
 
 void print_lines(const ordered_json& info) {
@@ -127,7 +150,12 @@ void print_lines(const ordered_json& info) {
              info["triangles"].get<std::size_t>(), info["organs"].get<std::size_t>(), info["area_m2"].get<double>(),
              info["plot_area_m2"].get<double>());
   for (const auto& [name, area] : info["area_by_optics_m2"].items()) fmt::print("  {}: {:.5g} m2\n", name, area.get<double>());
-  fmt::print("memory needed: {:.1f} MiB\n", static_cast<double>(info["memory_bytes"].get<std::uint64_t>()) / 1048576.0);
+  print_copies(info);
+  constexpr double mib = 1048576.0;
+  fmt::print("memory needed: {:.1f} MiB on {}, {:.1f} MiB of it for {} replicates in the making\n",
+             info["memory_bytes"].get<double>() / mib, info["memory_device"].get<std::string>(),
+             info["replicates_at_once"].get<double>() * info["replicate_bytes"].get<double>() / mib,
+             info["replicates_at_once"].get<std::size_t>());
   if (info["sun"].is_null()) return;
   fmt::print("sun: elevation {:.4f} deg, azimuth {:.4f} deg\n", info["sun"]["elevation_deg"].get<double>(),
              info["sun"]["azimuth_deg"].get<double>());
@@ -141,12 +169,18 @@ void print_lines(const ordered_json& info) {
 }  // namespace
 
 int show_info(const InfoOptions& options) {
-  start_log(options.json ? Verbosity::quiet : Verbosity::normal);
+  start_log(options.run.json || options.run.quiet ? Verbosity::quiet : Verbosity::normal);
+  exit_on_interrupts();
   ordered_json info;
   info["devices"] = ordered_json::array();
   for (const DeviceDescription& device : list_devices()) info["devices"].push_back(device_json(device));
-  if (!options.scene.empty()) add_scene(info, options);
-  if (options.json) {
+  if (!options.run.scene.empty()) {
+    const Scene scene = load_scene(options.run.scene, options.run.stand, {options.run.allow_outside});
+    for (const std::string& warning : scene.warnings) warn(warning);
+    add_scene(info, scene);
+    add_memory(info, scene, options.run);
+  }
+  if (options.run.json) {
     fmt::print("{}\n", info.dump(2, ' ', false, ordered_json::error_handler_t::replace));
   } else {
     print_lines(info);

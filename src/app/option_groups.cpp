@@ -11,24 +11,43 @@
 namespace sunfleck {
 namespace {
 
+constexpr std::uint64_t least_memory_bytes = 1'000'000;
+constexpr std::uint64_t most_memory_bytes = std::uint64_t{1} << 50U;
 constexpr std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
 
 std::string list_of(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// What only a simulation needs.
-void add_simulation(CLI::App& command, RunOptions& options, OptionWords& words) {
-  CLI::Option_group& group = *command.add_option_group("Simulation");
+void add_bounds(CLI::Option_group& group, RunOptions& options, OptionWords& words) {
   group.add_option("--error", words.both_errors, "Relative error bound of both passes")->check(relative_error());
   group.add_option("--direct-error", options.direct_error, "Relative error bound of the direct pass")->check(relative_error());
   group.add_option("--indirect-error", options.indirect_error, "Relative error bound of the indirect pass")
       ->check(relative_error());
+}
+
+void add_fixed_work(CLI::Option_group& group, RunOptions& options) {
   group.add_option("--grid", options.grid_m, "Fixed work: spacing of all rays of the run together, m")->check(positive());
   group.add_option("--passes", options.passes, "Fixed work: exactly so many replicates")->transform(whole_number(8, 65536));
+}
+
+void add_memory(CLI::Option_group& group, RunOptions& options) {
+  group
+      .add_option("--memory", options.memory_bytes,
+                  "Memory for replicates in the making, e.g. 500MB or 2GB (default: a quarter of what is free)")
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Range(least_memory_bytes, most_memory_bytes));
+}
+
+// What only a simulation needs.
+void add_simulation(CLI::App& command, RunOptions& options, OptionWords& words) {
+  CLI::Option_group& group = *command.add_option_group("Simulation");
+  add_bounds(group, options, words);
+  add_fixed_work(group, options);
   group.add_option("--max-seconds", options.max_seconds, "Stop after so many seconds; results are kept")->check(positive());
   group.add_option("--max-rays", options.max_rays, "Stop before more rays than these; results are kept")
       ->transform(whole_number(1, std::uint64_t{1} << 62U));
+  add_memory(group, options);
   group.add_option("--seed", options.seed, "Seed of the random numbers")
       ->transform(whole_number(0, most_seed))
       ->capture_default_str();
@@ -294,13 +313,18 @@ void add_convert(CLI::App& app, ConvertOptions& options) {
   convert.add_flag("--allow-outside", options.allow_outside, "Accept files outside the folder of the scene or glTF");
 }
 
-void add_info(CLI::App& app, InfoOptions& options) {
-  CLI::App& info = *app.add_subcommand("info", "Show the devices, and what a scene holds");
+void add_info(CLI::App& app, InfoOptions& options, OptionWords& words) {
+  CLI::App& info = *app.add_subcommand("info", "Show the devices, what a scene holds, and the memory that its run needs");
   add_version(info);
-  info.add_option("scene", options.scene, "Scene file (TOML), or a .can with CARIBU's files")->check(not_empty());
-  add_stand(info, options.stand);
-  info.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
-  info.add_flag("--json", options.json, "Print JSON");
+  info.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")->check(not_empty());
+  add_stand(info, options.run.stand);
+  add_device(info, options.run);
+  CLI::Option_group& group = *info.add_option_group("The run whose memory is foretold");
+  add_bounds(group, options.run, words);
+  add_fixed_work(group, options.run);
+  add_memory(group, options.run);
+  info.add_flag("--allow-outside", options.run.allow_outside, "Accept mesh files outside the scene's folder");
+  info.add_flag("--json", options.run.json, "Print JSON");
 }
 
 }  // namespace sunfleck

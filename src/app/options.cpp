@@ -85,13 +85,19 @@ DayOptions finished(DayOptions options, const OptionWords& words) {
   return options;
 }
 
+InfoOptions finished(InfoOptions options, const OptionWords& words) {
+  read_errors(words, options.run);
+  add_caribu_table(options.run);
+  return options;
+}
+
 RenderOptions finished(RenderOptions options, const OptionWords& words, const CLI::App& command) {
   read_errors(words, options.run);
   read_pictures(words, options.run.pictures);
   options.picture = read_picture(words);
   options.chart_given = command.count("--chart") > 0;
   for (const char* name : {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--max-seconds", "--max-rays",
-                           "--seed", "--allow-outside", "--optics", "--light", "--domain", "--scale"}) {
+                           "--memory", "--seed", "--allow-outside", "--optics", "--light", "--domain", "--scale"}) {
     if (options.simulating.empty() && command.count(name) > 0) options.simulating = name;
   }
   return options;
@@ -177,7 +183,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   add_tradeoff(app, tradeoff);
   add_maize(app, maize);
   add_convert(app, convert);
-  add_info(app, info);
+  add_info(app, info, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -192,7 +198,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     return maize;
   }
   if (app.got_subcommand("convert")) return convert;
-  if (app.got_subcommand("info")) return info;
+  if (app.got_subcommand("info")) return finished(info, words);
   if (app.got_subcommand("validate")) return validate;
   if (app.got_subcommand("tradeoff")) return tradeoff;
   if (app.got_subcommand("day")) return finished(day, words);

@@ -34,6 +34,7 @@ struct RunOptions {
   std::optional<int> passes;
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_rays;
+  std::optional<std::uint64_t> memory_bytes;  // for replicates in the making; none: a quarter of what is free
   std::uint64_t seed = 1;
   int threads = 0;                             // 0: as many as there are cores
   std::vector<std::string> exports;            // of the names of io/exports.h
@@ -104,10 +105,7 @@ struct ConvertOptions {
 };
 
 struct InfoOptions {
-  std::filesystem::path scene;  // may be empty: devices only
-  StandFiles stand;
-  bool allow_outside = false;
-  bool json = false;
+  RunOptions run;  // whose memory is foretold; without a scene: devices only
 };
 
 // The command and its options; or, for --help and --version, what to print.

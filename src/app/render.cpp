@@ -114,7 +114,7 @@ int render(const RenderOptions& options) {
     const SolveSettings settings = solve_settings(options.run, source.scene);
     source.result = simulate(model, tree.layout, engine, settings);
     check_validation(engine);
-    warn_if_short(settings, *source.result);
+    warn_if_short(settings, source.scene.model, *source.result);
     status = exit_status(source.result->stop);
   }
   if (status == exit_interrupted || !write_picture({source.scene, tree.layout, *source.result, engine}, options, file)) {

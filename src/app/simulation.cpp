@@ -6,6 +6,8 @@
 #include "base/log.h"
 #include "bvh/bvh.h"
 #include "io/exports.h"
+#include "io/file.h"
+#include "io/judged_figure.h"
 #include "light/beam_grid.h"
 #include "transport/sensors.h"
 
@@ -33,6 +35,7 @@ SolveSettings solve_settings(const RunOptions& options, const Scene& scene) {
   settings.max_rays = options.max_rays;
   settings.max_seconds = options.max_seconds;
   settings.replicates_at_once = options.threads == 1 ? 1 : 2;
+  settings.memory_bytes = static_cast<double>(options.memory_bytes.value_or(available_memory_bytes() / 4));
   // CARIBU's table has no errors.
   const bool shown = std::any_of(options.exports.begin(), options.exports.end(),
                                  [](const std::string& name) { return name != export_name(ExportKind::caribu); });
@@ -69,6 +72,7 @@ RunRecord make_record(const RunOptions& options, const Scene& scene, const Solve
   record.passes = settings.passes;
   record.max_rays = settings.max_rays;
   record.max_seconds = settings.max_seconds;
+  record.memory_bytes = settings.memory_bytes;
   record.threads = options.threads;
   record.device = engine.device();
   return record;
@@ -89,14 +93,23 @@ std::uint32_t sensor_rays(const SolveSettings& settings) {
 
 }  // namespace
 
+ProgressLine::State progress_state(const Progress& progress) {
+  ProgressLine::State state{.rays = progress.rays, .fraction = progress.fraction, .seconds_left = progress.seconds_left};
+  if (progress.stage == Progress::Stage::pilot) state.stage = "pilot";
+  if (progress.relative_error) {
+    state.relative_error = progress.relative_error;
+    state.bound = progress.bound;
+    state.error_of = progress.pass == Progress::Pass::direct ? "direct" : "indirect";
+  }
+  return state;
+}
+
 RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
                          const SolveSettings& settings, const SimulationAids& aids) {
   ProgressLine progress("simulating");
   Monitor monitor;
   monitor.interrupted = [&aids] { return interrupted() || (aids.ranks != nullptr && aids.ranks->interrupted()); };
-  monitor.report = [&](const Progress& state) {
-    progress.update({state.rays, state.fraction, state.relative_error, state.bound});
-  };
+  monitor.report = [&](const Progress& state) { progress.update(progress_state(state)); };
   if (aids.keeper != nullptr) aids.keeper->attend(monitor);
   return simulate(model, layout, engine, settings, monitor, aids.ranks != nullptr ? aids.ranks->helpers() : nullptr);
 }
@@ -128,7 +141,14 @@ bool is_done(StopReason stop) {
   return stop == StopReason::bound_reached || stop == StopReason::work_done;
 }
 
-void warn_if_short(const SolveSettings& settings, const RadiationResult& result, std::string_view cure) {
+std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
+                      const std::optional<JudgedFigure>& judged, const RadiationModel& model) {
+  if (!error || !bound || !judged || *error <= *bound) return "";
+  return fmt::format("{} error {:.2g} of {:.2g} ({})", pass, *error, *bound, figure_name(*judged, model));
+}
+
+void warn_if_short(const SolveSettings& settings, const RadiationModel& model, const RadiationResult& result,
+                   std::string_view cure) {
   if (is_done(result.stop)) return;
   std::string line = "interrupted";
   if (result.stop == StopReason::time_spent)
@@ -139,8 +159,14 @@ void warn_if_short(const SolveSettings& settings, const RadiationResult& result,
     line += " before the first rays were counted: the tables hold no light yet";
   } else {
     line += fmt::format(" after {} replicates", result.direct.replicates);
-    if (result.direct.relative_error) line += fmt::format(", relative error {:.2g}", *result.direct.relative_error);
-    if (result.direct.bound) line += fmt::format(" of {:.2g}", *result.direct.bound);
+    const std::string direct =
+        shortfall("direct", result.direct.relative_error, result.direct.bound, result.direct.judged, model);
+    const std::string indirect =
+        shortfall("indirect", result.indirect.relative_error, result.indirect.bound, result.indirect.judged, model);
+    for (const std::string& pass : {direct, indirect}) {
+      if (!pass.empty()) line += ", " + pass;
+    }
+    if (direct.empty() && indirect.empty() && result.direct.bound) line += ", before a second check confirmed the bounds";
   }
   warn(fmt::format("{}; the results are kept, marked incomplete{}", line, cure));
 }

@@ -4,6 +4,7 @@
 #include "app/engine.h"
 #include "app/options.h"
 #include "app/run_keeper.h"
+#include "base/log.h"
 #include "io/result_writer.h"
 #include "io/scene_reader.h"
 #include "transport/counters.h"
@@ -62,6 +63,9 @@ struct SimulationAids {
 
 [[nodiscard]] CpuTracer::Scene traced_scene(const RadiationModel& model);
 
+// What a progress line shows of a solver's progress.
+[[nodiscard]] ProgressLine::State progress_state(const Progress& progress);
+
 // Simulates, sensors included, with a progress line; ends at Ctrl-C.
 [[nodiscard]] RadiationResult simulate(const RadiationModel& model, const CounterLayout& layout, Engine& engine,
                                        const SolveSettings& settings, const SimulationAids& aids = {});
@@ -78,7 +82,14 @@ void check_validation(const Engine& engine);
 [[nodiscard]] bool is_done(StopReason stop);
 [[nodiscard]] int exit_status(StopReason stop);
 
-// Says in one line what ended a run early, and `cure`; nothing about others.
-void warn_if_short(const SolveSettings& settings, const RadiationResult& result, std::string_view cure = "");
+// Says in one line what ended a run early, which figures of which pass are short of their bounds, and `cure`; nothing about
+// other runs.
+void warn_if_short(const SolveSettings& settings, const RadiationModel& model, const RadiationResult& result,
+                   std::string_view cure = "");
+
+// The part of a pass in that line: "direct error 0.0037 of 0.001 (beam on vegetation)". Empty for a pass that reached its
+// bound, has none, or has no light.
+[[nodiscard]] std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
+                                    const std::optional<JudgedFigure>& judged, const RadiationModel& model);
 
 }  // namespace sunfleck

@@ -94,7 +94,7 @@ class Measurement {
     monitor.interrupted = [this] { return stop(); };
     monitor.report = [this](const Progress& state) {
       const double rays = static_cast<double>(rays_ + state.rays);
-      progress_.update({rays_ + state.rays, std::min(0.99, rays / foreseen_), {}, {}});
+      progress_.update({.rays = rays_ + state.rays, .fraction = std::min(0.99, rays / foreseen_)});
     };
     Stopwatch watch;
     Simulated run{solve(bench.model, bench.layout, bench.engine.tracer(), settings, monitor)};

@@ -79,7 +79,9 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::update(const State& state) {
+  const double furthest = state_.fraction;
   state_ = state;
+  if (state_.fraction < furthest) state_.fraction = furthest;
   if (quiet()) return;
   const bool terminal = on_terminal();
   const auto now = steady_clock::now();
@@ -103,17 +105,20 @@ void ProgressLine::draw_bar(steady_clock::time_point now) {
 std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s, int bar_width) {
   const double fraction = std::isfinite(state.fraction) ? std::clamp(state.fraction, 0.0, 1.0) : 0.0;
   std::string text(task);
+  if (!state.stage.empty()) return fmt::format("{}, {}, {}", task, state.stage, count_text(state.rays));
   if (bar_width > 0) {
     const int full = static_cast<int>(fraction * bar_width);
     text += fmt::format(" [{}{}]", std::string(full, '#'), std::string(bar_width - full, '.'));
   }
   text += fmt::format(" {} %, {}", static_cast<int>(100.0 * fraction), count_text(state.rays));
   if (state.relative_error && std::isfinite(*state.relative_error)) {
-    text += fmt::format(", error {:.2g}", *state.relative_error);
+    text += fmt::format(", {}{}error {:.2g}", state.error_of, state.error_of.empty() ? "" : " ", *state.relative_error);
     if (state.bound) text += fmt::format(" of {:.2g}", *state.bound);
   }
-  if (fraction >= 0.01 && fraction < 1.0)
-    text += fmt::format(", {} left", duration_text(elapsed_s * (1.0 - fraction) / fraction));
+  if (fraction >= 0.01 && fraction < 1.0) {
+    const double left_s = state.seconds_left.value_or(elapsed_s * (1.0 - fraction) / fraction);
+    text += fmt::format(", {} left", duration_text(left_s));
+  }
   return text;
 }
 

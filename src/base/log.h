@@ -27,9 +27,12 @@ class ProgressLine {
 
   struct State {
     std::uint64_t rays = 0;
-    double fraction = 0.0;                 // done, 0..1, as far as it can be foreseen
+    double fraction = 0.0;                 // done, 0..1, as far as it can be foreseen; one that falls is not shown
+    std::optional<double> seconds_left;    // none: as long as what is done took, in proportion
     std::optional<double> relative_error;  // reached so far
     std::optional<double> bound;
+    std::string_view error_of;  // what the error belongs to, a literal; may be empty
+    std::string_view stage;     // of work that has no measure yet, a literal: shown in place of the part that is done
   };
   // Cheap; draws at most ten times a second (every five seconds without a terminal).
   void update(const State& state);
@@ -43,8 +46,9 @@ class ProgressLine {
   bool drawn_ = false;
 };
 
-// The text of a progress line: "direct [####....] 45 %, 12.3 M rays, error 0.0012 of 0.0010, 8 s left". Without a bar where
-// bar_width is 0; without time left before a hundredth is done and at the end; without an error where none is known.
+// The text of a progress line: "simulating [####....] 45 %, 12.3 M rays, direct error 0.0012 of 0.0010, 8 s left", or with a
+// stage "simulating, pilot, 0.3 M rays". Without a bar where bar_width is 0; without time left before a hundredth is done and
+// at the end; without an error where none is known.
 [[nodiscard]] std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s,
                                         int bar_width);
 

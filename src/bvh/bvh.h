@@ -59,7 +59,8 @@ struct Reference {
 // copy of it, moved by whole periods, reaches into the plot enlarged by border_margin_m on every side. The order is by
 // element, image (0, 0) first if it reaches into the plot. A centroid in the plot does not by itself make image (0, 0) a
 // reference of the period, but the element's own box always overlaps the plot, so it is one. Elements whose area_m2 is 0
-// have none: nothing can hit them. Throws Error (input) for more than 2^31 references, or a copy 2^15 periods away.
+// and copies of earlier elements have none: nothing can hit them. Throws Error (input) for more than 2^31 references, or a copy
+// 2^15 periods away.
 [[nodiscard]] std::vector<Reference> make_references(const Canopy& canopy);
 
 // Corners of a reference: the element's corners + (dx * period x, 0, dz * period z), summed in double, rounded once.

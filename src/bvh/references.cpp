@@ -80,8 +80,10 @@ std::vector<Reference> make_references(const Canopy& canopy) {
   }
   std::vector<Reference> references;
   references.reserve(total);
+  const std::vector<bool> copied = copied_elements(canopy.copies, canopy.size());
   for (std::size_t element = 0; element < canopy.size(); ++element) {
-    if (area_m2(canopy.corners[element]) > 0.0) append_images(references, element, images_of(canopy, element, margin_m));
+    if (copied[element] || !(area_m2(canopy.corners[element]) > 0.0)) continue;
+    append_images(references, element, images_of(canopy, element, margin_m));
   }
   return references;
 }

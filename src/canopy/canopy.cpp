@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <limits>
 
 namespace sunfleck {
@@ -165,6 +164,7 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
       }
     }
   }
+  canopy.copies = find_copies(canopy.corners);
   return canopy;
 }
 
@@ -178,18 +178,6 @@ Box bounds(const Canopy& canopy) {
     }
   }
   return box;
-}
-
-double area_m2(const Triangle& triangle) {
-  const glm::dvec3 a(triangle[0]);
-  return 0.5 * glm::length(glm::cross(glm::dvec3(triangle[1]) - a, glm::dvec3(triangle[2]) - a));
-}
-
-glm::dvec3 unit_normal(const Triangle& triangle) {
-  const glm::dvec3 a(triangle[0]);
-  const glm::dvec3 cross = glm::cross(glm::dvec3(triangle[1]) - a, glm::dvec3(triangle[2]) - a);
-  const double length = glm::length(cross);
-  return length > 0.0 ? cross / length : glm::dvec3(0.0);
 }
 
 bool is_soil_name(std::string_view name) {

@@ -1,10 +1,11 @@
 #pragma once
 // The canopy as it is traced: single-precision triangles ("elements") in a local frame, wrapped into the plot.
 
+#include "canopy/copies.h"
 #include "canopy/mesh.h"
 #include "canopy/plot.h"
+#include "canopy/triangle.h"
 
-#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -14,8 +15,6 @@
 #include <vector>
 
 namespace sunfleck {
-
-using Triangle = std::array<glm::vec3, 3>;
 
 struct Box {
   glm::vec3 lo{0.0F};
@@ -34,6 +33,7 @@ struct Canopy {
   std::vector<Organ> organs;              // [organ]
   std::vector<std::string> optics_names;  // [optics]
   std::vector<std::uint64_t> labels;      // [element], as in Mesh
+  std::vector<Copy> copies;               // ascending by element; they take no light and give none off
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
 };
@@ -44,12 +44,6 @@ struct Canopy {
 
 // Bounds of all elements in the local frame; lo = hi = 0 without elements.
 [[nodiscard]] Box bounds(const Canopy& canopy);
-
-// One-sided area, m2, in double precision.
-[[nodiscard]] double area_m2(const Triangle& triangle);
-
-// Unit normal of the upper face; zero for a triangle without area.
-[[nodiscard]] glm::dvec3 unit_normal(const Triangle& triangle);
 
 // An organ called soil, soil2, ... counts as soil; one whose name starts with `leaf` as leaf.
 [[nodiscard]] bool is_soil_name(std::string_view name);

@@ -109,6 +109,8 @@ void visit_packets(Archive& archive, Sums& sums) {
   archive.value(sums.sky_rays);
   archive.value(sums.packets);
   archive.value(sums.rounds);
+  archive.value(sums.first_candidates);
+  archive.value(sums.most_candidates);
   archive.value(sums.lost);
 }
 

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <system_error>
@@ -104,6 +105,19 @@ std::uintmax_t physical_memory_bytes() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
   if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uintmax_t>::max();
   return static_cast<std::uintmax_t>(pages) * static_cast<std::uintmax_t>(page_bytes);
+}
+
+std::uintmax_t available_memory_bytes() {
+  std::uintmax_t available = physical_memory_bytes();
+  std::ifstream meminfo("/proc/meminfo");
+  for (std::string line; std::getline(meminfo, line);) {
+    std::uintmax_t kib = 0;
+    if (std::sscanf(line.c_str(), "MemAvailable: %ju kB", &kib) == 1) available = std::min(available, kib * 1024);
+  }
+  std::uintmax_t limit = 0, used = 0;  // of the control group, version 2; "max" where there is no limit
+  std::ifstream limit_file("/sys/fs/cgroup/memory.max"), used_file("/sys/fs/cgroup/memory.current");
+  if (limit_file >> limit && used_file >> used) available = std::min(available, limit - std::min(limit, used));
+  return available;
 }
 
 std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {

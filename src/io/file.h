@@ -17,6 +17,10 @@ inline constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 30U;
 // Of this machine; the largest number where the system does not say.
 [[nodiscard]] std::uintmax_t physical_memory_bytes();
 
+// Returns how much memory this process could still take: what the system has to give, or what its control group has left if
+// that is less. The machine's memory where the system tells neither.
+[[nodiscard]] std::uintmax_t available_memory_bytes();
+
 // Writes aside, in the same folder, and renames, so that the file is whole or not there, whatever ends the program. The folder
 // must exist; a file that is write-protected stays. Throws Error (failure).
 void write_file(const std::filesystem::path& file, std::string_view bytes);

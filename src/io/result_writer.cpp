@@ -1,5 +1,6 @@
 #include "io/result_writer.h"
 
+#include "io/judged_figure.h"
 #include "io/table_text.h"
 
 #include <fmt/format.h>
@@ -104,8 +105,14 @@ ordered_json settings_json(const RunRecord& record) {
           {"passes", value_or_null(record.passes)},
           {"max_rays", value_or_null(record.max_rays)},
           {"max_seconds", value_or_null(record.max_seconds)},
+          {"memory_bytes", value_or_null(record.memory_bytes)},
           {"threads", record.threads},
           {"ranks", record.ranks}};
+}
+
+ordered_json judged_json(const std::optional<JudgedFigure>& judged, const RadiationModel& model) {
+  if (!judged) return nullptr;
+  return figure_name(*judged, model);
 }
 
 std::size_t plant_count(const Canopy& canopy) {
@@ -177,13 +184,16 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
         {"replicates", result.direct.replicates},
         {"grid_m", result.direct.grid_m},
         {"relative_error", value_or_null(result.direct.relative_error)},
+        {"judged", judged_json(result.direct.judged, model)},
         {"bound", value_or_null(result.direct.bound)},
         {"seconds", result.direct.seconds}}},
       {"indirect",
        {{"sky_rays", result.indirect.sky_rays},
         {"packets", result.indirect.packets},
         {"rounds", result.indirect.rounds},
+        {"first_round_packets", std::floor(result.work.packets)},
         {"relative_error", value_or_null(result.indirect.relative_error)},
+        {"judged", judged_json(result.indirect.judged, model)},
         {"bound", value_or_null(result.indirect.bound)},
         {"seconds", result.indirect.seconds}}},
       {"seconds",

@@ -30,6 +30,7 @@ struct RunRecord {
   std::optional<double> grid_m;  // settings that fix or limit the work, as asked for
   std::optional<int> passes;
   std::optional<std::uint64_t> max_rays;
+  std::optional<double> memory_bytes;  // bound on replicates in the making
   std::optional<double> max_seconds;
   int threads = 0;  // 0: all
   int ranks = 1;    // processes that shared the work

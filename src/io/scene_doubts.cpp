@@ -1,4 +1,5 @@
-// What can be read, but is seldom meant: lengths in the wrong unit, meshes upside down, light forgotten.
+// What can be read, but is seldom meant: lengths in the wrong unit, meshes upside down, leaves that are there twice, light
+// forgotten.
 
 #include "io/file.h"
 #include "io/scene_parts.h"
@@ -62,12 +63,27 @@ void doubt_light(const Scene& scene, const std::string& file, std::vector<std::s
   }
 }
 
+std::string element_name(const Canopy& canopy, std::uint32_t element) {
+  const Organ& organ = canopy.organs[canopy.organ_of[element]];
+  return fmt::format("triangle {} of {} of plant {}", element, printable(organ.name), organ.plant);
+}
+
+void doubt_copies(const Canopy& canopy, const std::string& file, std::vector<std::string>& doubts) {
+  if (canopy.copies.empty()) return;
+  const Copy& first = canopy.copies.front();
+  doubts.push_back(
+      fmt::format("{}: {} triangles coincide with earlier ones, {} with {} for one; the earlier one takes all light and "
+                  "the other none, so remove the copies (sunfleck info names them)",
+                  file, canopy.copies.size(), element_name(canopy, first.element), element_name(canopy, first.original)));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_doubts(const Scene& scene) {
   const std::string file = printable(scene.file.string());
   std::vector<std::string> doubts;
   doubt_light(scene, file, doubts);
+  doubt_copies(scene.model.canopy, file, doubts);
   const Stand stand = stand_of(scene.model.canopy);
   if (stand.top_m > tallest_m) {
     doubts.push_back(

@@ -1,5 +1,6 @@
 #include "python/long_work.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -27,8 +28,12 @@ struct Desk {
 
 py::dict as_dict(const Progress& progress) {
   py::dict dict;
+  const bool pilot = progress.stage == Progress::Stage::pilot;
+  dict["stage"] = pilot ? "pilot" : "run";
   dict["rays"] = progress.rays;
   dict["fraction"] = progress.fraction;
+  dict["seconds_left"] = progress.seconds_left ? py::object(py::float_(*progress.seconds_left)) : py::object(py::none());
+  dict["pass"] = progress.pass == Progress::Pass::direct ? "direct" : "indirect";
   dict["relative_error"] = progress.relative_error ? py::object(py::float_(*progress.relative_error)) : py::object(py::none());
   dict["bound"] = progress.bound;
   return dict;
@@ -65,7 +70,9 @@ void do_long_work(const std::function<void(const Monitor&)>& work, const py::obj
   monitor.interrupted = [&desk] { return desk.stop.load(); };
   monitor.report = [&desk](const Progress& state) {
     const std::lock_guard lock(desk.mutex);
+    const double furthest = desk.progress.fraction;
     desk.progress = state;
+    desk.progress.fraction = std::max(furthest, state.fraction);
   };
   std::exception_ptr failure;
   std::thread worker([&] {

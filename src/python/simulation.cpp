@@ -93,7 +93,7 @@ class Simulation {
 // How the work is limited, as the options of `run`.
 RunOptions run_options(std::optional<double> direct_error, std::optional<double> indirect_error, std::optional<double> grid_m,
                        std::optional<int> passes, std::optional<double> max_seconds, std::optional<std::uint64_t> max_rays,
-                       std::uint64_t seed, bool triangle_errors) {
+                       std::optional<std::uint64_t> memory_bytes, std::uint64_t seed, bool triangle_errors) {
   RunOptions options;
   options.direct_error = direct_error;
   options.indirect_error = indirect_error;
@@ -101,6 +101,7 @@ RunOptions run_options(std::optional<double> direct_error, std::optional<double>
   options.passes = passes;
   options.max_seconds = max_seconds;
   options.max_rays = max_rays;
+  options.memory_bytes = memory_bytes;
   options.seed = seed;
   if (triangle_errors) options.exports = {"csv"};
   return options;
@@ -112,7 +113,8 @@ void bind_simulation(py::module_& module) {
   py::class_<Mesh>(module, "Mesh").def(py::init(&mesh_of));
   py::class_<RunOptions>(module, "RunOptions")
       .def(py::init(&run_options), py::kw_only(), py::arg("direct_error"), py::arg("indirect_error"), py::arg("grid"),
-           py::arg("passes"), py::arg("max_seconds"), py::arg("max_rays"), py::arg("seed"), py::arg("triangle_errors"));
+           py::arg("passes"), py::arg("max_seconds"), py::arg("max_rays"), py::arg("memory"), py::arg("seed"),
+           py::arg("triangle_errors"));
   py::class_<Simulation>(module, "Simulation")
       .def(py::init<const std::filesystem::path&, const std::optional<std::string>&, std::map<std::string, Mesh>, bool,
                     const std::string&, int>())

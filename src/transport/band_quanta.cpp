@@ -23,6 +23,7 @@ std::int64_t quanta_of_ray(double wanted) {
 
 std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Incidence& incidence) {
   std::vector<BandQuanta> quanta(model.bands.size());
+  const std::vector<bool> copied = copied_elements(model.canopy.copies, model.canopy.size());
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const double per_ray_w = model.has_beam() ? model.bands[b].direct_w_m2 * incidence.ground_per_ray_m2 : 0.0;
     const double sky_w = model.bands[b].diffuse_w_m2 * incidence.sky_ground_m2;
@@ -30,7 +31,7 @@ std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Inci
     double lamps_w = 0.0;
     for (std::size_t e = 0; e < model.canopy.size(); ++e) {
       const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
-      if (optics.emission_w_m2.empty() || optics.emission_w_m2[b] <= 0.0) continue;
+      if (optics.emission_w_m2.empty() || optics.emission_w_m2[b] <= 0.0 || copied[e]) continue;
       lamp_w.resize(model.canopy.size());
       lamp_w[e] = optics.emission_w_m2[b] * area_m2(model.canopy.corners[e]);
       lamps_w += lamp_w[e];

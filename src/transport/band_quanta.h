@@ -21,11 +21,13 @@ struct BandQuanta {
 // The most replicates of a run: more would not fit 63 bits.
 inline constexpr std::size_t most_replicates = std::size_t{1} << 16U;
 
-// The rays that light comes in with, in one replicate.
+// The rays and packets that light travels with, in one replicate.
 struct Incidence {
   std::uint64_t rays = 0;          // of the beam
   double ground_per_ray_m2 = 0.0;  // level ground that each of them stands for
   double sky_ground_m2 = 0.0;      // level ground that all of the sky's rays stand for; 0 without a sky
+  double packets = 0.0;            // about as many in the first round
+  std::size_t sky_rays = 0;        // about as many
 };
 [[nodiscard]] std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Incidence& incidence);
 

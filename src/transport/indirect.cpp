@@ -96,6 +96,7 @@ std::optional<IndirectSums> IndirectPass::run(const FirstLandings& first, const 
   if (!sources) return std::nullopt;
   add_first_candidates(round, *sources);
   add_lamps(round);
+  round.sums.first_candidates = round.waiting.size();
   retire_faint_bands(round);
   while (round.waiting.size() > 0 && round.sums.rounds < most_rounds) {
     if (!shoot(round, stop)) return std::nullopt;
@@ -221,6 +222,7 @@ bool IndirectPass::shoot(Round& round, const StopQuestion& stop) const {
   }
   if (std::find(draw.kept.begin(), draw.kept.end(), true) != draw.kept.end()) keep_undrawn(round, draw);
   std::swap(round.waiting, round.next);
+  round.sums.most_candidates = std::max<std::uint64_t>(round.sums.most_candidates, round.waiting.size());
   round.sums.packets += packets.size();
   ++round.sums.rounds;
   return true;

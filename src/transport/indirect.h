@@ -37,6 +37,7 @@ struct IndirectSums {
   std::vector<FluxLedger> ledger;            // [band]; incident: what the lamps emitted and what came from the sky
   PlaneSums receivers;                       // of the horizontal receivers, if there are any
   std::uint64_t sky_rays = 0, packets = 0, rounds = 0, lost = 0;
+  std::uint64_t first_candidates = 0, most_candidates = 0;  // that waited before the first round, and at most after a round
 };
 
 // What the direct pass leaves behind in one replicate.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sunfleck {
 namespace {
@@ -166,7 +167,7 @@ std::vector<std::int64_t> PlaneTally::closed_cells(std::size_t plane) const {
   return closed;
 }
 
-std::vector<PlaneResult> PlaneTally::results(double quantile) const {
+std::vector<PlaneResult> PlaneTally::results(double quantile, double unseen_events, std::span<const double> event_w_m2) const {
   std::vector<PlaneResult> results;
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     const PlaneReceiver& plane = model_.planes[p];
@@ -182,9 +183,14 @@ std::vector<PlaneResult> PlaneTally::results(double quantile) const {
     result.reached = part(reached_);
     result.crossing = part(crossing_);
     result.down = closed_cells(p);
-    result.sunfleck_ratio = means_[p].sunfleck.estimate(quantile);
-    if (!model_.has_beam()) result.sunfleck_ratio = {std::numeric_limits<double>::quiet_NaN()};
-    for (const ReplicateMean& down : means_[p].down) result.total_down.push_back(down.estimate(quantile));
+    const auto rays = static_cast<double>(std::accumulate(result.crossing.begin(), result.crossing.end(), std::uint64_t{0}));
+    result.sunfleck_ratio = {std::numeric_limits<double>::quiet_NaN()};
+    const double events = planes_.above_all(p) ? 0.0 : unseen_events;
+    if (rays > 0.0) result.sunfleck_ratio = means_[p].sunfleck.estimate(quantile, events / rays);
+    for (std::size_t b = 0; b < means_[p].down.size(); ++b) {
+      const ReplicateMean& down = means_[p].down[b];
+      result.total_down.push_back(down.estimate(quantile, events * event_w_m2[b] / static_cast<double>(down.count())));
+    }
     results.push_back(std::move(result));
   }
   return results;

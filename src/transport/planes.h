@@ -33,6 +33,9 @@ class PlaneReceivers {
   // The same for a landing of any kind.
   [[nodiscard]] std::int32_t zone_of(const shared::Landing& landing) const;
 
+  // No element reaches above the plane, so that light comes down through it unhindered.
+  [[nodiscard]] bool above_all(std::size_t plane) const { return planes_[plane].y_m >= layout_.box.hi_m.y; }
+
   // Planes at the ground, of which all else but soil lies above.
   [[nodiscard]] bool at_ground(std::size_t plane) const { return planes_[plane].threshold_y_m == lowest; }
 
@@ -77,7 +80,10 @@ class PlaneTally {
   void add(const PlaneSums* beam, const PlaneSums* packets, std::span<const double> beam_w_m2_per_ray,
            std::span<const double> w_m2_per_quantum);
 
-  [[nodiscard]] std::vector<PlaneResult> results(double quantile) const;
+  // `quantile`: Student's, of the intervals. Where all replicates agree, those follow from `unseen_events` of statistics.h,
+  // each a beam ray or as much light as `event_w_m2` tells, [band], W m-2 of plane in one replicate.
+  [[nodiscard]] std::vector<PlaneResult> results(double quantile, double unseen_events,
+                                                 std::span<const double> event_w_m2) const;
 
   // Hands every sum to `archive`; see tally_sums.cpp.
   template <class Self, class Archive>

@@ -64,6 +64,15 @@ Replicate ReplicateMaker::blank(const ReplicateOrder& order) const {
   return blank;
 }
 
+double ReplicateMaker::sum_bytes() const {
+  double bytes = static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
+  if (!indirect_) return bytes;
+  const double places =
+      (2.0 * static_cast<double>(model_.canopy.size()) + layout_.cells()) * static_cast<double>(model_.bands.size());
+  bytes += places * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
+  return bytes + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
+}
+
 TraceOutcome ReplicateMaker::count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop) {
   if (!receivers_) return tracer_.count_beam(beam, replicate.counters, stop);
   return count_beam_landings(model_, layout_, *receivers_, tracer_, beam, replicate.counters, replicate.passed, stop);

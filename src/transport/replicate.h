@@ -56,6 +56,9 @@ class ReplicateMaker {
   // A replicate in which nothing landed, as large as an ordered one.
   [[nodiscard]] Replicate blank(const ReplicateOrder& order) const;
 
+  // Bytes of a replicate's counters and sums, which do not depend on its rays and packets.
+  [[nodiscard]] double sum_bytes() const;
+
   // None if stopped. The tally tells what landings are worth; it may meanwhile add other replicates. May be called by several
   // threads at a time, all of which ask `stop`.
   [[nodiscard]] std::optional<Replicate> make(const ReplicateOrder& order, const Tally& tally, const StopQuestion& stop);

@@ -16,15 +16,16 @@ bool is_ready(const std::future<std::optional<Replicate>>& future) {
 
 }  // namespace
 
-ReplicateQueue::ReplicateQueue(ReplicateMaker& maker, ReplicateHelpers* helpers, std::size_t at_once, StopQuestion stop)
-    : maker_(maker), helpers_(helpers), at_once_(std::max<std::size_t>(1, at_once)), stop_(std::move(stop)) {}
+ReplicateQueue::ReplicateQueue(ReplicateMaker& maker, ReplicateHelpers* helpers, StopQuestion stop)
+    : maker_(maker), helpers_(helpers), stop_(std::move(stop)) {}
 
 ReplicateQueue::~ReplicateQueue() {
   dropped_ = true;
 }
 
-void ReplicateQueue::begin(const ReplicateOrder& first, const Tally& tally) {
+void ReplicateQueue::begin(const ReplicateOrder& first, const Tally& tally, std::size_t at_once) {
   end();
+  at_once_ = std::max<std::size_t>(1, at_once);
   order_ = first;
   tally_ = &tally;
   taken_ = 0;

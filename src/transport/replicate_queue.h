@@ -15,16 +15,16 @@ namespace sunfleck {
 
 class ReplicateQueue {
  public:
-  // All must outlive it; `helpers` may be null. So many at once are in the making here; a single one without helpers is made
-  // by the thread that asks for it.
-  ReplicateQueue(ReplicateMaker& maker, ReplicateHelpers* helpers, std::size_t at_once, StopQuestion stop);
+  // All must outlive it; `helpers` may be null.
+  ReplicateQueue(ReplicateMaker& maker, ReplicateHelpers* helpers, StopQuestion stop);
   ~ReplicateQueue();
   ReplicateQueue(const ReplicateQueue&) = delete;
   ReplicateQueue& operator=(const ReplicateQueue&) = delete;
 
   // From now on replicates like `first`, and that first; ends the series before. The tally is the one that add()s them, or
-  // another of their incidence.
-  void begin(const ReplicateOrder& first, const Tally& tally);
+  // another of their incidence. At most `at_once` are in the making here; a single one without helpers is made by the thread
+  // that asks for it.
+  void begin(const ReplicateOrder& first, const Tally& tally, std::size_t at_once);
 
   // The next one; none if stopped, which ends the series. Begins others: here of the first `certain` ones of the series, which
   // will all be needed, elsewhere of the first `possible` ones too. Throws Error if one could not be made.
@@ -46,7 +46,7 @@ class ReplicateQueue {
 
   ReplicateMaker& maker_;
   ReplicateHelpers* helpers_;
-  std::size_t at_once_;
+  std::size_t at_once_ = 1;
   StopQuestion stop_;
   std::atomic<bool> dropped_ = false;
   ReplicateOrder order_;

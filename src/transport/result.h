@@ -85,11 +85,20 @@ struct Work {
   double packets = 0.0;
 };
 
+// A figure whose error a bound judges.
+struct JudgedFigure {
+  enum class Of { vegetation, soil, organ, triangles };
+  Of of = Of::vegetation;
+  std::size_t organ = 0;            // if it is an organ's
+  std::optional<std::size_t> band;  // none: the beam's landings, alike in all bands
+};
+
 struct PassSummary {
   std::uint64_t rays = 0;
   std::size_t replicates = 0;
   double grid_m = 0.0;                   // root of plot area over rays
   std::optional<double> relative_error;  // what is compared with the bound
+  std::optional<JudgedFigure> judged;    // whose error that is: the largest of all; none without a beam
   std::optional<double> bound;           // none if the work was fixed
   double seconds = 0.0;
 };
@@ -99,6 +108,7 @@ struct IndirectSummary {
   std::uint64_t packets = 0;
   std::uint64_t rounds = 0;  // over all replicates
   std::optional<double> relative_error;
+  std::optional<JudgedFigure> judged;
   std::optional<double> bound;
   double seconds = 0.0;
 };
@@ -128,6 +138,7 @@ struct RadiationResult {
   std::uint64_t lost_rays = 0;
   PassSummary direct;
   IndirectSummary indirect;
+  Work work;       // of each replicate
   Work next_work;  // with which a run on a scene much like this one would begin, its bounds the same
 
   // Irradiance (W m-2) of a side, or of a cell of the soil's map, by all but the beam; 0 without area.

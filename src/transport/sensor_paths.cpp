@@ -81,8 +81,6 @@ std::optional<std::vector<double>> SensorPaths::run(std::span<const SensorPoint>
   return sums;
 }
 
-// The mean of exitance over cosine-distributed rays is irradiance; a sphere's cross-section gets four times its mean over all
-// directions (radiance is exitance / pi).
 void SensorPaths::begin(Wave& wave, std::span<const SensorPoint> points, std::size_t slot,
                         const SensorSettings& settings) const {
   const auto replicates = static_cast<std::size_t>(settings.replicates);
@@ -94,7 +92,7 @@ void SensorPaths::begin(Wave& wave, std::span<const SensorPoint> points, std::si
     const glm::dvec2 at = sequence.at(ray);
     wave.packets.push_back(
         rays_.from(point, spherical ? direction_on_sphere(at.x, at.y) : direction_about(point.normal, at.x, at.y)));
-    const double weight = spherical ? 4.0 : 1.0;
+    const double weight = start_weight(point.response);
     wave.paths.push_back({slot, weight, RandomStream(random.word(), ray)});
     wave.weights.insert(wave.weights.end(), bands_, weight);
   }

@@ -44,6 +44,12 @@ class SensorPaths {
   SensorPaths(const RadiationModel& model, const CounterLayout& layout, const SensorLight& light, const SensorRays& rays,
               Tracer& tracer);
 
+  // A path's weight at a sensor: the mean of exitance over cosine-distributed rays is irradiance; a sphere's cross-section gets
+  // four times its mean over all directions (radiance is exitance / pi).
+  [[nodiscard]] static double start_weight(SensorResponse response) {
+    return response == SensorResponse::spherical ? 4.0 : 1.0;
+  }
+
   // What the points see of light that has left a surface, W m-2: [(point * replicates + replicate) * bands + band]. None if
   // stopped.
   [[nodiscard]] std::optional<std::vector<double>> run(std::span<const SensorPoint> points, const SensorSettings& settings,

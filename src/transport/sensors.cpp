@@ -28,21 +28,26 @@ class Visibility {
  public:
   Visibility(const RadiationModel& model, const CounterLayout& layout, const SensorRays& rays, Tracer& tracer,
              std::size_t slots, const StopQuestion& stop)
-      : scene_(make_packet_block(model, layout)), rays_(rays), tracer_(tracer), stop_(stop), sums_(slots) {}
+      : scene_(make_packet_block(model, layout)), rays_(rays), tracer_(tracer), stop_(stop), seen_(slots) {}
 
   void add(std::size_t slot, const SensorPoint& point, const glm::dvec3& to_light, double strength) {
     const double brings = strength * point.sees(to_light);
     if (brings <= 0.0 || stopped_) return;
+    seen_[slot].largest = std::max(seen_[slot].largest, brings);
     packets_.push_back(rays_.from(point, to_light));
     light_.push_back({slot, brings});
     if (packets_.size() == rays_at_a_time) trace();
   }
 
+  struct Seen {
+    double sum = 0.0;      // of what the rays brought
+    double largest = 0.0;  // what one of them may bring at most
+  };
   // [slot]; none if stopped.
-  [[nodiscard]] std::optional<std::vector<double>> take() {
+  [[nodiscard]] std::optional<std::vector<Seen>> take() {
     trace();
     if (stopped_) return std::nullopt;
-    return std::move(sums_);
+    return std::move(seen_);
   }
 
  private:
@@ -52,7 +57,7 @@ class Visibility {
     stopped_ = tracer_.trace(scene_, packets_, landings_, stop_) == TraceOutcome::stopped;
     if (!stopped_)
       for (std::size_t k = 0; k < light_.size(); ++k)
-        if (landings_[k].surface == shared::left_upwards) sums_[light_[k].slot] += light_[k].brings;
+        if (landings_[k].surface == shared::left_upwards) seen_[light_[k].slot].sum += light_[k].brings;
     packets_.clear();
     light_.clear();
   }
@@ -62,7 +67,7 @@ class Visibility {
   Tracer& tracer_;
   const StopQuestion& stop_;
   bool stopped_ = false;
-  std::vector<double> sums_;
+  std::vector<Seen> seen_;
   std::vector<shared::Packet> packets_;
   std::vector<LightRay> light_;
   std::vector<shared::Landing> landings_;
@@ -132,7 +137,8 @@ class Measurement {
       for (std::size_t b = 0; b < bands; ++b) {
         ReplicateMean mean;
         for (std::size_t r = 0; r < replicates_; ++r) mean.add((*got)[(p * replicates_ + r) * bands + b]);
-        readings_[p].scattered[b] = mean.estimate(quantile());
+        const double of_one_path = SensorPaths::start_weight(points_[p].response) * brightest_w_m2(b) / settings_.rays;
+        readings_[p].scattered[b] = mean.estimate(quantile(), unseen(of_one_path));
       }
     return true;
   }
@@ -152,16 +158,39 @@ class Measurement {
   [[nodiscard]] Visibility look(std::size_t slots) const { return {model_, layout_, rays_, tracer_, slots, stop_}; }
   [[nodiscard]] double quantile() const { return t_quantile(settings_.confidence, replicates_); }
 
+  // What may have escaped all replicates of a point to which each such event brings as much light.
+  [[nodiscard]] double unseen(double of_one_event) const {
+    return unseen_events(settings_.confidence) * of_one_event / static_cast<double>(replicates_);
+  }
+
+  // The exitance of a surface in full sun and under the open sky, the brightest there can be after one scattering.
+  [[nodiscard]] double brightest_w_m2(std::size_t band) const {
+    double light_w_m2 = light_.beam_w_m2.empty() ? 0.0 : light_.beam_w_m2[band];
+    if (light_.sky) light_w_m2 += light_.sky_w_m2[band] * light_.sky->spherical_irradiance();
+    double brightest = model_.soil ? model_.soil->reflectance[band] * light_w_m2 : 0.0;
+    for (const SurfaceOptics& optics : model_.optics) {
+      const double emission = optics.emission_w_m2.empty() ? 0.0 : optics.emission_w_m2[band];
+      for (const auto* face : {&optics.upper, &optics.lower}) {
+        brightest = std::max(brightest, emission + (1.0 - (*face)[band].absorptance()) * light_w_m2);
+      }
+    }
+    return brightest;
+  }
+
   // One slot a point: exact. One for each replicate of a point: their mean.
   [[nodiscard]] bool settle(Visibility& visibility, const std::vector<double>& light_w_m2,
                             std::vector<Estimate> SensorResult::*column) {
-    const std::optional<std::vector<double>> seen = visibility.take();
+    const auto seen = visibility.take();
     if (!seen) return false;
     const std::size_t slots = seen->size() / points_.size();
     for (std::size_t p = 0; p < points_.size(); ++p) {
       ReplicateMean mean;
-      for (std::size_t r = 0; r < slots; ++r) mean.add((*seen)[p * slots + r]);
-      const Estimate relative = slots == 1 ? Estimate{mean.mean(), 0.0} : mean.estimate(quantile());
+      double largest = 0.0;
+      for (std::size_t r = 0; r < slots; ++r) {
+        mean.add((*seen)[p * slots + r].sum);
+        largest = std::max(largest, (*seen)[p * slots + r].largest);
+      }
+      const Estimate relative = slots == 1 ? Estimate{mean.mean(), 0.0} : mean.estimate(quantile(), unseen(largest));
       for (std::size_t b = 0; b < light_w_m2.size(); ++b) (readings_[p].*column)[b] = relative.scaled(light_w_m2[b]);
     }
     return true;

@@ -21,7 +21,7 @@ struct SensorSettings {
 };
 
 // The readings of the model's sensors, [sensor][point]; none if stopped. All are unbiased; half-widths come from the spread
-// between replicates.
+// between replicates, or from what a ray brings where none of them saw light, or all the same.
 // - direct: one ray to the sun. Exact, half-width 0.
 // - sky: rays to directions drawn from the sky; for a sky of single lights one ray to each, exact. A uniform sky of horizontal
 //   irradiance 1 reads 1 on a level plane, 1/2 on an upright one and 2 on a sphere where nothing stands in its way.

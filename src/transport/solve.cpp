@@ -3,6 +3,8 @@
 #include "base/check.h"
 #include "light/beam_grid.h"
 #include "transport/darkness.h"
+#include "transport/foresight.h"
+#include "transport/packet_memory.h"
 #include "transport/replicate.h"
 #include "transport/replicate_helpers.h"
 #include "transport/replicate_queue.h"
@@ -33,6 +35,8 @@ constexpr double aimed_part_of_bound = 0.7;
 // Rays of the sky for each packet of the first round, where the work is not fixed, and the most of one replicate.
 constexpr double sky_rays_per_packet = 2.0;
 constexpr double most_sky_rays = 0x1p22;
+// A replicate of more packets than fill this memory gains nothing: more replicates do the same work.
+constexpr double comfortable_bytes = 0x1p28;
 // Replicate numbers of the pilots, apart from those of the run.
 constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
 
@@ -46,21 +50,23 @@ class Solver {
         settings_(settings),
         monitor_(monitor),
         maker_(model, layout, tracer),
-        queue_(maker_, settings.max_rays ? nullptr : helpers, replicates_at_once(), [this] { return must_stop(); }) {}
+        memory_(model),
+        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
 
   RadiationResult run() {
-    const int replicates = settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
-    if (settings_.go_on_from != nullptr) return go_on(*settings_.go_on_from, replicates);
+    if (settings_.go_on_from != nullptr) return go_on(*settings_.go_on_from, asked_replicates());
     if (settings_.begin_with && !fixed()) return begin_as_told(*settings_.begin_with);
-    const bool needs_pilot = !settings_.grid_m || (has_indirect() && !settings_.packets);
-    std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
+    const std::optional<Work> work = work_of_run();
     if (!work) return finish(stop_);
-    if (settings_.grid_m) {
-      work->rays = grid_rays_asked(replicates);
-      work->packets = settings_.packets.value_or(std::max(first_pilot_packets, work->packets));
-    }
     begin(*work);
-    return fixed() ? run_fixed(replicates) : run_to_bound();
+    return fixed() ? run_fixed(asked_replicates()) : run_to_bound();
+  }
+
+  std::optional<RunForecast> forecast() {
+    const std::optional<Work> work = work_of_run();
+    if (!work) return std::nullopt;
+    work_ = *work;
+    return RunForecast{*work, replicate_bytes(*work), replicates_at_once()};
   }
 
  private:
@@ -82,22 +88,41 @@ class Solver {
     return false;
   }
 
+  [[nodiscard]] int asked_replicates() const {
+    return settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
+  }
+
+  // None if stopped.
+  std::optional<Work> work_of_run() {
+    const int replicates = asked_replicates();
+    const bool needs_pilot = !settings_.grid_m || (has_indirect() && !settings_.packets);
+    std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
+    if (!work || !settings_.grid_m) return work;
+    work->rays = grid_rays_asked(replicates);
+    work->packets = settings_.packets.value_or(std::max(first_pilot_packets, work->packets));
+    return work;
+  }
+
   // Begins a series of replicates; those of the pilots have numbers apart.
   void begin(const Work& work, std::uint64_t stream = 0) {
     queue_.end();
     work_ = work;
     begun_with_ = 0;
-    const Incidence incidence = maker_.incidence(work.rays);
+    begun_s_ = seconds();
+    completion_ = {};
+    Incidence incidence = maker_.incidence(work.rays);
+    incidence.packets = work.packets;
+    incidence.sky_rays = sky_rays(work);
     grid_rays_ = incidence.rays;
     tally_ = std::make_unique<Tally>(maker_.tally(incidence, settings_.element_errors));
-    queue_.begin({work.rays, grid_rays_, work.packets, sky_rays(), settings_.accuracy.indirect, settings_.seed, stream},
-                 *tally_);
+    queue_.begin({work.rays, grid_rays_, work.packets, sky_rays(work), settings_.accuracy.indirect, settings_.seed, stream},
+                 *tally_, replicates_at_once());
   }
 
   // A fixed grid is the sky's as well.
-  [[nodiscard]] std::size_t sky_rays() const {
+  [[nodiscard]] std::size_t sky_rays(const Work& work) const {
     if (!maker_.has_sky()) return 0;
-    const double rays = settings_.grid_m && !settings_.packets ? work_.rays : sky_rays_per_packet * work_.packets;
+    const double rays = settings_.grid_m && !settings_.packets ? work.rays : sky_rays_per_packet * work.packets;
     return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
   }
 
@@ -109,7 +134,10 @@ class Solver {
     if (!replicate) return false;
     tally_->add(replicate->counters, replicate->sums, replicate->passed, replicate->packets ? &*replicate->packets : nullptr);
     traced_ += grid_rays_;
-    if (replicate->packets) traced_ += replicate->packets->packets + replicate->packets->sky_rays;
+    if (replicate->packets) {
+      traced_ += replicate->packets->packets + replicate->packets->sky_rays;
+      memory_.learn(ray_counts(work_), *replicate->packets);
+    }
     direct_s_ += replicate->direct_s;
     indirect_s_ += replicate->indirect_s;
     hand_over();
@@ -132,31 +160,99 @@ class Solver {
   // Without an indirect pass the host has next to nothing to do meanwhile, and memory is better saved.
   [[nodiscard]] std::size_t replicates_at_once() const {
     if (settings_.max_rays || !has_indirect()) return 1;
-    return static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
+    const double asked = std::max(1, settings_.replicates_at_once);
+    if (!settings_.memory_bytes) return static_cast<std::size_t>(asked);
+    return static_cast<std::size_t>(std::clamp(*settings_.memory_bytes / replicate_bytes(work_), 1.0, asked));
   }
 
-  [[nodiscard]] double direct_error(const Tally& tally) const {
-    return model_.has_beam() ? tally.direct_error(settings_.accuracy) : 0.0;
+  [[nodiscard]] RayCounts ray_counts(const Work& work) const {
+    return {model_.has_beam() ? work.rays : 0.0, static_cast<double>(sky_rays(work)), work.packets};
   }
-  [[nodiscard]] double indirect_error(const Tally& tally) const {
-    return has_indirect() ? tally.indirect_error(settings_.accuracy) : 0.0;
+
+  // Memory of a replicate in the making.
+  [[nodiscard]] double replicate_bytes(const Work& work) const {
+    return maker_.sum_bytes() + (has_indirect() ? memory_.bytes(ray_counts(work)) : 0.0);
   }
-  [[nodiscard]] double direct_error() const { return direct_error(*tally_); }
-  [[nodiscard]] double indirect_error() const { return indirect_error(*tally_); }
+
+  // The most packets of a replicate's first round that memory holds. It depends on the machine only where memory is so short
+  // that not even a single comfortable replicate fits.
+  [[nodiscard]] double most_packets(Work work) const {
+    if (!settings_.memory_bytes) return most_first_packets;
+    const double most_bytes = std::min(comfortable_bytes, *settings_.memory_bytes - maker_.sum_bytes());
+    double fits = first_pilot_packets;
+    double exceeds = most_first_packets;
+    while (exceeds - fits > 1.0) {
+      work.packets = std::floor(0.5 * (fits + exceeds));
+      (memory_.bytes(ray_counts(work)) <= most_bytes ? fits : exceeds) = work.packets;
+    }
+    return fits;
+  }
+
+  // None for a pass that the scene has no light for.
+  [[nodiscard]] std::optional<JudgedError> direct_error(const Tally& tally) const {
+    if (!model_.has_beam()) return std::nullopt;
+    return tally.direct_error(settings_.accuracy);
+  }
+  [[nodiscard]] std::optional<JudgedError> indirect_error(const Tally& tally) const {
+    if (!has_indirect()) return std::nullopt;
+    return tally.indirect_error(settings_.accuracy);
+  }
+  [[nodiscard]] double direct_error() const { return direct_error(*tally_).value_or(JudgedError{}).relative; }
+  [[nodiscard]] double indirect_error() const { return indirect_error(*tally_).value_or(JudgedError{}).relative; }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
   }
 
-  void report(double fraction) const {
+  void report_pilot() const {
+    if (!monitor_.report) return;
+    monitor_.report({.stage = Progress::Stage::pilot, .rays = traced_});
+  }
+
+  // `expected`: replicates of the whole run, as far as is known now.
+  void report(std::size_t expected) {
     if (!monitor_.report) return;
     const double direct = direct_error();
     const double indirect = indirect_error();
     const bool direct_lags = direct / settings_.accuracy.direct >= indirect / settings_.accuracy.indirect;
-    Progress progress{
-        traced_, std::min(fraction, 1.0), {}, direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect};
-    if (!std::isnan(direct)) progress.relative_error = direct_lags ? direct : indirect;
+    Progress progress{.rays = traced_};
+    progress.pass = direct_lags ? Progress::Pass::direct : Progress::Pass::indirect;
+    progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
+    if (!std::isnan(direct + indirect)) progress.relative_error = direct_lags ? direct : indirect;
+    const auto done = static_cast<double>(tally_->replicates());
+    const double each_s = (seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
+    const double left = std::min(static_cast<double>(expected) - done, affordable_replicates(each_s));
+    progress.fraction = completion_.update(done, done + left);
+    progress.seconds_left = left * each_s;
     monitor_.report(progress);
+  }
+
+  // How many more replicates the limits of time and rays allow.
+  [[nodiscard]] double affordable_replicates(double seconds_each) const {
+    double most = std::numeric_limits<double>::infinity();
+    if (settings_.max_seconds) most = std::max(0.0, *settings_.max_seconds - seconds()) / std::max(seconds_each, 1e-9);
+    if (settings_.max_rays && tally_->replicates() > 0) {
+      const auto traced = static_cast<double>(work_of(*tally_, grid_rays_));
+      const double each = std::max(1.0, traced / static_cast<double>(tally_->replicates()));
+      most = std::min(most, std::floor(std::max(0.0, static_cast<double>(*settings_.max_rays) - traced) / each));
+    }
+    return most;
+  }
+
+  // Replicates after which the run to its bounds will end: at the second good check in a row.
+  [[nodiscard]] std::size_t expected_replicates() const {
+    const std::size_t done = tally_->replicates();
+    std::size_t needed = planned_replicates;
+    if (done >= 2) {
+      const auto needs = [&](double error, double bound) {
+        return replicates_needed(error, bound, settings_.accuracy.confidence, done, most_replicates);
+      };
+      needed = std::max(needs(direct_error(), settings_.accuracy.direct), needs(indirect_error(), settings_.accuracy.indirect));
+    }
+    std::size_t check = next_check_;
+    if (good_checks_ > 0 && needed <= check) return check;
+    while (check < std::min(needed, most_replicates)) check = check_after(check);
+    return check_after(check);
   }
 
   // The last run is the pilot. What this scene has that the last one had not starts as small as pilots do.
@@ -181,7 +277,7 @@ class Solver {
     next.rays *= scale(direct_error(), settings_.accuracy.direct, ray_slope);
     next.packets *= scale(indirect_error(), settings_.accuracy.indirect, packet_slope);
     next.rays = std::min(next.rays, static_cast<double>(max_grid_rays));
-    next.packets = std::min(next.packets, most_first_packets);
+    next.packets = std::min(next.packets, most_packets(next));
     return next;
   }
 
@@ -205,31 +301,42 @@ class Solver {
       work.rays = grid_rays_asked(replicates);
     } else if (model_.has_beam()) {
       const auto needed = [this](double fewer) { return growth(direct_error() * fewer, settings_.accuracy.direct, ray_slope); };
-      const auto rays = grow_pilots({std::min(first_pilot_rays, most), 0.0}, &Work::rays, most, needed, replicates);
+      const auto rays = grow_pilots(
+          {std::min(first_pilot_rays, most), 0.0}, &Work::rays, [&] { return most; }, needed, replicates);
       if (!rays) return std::nullopt;
-      work.rays = *rays;
+      work.rays = rays->chosen;
     }
     if (!has_indirect()) return work;
     // On a fixed grid at most one packet a ray, and at least as many as the first pilot has.
-    double most_of_them = std::min(most, most_first_packets);
-    if (settings_.grid_m) most_of_them = std::min(most_of_them, std::max(first_pilot_packets, work.rays));
-    if (most_of_them <= first_pilot_packets) {
-      work.packets = most_of_them;
+    if (settings_.grid_m) most = std::min(most, std::max(first_pilot_packets, work.rays));
+    if (most <= first_pilot_packets) {
+      work.packets = most;
       return work;
     }
     const Work pilot{std::max(std::min(first_pilot_rays, work.rays), 0.5 * work.rays), std::min(first_pilot_packets, most)};
     const auto needed = [this](double fewer) {
       return growth(indirect_error() * fewer, settings_.accuracy.indirect, packet_slope);
     };
-    const auto packets = grow_pilots(pilot, &Work::packets, most_of_them, needed, replicates);
+    const auto packets = grow_pilots(
+        pilot, &Work::packets, [&] { return std::min(most, most_packets(work)); }, needed, replicates);
     if (!packets) return std::nullopt;
-    work.packets = *packets;
+    work.packets = packets->chosen;
+    // More replicates will make up for packets that memory does not hold, and each of them then needs fewer rays.
+    const bool held_back = !fixed() && packets->chosen == most_packets(work);
+    if (held_back) work.rays *= std::pow(packets->wanted / packets->chosen, -0.5 / ray_slope);
+    if (held_back && model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
     return work;
   }
 
-  // Runs pilots until one is large enough to foretell `part` of the work; `needed` tells how many times a pilot's has to grow.
-  template <class Growth>
-  std::optional<double> grow_pilots(Work pilot, double Work::*part, double most, const Growth& needed, int replicates) {
+  // A part of the work that pilots ask for, and what of it is possible.
+  struct Part {
+    double wanted = 0.0, chosen = 0.0;
+  };
+
+  // Runs pilots until one is large enough to foretell `part` of the work, which is at most `most()`; `needed` tells how many
+  // times a pilot's has to grow.
+  template <class Most, class Growth>
+  std::optional<Part> grow_pilots(Work pilot, double Work::*part, const Most& most, const Growth& needed, int replicates) {
     const double fewer = std::sqrt(static_cast<double>(pilot_replicates) / replicates) *
                          t_quantile(settings_.accuracy.confidence, static_cast<std::size_t>(replicates)) /
                          t_quantile(settings_.accuracy.confidence, pilot_replicates);
@@ -237,15 +344,17 @@ class Solver {
       const double before = seconds();
       begin(pilot, pilot_stream);
       while (tally_->replicates() < pilot_replicates) {
-        if (add_replicate(pilot_replicates, pilot_replicates)) continue;
-        keep_fallback();
-        return std::nullopt;
+        if (!add_replicate(pilot_replicates, pilot_replicates)) {
+          keep_fallback();
+          return std::nullopt;
+        }
+        report_pilot();
       }
       const double wanted = pilot.*part * std::max(0.25, needed(fewer));
       const double affordable = pilot.*part * affordable_growth((seconds() - before) / pilot_replicates);
-      const double next = std::clamp(std::min(wanted, affordable), 1.0, std::max(1.0, most));
+      const double next = std::clamp(std::min(wanted, affordable), 1.0, std::max(1.0, most()));
       keep_fallback();
-      if (next <= trusted_refinement * pilot.*part || next < wanted) return next;
+      if (next <= trusted_refinement * pilot.*part || next < wanted) return Part{wanted, next};
       pilot.*part *= trusted_refinement;
     }
   }
@@ -279,7 +388,7 @@ class Solver {
     const auto all = static_cast<std::size_t>(replicates);
     while (tally_->replicates() < all) {
       if (spent() || !add_replicate(all, all)) return finish(stop_);
-      report(static_cast<double>(tally_->replicates()) / replicates);
+      report(all);
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
     }
     return finish(StopReason::work_done);
@@ -290,7 +399,7 @@ class Solver {
       // The run cannot end before the next check, nor there if that were the first good one.
       const std::size_t certain = good_checks_ == 0 ? check_after(next_check_) : next_check_;
       if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
-      report(static_cast<double>(tally_->replicates()) / std::max<double>(planned_replicates, next_check_));
+      report(expected_replicates());
       if (tally_->replicates() >= next_check_) {
         good_checks_ = bounds_hold() ? good_checks_ + 1 : 0;
         if (good_checks_ == 2) return finish(StopReason::bound_reached);
@@ -333,6 +442,7 @@ class Solver {
       begin({first_pilot_rays, first_pilot_packets});
     }
     RadiationResult result = result_of(*tally_, grid_rays_, reason);
+    result.work = work_;
     result.next_work = next_work();
     return result;
   }
@@ -345,14 +455,18 @@ class Solver {
     if (result.direct.rays > 0) {
       result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
     }
-    if (const double error = direct_error(tally); !std::isnan(error)) result.direct.relative_error = error;
+    const auto tell = [](const std::optional<JudgedError>& error, auto& summary) {
+      if (!error || std::isnan(error->relative)) return;
+      summary.relative_error = error->relative;
+      summary.judged = error->figure;
+    };
+    tell(direct_error(tally), result.direct);
+    tell(indirect_error(tally), result.indirect);
+    if (!model_.has_beam()) result.direct.relative_error = 0.0;
     // Replicates overlap; each pass has its share of the time that went by.
     const double busy_s = direct_s_ + indirect_s_;
     result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
     result.direct.seconds = seconds() - result.indirect.seconds;
-    if (const double error = indirect_error(tally); has_indirect() && !std::isnan(error)) {
-      result.indirect.relative_error = error;
-    }
     if (!fixed()) {
       result.direct.bound = settings_.accuracy.direct;
       if (has_indirect()) result.indirect.bound = settings_.accuracy.indirect;
@@ -364,6 +478,7 @@ class Solver {
   const SolveSettings& settings_;
   const Monitor& monitor_;
   ReplicateMaker maker_;
+  PacketMemory memory_;
   Clock::time_point start_ = Clock::now();
   std::unique_ptr<Tally> tally_, fallback_;
   std::mutex stop_mutex_;
@@ -374,11 +489,19 @@ class Solver {
   std::uint64_t traced_ = 0;
   std::size_t next_check_ = first_check, good_checks_ = 0;
   std::size_t begun_with_ = 0;  // replicates that an earlier process made
+  double begun_s_ = 0.0;        // when this series was begun
+  Completion completion_;
   double direct_s_ = 0.0, indirect_s_ = 0.0;
   ReplicateQueue queue_;  // last, so that it ends first
 };
 
 }  // namespace
+
+std::optional<RunForecast> forecast(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
+                                    const SolveSettings& settings, const Monitor& monitor) {
+  if (is_dark(model)) return RunForecast{};
+  return Solver(model, layout, tracer, settings, monitor, nullptr).forecast();
+}
 
 RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
                       const Monitor& monitor, ReplicateHelpers* helpers) {

@@ -32,14 +32,21 @@ struct SolveSettings {
   std::optional<double> max_seconds;      // wall time of the simulation
   ElementErrors element_errors = ElementErrors::skip;
   int replicates_at_once = 2;              // in the making side by side, where there is an indirect pass and no max_rays
+  std::optional<double> memory_bytes;      // most that replicates in the making may take together; none: no bound
   const SolveState* go_on_from = nullptr;  // of a run with the same settings; null: from the beginning
 };
 
 struct Progress {
-  std::uint64_t rays = 0;                // and packets
-  double fraction = 0.0;                 // of the work as far as it can be foreseen
-  std::optional<double> relative_error;  // of the pass that is further from its bound
-  double bound = 0.0;
+  enum class Stage { pilot, run };  // pilots choose the work; nothing of the run is done before they end
+  enum class Pass { direct, indirect };
+
+  Stage stage = Stage::run;
+  std::uint64_t rays = 0;                // and packets, pilots' included
+  double fraction = 0.0;                 // of the run; never falls, and reaches 1 only when all is done
+  std::optional<double> seconds_left;    // as far as is known now; none while nothing is
+  Pass pass = Pass::direct;              // the one that is further from its bound
+  std::optional<double> relative_error;  // of that pass
+  double bound = 0.0;                    // of that pass
 };
 
 // How a caller watches and ends a run. All may be empty.
@@ -55,6 +62,17 @@ struct Monitor {
   std::function<bool()> wants_state;
   std::function<void(const SolveState&)> receive_state;
 };
+
+// What a run will be made of, as its pilots tell.
+struct RunForecast {
+  Work work;                     // of a replicate
+  double replicate_bytes = 0.0;  // memory of one in the making
+  std::size_t at_once = 1;       // in the making side by side
+};
+
+// Runs the pilots of `solve` alone, and returns what they foretell of its run with these settings; none if stopped.
+[[nodiscard]] std::optional<RunForecast> forecast(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
+                                                  const SolveSettings& settings, const Monitor& monitor);
 
 // Runs the simulation; with helpers, unless there is a max_rays, they make replicates too, and the result is the same. A run
 // stopped before its second replicate is done falls back on the replicates of its pilot, if it had one. Throws Error (failure)

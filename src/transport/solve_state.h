@@ -13,7 +13,7 @@ namespace sunfleck {
 
 // Replicates after which the bounds are checked for the first time.
 inline constexpr std::size_t first_check = 12;
-// Of the first round of a replicate.
+// Packets in the first round of a replicate, at most; memory sets a lower bound on most machines.
 inline constexpr double most_first_packets = 0x1p24;
 
 // The pilots are behind it.

@@ -34,12 +34,19 @@ class ReplicateMean {
   // Of the mean; NaN below two replicates.
   [[nodiscard]] double standard_error() const;
   [[nodiscard]] Estimate estimate(double t_quantile) const { return {mean_, t_quantile * standard_error()}; }
+  // The same where all replicates may agree by chance: the half-width is then `unseen`, what may have escaped them all.
+  [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
 
  private:
   std::size_t count_ = 0;
   double mean_ = 0.0;
   double squares_ = 0.0;
 };
+
+// Returns how many events may be expected, at most, where none was seen: the upper end of the two-sided confidence interval of
+// a Poisson mean (Garwood 1936, Biometrika 28:437), 3.69 at 95 %. Divided by the number of trials it is the upper end for a
+// share, a little above that of Clopper and Pearson (1934, Biometrika 26:404).
+[[nodiscard]] double unseen_events(double confidence);
 
 // The factor between standard error and half-width of a two-sided interval: Student's t with replicates - 1 degrees of
 // freedom; NaN below two replicates.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 namespace sunfleck {
 namespace {
@@ -33,6 +32,8 @@ Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Sur
       rays_(incidence.rays),
       ground_per_ray_m2_(incidence.ground_per_ray_m2),
       quanta_(make_band_quanta(model, incidence)),
+      events_(make_light_events(model, quanta_, incidence)),
+      exposure_(model, layout, incidence.ground_per_ray_m2),
       ledgers_(model.bands.size()),
       landed_(model.bands.size()),
       bands_(model.bands.size()),
@@ -57,23 +58,46 @@ Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Sur
   if (element_errors == ElementErrors::keep_sides) side_spread_.resize(2 * model.canopy.size() * bands);
 }
 
-// Areas by organ and layer, and the area of its element that a landing stands for: the beam's cross-section over the cosine
-// between beam and normal.
+// Areas by organ and layer, all and those that the beam can hit, and how much an organ absorbs at most.
 void Tally::measure_elements() {
   const Canopy& canopy = model_.canopy;
+  const std::size_t bands = quanta_.size();
   foliage_ = element_roles(canopy).foliage;
+  const std::vector<bool> hidden = hidden_elements(model_, layout_);
+  const std::vector<double> absorptances = largest_absorptances(model_);
   organ_area_m2_.assign(canopy.organs.size(), 0.0);
+  organ_facing_m2_ = organ_area_m2_;
+  organ_absorptance_.assign(canopy.organs.size() * bands, 0.0);
+  vegetation_absorptance_.assign(bands, 0.0);
+  soil_absorptance_ = soil_absorptances(model_);
   layer_foliage_m2_.assign(static_cast<std::size_t>(layout_.layers.count), 0.0);
-  lit_m2_per_landing_.reserve(canopy.size());
-  const glm::dvec3 to_sun = model_.has_beam() ? direction_to_sun(*model_.sun) : glm::dvec3(0.0);
+  layer_facing_m2_ = layer_foliage_m2_;
+  layer_holds_vegetation_.assign(layer_foliage_m2_.size(), false);
   for (std::size_t e = 0; e < canopy.size(); ++e) {
     const double area = area_m2(canopy.corners[e]);
-    organ_area_m2_[canopy.organ_of[e]] += area;
-    const double cosine = std::abs(glm::dot(unit_normal(canopy.corners[e]), to_sun));
-    lit_m2_per_landing_.push_back(cosine > 0.0 ? static_cast<float>(ground_per_ray_m2_ * to_sun.y / cosine) : 0.0F);
+    const std::size_t organ = canopy.organ_of[e];
+    organ_area_m2_[organ] += area;
+    if (exposure_.can_hit(e)) organ_facing_m2_[organ] += area;
+    const bool soil = surfaces_.of[surfaces_.number_of[e]].soil;
+    beam_meets_vegetation_ = beam_meets_vegetation_ || (!soil && exposure_.can_hit(e));
+    for (std::size_t b = 0; b < bands && !hidden[e] && area > 0.0; ++b) {
+      const double absorptance = absorptances[canopy.optics_of[e] * bands + b];
+      for (double* largest :
+           {&organ_absorptance_[organ * bands + b], &(soil ? soil_absorptance_ : vegetation_absorptance_)[b]}) {
+        *largest = std::max(*largest, absorptance);
+      }
+    }
+    if (!soil && !hidden[e] && area > 0.0) {
+      const std::size_t first = first_layer(layout_, canopy.corners[e]);
+      const std::size_t end = first + layout_.first_bin[e + 1] - layout_.first_bin[e];
+      for (std::size_t k = first; k < end; ++k) layer_holds_vegetation_[k] = true;
+    }
     if (!foliage_[e]) continue;
     foliage_m2_ += area;
     add_area_by_layer(layout_.layers, canopy.corners[e], layer_foliage_m2_);
+    if (!exposure_.can_hit(e)) continue;
+    facing_m2_ += area;
+    add_area_by_layer(layout_.layers, canopy.corners[e], layer_facing_m2_);
   }
 }
 
@@ -141,7 +165,7 @@ void Tally::sum_elements(std::span<const std::uint32_t> counters, DirectSums& su
     const Surface& surface = surfaces_.of[number];
     sums.surface[number].upper += element.upper;
     sums.surface[number].lower += element.lower;
-    sums.organ_lit_m2[surface.organ] += static_cast<double>(element.both()) * double{lit_m2_per_landing_[e]};
+    sums.organ_lit_m2[surface.organ] += static_cast<double>(element.both()) * double{exposure_.lit_m2_per_landing(e)};
     if (surface.soil) continue;
     std::size_t layer = first_layer(layout_, model_.canopy.corners[e]);
     for (std::uint32_t bin = layout_.first_bin[e]; bin < layout_.first_bin[e + 1]; ++bin, ++layer) {
@@ -150,7 +174,7 @@ void Tally::sum_elements(std::span<const std::uint32_t> counters, DirectSums& su
       Landings& in_layer = sums.layer_optics[layer * model_.optics.size() + surface.optics];
       in_layer.upper += upper;
       in_layer.lower += lower;
-      if (foliage_[e]) sums.layer_lit_m2[layer] += (1.0 * upper + lower) * double{lit_m2_per_landing_[e]};
+      if (foliage_[e]) sums.layer_lit_m2[layer] += (1.0 * upper + lower) * double{exposure_.lit_m2_per_landing(e)};
     }
   }
 }
@@ -336,7 +360,7 @@ void Tally::add_to_organ_means(const DirectSums& sums, const IndirectSums* indir
   for (std::size_t o = 0; o < organs; ++o) {
     const double per_area = organ_area_m2_[o] > 0.0 ? 1.0 / organ_area_m2_[o] : 0.0;
     organs_[o].landed.add(landed[o] * ground_per_ray_m2_ * per_area);
-    organs_[o].sunlit.add(sums.organ_lit_m2[o] * per_area);
+    organs_[o].sunlit.add(sums.organ_lit_m2[o] * (organ_facing_m2_[o] > 0.0 ? 1.0 / organ_facing_m2_[o] : 0.0));
     for (std::size_t b = 0; b < bands; ++b) {
       const double direct = ground_per_ray_m2_ * beam_w_m2(b) * per_area;
       const double per_quantum = quanta_[b].w_m2_per_quantum * model_.plot.area_m2() * per_area;
@@ -384,10 +408,10 @@ void Tally::add_to_layer_means(const DirectSums& sums, const IndirectSums* indir
     }
     if (k == count) break;
     lit_m2 += sums.layer_lit_m2[k];
-    layer.sunlit.add(layer_foliage_m2_[k] > 0.0 ? sums.layer_lit_m2[k] / layer_foliage_m2_[k] : 0.0);
+    layer.sunlit.add(layer_facing_m2_[k] > 0.0 ? sums.layer_lit_m2[k] / layer_facing_m2_[k] : 0.0);
     for (std::size_t o = 0; o < optics_count; ++o) below += sums.layer_optics[k * optics_count + o].both();
   }
-  sunlit_.add(foliage_m2_ > 0.0 ? lit_m2 / foliage_m2_ : 0.0);
+  sunlit_.add(facing_m2_ > 0.0 ? lit_m2 / facing_m2_ : 0.0);
 }
 
 }  // namespace sunfleck

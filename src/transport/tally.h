@@ -3,6 +3,8 @@
 
 #include "transport/accuracy.h"
 #include "transport/counters.h"
+#include "transport/events.h"
+#include "transport/exposure.h"
 #include "transport/indirect.h"
 #include "transport/model.h"
 #include "transport/planes.h"
@@ -28,6 +30,15 @@ struct DirectSums {
   std::vector<double> organ_lit_m2;    // [organ]
   std::vector<double> layer_lit_m2;    // [layer], foliage
   std::uint64_t soil_plane = 0, transmitted = 0, ground = 0, met = 0, missed = 0, lost = 0;
+};
+
+// The largest of the relative errors that a bound judges, and whose it is.
+struct JudgedError {
+  double relative = 0.0;  // NaN below two replicates
+  JudgedFigure figure;
+
+  // Keeps the larger of the two.
+  void raise(double other, const JudgedFigure& of);
 };
 
 class Tally {
@@ -65,11 +76,11 @@ class Tally {
   // The figure compared with the direct bound: the largest half-width, relative to its value, of the first-hit flux on
   // vegetation and on the ground, either judged against at least 1 % of the incident flux; for organs also that of every
   // organ with at least a tenth of the mean organ's flux; for triangles the area-weighted root-mean-square half-width of the
-  // elements' irradiance relative to its mean. NaN below two replicates.
-  [[nodiscard]] double direct_error(const Accuracy& accuracy) const;
+  // elements' irradiance relative to its mean.
+  [[nodiscard]] JudgedError direct_error(const Accuracy& accuracy) const;
 
   // The same for all else that vegetation and soil absorb, the largest over the bands; half-widths hold the unshot flux.
-  [[nodiscard]] double indirect_error(const Accuracy& accuracy) const;
+  [[nodiscard]] JudgedError indirect_error(const Accuracy& accuracy) const;
 
   // Everything but `stop`, `direct` and `indirect`. Throws Error (failure) if a ledger does not close.
   [[nodiscard]] RadiationResult result(double confidence) const;
@@ -116,11 +127,19 @@ class Tally {
   [[nodiscard]] double beam_w_m2(std::size_t band) const;
   [[nodiscard]] double unshot_share(std::size_t band) const;
   [[nodiscard]] double half_width(const Spread& spread, double quantile) const;
-  [[nodiscard]] double organ_error(double quantile, bool indirect) const;
+  [[nodiscard]] double unseen(double event, double confidence) const;
+  [[nodiscard]] double relative_error(const ReplicateMean& mean, double least, double unseen, double quantile) const;
+  [[nodiscard]] JudgedError organ_error(double quantile, bool indirect) const;
   [[nodiscard]] double element_rms_error(double quantile, const std::vector<Spread>& spreads, std::size_t first) const;
-  [[nodiscard]] BandResult band_result(std::size_t band, double quantile) const;
-  [[nodiscard]] std::vector<OrganResult> organ_results(double quantile) const;
-  [[nodiscard]] std::vector<LayerResult> layer_results(double quantile) const;
+  [[nodiscard]] BandResult band_result(std::size_t band, double confidence) const;
+  [[nodiscard]] std::vector<OrganResult> organ_results(double confidence) const;
+  [[nodiscard]] std::vector<LayerResult> layer_results(double confidence) const;
+  [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, std::vector<FacingArea> parts,
+                                         double confidence) const;
+  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_organs() const;
+  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_layers() const;
+  [[nodiscard]] std::vector<FacingArea> agreed_foliage() const;
+  [[nodiscard]] double share_of_one_ray() const;
   [[nodiscard]] std::vector<double> element_errors(double quantile) const;
   [[nodiscard]] std::vector<double> side_errors(double quantile) const;
 
@@ -130,12 +149,19 @@ class Tally {
   std::uint64_t rays_;
   double ground_per_ray_m2_;
   std::optional<PlaneTally> planes_;
-  std::vector<BandQuanta> quanta_;         // [band]
-  std::vector<float> lit_m2_per_landing_;  // [element], of the element's own area
-  std::vector<bool> foliage_;              // [element]
-  std::vector<double> organ_area_m2_;      // [organ]
-  std::vector<double> layer_foliage_m2_;   // [layer]
-  double foliage_m2_ = 0.0;
+  std::vector<BandQuanta> quanta_;  // [band]
+  LightEvents events_;
+  BeamExposure exposure_;
+  std::vector<double> organ_absorptance_;  // [organ * bands + band], the largest of its faces; 0 if no light can reach it
+  std::vector<double> vegetation_absorptance_, soil_absorptance_;  // [band], the largest of all such surfaces; 0 without any
+  bool beam_meets_vegetation_ = false;                             // some of it can be hit
+  std::vector<bool> foliage_;                                      // [element]
+  std::vector<double> organ_area_m2_;                              // [organ]
+  std::vector<double> organ_facing_m2_;                            // [organ], of elements that the beam can hit
+  std::vector<double> layer_foliage_m2_;                           // [layer]
+  std::vector<double> layer_facing_m2_;                            // [layer], of foliage that the beam can hit
+  std::vector<bool> layer_holds_vegetation_;                       // [layer], some that light can reach
+  double foliage_m2_ = 0.0, facing_m2_ = 0.0;
   std::vector<QuantaSplit> splits_;  // of a ray: [(optics * 2 + side) * bands + band], then [band] of the soil plane
 
   std::size_t replicates_ = 0;

@@ -18,9 +18,11 @@ def test_progress_is_told():
     told = []
     result = sunfleck.run(with_arrays(), device="cpu", error=0.02, progress=told.append)
     assert result.complete and told
-    assert all(set(state) == {"rays", "fraction", "relative_error", "bound"} for state in told)
-    assert [state["rays"] for state in told] == sorted(state["rays"] for state in told)
-    assert 0.0 <= told[-1]["fraction"] <= 1.0
+    keys = {"stage", "rays", "fraction", "seconds_left", "pass", "relative_error", "bound"}
+    assert all(set(state) == keys for state in told)
+    for measure in ("rays", "fraction"):
+        assert [state[measure] for state in told] == sorted(state[measure] for state in told)
+    assert told[-1]["stage"] == "run" and told[-1]["fraction"] == 1.0
 
 
 def test_exceptions_of_progress_end_the_work():

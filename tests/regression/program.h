@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,6 +29,7 @@ struct Outcome {
   int status = -1;
   std::string out, err;
   double seconds = 0.0;
+  double peak_mib = 0.0;  // of resident memory
 };
 
 inline std::string content(const std::filesystem::path& file) {
@@ -60,18 +62,20 @@ class ProgramTest : public ::testing::Test {
     const pid_t child = ::fork();
     if (child == 0) become_program(arguments, out, err);
     int state = 0;
-    while (::waitpid(child, &state, WNOHANG) == 0) {
+    rusage usage{};
+    while (::wait4(child, &state, WNOHANG, &usage) == 0) {
       if (watch) watch(child, content(err));
       if (elapsed_s() > longest_run_s) {
         ADD_FAILURE() << "it did not end within " << longest_run_s << " s";
         ::kill(child, SIGKILL);
-        ::waitpid(child, &state, 0);
+        ::wait4(child, &state, 0, &usage);
         break;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_TRUE(WIFEXITED(state) || may_be_killed_) << "killed by signal " << WTERMSIG(state);
-    return {WIFEXITED(state) ? WEXITSTATUS(state) : -1, content(out), content(err), elapsed_s()};
+    return {WIFEXITED(state) ? WEXITSTATUS(state) : -1, content(out), content(err), elapsed_s(),
+            static_cast<double>(usage.ru_maxrss) / 1024.0};
   }
 
   // `run SCENE ... -o out`, which has to end with `status`.

@@ -188,10 +188,15 @@ TEST(Options, OfTheStand) {
 }
 
 TEST(Options, OfInfo) {
-  EXPECT_TRUE(std::get<InfoOptions>(parse({"info"})).scene.empty());
+  EXPECT_TRUE(std::get<InfoOptions>(parse({"info"})).run.scene.empty());
   const InfoOptions options = std::get<InfoOptions>(parse({"info", "a.toml", "--json", "--allow-outside"}));
-  EXPECT_EQ(options.scene, "a.toml");
-  EXPECT_TRUE(options.json && options.allow_outside);
+  EXPECT_EQ(options.run.scene, "a.toml");
+  EXPECT_TRUE(options.run.json && options.run.allow_outside);
+  const InfoOptions asked =
+      std::get<InfoOptions>(parse({"info", "a.toml", "--error", "0.02", "--memory", "2GB", "--device", "cpu"}));
+  EXPECT_EQ(asked.run.indirect_error, 0.02);
+  EXPECT_EQ(asked.run.memory_bytes, 2'000'000'000U);
+  EXPECT_EQ(asked.run.device, "cpu");
 }
 
 TEST(Options, HelpAndVersionAreTexts) {
@@ -230,7 +235,7 @@ TEST(Options, OfCaribusFiles) {
   const auto plain = std::get<RunOptions>(parse({"run", "a.toml"}));
   EXPECT_TRUE(plain.exports.empty());
   EXPECT_EQ(plain.stand.first_given(), "");
-  EXPECT_EQ(std::get<InfoOptions>(parse({"info", "a.can", "--light", "x.light"})).stand.first_given(), "--light");
+  EXPECT_EQ(std::get<InfoOptions>(parse({"info", "a.can", "--light", "x.light"})).run.stand.first_given(), "--light");
   EXPECT_EQ(std::get<RenderOptions>(parse({"render", "out", "--domain", "x.8"})).simulating, "--domain");
   EXPECT_EQ(std::get<ViewOptions>(parse({"view", "a.can", "--scale", "2"})).run.stand.first_given(), "--scale");
   EXPECT_NE(refusal({"day", "a.can", "--optics", "a.opt"}).find("--optics (not known here)"), std::string::npos);

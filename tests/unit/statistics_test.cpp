@@ -28,6 +28,24 @@ TEST(TQuantile, IsUnknownBelowTwoReplicates) {
   EXPECT_TRUE(std::isnan(t_quantile(0.95, 1)));
 }
 
+// Garwood's upper limits for no event: 2.996 at 90 %, 3.689 at 95 %, 5.298 at 99 %.
+TEST(UnseenEvents, AreThoseOfTheTables) {
+  EXPECT_NEAR(unseen_events(0.90), 2.996, 5e-4);
+  EXPECT_NEAR(unseen_events(0.95), 3.689, 5e-4);
+  EXPECT_NEAR(unseen_events(0.99), 5.298, 5e-4);
+}
+
+TEST(ReplicateMean, HasTheIntervalOfWhatMayBeUnseenWhereAllAgree) {
+  ReplicateMean mean;
+  mean.add(0.25);
+  EXPECT_TRUE(std::isnan(mean.estimate(2.0, 0.1).half_width));
+  for (int k = 0; k < 7; ++k) mean.add(0.25);
+  EXPECT_EQ(mean.estimate(2.0, 0.1).half_width, 0.1);
+  EXPECT_EQ(mean.estimate(2.0).half_width, 0.0);
+  mean.add(0.5);
+  EXPECT_EQ(mean.estimate(2.0, 0.1).half_width, mean.estimate(2.0).half_width);
+}
+
 TEST(ReplicateMean, IsUnknownBelowTwoReplicates) {
   ReplicateMean mean;
   EXPECT_EQ(mean.count(), 0U);

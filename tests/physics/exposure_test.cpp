@@ -1,0 +1,173 @@
+// What is sunlit, what is not, and what is neither: leaves that the beam cannot hit have no share, and a share on which all
+// rays agree has the interval that their number allows.
+#include "support/comparison.h"
+#include "support/models.h"
+
+#include <gtest/gtest.h>
+
+namespace sunfleck::test {
+namespace {
+
+constexpr int replicates = 16;
+const Plot endless{1.0, 1.0, true};
+const Plot isolated{1.0, 1.0, false};
+
+// 95 %: the upper limit of a Poisson mean with nothing seen.
+constexpr double unseen = 3.6888794541139363;
+
+RadiationResult run(const RadiationModel& model, double rays = 160'000.0) {
+  return simulate(model, fixed_work(model, rays, replicates));
+}
+
+void expect_none(const Estimate& estimate) {
+  EXPECT_TRUE(std::isnan(estimate.value)) << estimate.value;
+  EXPECT_TRUE(std::isnan(estimate.half_width)) << estimate.half_width;
+}
+
+// A level leaf of 0.16 m2, and one that stands in the plane of a beam from the east.
+RadiationModel edge_on_model(const Plot& plot) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
+  maker.organ("leaf", 1, 2);
+  maker.quad({0.1, 0.1, 0.2}, {0.1, 0.1, 0.8}, {0.1, 0.5, 0.8}, {0.1, 0.5, 0.2});
+  return black_model(maker.mesh(), plot, sun_at(40.0, 90.0));
+}
+
+TEST(EdgeOnLeaf, HasNoSunlitShareAndIsLeftOutOfTheTotals) {
+  for (const Plot& plot : {endless, isolated}) {
+    const RadiationResult result = run(edge_on_model(plot));
+    expect_agrees(result.organs[0].sunlit_fraction, 1.0, replicates, 0.01, 2, "level leaf");
+    expect_none(result.organs[1].sunlit_fraction);
+    expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 2, "all leaves");
+    EXPECT_NEAR(result.leaf_area_index, 0.16 + 0.24, 1e-6);
+    expect_none(result.layers[5].sunlit_leaf_fraction);  // of 20 up to 0.8 m: the standing leaf alone
+  }
+}
+
+TEST(CopiedLeaf, HasNoSunlitShareAndItsOriginalTakesAllLight) {
+  MeshMaker maker;
+  for (int rank = 1; rank <= 2; ++rank) {
+    maker.organ("leaf", 1, rank);
+    maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
+  }
+  const RadiationModel model = black_model(maker.mesh(), endless, paper_sun());
+  const RadiationResult result = run(model);
+  expect_agrees(result.organs[0].sunlit_fraction, 1.0, replicates, 0.01, 3, "first leaf");
+  expect_agrees(share_of_beam(model, result, 0), 0.16, replicates, 1e-3, 3, "flux on the first leaf");
+  expect_none(result.organs[1].sunlit_fraction);
+  EXPECT_EQ(result.organs[1].absorbed[0].value, 0.0);
+  EXPECT_EQ(result.organs[1].absorbed[0].half_width, 0.0) << "that nothing reaches it is known";
+  expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 3, "all leaves");
+}
+
+TEST(BuriedLeaf, HasNoSunlitShare) {
+  for (const Plot& plot : {endless, isolated}) {
+    MeshMaker maker;
+    maker.organ("leaf", 1, 1);
+    maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
+    maker.organ("leaf", 1, 2);
+    maker.level(0.4, 0.6, 0.4, 0.6, -0.1);
+    const RadiationResult result = run(black_model(maker.mesh(), plot, paper_sun()));
+    expect_none(result.organs[1].sunlit_fraction);
+    expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 1, "all leaves");
+  }
+}
+
+// Below the plane of an isolated plot's soil, but beside its rectangle: the beam comes down past the soil's edge.
+TEST(BuriedLeaf, IsLitBesideThePlot) {
+  MeshMaker maker;
+  maker.level(1.1, 1.3, 0.4, 0.6, -0.05);
+  const RadiationResult result = run(black_model(maker.mesh(), isolated, sun_at(90.0, 0.0)));
+  expect_agrees(result.organs[0].sunlit_fraction, 1.0, replicates, 0.01, 1, "leaf beside the plot");
+}
+
+TEST(ShareWithoutABeam, IsNone) {
+  RadiationModel model = edge_on_model(endless);
+  model.bands[0].direct_w_m2 = 0.0;
+  model.bands[0].diffuse_w_m2 = 1.0;
+  model.sky = SkyModel{};
+  const RadiationResult result = run(model, 16'000.0);
+  for (const OrganResult& organ : result.organs) expect_none(organ.sunlit_fraction);
+  expect_none(result.sunlit_leaf_fraction);
+  expect_none(result.ground_sunfleck_ratio);
+}
+
+// A leaf in full shade below a plate that fills the plot: no ray meets leaf or soil, and as many as would have tell how sure
+// that is.
+class FullShade : public ::testing::Test {
+ protected:
+  static RadiationModel model() {
+    MeshMaker maker;
+    maker.organ("leaf", 1, 1);
+    maker.level(0.0, 1.0, 0.0, 1.0, 1.0);
+    maker.organ("leaf", 1, 2);
+    maker.level(0.4, 0.6, 0.4, 0.6, 0.5);
+    return black_model(maker.mesh(), endless, sun_at(90.0, 0.0));
+  }
+};
+
+TEST_F(FullShade, HasTheIntervalThatTheRaysAllow) {
+  const RadiationResult result = run(model());
+  const auto rays = static_cast<double>(result.direct.rays);
+  const OrganResult& leaf = result.organs[1];
+  EXPECT_EQ(leaf.sunlit_fraction.value, 0.0);
+  EXPECT_NEAR(leaf.sunlit_fraction.half_width, unseen / (0.04 * rays), 1e-3 * unseen / (0.04 * rays));
+  EXPECT_EQ(leaf.direct[0].value, 0.0);
+  EXPECT_NEAR(leaf.direct[0].half_width, unseen / (0.04 * rays), 1e-3 * unseen / (0.04 * rays));
+  EXPECT_NEAR(leaf.absorbed[0].half_width, unseen / (0.04 * rays), 1e-3 * unseen / (0.04 * rays));
+  for (const Estimate& share : {result.ground_sunfleck_ratio, result.layers[0].sunfleck_ratio}) {
+    EXPECT_EQ(share.value, 0.0);
+    EXPECT_NEAR(share.half_width, unseen / rays, 1e-6 * unseen / rays);
+  }
+  EXPECT_EQ(result.bands[0].absorbed_soil.value, 0.0);
+  EXPECT_NEAR(result.bands[0].absorbed_soil.half_width, unseen / rays, 1e-6 * unseen / rays);
+  // All rays on the plate: its share may be as much below 1.
+  EXPECT_EQ(result.bands[0].absorbed_vegetation.value, 1.0);
+  EXPECT_NEAR(result.bands[0].absorbed_vegetation.half_width, unseen / rays, 1e-6 * unseen / rays);
+}
+
+TEST_F(FullShade, IsCertainWhereNothingCouldBeOtherwise) {
+  RadiationModel open = model();
+  open.canopy = {};
+  open.canopy.period_m = {1.0, 1.0};
+  const RadiationResult result = run(open, 16'000.0);
+  EXPECT_EQ(result.ground_sunfleck_ratio.value, 1.0);
+  EXPECT_EQ(result.ground_sunfleck_ratio.half_width, 0.0);
+  EXPECT_EQ(result.bands[0].absorbed_vegetation.half_width, 0.0);
+  EXPECT_EQ(result.bands[0].reflected.half_width, 0.0);  // black soil
+  const RadiationResult below = run(model(), 16'000.0);
+  EXPECT_EQ(below.layers.back().sunfleck_ratio.value, 1.0);
+  EXPECT_EQ(below.layers.back().sunfleck_ratio.half_width, 0.0);
+}
+
+// So few rays that any share would agree with none on the leaf.
+TEST_F(FullShade, IsUnknownWhereTooFewRaysCouldTell) {
+  const RadiationResult result = run(model(), 64.0);  // 2.6 on the leaf in full sun
+  expect_none(result.organs[1].sunlit_fraction);
+}
+
+// The interval has to hold where a share is small but not 0: of a leaf in shade but for a slit, the rays of most runs miss the
+// slit. Over 400 seeds the true share lies in at least as many intervals as 95 % ask, within the scatter of 400 draws.
+TEST(AlmostFullShade, IntervalsCover) {
+  constexpr double slit = 0.004;
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.level(0.0, 1.0 - slit, 0.0, 1.0, 1.0);
+  maker.organ("leaf", 1, 2);
+  maker.level(0.5, 1.0, 0.0, 1.0, 0.5);
+  const RadiationModel model = black_model(maker.mesh(), endless, sun_at(90.0, 0.0));
+  const Prepared prepared(model);
+  int covered = 0;
+  int without_spread = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Estimate share = simulate(model, prepared, fixed_work(model, 288.0, 8, seed)).organs[1].sunlit_fraction;
+    without_spread += share.value == 0.0 ? 1 : 0;
+    covered += std::abs(share.value - 2.0 * slit) <= share.half_width ? 1 : 0;
+  }
+  EXPECT_GT(without_spread, 40) << "else the test says nothing";
+  EXPECT_GE(covered, 366);
+}
+
+}  // namespace
+}  // namespace sunfleck::test

@@ -1,0 +1,105 @@
+// The memory of a run: bounded by --memory, and foretold by info.
+#include "regression/program.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace sunfleck::regression {
+namespace {
+
+using nlohmann::json;
+
+class Memory : public ProgramTest {
+ protected:
+  // A stand of a thousand triangles under an overcast sky.
+  void SetUp() override {
+    std::mt19937 engine(1);
+    const auto uniform = [&] { return static_cast<double>(engine()) / 4294967296.0; };
+    std::string obj;
+    for (int leaf = 0; leaf < 500; ++leaf) {
+      const double x = 2.0 * uniform();
+      const double y = uniform();
+      const double z = 2.0 * uniform();
+      const double turn = 2.0 * std::numbers::pi * uniform();
+      const double c = 0.06 * std::cos(turn);
+      const double s = 0.06 * std::sin(turn);
+      for (const auto& [along, across] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        obj += "v " + std::to_string(x + along * c - across * s) + " " + std::to_string(y + 0.03 * along) + " " +
+               std::to_string(z + along * s + across * c) + "\n";
+      }
+      const std::string a = std::to_string(4 * leaf + 1) + " ";
+      const std::string c3 = std::to_string(4 * leaf + 3) + " ";
+      obj += "f " + a + std::to_string(4 * leaf + 2) + " " + c3 + "\nf " + a + c3 + std::to_string(4 * leaf + 4) + "\n";
+    }
+    folder_.write("stand.obj", obj);
+    folder_.write("stand.toml", R"([plot]
+size = [2.0, 2.0]
+[sky]
+model = "cie-overcast"
+[[band]]
+name    = "PAR"
+diffuse = 100.0
+[soil]
+reflectance = 0.15
+[optics.leaf]
+reflectance   = 0.12
+transmittance = 0.06
+[[geometry]]
+file   = "stand.obj"
+optics = "leaf"
+)");
+  }
+
+  // Eight replicates, large ones: their number is fixed, so that the test takes a few seconds.
+  const Arguments tight_{"--device", "cpu", "--threads", "2", "--images", "none", "--passes", "8", "--indirect-error", "3e-4"};
+};
+
+TEST_F(Memory, OfReplicatesStaysBelowTheBound) {
+  const Outcome small = simulate("stand.toml", {"--device", "cpu", "--images", "none", "--error", "0.05"});
+  const Outcome bounded = simulate("stand.toml", tight_ + Arguments{"--memory", "40MB"});
+  EXPECT_EQ(summary()["settings"]["memory_bytes"], 40'000'000);
+  EXPECT_LT(bounded.peak_mib, small.peak_mib + 40.0) << "above what a small run takes";
+  const double packets = summary()["indirect"]["first_round_packets"];
+  simulate("stand.toml", tight_ + Arguments{"--memory", "20MB"});
+  EXPECT_NEAR(summary()["indirect"]["first_round_packets"].get<double>() / packets, 0.5, 0.1);
+}
+
+// Memory that holds several comfortable replicates changes nothing: runs repeat on machines with more memory and less.
+TEST_F(Memory, DoesNotDecideAboutResultsWhereThereIsEnough) {
+  const Arguments work{"--device", "cpu", "--images", "none", "--error", "0.02"};
+  simulate("stand.toml", work + Arguments{"--memory", "1GB"});
+  const std::string organs = file("organs.csv");
+  simulate("stand.toml", work + Arguments{"--memory", "8GB"});
+  EXPECT_EQ(file("organs.csv"), organs);
+}
+
+TEST_F(Memory, BoundMakesMoreReplicatesReachTheSameError) {
+  simulate("stand.toml", {"--device", "cpu", "--images", "none", "--error", "0.003"});
+  const json free = summary();
+  simulate("stand.toml", {"--device", "cpu", "--images", "none", "--error", "0.003", "--memory", "6MB"});
+  const json bounded = summary();
+  EXPECT_GT(bounded["direct"]["replicates"], free["direct"]["replicates"]);
+  EXPECT_LT(bounded["indirect"]["first_round_packets"], free["indirect"]["first_round_packets"]);
+  EXPECT_LE(bounded["indirect"]["relative_error"], 0.003);
+}
+
+TEST_F(Memory, IsForetoldByInfo) {
+  const Arguments on_cpu{"--device", "cpu", "--threads", "2"};
+  for (const Arguments& work :
+       {Arguments{"--passes", "8", "--indirect-error", "3e-4", "--memory", "60MB"}, {"--error", "0.02"}}) {
+    const Outcome info = run(Arguments{"info", "stand.toml", "--json"} + on_cpu + work);
+    ASSERT_EQ(info.status, 0) << info.err;
+    const double foretold_mib = json::parse(info.out)["memory_bytes"].get<double>() / 1048576.0;
+    const Outcome ran = simulate("stand.toml", on_cpu + work + Arguments{"--images", "none"});
+    EXPECT_NEAR(foretold_mib / ran.peak_mib, 1.0, 0.2) << foretold_mib << " MiB foretold";
+  }
+}
+
+TEST_F(Memory, BoundIsChecked) {
+  expect_one_error(run({"run", "stand.toml", "--memory", "1kB"}), 2, "--memory");
+  expect_one_error(run({"run", "stand.toml", "--memory", "much"}), 2, "--memory");
+}
+
+}  // namespace
+}  // namespace sunfleck::regression
