@@ -68,7 +68,8 @@ class Result:
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
         """The columns of organs.csv as arrays of shape (organs,): plant, organ (a list of names), rank, area_m2, sunlit_fraction
-        and its _error, BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), BAND_error (relative)."""
+        and its _error, BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), BAND_error (relative). Soil
+        elements of a mesh are among them, the ground of [soil] is not."""
         return self._outcome.organs()
 
     @functools.cached_property

@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -84,17 +85,24 @@ class DayRun {
       if (!step) {
         step = simulate_step(i);
         if (!step) break;
-        store_.write(i, *step);
+        wait_for_step_before();
+        writing_ = store_.begin_write(i, *step);
         tell(i, *step);
       }
       steps_.count(*step);
       result_.lights.push_back(std::move(step->light));
     }
+    wait_for_step_before();
     result_.totals = steps_.totals();
     return std::move(result_);
   }
 
  private:
+  // A step is brought to the disk while the next one is simulated.
+  void wait_for_step_before() {
+    if (writing_.valid()) writing_.get();
+  }
+
   std::optional<StoredStep> simulate_step(std::size_t i) {
     ranks_.set_stage(i);
     const DayTotals& totals = steps_.totals();
@@ -130,6 +138,7 @@ class DayRun {
   DaySteps steps_;
   double lit_steps_ = 0.0;
   DayResult result_;
+  std::future<void> writing_;  // of the last step
   ProgressLine progress_{"day"};
 };
 

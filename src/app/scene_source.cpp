@@ -54,10 +54,13 @@ Scene load_scene(const fs::path& scene, const StandFiles& stand, const SceneAcce
   }
   const CaribuSet set = caribu_set(scene, stand, access.allow_outside);
   const fs::path folder = scene.parent_path();
+  SourceFiles own;
+  SourceFiles* const files = access.files != nullptr ? access.files : &own;
   const CaribuScene made =
-      caribu_scene(set, {name_from(folder, scene).generic_string(), name_from(folder, stand.light).generic_string()});
+      caribu_scene(set, {name_from(folder, scene).generic_string(), name_from(folder, stand.light).generic_string()}, files);
   // Every file was named by the user; a .can names no others.
-  return read_scene(SceneText{scene, made.text, {}}, {.allow_outside = access.allow_outside || is_can_file(scene)});
+  return read_scene(SceneText{scene, made.text, {}},
+                    {.allow_outside = access.allow_outside || is_can_file(scene), .files = files});
 }
 
 std::string scene_stem(const fs::path& scene) {

@@ -11,7 +11,8 @@
 namespace sunfleck {
 
 // The scene, whichever of the two `scene` is. Throws Error (input) also for a mesh without optics or light, for the options of
-// one beside a scene file, and for the day of a mesh, which has no place.
+// one beside a scene file, and for the day of a mesh, which has no place. Scene::files has CARIBU's files too; the digest
+// covers them by the values that the scene's text takes from them.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& scene, const StandFiles& stand, const SceneAccess& access);
 
 // The set that a mesh makes with these options. Throws Error (input) where optics or light are missing.

@@ -140,16 +140,16 @@ class OptReader {
 
 }  // namespace
 
-CaribuOptics read_opt(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file, most_bytes);
+CaribuOptics read_opt(const std::filesystem::path& file, SourceFiles* files) {
+  const std::string bytes = read_source(file, files, most_bytes);
   const MeshSource source{file, bytes, {}};
   return OptReader(source).read();
 }
 
-CaribuDomain read_domain(const std::filesystem::path& file) {
+CaribuDomain read_domain(const std::filesystem::path& file, SourceFiles* files) {
   constexpr std::array<std::string_view, 4> names{"xmin", "ymin", "xmax", "ymax"};
   constexpr std::string_view form = "write: xmin ymin on one line, xmax ymax on the next";
-  const std::string bytes = read_file(file, most_bytes);
+  const std::string bytes = read_source(file, files, most_bytes);
   const MeshSource source{file, bytes, {}};
   CaribuLines lines(source);
   std::array<double, 4> values{};

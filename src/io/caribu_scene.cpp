@@ -76,17 +76,18 @@ std::optional<Surface> surface_named(const std::string& canopy, const std::strin
 
 class CaribuSceneText {
  public:
-  CaribuSceneText(const CaribuSet& set, const CaribuNames& names)
-      : set_(set), names_(names), canopy_(printable(set.canopy.string())) {}
+  CaribuSceneText(const CaribuSet& set, const CaribuNames& names, SourceFiles* files)
+      : set_(set), names_(names), files_(files), canopy_(printable(set.canopy.string())) {}
 
   CaribuScene write() {
     for (const std::string& name : {names_.canopy, names_.light}) check_file_name(name);
     read_bands();
-    const std::vector<SkyLight> lights = read_lights(set_.light);
+    const std::vector<SkyLight> lights = read_lights(set_.light, files_);
     std::optional<CaribuDomain> domain;
-    if (set_.domain) domain = read_domain(*set_.domain);
+    if (set_.domain) domain = read_domain(*set_.domain, files_);
     mesh_ = read_mesh(set_.canopy,
-                      {.optics = std::nullopt, .up = std::nullopt, .scale = set_.scale, .allow_outside = set_.allow_outside});
+                      {.optics = std::nullopt, .up = std::nullopt, .scale = set_.scale, .allow_outside = set_.allow_outside},
+                      files_);
     find_bounds();
 
     text_ = "# Made by sunfleck from " + shown(set_.canopy);
@@ -113,7 +114,7 @@ class CaribuSceneText {
       if (std::any_of(bands_.begin(), bands_.end(), [&](const NamedOptics& other) { return other.band == band.name; }))
         throw_input(fmt::format("--optics {}", printable(band.file.string())),
                     fmt::format("a band is called {} already", band.name), "name it: --optics NAME=FILE");
-      bands_.push_back({printable(band.file.string()), band.name, read_opt(band.file)});
+      bands_.push_back({printable(band.file.string()), band.name, read_opt(band.file, files_)});
     }
   }
 
@@ -237,6 +238,7 @@ class CaribuSceneText {
 
   const CaribuSet& set_;
   const CaribuNames& names_;
+  SourceFiles* const files_;
   const std::string canopy_;  // for messages
   std::vector<NamedOptics> bands_;
   Mesh mesh_;
@@ -263,9 +265,9 @@ CaribuBand caribu_band(std::string_view word) {
   return band;
 }
 
-CaribuScene caribu_scene(const CaribuSet& set, const CaribuNames& names) {
+CaribuScene caribu_scene(const CaribuSet& set, const CaribuNames& names, SourceFiles* files) {
   EXPECT(set.scale, >, 0.0);
-  return CaribuSceneText(set, names).write();
+  return CaribuSceneText(set, names, files).write();
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,8 @@
 #pragma once
 // A scene made of a set of CARIBU's files, as the text of a scene file: what `convert` writes is what `run` runs.
 
+#include "io/source_files.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -46,7 +48,8 @@ struct CaribuScene {
 //   these directions, `diffuse` = the sum of E;
 // - the soil, on the ground and where the mesh has soil, and leaves and stems of every species that the mesh uses.
 // Throws Error (input), one line, for what the readers of these files refuse, a species that an .opt file lacks, optics of
-// other names, two bands of a name, a plot or a canopy that is too small or too large for a scene.
-[[nodiscard]] CaribuScene caribu_scene(const CaribuSet& set, const CaribuNames& names);
+// other names, two bands of a name, a plot or a canopy that is too small or too large for a scene. `files`, where given, gets
+// all that was read.
+[[nodiscard]] CaribuScene caribu_scene(const CaribuSet& set, const CaribuNames& names, SourceFiles* files = nullptr);
 
 }  // namespace sunfleck

@@ -62,9 +62,10 @@ std::string day_csv(const RunRecord& record, const RadiationModel& model, const 
 std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                            std::span<const StepLight> lights) {
   constexpr double per_mega = 1e-6;
-  std::string text = table_head(record, "What organs absorbed over the steps of each date",
-                                "area_m2: m2, one-sided; absorbed: per one-sided area; _error: relative half-width of the "
-                                "confidence interval of absorbed");
+  std::string text = table_head(
+      record, "What organs absorbed over the steps of each date, soil elements included; the ground of [soil] has no row",
+      "area_m2: m2, one-sided; absorbed: per one-sided area; _error: relative half-width of the confidence interval of "
+      "absorbed");
   text += stopped_line(course, lights);
   text += "date,plant,organ,rank,area_m2";
   for (const Waveband& band : model.bands) {

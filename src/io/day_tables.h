@@ -16,6 +16,7 @@ namespace sunfleck {
 // tables say in a line of their own.
 [[nodiscard]] std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                   std::span<const StepLight> lights);
+// Rows as in organs.csv, for each date.
 [[nodiscard]] std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                          std::span<const StepLight> lights);
 

@@ -15,6 +15,7 @@
 #include <limits>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 namespace sunfleck {
 
@@ -44,7 +45,41 @@ int protection(const fs::path& file) {
   return ::access(file.c_str(), W_OK) == 0 ? 0 : errno;
 }
 
-// All bytes, and closes. 0 or errno.
+// Waits until the disk has a file or a folder. Returns 0 or errno; a file system that does not support it counts as done.
+int sync(int number) {
+  int code = 0;
+  do {
+    code = ::fsync(number) == 0 ? 0 : errno;
+  } while (code == EINTR);
+  return code == EINVAL || code == ENOTSUP ? 0 : code;
+}
+
+int sync_file(const fs::path& file) {
+  const int number = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (number < 0) return errno;
+  const int code = sync(number);
+  ::close(number);
+  return code;
+}
+
+// Waits until the disk has the entries of a folder. Returns 0 or errno; a folder that may be written but not read counts as
+// done.
+int sync_folder(const fs::path& folder) {
+  const int number = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (number < 0) return errno == EACCES ? 0 : errno;
+  const int code = sync(number);
+  ::close(number);
+  return code;
+}
+
+// Renames a file that the disk has, and waits for its new name. Returns 0 or errno.
+int put_in_place(const fs::path& file, const fs::path& aside) {
+  if (const int code = protection(file); code != 0) return code;
+  if (std::rename(aside.c_str(), file.c_str()) != 0) return errno;
+  return sync_folder(file.parent_path());
+}
+
+// Writes all bytes, waits until the disk has them, and closes. Returns 0 or errno.
 int fill(int number, std::string_view bytes) {
   int code = 0;
   while (!bytes.empty() && code == 0) {
@@ -52,6 +87,7 @@ int fill(int number, std::string_view bytes) {
     if (written < 0 && errno != EINTR) code = errno;
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
   }
+  if (code == 0) code = sync(number);
   if (::close(number) != 0 && code == 0) code = errno;  // a network's disk may be full only now
   return code;
 }
@@ -167,11 +203,11 @@ void write_file(const fs::path& file, std::string_view bytes) {
   ::unlink(aside.c_str());
   const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (number < 0) refuse_write(file, errno);
-  if (const int code = fill(number, bytes); code != 0) {
-    ::unlink(aside.c_str());
-    refuse_write(file, code);
-  }
-  replace_file(file, aside);
+  int code = fill(number, bytes);
+  if (code == 0) code = put_in_place(file, aside);
+  if (code == 0) return;
+  ::unlink(aside.c_str());
+  refuse_write(file, code);
 }
 
 void check_writable(const fs::path& file) {
@@ -179,11 +215,22 @@ void check_writable(const fs::path& file) {
 }
 
 void replace_file(const fs::path& file, const fs::path& aside) {
-  int code = protection(file);
-  if (code == 0 && std::rename(aside.c_str(), file.c_str()) != 0) code = errno;
+  int code = sync_file(aside);
+  if (code == 0) code = put_in_place(file, aside);
   if (code == 0) return;
   ::unlink(aside.c_str());
   refuse_write(file, code);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> parents;  // that get an entry
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path()) parents.push_back(at.parent_path());
+  fs::create_directories(folder, error);
+  if (error) throw_failure(printable(folder.string()), error.message(), "give a folder that can be written with -o");
+  for (const fs::path& parent : parents) {
+    if (const int code = sync_folder(parent); code != 0) refuse_write(folder, code);
+  }
 }
 
 bool is_left_aside(std::string_view name, std::string_view of) {

@@ -21,12 +21,19 @@ inline constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 30U;
 // that is less. The machine's memory where the system tells neither.
 [[nodiscard]] std::uintmax_t available_memory_bytes();
 
-// Writes aside, in the same folder, and renames, so that the file is whole or not there, whatever ends the program. The folder
-// must exist; a file that is write-protected stays. Throws Error (failure).
+// Writes aside, in the same folder, and renames, so that the file is whole or not there, whatever ends the program. It waits
+// until the disk has the bytes before it renames, and until the disk has the new name before it returns (fsync of the file and
+// of the folder), so that this holds for a power cut too; where the file system does not support that, it does not wait. The
+// folder must exist; a file that is write-protected stays. Throws Error (failure); if only the folder could not be brought to
+// the disk, the file is there all the same.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-// Puts the finished `aside` in the place of `file`, on the same file system. Throws Error (failure), and removes `aside`.
+// Puts the finished `aside` in the place of `file`, on the same file system, and waits for the disk as write_file does. Throws
+// Error (failure), and removes `aside`.
 void replace_file(const std::filesystem::path& file, const std::filesystem::path& aside);
+
+// Makes the folder and those above it where they are missing, and waits until the disk has them. Throws Error (failure).
+void make_folder(const std::filesystem::path& folder);
 
 // Throws Error (failure) for what write_file would refuse to replace.
 void check_writable(const std::filesystem::path& file);

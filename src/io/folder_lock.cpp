@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 namespace sunfleck {
@@ -22,9 +21,7 @@ FolderLock::~FolderLock() {
 }
 
 void FolderLock::make_folder() {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) throw_failure(printable(folder_.string()), error.message(), "give a folder that can be written with -o");
+  sunfleck::make_folder(folder_);
   take();
 }
 

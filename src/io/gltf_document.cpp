@@ -227,7 +227,7 @@ std::string read_buffer(const MeshSource& source, const std::string& uri) {
   if (!source.allow_outside && !lies_in_folder_of(source.file, file))
     refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must lie beside the glTF file or below it",
            "move it there, export as .glb, or run with --allow-outside");
-  return read_file(file, most_buffer_bytes);
+  return read_source(file, source.files, most_buffer_bytes);
 }
 
 // A buffer may be longer than it says (GLB pads to 4 bytes), never shorter.

@@ -46,8 +46,8 @@ SkyLight parse_light(const MeshSource& source, std::size_t line, std::string_vie
 
 }  // namespace
 
-std::vector<SkyLight> read_lights(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file, most_bytes);
+std::vector<SkyLight> read_lights(const std::filesystem::path& file, SourceFiles* files) {
+  const std::string bytes = read_source(file, files, most_bytes);
   const MeshSource source{file, bytes, {}};
   std::vector<SkyLight> lights;
   LineReader lines(without_mark(bytes));

@@ -2,6 +2,7 @@
 // What the mesh readers share: the file they read, the mesh they build, lines, numbers and messages.
 
 #include "canopy/mesh.h"
+#include "io/source_files.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,7 @@ struct MeshSource {
   std::string_view bytes;             // not empty
   std::optional<std::string> optics;  // for triangles whose file names no material
   bool allow_outside = false;         // may a glTF file's buffers lie outside its folder?
+  SourceFiles* files = nullptr;       // gets a glTF file's buffers
 };
 
 // One reader a format. Coordinates come back as the file has them: neither turned nor scaled; a mesh may be empty.

@@ -108,12 +108,12 @@ bool is_can_file(const std::filesystem::path& file) {
   return format_of(file) == MeshFormat::can;
 }
 
-Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import) {
+Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import, SourceFiles* files) {
   EXPECT(import.scale, >, 0.0);
   const MeshFormat format = format_of(file);
-  MeshSource source{file, {}, import.optics, import.allow_outside};
+  MeshSource source{file, {}, import.optics, import.allow_outside, files};
   try {
-    const std::string bytes = format == MeshFormat::unknown ? std::string() : read_file(file);
+    const std::string bytes = format == MeshFormat::unknown ? std::string() : read_source(file, files);
     source.bytes = without_mark(bytes);
     if (source.bytes.empty() && format != MeshFormat::unknown)
       refuse(source, 0, "the file is empty", "a mesh needs at least one triangle", "write it again");

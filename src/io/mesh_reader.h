@@ -2,6 +2,7 @@
 // Reads mesh files: glTF and GLB, OBJ, PLY, STL, CARIBU .can and .can.gz. The format follows from the file's name.
 
 #include "canopy/mesh.h"
+#include "io/source_files.h"
 
 #include <filesystem>
 #include <optional>
@@ -23,8 +24,8 @@ struct MeshImport {
 // plant (number 1) whose organ names are the optics names, rank 0.
 // Throws Error (input), one line with the file and, where it has one, the line: missing or empty file, unknown format, cut-off
 // or malformed content, an index out of range, a number that is not finite or cannot be read, no triangle at all, a triangle
-// without a material where `optics` is not given.
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import);
+// without a material where `optics` is not given. `files`, where given, gets it and a glTF file's buffers.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import, SourceFiles* files = nullptr);
 
 // The same for a mesh at hand, whose optics are all named: checked, turned to the scene's axes (y is up unless told otherwise)
 // and scaled. Throws Error (input), beginning with `place`: no triangle, arrays of different lengths, an index out of range, a

@@ -90,6 +90,7 @@ json result_json(const RadiationResult& result) {
           {"rays", result.direct.rays},
           {"direct_error", error_json(result.direct.relative_error)},
           {"packets", result.indirect.packets},
+          {"sky_rays", result.indirect.sky_rays},
           {"indirect_error", error_json(result.indirect.relative_error)},
           {"landings", pack(result.elements)},
           {"cells", result.soil_cells.size()},
@@ -215,6 +216,7 @@ RadiationResult read_result(const json& from, const RadiationModel& model) {
   result.direct.rays = whole<std::uint64_t>(from.at("rays"));
   result.direct.relative_error = error_of(from, "direct_error");
   result.indirect.packets = whole<std::uint64_t>(from.at("packets"));
+  if (from.contains("sky_rays")) result.indirect.sky_rays = whole<std::uint64_t>(from["sky_rays"]);
   result.indirect.relative_error = error_of(from, "indirect_error");
   result.elements = unpack<ElementResult>(from.at("landings"), elements);
   result.soil_cells = unpack<std::uint64_t>(from.at("cell_landings"), cells);

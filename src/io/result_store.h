@@ -19,7 +19,7 @@ inline constexpr const char* result_store_file = "pictures.cbor";
 
 // Of the scene: title, digest, model and camera; the model without the sky's kind, planes and sensors (`sky` is there if it has
 // one). Of the result: all that counts landings and quanta by side and by cell, what turns them into W m-2, leaf area index,
-// and the rays, packets and relative errors of both passes.
+// and the rays, packets, sky rays and relative errors of both passes. Files of earlier builds lack the sky rays: 0.
 struct StoredResult {
   Scene scene;
   RadiationResult result;

@@ -235,7 +235,7 @@ std::string profile_csv(const RunRecord& record, const RadiationModel& model, co
 }
 
 std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  std::string text = table_head(record, "Organs",
+  std::string text = table_head(record, "Organs, those of soil elements included; the ground of [soil] has no row",
                                 "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided "
                                 "area; _error: relative half-width of the confidence interval of absorbed; "
                                 "absorbed_umol_m2_s: the same in photons, umol m-2 s-1");

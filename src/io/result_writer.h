@@ -44,7 +44,9 @@ struct RunRecord {
 [[nodiscard]] std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 
 // The tables, as text. Numbers have nine significant digits; a cell is empty where there is no value: intervals of too few
-// replicates or hits, and shares of a beam that is not there.
+// replicates or hits, and shares of a beam that is not there. organs.csv has a row for each organ of the canopy, in its order,
+// also for soil elements that a mesh brings along (organ soil; plant 0 from a .can). The ground of [soil] is no organ and has
+// no row; what both absorb together is absorbed_soil of the summary.
 [[nodiscard]] std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);

@@ -30,6 +30,7 @@ fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, con
   if (!access.allow_outside && !lies_in(file, folder)) {
     table.refuse("file", "it lies outside the scene's folder", "move it beside the scene, or run with --allow-outside");
   }
+  access.files->note(folder / name);
   const fs::file_status status = fs::status(file, code);
   if (status.type() == fs::file_type::not_found) {
     table.refuse("file", "there is no such file; names are relative to the scene's folder", "correct the name");

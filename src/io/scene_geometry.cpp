@@ -115,10 +115,10 @@ void refuse_far(const GeometryPart& part, const Mesh& mesh) {
   }
 }
 
-Mesh load_mesh(const GeometryPart& part) {
+Mesh load_mesh(const GeometryPart& part, SourceFiles& files) {
   if (part.maize) return make_maize(*part.maize);
   return part.mesh != nullptr ? import_mesh(*part.mesh, part.table.place("mesh"), part.import)
-                              : read_mesh(part.file, part.import);
+                              : read_mesh(part.file, part.import, &files);
 }
 
 const OpticsInput* find_optics(const OpticsByName& defined, const std::string& name) {
@@ -189,7 +189,7 @@ std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& 
   return parts;
 }
 
-std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts) {
+std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files) {
   constexpr std::size_t least_of_plant = 10'000;  // triangles
   std::vector<PlacedMesh> meshes;
   std::size_t triangles = 0;
@@ -198,7 +198,7 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts) {
       const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
       refuse_many(part, triangles + plants * least_of_plant);
     }
-    meshes.push_back({load_mesh(part), part.placements});
+    meshes.push_back({load_mesh(part, files), part.placements});
     const Mesh& mesh = meshes.back().mesh;
     refuse_far(part, mesh);
     triangles += mesh.triangles.size() * part.placements.size();

@@ -1,5 +1,6 @@
 #pragma once
-// The parts of a scene file, each read and checked from its tables. Only the scene reader uses them.
+// The parts of a scene file, each read and checked from its tables. Only the scene reader uses them; it gives `access` a list
+// of files.
 
 #include "canopy/maize.h"
 #include "io/mesh_reader.h"
@@ -12,7 +13,8 @@
 namespace sunfleck {
 
 // Where the file that `table.file` names lies, symbolic links resolved: relative to the scene's folder, and inside it unless
-// access allows more. Refused if it is not a regular file; `wanted` is the cure where it is something else.
+// access allows more. Refused if it is not a regular file; `wanted` is the cure where it is something else. The unresolved path
+// goes to access.files: a link may come to lead elsewhere, and a missing file may appear.
 [[nodiscard]] std::filesystem::path find_scene_file(const TomlTable& table, const std::filesystem::path& scene_file,
                                                     const SceneAccess& access, std::string_view wanted);
 
@@ -29,7 +31,6 @@ struct SunInput {
 
 struct WeatherInput {
   Weather weather;
-  std::filesystem::path file;  // empty if there is none
   TomlTable table;
 
   [[nodiscard]] bool may_be_diffuse() const;
@@ -40,8 +41,7 @@ struct WeatherInput {
 
 struct SkyInput {
   SkyModel model;
-  bool from_weather = false;   // perez without dni and dhi
-  std::filesystem::path file;  // of lights; else empty
+  bool from_weather = false;  // perez without dni and dhi
 };
 [[nodiscard]] std::optional<SkyInput> read_sky(const TomlTable& root, const std::filesystem::path& scene_file,
                                                const SceneAccess& access, const std::optional<SunInput>& sun,
@@ -87,7 +87,7 @@ struct GeometryPart {
                                                       const SceneAccess& access);
 
 // Refuses more triangles than this machine's memory holds, before it takes the memory for their copies.
-[[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts);
+[[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files);
 
 // Refuses the table whose mesh uses undefined optics. Names of soil need none of their own where there is [soil].
 void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,

@@ -106,20 +106,21 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   for (const Organ& organ : mesh.organs) digest.add(fmt::format("{} {} {}\n", organ.plant, organ.name, organ.rank));
 }
 
-std::string digest_of(std::string_view text, std::span<const std::filesystem::path> files,
-                      std::span<const GeometryPart> parts) {
+// `files` are those that were read for the text.
+std::string digest_of(std::string_view text, std::span<const SourceFile> files, std::span<const GeometryPart> parts) {
   Digest digest;
   digest.add(text);
-  for (const std::filesystem::path& file : files) digest.add(read_file(file));
+  for (const SourceFile& file : files) {
+    if (!file.digest.empty()) digest.add(file.digest + "\n");
+  }
   for (const GeometryPart& part : parts) {
     if (part.mesh != nullptr) add_mesh(digest, *part.mesh);
-    if (!part.file.empty()) digest.add(read_file(part.file));
   }
   return digest.text();
 }
 
-// [sun], [sky], [weather] and [[band]]; returns the files they name.
-std::vector<std::filesystem::path> read_light(const TomlTable& root, const SceneAccess& access, Scene& scene) {
+// Reads [sun], [sky], [weather] and [[band]].
+void read_light(const TomlTable& root, const SceneAccess& access, Scene& scene) {
   const std::optional<SunInput> sun = read_sun(root);
   if (sun) {
     scene.model.sun = sun->position;
@@ -131,14 +132,11 @@ std::vector<std::filesystem::path> read_light(const TomlTable& root, const Scene
   BandsInput bands = read_bands(root, sun, sky, weather, scene.warnings);
   scene.model.bands = std::move(bands.bands);
   scene.light.bands = std::move(bands.lights);
-  std::vector<std::filesystem::path> files;
   if (weather) {
-    if (!weather->file.empty()) files.push_back(weather->file);
     scene.light.weather_place = weather->table.place();
     scene.light.weather = std::move(weather->weather);
   }
   if (sky) {
-    if (!sky->file.empty()) files.push_back(sky->file);
     scene.light.sky = sky->model;
     scene.light.sky_from_weather = sky->from_weather;
     scene.model.sky = sky->model;
@@ -148,7 +146,12 @@ std::vector<std::filesystem::path> read_light(const TomlTable& root, const Scene
     scene.model.bands = std::move(now.bands);
     scene.model.sky = std::move(now.sky);
   }
-  return files;
+}
+
+// The same with a list of files: the caller's, else `own`.
+SceneAccess noting_access(SceneAccess access, SourceFiles& own) {
+  if (access.files == nullptr) access.files = &own;
+  return access;
 }
 
 TomlTable parse_scene(const SceneText& source) {
@@ -158,25 +161,20 @@ TomlTable parse_scene(const SceneText& source) {
   return root;
 }
 
-struct LightParts {
-  std::vector<std::filesystem::path> files;  // that the tables of light name
-  OpticsByName optics;
-};
-
-LightParts read_all_but_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access, Scene& scene) {
-  LightParts parts;
+// Returns the optics, of which the canopy takes its own.
+OpticsByName read_all_but_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access, Scene& scene) {
   scene.file = source.file;
   scene.title = read_title(root, source.file);
   scene.model.plot = read_plot(root);
-  parts.files = read_light(root, access, scene);
+  read_light(root, access, scene);
   scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, scene.warnings);
-  parts.optics = read_optics(root, scene.model.bands);
+  OpticsByName optics = read_optics(root, scene.model.bands);
   scene.accuracy = read_accuracy(root);
   scene.camera = read_camera(root);
   scene.model.layers = read_layers(root, scene.model.layers);
   scene.model.planes = read_planes(root, scene.model.plot);
   scene.model.sensors = read_sensors(root);
-  return parts;
+  return optics;
 }
 
 // What the tree and the counters of a canopy were made for.
@@ -200,21 +198,27 @@ Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
     throw_input(fmt::format("{}: not a scene", printable(file.string())), "this is a mesh",
                 "name it under [[geometry]] of a scene file");
   }
-  return read_scene(SceneText{file, read_file(file, most_bytes), {}}, access);
+  SourceFiles own;
+  const SceneAccess noting = noting_access(access, own);
+  return read_scene(SceneText{file, noting.files->read(file, most_bytes), {}}, noting);
 }
 
 Scene read_scene(const SceneText& source, const SceneAccess& access) {
+  SourceFiles own;
+  const SceneAccess noting = noting_access(access, own);
+  const std::size_t before = noting.files->list().size();
   const TomlTable root = parse_scene(source);
   Scene scene;
-  LightParts light = read_all_but_geometry(root, source, access, scene);
+  const OpticsByName optics = read_all_but_geometry(root, source, noting, scene);
 
-  const std::vector<GeometryPart> parts = read_geometry(root, source, access);
-  const std::vector<PlacedMesh> meshes = load_geometry(parts);
+  const std::vector<GeometryPart> parts = read_geometry(root, source, noting);
+  const std::vector<PlacedMesh> meshes = load_geometry(parts, *noting.files);
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
-  check_optics(parts, meshes, light.optics, scene);
-  scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, light.optics, scene.model.soil);
-  scene.digest = digest_of(source.text, light.files, parts);
-  warn_of_unused(light.optics, scene, scene.warnings);
+  check_optics(parts, meshes, optics, scene);
+  scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, scene.model.soil);
+  scene.files = noting.files->list();
+  scene.digest = digest_of(source.text, std::span(scene.files).subspan(before), parts);
+  warn_of_unused(optics, scene, scene.warnings);
   for (std::string& warning : scene_doubts(scene)) scene.warnings.push_back(std::move(warning));
   for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
   return scene;
@@ -222,15 +226,24 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
 
 void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
   const TomlTable root = parse_scene(source);
+  SourceFiles own;
+  const SceneAccess noting = noting_access(access, own);
+  const std::size_t before = noting.files->list().size();
   Scene other;
-  const LightParts light = read_all_but_geometry(root, source, access, other);
-  const std::vector<GeometryPart> none;
+  const OpticsByName optics = read_all_but_geometry(root, source, noting, other);
   check_same_ground(root, scene.model, other.model);
-  other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, light.optics, other.model.soil);
+  other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, other.model.soil);
+  const std::span<const SourceFile> read = std::span(noting.files->list()).subspan(before);
   Digest digest;
   digest.add(scene.digest);
-  digest.add(digest_of(source.text, light.files, none));
+  digest.add(digest_of(source.text, read, {}));
   other.digest = digest.text();
+  other.files = std::move(scene.files);
+  const auto is_read_again = [&](const SourceFile& known) {
+    return std::any_of(read.begin(), read.end(), [&](const SourceFile& file) { return file.path == known.path; });
+  };
+  std::erase_if(other.files, is_read_again);  // a scene is often given other light, from the same files
+  other.files.insert(other.files.end(), read.begin(), read.end());
   other.model.canopy = std::move(scene.model.canopy);
   scene = std::move(other);
 }

@@ -2,6 +2,7 @@
 // The scene file (TOML): the only place that knows its keys, degrees and the units of users.
 
 #include "canopy/mesh.h"
+#include "io/source_files.h"
 #include "light/sun.h"
 #include "light/weather.h"
 #include "transport/accuracy.h"
@@ -53,7 +54,11 @@ struct SceneLight {
 struct Scene {
   std::string title;  // the file's stem where it has none
   std::filesystem::path file;
-  std::string digest;  // 16 hexadecimal digits: FNV-1a, 64 bits, over the scene's text and the bytes of every file it names
+  // Every file that it was read from, as SourceFiles lists them; first what `access.files` held before.
+  std::vector<SourceFile> files;
+  // 16 hexadecimal digits: FNV-1a, 64 bits, over the scene's text and the digests of the files that the text names and that
+  // those name in turn. Where the files lie does not matter.
+  std::string digest;
   RadiationModel model;
   SceneLight light;
   std::optional<SunMoment> moment;
@@ -69,6 +74,7 @@ enum class ScenePurpose { moment, day };
 struct SceneAccess {
   bool allow_outside = false;  // may files lie outside the scene's folder?
   ScenePurpose purpose = ScenePurpose::moment;
+  SourceFiles* files = nullptr;  // where given, gets every file that is tried, also if reading the scene then fails
 };
 
 // Reads, checks and assembles a scene. Throws Error (input), one line `file:line: key ...`, before any work starts.
@@ -86,8 +92,9 @@ struct SceneText {
 [[nodiscard]] Scene read_scene(const SceneText& source, const SceneAccess& access = {});
 
 // Gives a scene all that a text says but geometry, which is not looked at: the canopy stays as it is. Warnings are those of the
-// new light. Throws Error (input), and leaves the scene as it was, besides for optics that the canopy uses and the text does
-// not define, and for another plot, layers or soil cells than the scene has: its tree and counters were made for these.
+// new light; the files of the text are added to the scene's. Throws Error (input), and leaves the scene as it was, besides for
+// optics that the canopy uses and the text does not define, and for another plot, layers or soil cells than the scene has: its
+// tree and counters were made for these.
 void relight(Scene& scene, const SceneText& source, const SceneAccess& access = {});
 
 }  // namespace sunfleck

@@ -77,8 +77,7 @@ std::optional<SkyInput> read_sky(const TomlTable& root, const std::filesystem::p
     case Named::lights:
       table->require("file", "file = \"sky.light\"");
       input.model.kind = SkyKind::lights;
-      input.file = find_scene_file(*table, scene_file, access, "name a list of directions");
-      input.model.lights = read_lights(input.file);
+      input.model.lights = read_lights(find_scene_file(*table, scene_file, access, "name a list of directions"), access.files);
       break;
   }
   if (!sun && input.model.follows_sun()) {

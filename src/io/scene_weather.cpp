@@ -55,9 +55,9 @@ void read_weather_file(const TomlTable& table, const std::filesystem::path& scen
                        const SunInput& sun, WeatherInput& input, std::vector<std::string>& warnings) {
   refuse_with(table, {"ghi", "dni", "dhi", "clear_sky"}, "a file is given too, and each is weather by itself");
   if (!sun.moment) table.refuse("file", "[sun] has no time to find in it", "give time, latitude and longitude in [sun]");
-  input.file = find_scene_file(table, scene_file, access, "name a .csv or .epw file");
-  if (!is_weather_file(input.file)) table.refuse("file", "its format is not known", "give .csv or .epw");
-  WeatherFile file = read_weather(input.file);
+  const std::filesystem::path path = find_scene_file(table, scene_file, access, "name a .csv or .epw file");
+  if (!is_weather_file(path)) table.refuse("file", "its format is not known", "give .csv or .epw");
+  WeatherFile file = read_weather(path, access.files);
   warn_of_other_place(table, file, *sun.moment, warnings);
   warn_of_other_year(table, file, *sun.moment, warnings);
   input.weather = std::move(file.weather);
@@ -106,7 +106,7 @@ std::optional<WeatherInput> read_weather_table(const TomlTable& root, const std:
   if (!table) return std::nullopt;
   table->allow({"ghi", "dni", "dhi", "file", "split", "clear_sky", "linke_turbidity", "altitude"});
   if (!sun) table->refuse_table("there is no [sun] for its light to come from", "add [sun]");
-  WeatherInput input{.weather = {}, .file = {}, .table = *table};
+  WeatherInput input{.weather = {}, .table = *table};
   if (!table->has("clear_sky")) {
     refuse_with(*table, {"linke_turbidity", "altitude"}, "it is for clear_sky = \"ineichen\"");
   }

@@ -137,9 +137,7 @@ StepStore::Found StepStore::find() const {
 }
 
 void StepStore::begin() {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw_failure(printable(folder_.string()), error.message(), "give a folder that can be written with -o");
+  make_folder(folder_);
   remove_steps(folder_);
   write_settings(false);
 }
@@ -150,6 +148,10 @@ void StepStore::finish() {
 }
 
 void StepStore::write(std::size_t step, const StoredStep& stored) const {
+  begin_write(step, stored).get();
+}
+
+std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& stored) const {
   const json content = {{"settings", settings_},
                         {"step", step},
                         {"light", pack(numbers_of(stored.light))},
@@ -163,7 +165,9 @@ void StepStore::write(std::size_t step, const StoredStep& stored) const {
                         {"indirect_error", error_json(stored.indirect_error)},
                         {"reached_bound", stored.reached_bound},
                         {"seconds", stored.seconds}};
-  write_file(file_of(step), sealed(step_mark, content));
+  // Where no thread can be had the file is written when the future is asked.
+  return std::async(std::launch::async | std::launch::deferred,
+                    [file = file_of(step), bytes = sealed(step_mark, content)] { write_file(file, bytes); });
 }
 
 std::optional<StoredStep> StepStore::read(std::size_t step) const {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -47,6 +48,9 @@ class StepStore {
   void finish();  // notes that the tables are written and removes the steps
 
   void write(std::size_t step, const StoredStep& stored) const;
+  // The same while the caller goes on: what is to be written is copied before this returns, and the disk is waited for in
+  // another thread. The future throws what `write` would throw.
+  [[nodiscard]] std::future<void> begin_write(std::size_t step, const StoredStep& stored) const;
   // Empty if the step is not there, was made with other settings, or its file is damaged.
   [[nodiscard]] std::optional<StoredStep> read(std::size_t step) const;
 

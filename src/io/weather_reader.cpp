@@ -31,7 +31,7 @@ bool is_weather_file(const fs::path& file) {
   return extension == ".csv" || extension == ".epw";
 }
 
-WeatherFile read_weather(const fs::path& file) {
+WeatherFile read_weather(const fs::path& file, SourceFiles* files) {
   WeatherSource source{file, {}};
   if (!is_weather_file(file)) refuse(source, 0, "its format is not known", "weather is .csv or .epw", "give one of these");
   std::error_code code;
@@ -40,7 +40,7 @@ WeatherFile read_weather(const fs::path& file) {
     refuse(source, 0, fmt::format("has {} bytes", size), fmt::format("at most {} are possible", most_bytes),
            "cut out the days of interest");
   }
-  const std::string bytes = read_file(file);
+  const std::string bytes = read_source(file, files);
   source.bytes = without_mark(bytes);
   if (source.bytes.empty()) refuse(source, 0, "the file is empty", "weather needs at least one row", "write it again");
   if (bytes.find('\0') != std::string::npos) {

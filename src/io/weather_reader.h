@@ -1,6 +1,7 @@
 #pragma once
 // Time series of broadband irradiance: a station's CSV and EnergyPlus weather (EPW).
 
+#include "io/source_files.h"
 #include "light/weather.h"
 
 #include <array>
@@ -30,7 +31,9 @@ struct WeatherFile {
 // EPW: eight header lines, then 8760 hours (8784 in a leap year) of local standard time. An hour's number, 1 to 24, marks its
 // end. They hold in every year (Weather::every_year): a date is found by month, day and hour. Values marked as missing (from
 // 9999) are kept as such and refused when they are used.
-[[nodiscard]] WeatherFile read_weather(const std::filesystem::path& file);
+//
+// `files`, where given, gets it.
+[[nodiscard]] WeatherFile read_weather(const std::filesystem::path& file, SourceFiles* files = nullptr);
 
 // More is no irradiance on earth but another unit (kJ, or a sum over the interval).
 inline constexpr double most_broadband_w_m2 = 3000.0;

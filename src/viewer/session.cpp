@@ -8,18 +8,13 @@
 namespace sunfleck {
 namespace {
 
-Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file) {
+Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file, SourceFiles& files) {
   // A file that was dropped on the window is a scene file.
   const StandFiles stand = file == options.run.scene ? options.run.stand : StandFiles{};
-  Scene scene = load_scene(file, stand, {options.run.allow_outside});
+  Scene scene = load_scene(file, stand, {.allow_outside = options.run.allow_outside, .files = &files});
   check_view(scene.model, options.run.pictures);
   check_grid(options.run, scene);
   return scene;
-}
-
-std::filesystem::file_time_type time_written(const std::filesystem::path& file) {
-  std::error_code error;
-  return std::filesystem::last_write_time(file, error);
 }
 
 template <class Named>
@@ -38,10 +33,10 @@ RunOptions run_options(const ViewOptions& options, const std::filesystem::path& 
 
 }  // namespace
 
-Session::Session(const ViewOptions& options, const std::filesystem::path& scene_file, const std::function<void()>& notify)
+Session::Session(const ViewOptions& options, const std::filesystem::path& scene_file, SourceFiles& files,
+                 const std::function<void()>& notify)
     : file(scene_file),
-      written(time_written(scene_file)),
-      scene_(checked_scene(options, file)),
+      scene_(checked_scene(options, file, files)),
       title(scene_.title),
       light_of_scene(wish_of(scene_)),
       bands(names_of(scene_.model.bands)),

@@ -16,11 +16,11 @@ namespace sunfleck {
 class Session {
  public:
   // Reads the scene and begins to simulate it. Throws Error (input) for a broken scene, Error (device) without the device.
-  // `notify` is called from other threads.
-  Session(const ViewOptions& options, const std::filesystem::path& scene_file, const std::function<void()>& notify);
+  // `files` gets all that reading tries, also if it fails; `notify` is called from other threads.
+  Session(const ViewOptions& options, const std::filesystem::path& scene_file, SourceFiles& files,
+          const std::function<void()>& notify);
 
   std::filesystem::path file;
-  const std::filesystem::file_time_type written;  // before it was read
 
  private:
   Scene scene_;  // until `light` takes it over

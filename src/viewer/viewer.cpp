@@ -60,7 +60,9 @@ Viewer::Viewer(const ViewOptions& options, Window& window)
     window_.end_frame({}, true, background);
   }
   state_.message.clear();
-  enter(std::make_unique<Session>(options_, options.run.scene, &Window::wake));
+  SourceFiles files;
+  enter(std::make_unique<Session>(options_, options.run.scene, files, &Window::wake));
+  watch_.add(files.list());
 }
 
 int Viewer::run() {
@@ -88,7 +90,8 @@ void Viewer::frame() {
   const bool drawn = window_.begin_frame(at_work() ? busy_wait_s : idle_wait_s);
   const Clock::time_point start = Clock::now();
   finish_loading();
-  watch_scene_file();
+  take_dropped_files();
+  watch_files();
   take_news();
   take_picture();
   if (!drawn) return;
@@ -225,13 +228,13 @@ void Viewer::save_picture() {
   if (saving_picture_.valid() || !state_.frame) return;
   const fs::path folder = save_folder();
   std::error_code error;
-  fs::create_directories(folder, error);
   fs::path file;
   do {
     file = folder / fmt::format("view_{}_{:03d}.png", stem_of(state_.picture), ++saved_pictures_);
   } while (fs::exists(file, error));
-  saving_picture_ = std::async(std::launch::async, [frame = state_.frame, file] {
+  saving_picture_ = std::async(std::launch::async, [frame = state_.frame, folder, file] {
     try {
+      make_folder(folder);
       write_frame(*frame, file);
       return SaveOutcome{true, file.string()};
     } catch (const std::exception& problem) {

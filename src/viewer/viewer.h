@@ -4,6 +4,7 @@
 #include "app/options.h"
 #include "gpu/window.h"
 #include "viewer/events.h"
+#include "viewer/file_watch.h"
 #include "viewer/hands.h"
 #include "viewer/session.h"
 #include "viewer/state.h"
@@ -41,7 +42,8 @@ class Viewer {
   void enter(std::unique_ptr<Session> session);
   void load(const std::filesystem::path& file);
   void finish_loading();
-  void watch_scene_file();
+  void take_dropped_files();
+  void watch_files();
 
   void frame();
   [[nodiscard]] Stage stage() const;
@@ -71,9 +73,11 @@ class Viewer {
 
   std::vector<std::future<void>> leaving_;  // of sessions before; they end in their own time
   std::unique_ptr<Session> session_;
+  std::filesystem::path loading_file_;
+  std::unique_ptr<SourceFiles> loading_files_;  // the loading thread's until it is done
   std::future<std::unique_ptr<Session>> loading_;
-  std::filesystem::file_time_type scene_written_;
-  double next_look_at_file_s_ = 0.0;
+  FileWatch watch_;
+  double next_look_at_files_s_ = 0.0;
 
   ViewerState state_;
   std::optional<Placed> placed_;

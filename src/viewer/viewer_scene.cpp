@@ -1,4 +1,4 @@
-// Which scene the window shows: loading, entering, and watching its file.
+// Which scene the window shows: loading, entering, and watching its files.
 
 #include "app/simulation.h"
 #include "base/error.h"
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double look_at_file_s = 0.5;
+constexpr double look_at_files_s = 0.5;
 
 }  // namespace
 
@@ -33,7 +33,6 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   if (session_) leaving_.push_back(std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); }));
   session_ = std::move(session);
   const Scene& scene = session_->light.geometry();
-  scene_written_ = session_->written;
   state_.light = session_->light_of_scene;
   state_.news = {};
   state_.title = session_->title;
@@ -70,24 +69,30 @@ void Viewer::load(const fs::path& file) {
     return;
   }
   say_to_user(fmt::format("Loading {} …", file.filename().string()), false);
-  loading_ = std::async(std::launch::async,
-                        [options = options_, file] { return std::make_unique<Session>(options, file, &Window::wake); });
+  loading_file_ = file;
+  loading_files_ = std::make_unique<SourceFiles>();
+  loading_ = std::async(std::launch::async, [options = options_, file, files = loading_files_.get()] {
+    return std::make_unique<Session>(options, file, *files, &Window::wake);
+  });
 }
 
 void Viewer::finish_loading() {
   if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   try {
     enter(loading_.get());
+    watch_.clear();
     if (session_->warnings.empty()) say_to_user("Loaded.", false);
   } catch (const std::bad_alloc&) {
     say_to_user("out of memory (the scene does not fit); load a smaller one", true);
   } catch (const std::exception& error) {
     say_to_user(error.what(), true);
   }
+  // Those of a scene that failed too: where one was broken or missing it may yet be mended.
+  if (session_->file == loading_file_) watch_.add(loading_files_->list());
   if (to_load_) load(*std::exchange(to_load_, std::nullopt));
 }
 
-void Viewer::watch_scene_file() {
+void Viewer::take_dropped_files() {
   for (const fs::path& file : window_.take_dropped_files()) {
     if (file.extension() == ".toml") {
       load(file);
@@ -95,13 +100,12 @@ void Viewer::watch_scene_file() {
       say_to_user(fmt::format("{} (no scene file); drop a .toml", printable(file.filename().string())), true);
     }
   }
-  if (now_s() < next_look_at_file_s_ || loading_.valid()) return;
-  next_look_at_file_s_ = now_s() + look_at_file_s;
-  std::error_code error;
-  const auto written = fs::last_write_time(session_->file, error);
-  if (error || written == scene_written_) return;  // while an editor replaces it, it may be away
-  scene_written_ = written;
-  load(session_->file);
+}
+
+void Viewer::watch_files() {
+  if (now_s() < next_look_at_files_s_ || loading_.valid()) return;
+  next_look_at_files_s_ = now_s() + look_at_files_s;
+  if (watch_.has_changed()) load(session_->file);
 }
 
 }  // namespace sunfleck

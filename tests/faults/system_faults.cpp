@@ -1,8 +1,13 @@
-// Preloaded before the program (LD_PRELOAD): a disk that fills up, and a clock that jumps.
-//   SUNFLECK_FAULT_FOLDER=/a/folder SUNFLECK_FAULT_BYTES=1000   files below it take so many bytes in all, then there is no
-//   space SUNFLECK_FAULT_CLOCK=1                                      the time of day jumps by years, to and fro
+// Preloaded before the program (LD_PRELOAD): a disk that fills up or breaks, and a clock that jumps.
+//   SUNFLECK_FAULT_FOLDER=/a/folder   the faults of the disk are about files in it and below
+//   SUNFLECK_FAULT_BYTES=1000         these take so many bytes in all, then there is no space
+//   SUNFLECK_FAULT_JOURNAL=/a/file    gets a line for each write, fsync and rename, in their order: `write NAME`, `fsync NAME`,
+//                                     `rename NAME NAME`, names relative to the folder
+//   SUNFLECK_FAULT_FSYNC=NAME         fsync of files whose relative name begins so fails, with SUNFLECK_FAULT_ERRNO
+//   SUNFLECK_FAULT_CLOCK=1            the time of day jumps by years, to and fro
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -12,6 +17,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <optional>
 #include <string>
 
 namespace {
@@ -26,19 +33,36 @@ long long bytes_at_start() {
   return text != nullptr ? std::atoll(text) : -1;
 }
 
-bool is_below_folder(int file) {
+// The path relative to the folder, "." for the folder itself; none for what lies elsewhere.
+std::optional<std::string> name_in_folder(const std::string& path) {
   static const char* const folder = std::getenv("SUNFLECK_FAULT_FOLDER");
-  if (folder == nullptr) return false;
+  if (folder == nullptr || path.rfind(folder, 0) != 0) return std::nullopt;
+  return std::filesystem::path(path).lexically_relative(folder).string();
+}
+
+std::optional<std::string> name_in_folder(int file) {
   char target[4096];
   const std::string link = "/proc/self/fd/" + std::to_string(file);
   const ssize_t length = ::readlink(link.c_str(), target, sizeof target);
-  return length > 0 && std::string(target, static_cast<std::size_t>(length)).rfind(folder, 0) == 0;
+  return length > 0 ? name_in_folder(std::string(target, static_cast<std::size_t>(length))) : std::nullopt;
+}
+
+void note(const std::string& line) {
+  static auto* const next = real<ssize_t(int, const void*, std::size_t)>("write");
+  static const char* const file = std::getenv("SUNFLECK_FAULT_JOURNAL");
+  static const int journal = file != nullptr ? ::open(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600) : -1;
+  if (journal >= 0 && next(journal, (line + "\n").c_str(), line.size() + 1) < 0) std::abort();
+}
+
+bool fails_to_sync(const std::string& name) {
+  static const char* const failing = std::getenv("SUNFLECK_FAULT_FSYNC");
+  return failing != nullptr && name.rfind(failing, 0) == 0;
 }
 
 // How many of the bytes the disk still takes.
 std::size_t granted(int file, std::size_t bytes) {
   static std::atomic<long long> left{bytes_at_start()};
-  if (left < 0 || bytes == 0 || !is_below_folder(file)) return bytes;
+  if (left < 0 || bytes == 0 || !name_in_folder(file)) return bytes;
   long long before = left;
   long long take = 0;
   do {
@@ -49,6 +73,7 @@ std::size_t granted(int file, std::size_t bytes) {
 
 template <class Write>
 ssize_t write_within(int file, std::size_t bytes, const Write& write) {
+  if (const auto name = name_in_folder(file)) note("write " + *name);
   const std::size_t take = granted(file, bytes);
   if (take == 0 && bytes > 0) {
     errno = ENOSPC;
@@ -82,6 +107,24 @@ ssize_t pwrite(int file, const void* data, std::size_t bytes, off_t at) {
 ssize_t pwrite64(int file, const void* data, std::size_t bytes, off64_t at) {
   static auto* const next = real<ssize_t(int, const void*, std::size_t, off64_t)>("pwrite64");
   return write_within(file, bytes, [&](std::size_t take) { return next(file, data, take, at); });
+}
+
+int fsync(int file) {
+  static auto* const next = real<int(int)>("fsync");
+  const auto name = name_in_folder(file);
+  if (!name) return next(file);
+  note("fsync " + *name);
+  if (!fails_to_sync(*name)) return next(file);
+  errno = std::atoi(std::getenv("SUNFLECK_FAULT_ERRNO"));
+  return -1;
+}
+
+int rename(const char* from, const char* to) noexcept {
+  static auto* const next = real<int(const char*, const char*)>("rename");
+  const auto before = name_in_folder(std::filesystem::absolute(from).string());
+  const auto after = name_in_folder(std::filesystem::absolute(to).string());
+  if (before && after) note("rename " + *before + " " + *after);
+  return next(from, to);
 }
 
 int clock_gettime(clockid_t clock, timespec* now) noexcept {

@@ -5,6 +5,7 @@
 #include "support/mesh_files.h"
 #include "support/table.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sunfleck::regression {
@@ -93,6 +94,34 @@ TEST_F(CaribuProgram, ItsTableHasTheFilesLabels) {
   EXPECT_NEAR(table.number(0, "Eabs"), 0.15 * table.number(0, "Ei"), 1e-6 * 350.0) << "species 2 absorbs 0.15 on both faces";
   EXPECT_FALSE(exists("triangles.csv"));
   EXPECT_EQ(summary()["plot_area_m2"], 6.0);
+}
+
+// Soil elements of the mesh have a row; the ground that the scene lays has none.
+TEST_F(CaribuProgram, ItsSoilHasARowAmongTheOrgans) {
+  simulate("stand.can", stand_ + quick_);
+  const Table organs(file("organs.csv"));
+  ASSERT_FALSE(organs.comments().empty());
+  EXPECT_TRUE(std::any_of(organs.comments().begin(), organs.comments().end(), [](const std::string& line) {
+    return line == "# Organs, those of soil elements included; the ground of [soil] has no row";
+  }));
+  double vegetation_w = 0.0, soil_w = 0.0;
+  int soil_rows = 0;
+  for (std::size_t row = 0; row < organs.size(); ++row) {
+    const double absorbed_w = organs.number(row, "area_m2") * organs.number(row, "PAR_absorbed");
+    const bool soil = organs.cell(row, "organ") == "soil";
+    (soil ? soil_w : vegetation_w) += absorbed_w;
+    if (!soil) continue;
+    ++soil_rows;
+    EXPECT_EQ(organs.cell(row, "plant"), "0");
+    EXPECT_NEAR(organs.number(row, "area_m2"), 0.5 * 2.0 * 3.0, 1e-6);
+  }
+  EXPECT_EQ(soil_rows, 1);
+  const double plot_m2 = summary()["plot_area_m2"];
+  const double all_soil_w = summary()["bands"][0]["absorbed_soil"].get<double>() * plot_m2;
+  constexpr double rounding = 1e-6;  // of quanta, in the summary
+  EXPECT_NEAR(vegetation_w, summary()["bands"][0]["absorbed_vegetation"].get<double>() * plot_m2, rounding * 350.0 * plot_m2);
+  EXPECT_GT(soil_w, 0.3 * all_soil_w) << "half of the plot";
+  EXPECT_LT(soil_w, 0.7 * all_soil_w);
 }
 
 TEST_F(CaribuProgram, TheWrittenSceneGivesTheSameTables) {

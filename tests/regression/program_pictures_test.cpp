@@ -149,6 +149,25 @@ TEST_F(Pictures, FromAFolderAreThoseOfTheRun) {
   EXPECT_EQ(content(folder_ / "again.png"), file("rank-interval_total.png"));
 }
 
+// The line below a chart tells how many rays, packets and rays from the sky it took.
+TEST_F(Pictures, OfSkyLightFromAFolderAreThoseOfTheRun) {
+  std::string sky_scene = bright_scene;
+  for (const char* beam : {"direct = 100.0\n", "direct = 80.0\n"}) {
+    sky_scene.replace(sky_scene.find(beam), std::strlen(beam), std::string(beam) + "diffuse = 40.0\n");
+  }
+  folder_.write("sky.toml", sky_scene + "[sky]\nmodel = \"uniform\"\n");
+  simulate("sky.toml", quick + Arguments{"--images", "all,rank_sky,map_scattered,hue_absorbed"});
+  EXPECT_GT(summary()["indirect"]["sky_rays"], 0);
+  const std::vector<std::pair<std::string, std::string>> pictures = {
+      {"rank", "direct"}, {"rank", "indirect"}, {"hue", "total"}, {"rank", "sky"}, {"map", "scattered"}, {"hue", "absorbed"}};
+  for (const auto& [chart, field] : pictures) {
+    draw({"out", "--chart", chart, "--field", field, "-o", "again.png"});
+    const std::string name = chart + "_" + field + ".png";
+    ASSERT_TRUE(exists(name)) << name;
+    EXPECT_TRUE(content(folder_ / "again.png") == file(name)) << name;
+  }
+}
+
 TEST_F(Pictures, FromASceneAreThoseOfTheRun) {
   simulate("bright.toml", quick + Arguments{"--seed", "5", "--images", "rank_total", "--band", "NIR"});
   const Outcome outcome = run(Arguments{"render", "bright.toml", "--seed", "5", "--band", "NIR"} + quick);

@@ -52,6 +52,7 @@ RadiationResult small_result() {
   result.direct.rays = 123456789012;
   result.direct.relative_error = 0.00123;
   result.indirect.packets = 77;
+  result.indirect.sky_rays = 4000000000000;
   result.elements = {{1, 2}, {3, 4}, {5000000000, 0}};
   result.soil_cells = {9, 8, 7, 6};
   for (int k = 0; k < 12; ++k) result.side_indirect.push_back(1000000000000 * k);
@@ -132,6 +133,7 @@ TEST_F(ResultStore, GivesTheResultBack) {
   EXPECT_EQ(result.direct.rays, expected.direct.rays);
   EXPECT_EQ(result.direct.relative_error, expected.direct.relative_error);
   EXPECT_EQ(result.indirect.packets, expected.indirect.packets);
+  EXPECT_EQ(result.indirect.sky_rays, expected.indirect.sky_rays);
   EXPECT_EQ(result.indirect.relative_error, std::nullopt);
   ASSERT_EQ(result.elements.size(), 3U);
   EXPECT_EQ(result.elements[2].upper, 5000000000U);
@@ -141,6 +143,14 @@ TEST_F(ResultStore, GivesTheResultBack) {
   EXPECT_EQ(result.cell_indirect, expected.cell_indirect);
   EXPECT_EQ(result.side_sky, expected.side_sky);
   EXPECT_EQ(result.cell_sky, expected.cell_sky);
+}
+
+TEST_F(ResultStore, DrawsFilesWithoutSkyRays) {
+  const auto old = changed([](json& store) { store["result"].erase("sky_rays"); });
+  EXPECT_EQ(parse_result_store(old, file_).result.indirect.sky_rays, 0U);
+  const auto bad = refusal(changed([](json& store) { store["result"]["sky_rays"] = -1; }));
+  ASSERT_TRUE(bad);
+  expect_three_parts(*bad);
 }
 
 TEST_F(ResultStore, KeepsABareScene) {

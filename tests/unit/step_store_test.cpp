@@ -95,6 +95,20 @@ TEST_F(StepStoreTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(read->seconds, 0.25);
 }
 
+TEST_F(StepStoreTest, WritesMeanwhileWhatItWasGiven) {
+  store_.begin();
+  StoredStep step = some_step(model_);
+  std::future<void> writing = store_.begin_write(7, step);
+  step.rays += 1;
+  writing.get();
+  const std::optional<StoredStep> read = store_.read(7);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->rays, some_step(model_).rays);
+  std::filesystem::remove_all(folder_ / "steps");
+  std::future<void> failing = store_.begin_write(7, step);
+  EXPECT_THROW(failing.get(), Error);
+}
+
 TEST_F(StepStoreTest, ReadsNoStepThatIsDamaged) {
   store_.begin();
   store_.write(7, some_step(model_));

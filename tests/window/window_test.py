@@ -47,6 +47,11 @@ file = "leaves.obj"
 optics = "leaf"
 up = "y"
 """
+# The same leaf for a set of CARIBU's files, one polygon a line.
+CAN = """p 1 100001001001 3  0.3 0.3 0.4  0.7 0.3 0.4  0.3 0.7 0.4
+p 1 100001001001 3  0.7 0.3 0.4  0.7 0.7 0.4  0.3 0.7 0.4
+"""
+OPT = "n 1\ns d 0.15\ne d 0.1 d 0.12 0.06 d 0.12 0.06\n"
 # A leaf of plant 1 in the plot's middle, one of plant 2 above its north-eastern corner.
 MESH = """o plant1_leaf4
 v 0.35 0.4 0.35
@@ -210,8 +215,8 @@ class WindowTest(unittest.TestCase):
             out.write(text)
         os.replace(file + ".new", file)
 
-    def open(self, *arguments):
-        window = Window(self.screen, self.folder, *arguments)
+    def open(self, *arguments, scene="leaves.toml"):
+        window = Window(self.screen, self.folder, *arguments, scene=scene)
         self.addCleanup(window.stop)
         window.wait_for("loaded")
         window.wait_for("controls")
@@ -349,6 +354,44 @@ class WindowTest(unittest.TestCase):
         self.write("leaves.toml", SCENE.replace("reflectance = 0.12", "reflectance = 0.2"))
         window.wait_for("loaded")
         window.wait_for("picture", wish=1)
+        self.expect_clean_end(window)
+
+    def test_a_changed_mesh_is_loaded_again(self):
+        window = self.open()
+        self.assertEqual([event["triangles"] for event in window.events if event["event"] == "loaded"], [4])
+        before = window.picture()
+        self.write("leaves.obj", MESH + "o plant3_leaf1\nv 0.1 0.7 0.7\nv 0.1 0.7 0.9\nv 0.4 0.7 0.9\nf 9 10 11\n")
+        window.wait_for("loaded", triangles=5)
+        window.wait_for("picture", wish=1)
+        self.keep_shot("mesh_changed")
+        self.assertGreater(numpy.mean(numpy.any(before != window.picture(), axis=2)), 0.005)
+        # A mesh that is broken is told; when it is away for a moment, that is waited for.
+        self.write("leaves.obj", "f 1 2 3\n")
+        self.assertIn("leaves.obj", window.wait_for("problem")["text"])
+        os.remove(os.path.join(self.folder, "leaves.obj"))
+        self.write("leaves.toml", SCENE + "# mended\n")
+        self.assertIn("there is no such file", window.wait_for("problem")["text"])
+        self.write("leaves.obj", MESH)
+        window.wait_for("loaded", triangles=4)
+        window.wait_for("picture", wish=1)
+        self.expect_clean_end(window)
+
+    def test_changed_files_of_caribu_are_loaded_again(self):
+        self.write("stand.can", CAN)
+        self.write("par.opt", OPT)
+        self.write("sun.light", "350 -0.5 0.2 -1\n")
+        self.write("plot.8", "0 0\n1 1\n")
+        window = self.open("--optics", "par.opt", "--light", "sun.light", "--domain", "plot.8", "--error", "0.02",
+                           scene="stand.can")
+        bright = OPT.replace("d 0.12 0.06", "d 0.5 0.4")
+        absorbed = [event for event in window.events if event["event"] == "converged"][0]["absorbed_vegetation"]
+        for name, text in (("par.opt", bright), ("sun.light", "100 0 0 -1\n"), ("plot.8", "0 0\n2 2\n")):
+            self.write(name, text)
+            window.wait_for("loaded", triangles=2)
+            now = window.wait_for("converged", wish=1)["absorbed_vegetation"]
+            self.assertLess(now, 0.6 * absorbed, name)
+            absorbed = now
+            window.wait_for("picture", wish=1)
         self.expect_clean_end(window)
 
     def test_optics_keep_the_beams_and_results_are_saved(self):
