@@ -38,8 +38,8 @@ int output_lost(int code) {
 }  // namespace
 
 void prepare_process() {
-  // Large arrays go back to the system when they are freed. By default glibc keeps ever larger ones for later, which took a seventh
-  // more memory and four times as much system time on a stand of a million triangles.
+  // Large arrays go back to the system when they are freed. By default glibc keeps ever larger ones for later, which took a
+  // seventh more memory and four times as much system time on a stand of a million triangles.
   constexpr int large_bytes = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, large_bytes);
   std::signal(SIGPIPE, SIG_IGN);
