@@ -153,7 +153,10 @@ void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
       ->transform(without_blanks())
       ->check(one_of(image_words()))
       ->capture_default_str();
-  run.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed, from its last kept replicate");
+  run.add_flag(
+      "--resume", options.resume,
+      "Continue a run that was stopped or killed from its last kept replicate, or begin it; with --max-seconds give it "
+      "from the start, so that the work does not depend on the machine's speed");
   run.add_flag("--json", options.json, "Print the summary on standard output, nothing else");
   add_stand(run, options.stand);
   add_device(run, options);

@@ -34,6 +34,7 @@ SolveSettings solve_settings(const RunOptions& options, const Scene& scene) {
   settings.passes = options.passes;
   settings.max_rays = options.max_rays;
   settings.max_seconds = options.max_seconds;
+  settings.fit_to_time = !options.resume;
   settings.replicates_at_once = options.threads == 1 ? 1 : 2;
   settings.memory_bytes = static_cast<double>(options.memory_bytes.value_or(available_memory_bytes() / 4));
   // CARIBU's table has no errors.

@@ -40,7 +40,9 @@ constexpr double comfortable_bytes = 0x1p28;
 // Replicate numbers of the pilots, apart from those of the run.
 constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
 
-using Clock = std::chrono::steady_clock;
+double steady_clock_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 class Solver {
  public:
@@ -72,7 +74,8 @@ class Solver {
  private:
   [[nodiscard]] bool has_indirect() const { return maker_.has_indirect_pass(); }
   [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  [[nodiscard]] double clock_s() const { return monitor_.clock_s ? monitor_.clock_s() : steady_clock_s(); }
+  [[nodiscard]] double seconds() const { return clock_s() - start_s_; }
 
   // True once the run has to end; remembers why. Any thread may ask.
   bool must_stop() {
@@ -351,8 +354,10 @@ class Solver {
         report_pilot();
       }
       const double wanted = pilot.*part * std::max(0.25, needed(fewer));
+      const double possible = std::min(wanted, most());
       const double affordable = pilot.*part * affordable_growth((seconds() - before) / pilot_replicates);
-      const double next = std::clamp(std::min(wanted, affordable), 1.0, std::max(1.0, most()));
+      if (affordable < possible) fitted_to_time_ = true;
+      const double next = std::max(1.0, std::min(possible, affordable));
       keep_fallback();
       if (next <= trusted_refinement * pilot.*part || next < wanted) return Part{wanted, next};
       pilot.*part *= trusted_refinement;
@@ -361,7 +366,7 @@ class Solver {
 
   // With a limit of time, replicates so large that not even pilot_replicates of them would be done are of no use.
   [[nodiscard]] double affordable_growth(double seconds_per_replicate) const {
-    if (!settings_.max_seconds) return std::numeric_limits<double>::infinity();
+    if (!settings_.max_seconds || !settings_.fit_to_time) return std::numeric_limits<double>::infinity();
     const double left = std::max(0.0, *settings_.max_seconds - seconds());
     return left / (2.0 * pilot_replicates * std::max(seconds_per_replicate, 1e-6));
   }
@@ -415,7 +420,7 @@ class Solver {
   }
 
   void keep_state() const {
-    if (!monitor_.receive_state || tally_->replicates() < 2) return;
+    if (!monitor_.receive_state || tally_->replicates() < 2 || fitted_to_time_) return;
     monitor_.receive_state({work_, next_check_, good_checks_, tally_->sums()});
   }
 
@@ -479,11 +484,12 @@ class Solver {
   const Monitor& monitor_;
   ReplicateMaker maker_;
   PacketMemory memory_;
-  Clock::time_point start_ = Clock::now();
+  double start_s_ = clock_s();
   std::unique_ptr<Tally> tally_, fallback_;
   std::mutex stop_mutex_;
   StopReason stop_ = StopReason::interrupted;
   Work work_;
+  bool fitted_to_time_ = false;  // the work
   std::uint64_t grid_rays_ = 0;  // what the grid makes of the asked rays
   std::uint64_t fallback_rays_ = 0;
   std::uint64_t traced_ = 0;

@@ -30,6 +30,9 @@ struct SolveSettings {
   std::optional<double> packets;          // fixed work, beside grid_m: packets in the first round of each replicate
   std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
   std::optional<double> max_seconds;      // wall time of the simulation
+  // With a max_seconds, replicates are made so small that enough of them are done in time. Their work then depends on how fast
+  // the machine is, and such a run has no state: one that went on from it would end in other bytes each time.
+  bool fit_to_time = true;
   ElementErrors element_errors = ElementErrors::skip;
   int replicates_at_once = 2;              // in the making side by side, where there is an indirect pass and no max_rays
   std::optional<double> memory_bytes;      // most that replicates in the making may take together; none: no bound
@@ -58,9 +61,10 @@ struct Monitor {
   std::function<bool()> wants_result;
   std::function<void(RadiationResult)> receive_result;
   // Asked after each replicate but the pilots'; the state is handed over if the answer is yes, and at the end of a run that
-  // was stopped. From the second replicate on.
+  // was stopped. From the second replicate on, and not of a run whose work was fitted to a max_seconds.
   std::function<bool()> wants_state;
   std::function<void(const SolveState&)> receive_state;
+  std::function<double()> clock_s;  // asked by several threads; empty: the steady clock
 };
 
 // What a run will be made of, as its pilots tell.
