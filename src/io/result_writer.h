@@ -1,5 +1,5 @@
 #pragma once
-// The result folder: summary.json and the tables. What each file and column means stands in README.md; the units stand in the
+// The result folder: summary.json and the tables. docs/formats.md describes each file and column; the units stand in the
 // files. Every file is written aside and renamed, so that none is ever half there.
 
 #include "io/element_fields.h"

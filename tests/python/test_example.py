@@ -1,4 +1,4 @@
-"""The worked example, and the Python of README.md as printed there."""
+"""The worked example, and the Python of docs/python.md as printed there."""
 
 import os
 import re
@@ -24,8 +24,8 @@ def test_worked_example_draws_its_figure(tmp_path):
     assert len(absorbed) == 3 and absorbed == sorted(absorbed)
 
 
-def test_readme_runs_as_printed(tmp_path):
-    section = (SOURCE / "README.md").read_text().split("## From Python\n")[1].split("\n## ")[0]
+def test_manual_runs_as_printed(tmp_path):
+    section = (SOURCE / "docs" / "python.md").read_text().split("## An example\n")[1].split("\n## ")[0]
     (block,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
     (expected,) = re.findall(r"prints\n\n```text\n(.*?)```", section, re.DOTALL)
     (tmp_path / "block.py").write_text(block)
