@@ -3,7 +3,6 @@
 #include "app/day.h"
 #include "app/options.h"
 #include "app/process.h"
-#include "app/ranks.h"
 #include "app/render.h"
 #include "app/tradeoff.h"
 #include "app/validate.h"

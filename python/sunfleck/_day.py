@@ -122,9 +122,10 @@ def day(
         }
     )  # fmt: skip
     when = (str(start or ""), str(stop or ""), str(date or ""), str(to_date or ""))
-    options = _core.DayOptions(work, *when, whole(step, "step", 1, 24 * 60), str(device), whole(threads, "threads", 0, 1024))
+    request = _core.DayRequest(*when, whole(step, "step", 1, 24 * 60))
+    machine = (str(device), whole(threads, "threads", 0, 1024))
     source = SceneSource(scene, folder)
-    arguments = (os.fspath(source.file), source.text, source.meshes, allow_outside, options, progress)
+    arguments = (os.fspath(source.file), source.text, source.meshes, allow_outside, request, work, *machine, progress)
     if source.text is None:
         core = _core.day(*arguments)
     else:

@@ -64,7 +64,7 @@ def work_options(work: Mapping[str, Any]) -> Any:
         "seed": whole(work["seed"], "seed", 0, 2**64 - 1),
         "triangle_errors": bool(work["triangle_errors"]),
     }
-    return _core.RunOptions(**checked)
+    return _core.WorkRequest(**checked)
 
 
 def _first(one: Any, other: Any) -> Any:

@@ -1,99 +1,80 @@
 #include "app/commands.h"
 
-#include "app/interrupt.h"
-#include "app/ranks.h"
-#include "app/result_folder.h"
-#include "app/scene_source.h"
-#include "app/simulation.h"
-#include "base/log.h"
+#include "app/terminal.h"
 #include "canopy/maize.h"
+#include "cluster/launch.h"
 #include "io/mesh_writer.h"
+#include "simulate/checkpoint.h"
+#include "simulate/interrupt.h"
+#include "simulate/ranks.h"
+#include "simulate/result_folder.h"
+#include "simulate/scene_source.h"
 
 #include <fmt/format.h>
 
-namespace sunfleck {
+#include <utility>
+#include <variant>
 
+namespace sunfleck {
 namespace {
 
+// What a rank other than 0 does of a run.
 int help_with_run(const RunOptions& options, Ranks& ranks) {
-  return ranks.help([&](const auto& serve) {
-    const Scene scene = read_scene(options.scene, {options.allow_outside});
-    const SceneTree tree(scene.model);
-    set_software_threads(options.threads);
-    const CpuThreads threads(options.threads);
-    Engine engine({options.device, options.device_turn}, tree.bvh, traced_scene(scene.model), tree.layout.words());
-    const SolveSettings settings = solve_settings(options, scene);
-    serve({scene, tree.layout, engine, settings, {}});
+  const bool served = ranks.serve([&](const auto& make_replicates) {
+    Simulation simulation(load_scene(options), options);
+    const SolveSettings settings = solve_settings(options, simulation.scene(), options.threads);
+    make_replicates({simulation, settings, {}});
   });
+  return served ? exit_done : exit_failed;
 }
 
 }  // namespace
 
 int run(const RunOptions& asked) {
-  start_log(asked.quiet || asked.json ? Verbosity::quiet : Verbosity::normal);
-  exit_on_interrupts();
-  Stopwatch total;
+  start_at_terminal(asked);
   Stopwatch watch;
   Ranks ranks;
-  const RunOptions options = ranks.own_options(asked);
-  if (ranks.helps()) return help_with_run(options, ranks);
-  const std::filesystem::path folder = result_folder(options);
+  RunOptions options = asked;
+  ranks.take_seat(options);
+  if (ranks.is_worker()) return help_with_run(options, ranks);
+  const std::filesystem::path folder = result_folder(options, options.scene);
   FolderLock lock(folder);
 
-  const Scene scene = load_scene(options.scene, options.stand, {options.allow_outside});
-  for (const std::string& warning : scene.warnings) warn(warning);
-  const RadiationModel& model = scene.model;
-  SolveSettings settings = solve_settings(options, scene);
-  check_pictures(options, model);
+  Scene scene = load_scene_with_warnings(options);
+  SolveSettings settings = solve_settings(options, scene, options.threads);
+  check_pictures(options, scene.model);
   check_grid(options, scene);
-  const Companions companions = read_companions(options, model);
-  RunKeeper keeper(folder, options, scene, settings);
-  const RunKeeper::Found found = options.resume ? keeper.find(model, make_counter_layout(model)) : RunKeeper::Found::nothing;
-  if (found == RunKeeper::Found::finished) return tell_finished(folder, options, "run");
-  settings.go_on_from = keeper.state();
-  RunRecord::Seconds seconds;
-  seconds.load = watch.lap();
+  const ProfileOverlays overlays = read_overlays(options, scene.model);
+  Checkpoint checkpoint(folder, options.exports, scene, settings);
+  const auto found = options.resume ? checkpoint.find(scene.model) : Checkpoint::Found::nothing;
+  if (found == Checkpoint::Found::finished) return tell_finished(folder, options, "run");
+  settings.go_on_from = checkpoint.state();
+  const double load_s = watch.lap();
 
-  const SceneTree tree(model);
-  seconds.bvh = watch.lap();
-
-  set_software_threads(options.threads);
-  const CpuThreads threads(options.threads);
-  Engine engine({options.device, options.device_turn}, tree.bvh, traced_scene(model), tree.layout.words());
-  RunRecord record = make_record(options, scene, settings, engine);
-  record.ranks = ranks.count();
-  ranks.gather(scene, tree.layout, settings);
+  Simulation simulation(std::move(scene), options);
+  ranks.gather(simulation, settings);
   watch_for_interrupts();
-  prepare_folder(folder, lock, found == RunKeeper::Found::begun ? EarlierRun::goes_on : EarlierRun::goes);
-  if (options.resume) say(keeper.resume_line());
-  say(device_line(record.device));
-  seconds.device = watch.lap();
+  prepare_folder(folder, lock, found == Checkpoint::Found::begun ? OldResults::keep_checkpoint : OldResults::remove_all);
+  if (options.resume) say(checkpoint.resume_line());
+  say(device_line(simulation.device()));
 
-  RadiationResult result = simulate(model, tree.layout, engine, settings, SimulationAids{&keeper, &ranks});
-  ranks.release();
-  check_validation(engine);
-  seconds.direct = result.direct.seconds;
-  seconds.indirect = result.indirect.seconds;
-  watch.lap();
+  SimulatedScene simulated = simulate_at_terminal(simulation, settings, &checkpoint, &ranks);
+  simulated.record.seconds.load = load_s;
+  simulated.record.seconds.total += load_s;
+  const UnwrittenFiles unwritten = write_whole_result(folder, options, simulated, simulated.record, overlays);
+  if (simulated.record.pictures_interrupted) simulated.result.stop = StopReason::interrupted;
+  simulation.check_validation();
 
-  record.complete = is_done(result.stop);
-  Losses losses;
-  if (!write_results(folder, options, record, {scene, tree.layout, result, engine}, companions, losses)) {
-    result.stop = StopReason::interrupted;
-    record.complete = false;
-  }
-  check_validation(engine);
-  record.not_written = losses.names();
-  record.complete = record.complete && record.not_written.empty();
-  const std::string hint = keeper.holds_state() ? "; --resume goes on" : "";
-  warn_if_short(settings, model, result, hint);
-  seconds.write = watch.lap();
-  seconds.total = total.lap();
-  record.seconds = seconds;
-  publish(folder, options, record, model, result, losses);
-  if (record.complete && losses.names().empty()) keeper.finish();
-  losses.complain(hint);
-  return exit_status(result.stop);
+  const std::string cure = checkpoint.holds_state() ? "; --resume continues the run" : "";
+  warn_if_short(simulated, settings, cure);
+  print_result(folder, options, simulated);
+  if (simulated.record.complete && unwritten.names().empty()) checkpoint.finish();
+  unwritten.throw_if_any(cure);
+  return exit_status(simulated.result.stop);
+}
+
+bool is_left_to_rank_0(const Command& command) {
+  return is_silent_rank() && !std::holds_alternative<RunOptions>(command) && !std::holds_alternative<DayOptions>(command);
 }
 
 int write_maize(const MaizeOptions& options) {

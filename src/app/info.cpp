@@ -1,13 +1,13 @@
 #include "app/commands.h"
 
-#include "app/interrupt.h"
-#include "app/memory_forecast.h"
-#include "app/scene_source.h"
+#include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "gpu/context.h"
 #include "io/file.h"
 #include "light/sun_events.h"
+#include "simulate/memory_forecast.h"
+#include "simulate/scene_source.h"
 
 #include <fmt/format.h>
 
@@ -87,16 +87,15 @@ ordered_json copies_json(const Canopy& canopy) {
   return copies;
 }
 
-// The memory that a run with these options needs, and what it is needed for.
-void add_memory(ordered_json& info, const Scene& scene, const RunOptions& options) {
-  const SceneTree tree(scene.model);
-  set_software_threads(options.threads);
-  const CpuThreads threads(options.threads);
-  Engine engine({options.device}, tree.bvh, traced_scene(scene.model), tree.layout.words());
-  const auto memory = forecast_memory(scene.model, tree, engine, solve_settings(options, scene));
+// Adds the memory that a run with these options needs, and what it is needed for.
+void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
+  const SolveSettings settings = solve_settings(options, scene, options.threads);
+  Simulation simulation(std::move(scene), options);
+  ProgressLine line("foretelling the memory of a run");
+  const auto memory = forecast_memory(simulation, settings, terminal_monitor(line));
   if (!memory) throw_failure("info", "interrupted", "start it again");
   info["memory_bytes"] = memory->bytes;
-  info["memory_device"] = engine.device().name;
+  info["memory_device"] = simulation.device().name;
   info["replicates_at_once"] = memory->run.at_once;
   info["replicate_bytes"] = static_cast<std::uint64_t>(memory->run.replicate_bytes);
 }
@@ -169,16 +168,14 @@ void print_lines(const ordered_json& info) {
 }  // namespace
 
 int show_info(const InfoOptions& options) {
-  start_log(options.run.json || options.run.quiet ? Verbosity::quiet : Verbosity::normal);
-  exit_on_interrupts();
+  start_at_terminal(options.run);
   ordered_json info;
   info["devices"] = ordered_json::array();
   for (const DeviceDescription& device : list_devices()) info["devices"].push_back(device_json(device));
   if (!options.run.scene.empty()) {
-    const Scene scene = load_scene(options.run.scene, options.run.stand, {options.run.allow_outside});
-    for (const std::string& warning : scene.warnings) warn(warning);
+    Scene scene = load_scene_with_warnings(options.run);
     add_scene(info, scene);
-    add_memory(info, scene, options.run);
+    add_memory(info, std::move(scene), options.run);
   }
   if (options.run.json) {
     fmt::print("{}\n", info.dump(2, ' ', false, ordered_json::error_handler_t::replace));

@@ -5,7 +5,7 @@
 #include "io/exports.h"
 #include "io/file.h"
 #include "io/mesh_reader.h"
-#include "version.h"
+#include "simulate/result_folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -72,6 +72,7 @@ void add_caribu_table(RunOptions& options) {
 
 RunOptions finished(RunOptions options, const OptionWords& words, const CLI::App& command) {
   add_caribu_table(options);
+  options.triangle_errors = needs_triangle_errors(options.exports);
   read_errors(words, options);
   read_pictures(words, options.pictures);
   if (command.count("--chart") + command.count("--field") > 0) options.extra_picture = read_picture(words);
@@ -88,6 +89,7 @@ DayOptions finished(DayOptions options, const OptionWords& words) {
 InfoOptions finished(InfoOptions options, const OptionWords& words) {
   read_errors(words, options.run);
   add_caribu_table(options.run);
+  options.run.triangle_errors = needs_triangle_errors(options.run.exports);
   return options;
 }
 
@@ -145,21 +147,6 @@ void check_stand(const MaizeOptions& options) {
 }
 
 }  // namespace
-
-std::string StandFiles::first_given() const {
-  if (!optics.empty()) return "--optics";
-  if (!light.empty()) return "--light";
-  if (!domain.empty()) return "--domain";
-  return scale ? "--scale" : "";
-}
-
-std::string version() {
-  return SUNFLECK_VERSION;
-}
-
-std::string commit() {
-  return SUNFLECK_COMMIT;
-}
 
 Command parse_command_line(int argc, const char* const* argv) {
   CLI::App app("sunfleck: how sunlight spreads in three-dimensional plant canopies", "sunfleck");

@@ -1,7 +1,8 @@
 #pragma once
 // The command line as plain values; the defaults stand beside the names.
 
-#include "app/picture.h"
+#include "pictures/picture.h"
+#include "simulate/requests.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -12,50 +13,13 @@
 
 namespace sunfleck {
 
-// CARIBU's files beside a mesh that stands in a scene's place.
-struct StandFiles {
-  std::vector<std::string> optics;      // FILE or NAME=FILE, one for each band
-  std::filesystem::path light, domain;  // may be empty
-  std::optional<double> scale;          // metres in a unit of the mesh and the domain; default 1
-
-  // The option given first in this order, for messages; empty without any.
-  [[nodiscard]] std::string first_given() const;
-};
-
-struct RunOptions {
-  std::filesystem::path scene;  // or a mesh, with `stand`
-  StandFiles stand;
-  std::filesystem::path output;        // empty: results/<stem of the scene>
-  std::string device = "auto";         // auto | gpu | lavapipe | cpu | INDEX | NAME
-  int device_turn = 0;                 // see DeviceAsked; not on the command line
-  std::optional<double> direct_error;  // replace the scene's bounds
-  std::optional<double> indirect_error;
-  std::optional<double> grid_m;
-  std::optional<int> passes;
-  std::optional<double> max_seconds;
-  std::optional<std::uint64_t> max_rays;
-  std::optional<std::uint64_t> memory_bytes;  // for replicates in the making; none: a quarter of what is free
-  std::uint64_t seed = 1;
-  int threads = 0;                             // 0: as many as there are cores
-  std::vector<std::string> exports;            // of the names of io/exports.h
-  std::filesystem::path measured;              // empty: no field data
-  std::vector<std::filesystem::path> compare;  // folders of earlier results
-  std::vector<std::string> images{"all"};      // file stems, all or none
-  std::optional<Picture> extra_picture;        // beside them, where --chart or --field asks for it
-  PictureOptions pictures;
-  bool resume = false;
-  bool allow_outside = false;
+struct RunOptions : SceneRequest, DeviceRequest, WorkRequest, ResultRequest {
   bool quiet = false;
   bool json = false;
 };
 
-// Of several dates, each has the same local hours.
-struct DayOptions {
-  RunOptions run;        // images: all, none or day
-  std::string from, to;  // HH:MM; empty: sunrise and sunset
-  std::string date;      // YYYY-MM-DD; empty: the scene's own
-  std::string to_date;   // empty: one date
-  int step_min = 60;     // the last step ends at `to`
+struct DayOptions : DayRequest {
+  RunOptions run;  // images: all, none or day
 };
 
 struct RenderOptions {
@@ -117,8 +81,5 @@ using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions,
 
 // Throws Error (input) on bad usage.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);
-
-[[nodiscard]] std::string version();  // e.g. "0.1.0"
-[[nodiscard]] std::string commit();   // as built; "unknown" outside a repository
 
 }  // namespace sunfleck

@@ -1,15 +1,16 @@
 #include "app/render.h"
 
-#include "app/interrupt.h"
-#include "app/pictures.h"
-#include "app/scene_source.h"
-#include "app/simulation.h"
+#include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "io/exr_writer.h"
 #include "io/file.h"
 #include "io/image_writer.h"
 #include "io/result_store.h"
+#include "pictures/pictures.h"
+#include "simulate/interrupt.h"
+#include "simulate/scene_source.h"
+#include "simulate/simulation.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -57,11 +58,7 @@ struct Source {
 
 Source read_source(const RenderOptions& options, bool finished_run) {
   const fs::path& place = options.run.scene;
-  if (!finished_run) {
-    Source source{load_scene(place, options.run.stand, {options.run.allow_outside}), std::nullopt};
-    for (const std::string& warning : source.scene.warnings) warn(warning);
-    return source;
-  }
+  if (!finished_run) return {load_scene_with_warnings(options.run), std::nullopt};
   if (!options.simulating.empty()) {
     throw_input(options.simulating, fmt::format("the run in {} is finished", printable(place.string())),
                 "leave it out, or give the scene");
@@ -91,36 +88,31 @@ bool write_picture(const Drawing& drawing, const RenderOptions& options, const f
 }  // namespace
 
 int render(const RenderOptions& options) {
-  start_log(options.run.quiet ? Verbosity::quiet : Verbosity::normal);
-  exit_on_interrupts();
+  start_at_terminal(options.run);
   std::error_code error;
   const bool finished_run = fs::is_directory(options.run.scene, error);
   const fs::path file = picture_file(options, finished_run);
   Source source = read_source(options, finished_run);
-  const RadiationModel& model = source.scene.model;
-  check_view(model, options.run.pictures);
-  check_field(model, options.picture);
-
+  check_view(source.scene.model, options.run.pictures);
+  check_field(source.scene.model, options.picture);
   if (!source.result) check_grid(options.run, source.scene);
 
-  const SceneTree tree(model);
-  set_software_threads(options.run.threads);
-  const CpuThreads threads(options.run.threads);
-  Engine engine(options.run.device, tree.bvh, traced_scene(model), tree.layout.words());
+  Simulation simulation(std::move(source.scene), options.run);
   watch_for_interrupts();
+  const SolveSettings settings = solve_settings(options.run, simulation.scene(), options.run.threads);
+  SimulatedScene simulated;
   int status = exit_done;
-  if (!source.result) {
-    say(device_line(engine.device()));
-    const SolveSettings settings = solve_settings(options.run, source.scene);
-    source.result = simulate(model, tree.layout, engine, settings);
-    check_validation(engine);
-    warn_if_short(settings, source.scene.model, *source.result);
-    status = exit_status(source.result->stop);
+  if (source.result) {
+    simulated = simulation.simulated(settings, std::move(*source.result));
+  } else {
+    say(device_line(simulation.device()));
+    simulated = simulate_at_terminal(simulation, settings);
+    warn_if_short(simulated, settings);
+    status = exit_status(simulated.result.stop);
   }
-  if (status == exit_interrupted || !write_picture({source.scene, tree.layout, *source.result, engine}, options, file)) {
-    return exit_interrupted;
-  }
-  check_validation(engine);
+  const CpuThreads threads(options.run.threads);
+  if (status == exit_interrupted || !write_picture(simulated.drawing(), options, file)) return exit_interrupted;
+  simulation.check_validation();
   if (!options.run.quiet) fmt::print("{}\n", file.string());
   return status;
 }

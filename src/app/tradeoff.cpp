@@ -1,8 +1,6 @@
 #include "app/tradeoff.h"
 
-#include "app/interrupt.h"
-#include "app/scene_source.h"
-#include "app/simulation.h"
+#include "app/terminal.h"
 #include "app/tradeoff_fit.h"
 #include "app/tradeoff_measure.h"
 #include "app/tradeoff_plan.h"
@@ -12,10 +10,14 @@
 #include "io/folder_lock.h"
 #include "io/gnuplot.h"
 #include "io/tradeoff_plot.h"
+#include "simulate/interrupt.h"
+#include "simulate/scene_source.h"
+#include "simulate/simulation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -26,8 +28,7 @@ constexpr const char* table_file = "tradeoff.csv";
 constexpr const char* plot_file = "tradeoff.png";
 
 Scene read_lit_scene(const RunOptions& options) {
-  Scene scene = load_scene(options.scene, options.stand, {options.allow_outside});
-  for (const std::string& warning : scene.warnings) warn(warning);
+  Scene scene = load_scene_with_warnings(options);
   RadiationModel& model = scene.model;
   const bool lamps = std::any_of(model.optics.begin(), model.optics.end(), [](const SurfaceOptics& optics) {
     return std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w_m2) { return w_m2 > 0.0; });
@@ -81,30 +82,25 @@ void say_what_lacks(const TradeoffOptions& options, const TradeoffReport& report
 }  // namespace
 
 int tradeoff(const TradeoffOptions& options) {
-  start_log(options.run.quiet || options.run.json ? Verbosity::quiet : Verbosity::normal);
-  exit_on_interrupts();
+  start_at_terminal(options.run);
   Stopwatch total;
   const fs::path folder =
       options.run.output.empty() ? fs::path("results") / (scene_stem(options.run.scene) + "_tradeoff") : options.run.output;
   FolderLock lock(folder);
 
-  const Scene scene = read_lit_scene(options.run);
+  Scene scene = read_lit_scene(options.run);
   RunOptions run = options.run;
   run.passes = tradeoff_replicates;
   check_grid(run, scene);
   run.passes.reset();
   run.grid_m.reset();
   run.max_seconds.reset();
-  SolveSettings settings = solve_settings(run, scene);
+  SolveSettings settings = solve_settings(run, scene, run.threads);
   settings.element_errors = ElementErrors::keep;
 
-  const SceneTree tree(scene.model);
-  set_software_threads(options.run.threads);
-  const CpuThreads threads(options.run.threads);
-  const RadiationModel& model = scene.model;
-  Engine engine(options.run.device, tree.bvh, traced_scene(model), tree.layout.words());
+  Simulation simulation(std::move(scene), options.run);
   TradeoffReport report;
-  report.record = make_record(run, scene, settings, engine);
+  report.record = simulation.record(settings);
   report.record.complete = false;
   report.record.max_seconds = options.run.max_seconds;
   report.seeds = options.seeds;
@@ -113,8 +109,8 @@ int tradeoff(const TradeoffOptions& options) {
   prepare(folder, lock, report);
   say(device_line(report.record.device));
 
-  report.record.complete = measure_tradeoff(options, settings, {model, tree.layout, engine}, folder / table_file, report);
-  check_validation(engine);
+  report.record.complete = measure_tradeoff(options, settings, simulation, folder / table_file, report);
+  simulation.check_validation();
   report.fits = fit_ladders(report.rungs);
   report.recommendation = recommend(report.rungs, options.asked_error, asked_quantity(options));
   report.total_seconds = total.lap();

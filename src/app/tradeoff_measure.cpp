@@ -1,13 +1,13 @@
 #include "app/tradeoff_measure.h"
 
 #include "app/coarse_mesh.h"
-#include "app/interrupt.h"
-#include "app/simulation.h"
 #include "app/tradeoff_error.h"
 #include "app/tradeoff_fit.h"
 #include "app/tradeoff_plan.h"
 #include "base/log.h"
+#include "base/stopwatch.h"
 #include "io/file.h"
+#include "simulate/interrupt.h"
 
 #include <fmt/format.h>
 
@@ -34,18 +34,19 @@ enum class Light { direct, indirect, absorbed };
 
 class Measurement {
  public:
-  Measurement(const TradeoffOptions& options, const SolveSettings& settings, const Bench& bench, TradeoffReport& report,
+  Measurement(const TradeoffOptions& options, const SolveSettings& settings, Simulation& simulation, TradeoffReport& report,
               const std::filesystem::path& table)
       : options_(options),
         settings_(settings),
-        bench_(bench),
-        direct_model_(direct_light_model(bench.model)),
-        plan_(plan_tradeoff(bench.model, options.finest_rays, options.run.grid_m)),
+        all_light_(simulation),
+        direct_light_(simulation.with_model(direct_light_model(simulation.model()))),
+        plan_(plan_tradeoff(simulation.model(), options.finest_rays, options.run.grid_m)),
         report_(report),
         table_(table) {
     const double per_run = reference_rays() + reference_packets();
     foreseen_ = per_run + reference_rays() + options.seeds * 0.3 * per_run;
-    for (const double grid_m : plan_.grids_m) foreseen_ += options.seeds * bench.model.plot.area_m2() / (grid_m * grid_m);
+    for (const double grid_m : plan_.grids_m)
+      foreseen_ += options.seeds * simulation.model().plot.area_m2() / (grid_m * grid_m);
     for (const double packets : plan_.packets) foreseen_ += options.seeds * 2.0 * tradeoff_replicates * packets;
   }
 
@@ -55,21 +56,20 @@ class Measurement {
     for (std::size_t k = 0; k < plan_.grids_m.size(); ++k) {
       const SolveSettings settings = grid_settings(settings_, plan_.grids_m[k]);
       const int seeds = options_.seeds * seeds_factor(plan_.grids_m.size() - 1 - k);
-      if (!measure({Ladder::grids, plan_.grids_m[k], {}}, direct_bench(), settings, seeds)) return false;
+      if (!measure({Ladder::grids, plan_.grids_m[k], {}}, direct_light_, settings, seeds)) return false;
     }
     for (std::size_t k = 0; k < plan_.packets.size(); ++k) {
-      const SolveSettings settings = packet_settings(settings_, bench_.model, plan_.packets[k]);
+      const SolveSettings settings = packet_settings(settings_, all_light_.model(), plan_.packets[k]);
       const int seeds = options_.seeds * seeds_factor(plan_.packets.size() - 1 - k);
-      if (!measure({Ladder::packets, plan_.packets[k], {}}, bench_, settings, seeds)) return false;
+      if (!measure({Ladder::packets, plan_.packets[k], {}}, all_light_, settings, seeds)) return false;
     }
     if (!measure_bounds()) return false;
     return std::all_of(options_.meshes.begin(), options_.meshes.end(), [this](double share) { return measure_mesh(share); });
   }
 
  private:
-  [[nodiscard]] Bench direct_bench() const { return {direct_model_, bench_.layout, bench_.engine}; }
   [[nodiscard]] double reference_rays() const {
-    return reference_parts * bench_.model.plot.area_m2() / (plan_.reference_grid_m * plan_.reference_grid_m);
+    return reference_parts * all_light_.model().plot.area_m2() / (plan_.reference_grid_m * plan_.reference_grid_m);
   }
   [[nodiscard]] double reference_packets() const { return reference_parts * tradeoff_replicates * plan_.reference_packets; }
 
@@ -87,7 +87,7 @@ class Measurement {
   };
 
   // None if it was stopped.
-  std::optional<Simulated> simulate(const Bench& bench, SolveSettings settings, std::uint64_t seed) {
+  std::optional<Simulated> simulate(Simulation& simulation, SolveSettings settings, std::uint64_t seed) {
     if (stop()) return {};
     settings.seed = seed;
     Monitor monitor;
@@ -97,7 +97,7 @@ class Measurement {
       progress_.update({.rays = rays_ + state.rays, .fraction = std::min(0.99, rays / foreseen_)});
     };
     Stopwatch watch;
-    Simulated run{solve(bench.model, bench.layout, bench.engine.tracer(), settings, monitor)};
+    Simulated run{simulation.solve(settings, monitor)};
     run.seconds = watch.lap();
     if (run.result.stop == StopReason::interrupted) return {};
     rays_ += run.rays();
@@ -120,25 +120,25 @@ class Measurement {
     std::vector<double> incident;
     for (std::uint64_t part = 0; part < reference_parts; ++part) {
       const std::optional<Simulated> full =
-          simulate(bench_, reference_settings(settings_, plan_), options_.run.seed + reference_seed + part);
+          simulate(all_light_, reference_settings(settings_, plan_), options_.run.seed + reference_seed + part);
       if (!full) return false;
       incident = incident_w_m2(full->result);
-      reference(Light::absorbed).add(absorbed_values(bench_.model, full->result));
+      reference(Light::absorbed).add(absorbed_values(all_light_.model(), full->result));
       count_reference(Ladder::bounds, full->rays());
       if (!plan_.packets.empty()) {
-        reference(Light::indirect).add(indirect_values(bench_.model, full->result));
+        reference(Light::indirect).add(indirect_values(all_light_.model(), full->result));
         count_reference(Ladder::packets, full->rays());
       }
       if (plan_.grids_m.empty()) continue;
       const std::optional<Simulated> direct =
-          simulate(direct_bench(), grid_settings(settings_, plan_.reference_grid_m), options_.run.seed + reference_seed + part);
+          simulate(direct_light_, grid_settings(settings_, plan_.reference_grid_m), options_.run.seed + reference_seed + part);
       if (!direct) return false;
-      reference(Light::direct).add(absorbed_values(direct_model_, direct->result));
+      reference(Light::direct).add(absorbed_values(direct_light_.model(), direct->result));
       count_reference(Ladder::grids, direct->rays());
     }
-    if (!plan_.grids_m.empty()) judge(Ladder::grids, direct_model_, {1.0});
-    if (!plan_.packets.empty()) judge(Ladder::packets, bench_.model, incident);
-    judge(Ladder::bounds, bench_.model, incident);
+    if (!plan_.grids_m.empty()) judge(Ladder::grids, direct_light_.model(), {1.0});
+    if (!plan_.packets.empty()) judge(Ladder::packets, all_light_.model(), incident);
+    judge(Ladder::bounds, all_light_.model(), incident);
     return true;
   }
 
@@ -153,16 +153,16 @@ class Measurement {
   }
 
   // All seeds of a setting; what they tell is in the report, and on the disk. False if it was stopped meanwhile.
-  bool measure(TradeoffRung rung, const Bench& bench, const SolveSettings& settings, int seeds) {
+  bool measure(TradeoffRung rung, Simulation& simulation, const SolveSettings& settings, int seeds) {
     const Light light = light_of(rung.ladder);
     const TradeoffReference& truth = reference(light);
     bool whole = true;
     for (int i = 0; i < seeds && whole; ++i) {
       const std::uint64_t seed = options_.run.seed + static_cast<std::uint64_t>(i);
-      const std::optional<Simulated> run = simulate(bench, settings, seed);
+      const std::optional<Simulated> run = simulate(simulation, settings, seed);
       whole = run.has_value();
       if (!run) break;
-      const RunValues values = values_of(light, bench.model, run->result);
+      const RunValues values = values_of(light, simulation.model(), run->result);
       TradeoffRun found{seed, run->seconds, run->rays(), {}};
       for (const Quantity quantity : quantities) {
         const std::size_t q = static_cast<std::size_t>(quantity);
@@ -199,7 +199,7 @@ class Measurement {
     for (std::size_t k = 0; k < most_bounds; ++k, bound *= 0.5) {
       SolveSettings settings = settings_;
       settings.accuracy.direct = settings.accuracy.indirect = bound;
-      if (!measure({Ladder::bounds, bound, {}}, bench_, settings, options_.seeds)) return false;
+      if (!measure({Ladder::bounds, bound, {}}, all_light_, settings, options_.seeds)) return false;
       finest_bound_ = bound;
       const double most = most_of_reference / growth_per_bound;
       const bool reference_too_coarse = static_cast<double>(last_direct_) > most * reference_rays() ||
@@ -215,22 +215,23 @@ class Measurement {
   // The finest bound on a coarser mesh: what it is off by is the mesh.
   bool measure_mesh(double share) {
     if (stop()) return false;
-    RadiationModel model = bench_.model;
-    model.canopy = coarsened(bench_.model.canopy, share);
-    const double kept =
-        static_cast<double>(model.canopy.size()) / static_cast<double>(std::max<std::size_t>(1, bench_.model.canopy.size()));
+    RadiationModel model = all_light_.model();
+    model.canopy = coarsened(all_light_.model().canopy, share);
+    const double kept = static_cast<double>(model.canopy.size()) /
+                        static_cast<double>(std::max<std::size_t>(1, all_light_.model().canopy.size()));
     say(fmt::format("mesh {:g}: {} triangles, {:.3g} of them kept", share, model.canopy.size(), kept));
-    const SceneTree tree(model);
-    Engine engine(options_.run.device, tree.bvh, traced_scene(model), tree.layout.words());
+    Scene scene;
+    scene.model = std::move(model);
+    Simulation coarse(std::move(scene), options_.run);
     SolveSettings settings = settings_;
     settings.accuracy.direct = settings.accuracy.indirect = finest_bound_;
-    return measure({Ladder::meshes, share, {}}, {model, tree.layout, engine}, settings, options_.seeds);
+    return measure({Ladder::meshes, share, {}}, coarse, settings, options_.seeds);
   }
 
   const TradeoffOptions& options_;
   const SolveSettings& settings_;
-  const Bench bench_;
-  const RadiationModel direct_model_;
+  Simulation& all_light_;
+  Simulation direct_light_;
   const TradeoffPlan plan_;
   TradeoffReport& report_;
   const std::filesystem::path& table_;
@@ -249,9 +250,9 @@ Quantity asked_quantity(const TradeoffOptions& options) {
                        [&](Quantity quantity) { return options.quantity == quantity_name(quantity); });
 }
 
-bool measure_tradeoff(const TradeoffOptions& options, const SolveSettings& settings, const Bench& bench,
+bool measure_tradeoff(const TradeoffOptions& options, const SolveSettings& settings, Simulation& simulation,
                       const std::filesystem::path& table, TradeoffReport& report) {
-  return Measurement(options, settings, bench, report, table).run();
+  return Measurement(options, settings, simulation, report, table).run();
 }
 
 }  // namespace sunfleck

@@ -1,13 +1,15 @@
 #include "app/validate.h"
 
-#include "app/engine.h"
-#include "app/interrupt.h"
-#include "app/simulation.h"
+#include "app/terminal.h"
 #include "app/validate_report.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/stopwatch.h"
+#include "base/version.h"
 #include "io/file.h"
 #include "io/folder_lock.h"
+#include "simulate/interrupt.h"
+#include "tracers/engine.h"
 #include "tracers/vulkan_tracer.h"
 #include "validation/known_cases.h"
 

@@ -162,7 +162,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"scene", record.title},
       {"scene_digest", record.scene_digest},
       {"complete", record.complete},
-      {"stopped", stop_name(result.stop)},
+      {"stopped", stop_name(record.pictures_interrupted ? StopReason::interrupted : result.stop)},
       {"seed", record.seed},
       {"settings", settings_json(record)},
       {"device", {{"kind", record.device.kind}, {"name", record.device.name}, {"driver", record.device.driver}}},

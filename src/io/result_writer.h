@@ -25,6 +25,7 @@ struct RunRecord {
   std::string scene_digest;
   std::uint64_t seed = 1;
   bool complete = true;                  // false: stopped before its work was done
+  bool pictures_interrupted = false;     // stopped while its pictures were drawn
   std::vector<std::string> not_written;  // files that failed
   Accuracy accuracy;
   std::optional<double> grid_m;  // settings that fix or limit the work, as asked for

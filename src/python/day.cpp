@@ -1,6 +1,5 @@
 #include "python/day.h"
 
-#include "app/kept_day.h"
 #include "base/error.h"
 #include "io/day_tables.h"
 #include "io/element_fields.h"
@@ -8,6 +7,7 @@
 #include "io/table_text.h"
 #include "python/columns.h"
 #include "python/long_work.h"
+#include "simulate/in_memory_day.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -34,7 +34,7 @@ py::ssize_t signed_size(std::size_t size) {
 
 class Day {
  public:
-  explicit Day(KeptDay day) : day_(std::move(day)) {}
+  explicit Day(InMemoryDay day) : day_(std::move(day)) {}
 
   [[nodiscard]] bool complete() const { return day_.record.complete; }
   [[nodiscard]] std::string summary() const { return day_.summary; }
@@ -142,39 +142,31 @@ class Day {
     columns.set("area_m2", array_of(organ_areas_m2(canopy)));
   }
 
-  KeptDay day_;
+  InMemoryDay day_;
 };
 
 // When, and how the work is limited.
 std::unique_ptr<Day> day_of(const std::filesystem::path& file, const std::optional<std::string>& text,
-                            std::map<std::string, Mesh> meshes, bool allow_outside, DayOptions options,
-                            const py::object& progress) {
-  std::optional<KeptDay> day;
+                            std::map<std::string, Mesh> meshes, bool allow_outside, const DayRequest& request,
+                            const WorkRequest& limits, const std::string& device, int threads, const py::object& progress) {
+  std::optional<InMemoryDay> day;
   const SceneAccess access{.allow_outside = allow_outside, .purpose = ScenePurpose::day};
   const auto work = [&](const Monitor& monitor) {
     Scene scene = text ? read_scene(SceneText{file, *text, std::move(meshes)}, access) : read_scene(file, access);
-    day = simulate_day(std::move(scene), options, monitor);
+    day = simulate_in_memory(std::move(scene), request, limits, {device, 0, threads}, monitor);
   };
   do_long_work(work, progress);
   return std::make_unique<Day>(std::move(*day));
 }
 
-DayOptions day_options(RunOptions run, std::string from, std::string to, std::string date, std::string to_date, int step_min,
-                       std::string device, int threads) {
-  run.device = std::move(device);
-  run.threads = threads;
-  return {.run = std::move(run),
-          .from = std::move(from),
-          .to = std::move(to),
-          .date = std::move(date),
-          .to_date = std::move(to_date),
-          .step_min = step_min};
+DayRequest day_request(std::string from, std::string to, std::string date, std::string to_date, int step_min) {
+  return {std::move(from), std::move(to), std::move(date), std::move(to_date), step_min};
 }
 
 }  // namespace
 
 void bind_day(py::module_& module) {
-  py::class_<DayOptions>(module, "DayOptions").def(py::init(&day_options));
+  py::class_<DayRequest>(module, "DayRequest").def(py::init(&day_request));
   py::class_<Day>(module, "Day")
       .def_property_readonly("complete", &Day::complete)
       .def_property_readonly("warnings", &Day::warnings)

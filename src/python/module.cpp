@@ -1,8 +1,8 @@
 // The compiled part of the Python module; what users see of it stands in python/sunfleck.
 
-#include "app/options.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/version.h"
 #include "python/day.h"
 #include "python/light.h"
 #include "python/outcome.h"

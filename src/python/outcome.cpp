@@ -4,6 +4,7 @@
 #include "io/sensor_writer.h"
 #include "io/table_text.h"
 #include "python/columns.h"
+#include "simulate/result_folder.h"
 
 #include <pybind11/stl.h>
 
@@ -168,6 +169,15 @@ py::dict Outcome::triangles(const py::object& self) {
   return columns;
 }
 
+void Outcome::write(const ResultRequest& request) const {
+  const std::filesystem::path folder = result_folder(request, simulated_.scene->file);
+  FolderLock lock(folder);
+  check_pictures(request, simulated_.scene->model);
+  prepare_folder(folder, lock);
+  RunRecord record = simulated_.record;
+  write_whole_result(folder, request, simulated_, record).throw_if_any();
+}
+
 py::array Outcome::corners() const {
   const Canopy& canopy = simulated_.scene->model.canopy;
   std::vector<double> corners;
@@ -194,13 +204,12 @@ void bind_outcome(py::module_& module) {
       .def("triangles", [](const py::object& self) { return self.cast<Outcome&>().triangles(self); })
       .def("write", [](const Outcome& outcome, const std::string& folder, std::vector<std::string> exports,
                        std::vector<std::string> images) {
-        RunOptions options;
-        options.output = folder;
-        options.exports = std::move(exports);
-        options.images = std::move(images);
-        options.quiet = true;
+        ResultRequest request;
+        request.output = folder;
+        request.exports = std::move(exports);
+        request.images = std::move(images);
         const py::gil_scoped_release release;
-        outcome.write(options);
+        outcome.write(request);
       });
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 // A result as Python sees it: arrays by name.
 
-#include "app/repeated_simulation.h"
 #include "io/element_fields.h"
+#include "simulate/requests.h"
+#include "simulate/simulated_scene.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -25,7 +26,8 @@ class Outcome {
   [[nodiscard]] pybind11::dict organs() const;                     // [organ], as the columns of organs.csv
   [[nodiscard]] pybind11::list planes() const;                     // a dict for each [[plane]]: maps of [cells_x, cells_z]
   [[nodiscard]] pybind11::list sensors() const;                    // a dict for each [[sensor]]: [point]
-  void write(const RunOptions& options) const { simulated_.write(options); }
+  // Writes into a folder what `run` would write there; an earlier result in it is replaced. Throws Error as `run` does.
+  void write(const ResultRequest& request) const;
 
   // [triangle], as the columns of triangles.csv; `self` is the Python object of this.
   [[nodiscard]] pybind11::dict triangles(const pybind11::object& self);

@@ -1,10 +1,11 @@
 #include "python/simulation.h"
 
-#include "app/repeated_simulation.h"
 #include "base/error.h"
 #include "python/arrays.h"
 #include "python/long_work.h"
 #include "python/outcome.h"
+#include "simulate/requests.h"
+#include "simulate/simulation.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -25,14 +26,15 @@ SceneText text_of(const std::filesystem::path& file, const std::string& text, st
   return {file, text, std::move(meshes)};
 }
 
-class Simulation {
+// A Simulation as Python uses it: one call at a time.
+class PythonSimulation {
  public:
-  Simulation(const std::filesystem::path& file, const std::optional<std::string>& text, std::map<std::string, Mesh> meshes,
-             bool allow_outside, const std::string& device, int threads)
+  PythonSimulation(const std::filesystem::path& file, const std::optional<std::string>& text,
+                   std::map<std::string, Mesh> meshes, bool allow_outside, const std::string& device, int threads)
       : access_{.allow_outside = allow_outside} {
     const py::gil_scoped_release release;
     Scene scene = text ? read_scene(text_of(file, *text, std::move(meshes)), access_) : read_scene(file, access_);
-    simulation_.emplace(std::move(scene), device, threads);
+    simulation_.emplace(std::move(scene), DeviceRequest{device, 0, threads});
   }
 
   void relight(const std::filesystem::path& file, const std::string& text) {
@@ -41,10 +43,14 @@ class Simulation {
     simulation_->relight(text_of(file, text, {}), access_);
   }
 
-  std::unique_ptr<Outcome> run(const RunOptions& options, const py::object& progress) {
+  std::unique_ptr<Outcome> run(const WorkRequest& request, const py::object& progress) {
     const Turn turn(busy_);
     std::optional<SimulatedScene> simulated;
-    do_long_work([&](const Monitor& monitor) { simulated = simulation_->run(options, monitor); }, progress);
+    const auto work = [&](const Monitor& monitor) {
+      check_grid(request, simulation_->scene());
+      simulated = simulation_->run(solve_settings(request, simulation_->scene(), simulation_->threads()), {monitor});
+    };
+    do_long_work(work, progress);
     return std::make_unique<Outcome>(std::move(*simulated));
   }
 
@@ -86,45 +92,44 @@ class Simulation {
   };
 
   SceneAccess access_;
-  std::optional<RepeatedSimulation> simulation_;
+  std::optional<Simulation> simulation_;
   std::atomic<bool> busy_ = false;
 };
 
-// How the work is limited, as the options of `run`.
-RunOptions run_options(std::optional<double> direct_error, std::optional<double> indirect_error, std::optional<double> grid_m,
-                       std::optional<int> passes, std::optional<double> max_seconds, std::optional<std::uint64_t> max_rays,
-                       std::optional<std::uint64_t> memory_bytes, std::uint64_t seed, bool triangle_errors) {
-  RunOptions options;
-  options.direct_error = direct_error;
-  options.indirect_error = indirect_error;
-  options.grid_m = grid_m;
-  options.passes = passes;
-  options.max_seconds = max_seconds;
-  options.max_rays = max_rays;
-  options.memory_bytes = memory_bytes;
-  options.seed = seed;
-  if (triangle_errors) options.exports = {"csv"};
-  return options;
+WorkRequest work_request(std::optional<double> direct_error, std::optional<double> indirect_error, std::optional<double> grid_m,
+                         std::optional<int> passes, std::optional<double> max_seconds, std::optional<std::uint64_t> max_rays,
+                         std::optional<std::uint64_t> memory_bytes, std::uint64_t seed, bool triangle_errors) {
+  WorkRequest request;
+  request.direct_error = direct_error;
+  request.indirect_error = indirect_error;
+  request.grid_m = grid_m;
+  request.passes = passes;
+  request.max_seconds = max_seconds;
+  request.max_rays = max_rays;
+  request.memory_bytes = memory_bytes;
+  request.seed = seed;
+  request.triangle_errors = triangle_errors;
+  return request;
 }
 
 }  // namespace
 
 void bind_simulation(py::module_& module) {
   py::class_<Mesh>(module, "Mesh").def(py::init(&mesh_of));
-  py::class_<RunOptions>(module, "RunOptions")
-      .def(py::init(&run_options), py::kw_only(), py::arg("direct_error"), py::arg("indirect_error"), py::arg("grid"),
+  py::class_<WorkRequest>(module, "WorkRequest")
+      .def(py::init(&work_request), py::kw_only(), py::arg("direct_error"), py::arg("indirect_error"), py::arg("grid"),
            py::arg("passes"), py::arg("max_seconds"), py::arg("max_rays"), py::arg("memory"), py::arg("seed"),
            py::arg("triangle_errors"));
-  py::class_<Simulation>(module, "Simulation")
+  py::class_<PythonSimulation>(module, "Simulation")
       .def(py::init<const std::filesystem::path&, const std::optional<std::string>&, std::map<std::string, Mesh>, bool,
                     const std::string&, int>())
-      .def("relight", &Simulation::relight)
-      .def("run", &Simulation::run)
-      .def_property_readonly("warnings", &Simulation::warnings)
-      .def_property_readonly("triangles", &Simulation::triangles)
-      .def_property_readonly("tree_bytes", &Simulation::tree_bytes)
-      .def_property_readonly("device", &Simulation::device)
-      .def_property_readonly("sun", &Simulation::sun);
+      .def("relight", &PythonSimulation::relight)
+      .def("run", &PythonSimulation::run)
+      .def_property_readonly("warnings", &PythonSimulation::warnings)
+      .def_property_readonly("triangles", &PythonSimulation::triangles)
+      .def_property_readonly("tree_bytes", &PythonSimulation::tree_bytes)
+      .def_property_readonly("device", &PythonSimulation::device)
+      .def_property_readonly("sun", &PythonSimulation::sun);
 }
 
 }  // namespace sunfleck

@@ -1,23 +1,16 @@
 #include "validation/case_bench.h"
 
-#include "transport/scene_frame.h"
-
 #include <cmath>
 #include <utility>
 
 namespace sunfleck {
 
-CaseTree::CaseTree(const RadiationModel& model)
-    : layout(make_counter_layout(model)), bvh(build_bvh(model.canopy, box_padding_m(model))) {
-  number_counters(layout, model.canopy, bvh);
-}
-
-std::unique_ptr<Tracer> CaseBench::tracer(const RadiationModel& model, const CaseTree& tree) const {
-  return maker_(tree.bvh, case_scene(model), tree.layout.words());
+std::unique_ptr<Tracer> CaseBench::tracer(const RadiationModel& model, const SceneTree& tree) const {
+  return maker_(tree.bvh, traced_scene(model), tree.layout.words());
 }
 
 RadiationResult CaseBench::simulate(const RadiationModel& model, const SolveSettings& settings) const {
-  const CaseTree tree(model);
+  const SceneTree tree(model);
   const std::unique_ptr<Tracer> device = tracer(model, tree);
   RadiationResult result = solve(model, tree.layout, *device, settings, {{}, stop_});
   if (result.stop == StopReason::interrupted) throw CaseInterrupted();

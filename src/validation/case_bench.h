@@ -2,6 +2,7 @@
 // What a known-answer case works with: the device under test, and the table it adds its rows to.
 
 #include "tracers/cpu_tracer.h"
+#include "tracers/scene_tree.h"
 #include "transport/model.h"
 #include "transport/result.h"
 #include "transport/solve.h"
@@ -14,17 +15,6 @@
 #include <string>
 
 namespace sunfleck {
-
-// A model's tree and counters, ready for a tracer.
-struct CaseTree {
-  explicit CaseTree(const RadiationModel& model);
-  CounterLayout layout;
-  Bvh bvh;
-};
-
-[[nodiscard]] inline CpuTracer::Scene case_scene(const RadiationModel& model) {
-  return {model.plot.periodic, model.soil.has_value()};
-}
 
 // The device under test: a tracer for a tree, which outlives it, with counters of that length.
 using TracerMaker = std::function<std::unique_ptr<Tracer>(const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words)>;
@@ -49,7 +39,7 @@ class CaseBench {
   // True where the device under test is the CPU path itself.
   [[nodiscard]] bool cpu_path() const { return cpu_path_; }
   [[nodiscard]] const StopQuestion& stop() const { return stop_; }
-  [[nodiscard]] std::unique_ptr<Tracer> tracer(const RadiationModel& model, const CaseTree& tree) const;
+  [[nodiscard]] std::unique_ptr<Tracer> tracer(const RadiationModel& model, const SceneTree& tree) const;
   [[nodiscard]] RadiationResult simulate(const RadiationModel& model, const SolveSettings& settings) const;
 
   void compare(const std::string& what, const Estimate& got, double expected, const Ask& ask);

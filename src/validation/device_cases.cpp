@@ -21,7 +21,7 @@ namespace {
 using Counters = std::vector<std::uint32_t>;
 using Landings = std::vector<shared::Landing>;
 
-Counters count_beam(const CaseBench& bench, Tracer& tracer, const shared::BeamBlock& beam, const CaseTree& tree) {
+Counters count_beam(const CaseBench& bench, Tracer& tracer, const shared::BeamBlock& beam, const SceneTree& tree) {
   Counters counters(tree.layout.words());
   if (tracer.count_beam(beam, counters, bench.stop()) == TraceOutcome::stopped) throw CaseInterrupted();
   return counters;
@@ -47,7 +47,7 @@ double landings_apart(const Landings& a, const Landings& b) {
 }
 
 // From points on the elements, in any direction.
-std::vector<shared::Packet> packets_from_elements(const CaseTree& tree, std::size_t count) {
+std::vector<shared::Packet> packets_from_elements(const SceneTree& tree, std::size_t count) {
   RandomStream random(17, 0);
   std::vector<shared::Packet> packets(count);
   for (shared::Packet& packet : packets) {
@@ -101,9 +101,9 @@ RadiationModel leaves_in_sun_and_sky(const Plot& plot) {
   return model;
 }
 
-void compare_with_cpu_path(CaseBench& bench, const char* name, const RadiationModel& model, const CaseTree& tree) {
+void compare_with_cpu_path(CaseBench& bench, const char* name, const RadiationModel& model, const SceneTree& tree) {
   constexpr double rays = 2e5;
-  CpuTracer cpu(tree.bvh, case_scene(model));
+  CpuTracer cpu(tree.bvh, traced_scene(model));
   const std::unique_ptr<Tracer> device = bench.tracer(model, tree);
   const shared::BeamBlock beam = make_beam_block(model, tree.layout, rays, 1, 0);
   bench.equal(fmt::format("{}, counters unlike the CPU path's", name),
@@ -126,7 +126,7 @@ void compare_with_cpu_path(CaseBench& bench, const char* name, const RadiationMo
 constexpr double many_rays = 4097.0 * 4097.0;
 
 double counted(const CaseBench& bench, const RadiationModel& model, std::uint32_t& rays, bool on_elements) {
-  const CaseTree tree(model);
+  const SceneTree tree(model);
   const shared::BeamBlock beam = make_beam_block(model, tree.layout, many_rays, 1, 0);
   rays = beam.columns * beam.rows;
   const Counters counters = count_beam(bench, *bench.tracer(model, tree), beam, tree);
@@ -139,10 +139,10 @@ double counted(const CaseBench& bench, const RadiationModel& model, std::uint32_
 void device_cases(CaseBench& bench) {
   for (const bool periodic : {true, false}) {
     const RadiationModel model = leaves_in_sun_and_sky({1.0, 1.0, periodic});
-    const CaseTree tree(model);
+    const SceneTree tree(model);
     const char* name = periodic ? "endless plot" : "stand alone";
-    CpuTracer walk(tree.bvh, case_scene(model));
-    CpuTracer doubter(tree.bvh, case_scene(model), CpuWalk::every_element);
+    CpuTracer walk(tree.bvh, traced_scene(model));
+    CpuTracer doubter(tree.bvh, traced_scene(model), CpuWalk::every_element);
     const shared::BeamBlock beam = make_beam_block(model, tree.layout, 10'000, 2, 0);
     bench.equal(fmt::format("{}, counters unlike those without a tree", name),
                 words_apart(count_beam(bench, walk, beam, tree), count_beam(bench, doubter, beam, tree)), 0.0, 0.0);

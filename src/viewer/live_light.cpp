@@ -1,10 +1,10 @@
 #include "viewer/live_light.h"
 
-#include "app/losses.h"
-#include "app/result_folder.h"
 #include "base/error.h"
 #include "io/file.h"
 #include "io/folder_lock.h"
+#include "simulate/result_folder.h"
+#include "simulate/scene_source.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ Scene light_of_scene(Scene& scene) {
 }
 
 SolveSettings live_settings(const RunOptions& options, const Scene& scene) {
-  SolveSettings settings = solve_settings(options, scene);
+  SolveSettings settings = solve_settings(options, scene, options.threads);
   const std::size_t side_bytes = 2 * scene.model.canopy.size() * scene.model.bands.size() * 2 * sizeof(double);
   if (side_bytes <= most_side_bytes) settings.element_errors = ElementErrors::keep_sides;
   return settings;
@@ -56,20 +56,15 @@ std::uint64_t rays_of(const RadiationResult& result) {
 
 }  // namespace
 
-LiveLight::LiveLight(Scene scene, const SceneTree& tree, Engine& engine, const RunOptions& options,
-                     std::function<void()> notify)
-    : original_(light_of_scene(scene)),
-      tree_(tree),
-      engine_(engine),
+LiveLight::LiveLight(Simulation& simulation, const RunOptions& options, std::function<void()> notify)
+    : original_(light_of_scene(simulation.scene())),
+      simulation_(simulation),
       options_(options),
       notify_(std::move(notify)),
-      beams_(engine.tracer(), most_beam_bytes),
-      settings_(live_settings(options, scene)),
-      has_receivers_(!scene.model.planes.empty() || !scene.model.sensors.empty()),
-      scene_(std::move(scene)),
+      settings_(live_settings(options, simulation.scene())),
+      has_receivers_(remove_receivers(simulation.scene())),
       wish_(wish_of(original_)) {
-  scene_.model.planes.clear();  // nothing of them is shown
-  scene_.model.sensors.clear();
+  simulation.remember_beams(most_beam_bytes);
   asked_ = 1;
   asked_at_ = Clock::now();
   worker_ = std::thread([this] { work(); });
@@ -158,10 +153,11 @@ void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
   {
     const std::lock_guard lock(result_mutex_);
     // What is there belongs to the light before; it goes as soon as the scene no longer tells how it came about.
-    grant(wish, original_, scene_.model);
+    Scene& scene = simulation_.scene();
+    grant(wish, original_, scene.model);
     const bool changed = !first_difference(wish_of(original_), wish).empty();
-    scene_.title = original_.title + (changed ? " (light changed)" : "");
-    scene_.digest = original_.digest + (changed ? "-changed-" + digest_of(wish) : "");
+    scene.title = original_.title + (changed ? " (light changed)" : "");
+    scene.digest = original_.digest + (changed ? "-changed-" + digest_of(wish) : "");
     result_.reset();
   }
   {
@@ -173,7 +169,7 @@ void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
   monitor.interrupted = [this, number] { return superseded(number); };
   monitor.wants_result = [this] { return wants_result(); };
   monitor.receive_result = [this, number](RadiationResult result) { take_result(std::move(result), number, false); };
-  RadiationResult result = solve(scene_.model, tree_.layout, beams_, settings_, monitor);
+  RadiationResult result = simulation_.solve(settings_, monitor);
   if (!superseded(number)) take_result(std::move(result), number, true);
 }
 
@@ -200,9 +196,9 @@ void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool c
   news_.complete = complete;
   news_.stop = result.stop;
   news_.rays = rays_of(result);
-  news_.spared_beams = beams_.spared();
-  news_.sun = scene_.model.sun;
-  news_.incoming = scene_.model.bands;
+  news_.spared_beams = simulation_.spared_beams();
+  news_.sun = simulation_.model().sun;
+  news_.incoming = simulation_.model().bands;
   news_.direct_error = result.direct.relative_error;
   news_.indirect_error = result.indirect.relative_error;
   news_.direct_bound = settings_.accuracy.direct;
@@ -239,20 +235,9 @@ void LiveLight::save_if_asked() {
 void LiveLight::write(const std::filesystem::path& folder, const RadiationResult& result) {
   FolderLock lock(folder);
   prepare_folder(folder, lock);
-  RunOptions options = options_;
-  options.quiet = true;
-  options.json = false;
-  RunRecord record = make_record(options, scene_, settings_, engine_);
-  record.complete = is_done(result.stop);
-  record.seconds.direct = result.direct.seconds;
-  record.seconds.indirect = result.indirect.seconds;
-  Losses losses;
-  const bool all = write_results(folder, options, record, {scene_, tree_.layout, result, engine_}, {}, losses);
-  record.not_written = losses.names();
-  if (has_receivers_) record.not_written.emplace_back("planes and sensors");
-  record.complete = record.complete && all && record.not_written.empty();
-  publish(folder, options, record, scene_.model, result, losses);
-  losses.complain();
+  SimulatedScene simulated = simulation_.simulated(settings_, result);
+  if (has_receivers_) simulated.record.not_written.emplace_back("planes and sensors");
+  write_whole_result(folder, options_, simulated, simulated.record).throw_if_any();
 }
 
 }  // namespace sunfleck

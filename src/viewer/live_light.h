@@ -1,11 +1,9 @@
 #pragma once
 // The simulation behind a window: begins anew whenever the light is changed, and hands over what is known while it goes on.
 
-#include "app/engine.h"
 #include "app/options.h"
-#include "app/simulation.h"
 #include "io/scene_reader.h"
-#include "tracers/remembered_beams.h"
+#include "simulate/simulation.h"
 #include "transport/result.h"
 #include "viewer/light_wish.h"
 
@@ -61,7 +59,7 @@ class LiveLight {
  public:
   // Begins with the scene as it is. The tree and the engine must outlive it; `notify` is called from the simulating thread when
   // there is news.
-  LiveLight(Scene scene, const SceneTree& tree, Engine& engine, const RunOptions& options, std::function<void()> notify);
+  LiveLight(Simulation& simulation, const RunOptions& options, std::function<void()> notify);
   ~LiveLight();
   LiveLight(const LiveLight&) = delete;
   LiveLight& operator=(const LiveLight&) = delete;
@@ -75,14 +73,14 @@ class LiveLight {
   [[nodiscard]] LightNews news() const;
 
   // What no light changes may be read of it at any time: triangles, organs, plot, camera.
-  [[nodiscard]] const Scene& geometry() const { return scene_; }
+  [[nodiscard]] const Scene& geometry() const { return simulation_.scene(); }
 
   // The result with the scene it is of, both as long as the call lasts; false, and no call, while there is none.
   template <class Use>
   bool with_result(const Use& use) const {
     const std::lock_guard lock(result_mutex_);
     if (!result_) return false;
-    use(scene_, *result_, stamp_);
+    use(simulation_.scene(), *result_, stamp_);
     return true;
   }
 
@@ -100,11 +98,9 @@ class LiveLight {
   [[nodiscard]] bool wants_result() const;
 
   Scene original_;  // the light it was read with; its canopy is empty
-  const SceneTree& tree_;
-  Engine& engine_;
+  Simulation& simulation_;
   RunOptions options_;
   std::function<void()> notify_;
-  RememberedBeams beams_;
   SolveSettings settings_;
   bool has_receivers_;  // planes or sensors, of which a window knows nothing
 
@@ -112,8 +108,7 @@ class LiveLight {
   std::atomic<std::uint64_t> asked_ = 0;  // number of the last wish
   std::atomic<bool> save_asked_ = false;
 
-  mutable std::mutex result_mutex_;  // of the next four; for who reads, as long as it takes
-  Scene scene_;                      // as the result has it
+  mutable std::mutex result_mutex_;  // guards the simulation's scene and the next two members; readers may hold it
   std::optional<RadiationResult> result_;
   LightStamp stamp_;
 

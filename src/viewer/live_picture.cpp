@@ -114,8 +114,8 @@ bool same_style(const PictureWish& a, const PictureWish& b) {
          a.picked == b.picked;
 }
 
-LivePicture::LivePicture(const LiveLight& light, const SceneTree& tree, const Engine& engine, std::function<void()> notify)
-    : light_(light), tree_(tree), engine_(engine), notify_(std::move(notify)), worker_([this] { work(); }) {}
+LivePicture::LivePicture(const LiveLight& light, const Tracing& tracing, std::function<void()> notify)
+    : light_(light), tracing_(tracing), notify_(std::move(notify)), worker_([this] { work(); }) {}
 
 LivePicture::~LivePicture() {
   {
@@ -228,11 +228,11 @@ int LivePicture::preview_step(const PictureOptions& options) const {
 
 std::vector<shared::SeenSurface> LivePicture::see(const PictureOptions& options, const Camera& camera,
                                                   const StopQuestion& stop) {
-  CanopyLook aim = picture_look(light_.geometry().model, tree_.layout, options, camera);
+  CanopyLook aim = picture_look(light_.geometry().model, tracing_.tree.layout, options, camera);
   if (viewer_) {
     viewer_->aim(std::move(aim));
   } else {
-    viewer_ = engine_.viewer(std::move(aim));
+    viewer_ = tracing_.engine.viewer(std::move(aim));
   }
   std::vector<shared::SeenSurface> all;
   all.reserve(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height) *
@@ -277,11 +277,12 @@ bool LivePicture::look_at(Sight& sight, Fineness fineness, Haste haste) {
 void LivePicture::refresh_content(const PictureWish& wish) {
   static_cast<void>(light_.with_result([&](const Scene& scene, const RadiationResult& result, const LightStamp& stamp) {
     if (content_ && content_->light.version == stamp.version && same_style(content_->wish, wish)) return;
-    if (!surfaces_) surfaces_ = surface_colours(scene.model, tree_.layout);
-    Content next{stamp,
-                 wish,
-                 chart_content({scene.title, scene.model, tree_.layout, result}, wish.options, wish.picture, *surfaces_),
-                 {}};
+    if (!surfaces_) surfaces_ = surface_colours(scene.model, tracing_.tree.layout);
+    Content next{
+        stamp,
+        wish,
+        chart_content({scene.title, scene.model, tracing_.tree.layout, result}, wish.options, wish.picture, *surfaces_),
+        {}};
     if (wish.picked && *wish.picked < scene.model.canopy.size()) {
       const std::size_t side = 2 * std::size_t{*wish.picked};
       next.chart.colours[side] = next.chart.colours[side + 1] = picked_colour;
@@ -294,7 +295,7 @@ void LivePicture::refresh_content(const PictureWish& wish) {
 void LivePicture::paint(const Sight& sight) {
   const auto start = std::chrono::steady_clock::now();
   const Image image = draw_chart(sight.seen, content_->chart.colours, sight.wish.camera, light_.geometry().model.plot,
-                                 tree_.layout.layers.height_m, content_->chart.text);
+                                 tracing_.tree.layout.layers.height_m, content_->chart.text);
   auto next = std::make_shared<LivePictureFrame>();
   next->pixels = words_of(image);
   next->width = image.width;

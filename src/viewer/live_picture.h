@@ -2,7 +2,8 @@
 // The picture in a window: looked at and painted beside whatever else goes on, roughly while the camera moves and finely once
 // it rests.
 
-#include "app/pictures.h"
+#include "pictures/pictures.h"
+#include "simulate/simulated_scene.h"
 #include "viewer/live_light.h"
 
 #include <atomic>
@@ -65,7 +66,7 @@ void write_frame(const LivePictureFrame& frame, const std::filesystem::path& fil
 class LivePicture {
  public:
   // All must outlive it. `notify` is called from the drawing thread when there is a new frame.
-  LivePicture(const LiveLight& light, const SceneTree& tree, const Engine& engine, std::function<void()> notify);
+  LivePicture(const LiveLight& light, const Tracing& tracing, std::function<void()> notify);
   ~LivePicture();
   LivePicture(const LivePicture&) = delete;
   LivePicture& operator=(const LivePicture&) = delete;
@@ -108,8 +109,7 @@ class LivePicture {
   void paint(const Sight& sight);
 
   const LiveLight& light_;
-  const SceneTree& tree_;
-  const Engine& engine_;
+  const Tracing& tracing_;
   std::function<void()> notify_;
 
   std::atomic<bool> quitting_ = false;

@@ -11,7 +11,7 @@ namespace {
 Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file, SourceFiles& files) {
   // A file that was dropped on the window is a scene file.
   const StandFiles stand = file == options.run.scene ? options.run.stand : StandFiles{};
-  Scene scene = load_scene(file, stand, {.allow_outside = options.run.allow_outside, .files = &files});
+  Scene scene = load_scene({file, stand, options.run.allow_outside}, ScenePurpose::moment, &files);
   check_view(scene.model, options.run.pictures);
   check_grid(options.run, scene);
   return scene;
@@ -36,17 +36,14 @@ RunOptions run_options(const ViewOptions& options, const std::filesystem::path& 
 Session::Session(const ViewOptions& options, const std::filesystem::path& scene_file, SourceFiles& files,
                  const std::function<void()>& notify)
     : file(scene_file),
-      scene_(checked_scene(options, file, files)),
-      title(scene_.title),
-      light_of_scene(wish_of(scene_)),
-      bands(names_of(scene_.model.bands)),
-      optics(names_of(scene_.model.optics)),
-      warnings(scene_.warnings),
-      tree(scene_.model),
-      box(shown_box(scene_.model, tree.layout)),
-      engine(options.run.device, tree.bvh, {scene_.model.plot.periodic, scene_.model.soil.has_value()}, tree.layout.words(),
-             EngineUse::drawn_meanwhile),
-      light(std::move(scene_), tree, engine, run_options(options, file), notify),
-      picture(light, tree, engine, notify) {}
+      simulation(checked_scene(options, file, files), options.run, EngineUse::drawn_meanwhile),
+      title(simulation.scene().title),
+      light_of_scene(wish_of(simulation.scene())),
+      bands(names_of(simulation.model().bands)),
+      optics(names_of(simulation.model().optics)),
+      warnings(simulation.scene().warnings),
+      box(shown_box(simulation.model(), simulation.layout())),
+      light(simulation, run_options(options, file), notify),
+      picture(light, simulation.tracing(), notify) {}
 
 }  // namespace sunfleck

@@ -2,7 +2,8 @@
 // One scene in a window, with all that works on it.
 
 #include "app/options.h"
-#include "app/pictures.h"
+#include "pictures/pictures.h"
+#include "simulate/simulation.h"
 #include "viewer/live_light.h"
 #include "viewer/live_picture.h"
 
@@ -21,18 +22,12 @@ class Session {
           const std::function<void()>& notify);
 
   std::filesystem::path file;
-
- private:
-  Scene scene_;  // until `light` takes it over
-
- public:
+  Simulation simulation;  // its light is changed by `light` alone
   const std::string title;
   const LightWish light_of_scene;                // to begin with
   const std::vector<std::string> bands, optics;  // their names
   const std::vector<std::string> warnings;       // of the scene, one line each
-  SceneTree tree;
   const ShownBox box;
-  Engine engine;
   LiveLight light;
   LivePicture picture;
 };

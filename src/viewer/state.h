@@ -1,7 +1,7 @@
 #pragma once
 // What a window shows and what its user has set.
 
-#include "app/picture.h"
+#include "pictures/picture.h"
 #include "view/camera_motion.h"
 #include "viewer/light_wish.h"
 #include "viewer/live_light.h"

@@ -1,12 +1,12 @@
 #include "viewer/view.h"
 
-#include "app/engine.h"
-#include "app/interrupt.h"
-#include "app/simulation.h"
+#include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "gpu/window.h"
 #include "io/file.h"
+#include "simulate/interrupt.h"
+#include "tracers/engine.h"
 #include "view/text.h"
 #include "viewer/viewer.h"
 

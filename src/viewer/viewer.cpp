@@ -1,9 +1,6 @@
 #include "viewer/viewer.h"
 
-#include "app/interrupt.h"
-#include "app/pictures.h"
-#include "app/scene_source.h"
-#include "app/simulation.h"
+#include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "io/file.h"
@@ -251,7 +248,7 @@ void Viewer::place_camera(const Stage& place) {
   const Placed now{state_.options.view, state_.options.width, state_.options.height};
   if (state_.camera_as_given) {
     if (std::exchange(placed_, now) == now) return;
-    const Camera camera = picture_camera(session_->light.geometry(), session_->tree.layout, state_.options);
+    const Camera camera = picture_camera(session_->light.geometry(), session_->simulation.layout(), state_.options);
     state_.hand = in_hand(camera, 0.5 * (place.lo_m + place.hi_m));
   } else if (state_.hand.camera.kind == Projection::fisheye) {
     state_.hand.camera = fisheye_view(state_.hand.camera.position_m, aspect);

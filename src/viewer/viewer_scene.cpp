@@ -1,6 +1,6 @@
 // Which scene the window shows: loading, entering, and watching its files.
 
-#include "app/simulation.h"
+#include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "io/file.h"
@@ -36,7 +36,7 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.light = session_->light_of_scene;
   state_.news = {};
   state_.title = session_->title;
-  state_.device = device_line(session_->engine.device());
+  state_.device = device_line(session_->simulation.device());
   state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), scene.model.plot.size_x_m,
                                  scene.model.plot.size_z_m, scene.model.plot.periodic ? ", endless" : "");
   state_.bands = session_->bands;
@@ -59,7 +59,7 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   window_.set_title("sunfleck: " + session_->title);
   events_.tell("loaded", {{"scene", session_->file.string()},
                           {"triangles", scene.model.canopy.size()},
-                          {"device", session_->engine.device().name},
+                          {"device", session_->simulation.device().name},
                           {"window", window_.device().name}});
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 // A small scene for what is behind the window: a leaf over soil, two bands, sun and sky.
 
-#include "app/simulation.h"
+#include "app/options.h"
 #include "io/scene_reader.h"
+#include "simulate/simulation.h"
 #include "support/temp_folder.h"
 
 #include <filesystem>
@@ -61,21 +62,17 @@ inline std::filesystem::path write_live_scene(const TempFolder& folder) {
   return folder.write("leaves.toml", live_scene_text);
 }
 
-// Scene, tree and engine on the CPU path, as the window has them.
+// A simulation on the CPU path, as the window has it.
 struct LiveScene {
   explicit LiveScene(const std::filesystem::path& file)
-      : scene(read_scene(file)),
-        tree(scene.model),
-        engine({"cpu"}, tree.bvh, {scene.model.plot.periodic, scene.model.soil.has_value()}, tree.layout.words(),
-               EngineUse::drawn_meanwhile) {
+      : scene(read_scene(file)), simulation(scene, DeviceRequest{"cpu", 0, 0}, EngineUse::drawn_meanwhile) {
     options.scene = file;
     options.device = "cpu";
     options.quiet = true;
   }
   RunOptions options;
-  Scene scene;
-  SceneTree tree;
-  Engine engine;
+  const Scene scene;  // as it was read
+  Simulation simulation;
 };
 
 }  // namespace sunfleck::test

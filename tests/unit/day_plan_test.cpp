@@ -1,4 +1,4 @@
-#include "app/day_plan.h"
+#include "simulate/day_plan.h"
 
 #include "light/sun_events.h"
 #include "support/scene_text.h"
@@ -18,8 +18,8 @@ class DayPlanTest : public SceneFolder {
                     "\n[weather]\nclear_sky = \"ineichen\"\n[sky]\nmodel = \"uniform\"\n[[band]]\nname = \"PAR\"\n",
                 {.purpose = ScenePurpose::day});
   }
-  static DayOptions hours(const std::string& from, const std::string& to, int step_min) {
-    DayOptions options;
+  static DayRequest hours(const std::string& from, const std::string& to, int step_min) {
+    DayRequest options;
     options.from = from;
     options.to = to;
     options.step_min = step_min;
@@ -45,7 +45,7 @@ TEST_F(DayPlanTest, LastStepEndsWithTheDay) {
 }
 
 TEST_F(DayPlanTest, DatesFollowTheCalendar) {
-  DayOptions options = hours("11:00", "12:00", 10);
+  DayRequest options = hours("11:00", "12:00", 10);
   options.date = "2004-02-28";
   options.to_date = "2004-03-01";
   const DayPlan plan = plan_day(options, scene_at("2002-08-08T10:10:00-11:00"));
@@ -108,13 +108,13 @@ TEST_F(DayPlanTest, RefusalsAreOneLine) {
     expect_three_parts(*message);
   }
   for (const char* date : {"2002", "2002-8-8", "2002-13-01", "2001-02-29", "2101-01-01", "x", "2002/08/08", "2002-08-0\t"}) {
-    DayOptions options = hours("10:00", "11:00", 60);
+    DayRequest options = hours("10:00", "11:00", 60);
     options.date = date;
     const auto message = message_of([&] { static_cast<void>(plan_day(options, scene)); });
     ASSERT_TRUE(message) << date;
     expect_three_parts(*message);
   }
-  DayOptions many = hours("00:00", "24:00", 1);
+  DayRequest many = hours("00:00", "24:00", 1);
   many.to_date = "2100-12-31";
   const auto message = message_of([&] { static_cast<void>(plan_day(many, scene)); });
   ASSERT_TRUE(message);

@@ -42,8 +42,8 @@ RadiationResult result_of(const LiveLight& light) {
 
 // What `run` would find for the model as it is.
 RadiationResult run_of(const test::LiveScene& live, const RadiationModel& model) {
-  CpuTracer tracer(live.tree.bvh, {model.plot.periodic, model.soil.has_value()});
-  return solve(model, live.tree.layout, tracer, solve_settings(live.options, live.scene), {});
+  CpuTracer tracer(live.simulation.tracing().tree.bvh, {model.plot.periodic, model.soil.has_value()});
+  return solve(model, live.simulation.layout(), tracer, solve_settings(live.options, live.scene), {});
 }
 
 void expect_same(const RadiationResult& live, const RadiationResult& run) {
@@ -66,7 +66,7 @@ TEST(LiveLight, EndsWithWhatRunComputes) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
   const RadiationResult run = run_of(live, live.scene.model);
-  LiveLight light(live.scene, live.tree, live.engine, live.options, [] {});
+  LiveLight light(live.simulation, live.options, [] {});
   ASSERT_TRUE(wait_until_done(light, 1));
   expect_same(result_of(light), run);
   EXPECT_EQ(light.news().problem, "");
@@ -75,7 +75,7 @@ TEST(LiveLight, EndsWithWhatRunComputes) {
 TEST(LiveLight, AnotherSunBeginsAnew) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.scene, live.tree, live.engine, live.options, [] {});
+  LiveLight light(live.simulation, live.options, [] {});
   LightWish wish = wish_of(live.scene);
   std::uint64_t number = 0;
   for (const double hour : {8.0, 11.5, 14.0}) {  // without waiting for the one before
@@ -95,7 +95,7 @@ TEST(LiveLight, AnotherSunBeginsAnew) {
 TEST(LiveLight, OtherOpticsKeepTheBeams) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.scene, live.tree, live.engine, live.options, [] {});
+  LiveLight light(live.simulation, live.options, [] {});
   ASSERT_TRUE(wait_until_done(light, 1));
   const RadiationResult before = result_of(light);
   EXPECT_EQ(light.news().spared_beams, 0U);
@@ -114,7 +114,7 @@ TEST(LiveLight, OtherOpticsKeepTheBeams) {
 TEST(LiveLight, GoesOnAfterAWishThatCannotBe) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.scene, live.tree, live.engine, live.options, [] {});
+  LiveLight light(live.simulation, live.options, [] {});
   ASSERT_TRUE(wait_until_done(light, 1));
   LightWish wish = wish_of(live.scene);
   wish.sun.shines = false;
@@ -133,7 +133,7 @@ TEST(LiveLight, SavesWhatRunWrites) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
   live.options.images = {"none"};
-  LiveLight light(live.scene, live.tree, live.engine, live.options, [] {});
+  LiveLight light(live.simulation, live.options, [] {});
   light.save(folder / "out");
   ASSERT_TRUE(wait_for([&] { return light.news().saved.has_value(); }));
   EXPECT_TRUE(light.news().saved->done) << light.news().saved->text;
@@ -152,7 +152,7 @@ TEST(LiveLight, SavesWhatRunWrites) {
 TEST(LiveLight, KnowsTheErrorOfEachSide) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.scene, live.tree, live.engine, live.options, [] {});
+  LiveLight light(live.simulation, live.options, [] {});
   LightWish wish = wish_of(live.scene);
   for (std::size_t b = 0; b < 2; ++b) {
     wish.optics.at(0).upper[b] = wish.optics.at(0).lower[b] = {};
@@ -178,13 +178,13 @@ TEST(LiveLight, KnowsTheErrorOfEachSide) {
 TEST(Monitor, IsHandedWhatIsKnownAfterEachReplicate) {
   const TempFolder folder;
   const test::LiveScene live(test::write_live_scene(folder));
-  CpuTracer tracer(live.tree.bvh, {true, true});
+  CpuTracer tracer(live.simulation.tracing().tree.bvh, {true, true});
   const SolveSettings settings = solve_settings(live.options, live.scene);
   std::vector<RadiationResult> seen;
   Monitor monitor;
   monitor.wants_result = [] { return true; };
   monitor.receive_result = [&](RadiationResult result) { seen.push_back(std::move(result)); };
-  const RadiationResult end = solve(live.scene.model, live.tree.layout, tracer, settings, monitor);
+  const RadiationResult end = solve(live.scene.model, live.simulation.layout(), tracer, settings, monitor);
   expect_same(end, run_of(live, live.scene.model));
   ASSERT_GE(seen.size(), 8U + end.direct.replicates);
   for (const RadiationResult& result : seen) {

@@ -24,13 +24,13 @@ bool wait_for(const Condition& condition) {
 // Light that is done, and a picture of it.
 class LivePictures : public testing::Test {
  protected:
-  LivePictures() : live_(test::write_live_scene(folder_)), light_(live_.scene, live_.tree, live_.engine, live_.options, [] {}) {
+  LivePictures() : live_(test::write_live_scene(folder_)), light_(live_.simulation, live_.options, [] {}) {
     wish_.options.width = 160;
     wish_.options.height = 120;
     wish_.options.samples = 4;
-    wish_.camera = picture_camera(live_.scene, live_.tree.layout, wish_.options);
+    wish_.camera = picture_camera(live_.scene, live_.simulation.layout(), wish_.options);
     EXPECT_TRUE(wait_for([&] { return light_.news().complete; }));
-    picture_.emplace(light_, live_.tree, live_.engine, [] {});
+    picture_.emplace(light_, live_.simulation.tracing(), [] {});
   }
 
   std::shared_ptr<const LivePictureFrame> finished(std::uint64_t look) {
@@ -55,7 +55,7 @@ TEST_F(LivePictures, EndAsRenderDrawsThem) {
     const std::uint64_t look = picture_->ask(wish_);
     Image expected;
     ASSERT_TRUE(light_.with_result([&](const Scene& scene, const RadiationResult& result, const LightStamp&) {
-      const Drawing drawing{scene, live_.tree.layout, result, live_.engine};
+      const Drawing drawing{scene, live_.simulation.layout(), result, live_.simulation.tracing().engine};
       EXPECT_TRUE(draw_charts(drawing, wish_.options, std::span(&picture, 1), {},
                               [&](const Picture&, const Image& image) { expected = image; }));
     }));

@@ -1,6 +1,6 @@
 // The files that a scene is read from: its list of them, and the digest that follows from it.
 
-#include "app/scene_source.h"
+#include "simulate/scene_source.h"
 #include "support/caribu_files.h"
 #include "support/mesh_files.h"
 #include "support/scene_text.h"
@@ -54,13 +54,13 @@ class SceneSources : public ::testing::Test {
     write(folder / "plot.8", "0 0\n4 4\n");
   }
 
-  [[nodiscard]] Scene scene() const { return load_scene(folder_ / "scene.toml", {}, {}); }
+  [[nodiscard]] Scene scene() const { return load_scene({folder_ / "scene.toml"}); }
   [[nodiscard]] Scene stand(const std::string& canopy = "stand.can", const std::string& light = "sun.light") const {
     StandFiles files;
     files.optics = {(folder_ / "par.opt").string(), (folder_ / "nir.opt").string()};
     files.light = folder_ / light;
     files.domain = folder_ / "plot.8";
-    return load_scene(folder_ / canopy, files, {});
+    return load_scene({folder_ / canopy, files});
   }
 
   // The names in the folder of the files that a scene was read from, once each.
@@ -129,13 +129,13 @@ TEST_F(SceneSources, MayLieAnywhere) {
   const TempFolder other_root;
   const fs::path other = other_root / "elsewhere";
   fill(other);
-  EXPECT_EQ(load_scene(other / "scene.toml", {}, {}).digest, scene().digest);
+  EXPECT_EQ(load_scene({other / "scene.toml"}).digest, scene().digest);
 }
 
 TEST_F(SceneSources, OfASceneThatFailsAreListedToo) {
   const auto tried = [this](const std::string& names_of) {
     SourceFiles files;
-    EXPECT_TRUE(message_of([&] { static_cast<void>(load_scene(folder_ / "scene.toml", {}, {.files = &files})); })) << names_of;
+    EXPECT_TRUE(message_of([&] { static_cast<void>(load_scene({folder_ / "scene.toml"}, ScenePurpose::moment, &files)); })) << names_of;
     return files.list();
   };
   write(folder_ / "first.obj", "f 1 2 3\n");

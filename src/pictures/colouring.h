@@ -1,0 +1,36 @@
+#pragma once
+// A field's numbers as the colours and the legend of a chart.
+
+#include "pictures/fields.h"
+#include "pictures/picture.h"
+#include "view/chart.h"
+#include "view/colour_scale.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+struct Colouring {
+  std::vector<Colour> colours;  // linear, [surface number]
+  std::string legend_title;
+  std::vector<LegendEntry> legend;
+  std::optional<ColourBar> bar;
+  std::string note;  // for the footer; may be empty
+};
+
+// What hue mapping needs to know of the surfaces.
+struct SurfaceColours {
+  std::vector<Colour> reflectance;  // [surface number]
+  std::string name;                 // of the commonest surface by area, and its colour: the legend's swatches show it
+  Colour typical{};
+};
+[[nodiscard]] SurfaceColours surface_colours(const RadiationModel& model, const CounterLayout& layout);
+
+// `title` is the field's, with its unit; `top_w_m2` as in PictureOptions.
+[[nodiscard]] Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces,
+                                     const std::string& title, std::optional<double> top_w_m2 = {});
+
+}  // namespace sunfleck

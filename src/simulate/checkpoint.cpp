@@ -1,0 +1,126 @@
+#include "simulate/checkpoint.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "io/exports.h"
+#include "io/file.h"
+#include "io/result_writer.h"
+#include "io/sealed_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr const char* summary_file = "summary.json";
+constexpr int pauses_per_write = 50;  // so that writing the state takes at most 1/50 of the time
+constexpr std::chrono::milliseconds shortest_pause{500};
+
+template <class T>
+ordered_json value_or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+// Everything that the bytes of the tables depend on, as summary.json has it.
+ordered_json run_settings(const Scene& scene, const SolveSettings& settings) {
+  return {{"command", "run"},
+          {"sunfleck", version()},
+          {"scene_digest", scene.digest},
+          {"seed", settings.seed},
+          {"direct_error", settings.accuracy.direct},
+          {"indirect_error", settings.accuracy.indirect},
+          {"confidence", settings.accuracy.confidence},
+          {"of", error_target_name(settings.accuracy.of)},
+          {"grid_m", value_or_null(settings.grid_m)},
+          {"passes", value_or_null(settings.passes)},
+          {"max_rays", value_or_null(settings.max_rays)}};
+}
+
+// The settings, and whether sums of single triangles are kept.
+ordered_json state_settings(ordered_json settings, ElementErrors element_errors) {
+  settings["of_triangles"] = element_errors != ElementErrors::skip;
+  return settings;
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(fs::path folder, std::vector<std::string> exports, const Scene& scene, const SolveSettings& settings)
+    : folder_(std::move(folder)),
+      exports_(std::move(exports)),
+      element_errors_(settings.element_errors),
+      settings_(run_settings(scene, settings)),
+      store_(folder_, state_settings(settings_, element_errors_)),
+      pause_(shortest_pause) {}
+
+Checkpoint::Found Checkpoint::find(const RadiationModel& model) {
+  if (is_finished()) return Found::finished;
+  found_ = store_.read(blank_state(model, make_counter_layout(model), element_errors_));
+  return found_ ? Found::begun : Found::nothing;
+}
+
+// The summary of a finished run holds its settings; a file that is no summary of ours says nothing.
+bool Checkpoint::is_finished() const {
+  std::error_code error;
+  if (!fs::is_regular_file(folder_ / summary_file, error)) return false;
+  const json summary = json::parse(read_file(folder_ / summary_file), nullptr, false);
+  if (!summary.is_object() || summary.value("complete", json()) != true) return false;
+  const json none;
+  const json settings = summary.value("settings", json::object());
+  ordered_json noted;
+  for (const auto& [key, value] : settings_.items()) {
+    const json& place = settings.is_object() && settings.contains(key) ? settings : summary;
+    noted[key] = key == "command" ? summary.value(key, json("run")) : place.value(key, none);
+  }
+  expect_same_settings(settings_, noted, "that finished run", folder_);
+  for (const ExportKind kind : export_kinds) {
+    const bool asked = std::find(exports_.begin(), exports_.end(), export_name(kind)) != exports_.end();
+    if (!asked || fs::exists(folder_ / export_file(kind), error)) continue;
+    throw_input(fmt::format("--export {}", export_name(kind)),
+                fmt::format("the run in {} is finished, and has no {}", printable(folder_.string()), export_file(kind)),
+                "leave --resume out to compute it anew");
+  }
+  return true;
+}
+
+std::string Checkpoint::resume_line() const {
+  if (found_) return fmt::format("resuming after {} replicates", found_->replicates());
+  return fmt::format("{}: nothing to resume, the run starts from the beginning", printable(folder_.string()));
+}
+
+void Checkpoint::attend(Monitor& monitor) {
+  begin_ = last_ = Clock::now();
+  monitor.wants_state = [this] { return is_due(); };
+  monitor.receive_state = [this](const SolveState& state) { keep(state); };
+}
+
+bool Checkpoint::is_due() {
+  begin_ = Clock::now();
+  return !failed_ && begin_ - last_ >= pause_;
+}
+
+void Checkpoint::keep(const SolveState& state) {
+  if (failed_) return;
+  try {
+    store_.write(state);
+    written_ = true;
+  } catch (const Error& error) {
+    failed_ = true;
+    warn(fmt::format("{}; the run continues, but --resume will find no later state than this", error.what()));
+  }
+  last_ = Clock::now();
+  pause_ = std::max<Clock::duration>(shortest_pause, pauses_per_write * (last_ - begin_));
+}
+
+void Checkpoint::finish() const {
+  store_.remove();
+}
+
+}  // namespace sunfleck

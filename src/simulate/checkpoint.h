@@ -1,0 +1,62 @@
+#pragma once
+// Keeps the state of a run in its folder while it works, so that `run --resume` can resume it.
+
+#include "io/run_store.h"
+#include "io/scene_reader.h"
+#include "transport/solve.h"
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+// Writes the state after a finished replicate, once fifty times as long has passed as the last write took and at least half a
+// second: this costs at most 2 % of the time. Writes it once more at the end of a run that is stopped.
+class Checkpoint {
+ public:
+  // `exports` are those the run is asked for.
+  Checkpoint(std::filesystem::path folder, std::vector<std::string> exports, const Scene& scene, const SolveSettings& settings);
+
+  enum class Found { nothing, begun, finished };
+  // Returns what an earlier run left in the folder. Throws Error (input) if its settings were others, if its state is damaged,
+  // or if it is finished without a file that `exports` asks for.
+  [[nodiscard]] Found find(const RadiationModel& model);
+
+  // Returns the state of the run that was begun; null without one.
+  [[nodiscard]] const SolveState* state() const { return found_ ? &*found_ : nullptr; }
+
+  // Says from where the run resumes, for the user.
+  [[nodiscard]] std::string resume_line() const;
+
+  // Makes the monitor hand over states, and writes them; a disk that takes none is reported once.
+  void attend(Monitor& monitor);
+
+  // Returns whether a state of this run is in the folder.
+  [[nodiscard]] bool holds_state() const { return found_.has_value() || written_; }
+
+  // Removes the state, once all results are written. Throws Error (failure).
+  void finish() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] bool is_finished() const;
+  [[nodiscard]] bool is_due();
+  void keep(const SolveState& state);
+
+  std::filesystem::path folder_;
+  std::vector<std::string> exports_;
+  ElementErrors element_errors_;
+  nlohmann::ordered_json settings_;
+  RunStore store_;
+  std::optional<SolveState> found_;
+  bool written_ = false, failed_ = false;
+  Clock::time_point begin_ = Clock::now(), last_ = begin_;
+  Clock::duration pause_;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,191 @@
+#include "simulate/day.h"
+
+#include "base/random.h"
+#include "base/stopwatch.h"
+#include "base/version.h"
+#include "simulate/ranks.h"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+using nlohmann::ordered_json;
+
+// next_work foresees replicates of which sixteen reach 0.7 of the bounds, so that a run rarely fails its checks: half of its
+// work is spare. With fewer packets each, a step makes as many replicates as it needs, and the spare work is what lies between
+// two checks. Rays cost little beside packets, and a beam that lags behind would cost all packets of more replicates.
+constexpr double share_of_next_packets = 0.4;
+// The sun may have moved to where much more work is needed, as when the first beams reach the ground. If the error is still
+// this many bounds after this many replicates, the step starts again with pilots: it would need 75 replicates, not some 20.
+constexpr int judged_replicates = 12;
+constexpr double most_bounds = 2.5;
+
+template <class T>
+ordered_json value_or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+class DayRun {
+ public:
+  DayRun(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings, DaySink& sink, const RunHooks& hooks)
+      : simulation_(simulation), plan_(plan), settings_(settings), sink_(sink), hooks_(hooks) {
+    const auto& steps = plan.course.steps;
+    lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.night(); }));
+  }
+
+  SimulatedDay run() {
+    for (std::size_t i = 0; i < plan_.course.steps.size(); ++i) {
+      if (stopped()) break;
+      if (plan_.course.steps[i].night()) {
+        day_.lights.push_back(night_light(simulation_.model()));
+        continue;
+      }
+      std::optional<StoredStep> step = sink_.find(i);
+      if (!step) {
+        step = simulate(i);
+        if (!step) break;
+        sink_.take(i, *step);
+      }
+      count(*step);
+      day_.lights.push_back(std::move(step->light));
+    }
+    return std::move(day_);
+  }
+
+ private:
+  [[nodiscard]] bool stopped() const {
+    return (hooks_.monitor.interrupted && hooks_.monitor.interrupted()) ||
+           (hooks_.ranks != nullptr && hooks_.ranks->interrupted());
+  }
+
+  // Simulates a step by day; empty if stopped meanwhile.
+  std::optional<StoredStep> simulate(std::size_t step) {
+    if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(step);
+    set_light(simulation_.scene().model, plan_.lights[step]);
+    SolveSettings settings = settings_;
+    settings.seed = RandomStream(settings_.seed, step).word();
+    if (next_work_ && !settings.grid_m && !settings.passes) {
+      settings.begin_with = Work{next_work_->rays, share_of_next_packets * next_work_->packets};
+    }
+    Stopwatch watch;
+    std::optional<RadiationResult> attempt = solve(settings);
+    if (!attempt) {
+      settings.begin_with.reset();
+      attempt = solve(settings);
+    }
+    const RadiationResult& result = *attempt;
+    simulation_.check_validation();
+    if (result.stop == StopReason::interrupted) return std::nullopt;
+    StoredStep stored;
+    stored.light = step_light(simulation_.model(), result);
+    stored.fields = day_fields(simulation_.model(), result);
+    stored.next_work = result.next_work;
+    stored.rays = result.direct.rays;
+    stored.packets = result.indirect.packets;
+    stored.lost_rays = result.lost_rays;
+    stored.direct_error = result.direct.relative_error;
+    stored.indirect_error = result.indirect.relative_error;
+    stored.reached_bound = is_done(result.stop);
+    stored.seconds = watch.lap();
+    return stored;
+  }
+
+  // Empty if the step began with far too little work; counts decide that, not the clock.
+  std::optional<RadiationResult> solve(const SolveSettings& settings) {
+    std::atomic<bool> too_little = false;  // the solver's threads read it
+    int replicates = 0;
+    Monitor monitor;
+    monitor.interrupted = [&] { return too_little || stopped(); };
+    monitor.report = [&](const Progress& state) {
+      ++replicates;
+      const bool judged = settings.begin_with && replicates == judged_replicates;
+      if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
+      report(state);
+    };
+    RadiationResult result = simulation_.solve(settings, monitor, hooks_.ranks != nullptr ? hooks_.ranks->helpers() : nullptr);
+    if (too_little) return std::nullopt;
+    return result;
+  }
+
+  // Reports a step's progress as the day's.
+  void report(const Progress& state) const {
+    if (!hooks_.monitor.report) return;
+    Progress whole = state;
+    whole.rays += day_.totals.rays + day_.totals.packets;
+    whole.fraction = (static_cast<double>(day_.totals.simulated) + state.fraction) / lit_steps_;
+    whole.seconds_left.reset();
+    if (day_.totals.simulated > 0) whole.stage = Progress::Stage::run;
+    hooks_.monitor.report(whole);
+  }
+
+  // Adds a step to the totals, whether it was simulated now or earlier.
+  void count(const StoredStep& step) {
+    const auto worse = [](std::optional<double>& worst, const std::optional<double>& error) {
+      if (error) worst = std::max(worst.value_or(0.0), *error);
+    };
+    DayTotals& totals = day_.totals;
+    ++totals.simulated;
+    totals.short_of_bound += step.reached_bound ? 0 : 1;
+    totals.rays += step.rays;
+    totals.packets += step.packets;
+    totals.lost_rays += step.lost_rays;
+    worse(totals.direct_error, step.direct_error);
+    worse(totals.indirect_error, step.indirect_error);
+    totals.seconds += step.seconds;
+    next_work_ = step.next_work;
+  }
+
+  Simulation& simulation_;
+  const DayPlan& plan_;
+  const SolveSettings& settings_;
+  DaySink& sink_;
+  const RunHooks& hooks_;
+  double lit_steps_ = 0.0;
+  std::optional<Work> next_work_;
+  SimulatedDay day_;
+};
+
+}  // namespace
+
+SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads) {
+  SolveSettings settings = solve_settings(work, scene, threads);
+  settings.element_errors = ElementErrors::keep;
+  settings.max_seconds.reset();
+  return settings;
+}
+
+ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan) {
+  return {{"sunfleck", version()},
+          {"scene_digest", scene.digest},
+          {"date", plan.course.dates.front()},
+          {"to_date", plan.course.dates.back()},
+          {"step_min", request.step_min},
+          {"from", clock_text(plan.from_min)},
+          {"to", clock_text(plan.to_min)},
+          {"seed", settings.seed},
+          {"direct_error", settings.accuracy.direct},
+          {"indirect_error", settings.accuracy.indirect},
+          {"confidence", settings.accuracy.confidence},
+          {"of", error_target_name(settings.accuracy.of)},
+          {"grid_m", value_or_null(settings.grid_m)},
+          {"passes", value_or_null(settings.passes)},
+          {"max_rays", value_or_null(settings.max_rays)}};
+}
+
+void set_light(RadiationModel& model, const MomentLight& light) {
+  model.sun = light.sun;
+  model.bands = light.bands;
+  model.sky = light.sky;
+}
+
+SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings, DaySink& sink,
+                          const RunHooks& hooks) {
+  return DayRun(simulation, plan, settings, sink, hooks).run();
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,179 @@
+#include "simulate/day_plan.h"
+
+#include "base/error.h"
+#include "io/file.h"
+#include "light/sun_events.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+namespace sunfleck {
+namespace {
+
+using std::chrono::sys_days;
+using std::chrono::year_month_day;
+
+constexpr int minutes_per_hour = 60;
+constexpr int minutes_per_day = 1440;
+constexpr double seconds_per_minute = 60.0;
+// Where the sun's position is known.
+constexpr int first_year = 1900, last_year = 2100;
+
+// Digits only, so many; -1 for anything else.
+int number_of(std::string_view text, std::size_t digits) {
+  int number = 0;
+  const bool good = text.size() == digits && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!good) return -1;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+// 24:00 is the end of the day.
+int read_clock(const char* option, const std::string& text) {
+  const std::string_view view = text;
+  const std::size_t colon = std::min(view.find(':'), view.size());
+  const int hour = colon > 0 && colon <= 2 ? number_of(view.substr(0, colon), colon) : -1;
+  const int minute = number_of(view.substr(std::min(colon + 1, view.size())), 2);
+  const int minutes = hour * minutes_per_hour + minute;
+  if (hour < 0 || minute < 0 || minute >= minutes_per_hour || minutes > minutes_per_day) {
+    throw_input(fmt::format("{} {}", option, printable(text)), "must be a time HH:MM in 00:00..24:00",
+                "give 06:30, for example");
+  }
+  return minutes;
+}
+
+sys_days read_date(const char* option, const std::string& text) {
+  const std::string_view view = text;
+  const bool dashes = view.size() == 10 && view[4] == '-' && view[7] == '-';
+  const int year = dashes ? number_of(view.substr(0, 4), 4) : -1;
+  const int month = dashes ? number_of(view.substr(5, 2), 2) : -1;
+  const int day = dashes ? number_of(view.substr(8, 2), 2) : -1;
+  const std::string place = fmt::format("{} {}", option, printable(text));
+  if (year < 0 || month < 0 || day < 0) throw_input(place, "must be a date YYYY-MM-DD", "give 2002-08-08, for example");
+  const year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                            std::chrono::day(static_cast<unsigned>(day))};
+  if (!date.ok()) throw_input(place, "there is no such date", "check the month and the day");
+  if (year < first_year || year > last_year) {
+    throw_input(place, fmt::format("years {} to {} are known", first_year, last_year), "give a date in these");
+  }
+  return sys_days(date);
+}
+
+LocalDate local_date(sys_days date, int offset_minutes) {
+  const year_month_day day(date);
+  return {static_cast<int>(day.year()), static_cast<int>(static_cast<unsigned>(day.month())),
+          static_cast<int>(static_cast<unsigned>(day.day())), offset_minutes};
+}
+
+// So many minutes of the local clock after midnight of the date.
+UtcTime utc_at(const LocalDate& date, double minutes) {
+  return plus_seconds({date.year, date.month, date.day}, (minutes - date.offset_minutes) * seconds_per_minute);
+}
+
+std::vector<sys_days> dates_of(const DayRequest& request, const SunMoment& moment) {
+  const UtcTime local = plus_seconds(moment.time, moment.offset_minutes * seconds_per_minute);
+  sys_days first =
+      sys_days(year_month_day{std::chrono::year(local.year), std::chrono::month(static_cast<unsigned>(local.month)),
+                              std::chrono::day(static_cast<unsigned>(local.day))});
+  if (!request.date.empty()) first = read_date("--date", request.date);
+  const sys_days last = request.to_date.empty() ? first : read_date("--to-date", request.to_date);
+  if (last < first) {
+    throw_input(fmt::format("--to-date {}", request.to_date), "it lies before the first date", "give the later date");
+  }
+  std::vector<sys_days> dates;
+  // More dates than steps are refused later on.
+  for (sys_days date = first; date <= last && dates.size() <= most_day_steps; date += std::chrono::days(1)) {
+    dates.push_back(date);
+  }
+  return dates;
+}
+
+struct Daylight {
+  int from_min = minutes_per_day, to_min = 0;
+};
+
+// From the first sunrise to the last sunset of the dates. Where the clock is far from local time one of them lies beyond
+// midnight.
+Daylight daylight(const std::vector<sys_days>& dates, const SunMoment& moment) {
+  Daylight light;
+  for (const sys_days day : dates) {
+    const LocalDate date = local_date(day, moment.offset_minutes);
+    const SunEvents events = sun_events(date, moment.place);
+    if (!events.sunrise && !events.sunset && sun_position(events.transit, moment.place).elevation_rad < 0.0) continue;
+    const auto minute_of = [&](const std::optional<UtcTime>& time, double otherwise) {
+      return time ? seconds_between(utc_at(date, 0.0), *time) / seconds_per_minute : otherwise;
+    };
+    light.from_min = std::min(light.from_min, static_cast<int>(std::floor(minute_of(events.sunrise, 0.0))));
+    light.to_min = std::max(light.to_min, static_cast<int>(std::ceil(minute_of(events.sunset, minutes_per_day))));
+  }
+  return light;
+}
+
+void set_hours(DayPlan& plan, const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
+  if (request.from.empty() || request.to.empty()) {
+    const Daylight light = daylight(dates, moment);
+    if (light.from_min >= light.to_min) {
+      throw_input("--from", "the sun does not rise on these dates", "give --from and --to");
+    }
+    const int step = request.step_min;
+    const bool past_midnight = light.from_min < 0 || light.to_min > minutes_per_day;
+    plan.from_min = past_midnight ? 0 : light.from_min / step * step;
+    plan.to_min = past_midnight ? minutes_per_day : std::min(minutes_per_day, (light.to_min + step - 1) / step * step);
+  }
+  if (!request.from.empty()) plan.from_min = read_clock("--from", request.from);
+  if (!request.to.empty()) plan.to_min = read_clock("--to", request.to);
+  if (plan.to_min <= plan.from_min) {
+    throw_input(fmt::format("--to {}", clock_text(plan.to_min)), fmt::format("it is not after {}", clock_text(plan.from_min)),
+                "give the earlier time as --from");
+  }
+}
+
+void add_steps(DayPlan& plan, const LocalDate& date, int step_min, const Place& place) {
+  for (int begin = plan.from_min; begin < plan.to_min; begin += step_min) {
+    const int end = std::min(begin + step_min, plan.to_min);
+    DayStep step;
+    step.start = utc_at(date, begin);
+    step.middle = utc_at(date, 0.5 * (begin + end));
+    step.length_s = (end - begin) * seconds_per_minute;
+    step.date = plan.course.dates.size();
+    step.sun = sun_position(step.middle, place);
+    plan.course.steps.push_back(step);
+  }
+  plan.course.dates.push_back(fmt::format("{:04}-{:02}-{:02}", date.year, date.month, date.day));
+}
+
+}  // namespace
+
+std::string clock_text(int minutes) {
+  return fmt::format("{:02}:{:02}", minutes / minutes_per_hour, minutes % minutes_per_hour);
+}
+
+DayPlan plan_day(const DayRequest& request, const Scene& scene) {
+  check_day(scene);
+  DayPlan plan;
+  plan.course.offset_minutes = scene.moment->offset_minutes;
+  const std::vector<sys_days> dates = dates_of(request, *scene.moment);
+  set_hours(plan, request, dates, *scene.moment);
+  const auto steps_a_date = static_cast<std::size_t>((plan.to_min - plan.from_min + request.step_min - 1) / request.step_min);
+  if (steps_a_date * dates.size() > most_day_steps) {
+    throw_input(fmt::format("--step {}", request.step_min),
+                fmt::format("more than {} steps on {} dates", most_day_steps,
+                            dates.size() > most_day_steps ? "so many" : fmt::to_string(dates.size())),
+                "give longer steps or fewer dates");
+  }
+  for (const sys_days date : dates) {
+    add_steps(plan, local_date(date, plan.course.offset_minutes), request.step_min, scene.moment->place);
+  }
+  for (const DayStep& step : plan.course.steps) {
+    plan.lights.push_back(step.night() ? MomentLight{} : light_at(scene, step.middle));
+  }
+  return plan;
+}
+
+}  // namespace sunfleck

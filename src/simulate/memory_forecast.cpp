@@ -1,0 +1,62 @@
+#include "simulate/memory_forecast.h"
+
+#include "transport/surfaces.h"
+
+#include <algorithm>
+
+namespace sunfleck {
+namespace {
+
+constexpr double mib = 1048576.0;
+// Replicates side by side are seldom at their peaks together.
+constexpr double at_their_peak = 0.7;
+
+// The program with its libraries; on Vulkan also the driver and its compiled shaders.
+double program_bytes(const TracerDevice& device) {
+  return (device.kind == "cpu" ? 24.0 : 118.0) * mib;
+}
+
+double canopy_bytes(const RadiationModel& model) {
+  return static_cast<double>(model.canopy.size()) * (sizeof(Triangle) + sizeof(std::uint32_t) + sizeof(std::uint16_t));
+}
+
+double tree_bytes(const Bvh& bvh) {
+  return static_cast<double>(bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(BvhTriangle));
+}
+
+// What the solver keeps of all replicates: sums, and the result made of them.
+double sum_bytes(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
+  constexpr double tallies = 3.0;  // the run's, its pilot's, and the result
+  constexpr double numbering = 3.0 * sizeof(std::uint32_t);
+  const auto elements = static_cast<double>(model.canopy.size());
+  const auto bands = static_cast<double>(model.bands.size());
+  double bytes = elements * numbering + tallies * (elements * sizeof(ElementResult) + layout.cells() * sizeof(std::uint64_t));
+  if (scatters(model) || model.has_sky()) {
+    const double places = (2.0 * elements + layout.cells()) * bands * (model.has_sky() ? 2.0 : 1.0);
+    bytes += tallies * places * sizeof(std::int64_t);
+  }
+  if (settings.element_errors != ElementErrors::skip) bytes += 2.0 * elements * (16.0 + 32.0 * bands);
+  return bytes;
+}
+
+}  // namespace
+
+std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const SolveSettings& settings, const Monitor& monitor) {
+  constexpr double building = 64.0 + sizeof(Reference);  // a reference, beside its place in the finished tree
+  constexpr double stored = 100.0;  // an element packed for the folder's store, and again as the file's text
+  const RadiationModel& model = simulation.model();
+  const SceneTree& tree = simulation.tracing().tree;
+  Engine& engine = simulation.tracing().engine;
+  const CpuThreads limit(simulation.threads());
+  const std::optional<RunForecast> run = forecast(model, tree.layout, engine.tracer(), settings, monitor);
+  if (!run) return std::nullopt;
+  const auto elements = static_cast<double>(model.canopy.size());
+  const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
+  const double solving = sum_bytes(model, tree.layout, settings) + in_the_making * run->replicate_bytes;
+  const double host = std::max({static_cast<double>(tree.bvh.triangles.size()) * building, solving, elements * stored});
+  const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
+  const double bytes = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + host + on_device;
+  return MemoryForecast{static_cast<std::uint64_t>(bytes), *run};
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,125 @@
+#include "simulate/ranks.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "cluster/rank_worker.h"
+#include "simulate/interrupt.h"
+#include "transport/replicate.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+#include <new>
+#include <optional>
+
+namespace sunfleck {
+namespace {
+
+// Returns a text that must be the same on all ranks of a job.
+std::string what_is_simulated(const Simulation& simulation) {
+  return fmt::format("scene {} with {} counters in version {}, {}", simulation.scene().digest, simulation.layout().words(),
+                     version(), commit());
+}
+
+// Makes replicates in the light of one stage.
+class ReplicateBench {
+ public:
+  explicit ReplicateBench(Simulation& simulation)
+      : maker_(simulation.model(), simulation.layout(), simulation.tracing().engine.tracer()) {}
+
+  std::optional<Replicate> make(const ReplicateOrder& order, const StopQuestion& stop) {
+    const std::shared_ptr<const Tally> tally = tally_of(order);
+    return maker_.make(order, *tally, stop);
+  }
+
+ private:
+  // Returns the tally of the last order where it fits this one, as it nearly always does.
+  std::shared_ptr<const Tally> tally_of(const ReplicateOrder& order) {
+    const std::lock_guard lock(mutex_);
+    if (!tally_ || order.beam_rays != beam_rays_) {
+      beam_rays_ = order.beam_rays;
+      tally_ = std::make_shared<const Tally>(maker_.tally(maker_.incidence(beam_rays_), ElementErrors::skip));
+    }
+    return tally_;
+  }
+
+  ReplicateMaker maker_;
+  std::mutex mutex_;
+  double beam_rays_ = 0.0;
+  std::shared_ptr<const Tally> tally_;
+};
+
+}  // namespace
+
+Ranks::Ranks() : job_(join_job()) {
+  if (job_ && job_->seat().rank == 0) helpers_ = std::make_unique<RankHelpers>(job_->mailbox());
+}
+
+Ranks::~Ranks() {
+  if (!job_) return;
+  try {
+    if (helpers_ ? helpers_->wait_until_gone() : served_) job_->finish();
+  } catch (const std::exception&) {  // without an orderly end the launcher ends the others
+  }
+}
+
+void Ranks::take_seat(DeviceRequest& request) const {
+  if (!job_) return;
+  if (request.threads == 0) request.threads = job_->seat().threads;
+  request.device_turn = job_->seat().local_rank;
+}
+
+void Ranks::gather(const Simulation& simulation, const SolveSettings& settings) {
+  if (!helpers_) return;
+  if (!job_->seat().hint.empty()) say(job_->seat().hint);
+  helpers_->wait_until_ready(what_is_simulated(simulation));
+  if (settings.max_rays) {
+    say("--max-rays: one replicate is made after the other, by rank 0 alone");
+    release();
+  } else {
+    say(fmt::format("{} ranks", count()));
+  }
+}
+
+void Ranks::set_stage(std::uint64_t stage) {
+  if (helpers_) helpers_->set_stage(stage);
+}
+
+void Ranks::release() {
+  if (helpers_) helpers_->release();
+}
+
+bool Ranks::serve(const std::function<void(const std::function<void(const Task&)>&)>& begin) {
+  start_log(Verbosity::silent);
+  watch_for_interrupts();
+  const auto report = [this](ErrorKind kind, const std::string& text) {
+    served_ = report_failure(job_->mailbox(), job_->seat().host, static_cast<int>(kind), text);
+  };
+  try {
+    begin([this](const Task& task) { make_replicates(task); });
+  } catch (const Error& error) {
+    report(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    report(ErrorKind::failure, three_part_message("out of memory", "the system gives no more", "put fewer ranks on a machine"));
+  }
+  return served_;
+}
+
+void Ranks::make_replicates(const Task& task) {
+  const CpuThreads limit(task.simulation.threads());
+  std::optional<ReplicateBench> bench;
+  RankService service;
+  service.slots = static_cast<std::size_t>(task.settings.replicates_at_once);
+  service.host = job_->seat().host;
+  service.scene = what_is_simulated(task.simulation);
+  service.set_stage = [&](std::uint64_t stage) {
+    if (task.set_light) task.set_light(stage);
+    bench.emplace(task.simulation);
+  };
+  service.make = [&](const ReplicateOrder& order, const StopQuestion& stop) { return bench->make(order, stop); };
+  service.interrupted = sunfleck::interrupted;
+  served_ = sunfleck::serve(job_->mailbox(), service);
+}
+
+}  // namespace sunfleck

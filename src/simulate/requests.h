@@ -1,0 +1,68 @@
+#pragma once
+// What a user asks of a simulation, as plain values: the same from the command line, the window and Python.
+
+#include "pictures/picture.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+// CARIBU's files beside a mesh that stands in a scene's place.
+struct StandFiles {
+  std::vector<std::string> optics;      // FILE or NAME=FILE, one for each band
+  std::filesystem::path light, domain;  // may be empty
+  std::optional<double> scale;          // metres per unit of the mesh and the domain; default 1
+
+  // Returns the first option given, in this order, for messages; empty if none is.
+  [[nodiscard]] std::string first_given() const;
+};
+
+struct SceneRequest {
+  std::filesystem::path scene;  // or a mesh, with `stand`
+  StandFiles stand;
+  bool allow_outside = false;  // the scene may name files outside its folder
+};
+
+struct DeviceRequest {
+  std::string device = "auto";  // auto | gpu | lavapipe | cpu | INDEX | NAME
+  int device_turn = 0;          // see DeviceAsked; set by MPI ranks
+  int threads = 0;              // 0: one per core
+};
+
+// How much work a simulation does.
+struct WorkRequest {
+  std::optional<double> direct_error, indirect_error;  // replace the scene's bounds
+  std::optional<double> grid_m;
+  std::optional<int> passes;
+  std::optional<double> max_seconds;
+  std::optional<std::uint64_t> max_rays;
+  std::optional<std::uint64_t> memory_bytes;  // for replicates in the making; none: a quarter of what is free
+  std::uint64_t seed = 1;
+  bool triangle_errors = false;  // errors of single triangles are kept too, which costs memory and time
+  bool resume = false;           // resumes what an earlier run left in the folder
+};
+
+// What is written into a result's folder.
+struct ResultRequest {
+  std::filesystem::path output;                // empty: results/<stem of the scene>
+  std::vector<std::string> exports;            // names of io/exports.h
+  std::filesystem::path measured;              // field data; may be empty
+  std::vector<std::filesystem::path> compare;  // folders of earlier results
+  std::vector<std::string> images{"all"};      // file stems, all or none
+  std::optional<Picture> extra_picture;        // beside those, where --chart or --field asks for it
+  PictureOptions pictures;
+};
+
+// Of several dates, each has the same local hours.
+struct DayRequest {
+  std::string from, to;  // HH:MM; empty: sunrise and sunset
+  std::string date;      // YYYY-MM-DD; empty: the scene's own
+  std::string to_date;   // empty: one date
+  int step_min = 60;     // the last step ends at `to`
+};
+
+}  // namespace sunfleck

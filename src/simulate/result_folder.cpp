@@ -1,0 +1,270 @@
+#include "simulate/result_folder.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/stopwatch.h"
+#include "io/exports.h"
+#include "io/file.h"
+#include "io/gnuplot.h"
+#include "io/image_writer.h"
+#include "io/plane_plot.h"
+#include "io/plane_writer.h"
+#include "io/profile_plot.h"
+#include "io/result_store.h"
+#include "io/run_store.h"
+#include "io/sensor_writer.h"
+#include "io/step_store.h"
+#include "pictures/colouring.h"
+#include "pictures/fields.h"
+#include "simulate/interrupt.h"
+#include "simulate/scene_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace sunfleck {
+namespace {
+
+constexpr const char* profile_file = "profile.csv";
+constexpr const char* profile_plot_file = "profile.png";
+constexpr const char* organs_file = "organs.csv";
+constexpr const char* sensors_file = "sensors.csv";
+
+std::string file_of(const Picture& picture) {
+  return stem_of(picture) + ".png";
+}
+
+bool asks_for(const ResultRequest& request, const std::string& image) {
+  return std::find(request.images.begin(), request.images.end(), image) != request.images.end();
+}
+
+// Returns whether a run writes a receiver's map or plot under that name.
+bool is_plane_file(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return file.filename().string().rfind("plane_", 0) == 0 && (extension == ".csv" || extension == ".png");
+}
+
+// Returns the pictures that are asked for one by one.
+std::vector<Picture> named_pictures(const ResultRequest& request) {
+  std::vector<Picture> named;
+  for (const Picture& picture : all_pictures()) {
+    if (asks_for(request, stem_of(picture)) || request.extra_picture == picture) named.push_back(picture);
+  }
+  return named;
+}
+
+// Returns the pictures named and, of those that `all` stands for, the ones that have something to show: none of a light that
+// the scene does not have, no total where all light is direct.
+std::vector<Picture> wanted_pictures(const ResultRequest& request, const RadiationModel& model, const RadiationResult& result) {
+  std::vector<Picture> wanted = named_pictures(request);
+  if (!asks_for(request, "all")) return wanted;
+  const bool indirect = result.indirect.packets + result.indirect.sky_rays > 0;
+  for (const Picture& picture : usual_pictures()) {
+    const bool there = picture.field == LightField::direct ? model.has_beam() : indirect;
+    if (there && std::find(wanted.begin(), wanted.end(), picture) == wanted.end()) wanted.push_back(picture);
+  }
+  return wanted;
+}
+
+// Returns the colours of elements in the rank chart of total light: the mean of both faces.
+std::vector<ElementColour> element_colours(const Drawing& drawing, std::size_t band) {
+  const RadiationModel& model = drawing.scene.model;
+  const FieldValues values = field_values(model, drawing.layout, drawing.result, band, LightField::total);
+  const std::vector<Colour> surfaces =
+      colour_field(ChartKind::rank, values, surface_colours(model, drawing.layout), "").colours;
+  std::vector<ElementColour> colours(model.canopy.size());
+  for (std::size_t e = 0; e < colours.size(); ++e) {
+    for (std::size_t c = 0; c < 3; ++c) colours[e].linear[c] = 0.5 * (surfaces[2 * e][c] + surfaces[2 * e + 1][c]);
+    colours[e].srgb = to_srgb(colours[e].linear);
+  }
+  return colours;
+}
+
+void write_export_files(const std::filesystem::path& folder, const ResultRequest& request, const RunRecord& record,
+                        const Drawing& drawing, UnwrittenFiles& unwritten) {
+  if (request.exports.empty()) return;
+  const std::size_t band = picture_band(drawing.scene.model, request.pictures.band);
+  const std::vector<ElementColour> colours = element_colours(drawing, band);
+  for (const ExportKind kind : export_kinds) {
+    const bool asked = std::find(request.exports.begin(), request.exports.end(), export_name(kind)) != request.exports.end();
+    if (!asked) continue;
+    unwritten.attempt(export_file(kind), [&] {
+      write_exports(std::span(&kind, 1), folder, record, drawing.scene.model, drawing.result, colours);
+    });
+  }
+}
+
+void write_tables(const std::filesystem::path& folder, const RunRecord& record, const RadiationModel& model,
+                  const RadiationResult& result, UnwrittenFiles& unwritten) {
+  const auto write = [&](const std::string& name, const auto& text) {
+    unwritten.attempt(name, [&] { write_file(folder / name, text()); });
+  };
+  write(profile_file, [&] { return profile_csv(record, model, result); });
+  write(organs_file, [&] { return organs_csv(record, model, result); });
+  if (!result.sensors.empty()) write(sensors_file, [&] { return sensors_csv(record, model, result); });
+  for (std::size_t plane = 0; plane < result.planes.size(); ++plane) {
+    const std::string stem = plane_stem(result.planes[plane].height_m);
+    write(stem + ".csv", [&] { return plane_csv(record, model, result, plane); });
+    if (model.has_beam()) write(stem + "_flecks.csv", [&] { return plane_flecks_csv(record, model, result, plane); });
+  }
+}
+
+// Reports the first plot that gnuplot could not draw, and then tries no other.
+class Plots {
+ public:
+  Plots(const std::filesystem::path& folder, UnwrittenFiles& unwritten) : folder_(folder), unwritten_(unwritten) {}
+  void draw(const std::string& script, const std::string& file) {
+    if (given_up_) return;
+    std::optional<std::string> problem;
+    unwritten_.attempt(file, [&] { problem = draw_plot(script, folder_ / file); });
+    if (problem) warn(*problem);
+    given_up_ = problem.has_value();
+  }
+
+ private:
+  const std::filesystem::path& folder_;
+  UnwrittenFiles& unwritten_;
+  bool given_up_ = false;
+};
+
+void write_plots(const std::filesystem::path& folder, const ResultRequest& request, const RunRecord& record,
+                 const Drawing& drawing, const ProfileOverlays& overlays, UnwrittenFiles& unwritten) {
+  const RadiationModel& model = drawing.scene.model;
+  const RadiationResult& result = drawing.result;
+  const std::size_t band = picture_band(model, request.pictures.band);
+  const ProfileTable own = profile_table(record.title, record.accuracy.confidence, model, result);
+  if (overlays.measured && model.has_beam()) {
+    say(agreement_line(overlays.measured->name, agreement(own, *overlays.measured)));
+  }
+  Plots plots(folder, unwritten);
+  if (asks_for(request, "all") || asks_for(request, "profile")) {
+    std::vector<ProfileCurve> curves{{record.title, own}};
+    for (const ProfileTable& other : overlays.results) curves.push_back({other.title, other});
+    plots.draw(profile_plot(record.title, curves, model.bands[band].name, overlays.measured), profile_plot_file);
+  }
+  if (!asks_for(request, "all") && !asks_for(request, "planes")) return;
+  for (std::size_t plane = 0; plane < result.planes.size() && !interrupted(); ++plane) {
+    plots.draw(plane_plot(record.title, model, result, plane, band), plane_stem(result.planes[plane].height_m) + ".png");
+  }
+}
+
+// Returns false if interrupted before all were drawn.
+bool write_pictures(const std::filesystem::path& folder, const ResultRequest& request, const Drawing& drawing,
+                    UnwrittenFiles& unwritten) {
+  const std::vector<Picture> wanted = wanted_pictures(request, drawing.scene.model, drawing.result);
+  if (wanted.empty()) return true;
+  bool finished = true;
+  unwritten.attempt("the pictures", [&] {
+    finished = draw_charts(drawing, request.pictures, wanted, interrupted, [&](const Picture& picture, const Image& image) {
+      unwritten.attempt(file_of(picture), [&] { write_png(image, folder / file_of(picture)); });
+    });
+  });
+  return finished;
+}
+
+// Returns whether a run or a day writes a file of that name, other than the summary.
+bool is_file_of_runs(const std::string& name) {
+  std::vector<std::string> names{profile_file,   profile_plot_file, organs_file,      sensors_file, result_store_file,
+                                 run_state_file, "day.csv",         "organs_day.csv", "day.nc",     "day.png"};
+  for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
+  for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
+  return is_plane_file(name) || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class Wanted>
+std::vector<std::string> names_in(const std::filesystem::path& folder, const Wanted& wanted) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    std::string name = entry.path().filename().string();
+    if (wanted(name)) found.push_back(std::move(name));
+  }
+  return found;
+}
+
+void remove_files(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::error_code error;
+    std::filesystem::remove(folder / name, error);
+    if (error) throw_failure(printable((folder / name).string()), error.message(), "give a folder that can be written with -o");
+  }
+}
+
+}  // namespace
+
+std::filesystem::path result_folder(const ResultRequest& request, const std::filesystem::path& scene) {
+  return request.output.empty() ? std::filesystem::path("results") / scene_stem(scene) : request.output;
+}
+
+void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, OldResults old) {
+  lock.make_folder();
+  std::error_code error;
+  const bool of_earlier_run = std::filesystem::exists(folder / summary_file, error);
+  const auto is_stale = [old](const std::string& name) {
+    return is_file_of_runs(name) && (old == OldResults::remove_all || name != run_state_file);
+  };
+  std::vector<std::string> stale;
+  if (of_earlier_run) stale = names_in(folder, is_stale);
+  for (const std::string& name : stale) check_writable(folder / name);
+  reopen_folder(folder);
+  if (of_earlier_run) remove_day_steps(folder);
+  remove_files(folder, stale);
+}
+
+void reopen_folder(const std::filesystem::path& folder) {
+  write_file(folder / summary_file, "{\"complete\": false}\n");
+  // Files that were being written when an earlier run was killed.
+  remove_files(folder, names_in(folder, [](const std::string& name) {
+                 const std::string of = std::filesystem::path(name).stem().stem().string();  // NAME.NUMBER.tmp
+                 return is_left_aside(name, of) && (of == summary_file || is_file_of_runs(of));
+               }));
+}
+
+ProfileOverlays read_overlays(const ResultRequest& request, const RadiationModel& model) {
+  ProfileOverlays overlays;
+  if (!request.measured.empty()) {
+    if (!model.has_beam()) {
+      throw_input("--measured", "the scene has no direct light to compare sunfleck ratios with", "leave it out, or add [sun]");
+    }
+    overlays.measured = read_measured(request.measured);
+  }
+  for (const std::filesystem::path& folder : request.compare)
+    overlays.results.push_back(read_profile_csv(folder / profile_file));
+  return overlays;
+}
+
+void check_pictures(const ResultRequest& request, const RadiationModel& model) {
+  check_view(model, request.pictures);
+  for (const Picture& picture : named_pictures(request)) check_field(model, picture);
+}
+
+bool needs_triangle_errors(const std::vector<std::string>& exports) {
+  // CARIBU's table has no errors.
+  return std::any_of(exports.begin(), exports.end(),
+                     [](const std::string& name) { return name != export_name(ExportKind::caribu); });
+}
+
+UnwrittenFiles write_whole_result(const std::filesystem::path& folder, const ResultRequest& request,
+                                  const SimulatedScene& simulated, RunRecord& record, const ProfileOverlays& overlays) {
+  const Scene& scene = *simulated.scene;
+  const CpuThreads limit(record.threads);
+  Stopwatch watch;
+  UnwrittenFiles unwritten;
+  write_tables(folder, record, scene.model, simulated.result, unwritten);
+  write_export_files(folder, request, record, simulated.drawing(), unwritten);
+  unwritten.attempt(result_store_file,
+                    [&] { write_result_store(folder / result_store_file, record, scene, simulated.result); });
+  write_plots(folder, request, record, simulated.drawing(), overlays, unwritten);
+  record.pictures_interrupted = !write_pictures(folder, request, simulated.drawing(), unwritten);
+  record.not_written.insert(record.not_written.end(), unwritten.names().begin(), unwritten.names().end());
+  record.complete = record.complete && !record.pictures_interrupted && record.not_written.empty();
+  record.seconds.write = watch.lap();
+  record.seconds.total += record.seconds.write;
+  unwritten.attempt(summary_file,
+                    [&] { write_file(folder / summary_file, summary_json(record, scene.model, simulated.result)); });
+  return unwritten;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,15 @@
+#include "simulate/simulated_scene.h"
+
+namespace sunfleck {
+
+Tracing::Tracing(const RadiationModel& model, const DeviceAsked& device, EngineUse use)
+    : tree(model),
+      build_s(watch_.lap()),
+      engine(device, tree.bvh, traced_scene(model), tree.layout.words(), use),
+      open_s(watch_.lap()) {}
+
+bool is_done(StopReason stop) {
+  return stop == StopReason::bound_reached || stop == StopReason::work_done;
+}
+
+}  // namespace sunfleck

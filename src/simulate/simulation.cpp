@@ -1,0 +1,169 @@
+#include "simulate/simulation.h"
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+#include "base/version.h"
+#include "io/file.h"
+#include "light/beam_grid.h"
+#include "simulate/checkpoint.h"
+#include "simulate/ranks.h"
+#include "transport/sensors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+// Half-widths at a point come out at about ten times the bound of the totals: a few percent where those have 0.3 %.
+std::uint32_t sensor_rays(const SolveSettings& settings) {
+  const double bound = settings.grid_m || settings.passes ? 0.01 : settings.accuracy.indirect;
+  return static_cast<std::uint32_t>(std::clamp(3.0 / bound, 64.0, 16384.0));
+}
+
+std::shared_ptr<Tracing> open_tracing(const RadiationModel& model, const DeviceRequest& device, EngineUse use) {
+  set_software_threads(device.threads);
+  const CpuThreads limit(device.threads);
+  return std::make_shared<Tracing>(model, DeviceAsked(device.device, device.device_turn), use);
+}
+
+}  // namespace
+
+SolveSettings solve_settings(const WorkRequest& work, const Scene& scene, int threads) {
+  SolveSettings settings;
+  settings.accuracy = scene.accuracy;
+  settings.accuracy.direct = work.direct_error.value_or(scene.accuracy.direct);
+  settings.accuracy.indirect = work.indirect_error.value_or(scene.accuracy.indirect);
+  settings.seed = work.seed;
+  settings.grid_m = work.grid_m;
+  settings.passes = work.passes;
+  settings.max_rays = work.max_rays;
+  settings.max_seconds = work.max_seconds;
+  settings.fit_to_time = !work.resume;
+  settings.replicates_at_once = threads == 1 ? 1 : 2;
+  settings.memory_bytes = static_cast<double>(work.memory_bytes.value_or(available_memory_bytes() / 4));
+  const bool of_elements = work.triangle_errors || scene.accuracy.of == ErrorTarget::triangle;
+  settings.element_errors = of_elements ? ElementErrors::keep : ElementErrors::skip;
+  return settings;
+}
+
+void check_grid(const WorkRequest& work, const Scene& scene) {
+  if (!work.grid_m) return;
+  const double replicates = work.passes.value_or(fixed_grid_replicates);
+  const double finest_m = std::sqrt(scene.model.plot.area_m2() / (replicates * static_cast<double>(max_grid_rays)));
+  if (*work.grid_m >= finest_m) return;
+  throw_input(
+      fmt::format("--grid {}", *work.grid_m),
+      fmt::format("{} replicates on this plot reach {:.2g} m, each of {} rays at most", replicates, finest_m, max_grid_rays),
+      "give a wider grid or more --passes");
+}
+
+Simulation::Simulation(std::shared_ptr<Scene> scene, std::shared_ptr<Tracing> tracing, int threads)
+    : scene_(std::move(scene)), tracing_(std::move(tracing)), threads_(threads) {}
+
+Simulation::Simulation(Scene scene, const DeviceRequest& device, EngineUse use)
+    : scene_(std::make_shared<Scene>(std::move(scene))),
+      tracing_(open_tracing(scene_->model, device, use)),
+      threads_(device.threads) {}
+
+Simulation Simulation::with_model(RadiationModel model) const {
+  auto scene = std::make_shared<Scene>();
+  scene->title = scene_->title;
+  scene->accuracy = scene_->accuracy;
+  scene->model = std::move(model);
+  return {std::move(scene), tracing_, threads_};
+}
+
+void Simulation::relight(const SceneText& light, const SceneAccess& access) {
+  std::shared_ptr<Scene> scene = scene_.use_count() == 1 ? scene_ : std::make_shared<Scene>(*scene_);
+  sunfleck::relight(*scene, light, access);
+  scene_ = std::move(scene);
+}
+
+void Simulation::remember_beams(std::size_t most_bytes) {
+  beams_ = std::make_unique<RememberedBeams>(tracing_->engine.tracer(), most_bytes);
+}
+
+RadiationResult Simulation::solve(const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers) {
+  const CpuThreads limit(threads_);
+  Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
+  const RadiationModel& model = scene_->model;
+  RadiationResult result = sunfleck::solve(model, layout(), tracer, settings, monitor, helpers);
+  if (model.sensors.empty() || result.stop == StopReason::interrupted) return result;
+  SensorSettings sensors;
+  sensors.rays = sensor_rays(settings);
+  sensors.seed = settings.seed;
+  sensors.confidence = settings.accuracy.confidence;
+  if (auto readings = measure_sensors(model, layout(), tracer, sensors, monitor.interrupted)) {
+    result.sensors = std::move(*readings);
+  } else {
+    result.stop = StopReason::interrupted;
+  }
+  return result;
+}
+
+SimulatedScene Simulation::run(const SolveSettings& settings, const RunHooks& hooks) {
+  Stopwatch watch;
+  Monitor monitor = hooks.monitor;
+  if (hooks.ranks != nullptr) {
+    monitor.interrupted = [&] {
+      return (hooks.monitor.interrupted && hooks.monitor.interrupted()) || hooks.ranks->interrupted();
+    };
+  }
+  if (hooks.checkpoint != nullptr) hooks.checkpoint->attend(monitor);
+  SimulatedScene done =
+      simulated(settings, solve(settings, monitor, hooks.ranks != nullptr ? hooks.ranks->helpers() : nullptr));
+  if (hooks.ranks != nullptr) {
+    done.record.ranks = hooks.ranks->count();
+    hooks.ranks->release();
+  }
+  check_validation();
+  done.record.seconds.total = done.record.seconds.bvh + done.record.seconds.device + watch.lap();
+  return done;
+}
+
+SimulatedScene Simulation::simulated(const SolveSettings& settings, RadiationResult result) const {
+  SimulatedScene done{scene_, tracing_, record(settings), std::move(result)};
+  done.record.complete = is_done(done.result.stop);
+  done.record.seconds.direct = done.result.direct.seconds;
+  done.record.seconds.indirect = done.result.indirect.seconds;
+  return done;
+}
+
+RunRecord Simulation::record(const SolveSettings& settings) const {
+  RunRecord record;
+  record.version = version();
+  record.commit = commit();
+  record.title = scene_->title;
+  record.scene_file = scene_->file.filename().string();
+  record.scene_digest = scene_->digest;
+  record.seed = settings.seed;
+  record.accuracy = settings.accuracy;
+  record.grid_m = settings.grid_m;
+  record.passes = settings.passes;
+  record.max_rays = settings.max_rays;
+  record.max_seconds = settings.max_seconds;
+  record.memory_bytes = settings.memory_bytes;
+  record.threads = threads_;
+  record.device = device();
+  record.seconds.bvh = tracing_->build_s;
+  record.seconds.device = tracing_->open_s;
+  return record;
+}
+
+std::size_t Simulation::tree_bytes() const {
+  const Bvh& bvh = tracing_->tree.bvh;
+  return bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(BvhTriangle);
+}
+
+void Simulation::check_validation() const {
+  const std::vector<std::string> messages = tracing_->engine.validation_messages();
+  if (messages.empty()) return;
+  throw_failure(messages.front(), fmt::format("{} messages of the Vulkan validation layer", messages.size()),
+                "report it with the scene and the device");
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,89 @@
+#pragma once
+// A scene with its tree on a device: what the commands, the window, Python and the ranks of an MPI job simulate with.
+
+#include "io/result_writer.h"
+#include "io/scene_reader.h"
+#include "simulate/requests.h"
+#include "simulate/simulated_scene.h"
+#include "tracers/remembered_beams.h"
+#include "transport/result.h"
+#include "transport/solve.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+namespace sunfleck {
+
+class Checkpoint;
+class Ranks;
+class ReplicateHelpers;
+
+// Returns the solver's settings for this work. `threads` as in DeviceRequest.
+[[nodiscard]] SolveSettings solve_settings(const WorkRequest& work, const Scene& scene, int threads = 0);
+
+// Throws Error (input) for a grid so fine that the scene's rays could not be numbered.
+void check_grid(const WorkRequest& work, const Scene& scene);
+
+// Who watches a run and takes part in it. All may be empty.
+struct RunHooks {
+  Monitor monitor;                   // called from the simulating thread; may ask to be interrupted from others
+  Checkpoint* checkpoint = nullptr;  // keeps the run's state
+  Ranks* ranks = nullptr;            // make replicates too
+};
+
+class Simulation {
+ public:
+  // Builds the tree and opens the device. Software Vulkan takes its number of threads from the first simulation of a process.
+  // Throws Error (device).
+  Simulation(Scene scene, const DeviceRequest& device, EngineUse use = EngineUse::one_thread);
+
+  // Returns a simulation of a model with the same triangles, soil and plot, which shares the tree and the device.
+  [[nodiscard]] Simulation with_model(RadiationModel model) const;
+
+  // Gives the scene other light, as relight of io/scene_reader.h. Results at hand keep the scene that they are of.
+  void relight(const SceneText& light, const SceneAccess& access);
+
+  // The scene; through the mutable one only its light, optics and title may be changed, and only while nothing is simulated.
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] Scene& scene() { return *scene_; }
+  [[nodiscard]] const RadiationModel& model() const { return scene_->model; }
+
+  // Keeps landings of beams for runs with other optics, while they fit into so many bytes.
+  void remember_beams(std::size_t most_bytes);
+  [[nodiscard]] std::uint64_t spared_beams() const { return beams_ ? beams_->spared() : 0; }
+
+  // Simulates the scene, sensors included. Throws as `solve` of transport/solve.h does.
+  [[nodiscard]] RadiationResult solve(const SolveSettings& settings, const Monitor& monitor,
+                                      ReplicateHelpers* helpers = nullptr);
+
+  // Simulates the scene and returns the result with the record of how it came about.
+  [[nodiscard]] SimulatedScene run(const SolveSettings& settings, const RunHooks& hooks = {});
+
+  // Returns a result of this scene with its record.
+  [[nodiscard]] SimulatedScene simulated(const SolveSettings& settings, RadiationResult result) const;
+
+  // Returns a record of what is simulated, without a result.
+  [[nodiscard]] RunRecord record(const SolveSettings& settings) const;
+
+  [[nodiscard]] const Tracing& tracing() const { return *tracing_; }
+  [[nodiscard]] Tracing& tracing() { return *tracing_; }
+  [[nodiscard]] const CounterLayout& layout() const { return tracing_->tree.layout; }
+  [[nodiscard]] TracerDevice device() const { return tracing_->engine.device(); }
+  [[nodiscard]] int threads() const { return threads_; }
+  [[nodiscard]] std::size_t tree_bytes() const;
+
+  // Throws Error (failure) for a message of the validation layer: such a message is a mistake of the program, and nothing that
+  // was computed can be trusted.
+  void check_validation() const;
+
+ private:
+  Simulation(std::shared_ptr<Scene> scene, std::shared_ptr<Tracing> tracing, int threads);
+
+  std::shared_ptr<Scene> scene_;
+  std::shared_ptr<Tracing> tracing_;
+  int threads_;
+  std::unique_ptr<RememberedBeams> beams_;
+};
+
+}  // namespace sunfleck
