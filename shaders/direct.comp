@@ -1,7 +1,8 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-// One thread, one beam ray: from its grid cell on the incidence plane to its landing, one atomic increment.
+// Each thread follows one beam ray from its grid cell on the incidence plane to its landing, and counts it by one atomic
+// increment.
 
 #include "shared/beam.h"
 #include "shared/layout.h"

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-// One thread, one packet on its way from a point to its landing, or out of the canopy.
+// Each thread follows one packet from its start to its landing, or out of the canopy.
 
 #define SKIP_OWN
 #include "shared/beam.h"
@@ -21,7 +21,7 @@ layout(set = 0, binding = 6, scalar) buffer Outbox { uint outbox_count; PausedPa
 layout(push_constant, scalar) uniform Push { PacketPush push; };
 
 struct Walk {
-  uint packet;     // of this dispatch's array
+  uint packet;  // index into this dispatch's array
   uint element;
   uint image;
   uint crossings;

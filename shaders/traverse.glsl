@@ -1,6 +1,6 @@
-// The walk over the tree: nearest hit of one ray in one period, with a fixed stack and a count of its steps.
-// SKIP_OWN: the copy `own_image` of element `own_element` is left out. ONLY_ORIGINALS: elements are met where the canopy has
-// them, and not again where their copies reach into the period.
+// The walk over the tree: finds the nearest hit of one ray in one period, with a fixed stack and a count of its steps. With
+// SKIP_OWN the copy `own_image` of element `own_element` is left out. With ONLY_ORIGINALS elements are met only at their
+// place in the canopy, not where their copies reach into the period.
 
 const uint max_depth = 32u;  // at least max_bvh_depth
 
@@ -10,13 +10,14 @@ struct NearestHit {
   float weight_c;
   uint lower;
   uint element;
-  uint triangle;  // place in leaf order
+  uint triangle;  // position in leaf order
   bool found;
 };
 
 vec3 corner_of(uvec4 words) { return uintBitsToFloat(words.xyz); }
 
-// Bit k - or, for leaf children, bits of their triangles - set where the ray may meet something in the child; see BvhNode.
+// Returns a mask with bit k (or, for leaf children, the bits of their triangles) set where the ray may meet something in the
+// child; see BvhNode.
 uint meet_children(Ray ray, float limit, uvec4 head, uvec4 meta, uvec4 planes_a, uvec4 planes_b, uvec4 planes_c, uint octant) {
   vec3 corner = uintBitsToFloat(head.xyz);
   vec3 cell = vec3(uintBitsToFloat((head.w & 0xffu) << 23u), uintBitsToFloat((head.w >> 8u & 0xffu) << 23u),
@@ -64,7 +65,7 @@ uint meet_children(Ray ray, float limit, uvec4 head, uvec4 meta, uvec4 planes_a,
   return met;
 }
 
-// What the walk leaves to the end: only one of many hits needs it.
+// Completes the best hit. The walk leaves this to the end, since only one of many hits needs it.
 NearestHit finished_hit(Ray ray, HitRank best) {
   NearestHit hit;
   hit.t = best.t;
@@ -80,12 +81,14 @@ NearestHit finished_hit(Ray ray, HitRank best) {
   return hit;
 }
 
-// Children of a node that are still to be visited: where they begin, then a bit for each (24 and up) and the mask of inner ones.
+// A group holds the children of a node that are still to be visited: the index of the first, then a bit for each (24 and up)
+// and the mask of inner children.
 bool is_empty(uvec2 group) { return group.y <= 0x00ffffffu; }
 
-// Nearest hit with 0 < t <= limit. `steps` goes on counting; a walk that reaches `steps_in_one_dispatch` stops unfinished.
-// Each step visits a node and tests a triangle of some node visited before: invocations that run side by side do both together,
-// where a loop over each node's triangles would have all wait for the one that has most (on lavapipe this takes a fourth less time).
+// Returns the nearest hit with 0 < t <= limit. `steps` keeps counting across calls; a walk that reaches
+// `steps_in_one_dispatch` stops unfinished. Each step visits a node and tests a triangle of some node visited before, so
+// that invocations running side by side do both together. In a loop over the triangles of each node all would wait for the
+// invocation that has most of them (on lavapipe the walk takes a fourth less time than such a loop).
 #ifdef SKIP_OWN
 NearestHit nearest_hit(Ray ray, float limit, uint own_element, uint own_image, inout uint steps) {
 #else
@@ -96,9 +99,9 @@ NearestHit nearest_hit(Ray ray, float limit, inout uint steps) {
   uvec2 stack[max_depth];
   uint depth = 0u;
   uvec2 group = uvec2(0u, 0x80000000u);
-  uvec2 triangles = uvec2(0u);  // to be tested: the first one's node, then a bit for each; zero in both if there is none
+  uvec2 triangles = uvec2(0u);  // to be tested: node of the first one, then a bit for each; zero in both if there are none
   uvec2 triangles_after = uvec2(0u);
-  ++steps;  // an iteration of the caller's loop over periods
+  ++steps;  // counts an iteration of the caller's loop over periods
   while (steps < steps_in_one_dispatch) {
     ++steps;
     if (!is_empty(group) && triangles_after.y == 0u) {

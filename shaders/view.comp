@@ -1,8 +1,8 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-// One thread, one sample of a pixel: which side does the camera see? Copies of the plot are looked at one after the other, and
-// what is nearest is kept.
+// Each thread follows one sample of a pixel and finds the side that the camera sees. Copies of the plot are searched one
+// after the other, and the nearest hit is kept.
 
 #define ONLY_ORIGINALS
 #include "shared/view.h"

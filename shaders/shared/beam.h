@@ -1,4 +1,4 @@
-// Beam rays: where they start, how they pass from one period of an endless plot to the next, and what is counted where.
+// Beam rays: their origins, their steps from one period of an endless plot to the next, and the counters for their landings.
 #ifndef SUNFLECK_SHARED_BEAM_H
 #define SUNFLECK_SHARED_BEAM_H
 
@@ -8,8 +8,8 @@
 
 SHARED_BEGIN
 
-// One jittered ray per cell. Rays are numbered along strips four rows wide, column by column, so that rays with near numbers
-// start near each other whatever the grid's size.
+// Returns the origin of one jittered ray per cell. Rays are numbered along strips four rows wide, column by column, so that
+// rays with nearby numbers start near each other whatever the grid's size.
 INLINE vec3 beam_origin(BeamBlock beam, uint ray) {
   const uint rays_per_strip = 4u * beam.columns;
   const uint strip = ray / rays_per_strip;
@@ -29,9 +29,9 @@ INLINE vec3 beam_origin(BeamBlock beam, uint ray) {
 
 // The next border of the period that a ray reaches.
 struct Crossing {
-  float t;       // where it crosses, >= 0
-  float limit;   // up to where hits belong to this period: a little past the crossing, so that none falls between two
-  bool along_x;  // it crosses a border x = constant
+  float t;       // where the ray crosses it, at least 0
+  float limit;   // up to where hits belong to this period: a little past the crossing, so that none falls between two periods
+  bool along_x;  // true if the border is x = constant
 };
 
 INLINE Crossing next_crossing(Ray ray, vec2 period, vec2 overlap) {
@@ -53,7 +53,8 @@ INLINE float held_within(float value, float lo, float hi) {
   return value < lo ? lo : (value > hi ? hi : value);
 }
 
-// Where the ray goes on in the next period: on the opposite border exactly, so that no error of wrapping adds up.
+// Returns the point where the ray enters the next period: exactly on the opposite border, so that no error of wrapping
+// accumulates.
 INLINE vec3 enter_next_period(Ray ray, Crossing crossing, vec2 period) {
   EXACT float x = ray.origin.x + crossing.t * ray.direction.x;
   EXACT float y = ray.origin.y + crossing.t * ray.direction.y;
@@ -64,7 +65,7 @@ INLINE vec3 enter_next_period(Ray ray, Crossing crossing, vec2 period) {
               crossing.along_x ? held_within(z, 0.0f, period.y) : border_z);
 }
 
-// Where a ray that travels downwards meets the ground, and how far it looks for elements.
+// The point where a ray that travels downwards meets the ground, and how far the ray is followed to find elements.
 struct Ground {
   float t;
   float limit;  // a little below the ground
@@ -79,7 +80,7 @@ INLINE Ground meet_ground(Ray ray, GroundMap map) {
   return ground;
 }
 
-// Where a ray that travels upwards has left an endless canopy.
+// Returns the point where a ray that travels upwards has left an endless canopy.
 INLINE Ground meet_top(Ray ray, float top_y) {
   EXACT float t = (top_y - ray.origin.y) * ray.inverse.y;
   Ground top;
@@ -88,7 +89,7 @@ INLINE Ground meet_top(Ray ray, float top_y) {
   return top;
 }
 
-// The number of an element's copy as seen from the next period.
+// Returns the number of an element's copy as seen from the next period.
 INLINE uint image_in_next_period(uint image, Ray ray, bool along_x) {
   const uint step = (along_x ? ray.inverse.x : ray.inverse.z) > 0.0f ? 0xffffu : 1u;  // -1 or +1 in 16 bits
   const uint dx = (image + (along_x ? step : 0u)) & 0xffffu;
@@ -96,7 +97,7 @@ INLINE uint image_in_next_period(uint image, Ray ray, bool along_x) {
   return dx | dz << 16u;
 }
 
-// x and z where the ray is after t.
+// Returns x and z of the ray at t.
 INLINE vec2 ground_point(Ray ray, float t) {
   EXACT float x = ray.origin.x + t * ray.direction.x;
   EXACT float z = ray.origin.z + t * ray.direction.z;
@@ -107,7 +108,7 @@ INLINE bool in_plot(GroundMap map, vec2 at) {
   return at.x >= map.plot_lo.x && at.x <= map.plot_hi.x && at.y >= map.plot_lo.y && at.y <= map.plot_hi.y;
 }
 
-// Number of the cell of the soil's map, x fastest. Points a hair outside count in the outermost cells.
+// Returns the number of the cell of the soil's map, x fastest. Points just outside count in the outermost cells.
 INLINE uint soil_cell(GroundMap map, vec2 at) {
   EXACT float column = (held_within(at.x, map.plot_lo.x, map.plot_hi.x) - map.plot_lo.x) * map.cells_per_metre.x;
   EXACT float row = (held_within(at.y, map.plot_lo.y, map.plot_hi.y) - map.plot_lo.y) * map.cells_per_metre.y;
@@ -116,7 +117,7 @@ INLINE uint soil_cell(GroundMap map, vec2 at) {
   return (x < map.cells_x ? x : map.cells_x - 1u) + (z < map.cells_z ? z : map.cells_z - 1u) * map.cells_x;
 }
 
-// The layer that holds a height; what lies below or above all layers counts in the outermost ones.
+// Returns the layer that holds a height; heights below or above all layers count in the nearest one.
 INLINE uint layer_of(float y, float base_y, float layers_per_metre, uint layers) {
   EXACT float above = (y - base_y) * layers_per_metre;
   if (!(above > 0.0f)) return 0u;
@@ -124,7 +125,8 @@ INLINE uint layer_of(float y, float base_y, float layers_per_metre, uint layers)
   return layer < layers ? layer : layers - 1u;
 }
 
-// Height of a hit, held between its triangle's lowest and highest corner: so its layer is one the triangle reaches into.
+// Returns the height of a hit, limited to the range between its triangle's lowest and highest corner, so that the triangle
+// reaches into its layer.
 INLINE float landing_y(float a, float b, float c, float weight_b, float weight_c) {
   EXACT float y = a + (weight_b * (b - a) + weight_c * (c - a));
   const float lo = a < b ? (a < c ? a : c) : (b < c ? b : c);

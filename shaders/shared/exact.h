@@ -6,8 +6,8 @@
 
 SHARED_BEGIN
 
-// 1 / x within two units of the last place, for 2^-100 < |x| < 2^100: an integer guess (error below 13 %) and four Newton
-// steps y (2 - x y), each of which squares the error.
+// Returns 1 / x within two units in the last place, for 2^-100 < |x| < 2^100: an integer guess (error below 13 %) and four
+// Newton steps y (2 - x y), each of which squares the error.
 INLINE float exact_reciprocal(float x) {
   const uint sign = floatBitsToUint(x) & 0x80000000u;
   const float a = uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
@@ -21,7 +21,8 @@ INLINE float exact_reciprocal(float x) {
   return uintBitsToFloat(floatBitsToUint(y) | sign);
 }
 
-// 1 / x of a direction's component; one that is (nearly) zero counts as +-2^-60, so that products with lengths stay finite.
+// Returns 1 / x for a component of a direction; a component that is (nearly) zero counts as +-2^-60, so that products with
+// lengths stay finite.
 INLINE float direction_reciprocal(float x) {
   const uint sign = floatBitsToUint(x) & 0x80000000u;
   const float magnitude = uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);

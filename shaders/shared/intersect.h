@@ -1,6 +1,6 @@
-// Ray and triangle, watertight: Woop, Benthin & Wald 2013, "Watertight ray/triangle intersection", JCGT 2(1).
-// Neighbouring triangles compute the same two products for their common edge and subtract them the other way round, so a ray
-// passes on exactly one side of it or meets both; no gap, and no need of double precision.
+// Ray-triangle intersection, watertight: Woop, Benthin & Wald 2013, "Watertight ray/triangle intersection", JCGT 2(1).
+// Neighbouring triangles compute the same two products for their common edge and subtract them in opposite order, so a ray
+// passes on exactly one side of the edge or meets both triangles; there is no gap, and double precision is not needed.
 #ifndef SUNFLECK_SHARED_INTERSECT_H
 #define SUNFLECK_SHARED_INTERSECT_H
 
@@ -28,7 +28,7 @@ INLINE float magnitude(float x) {
   return x < 0.0f ? -x : x;
 }
 
-// The vector with its component `axis` last, the others in cyclic order.
+// Returns the vector with its component `axis` last and the others in cyclic order.
 INLINE vec3 axis_last(vec3 v, uint axis) {
   return axis == 0u ? vec3(v.y, v.z, v.x) : (axis == 1u ? vec3(v.z, v.x, v.y) : v);
 }
@@ -50,7 +50,7 @@ INLINE Ray make_ray(vec3 origin, vec3 direction) {
   return ray;
 }
 
-// Meets with t > 0 on the edges included; an edge-on triangle is not met.
+// Returns the hit with t > 0, edges included; an edge-on triangle is not hit.
 INLINE TriangleHit meet_triangle(Ray ray, vec3 corner_a, vec3 corner_b, vec3 corner_c) {
   TriangleHit hit;
   hit.met = false;
@@ -94,12 +94,12 @@ INLINE TriangleHit meet_triangle(Ray ray, vec3 corner_a, vec3 corner_b, vec3 cor
   return hit;
 }
 
-// Where two hits compete the nearer wins, at equal distance the lower element number, and of copies of one element that lie in
-// each other's plane the one that comes first in the tree.
+// The order of competing hits: the nearer wins, at equal distance the lower element number and, between copies of one
+// element that lie in each other's plane, the one that comes first in the tree.
 struct HitRank {
   float t;
   uint element;
-  uint triangle;  // place in leaf order
+  uint triangle;  // position in leaf order
 };
 
 INLINE bool hit_precedes(HitRank hit, HitRank other) {

@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-// pcg4d of Jarzynski & Olano 2020, "Hash functions for GPU rendering", JCGT 9(3), listing 4.
+// Returns four random words: pcg4d of Jarzynski & Olano 2020, "Hash functions for GPU rendering", JCGT 9(3), listing 4.
 INLINE uvec4 random_words(uvec2 key, uint ray, uint dimension) {
   uint x = ray * 1664525u + 1013904223u;
   uint y = dimension * 1664525u + 1013904223u;
@@ -27,7 +27,7 @@ INLINE uvec4 random_words(uvec2 key, uint ray, uint dimension) {
   return uvec4(x, y, z, w);
 }
 
-// [0, 1), never 1; 24 random bits.
+// Returns a number in [0, 1), never 1, with 24 random bits.
 INLINE float unit_interval(uint word) {
   EXACT float unit = float(word >> 8u) * (1.0f / 16777216.0f);
   return unit;

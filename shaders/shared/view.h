@@ -1,4 +1,4 @@
-// Camera rays, and which surface number belongs to what they meet.
+// Camera rays, and the surfaces that they see.
 #ifndef SUNFLECK_SHARED_VIEW_H
 #define SUNFLECK_SHARED_VIEW_H
 
@@ -7,8 +7,8 @@
 
 SHARED_BEGIN
 
-// Through the point (x, y) of the picture, 0..1 from the left and from the top; not of a fisheye. Its length is such that t is
-// the depth along the forward axis.
+// Returns the direction of the ray through the point (x, y) of the picture, 0..1 from the left and from the top; not for a
+// fisheye. Its length is such that t is the depth along the forward axis.
 INLINE vec3 view_direction(ViewBlock view, float x, float y) {
   if (view.kind == view_orthographic) return view.forward;
   EXACT float across = 2.0f * x - 1.0f;
@@ -19,7 +19,7 @@ INLINE vec3 view_direction(ViewBlock view, float x, float y) {
   return vec3(dx, dy, dz);
 }
 
-// The point of the camera that the ray through (x, y) passes.
+// Returns the point of the camera through which the ray of (x, y) passes.
 INLINE vec3 view_position(ViewBlock view, float x, float y) {
   if (view.kind != view_orthographic) return view.position;
   EXACT float across = 2.0f * x - 1.0f;
@@ -30,8 +30,8 @@ INLINE vec3 view_position(ViewBlock view, float x, float y) {
   return vec3(px, py, pz);
 }
 
-// Where the ray begins: no farther from the scene than needed, since the boxes of the tree are padded for rounding errors over
-// lengths of its own size.
+// Returns the start of the ray. It is no farther from the scene than needed, since the boxes of the tree are padded for
+// rounding errors over lengths of the tree's own size.
 INLINE vec3 view_origin(ViewBlock view, vec3 position, vec3 direction) {
   EXACT float x = position.x + view.start * direction.x;
   EXACT float y = position.y + view.start * direction.y;
@@ -44,8 +44,8 @@ INLINE float view_depth(ViewBlock view, float t) {
   return depth;
 }
 
-// Where a sample of the picture lies; `number` counts from the first sample of the row `first_row`, `offset` is its place in
-// the pixel, 0..1.
+// Returns the position of a sample in the picture; `number` counts from the first sample of the row `first_row`, `offset` is
+// the sample's place in the pixel, 0..1.
 INLINE vec2 sample_point(ViewBlock view, uint first_row, uint number, vec2 offset, float per_width, float per_height) {
   const uint pixel = number / view.samples;
   const uint row = pixel / view.width;
@@ -54,33 +54,34 @@ INLINE vec2 sample_point(ViewBlock view, uint first_row, uint number, vec2 offse
   return vec2(x, y);
 }
 
-// The ground as the camera sees it: where the ray meets it inside the plot; t <= 0 where it does not.
+// Returns t where the ray meets the ground inside the plot, as the camera sees it; t <= 0 if it does not.
 INLINE float seen_ground(Ray ray, GroundMap ground) {
   if (ground.cells_x == 0u) return 0.0f;
   EXACT float t = (ground.y - ray.origin.y) * ray.inverse.y;
   return t > 0.0f && in_plot(ground, ground_point(ray, t)) ? t : 0.0f;
 }
 
-// An element lying in the ground is seen although the ray meets the ground a little before it.
+// Returns the distance past the ground at which an element lying in it is still seen, although the ray meets the ground a
+// little earlier.
 INLINE float ground_slack(Ray ray, GroundMap ground) {
   EXACT float slack = ground.depth * magnitude(ray.inverse.y);
   return slack;
 }
 
-// How far a ray that meets the ground at `t` looks for elements.
+// Returns how far a ray that meets the ground at `t` is followed to find elements.
 INLINE float ground_limit(float t, float slack) {
   EXACT float limit = t + slack;
   return t > 0.0f ? limit : 1e30f;
 }
 
-// How far it looks where something has been seen already, in another copy of the plot.
+// Returns how far the ray is followed if a surface in another copy of the plot was seen already.
 INLINE float kept_limit(ViewBlock view, SeenSurface kept, float slack, float limit) {
   EXACT float t = (kept.depth - view.start) + slack;
   return kept.surface != seen_nothing && t < limit ? t : limit;
 }
 
-// Whether what is found replaces what has been seen in another copy of the plot: the nearer wins, an element over the ground
-// also where it lies in it.
+// Returns true if the found surface replaces the one seen in another copy of the plot: the nearer wins, and an element wins
+// over the ground also where it lies in it.
 INLINE bool replaces(ViewBlock view, SeenSurface found, SeenSurface kept, float slack) {
   if (found.surface == seen_nothing) return false;
   if (kept.surface == seen_nothing) return true;

@@ -1,4 +1,4 @@
-// What crosses from the host to the shader that draws pictures.
+// Everything that is passed from the host to the shader that draws pictures.
 #ifndef SUNFLECK_SHARED_VIEW_LAYOUT_H
 #define SUNFLECK_SHARED_VIEW_LAYOUT_H
 
@@ -6,27 +6,27 @@
 
 SHARED_BEGIN
 
-// How rays leave the camera: through a point; all along `forward`; in the directions that the host has worked out, a fisheye's.
+// How rays leave the camera: through one point; all along `forward`; in directions computed by the host, for a fisheye.
 const uint view_perspective = 0u;
 const uint view_orthographic = 1u;
 const uint view_fisheye = 2u;
 
-// A picture: the camera as view/camera.h has it, in the canopy's local frame. Right and up are scaled by the tangents of half
-// the angles of view, in an orthographic picture by half its width and height in the scene.
+// The camera of a picture, as in view/camera.h, in the canopy's local frame. Right and up are scaled by the tangents of half
+// the angles of view or, in an orthographic picture, by half its width and height in the scene.
 struct ViewBlock {
   vec3 position;
   uint width;
   vec3 forward;
   uint height;
   vec3 right;
-  uint samples;  // a pixel
+  uint samples;  // per pixel
   vec3 up;
-  uint elements;  // surfaces 2 * element + side, then the ground's cells
+  uint elements;  // elements have surfaces 2 * element + side; the ground's cells follow
   GroundMap ground;
-  float start;  // depth at which rays begin, set by whoever looks
+  float start;  // depth at which rays begin, set by the caller
   uint kind;
-  vec2 circle_centre;  // of a fisheye: where forward is seen, 0..1 from the left and from the top
-  vec2 per_radius;     // and 1 / radius of its circle, in widths and in heights of the picture
+  vec2 circle_centre;  // of a fisheye: the point where forward is seen, 0..1 from the left and from the top
+  vec2 per_radius;     // 1 / radius of its circle, in widths and in heights of the picture
 };
 
 // One dispatch of a picture: samples first..first+count-1, counted from the row `first_row` on, of one copy of the plot.
@@ -37,14 +37,14 @@ struct ViewPush {
   uint copy;
 };
 
-// What one sample of a pixel sees.
+// The surface that one sample of a pixel sees.
 struct SeenSurface {
-  uint surface;  // seen_nothing where there is only sky
-  float depth;   // along the camera's forward axis; of a fisheye along the ray
-  uint copy;     // of the plot; 0: the plot itself
+  uint surface;  // seen_nothing for the sky
+  float depth;   // along the camera's forward axis; along the ray for a fisheye
+  uint copy;     // number of the plot's copy; 0 is the plot itself
 };
 const uint seen_nothing = 0xffffffffu;
-const uint seen_unfinished = 0xfffffffeu;  // more steps than a dispatch has: the host looks again
+const uint seen_unfinished = 0xfffffffeu;  // the steps exceed those of a dispatch, so the host looks again
 
 SHARED_END
 

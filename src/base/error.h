@@ -1,5 +1,5 @@
 #pragma once
-// The one exception type of the program, and the three-part message every user meets:
+// The only exception type of the program, and the three-part message that every user sees:
 //   WHERE AND WHAT (WHY IT IS WRONG); WHAT TO DO
 // e.g.  maize.toml:14: optics.leaf.reflectance.PAR = 12 (must lie in 0..1); give 0.12 if percent was meant
 
@@ -9,7 +9,7 @@
 
 namespace sunfleck {
 
-// The value is the exit status of the program.
+// The values are the exit statuses of the program.
 enum class ErrorKind { failure = 1, input = 2, device = 3 };
 
 class Error : public std::runtime_error {
@@ -27,18 +27,18 @@ class Error : public std::runtime_error {
   return message;
 }
 
-// Bad usage or bad input: `what` names the file, line or key and the value found, `why` the rule it breaks, `cure` what
-// would be right. All three are one line.
+// Throws for bad usage or bad input: `what` names the file, line or key and the value found, `why` the rule it breaks,
+// `cure` what would be right. Each of the three is one line.
 [[noreturn]] inline void throw_input(std::string_view what, std::string_view why, std::string_view cure) {
   throw Error(ErrorKind::input, three_part_message(what, why, cure));
 }
 
-// A run that could not be finished (full disk, lost device, a broken ledger).
+// Throws for a run that could not be finished (full disk, lost device, a ledger that does not close).
 [[noreturn]] inline void throw_failure(std::string_view what, std::string_view why, std::string_view cure) {
   throw Error(ErrorKind::failure, three_part_message(what, why, cure));
 }
 
-// No device of the asked kind, or one that lacks something the program relies on.
+// Throws if there is no device of the requested kind, or if it lacks something that the program relies on.
 [[noreturn]] inline void throw_device(std::string_view what, std::string_view why, std::string_view cure) {
   throw Error(ErrorKind::device, three_part_message(what, why, cure));
 }

@@ -28,7 +28,7 @@ bool quiet() {
   return !spdlog::should_log(spdlog::level::info);
 }
 
-// A bar may stand on the line; text takes its place and the bar is drawn again below.
+// Clears the line on a terminal: if it holds a progress bar the text replaces it, and the bar is drawn again below.
 std::string on_own_line(std::string_view line) {
   return fmt::format("{}{}", on_terminal() ? clear_line : "", line);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the program says while it works: lines on standard error, and a progress line.
+// Messages of the running program: lines on standard error, and a progress line.
 
 #include <chrono>
 #include <cstdint>
@@ -11,30 +11,31 @@ namespace sunfleck {
 
 enum class Verbosity { silent, quiet, normal };
 
-// Sets up the log on standard error. Quiet says nothing but warnings and errors, silent nothing at all.
+// Sets up the log on standard error. `quiet` prints only warnings and errors, `silent` nothing at all.
 void start_log(Verbosity verbosity);
 
-void say(std::string_view line);   // plain line
-void warn(std::string_view line);  // "warning: " before it
+void say(std::string_view line);   // prints a plain line
+void warn(std::string_view line);  // prints the line after "warning: "
 
-// Long work: a bar that is redrawn in place on a terminal, plain lines every few seconds elsewhere, nothing when quiet.
+// The progress of a long task: a bar redrawn in place on a terminal, plain lines every few seconds elsewhere, nothing when
+// quiet.
 class ProgressLine {
  public:
   explicit ProgressLine(std::string task);
-  ~ProgressLine();  // ends the line, where there is one, with the last state given
+  ~ProgressLine();  // ends the line, if there is one, with the latest state
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   struct State {
     std::uint64_t rays = 0;
-    double fraction = 0.0;                 // done, 0..1, as far as it can be foreseen; one that falls is not shown
-    std::optional<double> seconds_left;    // none: as long as what is done took, in proportion
+    double fraction = 0.0;                 // completed part, 0..1, as forecast; a falling value is not shown
+    std::optional<double> seconds_left;    // empty: the remaining time is extrapolated from the elapsed time
     std::optional<double> relative_error;  // reached so far
     std::optional<double> bound;
     std::string_view error_of;  // what the error belongs to, a literal; may be empty
-    std::string_view stage;     // of work that has no measure yet, a literal: shown in place of the part that is done
+    std::string_view stage;     // a literal, shown in place of the completed part while that is unknown
   };
-  // Cheap; draws at most ten times a second (every five seconds without a terminal).
+  // Takes a new state; cheap. Draws at most ten times a second (every five seconds without a terminal).
   void update(const State& state);
 
  private:
@@ -46,9 +47,9 @@ class ProgressLine {
   bool drawn_ = false;
 };
 
-// The text of a progress line: "simulating [####....] 45 %, 12.3 M rays, direct error 0.0012 of 0.0010, 8 s left", or with a
-// stage "simulating, pilot, 0.3 M rays". Without a bar where bar_width is 0; without time left before a hundredth is done and
-// at the end; without an error where none is known.
+// Returns the text of a progress line: "simulating [####....] 45 %, 12.3 M rays, direct error 0.0012 of 0.0010, 8 s left",
+// or with a stage "simulating, pilot, 0.3 M rays". The bar is left out if bar_width is 0; the time left is left out below
+// one percent and at the end; the error is left out if it is unknown.
 [[nodiscard]] std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s,
                                         int bar_width);
 

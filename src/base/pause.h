@@ -1,5 +1,5 @@
 #pragma once
-// Waiting for something that has to be asked for.
+// Pauses between polls.
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace sunfleck {
 
-// Short rests at first, so that what comes soon is not kept waiting, then longer ones, which cost next to nothing.
+// Pauses that are short at first, so that a quick answer is not delayed, and then grow until polling costs next to nothing.
 class Pause {
  public:
   void take() {

@@ -1,5 +1,5 @@
 #pragma once
-// A stream of random numbers: the same on every machine and with every standard library.
+// A stream of random numbers that is the same on every machine and with every standard library.
 
 #include <cstdint>
 
@@ -13,7 +13,7 @@ class RandomStream {
 
   std::uint64_t word() { return mixed(state_ += increment); }
 
-  // Even over [0, 1), 53 bits.
+  // Returns a number that is uniform over [0, 1), with 53 bits.
   double unit() { return static_cast<double>(word() >> 11) * 0x1p-53; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Inside bvh only: the binary tree that stands between the builder (build.cpp) and the collapse to eight children
-// (collapse.cpp). 64 bytes a reference in all, so that ten million references build in less than a gigabyte.
+// Internal to bvh: the binary tree between the builder (build.cpp) and the collapse to eight children (collapse.cpp). It
+// takes 64 bytes per reference, so that ten million references build in less than a gigabyte.
 
 #include "bvh/bvh.h"
 
@@ -11,10 +11,10 @@
 
 namespace sunfleck::detail {
 
-// Four floats in one register; `a < b ? a : b` picks lane by lane. Lane 3 rides along.
+// Four floats in one register; `a < b ? a : b` selects lane by lane. Lane 3 is carried along.
 using Float4 [[gnu::vector_size(16)]] = float;
 
-// Largest coordinate a tree is built over, m: areas stay far inside single precision.
+// Largest coordinate of a tree, m: areas stay far inside the range of single precision.
 inline constexpr float largest_coordinate_m = 1e15F;
 
 struct Bounds {
@@ -31,11 +31,11 @@ struct Bounds {
   }
 };
 
-// Grows into whatever it meets; its half_area() is finite.
+// The initial value of a growing box; its half_area() is finite.
 inline constexpr Bounds nothing{Float4{1e15F, 1e15F, 1e15F, 1e15F}, Float4{-1e15F, -1e15F, -1e15F, -1e15F}};
 
-// The padded box of a reference. Lane 3 of lo and hi carries the lower and upper half of the reference's number, as
-// ordinary floats (its bits would make subnormal numbers, which are slow).
+// The padded box of a reference. Lane 3 of lo and hi holds the lower and upper half of the reference's number, as ordinary
+// floats (as bits they would make subnormal numbers, which are slow).
 struct Item {
   Bounds box;
 
@@ -54,27 +54,30 @@ struct BinaryNode {
 };
 static_assert(sizeof(Item) == 32 && sizeof(BinaryNode) == 32);
 
-// Every leaf is one item, so that the collapse decides the leaves. Nodes stand in depth-first order, left before right: a
-// subtree of n items whose root is node k owns the nodes k .. k + n - 2, which makes child pointers unnecessary.
+// A binary tree whose leaves hold one item each, so that the collapse decides on the final leaves. Nodes are in depth-first
+// order, left before right: a subtree of n items whose root is node k occupies the nodes k .. k + n - 2, so no child
+// pointers are needed.
 struct BinaryTree {
   std::vector<Item> items;
-  std::vector<BinaryNode> nodes;  // items.size() - 1 of them; empty for less than two items
+  std::vector<BinaryNode> nodes;  // items.size() - 1 nodes; empty for fewer than two items
 };
 
-// A subtree: `count` items from `first` on; `node` is its root if count > 1.
+// A subtree: `count` items beginning with `first`; `node` is its root if count > 1.
 struct Subtree {
   std::uint32_t node = 0;
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
 
-// Any binary tree of this height fits into max_bvh_depth levels of eight children: a level holds three binary ones.
+// A binary tree of at most this height always fits into max_bvh_depth levels of eight children: a level holds three binary
+// ones.
 inline constexpr int max_binary_height = 3 * max_bvh_depth;
 
-// Orders the items and fills the nodes; the tree is at most max_height high, which must do for equal halves throughout.
+// Orders the items and fills the nodes. The tree is at most max_height high, which must be enough for splitting into equal
+// halves throughout.
 void build_binary_tree(BinaryTree& tree, int max_height = max_binary_height);
 
-// The compressed tree over the references that the items stand for. Writes the plans into `tree`.
+// Returns the compressed tree over the references of the items. Writes the plans into `tree`.
 [[nodiscard]] Bvh collapse(BinaryTree& tree, const Canopy& canopy, std::span<const Reference> references);
 
 }  // namespace sunfleck::detail

@@ -11,15 +11,16 @@
 
 namespace sunfleck {
 
-// 80 bytes, read by the shaders as five texels of four 32-bit words.
+// A node of 80 bytes, read by the shaders as five texels of four 32-bit words.
 // The box of child slot k on axis x is origin.x + lo_x[k] * 2^(exponent[0] - 127) .. origin.x + hi_x[k] * 2^(exponent[0] -
-// 127). The product is exact; the sum, exact or rounded to single precision, encloses the child's padded triangles either way.
-// Order: bit 2, 1, 0 of k is set for children towards the low end of x, y, z (as far as children do not compete for a slot).
-// With octant having bit 2, 1, 0 set where the ray's x, y, z direction is negative, descending (k XOR octant) is roughly
-// front to back. So a walk that files the hit on slot k under bit (k XOR octant) of a mask takes the highest bit b first
-// and recovers k = b XOR octant.
+// 127). The product is exact; the sum, exact or rounded to single precision, encloses the child's padded triangles either
+// way.
+// Order: bit 2, 1, 0 of k is set for children towards the low end of x, y, z (unless children compete for a slot). If bit 2,
+// 1, 0 of octant is set where the ray's x, y, z direction is negative, descending (k XOR octant) is roughly front to back. A
+// walk that stores the hit on slot k in bit (k XOR octant) of a mask therefore takes the highest bit b first and recovers
+// k = b XOR octant.
 // meta[k]: 0 for an empty slot (its box is then lo = 255, hi = 0: inverted on every axis, also when decoded);
-//   inner child: 0b001'00000 + 24 + k; its node number is child_base + (how many slots below k are inner);
+//   inner child: 0b001'00000 + 24 + k; its node number is child_base + (number of inner slots below k);
 //   leaf child: (unary triangle count 0b001, 0b011, 0b111) << 5 | first triangle relative to triangle_base (0..23).
 struct BvhNode {
   std::array<float, 3> origin;
@@ -32,18 +33,18 @@ struct BvhNode {
 };
 static_assert(sizeof(BvhNode) == 80);
 
-// 48 bytes, three texels. Corners in the local frame of the canopy, moved by `image` periods.
+// A triangle of 48 bytes, three texels. Corners in the local frame of the canopy, shifted by the periods of `image`.
 struct BvhTriangle {
   std::array<float, 3> a;
   std::uint32_t element;
   std::array<float, 3> b;
-  std::uint32_t image;  // pack_image(dx, dz): the copy of the element this reference stands for
+  std::uint32_t image;  // pack_image(dx, dz): the copy of the element to which this reference points
   std::array<float, 3> c;
-  std::uint32_t counter;  // left 0 by the builder; filled by whoever counts landings
+  std::uint32_t counter;  // set to 0 by the builder and filled in by the code that counts landings
 };
 static_assert(sizeof(BvhTriangle) == 48);
 
-// Two signed period numbers in one word; image (0, 0) is the element where the canopy has it.
+// Packs two signed period numbers into one word; image (0, 0) is the element at its place in the canopy.
 [[nodiscard]] constexpr std::uint32_t pack_image(int dx, int dz) {
   return (static_cast<std::uint32_t>(dx) & 0xffffU) | (static_cast<std::uint32_t>(dz) << 16U);
 }
@@ -55,18 +56,19 @@ struct Reference {
   std::int16_t dz = 0;
 };
 
-// Every element once; in a periodic plot an element whose box reaches beyond the border is referenced again wherever a
-// copy of it, moved by whole periods, reaches into the plot enlarged by border_margin_m on every side. The order is by
-// element, image (0, 0) first if it reaches into the plot. A centroid in the plot does not by itself make image (0, 0) a
-// reference of the period, but the element's own box always overlaps the plot, so it is one. Elements whose area_m2 is 0
-// and copies of earlier elements have none: nothing can hit them. Throws Error (input) for more than 2^31 references, or a copy
-// 2^15 periods away.
+// Returns the references to all elements. In a periodic plot an element whose box reaches beyond the border is referenced
+// again wherever a copy of it, shifted by whole periods, reaches into the plot enlarged by border_margin_m on every side.
+// The order is by element, with image (0, 0) first if it reaches into the plot. A centroid in the plot does not by itself
+// make image (0, 0) a reference of the period, but the element's own box always overlaps the plot, so it is one. Elements
+// whose area_m2 is 0 and copies of earlier elements have no reference, so nothing can hit them. Throws Error (input) for
+// more than 2^31 references, or for a copy 2^15 periods away.
 [[nodiscard]] std::vector<Reference> make_references(const Canopy& canopy);
 
-// Corners of a reference: the element's corners + (dx * period x, 0, dz * period z), summed in double, rounded once.
+// Returns the corners of a reference: the element's corners + (dx * period x, 0, dz * period z), summed in double, rounded
+// once.
 [[nodiscard]] Triangle reference_corners(const Canopy& canopy, const Reference& reference);
 
-// How far beyond the plot's border a period's references reach, per axis (x, z): 2^-18 of the period.
+// Returns how far the references of a period reach beyond the plot's border, per axis (x, z): 2^-18 of the period.
 [[nodiscard]] glm::vec2 border_margin_m(const Canopy& canopy);
 
 struct Bvh {
@@ -75,22 +77,23 @@ struct Bvh {
   int depth = 0;                       // levels of nodes; at most max_bvh_depth
 };
 
-inline constexpr int max_bvh_depth = 30;  // the walks keep one stack entry a level
+inline constexpr int max_bvh_depth = 30;  // the walks keep one stack entry per level
 
 struct BvhStatistics {
-  // Expected node visits + triangle tests per ray that meets the root box; all of them if that box has no area.
+  // Expected node visits + triangle tests per ray that meets the root box; all nodes and triangles if that box has no
+  // area.
   double sah_cost = 0.0;
   std::size_t inner_children = 0;
   std::size_t leaf_children = 0;
 };
 
-// Builds the tree of all references of the canopy: binned surface-area-heuristic binary tree, collapsed to eight children
-// by dynamic programming, at most three triangles a child. Boxes are enlarged by `padding_m` on every side before they are
-// rounded outwards to the nodes' grid, so that rounding in the walk never loses a triangle. The same input gives the same
-// tree, byte for byte. Coordinates are below 1e15 m. Throws as make_references does.
+// Builds the tree of all references of the canopy: a binary tree by binned surface area heuristic, collapsed to eight
+// children by dynamic programming, with at most three triangles per child. Boxes are enlarged by `padding_m` on every side
+// before they are rounded outwards to the nodes' grid, so that rounding in the walk never loses a triangle. The same input
+// gives the same tree, byte for byte. Coordinates must be below 1e15 m. Throws as make_references does.
 [[nodiscard]] Bvh build_bvh(const Canopy& canopy, float padding_m);
 
-// The box of a child slot as a walk in single precision decodes it.
+// Returns the box of a child slot as a walk in single precision decodes it.
 [[nodiscard]] Box child_box(const BvhNode& node, int slot);
 
 [[nodiscard]] BvhStatistics statistics(const Bvh& bvh);

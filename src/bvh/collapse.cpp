@@ -1,5 +1,6 @@
-// Binary tree to eight-wide compressed nodes (Ylitie, Karras & Laine 2017, sections 3 and 4): which binary nodes survive is
-// decided by dynamic programming, minimal in expected cost; then children are given slots and boxes are rounded to the grid.
+// Conversion of the binary tree to eight-wide compressed nodes (Ylitie, Karras & Laine 2017, sections 3 and 4). Dynamic
+// programming chooses the binary nodes to keep, at minimal expected cost; then children are assigned to slots and boxes are
+// rounded to the grid.
 
 #include "base/check.h"
 #include "bvh/binary_tree.h"
@@ -12,15 +13,15 @@
 namespace sunfleck::detail {
 namespace {
 
-// Cost of a node visit (80 bytes fetched, eight boxes) and of a triangle test (48 bytes, one triangle), as in Ylitie et al.
-// 2017, section 4.1; only their ratio counts. Between 0.3 and 1.5 a scalar closest-hit walk takes the same time within 5 %,
-// while the tree grows from 0.11 to 0.15 nodes a triangle on leaf strips and from 0.12 to 0.24 on scattered triangles.
+// Costs of a node visit (80 bytes fetched, eight boxes) and of a triangle test (48 bytes, one triangle), as in Ylitie et al.
+// 2017, section 4.1; only their ratio matters. Between 0.3 and 1.5 a scalar closest-hit walk takes the same time within 5 %,
+// while the tree grows from 0.11 to 0.15 nodes per triangle on leaf strips and from 0.12 to 0.24 on scattered triangles.
 constexpr float node_cost = 1.0F;
 constexpr float triangle_cost = 0.3F;
 constexpr std::uint32_t max_leaf_triangles = 3;
 
-// What the programming found for a binary node, packed into BinaryNode::plan.
-// split(j), j = 2..8: of j roots for this subtree, how many go to its left child; 0: j - 1 roots do as well.
+// The decisions for a binary node, packed into BinaryNode::plan. split(j), j = 2..8: how many of j roots of this subtree go
+// to its left child; 0 means that j - 1 roots are just as good.
 class Plan {
  public:
   explicit Plan(std::uint32_t bits = 0) : bits_(bits) {}
@@ -70,7 +71,7 @@ class Collapser {
     const Subtree whole{0, 0, static_cast<std::uint32_t>(tree_.items.size())};
     solve(whole);
     bvh_.triangles.reserve(tree_.items.size());
-    bvh_.nodes.reserve(tree_.items.size() / 7 + 1);  // 0.10 to 0.13 nodes a triangle are usual
+    bvh_.nodes.reserve(tree_.items.size() / 7 + 1);  // 0.10 to 0.13 nodes per triangle are usual
     bvh_.nodes.resize(1);
     emit(0, whole, 1);
     bvh_.nodes.shrink_to_fit();
@@ -98,7 +99,7 @@ class Collapser {
   [[nodiscard]] bool is_leaf(const Subtree& s) const { return s.count == 1 || plan_of(s).leaf(); }
   [[nodiscard]] int height(const Subtree& s) const { return s.count == 1 ? 0 : plan_of(s).height(); }
 
-  // Ylitie et al. 2017, equations 2 to 5. Recursion is at most max_binary_height deep.
+  // Ylitie et al. 2017, equations 2 to 5. The recursion is at most max_binary_height deep.
   Costs solve(const Subtree& subtree) {
     const float area = box(subtree).half_area();
     Costs costs;
@@ -128,7 +129,7 @@ class Collapser {
     return costs;
   }
 
-  // The roots that the plan gives a subtree which may have `roots` of them.
+  // Collects the roots that the plan gives to a subtree which may have `roots` of them.
   void gather(const Subtree& subtree, int roots, Children& children) const {
     if (subtree.count > 1) {
       const Plan plan = plan_of(subtree);
@@ -142,15 +143,16 @@ class Collapser {
     children.add(subtree);
   }
 
-  // All that lies `levels` binary levels below.
+  // Collects all subtrees that lie `levels` binary levels below.
   void gather_levels(const Subtree& subtree, int levels, Children& children) const {
     if (levels == 0 || is_leaf(subtree)) return children.add(subtree);
     gather_levels(left_of(subtree), levels - 1, children);
     gather_levels(right_of(subtree), levels - 1, children);
   }
 
-  // The planned children of a node, or, if one of them is too high for the levels of nodes that remain below this one, its
-  // descendants three binary levels down, which are not: the subtree's height is at most 3 * (levels_below + 1).
+  // Returns the planned children of a node. If one of them is too high for the levels of nodes that remain below this one,
+  // returns the descendants three binary levels down instead, which fit: the subtree's height is at most 3 * (levels_below
+  // + 1).
   [[nodiscard]] Children children_of(const Subtree& subtree, int levels_below) const {
     Children children;
     if (subtree.count == 1) {

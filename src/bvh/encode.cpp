@@ -1,4 +1,4 @@
-// Slots and grid of a compressed node, and what can be read back from the nodes of a tree.
+// Slots and grid of a compressed node, and the figures that are read back from the nodes of a tree.
 
 #include "bvh/encode.h"
 
@@ -21,7 +21,7 @@ std::uint32_t biased_exponent(float value) {
   return (std::bit_cast<std::uint32_t>(value) >> 23U) & 0xffU;
 }
 
-// A grid line as a walk may compute it: rounded to single precision, and exactly (a double holds it).
+// Returns a grid line as a walk may compute it: rounded to single precision or exactly (a double holds it).
 float line_float(float origin, float step, int q) {
   return origin + static_cast<float>(q) * step;
 }
@@ -36,8 +36,9 @@ bool line_is_above(float origin, float step, int q, float value) {
   return line_float(origin, step, q) >= value && line_exact(origin, step, q) >= value;
 }
 
-// The smallest power of two of which 255 steps lead from lo to hi or beyond, but no less than the spacing of floats there:
-// the coordinates have no finer detail, and an empty slot (lo = 255, hi = 0) stays inverted in a box without extent.
+// Returns the exponent of the smallest power of two of which 255 steps lead from lo to hi or beyond, but no less than the
+// spacing of floats there: the coordinates have no finer detail, and an empty slot (lo = 255, hi = 0) stays inverted in a
+// box without extent.
 std::uint32_t grid_exponent(float lo, float hi) {
   const auto step = static_cast<float>((double{hi} - lo) / 255.0);
   const std::uint32_t spacing = biased_exponent(std::max(std::fabs(lo), std::fabs(hi)));
@@ -60,10 +61,10 @@ std::uint8_t quantised_up(float origin, float step, float value) {
 
 }  // namespace
 
-// Ylitie et al. 2017, section 3.3: the gain of a child in a slot is how far it lies in the slot's direction, and the sum of
-// gains is to be greatest. Their auction is replaced by swapping any two slots' contents while that gains: visits are
-// within 0.1 % of those after an exact assignment (up to 3.5 % fewer than by taking the greatest gain first), and the whole
-// build takes a quarter of the time.
+// Ylitie et al. 2017, section 3.3: the gain of a child in a slot is its distance in the direction of the slot, and the sum
+// of gains is maximized. Their auction is replaced by swapping the contents of any two slots as long as that gains: visits
+// are within 0.1 % of those after an exact assignment (up to 3.5 % fewer than by taking the greatest gain first), and the
+// whole build takes a quarter of the time.
 std::array<int, 8> assign_slots(std::span<const Bounds> children) {
   Bounds box = nothing;
   for (const Bounds& child : children) box.grow(child);
@@ -77,7 +78,7 @@ std::array<int, 8> assign_slots(std::span<const Bounds> children) {
     }
   }
   std::array<std::size_t, 8> child_in{0, 1, 2, 3, 4, 5, 6, 7};
-  constexpr int max_sweeps = 8;  // rounding could make two swaps undo each other for ever
+  constexpr int max_sweeps = 8;  // rounding could make two swaps undo each other forever
   bool swapped = true;
   for (int sweep = 0; swapped && sweep < max_sweeps; ++sweep) {
     swapped = false;

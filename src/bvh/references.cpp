@@ -1,4 +1,4 @@
-// Which copies of which elements a tree covers, and where their corners lie.
+// The copies of elements that a tree covers, and the positions of their corners.
 
 #include "base/error.h"
 #include "bvh/bvh.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t max_references = std::uint64_t{1} << 31U;
 
-// Period numbers first..last whose copy reaches into the enlarged plot.
+// The period numbers first..last of the copies that reach into the enlarged plot.
 struct ImageRange {
   int first = 0;
   int last = 0;
@@ -28,7 +28,7 @@ struct Images {
   [[nodiscard]] bool holds_origin() const { return x.first <= 0 && x.last >= 0 && z.first <= 0 && z.last >= 0; }
 };
 
-// lo + n * period <= period + margin and hi + n * period >= -margin.
+// Returns the images with lo + n * period <= period + margin and hi + n * period >= -margin.
 ImageRange images_on_axis(float lo_m, float hi_m, double period_m, double margin_m, std::size_t element) {
   if (period_m == 0.0) return {};
   const double first = std::ceil((-margin_m - hi_m) / period_m);

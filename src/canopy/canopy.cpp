@@ -19,7 +19,7 @@ struct DoubleBox {
   [[nodiscard]] bool empty() const { return lo.x > hi.x; }
 };
 
-// Clockwise seen from above: south (+X) turns towards west (+Z).
+// Turns clockwise as seen from above: south (+X) turns towards west (+Z).
 glm::dvec3 place(const glm::dvec3& vertex_m, const Placement& placement) {
   if (placement.heading_rad == 0.0) return vertex_m + placement.position_m;
   const double c = std::cos(placement.heading_rad);
@@ -41,8 +41,8 @@ DoubleBox bounds_of(std::span<const PlacedMesh> parts) {
   return box;
 }
 
-// A stand that lies several times its own size from zero would lose digits in single precision: it gets an origin of its
-// own on that axis.
+// Returns the local origin on one axis. A stand that lies several times its own size from zero would lose digits in single
+// precision, so it gets an origin of its own on that axis.
 double local_origin_m(const DoubleBox& box, int axis) {
   const glm::dvec3 size_m = box.hi - box.lo;
   const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
@@ -50,7 +50,8 @@ double local_origin_m(const DoubleBox& box, int axis) {
   return std::abs(centre_m) > 4.0 * largest_m ? centre_m : 0.0;
 }
 
-// 2^-23 of the period rounded up to a power of two: coordinates up to twice that power are exact in single precision.
+// Returns the grid step: 2^-23 of the period rounded up to a power of two. Coordinates up to twice that power are exact in
+// single precision.
 double grid_step_m(double period_m) {
   return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(period_m))) - 23);
 }
@@ -59,7 +60,7 @@ double snapped(double value_m, double step_m) {
   return std::round(value_m / step_m) * step_m;
 }
 
-// Places corners on the grid and moves them by whole periods until their centroid lies in the plot.
+// Moves corners onto the grid and shifts them by whole periods until their centroid lies in the plot.
 class Wrapper {
  public:
   explicit Wrapper(const Plot& plot)
@@ -103,12 +104,12 @@ std::vector<std::uint16_t> merge_optics_names(Canopy& canopy, const Mesh& mesh) 
   return merged;
 }
 
-// Appends the organs of one copy, its plants numbered on from `offset`; returns the highest plant number in use.
+// Appends the organs of one copy, its plants numbered from `offset`; returns the highest plant number in use.
 std::uint32_t add_organs(Canopy& canopy, const Mesh& mesh, std::uint32_t offset) {
   std::uint32_t highest = offset;
   for (Organ organ : mesh.organs) {
     if (organ.plant > std::numeric_limits<std::uint32_t>::max() - offset) {
-      throw_input(fmt::format("plant {} of a mesh", organ.plant), fmt::format("{} plants stand before it, too many", offset),
+      throw_input(fmt::format("plant {} of a mesh", organ.plant), fmt::format("{} plants come before it, too many", offset),
                   "number a mesh's plants from 1");
     }
     if (organ.plant > 0) organ.plant += offset;

@@ -21,36 +21,36 @@ struct Box {
   glm::vec3 hi{0.0F};
 };
 
-// Element numbers follow the order of the files, copy by copy. Local frame = scene frame - origin_m.
-// In a periodic plot the corners and the periods are whole multiples of a power of two (about 1e-7 of the period), so that
-// a shift by whole periods is exact in single precision and neighbouring triangles stay sealed across the plot's border.
+// The elements, numbered in the order of the files, copy by copy. Local frame = scene frame - origin_m. In a periodic plot
+// the corners and the periods are whole multiples of a power of two (about 1e-7 of the period), so that a shift by whole
+// periods is exact in single precision and neighbouring triangles stay sealed across the plot's border.
 struct Canopy {
-  glm::dvec3 origin_m{0.0};               // scene position of the local frame's zero
-  glm::dvec2 period_m{0.0};               // X and Z period on that grid; 0 for an isolated stand
+  glm::dvec3 origin_m{0.0};               // scene position of the local frame's origin
+  glm::dvec2 period_m{0.0};               // period along X and Z on that grid; 0 for an isolated stand
   std::vector<Triangle> corners;          // [element], m, local frame, wrapped so that the centroid lies in the plot
   std::vector<std::uint32_t> organ_of;    // [element]
   std::vector<std::uint16_t> optics_of;   // [element]
   std::vector<Organ> organs;              // [organ]
   std::vector<std::string> optics_names;  // [optics]
   std::vector<std::uint64_t> labels;      // [element], as in Mesh
-  std::vector<Copy> copies;               // ascending by element; they take no light and give none off
+  std::vector<Copy> copies;               // ascending by element; copies neither receive nor emit light
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
 };
 
-// Places the meshes in the plot. Copy by copy the plants are numbered on from the highest number so far (plant 0, the soil,
-// stays 0), so every copy's organs are its own; the first copy keeps its file's numbers.
+// Places the meshes in the plot. The plants of each copy are numbered from the highest number so far (plant 0, the soil,
+// stays 0), so every copy has its own organs; the first copy keeps the numbers of its file.
 [[nodiscard]] Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot);
 
-// Bounds of all elements in the local frame; lo = hi = 0 without elements.
+// Returns the bounds of all elements in the local frame; lo = hi = 0 without elements.
 [[nodiscard]] Box bounds(const Canopy& canopy);
 
-// An organ called soil, soil2, ... counts as soil; one whose name starts with `leaf` as leaf.
+// Return whether an organ of this name counts as soil (soil, soil2, ...) or as a leaf (any name that starts with `leaf`).
 [[nodiscard]] bool is_soil_name(std::string_view name);
 [[nodiscard]] bool is_leaf_name(std::string_view name);
 
-// What each element counts as, by its organ's and its optics' name. `foliage` marks the elements that leaf area index and
-// sunlit leaf fraction are about: leaves, or every element but soil where the canopy has no organ of that name.
+// The role of each element, from the names of its organ and its optics. `foliage` marks the elements to which leaf area
+// index and sunlit leaf fraction refer: leaves, or every element but soil if no organ of the canopy has such a name.
 struct ElementRoles {
   std::vector<bool> soil;     // [element]
   std::vector<bool> foliage;  // [element]

@@ -9,7 +9,7 @@ namespace {
 
 using Bits = std::array<std::uint32_t, 9>;
 
-// The coordinates of the corners, the corners in ascending order: the same for all windings of one triangle.
+// Returns the coordinates with the corners in ascending order: the same for all windings of one triangle.
 Bits sorted_bits(Triangle corners) {
   std::sort(corners.begin(), corners.end(),
             [](const glm::vec3& a, const glm::vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
@@ -22,7 +22,7 @@ Bits sorted_bits(Triangle corners) {
   return bits;
 }
 
-// FNV-1a over words (Fowler, Noll and Vo), with a last step that mixes high bits down.
+// Returns a hash by FNV-1a over words (Fowler, Noll and Vo), with a final step that mixes high bits down.
 std::uint64_t hash(const Bits& bits) {
   std::uint64_t value = 0xcbf29ce484222325U;
   for (const std::uint32_t word : bits) value = (value ^ word) * 0x100000001b3U;
@@ -47,7 +47,8 @@ std::vector<Copy> find_copies(std::span<const Triangle> corners) {
   for (std::size_t first = 0; first < order.size();) {
     std::size_t end = first + 1;
     while (end < order.size() && order[end].hash == order[first].hash) ++end;
-    // Nearly always a single element; else all pairs are compared, since other triangles may share the hash.
+    // A hash nearly always belongs to a single element; otherwise all pairs are compared, since different triangles may
+    // share it.
     for (std::size_t k = first + 1; k < end; ++k) {
       const Bits own = sorted_bits(corners[order[k].element]);
       const auto original =

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles that occupy exactly the same place, as meshes have them that were merged twice or that model a leaf by two skins.
+// Triangles that occupy exactly the same place, as in meshes that were merged twice or that model a leaf by two skins.
 
 #include "canopy/triangle.h"
 
@@ -19,10 +19,10 @@ struct Copy {
 };
 
 // Returns the elements whose three corners, in any order, are those of an earlier element, ascending. Triangles without area
-// are not looked at. `corners` is [element].
+// are ignored. `corners` is [element].
 [[nodiscard]] std::vector<Copy> find_copies(std::span<const Triangle> corners);
 
-// Marks the copies among `elements` elements: [element].
+// Marks the copies among `elements` elements. [element]
 [[nodiscard]] std::vector<bool> copied_elements(std::span<const Copy> copies, std::size_t elements);
 
 }  // namespace sunfleck

@@ -7,7 +7,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::uint32_t leaf_optics = 0;
-constexpr std::uint32_t stem_optics = 1;  // of all that is too thick for light to pass
+constexpr std::uint32_t stem_optics = 1;  // of all parts that are too thick to transmit light
 
 // Adds an organ and returns its number.
 std::uint32_t add_organ(Mesh& mesh, std::uint32_t plant, const char* name, int rank = 0) {

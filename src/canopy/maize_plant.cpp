@@ -17,59 +17,61 @@ constexpr Range degrees(double lo, double hi) {
   return {lo * pi / 180.0, hi * pi / 180.0};
 }
 
-// A property by rank: its range at the lowest green leaf, at the ear's and at the top leaf, straight lines between.
+// A property by rank: its ranges at the lowest green leaf, at the ear's leaf and at the top leaf, interpolated linearly in
+// between.
 struct RankProfile {
   Range lowest, ear, top;
 };
 
-// Every range below that names no source is an ordinary field value for a hybrid at mid grain filling.
+// Every range below without a source is an ordinary field value for a hybrid in the middle of grain filling.
 
-// --- How many leaves, and how large ---------------------------------------------------------------------------------
+// --- Number and size of leaves --------------------------------------------------------------------------------------
 
-// Chinese cultivars of the time have 17 to 23 leaves (Agriculture 2020, 10:411); the middle of it, so that with the
-// senesced ones away 13 to 16 are green.
+// Chinese cultivars of the time have 17 to 23 leaves (Agriculture 2020, 10:411). These numbers are the middle of that range,
+// so that 13 to 16 leaves are green once the senesced ones are left out.
 constexpr int fewest_leaves = 19;
 constexpr int most_leaves = 21;
-constexpr int fewest_senesced = 5;  // at mid grain filling the lowest four to six leaves are dead
+constexpr int fewest_senesced = 5;  // in the middle of grain filling the lowest four to six leaves are dead
 constexpr int most_senesced = 6;
-constexpr int leaves_above_ear = 7;  // puts the ear at 0.63 to 0.67 of the leaf number
+constexpr int leaves_above_ear = 7;  // puts the ear at 0.63 to 0.67 of the number of leaves
 
 // Leaf area by rank, S = S0 exp(-(n - n0)^2 / (2 k^2)); Yang & Alley 2005, Agronomy Journal 97:41. Their reduced model,
-// F = F0 exp(-(F0 (n - n0))^2 / 0.3542) with F a leaf's share in the plant's area, ties k to the largest leaf's share:
-// k = 0.421 / F0. F0 is 0.088 for 20 leaves.
+// F = F0 exp(-(F0 (n - n0))^2 / 0.3542) with F the share of a leaf in the plant's leaf area, ties k to the share of the
+// largest leaf: k = 0.421 / F0. F0 is 0.088 for 20 leaves.
 constexpr Range largest_area_m2{0.067, 0.0798};  // S0; at silking about 600 to 800 cm2
 constexpr double curve_width = 0.24;             // k over the number of leaves
-constexpr Range largest_below_ear{0.0, 1.0};     // ranks: the largest leaf is the ear's or the one below
-constexpr Range leaf_area_scatter{0.88, 1.12};   // Yang & Alley predict areas to about 10 %
-// Width over length 0.10 to 0.13 (public parametric models), the upper leaves being the broader.
+constexpr Range largest_below_ear{0.0, 1.0};     // ranks: the largest leaf is the ear's or the next below
+constexpr Range leaf_area_scatter{0.88, 1.12};   // Yang & Alley predict areas to within about 10 %
+// Width over length is 0.10 to 0.13 (public parametric models); the upper leaves are broader.
 constexpr RankProfile width_to_length{{0.095, 0.105}, {0.108, 0.122}, {0.123, 0.137}};
 
-// --- Where the leaves sit ---------------------------------------------------------------------------------------------
+// --- Positions of the leaves -----------------------------------------------------------------------------------------
 
-constexpr Range ear_height_m{0.94, 1.14};  // of the node the ear grows from
+constexpr Range ear_height_m{0.94, 1.14};  // of the node on which the ear grows
 // The first nodes stay in the crown; the internodes lengthen up to the ear and shorten above it.
 constexpr int crown_nodes = 4;
-constexpr double first_internode_share = 0.60;  // of the ear's internode
+constexpr double first_internode_share = 0.60;  // relative to the ear's internode
 constexpr double top_internode_share = 0.50;
 constexpr RankProfile sheath_m{{0.11, 0.13}, {0.15, 0.17}, {0.12, 0.14}};
-constexpr Range peduncle_m{0.26, 0.36};         // from the top node to the tassel, its lower half inside the top sheath
-constexpr Range base_diameter_m{0.022, 0.025};  // of the stem; tapering to:
-constexpr Range top_diameter_m{0.012, 0.015};   // at the top node
-constexpr double sheath_flare = 1.15;           // a sheath stands off the stem by one to two millimetres at its collar
+constexpr Range peduncle_m{0.26, 0.36};         // from the top node to the tassel; the lower half is inside the top sheath
+constexpr Range base_diameter_m{0.022, 0.025};  // of the stem at its foot
+constexpr Range top_diameter_m{0.012, 0.015};   // of the stem at the top node
+constexpr double sheath_flare = 1.15;           // the collar of a sheath stands off the stem by one to two millimetres
 
-// --- How they are turned and bent ---------------------------------------------------------------------------------------
+// --- Directions and curvature of the leaves --------------------------------------------------------------------------
 
-// Of a plant's plane from the one across the row, which is kept to but weakly: sd 60 degrees. Narrower, and the leaves of a
-// dense stand shade the ground more evenly than leaves strewn at random, which maize does not (Espana et al. 1999).
+// Deviation of a plant's plane from the plane across the row, which plants follow only weakly: sd 60 degrees. With a
+// narrower range the leaves of a dense stand would shade the ground more evenly than leaves placed at random, which maize
+// does not (Espana et al. 1999).
 constexpr Range plane_deviation_rad = degrees(-208.0, 208.0);
-// Of a leaf from its plant's plane: within 5 degrees at the foot and 30 degrees at the top in ADEL-maize (Fournier &
-// Andrieu 1998, Annals of Botany 81:233).
+// Deviation of a leaf from its plant's plane: within 5 degrees at the foot and 30 degrees at the top in ADEL-maize (Fournier
+// & Andrieu 1998, Annals of Botany 81:233).
 constexpr RankProfile leaf_deviation_rad{degrees(-5.0, 5.0), degrees(-17.0, 17.0), degrees(-30.0, 30.0)};
-// From the stem to the midrib, 15 to 25 degrees at the top, 40 to 60 at the foot. Around the ear public parametric maize has
-// 35; modern hybrids are more erect (Ford et al. 2008).
+// Angle from the stem to the midrib: 15 to 25 degrees at the top, 40 to 60 at the foot. Around the ear, public parametric
+// maize has 35; modern hybrids are more erect (Ford et al. 2008).
 constexpr RankProfile insertion_rad{degrees(40.0, 60.0), degrees(20.0, 36.0), degrees(15.0, 25.0)};
-// From the collar to the tip about 120 degrees, two thirds of it before 0.7 of the length (public parametric maize); the
-// short and stiff leaves at the top bend less.
+// Bending from the collar to the tip: about 120 degrees, two thirds of it before 0.7 of the length (public parametric
+// maize); the short and stiff leaves at the top bend less.
 constexpr RankProfile bending_rad{degrees(85.0, 115.0), degrees(100.0, 140.0), degrees(45.0, 85.0)};
 constexpr Range bend_position{0.65, 0.75};
 constexpr Range bend_sharpness{2.0, 3.0};  // the stiff third next to the stem stays nearly straight
@@ -77,11 +79,11 @@ constexpr Range bend_sharpness{2.0, 3.0};  // the stiff third next to the stem s
 // --- Blade surfaces -----------------------------------------------------------------------------------------------------
 
 constexpr Range fold_rad = degrees(12.0, 28.0);  // the V opens to 125 to 155 degrees near the collar
-constexpr double widest_wrap_rad = 2.0;          // the blade's foot embraces two thirds of the stem
-constexpr double opening_m = 0.04;               // within about a stem's circumference it has opened
-// Margins undulate by 1 to 2 cm on blades that are 10 cm wide, 8 to 15 cm from crest to crest.
+constexpr double widest_wrap_rad = 2.0;          // the foot of the blade wraps two thirds of the stem
+constexpr double opening_m = 0.04;               // the wrap opens within about one circumference of the stem
+// The margins undulate by 1 to 2 cm on blades that are 10 cm wide, with 8 to 15 cm from crest to crest.
 constexpr Range wave_amplitude_to_width{0.10, 0.20};
-constexpr Range wave_length_m{0.08, 0.10};  // and 1.5 times that
+constexpr Range wave_length_m{0.08, 0.10};  // of the shorter wave; the other is 1.5 times as long
 
 // --- Ear and tassel -----------------------------------------------------------------------------------------------------
 
@@ -90,7 +92,7 @@ constexpr Range ear_diameter_m{0.047, 0.053};
 constexpr Range ear_inclination_rad = degrees(20.0, 40.0);
 constexpr double shank_length_m = 0.04;
 constexpr double shank_radius_m = 0.009;
-// The ear leaves its sheath past the margin, beside the leaf's midrib and not under it.
+// The ear leaves its sheath past the margin, beside the leaf's midrib rather than under it.
 constexpr Range ear_beside_leaf_rad = degrees(50.0, 75.0);
 constexpr int husk_tip_count = 4;
 constexpr Range husk_tip_length_m{0.06, 0.12};
@@ -104,7 +106,7 @@ constexpr double branched_share = 0.4;  // of the spike, from its foot
 constexpr Range branch_length_m{0.13, 0.22};
 constexpr Range branch_insertion_rad = degrees(20.0, 50.0);
 constexpr Range branch_bending_rad = degrees(10.0, 60.0);
-constexpr double spike_radius_m = 0.005;  // spikelets included
+constexpr double spike_radius_m = 0.005;  // including spikelets
 constexpr double branch_radius_m = 0.0035;
 
 constexpr glm::dvec3 up{0.0, 1.0, 0.0};
@@ -113,14 +115,14 @@ glm::dvec3 horizontal(double angle_rad) {
   return {std::cos(angle_rad), 0.0, std::sin(angle_rad)};
 }
 
-// What is drawn once a plant, and the heights that follow.
+// The values that are drawn once per plant, and the heights that follow from them.
 struct Architecture {
   int leaf_count = 0;
   int first_green = 0;
   int ear_rank = 0;
   double plane_rad = 0.0;        // horizontal direction of even leaves, from X towards Z
-  std::vector<double> node_m;    // [rank], height of the node that leaf `rank` grows from; [0] is the ground
-  std::vector<double> collar_m;  // [rank], height where the sheath ends and the blade begins
+  std::vector<double> node_m;    // [rank], height of the node on which leaf `rank` grows; [0] is the ground
+  std::vector<double> collar_m;  // [rank], height at which the sheath ends and the blade begins
   double stem_top_m = 0.0;
   double base_radius_m = 0.0;
   double top_radius_m = 0.0;
@@ -136,7 +138,7 @@ Range at_rank(const RankProfile& profile, const Architecture& plant, int rank) {
   return {std::lerp(a.lo, b.lo, t), std::lerp(a.hi, b.hi, t)};
 }
 
-// Length of the internode under node `rank` over that under the ear's node.
+// Returns the length of the internode under node `rank`, relative to that under the ear's node.
 double internode_share(int rank, int ear_rank, int leaf_count) {
   constexpr int first = crown_nodes + 1;
   if (rank < first) return 0.0;
@@ -144,7 +146,7 @@ double internode_share(int rank, int ear_rank, int leaf_count) {
   return std::lerp(1.0, top_internode_share, static_cast<double>(rank - ear_rank) / (leaf_count - ear_rank));
 }
 
-// Scales the internodes so that the ear's node comes to the given height.
+// Returns the heights of the nodes, with the internodes scaled so that the ear's node has the given height.
 std::vector<double> node_heights(int ear_rank, int leaf_count, double ear_node_m) {
   std::vector<double> node(leaf_count + 1, 0.0);
   for (int rank = 1; rank <= leaf_count; ++rank) node[rank] = node[rank - 1] + internode_share(rank, ear_rank, leaf_count);
@@ -172,14 +174,14 @@ Architecture draw_architecture(PlantRandom& random) {
   return plant;
 }
 
-// Without sheaths; linear up to the top node, then down to the spike.
+// Returns the radius of the stem without sheaths: linear up to the top node, then linear down to the spike.
 double bare_stem_radius(const Architecture& plant, double height_m) {
   const double top_node_m = plant.node_m.back();
   if (height_m <= top_node_m) return std::lerp(plant.base_radius_m, plant.top_radius_m, height_m / top_node_m);
   return std::lerp(plant.top_radius_m, spike_radius_m, (height_m - top_node_m) / (plant.stem_top_m - top_node_m));
 }
 
-// Sheath by sheath: each widens from the collar below to its own, where the stem reappears.
+// Returns the stem with its sheaths: each widens from the collar below to its own collar, where the stem reappears.
 Tube make_stem(const Architecture& plant) {
   constexpr double rim_m = 0.004;
   constexpr int rings_per_sheath = 3;
@@ -236,14 +238,14 @@ std::vector<MaizeLeaf> draw_leaves(const Architecture& plant, PlantRandom& rando
   return leaves;
 }
 
-// Where the husked ear stands.
+// The position of the husked ear.
 struct EarFrame {
   glm::dvec3 shank_foot_m;
-  glm::dvec3 foot_m;  // of the husked body
+  glm::dvec3 foot_m;  // foot of the husked body
   glm::dvec3 axis;
   glm::dvec3 sideways;  // horizontal, perpendicular to the axis
   double length_m = 0.0;
-  double radius_m = 0.0;  // where it is thickest
+  double radius_m = 0.0;  // at the thickest place
 };
 
 EarFrame draw_ear_frame(const Architecture& plant, const glm::dvec3& ear_leaf_outward, PlantRandom& random) {
@@ -263,14 +265,15 @@ EarFrame draw_ear_frame(const Architecture& plant, const glm::dvec3& ear_leaf_ou
   return ear;
 }
 
-// The silhouette of a husked ear is that of a leaf blade: broad at the foot, widest at a third, drawn out to a point.
+// Returns the radius of a husked ear. Its silhouette is that of a leaf blade: broad at the foot, widest at a third, drawn
+// out to a point.
 double ear_radius(const EarFrame& ear, double s) {
   return ear.radius_m * relative_blade_width(s);
 }
 
 Tube make_ear(const EarFrame& ear) {
   constexpr int rings = 16;
-  constexpr double shank_end = 0.8;  // from here the shank widens into the body
+  constexpr double shank_end = 0.8;  // from here on the shank widens into the body
   Tube tube;
   tube.plane_normal = ear.sideways;
   tube.rings.push_back({ear.shank_foot_m, shank_radius_m});
@@ -284,7 +287,7 @@ Tube make_ear(const EarFrame& ear) {
 }
 
 std::vector<Blade> draw_husk_tips(const EarFrame& ear, PlantRandom& random) {
-  constexpr double start = 0.8;  // of the ear's length
+  constexpr double start = 0.8;  // relative to the ear's length
   const glm::dvec3 inward = glm::cross(ear.axis, ear.sideways);
   std::vector<Blade> tips;
   for (int i = 0; i < husk_tip_count; ++i) {
@@ -302,7 +305,7 @@ std::vector<Blade> draw_husk_tips(const EarFrame& ear, PlantRandom& random) {
   return tips;
 }
 
-// A branch bends over in its own vertical plane.
+// Returns a branch, which bends over in its own vertical plane.
 Tube draw_tassel_branch(const glm::dvec3& foot_m, double azimuth_rad, PlantRandom& random) {
   constexpr int segments = 6;
   const double step_m = random.around(branch_length_m) / segments;

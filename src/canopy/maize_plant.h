@@ -10,23 +10,23 @@
 namespace sunfleck {
 
 struct MaizeLeaf {
-  int rank = 0;  // counted from the ground, senesced leaves included
+  int rank = 0;  // counted from the ground, including senesced leaves
   Blade blade;
 };
 
-// Standing at (0, 0, 0).
+// A plant that stands at (0, 0, 0).
 struct MaizePlant {
-  std::vector<MaizeLeaf> leaves;  // green ones, by rank
-  Tube stem;                      // with its sheaths, to the foot of the tassel
+  std::vector<MaizeLeaf> leaves;  // green leaves, by rank
+  Tube stem;                      // with its sheaths, up to the foot of the tassel
   Tube ear;                       // the husked ear on its shank
-  std::vector<Blade> husk_tips;   // where the husk leaves end in short blades
+  std::vector<Blade> husk_tips;   // the short blades in which the husk leaves end
   std::vector<Tube> tassel;       // the spike, then its branches
 };
 
-// Plants of one seed differ by their number.
+// Returns a plant. Plants of one seed differ by their number.
 [[nodiscard]] MaizePlant grow_maize_plant(std::uint64_t seed, std::uint32_t number);
 
-// make_maize with triangles of another size.
+// Returns the same stand as the other make_maize with triangles of a chosen size.
 [[nodiscard]] Mesh make_maize(const MaizeStand& stand, const MaizeDetail& detail);
 
 }  // namespace sunfleck

@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 
 // Prevot et al. 1991: relative width = alpha s^2 + beta s + gamma, with beta and gamma such that its maximum is 1 and its
-// value at the tip 0; alpha about -2.3 for maize.
+// value at the tip is 0; alpha is about -2.3 for maize.
 constexpr double prevot_alpha = -2.3;
 
 struct Frame {
@@ -35,8 +35,8 @@ std::uint32_t add_vertex(Mesh& mesh, const glm::dvec3& position) {
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
-// Angle from the axis to the midrib. The odds of the share bent so far, share / (1 - share), are a power of the odds of s
-// and reach 2, two thirds of the bending, at bend_position.
+// Returns the angle from the axis to the midrib. The odds of the share of the bending reached at s, share / (1 - share), are
+// a power of the odds of s and equal 2 (two thirds of the bending) at bend_position.
 double midrib_angle(const Blade& blade, double s) {
   const double m = blade.bend_position;
   const double bent = std::pow(s * (1.0 - m), blade.bend_sharpness) * 2.0;
@@ -49,9 +49,9 @@ glm::dvec3 midrib_tangent(const Blade& blade, double s) {
   return std::sin(angle) * blade.outward + std::cos(angle) * blade.axis;
 }
 
-// Frames at s = 0, 1/segments, ..., 1.
+// Returns the frames at s = 0, 1/segments, ..., 1.
 std::vector<Frame> midrib_frames(const Blade& blade, int segments) {
-  constexpr int substeps = 8;  // midpoint rule: the tip is then right to 1e-5 of the length even with few segments
+  constexpr int substeps = 8;  // midpoint rule: the error at the tip is then 1e-5 of the length even with few segments
   const double step = 1.0 / (segments * substeps);
   std::vector<Frame> frames;
   glm::dvec3 position = blade.collar_m;
@@ -67,7 +67,8 @@ std::vector<Frame> midrib_frames(const Blade& blade, int segments) {
   return frames;
 }
 
-// Between -1 and 1. Two waves of unlike length keep a margin from looking like a sine curve.
+// Returns the undulation of a margin, between -1 and 1. Two waves of different lengths keep it from looking like a sine
+// curve.
 double margin_wave(const Blade& blade, double s, int side) {
   constexpr double length_ratio = 1.5;
   const double phase = blade.wave_phase_rad[side < 0 ? 0 : 1];
@@ -75,8 +76,8 @@ double margin_wave(const Blade& blade, double s, int side) {
   return 0.5 * (std::sin(turns + phase) + std::sin(turns / length_ratio - phase));
 }
 
-// Vertices of one half of a cross-section, midrib excluded, from the one next to it to the margin.
-// side is -1 or +1, along frame.sideways.
+// Returns the vertices of one half of a cross-section without the midrib, from the vertex next to it to the margin. `side`
+// is -1 or +1, along frame.sideways.
 std::vector<glm::dvec3> half_section(const Blade& blade, const Frame& frame, double s, int side, int strips) {
   const double width = relative_blade_width(s);
   const double opened = 1.0 - std::exp(-s * blade.length_m / blade.opening_m);
@@ -88,7 +89,7 @@ std::vector<glm::dvec3> half_section(const Blade& blade, const Frame& frame, dou
   std::vector<glm::dvec3> points;
   glm::dvec2 section(0.0);
   for (int j = 1; j <= strips; ++j) {
-    // A chain of chords, each turned further by the wrap: it keeps the width that the profile gives.
+    // A chain of chords, each turned further by the wrap, keeps the width that the profile gives.
     const double turn = fold + wrap * (j - 0.5) / strips;
     section += strip * glm::dvec2(std::cos(turn), std::sin(turn));
     const double to_margin = static_cast<double>(j) / strips;

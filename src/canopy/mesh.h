@@ -1,6 +1,6 @@
 #pragma once
-// Triangles as a file or a generator hands them over: indexed, in double precision, in the scene's axes (X south, Y up,
-// Z west, metres), before they are placed in the plot.
+// Triangles as a file or a generator supplies them: indexed, in double precision, in the scene's axes (X south, Y up, Z
+// west, metres), before they are placed in the plot.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -14,7 +14,7 @@ namespace sunfleck {
 struct Organ {
   std::uint32_t plant = 1;  // 0 for soil
   std::string name;         // leaf, stem, ear, soil, leaf2, ...
-  int rank = 0;             // leaf number from the ground, 0 where it has none
+  int rank = 0;             // leaf number from the ground; 0 if there is none
 
   friend bool operator==(const Organ&, const Organ&) = default;
 };
@@ -26,19 +26,19 @@ struct Mesh {
   std::vector<glm::uvec3> triangles;      // [triangle], vertex numbers; the counter-clockwise side is the upper face
   std::vector<std::uint32_t> optics_of;   // [triangle], index into optics_names
   std::vector<std::uint32_t> organ_of;    // [triangle], index into organs
-  std::vector<std::string> optics_names;  // as the file's materials are called
-  std::vector<Organ> organs;              // no two equal
-  std::vector<std::uint64_t> labels;      // [triangle], as a .can file has them: O PPPPP LLL EEE as one number, or no_label;
-                                          // empty without any
+  std::vector<std::string> optics_names;  // [optics], the names of the file's materials
+  std::vector<Organ> organs;              // [organ], all different
+  // [triangle], as in a .can file: O PPPPP LLL EEE as one number, or no_label; empty without any.
+  std::vector<std::uint64_t> labels;
 };
 
-// A copy of a mesh in the scene: turned clockwise seen from above, then moved.
+// The placement of a copy of a mesh in the scene: turned clockwise as seen from above, then moved.
 struct Placement {
   glm::dvec3 position_m{0.0};
   double heading_rad = 0.0;
 };
 
-// A mesh and where it stands; every placement is a copy with plants of its own.
+// A mesh and its placements; every placement is a copy with plants of its own.
 struct PlacedMesh {
   Mesh mesh;
   std::vector<Placement> placements;

@@ -1,5 +1,5 @@
 #pragma once
-// How surfaces reflect and transmit, per waveband.
+// Reflection and transmission of surfaces, by waveband.
 
 #include <glm/vec3.hpp>
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace sunfleck {
 
-// A spectral interval and what comes in through it on a horizontal plane above the canopy.
+// A spectral interval and its irradiance on a horizontal plane above the canopy.
 struct Waveband {
   std::string name;
   double direct_w_m2 = 0.0;     // beam irradiance on a horizontal plane
   double diffuse_w_m2 = 0.0;    // sky irradiance on a horizontal plane
-  double umol_per_joule = 0.0;  // photons of the band's light; 0: not asked for in photon units
+  double umol_per_joule = 0.0;  // photons of the band's light; 0: not requested in photon units
 };
 
-// Lambertian coefficients of light arriving on one face: reflected to that face, transmitted to the other.
+// Lambertian coefficients for light that arrives on one face: reflected to that face, transmitted to the other.
 struct FaceOptics {
   double reflectance = 0.0;
   double transmittance = 0.0;
@@ -23,18 +23,18 @@ struct FaceOptics {
   [[nodiscard]] double absorptance() const { return 1.0 - reflectance - transmittance; }
 };
 
-// reflectance + transmittance <= 1 holds wherever an object of this type comes from a scene file.
+// The coefficients of both faces. For objects from a scene file, reflectance + transmittance <= 1.
 struct SurfaceOptics {
   std::string name;
   std::vector<FaceOptics> upper;      // [waveband]
   std::vector<FaceOptics> lower;      // [waveband]
   glm::dvec3 rgb{0.06, 0.12, 0.05};   // reflectance in red, green and blue, for pictures only
-  std::vector<double> emission_w_m2;  // [waveband], exitance of the upper face, cosine-distributed; empty: no lamp
+  std::vector<double> emission_w_m2;  // [waveband], exitance of the upper face, cosine-distributed; empty if it is no lamp
 };
 
 struct Soil {
   std::vector<double> reflectance;  // [waveband]
-  double patch_m = 0.05;            // cells of the soil's map
+  double patch_m = 0.05;            // cell size of the soil's map
   glm::dvec3 rgb{0.18, 0.14, 0.10};
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// The MPI job that this process is part of. The only folder that knows MPI; programs built without it know only how to refuse.
+// The MPI job that this process belongs to. Only this folder uses MPI; a program built without MPI can only refuse such
+// jobs.
 
 #include "cluster/mailbox.h"
 
@@ -8,13 +9,14 @@
 
 namespace sunfleck {
 
-// The place of a process in its job.
+// The position of a process in its job.
 struct Seat {
   int rank = 0, ranks = 1;
-  int local_rank = 0;  // among those on the same machine
-  int threads = 0;     // its share of the cores that it may use
+  int local_rank = 0;  // rank among the processes on the same machine
+  int threads = 0;     // the process's share of the cores that it may use
   std::string host;
-  std::string hint;  // one line for the user where the launcher leaves cores of this machine unused; else empty
+  // One line for the user if the launcher leaves cores of this machine unused; empty otherwise.
+  std::string hint;
 };
 
 class Job {
@@ -24,12 +26,13 @@ class Job {
   [[nodiscard]] virtual const Seat& seat() const = 0;
   [[nodiscard]] virtual Mailbox& mailbox() = 0;
 
-  // All ranks have to come here, with no letter on its way. A job that is not finished is ended by its launcher.
+  // Ends this process's part in the job. All ranks must call it, with no letter under way. The launcher ends a job in
+  // which a rank exits without calling it.
   virtual void finish() = 0;
 };
 
-// None for a process that is alone: then MPI is not even started. Throws Error (input) if the launcher started several but this
-// program cannot know of the others, Error (failure) if MPI fails.
+// Joins the job. Returns null for a process that is alone, without starting MPI. Throws Error (input) if the launcher
+// started several processes but this program cannot see the others, Error (failure) if MPI fails.
 [[nodiscard]] std::unique_ptr<Job> join_job();
 
 }  // namespace sunfleck

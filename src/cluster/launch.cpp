@@ -24,7 +24,7 @@ std::optional<Launch> launch_by_mpi(const Environment& environment) {
   struct Names {
     const char* rank;
     const char* ranks;
-    bool both;  // are set where the launcher is meant
+    bool both;  // true if only both variables together identify the launcher
   };
   for (const Names& names : {Names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", true}, Names{"PMI_RANK", "PMI_SIZE", true},
                              Names{"PMIX_RANK", "SLURM_STEP_NUM_TASKS", false}}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Whether this process is one of several that an MPI launcher started, as far as the environment tells: no library is asked.
+// Detection of an MPI launcher from the environment alone, without calling any library.
 
 #include <functional>
 #include <optional>
@@ -8,23 +8,24 @@ namespace sunfleck {
 
 struct Launch {
   int rank = 0;
-  std::optional<int> ranks;  // none: only MPI knows
+  std::optional<int> ranks;  // empty if only MPI knows it
 
   [[nodiscard]] bool alone() const { return ranks && *ranks == 1; }
 };
 
-// Null for a variable that is not set, as std::getenv.
+// Returns the value of a variable; null if it is not set, as std::getenv.
 using Environment = std::function<const char*(const char*)>;
 
-// None for a process that no MPI launcher started, and with SUNFLECK_MPI=off. Known are the variables of Open MPI's mpirun
-// (OMPI_COMM_WORLD_RANK, OMPI_COMM_WORLD_SIZE), of MPICH, Intel MPI and Slurm's pmi2 (PMI_RANK, PMI_SIZE), and of PMIx as
-// Slurm and PRRTE have it (PMIX_RANK; with Slurm also SLURM_STEP_NUM_TASKS). Slurm's variables alone say nothing about MPI.
+// Returns the process's place among those that an MPI launcher started. Returns nothing for a process without a launcher,
+// and with SUNFLECK_MPI=off. The known variables are those of Open MPI's mpirun (OMPI_COMM_WORLD_RANK,
+// OMPI_COMM_WORLD_SIZE), of MPICH, Intel MPI and Slurm's pmi2 (PMI_RANK, PMI_SIZE), and of PMIx under Slurm and PRRTE
+// (PMIX_RANK; with Slurm also SLURM_STEP_NUM_TASKS). Slurm's variables alone say nothing about MPI.
 [[nodiscard]] std::optional<Launch> launch_by_mpi(const Environment& environment);
 
-// Of this process.
+// Returns the same for the environment of this process.
 [[nodiscard]] std::optional<Launch> launch_by_mpi();
 
-// A rank other than 0: what it had to say is said by rank 0 as well.
+// Returns true for a rank other than 0: rank 0 prints its messages as well.
 [[nodiscard]] bool is_silent_rank();
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// Letters between the ranks of a job; rank 0 leads, the others help.
+// Letters between the ranks of a job. Rank 0 leads, the others help.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,13 +10,13 @@ namespace sunfleck {
 
 enum class LetterKind : std::uint8_t {
   // from rank 0
-  order,  // a replicate to be made
-  drop,   // of orders so far nothing more is needed
+  order,  // make a replicate
+  drop,   // drop all orders so far
   end,
   // to rank 0
   ready,
-  made,     // each order has one answer: this
-  dropped,  // or that
+  made,     // answer to an order that was carried out
+  dropped,  // answer to an order that was dropped
   interrupted,
   failed,
   gone,  // the last letter of a rank
@@ -30,20 +30,22 @@ struct Letter {
   std::vector<std::byte> content;
 };
 
-// Used by one thread.
+// Sends and receives letters; only one thread may use it.
 class Mailbox {
  public:
   virtual ~Mailbox() = default;
 
   [[nodiscard]] virtual int ranks() const = 0;
 
-  // Returns at once. Letters from one rank to another arrive in the order they were posted. Throws Error (failure).
+  // Sends a letter and returns at once. Letters from one rank to another arrive in the order in which they were posted.
+  // Throws Error (failure).
   virtual void post(int to, LetterKind kind, std::vector<std::byte> content) = 0;
 
-  // The next letter that has come; none if there is none. Has to be asked now and then for anything to arrive or leave.
+  // Returns the next letter that has arrived, or nothing. It must be called regularly, because letters arrive and leave
+  // only during the call.
   [[nodiscard]] virtual std::optional<Letter> take() = 0;
 
-  // False while a letter is on its way out.
+  // Returns false while a letter is on its way out.
   [[nodiscard]] virtual bool all_posted() = 0;
 };
 

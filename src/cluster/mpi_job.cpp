@@ -1,4 +1,4 @@
-// The job by MPI's C interface, used by the main thread alone.
+// The job through MPI's C interface, which only the main thread calls.
 
 #include "base/error.h"
 #include "cluster/job.h"
@@ -19,7 +19,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr const char* resume_cure = "look at what the launcher says; a run or day that had begun goes on with --resume";
+constexpr const char* resume_cure = "see the messages of the launcher; --resume continues a run or day that had begun";
 
 void check(int code, const char* call) {
   if (code == MPI_SUCCESS) return;
@@ -29,7 +29,7 @@ void check(int code, const char* call) {
   throw_failure(call, std::string(text.data(), static_cast<std::size_t>(length)), resume_cure);
 }
 
-// Letters travel as 64-bit words, of which MPI counts up to 2^31: the number of bytes, then those.
+// Sends letters as 64-bit words, of which MPI counts up to 2^31: first the number of bytes, then the bytes.
 class MpiMailbox final : public Mailbox {
  public:
   MpiMailbox(MPI_Comm world, int ranks) : world_(world), ranks_(ranks) {}
@@ -39,7 +39,7 @@ class MpiMailbox final : public Mailbox {
   void post(int to, LetterKind kind, std::vector<std::byte> content) override {
     const std::size_t words = 1 + (content.size() + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
     if (words > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-      throw_failure("a replicate's message", fmt::format("{} bytes are more than MPI sends at once", content.size()),
+      throw_failure("a replicate's message", fmt::format("{} bytes are more than MPI sends in one message", content.size()),
                     "run on one machine");
     }
     Outgoing& letter = outgoing_.emplace_back();
@@ -63,7 +63,7 @@ class MpiMailbox final : public Mailbox {
     std::vector<std::uint64_t> words(static_cast<std::size_t>(count));
     check(MPI_Mrecv(words.data(), count, MPI_UINT64_T, &message, MPI_STATUS_IGNORE), "MPI_Mrecv");
     if (words.empty() || words.front() > (words.size() - 1) * sizeof(std::uint64_t)) {
-      throw_failure("a message between ranks", "it is cut short", resume_cure);
+      throw_failure("a message between ranks", "it is truncated", resume_cure);
     }
     Letter letter{status.MPI_SOURCE, static_cast<LetterKind>(status.MPI_TAG), std::vector<std::byte>(words.front())};
     if (!letter.content.empty()) std::memcpy(letter.content.data(), words.data() + 1, letter.content.size());
@@ -107,7 +107,7 @@ cpu_set_t cores_of(pid_t process) {
   return cores;
 }
 
-// The ranks of one machine share the cores that they may use; those that each has to itself are its own.
+// Computes the process's share of the machine's cores: cores that several ranks may use are shared, all others are its own.
 void share_cores(MPI_Comm local, Seat& seat) {
   int ranks = 1;
   check(MPI_Comm_size(local, &ranks), "MPI_Comm_size");
@@ -124,7 +124,7 @@ void share_cores(MPI_Comm local, Seat& seat) {
     CPU_OR(&together, &together, &cores);
   }
   seat.threads = std::max(1, CPU_COUNT(&own) / std::max(1, sharing));
-  // The launcher itself may use all that the job has.
+  // The launcher itself may use all cores of the job.
   const cpu_set_t launcher = cores_of(::getppid());
   if (CPU_COUNT(&together) >= CPU_COUNT(&launcher)) return;
   seat.hint = fmt::format("the {} ranks on {} are bound to {} of its {} cores: mpirun --bind-to none lets them use all", ranks,
@@ -141,7 +141,7 @@ class MpiJob final : public Job {
     check(MPI_Comm_rank(world_, &seat_.rank), "MPI_Comm_rank");
     check(MPI_Comm_size(world_, &seat_.ranks), "MPI_Comm_size");
     if (threads < MPI_THREAD_FUNNELED) {
-      throw_failure("MPI", "this library is not made for programs with threads", "use another build of it");
+      throw_failure("MPI", "this library does not support programs with threads", "use another build of it");
     }
     MPI_Comm local = MPI_COMM_NULL;
     check(MPI_Comm_split_type(world_, MPI_COMM_TYPE_SHARED, seat_.rank, MPI_INFO_NULL, &local), "MPI_Comm_split_type");
@@ -174,10 +174,10 @@ std::unique_ptr<Job> join_job() {
   if (job->seat().ranks > 1) return job;
   job->finish();
   if (!launch->ranks) return nullptr;
-  throw_input(fmt::format("{} processes started by MPI", *launch->ranks),
-              "this program's MPI library knows of one only: they come from another MPI",
-              "use that library's own mpirun (Slurm: srun --mpi=pmix); runs that have nothing to do with each other need "
-              "SUNFLECK_MPI=off");
+  throw_input(
+      fmt::format("{} processes started by MPI", *launch->ranks),
+      "this program's MPI library sees only one: another MPI started them",
+      "use the mpirun of this program's library (Slurm: srun --mpi=pmix), or set SUNFLECK_MPI=off for independent runs");
 }
 
 }  // namespace sunfleck

@@ -1,4 +1,4 @@
-// A program built without MPI.
+// The job of a program built without MPI.
 
 #include "base/error.h"
 #include "cluster/job.h"
@@ -11,12 +11,11 @@ namespace sunfleck {
 std::unique_ptr<Job> join_job() {
   const std::optional<Launch> launch = launch_by_mpi();
   if (!launch || launch->alone()) return nullptr;
-  // Where the launcher does not say how many, the first of them cannot know that it is not alone.
+  // If the launcher does not give the number of processes, rank 0 cannot know that it is not alone.
   if (!launch->ranks && launch->rank == 0) return nullptr;
   throw_input(launch->ranks ? fmt::format("{} processes started by MPI", *launch->ranks) : "several processes started by MPI",
-              "this program was built without it",
-              "start one, or build with MPI (Debian: libopenmpi-dev); runs that have nothing to do with each other need "
-              "SUNFLECK_MPI=off");
+              "this program was built without MPI",
+              "start a single process, build with MPI (Debian: libopenmpi-dev), or set SUNFLECK_MPI=off for independent runs");
 }
 
 }  // namespace sunfleck

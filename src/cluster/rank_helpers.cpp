@@ -14,9 +14,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Between two signs of life to the others.
+// Time between two signs of life to the other ranks.
 constexpr auto alive_pause = 10s;
-// A process that was stopped for a while (a debugger, a suspended job) finds the others' letters when it goes on.
+// Silence counted per step, at most: a process that was stopped for a while (by a debugger, or in a suspended job) finds the
+// letters of the others when it resumes.
 constexpr auto longest_step = 1s;
 
 }  // namespace
@@ -77,8 +78,7 @@ void RankHelpers::wait_until_ready(const std::string& scene) {
   for (const Rank& rank : ranks_) {
     if (!rank.ready || rank.scene == scene) continue;
     throw_input(rank.name, fmt::format("it was given {}, rank 0 has {}", rank.scene, scene),
-                "start one program with the same scene on all ranks; runs that have nothing to do with each other need "
-                "SUNFLECK_MPI=off");
+                "start the same program with the same scene on all ranks, or set SUNFLECK_MPI=off for independent runs");
   }
 }
 
@@ -98,7 +98,7 @@ bool RankHelpers::wait_until_gone() {
     bool heard = false;
     try {
       heard = hear().has_value();
-    } catch (const Error&) {  // the reason why it ends is known already
+    } catch (const Error&) {  // the reason is known already
       heard = true;
     }
     if (!heard) pause.take();
@@ -106,7 +106,7 @@ bool RankHelpers::wait_until_gone() {
   return true;
 }
 
-// The next letter, what it tells noted; none if there is none.
+// Returns the next letter after noting its contents; nothing if there is none.
 std::optional<Letter> RankHelpers::hear() {
   const Clock::time_point now = Clock::now();
   const Clock::duration step = std::min<Clock::duration>(now - heard_, longest_step);
@@ -155,10 +155,10 @@ void RankHelpers::note(Rank& rank, const Letter& letter) {
 
 void RankHelpers::expect_sound() const {
   for (const Rank& rank : ranks_) {
-    if (rank.gone) throw_failure(rank.name, "it ended before its time", "look there for the reason");
+    if (rank.gone) throw_failure(rank.name, "it ended early", "see its messages for the reason");
     if (rank.in_hand == 0 || !is_silent(rank)) continue;
-    throw_failure(rank.name, fmt::format("not heard of for {:.0f} s", std::chrono::duration<double>(silence_).count()),
-                  "look there for the reason");
+    throw_failure(rank.name, fmt::format("nothing heard from it for {:.0f} s", std::chrono::duration<double>(silence_).count()),
+                  "see its messages for the reason");
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The other ranks of a job, as rank 0 sees them: each makes replicates when told to.
+// The other ranks of a job as rank 0 sees them: workers that make replicates on order.
 
 #include "cluster/mailbox.h"
 #include "transport/replicate_helpers.h"
@@ -14,19 +14,19 @@ namespace sunfleck {
 
 class RankHelpers final : public ReplicateHelpers {
  public:
-  // A rank from which nothing was heard for so long, while this one listened, is lost.
+  // A rank is lost if nothing was heard from it for this long while rank 0 was listening.
   static constexpr std::chrono::seconds longest_silence{120};
 
-  // The mailbox must outlive it.
+  // The mailbox must outlive the object.
   explicit RankHelpers(Mailbox& mailbox, std::chrono::milliseconds silence = longest_silence);
 
-  // Returns once all ranks are ready. Throws Error if one of them failed, or was given something else than `scene`.
+  // Waits until all ranks are ready. Throws Error if one of them failed or was given anything other than `scene`.
   void wait_until_ready(const std::string& scene);
 
-  // The light of the orders from here on.
+  // Sets the stage (the step of a day, and so its light) of the orders from here on.
   void set_stage(std::uint64_t stage) { stage_ = stage; }
 
-  // One of them was told to stop (Ctrl-C, SIGTERM). Any thread may ask.
+  // Returns true if one of the ranks was told to stop (Ctrl-C, SIGTERM). Any thread may call it.
   [[nodiscard]] bool interrupted() const { return interrupted_; }
 
   [[nodiscard]] std::size_t slots() const override;
@@ -35,10 +35,10 @@ class RankHelpers final : public ReplicateHelpers {
   [[nodiscard]] std::optional<MadeReplicate> take(const Replicate& blank) override;
   void drop() override;
 
-  // Nothing more is wanted of them.
+  // Dismisses all ranks: no more orders will follow.
   void release();
 
-  // Waits until all are gone. False if one is lost: then nothing can be waited for any more.
+  // Waits until all ranks have ended. Returns false if one is lost, since waiting for it would be in vain.
   [[nodiscard]] bool wait_until_gone();
 
  private:

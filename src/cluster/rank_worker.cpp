@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto alive_pause = 10s;
-constexpr auto longest_step = 1s;  // as RankHelpers has it
+constexpr auto longest_step = 1s;  // as in RankHelpers
 
 class Worker {
  public:
@@ -66,7 +66,7 @@ class Worker {
     return true;
   }
 
-  // The number of letters that had come.
+  // Reads all letters that have arrived and returns their number.
   int hear() {
     const Clock::time_point now = Clock::now();
     silence_ += std::min<Clock::duration>(now - heard_, longest_step);
@@ -140,7 +140,7 @@ class Worker {
     mailbox_.post(0, LetterKind::alive, {});
   }
 
-  // False, and rank 0 knows, if it failed.
+  // Runs the task. If it fails, reports that to rank 0 and returns false.
   template <class Task>
   bool guarded(const Task& task) {
     try {

@@ -1,5 +1,5 @@
 #pragma once
-// What a rank other than 0 does: makes the replicates that rank 0 orders, until it is told to end.
+// The work of a rank other than 0: it makes the replicates that rank 0 orders, until rank 0 ends it.
 
 #include "cluster/mailbox.h"
 #include "transport/replicate.h"
@@ -14,24 +14,25 @@
 namespace sunfleck {
 
 struct RankService {
-  std::size_t slots = 1;  // replicates side by side
+  std::size_t slots = 1;  // number of replicates made at the same time
   std::string host;
   std::string scene;  // see ReadyMessage
-  // The light of the orders that follow; no replicate is in the making meanwhile.
+  // Sets the light of the orders that follow; called only while no replicate is being made.
   std::function<void(std::uint64_t stage)> set_stage;
-  // Called by several threads at a time, as ReplicateMaker::make.
+  // Makes a replicate, as ReplicateMaker::make; called by several threads at the same time.
   std::function<std::optional<Replicate>(const ReplicateOrder&, const StopQuestion&)> make;
-  StopQuestion interrupted;  // this process is asked to stop: rank 0 is told, and decides
-  // Rank 0 is lost where nothing was heard of it for so long while this one listened. It does not listen while it adds up what
-  // was made, nor between the steps of a day.
+  // Returns true if this process was asked to stop; rank 0 is told and decides.
+  StopQuestion interrupted;
+  // Rank 0 is lost if nothing was heard from it for this long while this rank was listening. Rank 0 does not listen while
+  // it adds up replicates, nor between the steps of a day.
   std::chrono::milliseconds longest_silence = std::chrono::minutes(10);
 };
 
-// Until rank 0 ends it; false if rank 0 is lost. What goes wrong in the service is told to rank 0, not thrown. Throws what the
-// mailbox throws.
+// Serves until rank 0 ends it. Returns false if rank 0 is lost. Errors of the service are reported to rank 0, not thrown.
+// Throws what the mailbox throws.
 [[nodiscard]] bool serve(Mailbox& mailbox, const RankService& service);
 
-// For a rank that could not even begin: tells rank 0, and waits until it ends. The rest as serve.
+// Reports to rank 0 that this rank could not begin, and waits until rank 0 ends it; otherwise like serve.
 [[nodiscard]] bool report_failure(Mailbox& mailbox, const std::string& host, int kind, const std::string& text);
 
 }  // namespace sunfleck

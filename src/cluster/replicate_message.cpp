@@ -46,7 +46,7 @@ class Reader {
     static_assert(std::is_trivially_copyable_v<T>);
     copy(&value, sizeof value);
   }
-  // As many as there are already.
+  // Reads an array that must be as long as `values` is.
   template <class T>
   void array(std::vector<T>& values) {
     if (count() != values.size()) refuse();
@@ -63,7 +63,7 @@ class Reader {
   }
 
   [[noreturn]] static void refuse() {
-    throw_failure("a message between ranks", "it has another form than this program's",
+    throw_failure("a message between ranks", "it has a different format from this program's",
                   "start the same program on all machines");
   }
 
@@ -82,7 +82,7 @@ class Reader {
   std::span<const std::byte> bytes_;
 };
 
-// One order of parts for writing and reading. What is padding in a struct may not travel: it is taken apart.
+// Visits the parts in one order for writing and reading. Structs are taken apart, because their padding must not be sent.
 template <class Archive, class Planes>
 void visit_planes(Archive& archive, Planes& sums) {
   archive.array(sums.reached);

@@ -1,5 +1,5 @@
 #pragma once
-// Orders and replicates as bytes, for processes of the same program on machines of the same kind.
+// Orders and replicates packed into bytes, for processes of the same program on machines of the same kind.
 
 #include "transport/replicate.h"
 
@@ -11,7 +11,7 @@
 
 namespace sunfleck {
 
-// Which replicate a message is about.
+// Identifies the replicate that a message is about.
 struct ReplicateKey {
   std::uint64_t series = 0;  // orders of one series are dropped together
   std::uint64_t number = 0;
@@ -19,18 +19,18 @@ struct ReplicateKey {
 
 struct OrderMessage {
   ReplicateKey key;
-  std::uint64_t stage = 0;  // which light: a day's step
+  std::uint64_t stage = 0;  // selects the light: the step of a day
   ReplicateOrder order;
 };
 
-// A rank that is ready to help.
+// Announces a rank that is ready to help.
 struct ReadyMessage {
-  std::uint64_t slots = 1;  // replicates it takes at a time
+  std::uint64_t slots = 1;  // number of replicates that it makes at a time
   std::string host;
-  std::string scene;  // what it was given, in words; the same for all
+  std::string scene;  // description of its scene, which must be the same for all ranks
 };
 
-// Why a rank cannot go on.
+// The error that ended the work of a rank.
 struct FailedMessage {
   int kind = 1;  // as ErrorKind
   std::string host, text;
@@ -42,12 +42,12 @@ struct FailedMessage {
 [[nodiscard]] std::vector<std::byte> pack(const FailedMessage& failed);
 [[nodiscard]] std::vector<std::byte> pack(const ReplicateKey& key, const Replicate& replicate);
 
-// They throw Error (failure) for bytes that are no such message.
-[[nodiscard]] ReplicateKey unpack_key(std::span<const std::byte> bytes);  // of a replicate, too
+// These functions throw Error (failure) for bytes that are not such a message.
+[[nodiscard]] ReplicateKey unpack_key(std::span<const std::byte> bytes);  // reads the key of a replicate, too
 [[nodiscard]] OrderMessage unpack_order(std::span<const std::byte> bytes);
 [[nodiscard]] ReadyMessage unpack_ready(std::span<const std::byte> bytes);
 [[nodiscard]] FailedMessage unpack_failed(std::span<const std::byte> bytes);
-// `blank` tells the sizes; its `sums` stay as they are.
+// `blank` gives the sizes of the arrays; its `sums` are left as they are.
 [[nodiscard]] Replicate unpack_replicate(std::span<const std::byte> bytes, const Replicate& blank);
 
 }  // namespace sunfleck

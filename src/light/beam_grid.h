@@ -1,5 +1,5 @@
 #pragma once
-// The parallel rays of the sun's beam: a rectangle above the canopy, cut into cells, one jittered ray per cell.
+// The parallel rays of the sun's beam: a rectangle above the canopy, cut into cells, with one jittered ray per cell.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -7,30 +7,31 @@
 
 namespace sunfleck {
 
-// All lengths in the canopy's local frame. Every ray carries the same flux:
+// A grid of beam rays. All lengths are in the canopy's local frame. Every ray carries the same flux:
 // horizontal beam irradiance * horizontal_area_m2 / rays().
 struct BeamGrid {
   glm::dvec3 corner_m{0.0};
   glm::dvec3 edge_u_m{0.0};
   glm::dvec3 edge_v_m{0.0};
-  glm::dvec3 direction{0.0, -1.0, 0.0};  // unit, of travel
+  glm::dvec3 direction{0.0, -1.0, 0.0};  // unit vector of travel
   std::uint32_t columns = 1;             // cells along edge u
   std::uint32_t rows = 1;                // cells along edge v
-  double horizontal_area_m2 = 0.0;       // of level ground that the beam through the rectangle would light
+  double horizontal_area_m2 = 0.0;       // level ground that the beam through the rectangle would light
 
   [[nodiscard]] std::uint64_t rays() const { return std::uint64_t{columns} * rows; }
-  // What level ground one ray stands for.
+  // Returns the area of level ground that one ray represents.
   [[nodiscard]] double horizontal_area_per_ray_m2() const { return horizontal_area_m2 / static_cast<double>(rays()); }
 };
 
-// The most cells of one grid: ray numbers stay below 2^31.
+// The largest number of cells in one grid: ray numbers stay below 2^31.
 inline constexpr std::uint64_t max_grid_rays = std::uint64_t{1} << 28U;
 
-// Above an endless canopy: one period of the horizontal plane at height `top_m`. `to_sun` is the unit vector towards the sun,
-// with a positive y. The grid has about `rays` nearly square cells, at least one.
+// Returns the grid above an endless canopy: one period of the horizontal plane at height `top_m`. `to_sun` is the unit
+// vector towards the sun, with a positive y. The grid has about `rays` nearly square cells, at least one.
 [[nodiscard]] BeamGrid endless_beam_grid(glm::dvec2 period_m, double top_m, glm::dvec3 to_sun, double rays);
 
-// Before an isolated stand: the rectangle perpendicular to the beam that just covers the shadow of the box lo_m..hi_m.
+// Returns the grid before an isolated stand: the rectangle perpendicular to the beam that just covers the shadow of the box
+// lo_m..hi_m.
 [[nodiscard]] BeamGrid isolated_beam_grid(glm::dvec3 lo_m, glm::dvec3 hi_m, glm::dvec3 to_sun, double rays);
 
 }  // namespace sunfleck

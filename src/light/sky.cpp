@@ -34,7 +34,7 @@ glm::dvec3 direction(double cos_zenith, double azimuth_rad) {
   return {-level * std::cos(azimuth_rad), y, -level * std::sin(azimuth_rad)};
 }
 
-// Sums of 0..n-1, divided by the total: the last one is 1. Returns the total.
+// Replaces the values by their cumulative sums divided by the total, so that the last one is 1. Returns the total.
 double accumulate_shares(std::span<double> values) {
   std::inclusive_scan(values.begin(), values.end(), values.begin());
   const double total = values.back();
@@ -46,10 +46,10 @@ double accumulate_shares(std::span<double> values) {
 
 struct Draw {
   std::size_t index = 0;
-  double fraction = 0.0;  // where in the chosen one, 0..1
+  double fraction = 0.0;  // position within the chosen entry, 0..1
 };
 
-// Inverts cumulative shares. An entry without share is never drawn.
+// Inverts cumulative shares. An entry without any share is never drawn.
 Draw invert(std::span<const double> cumulative, double u) {
   const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
   const auto index = static_cast<std::size_t>(found - cumulative.begin());
@@ -58,13 +58,13 @@ Draw invert(std::span<const double> cumulative, double u) {
   return {index, share > 0.0 ? std::clamp((u - below) / share, 0.0, 1.0) : 0.5};
 }
 
-// Gauss and Legendre's three and two points on 0..1.
+// Gauss-Legendre rules with three and with two points on 0..1.
 constexpr std::array<double, 3> three_points{0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> three_weights{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 constexpr std::array<double, 2> two_points{0.2113248654051871, 0.7886751345948129};
 
-// The radiance of one row's cells: means over the cell weighted with the cosine of the zenith angle, that is, plain means over
-// squared sine and azimuth.
+// Sets the radiance of one row's cells: means over each cell weighted with the cosine of the zenith angle, that is, plain
+// means over squared sine and azimuth.
 void fill_row(int row, const SkyShape& shape, const SunPosition& sun, std::span<double> radiance) {
   const double lower = squared_sine(row), upper = squared_sine(row + 1);
   const double sun_elevation = std::clamp(sun.elevation_rad, 0.0, std::numbers::pi / 2.0);

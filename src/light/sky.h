@@ -11,55 +11,58 @@ namespace sunfleck {
 
 enum class SkyKind { uniform, overcast, general, all_weather, lights };
 
-// No direction of a sky, drawn or listed, has a smaller sine of elevation: a level ray never leaves an endless plot.
+// Smallest sine of elevation of any direction of a sky, drawn or listed: a level ray would never leave an endless plot.
 inline constexpr double least_sky_sine = 1e-6;
 
-// One direction of a list, CARIBU's way: `weight` is its share of the horizontal irradiance, to any common factor.
+// One direction of a list, as CARIBU uses it: `weight` is its share of the horizontal irradiance, up to a common factor.
 struct SkyLight {
-  double weight = 0.0;         // >= 0
-  glm::dvec3 to_sky{0, 1, 0};  // unit, y at least least_sky_sine
+  double weight = 0.0;         // at least 0
+  glm::dvec3 to_sky{0, 1, 0};  // unit vector, y at least least_sky_sine
 };
 
-// What a scene says of its sky; it becomes radiance once the sun is known.
+// The sky as a scene describes it; its radiance follows once the sun is known.
 struct SkyModel {
   SkyKind kind = SkyKind::uniform;
   int cie_type = 12;             // general: type 1 to 15 of ISO 15469:2004; 12 is the CIE clear sky
   double dni_w_m2 = 0.0;         // all_weather: broadband direct normal irradiance
   double dhi_w_m2 = 0.0;         // all_weather: broadband diffuse horizontal irradiance, > 0
-  std::vector<SkyLight> lights;  // lights: at least one with weight
+  std::vector<SkyLight> lights;  // lights: at least one with a positive weight
 
-  // True if its radiance depends on where the sun stands: it does for types 2, 4 and 6 to 15, and all_weather.
+  // Returns true if the radiance depends on the sun's position, as for types 2, 4 and 6 to 15, and all_weather.
   [[nodiscard]] bool follows_sun() const;
 };
 
 struct SkyShape;
 
-// A sky whose horizontal irradiance is 1: cells of constant radiance, even in zenith angle and in azimuth; or a list
-// of directions. What it says and what it draws are the same sky exactly.
+// A sky whose horizontal irradiance is 1: cells of constant radiance, uniform in zenith angle and in azimuth, or a list of
+// directions. Its radiance and the directions drawn from it describe exactly the same sky.
 class Sky {
  public:
-  static constexpr int rows = 180;  // vertical planes then differ from the models' by at most 3e-4
+  static constexpr int rows = 180;  // with these, vertical planes differ from the models' by at most 3e-4
   static constexpr int columns = 360;
 
-  // `sun` matters where model.follows_sun(); a sun below the horizon counts as on it. Throws Error (input) for lights without
-  // weight.
+  // `sun` matters only if model.follows_sun(); a sun below the horizon counts as on it. Throws Error (input) for a list
+  // whose weights are all zero.
   Sky(const SkyModel& model, const SunPosition& sun);
 
-  // Radiance, sr-1, of the cell that holds the direction; 0 below the horizon. Not for lights (EXPECT).
+  // Returns the radiance, sr-1, of the cell that holds the direction; 0 below the horizon. Must not be called for lights
+  // (EXPECT).
   [[nodiscard]] double radiance(const glm::dvec3& to_sky) const;
 
-  // The integral of radiance over the hemisphere: irradiance of a sphere's cross-section, which is what falls on a disc that
-  // turns to face each direction. For lights the sum of weights over the sine of elevation.
+  // Returns the integral of radiance over the hemisphere: the irradiance of a sphere's cross-section, which is what a disc
+  // receives that turns to face each direction. For lights it is the sum of weights divided by the sine of elevation.
   [[nodiscard]] double spherical_irradiance() const { return spherical_; }
 
-  // A direction, drawn with density radiance times cosine of zenith angle (every ray then carries the same share of the
-  // horizontal irradiance), or with density radiance alone (every ray the same share of the spherical one). u, zenith angle
-  // rising with it, and v, azimuth within a row of cells, in [0, 1); a list goes by u alone. Always above the horizon.
+  // Return a random direction, drawn with density radiance times cosine of zenith angle (every ray then carries the same
+  // share of the horizontal irradiance), or with density radiance alone (every ray then carries the same share of the
+  // spherical one). u, with which the zenith angle rises, and v, the azimuth within a row of cells, lie in [0, 1); a list
+  // uses only u. The direction is always above the horizon.
   [[nodiscard]] glm::dvec3 draw_by_horizontal_irradiance(double u, double v) const;
   [[nodiscard]] glm::dvec3 draw_by_radiance(double u, double v) const;
 
   [[nodiscard]] bool is_list() const { return !lights_.empty(); }
-  [[nodiscard]] const std::vector<SkyLight>& lights() const { return lights_; }  // weights sum to 1; empty unless is_list()
+  // Returns the directions of a list, with weights that sum to 1; empty unless is_list().
+  [[nodiscard]] const std::vector<SkyLight>& lights() const { return lights_; }
 
  private:
   void take_lights(const std::vector<SkyLight>& lights);
@@ -74,9 +77,9 @@ class Sky {
   double spherical_ = 0.0;
 };
 
-// The all-weather model's parameters for a moment (Perez, Seals and Michalsky 1993, Solar Energy 50:235), dhi_w_m2 > 0.
-// Clearness is kept to at most 12.01, brightness to 0.01..0.6 (0.2..0.6 in bins 2 to 5), b below 0 and a where the zenith is
-// not negative.
+// The parameters of the all-weather model for one moment (Perez, Seals and Michalsky 1993, Solar Energy 50:235), dhi_w_m2 >
+// 0. Clearness is limited to at most 12.01, brightness to 0.01..0.6 (0.2..0.6 in bins 2 to 5), b to values below 0, and a to
+// values that keep the zenith's radiance from being negative.
 struct AllWeather {
   double clearness = 1.0;   // epsilon
   double brightness = 0.0;  // delta

@@ -82,10 +82,10 @@ constexpr std::array<BinTable, 8> all_weather_bins{{
 }};
 constexpr std::array<double, 7> bin_edges{1.065, 1.230, 1.500, 1.950, 2.800, 4.500, 6.200};
 
-// Where the table is fitted; Radiance's gendaylit keeps to the same ranges.
+// The range to which the table was fitted; Radiance's gendaylit keeps to the same limits.
 constexpr double most_clearness = 12.01;
 constexpr double least_brightness = 0.01, most_brightness = 0.6;
-constexpr double least_brightness_bins_2_to_5 = 0.2;  // below it their gradation turns over (gendaylit does the same)
+constexpr double least_brightness_bins_2_to_5 = 0.2;  // below it their gradation turns over (gendaylit uses the same limit)
 constexpr double extraterrestrial_w_m2 = 1367.0;
 constexpr double largest_b = -0.01;  // a positive b would make the horizon infinite
 
@@ -165,7 +165,7 @@ AllWeather all_weather(double dni_w_m2, double dhi_w_m2, const SunPosition& sun)
   const BinTable& x = all_weather_bins[static_cast<std::size_t>(w.bin - 1)];
   w.a = linear(x[0], zenith, w.brightness);
   w.b = std::min(linear(x[1], zenith, w.brightness), largest_b);
-  w.a = std::max(w.a, -std::exp(-w.b));  // else the zenith would be darker than black
+  w.a = std::max(w.a, -std::exp(-w.b));  // otherwise the zenith's radiance would be negative
   w.c = linear(x[2], zenith, w.brightness);
   w.d = linear(x[3], zenith, w.brightness);
   w.e = linear(x[4], zenith, w.brightness);

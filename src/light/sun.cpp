@@ -15,9 +15,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double seconds_per_day = 86400.0;
-constexpr int first_year = 1900, last_year = 2100;  // where eraEpv00 is fitted
+constexpr int first_year = 1900, last_year = 2100;  // the range to which eraEpv00 was fitted
 
-// A Julian date in two parts, as ERFA wants it: midnight, and the fraction of the day.
+// A Julian date in two parts, as ERFA expects it: midnight, and the fraction of the day.
 struct JulianDate {
   double midnight = 0.0;
   double fraction = 0.0;
@@ -45,7 +45,8 @@ void refuse_year_outside(const UtcTime& time) {
                 "give a year between them");
 }
 
-// Espenak and Meeus (2006), "Five millennium canon of solar eclipses", polynomials for 1900 to 1986.
+// Returns terrestrial minus universal time by the polynomials for 1900 to 1986 of Espenak and Meeus (2006), "Five millennium
+// canon of solar eclipses".
 double early_delta_t_s(double year) {
   if (year < 1920.0) {
     const double t = year - 1900.0;
@@ -68,7 +69,8 @@ struct Observed {
   double hour_angle_rad = 0.0;
 };
 
-// Earth and observer at the instant, all but refraction and polar motion (below 0.5"), as in eraApco13 with TT and UT1 given.
+// Returns earth and observer at the instant, without refraction and polar motion (below 0.5"), as in eraApco13 with TT and
+// UT1 given.
 eraASTROM observe(const JulianDate& universal, const JulianDate& terrestrial, const Place& place, double heliocentric[2][3],
                   double barycentric[2][3]) {
   eraEpv00(terrestrial.midnight, terrestrial.fraction, heliocentric, barycentric);
@@ -94,7 +96,7 @@ Observed observed_sun(const UtcTime& time, const Place& place, std::optional<dou
   double heliocentric[2][3], barycentric[2][3];
   eraASTROM astrom = observe(universal, terrestrial, place, heliocentric, barycentric);
 
-  // Barycentric sun when the light left it, seen from the observer, astronomical units.
+  // Barycentric sun at the time when the light left it, seen from the observer, in astronomical units.
   const double light_time_days = astrom.em * ERFA_AULT / seconds_per_day;
   double to_sun[3];
   for (int i = 0; i < 3; ++i) {
@@ -120,7 +122,7 @@ glm::dvec3 direction_to_sun(const SunPosition& sun) {
   glm::dvec3 direction(-horizontal * std::cos(sun.azimuth_rad), std::sin(sun.elevation_rad),
                        -horizontal * std::sin(sun.azimuth_rad));
   for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(direction[axis]) < 1e-15) direction[axis] = 0.0;  // a few roundings of an angle near pi
+    if (std::abs(direction[axis]) < 1e-15) direction[axis] = 0.0;  // angles near pi leave a few rounding errors
   return direction;
 }
 
@@ -137,7 +139,7 @@ double default_delta_t_s(const UtcTime& time) {
   if (time.year < 1972) return early_delta_t_s(time.year + (time.month - 0.5) / 12.0);
   double atomic_minus_utc_s = 0.0;
   const int status = eraDat(time.year, time.month, time.day, date.fraction < 1.0 ? date.fraction : 1.0, &atomic_minus_utc_s);
-  ENSURE(status, >=, 0);  // 1 warns of a year beyond the table, for which the last leap second holds
+  ENSURE(status, >=, 0);  // 1 warns of a year beyond the table, for which the last leap second is kept
   return atomic_minus_utc_s + ERFA_TTMTAI;
 }
 

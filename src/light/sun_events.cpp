@@ -13,7 +13,7 @@ namespace {
 
 constexpr double half_day_s = 43200.0;
 
-// Seconds after `origin` rather than calendar times, so that the search is plain arithmetic.
+// Searches in seconds after `origin` rather than in calendar times, so that it is plain arithmetic.
 struct Search {
   UtcTime origin;
   Place place;
@@ -22,14 +22,15 @@ struct Search {
     return sun_position(plus_seconds(origin, seconds), place).elevation_rad - rise_set_elevation_rad;
   }
 
-  // The hour angle runs one turn a day to within half a minute, so each step gains more than three digits.
+  // Finds a transit. The hour angle makes one turn a day to within half a minute, so each step gains more than three
+  // digits.
   [[nodiscard]] double transit(double guess_s) const {
     for (int step = 0; step < 4; ++step)
       guess_s -= sun_hour_angle_rad(plus_seconds(origin, guess_s), place) / std::numbers::pi * half_day_s;
     return guess_s;
   }
 
-  // Where the height changes sign between a low and a high stand, if it does. 2^-24 of half a day is 3 ms.
+  // Finds where the height changes sign between a low and a high position, if it does. 2^-24 of half a day is 3 ms.
   [[nodiscard]] std::optional<UtcTime> crossing(double low_s, double high_s) const {
     if (height(low_s) >= 0.0 || height(high_s) < 0.0) return {};
     for (int step = 0; step < 24; ++step) {

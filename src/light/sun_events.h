@@ -11,9 +11,9 @@ namespace sunfleck {
 inline constexpr double rise_set_elevation_rad = -0.8333 * 3.14159265358979323846 / 180.0;
 
 struct SunEvents {
-  std::optional<UtcTime> sunrise;  // empty where the sun does not rise before its transit (polar day or night)
-  UtcTime transit;                 // highest stand, over the meridian; exists in polar night too
-  std::optional<UtcTime> sunset;   // empty where the sun does not set after its transit
+  std::optional<UtcTime> sunrise;  // empty if the sun does not rise before its transit (polar day or night)
+  UtcTime transit;                 // highest position, on the meridian; exists in polar night too
+  std::optional<UtcTime> sunset;   // empty if the sun does not set after its transit
 };
 
 struct LocalDate {
@@ -23,9 +23,9 @@ struct LocalDate {
   int offset_minutes = 0;  // local time minus UTC
 };
 
-// The daylight of a local date: the transit next to its local noon, the rise before and the set after it, in UTC to 0.1 s.
-// Near the poles in summer rise and set may fall on the neighbouring dates. Dates outside 1900..2100 or that do not exist:
-// Error of kind input. The sea-level horizon counts, as in almanacs.
+// Returns the daylight of a local date: the transit next to its local noon, the rise before and the set after it, in UTC to
+// 0.1 s. Near the poles in summer, rise and set may fall on the neighbouring dates. The sea-level horizon counts, as in
+// almanacs. Throws Error (input) for dates that do not exist or lie outside 1900..2100.
 [[nodiscard]] SunEvents sun_events(const LocalDate& date, const Place& place);
 
 }  // namespace sunfleck

@@ -34,7 +34,7 @@ bool is_before(const UtcTime& a, const UtcTime& b) {
          std::tie(b.year, b.month, b.day, b.hour, b.minute, b.second);
 }
 
-// Global irradiance over the same outside the atmosphere, the clearness index of a sun above the horizon.
+// Returns the clearness index, the ratio of global irradiance to that outside the atmosphere, for a sun above the horizon.
 double clearness(double global_w_m2, double solar_constant, const SunPosition& sun, std::optional<int> day) {
   return global_w_m2 / (extraterrestrial_normal_w_m2(solar_constant, day) * std::sin(sun.elevation_rad));
 }
@@ -44,7 +44,7 @@ Broadband split(double global_w_m2, double direct_horizontal_w_m2, const SunPosi
   return {direct_horizontal_w_m2 / sine, std::max(0.0, global_w_m2 - direct_horizontal_w_m2)};
 }
 
-// The time in the year that stands for every year.
+// Returns the time in the year that represents every year.
 UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
   UtcTime local = plus_seconds(time, 60.0 * weather.zone_minutes);
   const UtcTime first = plus_seconds(weather.intervals.front().start, 60.0 * weather.zone_minutes);

@@ -1,18 +1,19 @@
 #pragma once
-// The error bounds a run promises.
+// The error bounds that a run must reach.
 
 namespace sunfleck {
 
 enum class ErrorTarget { canopy, organ, triangle };
 
-// Whose spread over the replicates is kept besides that of bands, organs and layers: it costs memory and time.
+// Selects the elements whose spread between replicates is recorded as well as that of bands, organs and layers; this costs
+// memory and time.
 enum class ElementErrors {
   skip,
-  keep,        // of what each element absorbs
-  keep_sides,  // and of what falls on either of its sides
+  keep,        // of the flux that each element absorbs
+  keep_sides,  // and of the flux incident on each of its sides
 };
 
-// Relative half-widths of the confidence intervals, and what they are promised for.
+// Relative half-widths of the confidence intervals, and the figures to which they apply.
 struct Accuracy {
   double direct = 0.001;  // > 0
   double indirect = 0.003;

@@ -7,14 +7,15 @@ namespace sunfleck {
 
 namespace {
 
-// A replicate's incident flux is about this many quanta, twice as many at most: 2^16 replicates fit 63 bits.
+// The incident flux of one replicate is about this many quanta, at most twice as many, so that 2^16 replicates fit 63 bits.
 constexpr double quanta_per_replicate = 0x1p46;
-// Less light than this is none: a quantum of it would no longer be a normal number.
+// Weaker light counts as no light, because its quantum would no longer be a normal floating-point number.
 constexpr double least_incident_w = 1e-290;
 
-// Whole quanta of a ray that should carry so many. Rounded down, the quantum is chosen to fit. A beam so faint beside sky and
-// lamps that a ray carries less than half a quantum counts as none here: that is rays * 2^-47 of the incident flux, at most
-// 2^-19 with the largest grid; quanta small enough to hold it would overflow in the sky's flux.
+// Returns the whole number of quanta that a beam ray carries. It is rounded down, and the quantum is then chosen to fit. A
+// beam that is so faint compared with sky and lamps that a ray would carry less than half a quantum counts as no beam: that
+// drops rays * 2^-47 of the incident flux, at most 2^-19 with the largest grid. Quanta small enough to hold it would
+// overflow in the sky's flux.
 std::int64_t quanta_of_ray(double wanted) {
   return wanted <= 0.5 ? 0 : std::max<std::int64_t>(1, static_cast<std::int64_t>(wanted));
 }

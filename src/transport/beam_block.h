@@ -1,5 +1,5 @@
 #pragma once
-// The sun's beam of one replicate.
+// The beam rays of one replicate.
 
 #include "light/beam_grid.h"
 #include "shared/layout.h"
@@ -10,10 +10,10 @@
 
 namespace sunfleck {
 
-// The grid of about `rays` beam rays over the plot, or around an isolated stand. The model must have a beam.
+// Returns the grid of about `rays` beam rays over the plot, or around an isolated stand. The model must have a beam.
 [[nodiscard]] BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays);
 
-// The beam rays of one replicate as tracers take them; `rays` is about how many.
+// Returns one replicate's beam rays in the form that tracers take; `rays` is their approximate number.
 [[nodiscard]] shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays,
                                                 std::uint64_t seed, std::uint64_t replicate);
 

@@ -8,10 +8,10 @@
 namespace sunfleck {
 namespace {
 
-// Rays that travel to the tracer at a time.
+// Number of rays passed to the tracer in one call.
 constexpr std::uint32_t rays_at_once = 1U << 18U;
 
-// The word that Tracer::count_beam would count the landing in.
+// Returns the word in which Tracer::count_beam would count the landing.
 std::uint32_t counter_word(const RadiationModel& model, const CounterLayout& layout, const shared::BeamBlock& beam,
                            const shared::Landing& landing) {
   if (landing.surface == shared::landed_on_ground) {
@@ -24,7 +24,8 @@ std::uint32_t counter_word(const RadiationModel& model, const CounterLayout& lay
   return layout.first_bin_word + 2 * bin + landing.surface % 2;
 }
 
-// In an isolated stand without soil what leaves downwards fell through the plot, or passed beside it.
+// Returns true if a ray that left downwards fell through the plot, false if it passed beside it. Only isolated stands
+// without soil need the distinction.
 bool fell_through_plot(const shared::BeamBlock& beam, const shared::Packet& ray) {
   const shared::Ray way = shared::make_ray(ray.origin, ray.direction);
   return shared::in_plot(beam.ground, shared::ground_point(way, shared::meet_ground(way, beam.ground).t));

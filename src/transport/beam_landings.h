@@ -1,6 +1,6 @@
 #pragma once
-// The direct pass ray by ray, for scenes whose receivers ask where each ray passed: slower than Tracer::count_beam, which knows
-// only where rays land, and with the same counts.
+// The direct pass ray by ray, for scenes whose receivers need to know where each ray passed. It is slower than
+// Tracer::count_beam, which records only where rays land, and gives the same counts.
 
 #include "transport/counters.h"
 #include "transport/model.h"
@@ -13,8 +13,8 @@
 
 namespace sunfleck {
 
-// Traces all rays of one replicate, adds their landings to `counters` as Tracer::count_beam does, and what passed the receivers
-// to `sums`.
+// Traces all beam rays of one replicate. Adds their landings to `counters` as Tracer::count_beam does, and their crossings
+// of the receivers to `sums`.
 [[nodiscard]] TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout,
                                                const PlaneReceivers& planes, Tracer& tracer, const shared::BeamBlock& beam,
                                                std::span<std::uint32_t> counters, PlaneSums& sums, const StopQuestion& stop);

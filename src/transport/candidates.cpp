@@ -16,8 +16,8 @@
 namespace sunfleck {
 namespace {
 
-// The plastic number's powers: steps of Roberts' additive sequences in two and four dimensions would differ; one round needs
-// two numbers for a direction, and two more for a place on a lamp.
+// Steps of the additive sequence: powers of the plastic number. Roberts' sequences in two and in four dimensions would have
+// different steps; a round needs two numbers for a direction, and two more for a place on a lamp.
 constexpr double step_1 = 0.7548776662466927;
 constexpr double step_2 = 0.5698402909980532;
 
@@ -25,8 +25,8 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-// Cosine-distributed about the unit normal n, in a frame after Duff et al. 2017, "Building an orthonormal basis, revisited",
-// JCGT 6(1).
+// Returns a direction that is cosine-distributed about the unit normal n, in a frame after Duff et al. 2017, "Building an
+// orthonormal basis, revisited", JCGT 6(1).
 glm::dvec3 cosine_direction(const glm::dvec3& n, double u, double v) {
   const double sign = std::copysign(1.0, n.z);
   const double a = -1.0 / (sign + n.z);
@@ -38,7 +38,7 @@ glm::dvec3 cosine_direction(const glm::dvec3& n, double u, double v) {
   return tangent * (radius * std::cos(angle)) + bitangent * (radius * std::sin(angle)) + n * std::sqrt(1.0 - u);
 }
 
-// A point that may stick out of the plot, moved into it; `image` becomes the number of the element's copy there.
+// Moves a point that may stick out of the plot back into it; sets `image` to the number of the element's copy there.
 glm::dvec3 wrapped(glm::dvec3 point_m, const glm::dvec2& period_m, std::uint32_t& image) {
   const double dx = std::floor(point_m.x / period_m.x);
   const double dz = std::floor(point_m.z / period_m.y);
@@ -48,7 +48,7 @@ glm::dvec3 wrapped(glm::dvec3 point_m, const glm::dvec2& period_m, std::uint32_t
   return point_m;
 }
 
-// Random numbers of one packet, each even over [0, 1).
+// Random numbers of one packet, each uniform over [0, 1).
 struct PacketNumbers {
   double direction_u, direction_v, place_u, place_v;
 };
@@ -65,7 +65,7 @@ shared::Packet start_packet(const Canopy& canopy, const EmissionPoint& place, co
     const Triangle& corners = canopy.corners[packet.element];
     double b = place.a;
     double c = place.b;
-    if (place.a == anywhere) {  // evenly over the triangle (Turk 1990, Graphics Gems)
+    if (place.a == anywhere) {  // uniform over the triangle (Turk 1990, Graphics Gems)
       const double root = std::sqrt(numbers.place_u);
       b = root * (1.0 - numbers.place_v);
       c = root * numbers.place_v;
@@ -81,8 +81,8 @@ shared::Packet start_packet(const Canopy& canopy, const EmissionPoint& place, co
   return packet;
 }
 
-// Numbers of the places by ascending order, stable: a radix sort in three passes of eleven bits, several times faster here
-// than std::stable_sort.
+// Returns the numbers of the places in ascending order of `order`. The sort is stable: a radix sort in three passes of
+// eleven bits, several times faster here than std::stable_sort.
 std::vector<std::uint32_t> sorted_by_order(const std::vector<EmissionPoint>& places) {
   constexpr unsigned bits = 11;
   constexpr std::uint32_t mask = (1U << bits) - 1U;
@@ -99,8 +99,8 @@ std::vector<std::uint32_t> sorted_by_order(const std::vector<EmissionPoint>& pla
   return from;
 }
 
-// Upper sides are drawn before lower ones: with both sides of one landing next to each other, systematic sampling would take
-// the same side every time where a landing's expectation is one packet (rho + tau = 1).
+// Returns true for a lower side. Upper sides are drawn before lower ones: with both sides of one landing next to each other,
+// systematic sampling would take the same side every time when a landing's expectation is one packet (rho + tau = 1).
 bool on_lower_side(const EmissionPoint& place) {
   return place.surface % 2 == 1;
 }
@@ -146,7 +146,8 @@ void Candidates::retire(std::size_t band) {
 
 namespace {
 
-// Gives the drawn packets a band's quanta: cumulative shares of its total, each rounded down, whose differences add up to it.
+// Gives a band's quanta to the drawn packets: cumulative shares of the total are rounded down, so their differences add up
+// to it.
 void share_out(const Candidates& candidates, std::span<const double> expected, std::size_t band, Draw& draw) {
   const std::size_t bands = draw.kept.size();
   const std::int64_t total = candidates.total(band);
@@ -210,7 +211,7 @@ QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmi
 std::vector<shared::Packet> start_packets(const Canopy& canopy, const Candidates& candidates, const Draw& draw,
                                           const EmissionFrame& frame, RandomStream& random) {
   const PacketNumbers start{random.unit(), random.unit(), random.unit(), random.unit()};
-  // A lamp's places run through the same sequence with its dimensions exchanged and another pace.
+  // Places on a lamp use the same sequence with the dimensions exchanged and a different step.
   constexpr double pace = 0.6180339887498949;
   std::vector<shared::Packet> packets(draw.candidate.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 1024), [&](const auto& range) {

@@ -26,7 +26,7 @@ std::uint32_t cells_along(double length_m, double patch_m) {
   return static_cast<std::uint32_t>(std::max(1.0, std::round(length_m / patch_m)));
 }
 
-// Share of a triangle's area below height y: heights[0] <= heights[1] <= heights[2] are its corners', not all equal.
+// Returns the share of a triangle's area below height y. The corners' heights must be in ascending order and not all equal.
 double area_share_below(const std::array<double, 3>& heights, double y) {
   const auto [lowest, middle, highest] = heights;
   if (y <= lowest) return 0.0;

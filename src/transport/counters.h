@@ -1,9 +1,10 @@
 #pragma once
-// Where landings are counted: one array of 32-bit words that host and shaders number alike.
+// The counters of landings: one array of 32-bit words, numbered alike by the host and the shaders.
 //   words 0..15                        events (shaders/shared/layout.h)
 //   then cells_x * cells_z words       landings on the soil plane, by cell of its map, x fastest
 //   then two words a bin               landings on elements: [bin][upper, lower]
-// An element has one bin for each layer it reaches into, from the lowest up, so that landings are booked at their height.
+// An element has one bin for each layer it reaches into, starting with the lowest, so that landings are counted at their
+// height.
 
 #include "bvh/bvh.h"
 #include "canopy/canopy.h"
@@ -17,11 +18,11 @@
 
 namespace sunfleck {
 
-// Equal layers from the ground (scene y = 0) to the highest element.
+// Equal layers from the ground (scene y = 0) to the top of the highest element.
 struct Layers {
   int count = 20;
   float base_y_m = 0.0F;   // local frame
-  float per_metre = 0.0F;  // 0 where the canopy has no height: all lands in layer 0
+  float per_metre = 0.0F;  // 0 if the canopy has no height: everything lands in layer 0
   double height_m = 0.0;   // of all layers together
 };
 
@@ -39,22 +40,22 @@ struct CounterLayout {
   [[nodiscard]] std::uint32_t cells() const { return cells_x * cells_z; }
 };
 
-// Throws Error (input) if the counters do not fit 32-bit numbering.
+// Returns the layout of the counters. Throws Error (input) if there are too many for 32-bit numbering.
 [[nodiscard]] CounterLayout make_counter_layout(const RadiationModel& model);
 
-// The ground as tracers take it.
+// Returns the ground in the form that tracers take.
 [[nodiscard]] shared::GroundMap make_ground_map(const CounterLayout& layout);
 
-// The layer that holds a height (local frame); what lies outside counts in the outermost ones.
+// Returns the layer that holds a height (local frame); heights outside all layers count in the nearest one.
 [[nodiscard]] std::uint32_t layer_at(const Layers& layers, float y_m);
 
-// The layer of an element's first bin.
+// Returns the layer of an element's first bin.
 [[nodiscard]] std::uint32_t first_layer(const CounterLayout& layout, const Triangle& corners);
 
-// Adds a triangle's one-sided area (m2), exactly as much to each layer as lies in it. `area_by_layer_m2` is [layer].
+// Adds a triangle's one-sided area, m2, to the layers, split exactly as it lies in them. `area_by_layer_m2` is [layer].
 void add_area_by_layer(const Layers& layers, const Triangle& corners, std::span<double> area_by_layer_m2);
 
-// Tells every reference of the tree where its element's landings are counted.
+// Writes into every reference of the tree where its element's landings are counted.
 void number_counters(const CounterLayout& layout, const Canopy& canopy, Bvh& bvh);
 
 }  // namespace sunfleck

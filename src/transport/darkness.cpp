@@ -13,7 +13,7 @@
 namespace sunfleck {
 namespace {
 
-// An interval needs a few replicates.
+// A confidence interval needs several replicates.
 constexpr int replicates = 8;
 
 bool has_lamps(const RadiationModel& model) {

@@ -1,5 +1,5 @@
 #pragma once
-// A scene without any light.
+// Scenes without any light.
 
 #include "transport/counters.h"
 #include "transport/model.h"
@@ -8,10 +8,10 @@
 
 namespace sunfleck {
 
-// True if nothing comes in from sun or sky, and no surface glows.
+// Returns true if no light comes from sun or sky and no surface emits any.
 [[nodiscard]] bool is_dark(const RadiationModel& model);
 
-// The result of solve() for it: every flux is exactly zero, and shares of the beam do not exist.
+// Returns what solve() gives for such a scene: every flux is exactly zero, and shares of the beam are undefined.
 [[nodiscard]] RadiationResult dark_result(const RadiationModel& model, const CounterLayout& layout,
                                           const SolveSettings& settings);
 

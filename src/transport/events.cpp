@@ -7,7 +7,7 @@
 namespace sunfleck {
 namespace {
 
-// The largest share of a landing's flux that any surface sends on.
+// Returns the largest share of a landing's flux that any surface scatters.
 double largest_scattering(const RadiationModel& model, std::size_t band) {
   double largest = model.soil ? model.soil->reflectance[band] : 0.0;
   for (const SurfaceOptics& optics : model.optics) {
@@ -22,9 +22,10 @@ double LightEvents::largest_w_m2(std::size_t band) const {
   return std::max(beam_w_m2[band], other_w_m2[band]);
 }
 
-// A packet carries its candidate's quanta over the expected number of draws, which is the first round's packets times the mean
-// over the scattering bands of quanta over all that waited at the start: with light in one band only, that band's start times
-// the number of bands over the packets (IndirectPass).
+// Returns the light of single events. A packet carries its candidate's quanta divided by the expected number of draws. That
+// number is the packets of the first round times the mean, over the scattering bands, of the candidate's quanta divided by
+// all quanta waiting at the start. With light in one band only, a packet carries at most that band's start times the number
+// of scattering bands, divided by the packets (see IndirectPass).
 LightEvents make_light_events(const RadiationModel& model, const std::vector<BandQuanta>& quanta, const Incidence& incidence) {
   LightEvents events;
   double scattering_bands = 0.0;

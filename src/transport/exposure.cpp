@@ -7,17 +7,17 @@
 namespace sunfleck {
 namespace {
 
-// Corners in single precision tell no smaller cosine between a leaf's plane and the beam than this.
+// Smallest cosine between an element's plane and the beam that corners in single precision can resolve.
 constexpr double least_cosine = 1e-5;
 
-// True if the soil plane, as low as tracers take it, lies above the element.
+// Returns true if the whole element lies below the soil plane, at the depth where tracers place it.
 bool is_below(const shared::GroundMap& ground, const Triangle& corners) {
   const float floor_m = ground.y - ground.depth;
   return std::all_of(corners.begin(), corners.end(), [&](const glm::vec3& corner) { return corner.y < floor_m; });
 }
 
-// True if the beam would have to come through an isolated plot's rectangle of soil. The rectangle is convex, so the corners
-// tell.
+// Returns true if the beam could reach the element only through an isolated plot's rectangle of soil. The rectangle is
+// convex, so testing the corners is enough.
 bool is_shaded_by_soil(const shared::GroundMap& ground, const Triangle& corners, const glm::dvec3& to_sun) {
   return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& corner) {
     const glm::dvec3 at_ground = corner + to_sun * ((double{ground.y} - corner.y) / to_sun.y);

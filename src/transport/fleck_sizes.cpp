@@ -11,9 +11,9 @@ namespace sunfleck {
 namespace {
 
 constexpr double m2_per_cm2 = 1e-4;
-constexpr double rounding = 1e-9;  // relative; a cell of 1 cm2 must not fall short of its bound
+constexpr double rounding = 1e-9;  // relative; keeps a cell of exactly 1 cm2 from falling below its bound
 
-// Sets of cells that grow together (Tarjan 1975, J. ACM 22:215), their root the lowest cell.
+// Disjoint sets of cells (Tarjan 1975, J. ACM 22:215); the root of a set is its lowest cell.
 class Sets {
  public:
   explicit Sets(std::size_t cells) : parent_(cells) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
@@ -43,7 +43,7 @@ std::vector<bool> sunlit_cells(const PlaneResult& plane) {
   return sunlit;
 }
 
-// Number of cells of each fleck.
+// Returns the number of cells of each fleck.
 std::vector<std::size_t> fleck_cells(const std::vector<bool>& sunlit, std::size_t cells_x, std::size_t cells_z, bool periodic) {
   Sets sets(sunlit.size());
   for (std::size_t z = 0; z < cells_z; ++z) {
@@ -64,7 +64,7 @@ std::vector<std::size_t> fleck_cells(const std::vector<bool>& sunlit, std::size_
   return of_root;
 }
 
-// The n-th bound: ..., 0.5, 1, 2, 5, 10, ... cm2 for n = ..., -1, 0, 1, 2, 3, ...
+// Returns the n-th class bound: ..., 0.5, 1, 2, 5, 10, ... cm2 for n = ..., -1, 0, 1, 2, 3, ...
 double bound_m2(int n) {
   constexpr double steps[] = {1.0, 2.0, 5.0};
   const int decade = static_cast<int>(std::floor(n / 3.0));

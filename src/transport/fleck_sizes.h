@@ -1,5 +1,5 @@
 #pragma once
-// The sunflecks of a horizontal plane and how large they are.
+// The sizes of the sunflecks on a horizontal plane.
 
 #include "canopy/plot.h"
 #include "transport/result.h"
@@ -9,7 +9,7 @@
 
 namespace sunfleck {
 
-// Flecks of at least lower_m2 and less than upper_m2.
+// The flecks of at least lower_m2 and less than upper_m2.
 struct FleckClass {
   double lower_m2 = 0.0;
   double upper_m2 = 0.0;
@@ -18,16 +18,19 @@ struct FleckClass {
 };
 
 struct FleckSizes {
-  std::vector<double> areas_m2;  // of each fleck, ascending
-  std::vector<FleckClass>
-      classes;                 // bounds 1, 2, 5, 10, ... cm2, from the smallest fleck's class to the largest's; empty: none
-  double area_share = 0.0;     // of all flecks in the plane
-  double rays_per_cell = 0.0;  // that a cell would get without the canopy, on average
+  // Area of each fleck, ascending.
+  std::vector<double> areas_m2;
+  // Classes with bounds 1, 2, 5, 10, ... cm2, from the class of the smallest fleck to that of the largest; empty without
+  // flecks.
+  std::vector<FleckClass> classes;
+  double area_share = 0.0;     // of all flecks together, in the plane
+  double rays_per_cell = 0.0;  // mean number of rays that a cell would receive without the canopy
 };
 
-// A fleck is a set of cells, joined at their edges, at least half of whose beam rays reach the plane; in a periodic plot cells
-// of opposite borders are joined too. A cell that no ray crosses belongs to none. A fleck that meets itself across the border
-// counts with its area within one plot. A plane without counts of beam rays has no fleck.
+// Returns the sunflecks of a plane. A fleck is a set of edge-connected cells, each reached by at least half of the beam rays
+// that cross it; in a periodic plot cells on opposite borders are connected too. A cell that no ray crosses belongs to no
+// fleck. A fleck that meets itself across the border counts with its area within one plot. A plane without counts of beam
+// rays has no flecks.
 [[nodiscard]] FleckSizes fleck_sizes(const PlaneResult& plane, const Plot& plot);
 
 }  // namespace sunfleck

@@ -10,7 +10,7 @@ namespace sunfleck {
 std::size_t replicates_needed(double error, double bound, double confidence, std::size_t done, std::size_t most) {
   const double per_quantile = error / bound / t_quantile(confidence, done);
   double needed = static_cast<double>(done);
-  // The quantile changes little from few replicates on, so that a few turns settle it.
+  // The quantile changes little except at very few replicates, so a few iterations are enough.
   for (int turn = 0; turn < 4; ++turn) {
     const double ratio = per_quantile * t_quantile(confidence, static_cast<std::size_t>(needed));
     needed =

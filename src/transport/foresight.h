@@ -1,19 +1,21 @@
 #pragma once
-// How much of a run is still to come, told from the errors it has reached and how they fall.
+// Forecasts of the work that remains, from the errors reached so far and how they fall.
 
 #include <cstddef>
 
 namespace sunfleck {
 
-// Returns how many replicates will bring an error down to its bound: half-widths fall with the root of the replicates, times
-// Student's quantile. At least `done`, which reached `error`; at most `most`. 0 <= error, 2 <= done.
+// Returns how many replicates bring an error down to its bound: half-widths fall with the square root of the number of
+// replicates, times Student's quantile. The result is at least `done`, the number that gave `error`, and at most `most`.
+// Requires 0 <= error and 2 <= done.
 [[nodiscard]] std::size_t replicates_needed(double error, double bound, double confidence, std::size_t done, std::size_t most);
 
-// The part of a run that is done, as a measure that never goes back and reaches 1 only at the end.
+// The completed part of a run, as a fraction that never falls and reaches 1 only at the end.
 class Completion {
  public:
-  // Takes the replicates that are done, and how many there will be in all as far as is known now. Each step takes its share of
-  // what was left, so another expectation changes the pace from here on and not what has been told. Returns the part done.
+  // Takes the number of replicates done and the total expected at present, and returns the completed part. Each step
+  // completes its share of what was left, so a changed expectation alters the pace from here on but not the value already
+  // reported.
   double update(double done, double expected);
 
  private:

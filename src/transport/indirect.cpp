@@ -7,17 +7,17 @@
 namespace sunfleck {
 namespace {
 
-// Fewer packets than this are not worth a round.
+// Rounds are scaled up to at least this many packets.
 constexpr double least_packets = 256;
-// The stop rule leaves this part of the bound unshot, of flux judged as at least 1 % of the incident.
+// The stop rule leaves this part of the bound unshot, relative to flux taken as at least 1 % of the incident flux.
 constexpr double unshot_part_of_bound = 0.1;
 constexpr double least_judged_share = 0.01;
-// A closed box of perfect mirrors would never end.
+// Ends passes that would never end by themselves, as in a closed box of perfect mirrors.
 constexpr std::uint64_t most_rounds = 20000;
-// Streams of random numbers, apart from those of the beam.
+// First stream of random numbers, apart from those of the beam.
 constexpr std::uint64_t indirect_stream = std::uint64_t{1} << 48U;
 
-// Adds `moved` (per place from the ground up, for each band) to the net flux through the planes above each place.
+// Adds `moved` ([place, bottom first * bands + band]) to the net flux through the planes above each place.
 void add_up(const std::vector<std::int64_t>& moved, std::size_t bands, std::vector<std::int64_t>& through) {
   std::vector<std::int64_t> below(bands);
   for (std::size_t k = 0; k < moved.size() && k < through.size(); ++k) {
@@ -107,9 +107,10 @@ std::optional<IndirectSums> IndirectPass::run(const FirstLandings& first, const 
   return std::move(round.sums);
 }
 
-// Sampling moves flux between levels: what waits at one is shot from another, on average none. For the planes between them to
-// keep their books to the last quantum, half of the net flux through a plane counts as gone down, and half as not come up; at
-// the ground all of it as not come up, since what goes down there is what lands on the soil.
+// Sampling moves flux between levels: flux that waits at one level is shot from another, with a mean of zero. To keep the
+// books of the planes in between exact to the quantum, half of the net flux moved through a plane is added to its downward
+// flux and half is subtracted from its upward flux. At the ground all of it is subtracted from the upward flux, because the
+// downward flux there is what lands on the soil.
 void IndirectPass::book(Round& round, const Moves& moves) const {
   add_up(moves.by_level, round.start.size(), round.moved_down);
   add_up(moves.by_zone, round.start.size(), round.moved_through_receivers);
@@ -118,7 +119,7 @@ void IndirectPass::book(Round& round, const Moves& moves) const {
 void IndirectPass::close_planes(Round& round) const {
   const std::size_t bands = round.start.size();
   IndirectSums& sums = round.sums;
-  // Differences between neighbouring planes become the planes' own flux.
+  // Turns the differences between neighbouring planes into the flux of each plane.
   for (auto* planes : {&sums.down, &sums.up}) {
     for (std::size_t k = bands; k < planes->size(); ++k) (*planes)[k] += (*planes)[k - bands];
   }
@@ -178,7 +179,7 @@ std::vector<double> IndirectPass::expected_draws(const Round& round) const {
   return expected;
 }
 
-// What no packet carried waits on where it is.
+// Flux that no packet carried stays in place for the next round.
 void IndirectPass::keep_undrawn(Round& round, const Draw& draw) const {
   for (std::size_t b = 0; b < draw.kept.size(); ++b) {
     if (!draw.kept[b]) round.waiting.retire(b);
@@ -186,7 +187,7 @@ void IndirectPass::keep_undrawn(Round& round, const Draw& draw) const {
   for (std::size_t k = 0; k < round.waiting.size(); ++k) round.next.add(round.waiting.place(k), round.waiting.quanta(k));
 }
 
-// What the packets carry away less what waited, for the bands that are drawn.
+// Returns the flux that packets carry away minus the flux that waited, for the bands that are drawn.
 IndirectPass::Moves IndirectPass::moved_by(const Round& round, const Draw& draw) const {
   const std::size_t bands = round.start.size();
   Moves moves;

@@ -1,6 +1,6 @@
 #pragma once
-// The indirect pass of one replicate: progressive Monte Carlo radiosity. Flux that was reflected, transmitted or emitted is
-// shot on, round by round, from the very points where it landed, until too little is left to matter.
+// The indirect pass of one replicate: progressive Monte Carlo radiosity. Reflected, transmitted and emitted flux is shot
+// round by round, from the points where it landed, until too little is left to matter.
 
 #include "bvh/bvh.h"
 #include "transport/accuracy.h"
@@ -21,7 +21,8 @@
 
 namespace sunfleck {
 
-// What one replicate's sky rays and packets did, in quanta. Landed counts all that arrived, whatever became of it.
+// Quanta carried by one replicate's sky rays and packets. The `landed` arrays count all flux that arrived, before it is
+// split.
 struct IndirectSums {
   IndirectSums(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
 
@@ -31,27 +32,30 @@ struct IndirectSums {
   std::vector<std::int64_t> side_landed;     // [(2 * element + side) * bands + band]
   std::vector<std::uint32_t> element_hits;   // [element], packets that landed on either side
   std::vector<std::int64_t> cell_landed;     // [cell of the soil's map * bands + band]
-  std::vector<std::int64_t> side_sky;        // as side_landed, of the sky's rays alone; empty without a sky
-  std::vector<std::int64_t> cell_sky;        // as cell_landed
-  std::vector<std::int64_t> down, up;        // [plane * bands + band], through the layers' planes, top plane last
-  std::vector<FluxLedger> ledger;            // [band]; incident: what the lamps emitted and what came from the sky
-  PlaneSums receivers;                       // of the horizontal receivers, if there are any
+  std::vector<std::int64_t> side_sky;        // as side_landed, sky rays only; empty without a sky
+  std::vector<std::int64_t> cell_sky;        // as cell_landed, sky rays only
+  std::vector<std::int64_t> down, up;        // [plane * bands + band], through the planes of the layers, top plane last
+  std::vector<FluxLedger> ledger;            // [band]; `incident` holds flux from the lamps and the sky
+  PlaneSums receivers;                       // at the horizontal receivers, if there are any
   std::uint64_t sky_rays = 0, packets = 0, rounds = 0, lost = 0;
-  std::uint64_t first_candidates = 0, most_candidates = 0;  // that waited before the first round, and at most after a round
+  // Number waiting before the first round, and the largest number waiting after a round.
+  std::uint64_t first_candidates = 0, most_candidates = 0;
 };
 
-// What the direct pass leaves behind in one replicate.
+// The results of one replicate's direct pass that the indirect pass starts from.
 struct FirstLandings {
-  const shared::BeamBlock* beam = nullptr;  // none without direct light
+  const shared::BeamBlock* beam = nullptr;  // null without direct light
   std::uint64_t rays = 0;
-  std::uint64_t met = 0;                        // of them, those that met anything
-  std::vector<std::int64_t> scattered;          // [(level + 1) * bands + band], quanta that wait where they landed; level as in
-                                                // EmissionPoint: 0 is the soil's, 1 the lowest layer's place
-  std::vector<std::int64_t> scattered_by_zone;  // [zone of the receivers * bands + band], the same; empty without them
+  std::uint64_t met = 0;  // number of those rays that met anything
+  // Quanta waiting where they landed, [(level + 1) * bands + band]; `level` as in EmissionPoint, so index 0 is the soil
+  // and index 1 the lowest layer.
+  std::vector<std::int64_t> scattered;
+  // The same by zones of the receivers, [zone * bands + band]; empty without receivers.
+  std::vector<std::int64_t> scattered_by_zone;
 };
 
 struct IndirectSettings {
-  double packets = 65536;    // of the first round
+  double packets = 65536;    // in the first round
   std::size_t sky_rays = 0;  // if there is a sky
   double bound = 0.003;      // the stop rule leaves a tenth of it unshot
   std::uint64_t seed = 1;
@@ -60,22 +64,22 @@ struct IndirectSettings {
 
 class IndirectPass {
  public:
-  // All must outlive it; `sky` and `receivers` may be null.
+  // All arguments must outlive the pass; `sky` and `receivers` may be null.
   IndirectPass(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, Tracer& tracer,
                const SkyRays* sky, const PlaneReceivers* receivers);
 
-  // Shoots until every band is retired: its unshot flux is below a tenth of the bound times the smaller of what vegetation
-  // and soil absorbed of it, each taken as at least 1 % of the incident flux. None if stopped. Several threads may run
-  // replicates side by side, if the tracer may be used so.
+  // Shoots until every band is retired, that is, until its unshot flux is below a tenth of the bound times the smaller of
+  // the fluxes absorbed by vegetation and by soil, each taken as at least 1 % of the incident flux. Returns nothing if
+  // stopped. Several threads may run replicates concurrently if the tracer allows it.
   [[nodiscard]] std::optional<IndirectSums> run(const FirstLandings& first, const std::vector<BandQuanta>& quanta,
                                                 const IndirectSettings& settings, const StopQuestion& stop) const;
 
  private:
   struct Round;
-  // A side that a sampled beam ray's light leaves, and the face it landed on.
+  // A side that the light of a sampled beam ray leaves, and the optics of the face on which it landed.
   struct Source {
     EmissionPoint place;
-    const std::vector<FaceOptics>* face = nullptr;  // none: the soil plane
+    const std::vector<FaceOptics>* face = nullptr;  // null for the soil plane
     bool transmitted = false;
 
     [[nodiscard]] double weight(const Soil* soil, std::size_t band) const {
@@ -83,9 +87,9 @@ class IndirectPass {
       return transmitted ? (*face)[band].transmittance : (*face)[band].reflectance;
     }
   };
-  // Quanta by where they are: what is shot from there less what waited.
+  // Net quanta shot from each level and zone: flux shot there minus flux that waited there.
   struct Moves;
-  // How flux comes to a landing.
+  // The start and the ray that lead to a landing.
   struct Way {
     EmissionPoint from;
     std::int32_t from_zone = 0;
@@ -127,7 +131,7 @@ class IndirectPass {
   EmissionFrame frame_;
 };
 
-// The scene as packets see it.
+// Returns the scene in the form that tracers take for packets.
 [[nodiscard]] shared::PacketBlock make_packet_block(const RadiationModel& model, const CounterLayout& layout);
 
 }  // namespace sunfleck

@@ -1,4 +1,4 @@
-// What the first round starts from: the sky's first landings, a sample of the beam's, and lamps.
+// The start of the indirect pass: the sky's first landings, a sample of the beam's, and lamps.
 
 #include "shared/beam.h"
 #include "transport/indirect_round.h"
@@ -7,7 +7,8 @@
 
 namespace sunfleck {
 
-// Sends the sky's rays, each with its share of the sky's flux, and leaves what they scatter waiting. False if stopped.
+// Sends the sky rays, each with its share of the sky's flux, and leaves the scattered flux waiting. Returns false if
+// stopped.
 bool IndirectPass::let_sky_in(Round& round, const StopQuestion& stop) const {
   if (sky_ == nullptr) return true;
   const std::size_t bands = round.start.size();
@@ -41,15 +42,16 @@ bool IndirectPass::let_sky_in(Round& round, const StopQuestion& stop) const {
   return true;
 }
 
-// A ray of an isolated stand that met neither an element nor the plot's ground: its flux counts only where it passed receivers.
+// Returns true for a ray of an isolated stand that met neither an element nor the plot's ground. Its flux counts only at the
+// receivers that it passed.
 bool IndirectPass::fell_beside_plot(const shared::Landing& landing, const shared::Packet& ray) const {
   if (model_.plot.periodic || landing.surface != shared::left_downwards) return false;
   const shared::Ray way = shared::make_ray(ray.origin, ray.direction);
   return !shared::in_plot(scene_.ground, shared::ground_point(way, shared::meet_ground(way, scene_.ground).t));
 }
 
-// A systematic sample of the beam's rays, traced again for the points where they landed. Without a packet's worth of rays
-// every ray is taken. None if stopped.
+// Traces a systematic sample of the beam rays again to find the points where they landed. If there are no more rays than
+// packets, every ray is taken. Returns nothing if stopped.
 std::optional<std::vector<IndirectPass::Source>> IndirectPass::sample_first_landings(Round& round,
                                                                                      const StopQuestion& stop) const {
   const FirstLandings& first = round.first;
@@ -79,7 +81,7 @@ std::optional<std::vector<IndirectPass::Source>> IndirectPass::sample_first_land
   return sources;
 }
 
-// Shares out what all rays scattered, band by band, among the sampled sources.
+// Distributes the flux scattered by all beam rays over the sampled sources, band by band.
 void IndirectPass::add_first_candidates(Round& round, const std::vector<Source>& sources) const {
   const std::size_t bands = round.start.size();
   const Soil* soil = model_.soil ? &*model_.soil : nullptr;

@@ -1,4 +1,4 @@
-// Where packets and sky rays land: what they leave there, and what they passed on their way.
+// Landings of packets and sky rays: the flux they leave behind, and the planes they passed on their way.
 
 #include "shared/beam.h"
 #include "transport/indirect_round.h"
@@ -8,7 +8,7 @@
 namespace sunfleck {
 namespace {
 
-// The ground comes after all elements, by blocks of its map.
+// Drawing order of the first ground cell: the ground comes after all elements, ordered by cells of its map.
 constexpr std::uint32_t ground_order = 0x80000000U;
 
 }  // namespace
@@ -30,7 +30,7 @@ EmissionPoint IndirectPass::place_of(const shared::Landing& landing) const {
 }
 
 std::int32_t IndirectPass::zone_of(const EmissionPoint& place) const {
-  if (place.a == anywhere && place.level >= 0) {  // counted as lowest, like its level
+  if (place.a == anywhere && place.level >= 0) {  // a lamp: counted in the lowest zone, as it is in the lowest layer
     std::int32_t zone = 0;
     while (zone < static_cast<std::int32_t>(receivers_->size()) && receivers_->at_ground(static_cast<std::size_t>(zone)))
       ++zone;
@@ -53,7 +53,7 @@ void IndirectPass::pass_receivers_alone(Round& round, const shared::Landing& lan
   pass_receivers(*receivers_, way.packet, way.from_zone, receivers_->zone_of(landing), quanta, round.sums.receivers);
 }
 
-// Books what goes through the layers' planes and the receivers.
+// Adds the flux that passes the planes of the layers and the receivers.
 void IndirectPass::pass(Round& round, const shared::Landing& landing, const Way& way, int to_level,
                         std::span<const std::int64_t> quanta) const {
   pass_receivers_alone(round, landing, way, quanta);

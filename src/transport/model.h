@@ -1,5 +1,5 @@
 #pragma once
-// What is to be simulated, in SI units: the scene without its files.
+// The model to be simulated, in SI units: the scene without its files.
 
 #include "canopy/canopy.h"
 #include "canopy/optics.h"
@@ -18,15 +18,15 @@ struct RadiationModel {
   Plot plot;
   std::vector<SurfaceOptics> optics;  // [optics number of canopy.optics_of]
   std::vector<Waveband> bands;        // [waveband]
-  std::optional<Soil> soil;           // none: what falls through is transmitted
-  std::optional<SunPosition> sun;     // none, or not above the horizon: no direct light
-  std::optional<SkyModel> sky;        // none: no diffuse light
-  std::vector<PlaneReceiver> planes;  // in ascending order of height
+  std::optional<Soil> soil;           // without soil, light that falls through counts as transmitted
+  std::optional<SunPosition> sun;     // without a sun, or with one that is not above the horizon, there is no direct light
+  std::optional<SkyModel> sky;        // without a sky there is no diffuse light
+  std::vector<PlaneReceiver> planes;  // ascending by height
   std::vector<Sensor> sensors;
   int layers = 20;  // equal layers from the ground to the highest element
 
-  [[nodiscard]] bool has_beam() const;  // the sun is above the horizon, and some band has light from it
-  [[nodiscard]] bool has_sky() const;   // and some band has light from it
+  [[nodiscard]] bool has_beam() const;  // the sun is above the horizon, and some band has direct light
+  [[nodiscard]] bool has_sky() const;   // there is a sky, and some band has diffuse light
 };
 
 }  // namespace sunfleck

@@ -15,7 +15,8 @@ double lamp_count(const RadiationModel& model) {
   return static_cast<double>(std::count_if(model.canopy.optics_of.begin(), model.canopy.optics_of.end(), glows));
 }
 
-// The indirect pass takes a sample of the beam's landings, at most one for each packet.
+// Returns the number of first landings. The indirect pass takes a sample of the beam's landings, at most one for each
+// packet.
 double first_landings(const RayCounts& counts) {
   return std::min(counts.packets, counts.beam_rays) + counts.sky_rays;
 }
@@ -34,7 +35,8 @@ void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
   learned_ = true;
 }
 
-// The larger of two moments: candidates are copied into their order, or packets have landed and left new ones.
+// Returns the larger of two peaks: while candidates are copied into their order, and when packets have landed and left new
+// candidates.
 double PacketMemory::bytes(const RayCounts& counts) const {
   const double quanta_bytes = static_cast<double>(bands_) * sizeof(std::int64_t);
   const double candidate_bytes = sizeof(EmissionPoint) + quanta_bytes;

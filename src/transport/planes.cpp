@@ -9,10 +9,10 @@
 namespace sunfleck {
 namespace {
 
-// A plane this close to the edge of a layer, in layers, is that edge.
+// A plane this close to the edge of a layer, in units of layers, counts as lying on that edge.
 constexpr double same_edge = 1e-5;
 
-// The lowest height that layer_at puts into `layer`, or above: landings below it belong to the layers below.
+// Returns the lowest height that layer_at assigns to `layer` or to a layer above it: lower landings belong to lower layers.
 float lowest_of_layer(const Layers& layers, std::uint32_t layer) {
   auto y_m = static_cast<float>(layers.base_y_m + layer / double{layers.per_metre});
   const auto next = [](float y, float towards) { return std::nextafter(y, towards); };
@@ -142,8 +142,8 @@ void PlaneTally::add(const PlaneSums* beam, const PlaneSums* packets, std::span<
   }
 }
 
-// A plane's cells, brought to its exact total: sampling moves flux between zones (see IndirectPass), which the total books and
-// the cells do not know of. Each cell takes its share.
+// Returns a plane's cells scaled to its exact total. Sampling moves flux between zones (see IndirectPass); the total
+// includes that flux, the cells do not. Each cell takes its share of the difference.
 std::vector<std::int64_t> PlaneTally::closed_cells(std::size_t plane) const {
   const std::size_t bands = model_.bands.size();
   const std::size_t first = planes_.first_cell(plane);

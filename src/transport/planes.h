@@ -1,6 +1,6 @@
 #pragma once
-// Horizontal receivers: which of them a way passes, and in which cell. They stop no ray, and soil never shades them: what lands
-// on soil has passed every plane above y = 0 and below it.
+// Horizontal receivers: which of them a ray passes, and in which cell. They stop no ray, and soil never shades them: flux
+// that lands on soil has passed every plane between its start and y = 0.
 
 #include "transport/counters.h"
 #include "transport/model.h"
@@ -15,38 +15,39 @@
 
 namespace sunfleck {
 
-// The planes cut space into zones: zone 0 below the lowest, which is also the soil's, zone k above k of them.
+// The planes cut space into zones: zone 0 lies below the lowest plane and includes the soil, zone k lies above k planes.
 class PlaneReceivers {
  public:
   static constexpr std::size_t no_cell = std::numeric_limits<std::size_t>::max();
 
-  // All must outlive it.
+  // All arguments must outlive the receivers.
   PlaneReceivers(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
 
   [[nodiscard]] std::size_t size() const { return planes_.size(); }
   [[nodiscard]] std::size_t cells() const { return first_cell_.back(); }  // of all planes together
   [[nodiscard]] std::size_t first_cell(std::size_t plane) const { return first_cell_[plane]; }
 
-  // The zone of a place that is not soil's (local frame). Landings are told apart exactly as layers tell them where a plane is
-  // the edge of a layer.
+  // Returns the zone of a place that is not on soil (local frame). Where a plane is the edge of a layer, landings are
+  // assigned to zones exactly as they are to layers.
   [[nodiscard]] std::int32_t zone_at(float y_m) const;
-  // The same for a landing of any kind.
+  // Returns the zone of any landing.
   [[nodiscard]] std::int32_t zone_of(const shared::Landing& landing) const;
 
-  // No element reaches above the plane, so that light comes down through it unhindered.
+  // Returns true if no element reaches above the plane, so that light comes down through it unhindered.
   [[nodiscard]] bool above_all(std::size_t plane) const { return planes_[plane].y_m >= layout_.box.hi_m.y; }
 
-  // Planes at the ground, of which all else but soil lies above.
+  // Returns true for a plane at the ground, which lies below everything but soil.
   [[nodiscard]] bool at_ground(std::size_t plane) const { return planes_[plane].threshold_y_m == lowest; }
 
-  // Cell, counted over all planes, where the line through a point crosses a plane; no_cell beside an isolated plot.
+  // Returns the cell, numbered over all planes, where the line through a point crosses a plane; no_cell beside an isolated
+  // plot.
   [[nodiscard]] std::size_t cell_at(std::size_t plane, const glm::vec3& point_m, const glm::vec3& direction) const;
 
  private:
   static constexpr float lowest = -std::numeric_limits<float>::infinity();
   struct Plane {
     double y_m = 0.0;            // local frame
-    float threshold_y_m = 0.0F;  // places from here on lie above it
+    float threshold_y_m = 0.0F;  // places at or above this height lie above the plane
   };
 
   const RadiationModel& model_;
@@ -56,7 +57,7 @@ class PlaneReceivers {
   std::vector<std::size_t> first_cell_;  // [plane + 1]
 };
 
-// What passed the planes in one replicate.
+// Sums over everything that passed the planes in one replicate.
 struct PlaneSums {
   PlaneSums() = default;
   PlaneSums(const PlaneReceivers& planes, const RadiationModel& model);
@@ -64,28 +65,30 @@ struct PlaneSums {
   std::vector<std::uint32_t> reached, crossing;        // [cell], beam rays, as in PlaneResult
   std::vector<std::uint64_t> zone_landings;            // [(zone * optics + optics) * 2 + side], of beam rays
   std::vector<std::int64_t> down;                      // [cell * bands + band], quanta of packets and sky rays
-  std::vector<std::int64_t> through_down, through_up;  // [plane * bands + band], the same over whole planes
+  std::vector<std::int64_t> through_down, through_up;  // [plane * bands + band], the same summed over whole planes
 };
 
-// Adds what a straight way from one zone to another carries through the planes between them.
+// Adds the flux that a straight path from one zone to another carries through the planes between them.
 void pass_receivers(const PlaneReceivers& planes, const shared::Packet& way, std::int32_t from_zone, std::int32_t to_zone,
                     std::span<const std::int64_t> quanta, PlaneSums& sums);
 
-// Adds up the replicates.
+// Sums over all replicates.
 class PlaneTally {
  public:
   PlaneTally(const PlaneReceivers& planes, const RadiationModel& model);
 
-  // `beam_w_m2_per_ray` and `w_m2_per_quantum` are [band], per area of the plot. Either of the sums may be absent.
+  // Adds one replicate. `beam_w_m2_per_ray` and `w_m2_per_quantum` are [band], per area of the plot. Either of the sums
+  // may be null.
   void add(const PlaneSums* beam, const PlaneSums* packets, std::span<const double> beam_w_m2_per_ray,
            std::span<const double> w_m2_per_quantum);
 
-  // `quantile`: Student's, of the intervals. Where all replicates agree, those follow from `unseen_events` of statistics.h,
-  // each a beam ray or as much light as `event_w_m2` tells, [band], W m-2 of plane in one replicate.
+  // Returns the maps of all planes. `quantile` is Student's, for the confidence intervals. Where all replicates agree, the
+  // intervals follow from `unseen_events` of statistics.h, each event being a beam ray or the light that `event_w_m2`
+  // gives, [band], W m-2 of plane in one replicate.
   [[nodiscard]] std::vector<PlaneResult> results(double quantile, double unseen_events,
                                                  std::span<const double> event_w_m2) const;
 
-  // Hands every sum to `archive`; see tally_sums.cpp.
+  // Passes every sum to `archive`; see tally_sums.cpp.
   template <class Self, class Archive>
   static void visit_sums(Self& self, Archive& archive) {
     for (auto& means : self.means_) {

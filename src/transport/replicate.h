@@ -1,6 +1,6 @@
 #pragma once
-// Replicates before they are tallied. Several may be in the making at a time: while the tracer is busy with one, the host draws
-// and books the packets of another.
+// Replicates before they are tallied. Several may be made at the same time: while the tracer works on one, the host draws
+// and tallies the packets of another.
 
 #include "transport/indirect.h"
 #include "transport/planes.h"
@@ -18,21 +18,22 @@
 
 namespace sunfleck {
 
-// What one replicate brings to the tally.
+// The sums that one replicate contributes to the tally.
 struct Replicate {
-  std::vector<std::uint32_t> counters;  // words as in transport/counters.h
+  std::vector<std::uint32_t> counters;  // numbered as in transport/counters.h
   DirectSums sums;
   PlaneSums passed;
-  std::optional<IndirectSums> packets;  // none without an indirect pass
-  double direct_s = 0.0;                // wall time, waiting for the tracer included
+  std::optional<IndirectSums> packets;  // empty without an indirect pass
+  double direct_s = 0.0;                // wall time, including the wait for the tracer
   double indirect_s = 0.0;
 };
 
-// What is to be made. Replicates with the same seed and number are the same, whatever is made beside them.
+// The description of one replicate. Replicates with the same seed and number are identical, whatever else is made beside
+// them.
 struct ReplicateOrder {
-  double beam_rays = 0.0;       // about how many
-  std::uint64_t grid_rays = 0;  // what the grid makes of them
-  double packets = 0.0;         // of the first round; 0: no indirect pass
+  double beam_rays = 0.0;       // approximate number
+  std::uint64_t grid_rays = 0;  // actual number of rays on the grid
+  double packets = 0.0;         // in the first round; 0: no indirect pass
   std::size_t sky_rays = 0;
   double bound = 0.003;  // as IndirectSettings::bound
   std::uint64_t seed = 1;
@@ -41,30 +42,30 @@ struct ReplicateOrder {
 
 class ReplicateMaker {
  public:
-  // All must outlive it, and the model must stay as it is.
+  // All arguments must outlive the maker, and the model must not change.
   ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer);
 
   [[nodiscard]] bool has_indirect_pass() const { return indirect_ != nullptr; }
   [[nodiscard]] bool has_sky() const { return sky_.has_value(); }
 
-  // Of replicates with about so many beam rays.
+  // Returns the incidence of replicates with about this many beam rays.
   [[nodiscard]] Incidence incidence(double beam_rays) const;
 
-  // What adds up replicates of that incidence. The maker must outlive it.
+  // Returns an empty tally for replicates of that incidence. The maker must outlive it.
   [[nodiscard]] Tally tally(const Incidence& incidence, ElementErrors element_errors) const;
 
-  // A replicate in which nothing landed, as large as an ordered one.
+  // Returns a replicate without landings, with all arrays as large as those of an ordered one.
   [[nodiscard]] Replicate blank(const ReplicateOrder& order) const;
 
-  // Bytes of a replicate's counters and sums, which do not depend on its rays and packets.
+  // Returns the size of a replicate's counters and sums in bytes; it does not depend on the numbers of rays and packets.
   [[nodiscard]] double sum_bytes() const;
 
-  // None if stopped. The tally tells what landings are worth; it may meanwhile add other replicates. May be called by several
-  // threads at a time, all of which ask `stop`.
+  // Makes a replicate; returns nothing if stopped. The tally supplies the worth of the landings and may add other
+  // replicates meanwhile. Several threads may call this at the same time; all of them call `stop`.
   [[nodiscard]] std::optional<Replicate> make(const ReplicateOrder& order, const Tally& tally, const StopQuestion& stop);
 
  private:
-  // A tracer that serves one thread after the other.
+  // A tracer that serves one thread at a time.
   class OneAtATime final : public Tracer {
    public:
     explicit OneAtATime(Tracer& tracer) : tracer_(tracer) {}
@@ -89,7 +90,7 @@ class ReplicateMaker {
   std::optional<PlaneReceivers> receivers_;
   std::optional<SkyRays> sky_;
   OneAtATime tracer_;
-  std::unique_ptr<IndirectPass> indirect_;  // none without a sky where no light goes on after its first landing
+  std::unique_ptr<IndirectPass> indirect_;  // null without a sky if no light is scattered after its first landing
 };
 
 }  // namespace sunfleck

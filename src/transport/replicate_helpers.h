@@ -1,5 +1,5 @@
 #pragma once
-// Others who make replicates beside this process. A replicate hangs on its order alone, so it does not matter who made it.
+// Remote workers that make replicates for this process. A replicate depends only on its order, so any worker may make it.
 
 #include "transport/replicate.h"
 
@@ -14,23 +14,24 @@ struct MadeReplicate {
   Replicate replicate;  // without its `sums`
 };
 
-// Asked by one thread.
+// The interface to the workers; one thread may use it.
 class ReplicateHelpers {
  public:
   virtual ~ReplicateHelpers() = default;
 
-  // How many replicates they can have in hand, all of them together, and how many more they would take now.
+  // Returns how many replicates all workers together can hold.
   [[nodiscard]] virtual std::size_t slots() const = 0;
+  // Returns how many more replicates they would accept now.
   [[nodiscard]] virtual std::size_t free_slots() const = 0;
 
-  // One of them begins it; there must be a free slot.
+  // Gives the order to one of the workers; there must be a free slot.
   virtual void begin(const ReplicateOrder& order) = 0;
 
-  // One that is finished, in any order; none if there is none yet. `blank` tells its sizes. Throws Error if one of them failed
-  // or is gone.
+  // Returns a finished replicate, in any order, or nothing if none is ready. `blank` gives the sizes of its arrays. Throws
+  // Error if a worker failed or is lost.
   [[nodiscard]] virtual std::optional<MadeReplicate> take(const Replicate& blank) = 0;
 
-  // What was begun and not taken is not needed any more.
+  // Cancels everything that was begun and not taken.
   virtual void drop() = 0;
 };
 

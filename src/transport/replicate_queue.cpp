@@ -57,8 +57,7 @@ std::optional<Replicate> ReplicateQueue::next(std::size_t certain, std::size_t p
   }
 }
 
-// Whoever helps is given the later ones. Finished replicates wait here for their turn, so there is a limit to how far ahead
-// anybody works.
+// Starts replicates; workers get the later ones. Finished replicates wait here for their turn, so the work ahead is limited.
 void ReplicateQueue::fill(std::size_t certain, std::size_t possible) {
   const std::size_t all_at_once = at_once_ + (helpers_ != nullptr ? helpers_->slots() : 0);
   const std::size_t most_ahead = helpers_ != nullptr ? 2 * all_at_once : at_once_;

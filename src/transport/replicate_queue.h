@@ -1,5 +1,6 @@
 #pragma once
-// Replicates in order of their numbers, made ahead of need: side by side here, and by helpers if there are any.
+// Replicates in the order of their numbers, made ahead of need: several at once in this process, and by workers if there are
+// any.
 
 #include "transport/replicate.h"
 #include "transport/replicate_helpers.h"
@@ -15,27 +16,28 @@ namespace sunfleck {
 
 class ReplicateQueue {
  public:
-  // All must outlive it; `helpers` may be null.
+  // All arguments must outlive the queue; `helpers` may be null.
   ReplicateQueue(ReplicateMaker& maker, ReplicateHelpers* helpers, StopQuestion stop);
   ~ReplicateQueue();
   ReplicateQueue(const ReplicateQueue&) = delete;
   ReplicateQueue& operator=(const ReplicateQueue&) = delete;
 
-  // From now on replicates like `first`, and that first; ends the series before. The tally is the one that add()s them, or
-  // another of their incidence. At most `at_once` are in the making here; a single one without helpers is made by the thread
-  // that asks for it.
+  // Starts a series of replicates like `first`, beginning with it, and ends the series before. The tally is the one that
+  // add()s them, or another of their incidence. At most `at_once` are made at the same time in this process; if that is 1
+  // and there are no workers, the thread that calls next() makes the replicate.
   void begin(const ReplicateOrder& first, const Tally& tally, std::size_t at_once);
 
-  // The next one; none if stopped, which ends the series. Begins others: here of the first `certain` ones of the series, which
-  // will all be needed, elsewhere of the first `possible` ones too. Throws Error if one could not be made.
+  // Returns the next replicate, or nothing if stopped, which ends the series. Starts others: in this process only among
+  // the first `certain` ones of the series, which will all be needed, and by workers also among the first `possible` ones.
+  // Throws Error if one could not be made.
   [[nodiscard]] std::optional<Replicate> next(std::size_t certain, std::size_t possible);
 
-  // Nothing more is needed; waits for those in the making here, which are asked to stop.
+  // Ends the series; stops the replicates being made in this process and waits for them.
   void end();
 
  private:
   struct Making {
-    std::future<std::optional<Replicate>> here;  // invalid if a helper has it
+    std::future<std::optional<Replicate>> here;  // invalid if a worker makes it
     std::optional<Replicate> elsewhere;
   };
 
@@ -53,7 +55,7 @@ class ReplicateQueue {
   const Tally* tally_ = nullptr;
   Replicate blank_;
   std::size_t taken_ = 0;
-  std::deque<Making> ahead_;  // from the next one on; last, so that it ends first
+  std::deque<Making> ahead_;  // from the next one on; declared last, so that it is destroyed first
 };
 
 }  // namespace sunfleck

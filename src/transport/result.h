@@ -1,5 +1,5 @@
 #pragma once
-// What a simulation found out. Fluxes are per ground area of the plot unless said otherwise; every estimate carries the
+// The results of a simulation. Fluxes are per ground area of the plot unless stated otherwise; every estimate carries the
 // half-width of its confidence interval.
 
 #include "transport/counters.h"
@@ -13,7 +13,8 @@
 
 namespace sunfleck {
 
-// Where one band's flux went, in integer quanta. Each term is tallied by itself; the sum of the others is `incident`.
+// The fate of one band's flux, in integer quanta. Each term is tallied by itself; `incident` must equal the sum of the
+// others.
 struct FluxLedger {
   std::int64_t incident = 0;
   std::int64_t absorbed_vegetation = 0;
@@ -22,13 +23,14 @@ struct FluxLedger {
   std::int64_t transmitted = 0;
   std::int64_t unshot = 0;
 
-  // What is missing from the sum.
+  // Returns the part of `incident` that the other terms do not account for.
   [[nodiscard]] std::int64_t residual() const {
     return incident - (absorbed_vegetation + absorbed_soil + reflected + transmitted + unshot);
   }
 };
 
-// W m-2 of ground. The half-widths hold the unshot flux: it may still end up in any of the four.
+// The flux balance of one band, W m-2 of ground. The half-widths include the unshot flux, which could still end up in any of
+// the four terms.
 struct BandResult {
   std::string name;
   FluxLedger ledger;
@@ -37,19 +39,19 @@ struct BandResult {
   Estimate absorbed_vegetation, absorbed_soil, reflected, transmitted;
 };
 
-// W m-2 of the organ's one-sided area. In these and all finer figures the half-width of `absorbed` holds unshot flux in
-// proportion: as much of it as of what the canopy absorbed.
+// The light of one organ, W m-2 of its one-sided area. Here and in all finer figures the half-width of `absorbed` includes
+// unshot flux in proportion to what was absorbed, with the canopy's ratio of unshot to absorbed flux.
 struct OrganResult {
   double area_m2 = 0.0;
   Estimate sunlit_fraction;        // share of its area in direct sun
-  std::vector<Estimate> direct;    // [waveband], of the beam, incident on both faces
-  std::vector<Estimate> indirect;  // [waveband], of all other light, incident on both faces
+  std::vector<Estimate> direct;    // [waveband], beam incident on both faces
+  std::vector<Estimate> indirect;  // [waveband], all other light incident on both faces
   std::vector<Estimate> absorbed;  // [waveband]
 };
 
 // A layer, and the horizontal plane at its lower edge. Soil elements count as lying below every plane.
 struct LayerResult {
-  double height_m = 0.0;  // lower edge; of the last entry: the top plane
+  double height_m = 0.0;  // of the lower edge; in the last entry, of the top plane
   double leaf_area_index = 0.0;
   Estimate sunfleck_ratio;         // share of the plane that the direct beam reaches
   Estimate sunlit_leaf_fraction;   // NaN without leaf area in the layer
@@ -63,43 +65,45 @@ struct ElementResult {
   std::uint64_t lower = 0;
 };
 
-// A horizontal receiver's map. Cells are numbered x fastest; the sums over cells are the flux through the whole plane.
+// The map of a horizontal receiver. Cells are numbered x fastest; the sums over the cells are the flux through the whole
+// plane.
 struct PlaneResult {
   double height_m = 0.0;
   std::uint32_t cells_x = 0, cells_z = 0;
-  std::vector<std::uint64_t> reached;   // [cell], beam rays that came down through it
-  std::vector<std::uint64_t> crossing;  // [cell], beam rays whose way, extended, crosses it: reached if nothing stood above
-  std::vector<std::int64_t> down;       // [cell * bands + band], quanta of all other light that came down through it
-  Estimate sunfleck_ratio;              // share of the plane that the direct beam reaches; value NaN without a beam
-  std::vector<Estimate> total_down;     // [band], W m-2 of plane, beam and all other light
+  std::vector<std::uint64_t> reached;  // [cell], beam rays that came down through it
+  // [cell], beam rays whose extended line crosses it: those that would reach it if nothing stood above.
+  std::vector<std::uint64_t> crossing;
+  std::vector<std::int64_t> down;    // [cell * bands + band], quanta of all other light that came down through it
+  Estimate sunfleck_ratio;           // share of the plane that the direct beam reaches; value NaN without a beam
+  std::vector<Estimate> total_down;  // [band], W m-2 of plane, beam and all other light
 };
 
-// What one point of a sensor reads, W m-2.
+// The reading at one point of a sensor, W m-2.
 struct SensorResult {
-  std::vector<Estimate> direct, sky, scattered;  // [band]; direct is exact: a point sees the sun or does not
+  std::vector<Estimate> direct, sky, scattered;  // [band]; `direct` is exact: a point sees the sun or does not
 };
 
-// What one replicate is made of: rays of the beam, packets of the first round.
+// The size of one replicate: rays of the beam, packets of the first round.
 struct Work {
   double rays = 0.0;
   double packets = 0.0;
 };
 
-// A figure whose error a bound judges.
+// A figure whose error is compared with a bound.
 struct JudgedFigure {
   enum class Of { vegetation, soil, organ, triangles };
   Of of = Of::vegetation;
-  std::size_t organ = 0;            // if it is an organ's
-  std::optional<std::size_t> band;  // none: the beam's landings, alike in all bands
+  std::size_t organ = 0;            // for Of::organ
+  std::optional<std::size_t> band;  // empty: the beam's landings, which are the same in all bands
 };
 
 struct PassSummary {
   std::uint64_t rays = 0;
   std::size_t replicates = 0;
-  double grid_m = 0.0;                   // root of plot area over rays
-  std::optional<double> relative_error;  // what is compared with the bound
-  std::optional<JudgedFigure> judged;    // whose error that is: the largest of all; none without a beam
-  std::optional<double> bound;           // none if the work was fixed
+  double grid_m = 0.0;                   // square root of plot area over rays
+  std::optional<double> relative_error;  // error that is compared with the bound
+  std::optional<JudgedFigure> judged;    // figure with that error, the largest of all; empty without a beam
+  std::optional<double> bound;           // empty if the work was fixed
   double seconds = 0.0;
 };
 
@@ -118,30 +122,31 @@ enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, 
 struct RadiationResult {
   StopReason stop = StopReason::work_done;
   std::vector<BandResult> bands;
-  std::vector<OrganResult> organs;          // [organ of the canopy]
-  std::vector<LayerResult> layers;          // [layer, bottom first, + 1 for the top plane]
-  std::vector<ElementResult> elements;      // [element]
-  std::vector<double> element_error;        // [waveband * elements + element], W m-2, of absorbed; empty unless asked for
-  std::vector<double> side_error;           // [(2 * element + side) * bands + band], W m-2, of incident; empty unless asked for
-  std::vector<std::uint64_t> soil_cells;    // [cell of the soil's map], landings of beam rays
-  std::vector<std::int64_t> side_indirect;  // [(2 * element + side) * bands + band], quanta of other light; empty if none
+  std::vector<OrganResult> organs;      // [organ of the canopy]
+  std::vector<LayerResult> layers;      // [layer, bottom first, + 1 for the top plane]
+  std::vector<ElementResult> elements;  // [element]
+  std::vector<double> element_error;    // [waveband * elements + element], W m-2, of absorbed flux; empty unless requested
+  std::vector<double> side_error;  // [(2 * element + side) * bands + band], W m-2, of incident flux; empty unless requested
+  std::vector<std::uint64_t> soil_cells;  // [cell of the soil's map], landings of beam rays
+  // [(2 * element + side) * bands + band], quanta of all other light; empty without any.
+  std::vector<std::int64_t> side_indirect;
   std::vector<std::int64_t> cell_indirect;  // [cell * bands + band]
-  std::vector<std::int64_t> side_sky;       // as side_indirect: its part that comes from the sky unscattered; empty without sky
-  std::vector<std::int64_t> cell_sky;       // as cell_indirect
-  std::vector<PlaneResult> planes;          // [plane of the model]
+  std::vector<std::int64_t> side_sky;  // the part of side_indirect that comes unscattered from the sky; empty without a sky
+  std::vector<std::int64_t> cell_sky;  // the same part of cell_indirect
+  std::vector<PlaneResult> planes;     // [plane of the model]
   std::vector<std::vector<SensorResult>> sensors;  // [sensor of the model][point]
-  std::vector<double> w_per_quantum;               // [waveband], W that one of these quanta stands for
+  std::vector<double> w_per_quantum;               // [waveband], W per quantum of the arrays above
   Estimate sunlit_leaf_fraction;
   Estimate ground_sunfleck_ratio;  // value NaN without a beam
   double leaf_area_index = 0.0;
-  double ground_per_ray_m2 = 0.0;  // level ground that one landing stands for: irradiance follows from it
+  double ground_per_ray_m2 = 0.0;  // level ground that one landing represents, from which irradiance follows
   std::uint64_t lost_rays = 0;
   PassSummary direct;
   IndirectSummary indirect;
   Work work;       // of each replicate
-  Work next_work;  // with which a run on a scene much like this one would begin, its bounds the same
+  Work next_work;  // suitable start for a run on a very similar scene with the same bounds
 
-  // Irradiance (W m-2) of a side, or of a cell of the soil's map, by all but the beam; 0 without area.
+  // Return the irradiance (W m-2) of a side, or of a cell of the soil's map, by all light but the beam; 0 without area.
   [[nodiscard]] double side_indirect_w_m2(std::size_t side, double area_m2, std::size_t band) const {
     return indirect_w_m2(side_indirect, side, area_m2, band);
   }
@@ -149,7 +154,7 @@ struct RadiationResult {
     return indirect_w_m2(cell_indirect, cell, area_m2, band);
   }
 
-  // The part of side_indirect_w_m2 that comes from the sky unscattered.
+  // Return the part of that irradiance that comes unscattered from the sky.
   [[nodiscard]] double side_sky_w_m2(std::size_t side, double area_m2, std::size_t band) const {
     return indirect_w_m2(side_sky, side, area_m2, band);
   }
@@ -157,7 +162,8 @@ struct RadiationResult {
     return indirect_w_m2(cell_sky, cell, area_m2, band);
   }
 
-  // Irradiance (W m-2) that `landings` make on `area_m2` in a band of that horizontal beam irradiance; 0 without area.
+  // Returns the irradiance (W m-2) that `landings` cause on `area_m2` in a band with that horizontal beam irradiance; 0
+  // without area.
   [[nodiscard]] double irradiance_w_m2(std::uint64_t landings, double area_m2, double beam_w_m2) const {
     return area_m2 > 0.0 ? static_cast<double>(landings) * ground_per_ray_m2 * beam_w_m2 / area_m2 : 0.0;
   }

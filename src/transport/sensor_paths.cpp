@@ -10,11 +10,11 @@
 namespace sunfleck {
 namespace {
 
-// Paths that are followed at a time: enough to fill a device; 3 MiB a band and 12 MiB for the rays.
+// Number of paths followed at a time: enough to fill a device; they take 3 MiB per band and 12 MiB for the rays.
 constexpr std::size_t most_paths = std::size_t{1} << 17U;
-// A closed box of perfect mirrors would never end.
+// Ends paths that would never end by themselves, as in a closed box of perfect mirrors.
 constexpr int most_bounces = 10'000;
-// Streams of random numbers, apart from those of beam, sky and indirect pass, whose numbers stay below 2^60.
+// First stream of random numbers, apart from those of beam, sky and indirect pass, whose numbers stay below 2^60.
 constexpr std::uint64_t sensor_streams = std::uint64_t{1} << 60U;
 constexpr std::uint32_t scattered_purpose = 1;
 
@@ -44,7 +44,7 @@ glm::dvec2 PairSequence::at(std::uint32_t k) const {
   return {fraction(u_ + k * 0.7548776662466927), fraction(v_ + k * 0.5698402909980532)};
 }
 
-// Rays on their way at the same time: those that go on, and shadow rays from where the paths are now.
+// The rays under way at the same time: continuing paths, and shadow rays from the paths' current points.
 struct SensorPaths::Wave {
   std::vector<shared::Packet> packets;  // [path], then [shadow]
   std::vector<Path> paths;
@@ -98,7 +98,7 @@ void SensorPaths::begin(Wave& wave, std::span<const SensorPoint> points, std::si
   }
 }
 
-// False if stopped.
+// Follows the paths until all have ended. Returns false if stopped.
 bool SensorPaths::follow(Wave wave, std::vector<double>& sums, const StopQuestion& stop) const {
   Wave next;
   std::vector<shared::Landing> landings;
@@ -134,8 +134,8 @@ void SensorPaths::scatter(Wave& next, Path path, std::span<double> weights, cons
   go_on(next, path, weights, surface);
 }
 
-// A shadow ray for light of that strength per area normal to it: reflected if it comes from the side that was met, transmitted
-// if from the other.
+// Adds a shadow ray towards light of the given strength per area normal to it. The light is reflected if it comes from the
+// side that was met, transmitted if it comes from the other side.
 void SensorPaths::look_at_light(Wave& next, const Path& path, std::span<const double> weights, const MetSurface& surface,
                                 const glm::dvec3& to_light, double strength, std::span<const double> light_w_m2) const {
   const double cosine = glm::dot(surface.normal, to_light);
@@ -154,8 +154,9 @@ void SensorPaths::look_at_light(Wave& next, const Path& path, std::span<const do
   next.shadow_slots.push_back(path.slot);
 }
 
-// Light that comes from other surfaces: reflection or transmission, chosen by their shares of what the path could bring, then
-// Russian roulette so that no band's weight is far above what it was at the sensor, nor all are far below.
+// Continues a path towards light from other surfaces. Chooses reflection or transmission by their shares of what the path
+// could contribute, then plays Russian roulette, so that no band's weight rises far above its value at the sensor and not
+// all of them fall far below it.
 void SensorPaths::go_on(Wave& next, Path path, std::span<double> weights, const MetSurface& surface) const {
   double reflected = 0.0, transmitted = 0.0;
   for (std::size_t b = 0; b < bands_; ++b) {

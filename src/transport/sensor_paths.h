@@ -1,6 +1,6 @@
 #pragma once
-// Scattered light that sensors' points see: paths followed backwards, wave by wave, with shadow rays to sun and sky from every
-// surface they meet.
+// Scattered light that the points of sensors see: paths are followed backwards, wave by wave, with shadow rays to sun and
+// sky from every surface they meet.
 
 #include "base/random.h"
 #include "light/sky.h"
@@ -15,7 +15,7 @@
 
 namespace sunfleck {
 
-// The light of a scene as sensors look for it.
+// The light sources of a scene as sensors see them.
 struct SensorLight {
   explicit SensorLight(const RadiationModel& model);
 
@@ -25,10 +25,10 @@ struct SensorLight {
   std::optional<Sky> sky;
 };
 
-// Random numbers of a point's replicate. `purpose` keeps those of sky and of scattered light apart.
+// Returns the random numbers of one point's replicate. `purpose` keeps those of sky light and of scattered light apart.
 [[nodiscard]] RandomStream sensor_stream(std::uint64_t seed, std::uint32_t purpose, std::size_t point, int replicate);
 
-// Points of a two-dimensional additive sequence (Roberts' R2: steps are powers of the plastic number) from a random start.
+// Points of a two-dimensional additive sequence (Roberts' R2: steps are powers of the plastic number) with a random start.
 class PairSequence {
  public:
   explicit PairSequence(RandomStream& random) : u_(random.unit()), v_(random.unit()) {}
@@ -40,18 +40,18 @@ class PairSequence {
 
 class SensorPaths {
  public:
-  // All must outlive it.
+  // All arguments must outlive the object.
   SensorPaths(const RadiationModel& model, const CounterLayout& layout, const SensorLight& light, const SensorRays& rays,
               Tracer& tracer);
 
-  // A path's weight at a sensor: the mean of exitance over cosine-distributed rays is irradiance; a sphere's cross-section gets
-  // four times its mean over all directions (radiance is exitance / pi).
+  // Returns a path's weight at a sensor. The mean of exitance over cosine-distributed rays is irradiance; the
+  // cross-section of a sphere receives four times the mean over all directions (radiance is exitance / pi).
   [[nodiscard]] static double start_weight(SensorResponse response) {
     return response == SensorResponse::spherical ? 4.0 : 1.0;
   }
 
-  // What the points see of light that has left a surface, W m-2: [(point * replicates + replicate) * bands + band]. None if
-  // stopped.
+  // Returns the light that has left a surface and reaches the points, W m-2: [(point * replicates + replicate) * bands +
+  // band]. Returns nothing if stopped.
   [[nodiscard]] std::optional<std::vector<double>> run(std::span<const SensorPoint> points, const SensorSettings& settings,
                                                        const StopQuestion& stop);
 
@@ -59,7 +59,7 @@ class SensorPaths {
   struct Wave;
   struct Path {
     std::size_t slot = 0;  // point * replicates + replicate
-    double start = 1.0;    // its weight at the sensor
+    double start = 1.0;    // weight at the sensor
     RandomStream random{0, 0};
   };
   void begin(Wave& wave, std::span<const SensorPoint> points, std::size_t slot, const SensorSettings& settings) const;

@@ -73,7 +73,7 @@ shared::Packet SensorRays::start(glm::dvec3 point_m, std::uint32_t element, cons
   packet.direction = direction;
   packet.image = 0;
   const glm::dvec2 period_m = model_.canopy.period_m;
-  if (period_m.x > 0.0) {  // into the period that the tree covers
+  if (period_m.x > 0.0) {  // move into the period that the tree covers
     const double dx = std::floor(point_m.x / period_m.x);
     const double dz = std::floor(point_m.z / period_m.y);
     point_m.x -= dx * period_m.x;
@@ -91,7 +91,8 @@ glm::dvec3 direction_on_sphere(double u, double v) {
   return {level * std::cos(angle), y, level * std::sin(angle)};
 }
 
-// The unit sphere that touches the surface's plane, seen from the point of touch, is cosine-distributed.
+// Returns a cosine-distributed direction: seen from the point of touch, points spread evenly over a unit sphere that touches
+// the surface's plane are cosine-distributed.
 glm::dvec3 direction_about(const glm::dvec3& normal, double u, double v) {
   const glm::dvec3 chord = normal + direction_on_sphere(u, v);
   const double length = glm::length(chord);

@@ -1,5 +1,5 @@
 #pragma once
-// Where sensors' rays start: points that measure, and places where a ray that went backwards met a surface.
+// The starts of sensor rays: measuring points, and places where a ray followed backwards met a surface.
 
 #include "shared/layout.h"
 #include "transport/counters.h"
@@ -14,34 +14,36 @@ namespace sunfleck {
 struct SensorPoint {
   glm::dvec3 point_m{0.0};  // local frame
   SensorResponse response = SensorResponse::cosine;
-  glm::dvec3 normal{0.0, 1.0, 0.0};  // unit
+  glm::dvec3 normal{0.0, 1.0, 0.0};  // unit vector
 
-  // How much of light from there, given per area normal to it, the point sees.
+  // Returns the share of light from that direction, given per area normal to it, that the point measures.
   [[nodiscard]] double sees(const glm::dvec3& to_light) const;
 };
 
-// A place on a side, seen from that side's front.
+// A place on a side, seen from the front of that side.
 struct MetSurface {
   glm::dvec3 point_m{0.0};
   glm::dvec3 normal{0.0, 1.0, 0.0};  // of the side that was met
   std::uint32_t element = shared::no_element;
-  std::span<const FaceOptics> front, back;  // [waveband], for light that arrives on the side that was met, and on the other
-  std::span<const double> emission_w_m2;    // [waveband], exitance of the side that was met; empty: no lamp
+  // [waveband], for light that arrives on the side that was met, and on the other side.
+  std::span<const FaceOptics> front, back;
+  std::span<const double> emission_w_m2;  // [waveband], exitance of the side that was met; empty if it is no lamp
 };
 
 class SensorRays {
  public:
-  // All must outlive it.
+  // All arguments must outlive the object.
   SensorRays(const RadiationModel& model, const CounterLayout& layout);
 
-  // The model's points in order, in the local frame.
+  // Returns the points of the model's sensors in order, in the local frame.
   [[nodiscard]] std::vector<SensorPoint> points() const;
 
-  // `landing` on an element or on the soil plane.
+  // Returns the place of a landing on an element or on the soil plane.
   [[nodiscard]] MetSurface surface(const shared::Landing& landing) const;
 
+  // Returns a ray that starts at the point.
   [[nodiscard]] shared::Packet from(const SensorPoint& point, const glm::dvec3& direction) const;
-  // From the side that the direction points away from.
+  // Returns a ray that starts on the side facing the direction.
   [[nodiscard]] shared::Packet from(const MetSurface& surface, const glm::dvec3& direction) const;
 
  private:
@@ -53,10 +55,10 @@ class SensorRays {
   std::vector<FaceOptics> soil_front_, soil_back_;  // [waveband]
 };
 
-// Even over the unit sphere, for u and v in [0, 1).
+// Returns a direction uniform over the unit sphere, for u and v in [0, 1).
 [[nodiscard]] glm::dvec3 direction_on_sphere(double u, double v);
 
-// Cosine-distributed about the unit normal.
+// Returns a direction that is cosine-distributed about the unit normal.
 [[nodiscard]] glm::dvec3 direction_about(const glm::dvec3& normal, double u, double v);
 
 }  // namespace sunfleck

@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::size_t rays_at_a_time = std::size_t{1} << 18U;
 constexpr std::uint32_t sky_purpose = 0;
-// On planes this close to level, rays that each carry the same share of the horizontal irradiance scatter least.
+// On planes this close to level, rays that carry equal shares of the horizontal irradiance have the smallest variance.
 constexpr double nearly_level = 0.999;
 
-// A ray to light, and what it brings to its slot if nothing is in the way.
+// A ray towards a light, and the light that it adds to its slot if nothing is in the way.
 struct LightRay {
   std::size_t slot = 0;
   double brings = 0.0;
 };
 
-// Collects rays to light and traces them batch by batch.
+// Collects rays to lights and traces them in batches.
 class Visibility {
  public:
   Visibility(const RadiationModel& model, const CounterLayout& layout, const SensorRays& rays, Tracer& tracer,
@@ -40,10 +40,10 @@ class Visibility {
   }
 
   struct Seen {
-    double sum = 0.0;      // of what the rays brought
-    double largest = 0.0;  // what one of them may bring at most
+    double sum = 0.0;      // of the light that rays added
+    double largest = 0.0;  // the most that a single ray can add
   };
-  // [slot]; none if stopped.
+  // Returns the sums, [slot]; nothing if stopped.
   [[nodiscard]] std::optional<std::vector<Seen>> take() {
     trace();
     if (stopped_) return std::nullopt;
@@ -73,7 +73,7 @@ class Visibility {
   std::vector<shared::Landing> landings_;
 };
 
-// Rays to the sky for one point's replicate: irradiance for a sky of horizontal irradiance 1.
+// Adds the rays to the sky for one replicate of a point; they yield its irradiance under a sky of horizontal irradiance 1.
 void add_sky_rays(Visibility& visibility, const Sky& sky, const SensorPoint& point, std::size_t slot, RandomStream random,
                   std::uint32_t rays) {
   const bool level = point.response == SensorResponse::cosine && point.normal.y > nearly_level;
@@ -107,7 +107,7 @@ class Measurement {
       reading.direct = reading.sky = reading.scattered = std::vector<Estimate>(model.bands.size(), Estimate{0.0, 0.0});
   }
 
-  // Each false if stopped.
+  // The following three return false if stopped.
   [[nodiscard]] bool direct() {
     if (light_.beam_w_m2.empty()) return true;
     Visibility visibility = look(points_.size());
@@ -158,12 +158,12 @@ class Measurement {
   [[nodiscard]] Visibility look(std::size_t slots) const { return {model_, layout_, rays_, tracer_, slots, stop_}; }
   [[nodiscard]] double quantile() const { return t_quantile(settings_.confidence, replicates_); }
 
-  // What may have escaped all replicates of a point to which each such event brings as much light.
+  // Returns what may have escaped all replicates of a point if each event adds that much light.
   [[nodiscard]] double unseen(double of_one_event) const {
     return unseen_events(settings_.confidence) * of_one_event / static_cast<double>(replicates_);
   }
 
-  // The exitance of a surface in full sun and under the open sky, the brightest there can be after one scattering.
+  // Returns the exitance of a surface in full sun under the open sky, the brightest possible after one scattering.
   [[nodiscard]] double brightest_w_m2(std::size_t band) const {
     double light_w_m2 = light_.beam_w_m2.empty() ? 0.0 : light_.beam_w_m2[band];
     if (light_.sky) light_w_m2 += light_.sky_w_m2[band] * light_.sky->spherical_irradiance();
@@ -177,7 +177,7 @@ class Measurement {
     return brightest;
   }
 
-  // One slot a point: exact. One for each replicate of a point: their mean.
+  // Writes the readings. A point has either a single slot, which is exact, or one slot per replicate, which are averaged.
   [[nodiscard]] bool settle(Visibility& visibility, const std::vector<double>& light_w_m2,
                             std::vector<Estimate> SensorResult::*column) {
     const auto seen = visibility.take();

@@ -1,6 +1,6 @@
 #pragma once
-// Rays of sky light: one for each share of the sky's flux, from a plane above an endless canopy or from a disc around an
-// isolated stand.
+// Rays of sky light, one for each equal share of the sky's flux: from a plane above an endless canopy, or from a disc around
+// an isolated stand.
 
 #include "base/random.h"
 #include "light/sky.h"
@@ -15,14 +15,15 @@ namespace sunfleck {
 
 class SkyRays {
  public:
-  // For a model that has a sky.
+  // The model must have a sky.
   SkyRays(const RadiationModel& model, const CounterLayout& layout);
 
-  // All rays of a replicate together carry the flux that horizontal sky irradiance brings to so much level ground.
+  // Returns the area of level ground on which the horizontal sky irradiance gives the flux of all rays of a replicate.
   [[nodiscard]] double ground_m2() const { return ground_m2_; }
 
-  // About `count` rays of equal flux: parallel beams from directions drawn one in each of equal shares of the sky's flux, the
-  // origins of a beam's rays one in each cell of a grid over the plot, or over the disc that faces the beam.
+  // Returns about `count` rays of equal flux in parallel beams. One direction is drawn in each of equal shares of the
+  // sky's flux; the origins of a beam's rays lie one in each cell of a grid over the plot, or over the disc that faces the
+  // beam.
   [[nodiscard]] std::vector<shared::Packet> draw(std::size_t count, RandomStream& random) const;
 
  private:
@@ -33,7 +34,7 @@ class SkyRays {
   bool periodic_;
   glm::dvec2 period_m_{0.0};
   double top_y_m_ = 0.0;
-  glm::dvec3 centre_m_{0.0};  // of the sphere around an isolated stand, its plot and receivers
+  glm::dvec3 centre_m_{0.0};  // of the sphere around an isolated stand with its plot and receivers
   double radius_m_ = 0.0;
   double ground_m2_ = 0.0;
 };

@@ -23,21 +23,24 @@ namespace {
 constexpr int pilot_replicates = 8;
 constexpr double first_pilot_rays = 16384;
 constexpr double first_pilot_packets = 4096;
-// A pilot foretells work up to so many times its own; beyond, a larger pilot follows, at a few percent of the cost.
+// A pilot is trusted to forecast work up to this multiple of its own; beyond it a larger pilot follows, at a few percent of
+// the cost.
 constexpr double trusted_refinement = 16;
-// The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation G3), more slowly while its cells are
-// not yet small against the leaves: rays^-0.6 is what pilots on maize foretell best. That of packets falls with packets^-1/2.
+// Exponents by which errors fall. The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation
+// G3), and more slowly while its cells are not yet small compared with the leaves: rays^-0.6 gave the best forecasts from
+// pilots on maize. The error of packets falls with packets^-1/2.
 constexpr double ray_slope = 0.6;
 constexpr double packet_slope = 0.5;
-// Replicates that the work is chosen for, and the part of the bound aimed at, so that the checks rarely fail by chance.
+// Number of replicates for which the work is chosen, and the part of the bound to aim at, so that the checks rarely fail by
+// chance.
 constexpr int planned_replicates = 16;
 constexpr double aimed_part_of_bound = 0.7;
-// Rays of the sky for each packet of the first round, where the work is not fixed, and the most of one replicate.
+// Sky rays per packet of the first round when the work is not fixed, and the largest number of sky rays in one replicate.
 constexpr double sky_rays_per_packet = 2.0;
 constexpr double most_sky_rays = 0x1p22;
-// A replicate of more packets than fill this memory gains nothing: more replicates do the same work.
+// A replicate whose packets take more memory than this gains nothing: more replicates do the same work.
 constexpr double comfortable_bytes = 0x1p28;
-// Replicate numbers of the pilots, apart from those of the run.
+// First number of the pilots' replicates, apart from those of the run.
 constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
 
 double steady_clock_s() {
@@ -77,7 +80,7 @@ class Solver {
   [[nodiscard]] double clock_s() const { return monitor_.clock_s ? monitor_.clock_s() : steady_clock_s(); }
   [[nodiscard]] double seconds() const { return clock_s() - start_s_; }
 
-  // True once the run has to end; remembers why. Any thread may ask.
+  // Returns true once the run has to end, and records the reason. Any thread may call it.
   bool must_stop() {
     const std::lock_guard lock(stop_mutex_);
     if (monitor_.interrupted && monitor_.interrupted()) {
@@ -95,7 +98,7 @@ class Solver {
     return settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
   }
 
-  // None if stopped.
+  // Returns nothing if stopped.
   std::optional<Work> work_of_run() {
     const int replicates = asked_replicates();
     const bool needs_pilot = !settings_.grid_m || (has_indirect() && !settings_.packets);
@@ -106,7 +109,7 @@ class Solver {
     return work;
   }
 
-  // Begins a series of replicates; those of the pilots have numbers apart.
+  // Begins a series of replicates; those of pilots have separate numbers.
   void begin(const Work& work, std::uint64_t stream = 0) {
     queue_.end();
     work_ = work;
@@ -122,15 +125,15 @@ class Solver {
                  *tally_, replicates_at_once());
   }
 
-  // A fixed grid is the sky's as well.
+  // A fixed grid sets the number of sky rays too.
   [[nodiscard]] std::size_t sky_rays(const Work& work) const {
     if (!maker_.has_sky()) return 0;
     const double rays = settings_.grid_m && !settings_.packets ? work.rays : sky_rays_per_packet * work.packets;
     return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
   }
 
-  // Adds one replicate, and has others begun, of the first `certain` ones or, where hands would be idle, of the first
-  // `possible` ones; false if the run has to end before it is whole.
+  // Adds one replicate, and starts others: among the first `certain` ones or, where workers would be idle, among the first
+  // `possible` ones. Returns false if the run has to end before the replicate is complete.
   bool add_replicate(std::size_t certain, std::size_t possible) {
     const std::optional<Replicate> replicate =
         queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
@@ -147,7 +150,7 @@ class Solver {
     return true;
   }
 
-  // The result so far, to whoever watches.
+  // Hands the result so far to the monitor.
   void hand_over() {
     if (!monitor_.wants_result || !monitor_.wants_result()) return;
     const bool use_fallback = fallback_ && work_of(*tally_, grid_rays_) < work_of(*fallback_, fallback_rays_);
@@ -155,12 +158,12 @@ class Solver {
                                          : result_of(*tally_, grid_rays_, StopReason::interrupted));
   }
 
-  // Rays and packets.
+  // Returns the number of rays and packets.
   [[nodiscard]] static std::uint64_t work_of(const Tally& tally, std::uint64_t grid_rays) {
     return tally.replicates() * grid_rays + tally.packets() + tally.sky_rays();
   }
 
-  // Without an indirect pass the host has next to nothing to do meanwhile, and memory is better saved.
+  // Without an indirect pass the host has almost nothing to do meanwhile, and saving memory is better.
   [[nodiscard]] std::size_t replicates_at_once() const {
     if (settings_.max_rays || !has_indirect()) return 1;
     const double asked = std::max(1, settings_.replicates_at_once);
@@ -172,13 +175,13 @@ class Solver {
     return {model_.has_beam() ? work.rays : 0.0, static_cast<double>(sky_rays(work)), work.packets};
   }
 
-  // Memory of a replicate in the making.
+  // Returns the memory of a replicate while it is made, in bytes.
   [[nodiscard]] double replicate_bytes(const Work& work) const {
     return maker_.sum_bytes() + (has_indirect() ? memory_.bytes(ray_counts(work)) : 0.0);
   }
 
-  // The most packets of a replicate's first round that memory holds. It depends on the machine only where memory is so short
-  // that not even a single comfortable replicate fits.
+  // Returns the largest number of packets in a replicate's first round that fits the memory. It depends on the machine
+  // only if memory is too short for even a single comfortable replicate.
   [[nodiscard]] double most_packets(Work work) const {
     if (!settings_.memory_bytes) return most_first_packets;
     const double most_bytes = std::min(comfortable_bytes, *settings_.memory_bytes - maker_.sum_bytes());
@@ -191,7 +194,7 @@ class Solver {
     return fits;
   }
 
-  // None for a pass that the scene has no light for.
+  // The two errors are empty for a pass without any light in the scene.
   [[nodiscard]] std::optional<JudgedError> direct_error(const Tally& tally) const {
     if (!model_.has_beam()) return std::nullopt;
     return tally.direct_error(settings_.accuracy);
@@ -212,7 +215,7 @@ class Solver {
     monitor_.report({.stage = Progress::Stage::pilot, .rays = traced_});
   }
 
-  // `expected`: replicates of the whole run, as far as is known now.
+  // `expected` is the number of replicates of the whole run, as far as is known now.
   void report(std::size_t expected) {
     if (!monitor_.report) return;
     const double direct = direct_error();
@@ -230,7 +233,7 @@ class Solver {
     monitor_.report(progress);
   }
 
-  // How many more replicates the limits of time and rays allow.
+  // Returns how many more replicates the limits on time and rays allow.
   [[nodiscard]] double affordable_replicates(double seconds_each) const {
     double most = std::numeric_limits<double>::infinity();
     if (settings_.max_seconds) most = std::max(0.0, *settings_.max_seconds - seconds()) / std::max(seconds_each, 1e-9);
@@ -242,7 +245,8 @@ class Solver {
     return most;
   }
 
-  // Replicates after which the run to its bounds will end: at the second good check in a row.
+  // Returns the number of replicates after which a run to its bounds is expected to end: at the second good check in a
+  // row.
   [[nodiscard]] std::size_t expected_replicates() const {
     const std::size_t done = tally_->replicates();
     std::size_t needed = planned_replicates;
@@ -258,7 +262,8 @@ class Solver {
     return check_after(check);
   }
 
-  // The last run is the pilot. What this scene has that the last one had not starts as small as pilots do.
+  // Uses the earlier run as the pilot. Work for light that this scene has and the earlier one lacked starts as small as in
+  // pilots.
   RadiationResult begin_as_told(Work work) {
     if (model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
     if (has_indirect()) work.packets = std::max(first_pilot_packets, work.packets);
@@ -266,7 +271,7 @@ class Solver {
     return run_to_bound();
   }
 
-  // The work with which planned_replicates would just have reached the bounds, as far as this run can tell.
+  // Returns the work with which planned_replicates would just have reached the bounds, as far as this run shows.
   [[nodiscard]] Work next_work() const {
     Work next = work_;
     const std::size_t done = tally_->replicates();
@@ -288,14 +293,14 @@ class Solver {
     return std::max(1.0, model_.plot.area_m2() / (*settings_.grid_m * *settings_.grid_m) / replicates);
   }
 
-  // How many times work has to grow for an error to fall to the part aimed at of a bound.
+  // Returns the factor by which the work must grow for an error to fall to the part of its bound that is aimed at.
   [[nodiscard]] static double growth(double error, double bound, double slope) {
     return std::pow(error / (aimed_part_of_bound * bound), 1.0 / slope);
   }
 
-  // The work of a replicate with which `replicates` of them reach the bounds: pilots of the direct pass alone tell the rays,
-  // then pilots with half those rays tell the packets. None if the run was stopped meanwhile; the last pilot stays as the
-  // fallback.
+  // Returns the work of a replicate such that `replicates` of them reach the bounds: pilots of the direct pass alone
+  // determine the rays, then pilots with half those rays determine the packets. Returns nothing if stopped; the last pilot
+  // is then kept as the fallback.
   std::optional<Work> choose_work(int replicates) {
     double most = static_cast<double>(max_grid_rays);
     if (settings_.max_rays) most = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * pilot_replicates));
@@ -310,7 +315,7 @@ class Solver {
       work.rays = rays->chosen;
     }
     if (!has_indirect()) return work;
-    // On a fixed grid at most one packet a ray, and at least as many as the first pilot has.
+    // On a fixed grid there is at most one packet per ray, and at least as many packets as in the first pilot.
     if (settings_.grid_m) most = std::min(most, std::max(first_pilot_packets, work.rays));
     if (most <= first_pilot_packets) {
       work.packets = most;
@@ -324,20 +329,20 @@ class Solver {
         pilot, &Work::packets, [&] { return std::min(most, most_packets(work)); }, needed, replicates);
     if (!packets) return std::nullopt;
     work.packets = packets->chosen;
-    // More replicates will make up for packets that memory does not hold, and each of them then needs fewer rays.
+    // More replicates make up for packets that do not fit the memory, and each of them then needs fewer rays.
     const bool held_back = !fixed() && packets->chosen == most_packets(work);
     if (held_back) work.rays *= std::pow(packets->wanted / packets->chosen, -0.5 / ray_slope);
     if (held_back && model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
     return work;
   }
 
-  // A part of the work that pilots ask for, and what of it is possible.
+  // A part of the work as the pilots request it, and as much of it as is possible.
   struct Part {
     double wanted = 0.0, chosen = 0.0;
   };
 
-  // Runs pilots until one is large enough to foretell `part` of the work, which is at most `most()`; `needed` tells how many
-  // times a pilot's has to grow.
+  // Runs pilots until one is large enough to forecast `part` of the work, which is at most `most()`. `needed` returns the
+  // factor by which the pilot's part must grow.
   template <class Most, class Growth>
   std::optional<Part> grow_pilots(Work pilot, double Work::*part, const Most& most, const Growth& needed, int replicates) {
     const double fewer = std::sqrt(static_cast<double>(pilot_replicates) / replicates) *
@@ -364,7 +369,7 @@ class Solver {
     }
   }
 
-  // With a limit of time, replicates so large that not even pilot_replicates of them would be done are of no use.
+  // With a limit on time, replicates must be small enough for pilot_replicates of them to be done in time.
   [[nodiscard]] double affordable_growth(double seconds_per_replicate) const {
     if (!settings_.max_seconds || !settings_.fit_to_time) return std::numeric_limits<double>::infinity();
     const double left = std::max(0.0, *settings_.max_seconds - seconds());
@@ -401,7 +406,7 @@ class Solver {
 
   RadiationResult run_to_bound() {
     while (true) {
-      // The run cannot end before the next check, nor there if that were the first good one.
+      // The run cannot end before the next check, nor at it if it were the first good one.
       const std::size_t certain = good_checks_ == 0 ? check_after(next_check_) : next_check_;
       if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
       report(expected_replicates());
@@ -424,7 +429,7 @@ class Solver {
     monitor_.receive_state({work_, next_check_, good_checks_, tally_->sums()});
   }
 
-  // True if the next replicate would need more rays than are left.
+  // Returns true if the next replicate would need more rays than are left.
   bool spent() {
     if (!settings_.max_rays) return false;
     const std::size_t done = tally_->replicates();
@@ -468,7 +473,7 @@ class Solver {
     tell(direct_error(tally), result.direct);
     tell(indirect_error(tally), result.indirect);
     if (!model_.has_beam()) result.direct.relative_error = 0.0;
-    // Replicates overlap; each pass has its share of the time that went by.
+    // Replicates overlap, so the elapsed time is divided in proportion to the time spent in each pass.
     const double busy_s = direct_s_ + indirect_s_;
     result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
     result.direct.seconds = seconds() - result.indirect.seconds;
@@ -489,16 +494,16 @@ class Solver {
   std::mutex stop_mutex_;
   StopReason stop_ = StopReason::interrupted;
   Work work_;
-  bool fitted_to_time_ = false;  // the work
-  std::uint64_t grid_rays_ = 0;  // what the grid makes of the asked rays
+  bool fitted_to_time_ = false;  // the work was limited by max_seconds
+  std::uint64_t grid_rays_ = 0;  // actual number of rays on the grid
   std::uint64_t fallback_rays_ = 0;
   std::uint64_t traced_ = 0;
   std::size_t next_check_ = first_check, good_checks_ = 0;
   std::size_t begun_with_ = 0;  // replicates that an earlier process made
-  double begun_s_ = 0.0;        // when this series was begun
+  double begun_s_ = 0.0;        // time at which this series began
   Completion completion_;
   double direct_s_ = 0.0, indirect_s_ = 0.0;
-  ReplicateQueue queue_;  // last, so that it ends first
+  ReplicateQueue queue_;  // declared last, so that it is destroyed first
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// The whole simulation: equal, independent replicates, each a direct pass and the rounds of its indirect pass, until the asked
-// errors are reached.
+// The whole simulation: equal, independent replicates, each with a direct pass and the rounds of an indirect pass, until the
+// requested errors are reached.
 
 #include "transport/accuracy.h"
 #include "transport/beam_block.h"
@@ -18,25 +18,27 @@ namespace sunfleck {
 
 class ReplicateHelpers;
 
-// Replicates of a run whose grid is fixed, but not their number.
+// Number of replicates of a run with a fixed grid if it is not given.
 inline constexpr int fixed_grid_replicates = 16;
 
 struct SolveSettings {
   Accuracy accuracy;
   std::uint64_t seed = 1;
-  std::optional<double> grid_m;           // fixed work: spacing of all beam rays of the run together
-  std::optional<int> passes;              // fixed work: so many replicates, >= 8
-  std::optional<Work> begin_with;         // instead of what pilots would choose: next_work of a run on a scene much like this
-  std::optional<double> packets;          // fixed work, beside grid_m: packets in the first round of each replicate
-  std::optional<std::uint64_t> max_rays;  // no replicate is begun that would exceed it; rays and packets count
+  std::optional<double> grid_m;  // fixed work: spacing of all beam rays of the run together
+  std::optional<int> passes;     // fixed work: exactly this many replicates, at least 8
+  // Work to start with instead of running pilots: next_work of a run on a very similar scene.
+  std::optional<Work> begin_with;
+  std::optional<double> packets;          // fixed work, with grid_m: packets in the first round of each replicate
+  std::optional<std::uint64_t> max_rays;  // rays and packets; no replicate is begun that would exceed it
   std::optional<double> max_seconds;      // wall time of the simulation
-  // With a max_seconds, replicates are made so small that enough of them are done in time. Their work then depends on how fast
-  // the machine is, and such a run has no state: one that went on from it would end in other bytes each time.
+  // With max_seconds, replicates are made so small that enough of them are done in time. Their work then depends on the
+  // speed of the machine, and such a run has no state: a run resumed from it would end in different bytes each time.
   bool fit_to_time = true;
   ElementErrors element_errors = ElementErrors::skip;
-  int replicates_at_once = 2;              // in the making side by side, where there is an indirect pass and no max_rays
-  std::optional<double> memory_bytes;      // most that replicates in the making may take together; none: no bound
-  const SolveState* go_on_from = nullptr;  // of a run with the same settings; null: from the beginning
+  // Number of replicates made at the same time if there is an indirect pass and no max_rays.
+  int replicates_at_once = 2;
+  std::optional<double> memory_bytes;      // limit for all replicates being made; empty: no limit
+  const SolveState* go_on_from = nullptr;  // state of an interrupted run with the same settings; null starts a new run
 };
 
 struct Progress {
@@ -44,43 +46,46 @@ struct Progress {
   enum class Pass { direct, indirect };
 
   Stage stage = Stage::run;
-  std::uint64_t rays = 0;                // and packets, pilots' included
-  double fraction = 0.0;                 // of the run; never falls, and reaches 1 only when all is done
-  std::optional<double> seconds_left;    // as far as is known now; none while nothing is
+  std::uint64_t rays = 0;                // rays and packets, including the pilots'
+  double fraction = 0.0;                 // completed part of the run; never falls, and reaches 1 only at the end
+  std::optional<double> seconds_left;    // estimate; empty while there is none
   Pass pass = Pass::direct;              // the one that is further from its bound
   std::optional<double> relative_error;  // of that pass
   double bound = 0.0;                    // of that pass
 };
 
-// How a caller watches and ends a run. All may be empty.
+// The functions by which a caller watches and stops a run. All may be empty.
 struct Monitor {
   std::function<void(const Progress&)> report;
-  StopQuestion interrupted;  // asked by several threads, one at a time
-  // Asked after each replicate, pilots' too; what is known by then is handed over if the answer is yes: the replicates so far,
-  // or the last pilot's while those have fewer rays and packets. Its `stop` is interrupted. Errors are NaN after a single one.
+  StopQuestion interrupted;  // called by several threads, one at a time
+  // Called after each replicate, including those of pilots. If it returns true, the result so far is handed over: the
+  // replicates of the run, or those of the last pilot while the run has traced less than that pilot. Its `stop` is
+  // `interrupted`. Errors are NaN after a single replicate.
   std::function<bool()> wants_result;
   std::function<void(RadiationResult)> receive_result;
-  // Asked after each replicate but the pilots'; the state is handed over if the answer is yes, and at the end of a run that
-  // was stopped. From the second replicate on, and not of a run whose work was fitted to a max_seconds.
+  // Called after each replicate except those of pilots. If it returns true the state is handed over; at the end of a
+  // stopped run it is handed over in any case. There is no state before the second replicate, nor for a run whose work was
+  // fitted to max_seconds.
   std::function<bool()> wants_state;
   std::function<void(const SolveState&)> receive_state;
-  std::function<double()> clock_s;  // asked by several threads; empty: the steady clock
+  std::function<double()> clock_s;  // called by several threads; empty: the steady clock
 };
 
-// What a run will be made of, as its pilots tell.
+// The work of a run as its pilots forecast it.
 struct RunForecast {
-  Work work;                     // of a replicate
-  double replicate_bytes = 0.0;  // memory of one in the making
-  std::size_t at_once = 1;       // in the making side by side
+  Work work;                     // of one replicate
+  double replicate_bytes = 0.0;  // memory of one replicate while it is made
+  std::size_t at_once = 1;       // replicates made at the same time
 };
 
-// Runs the pilots of `solve` alone, and returns what they foretell of its run with these settings; none if stopped.
+// Runs only the pilots of `solve` and returns their forecast of a run with these settings; nothing if stopped.
 [[nodiscard]] std::optional<RunForecast> forecast(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
                                                   const SolveSettings& settings, const Monitor& monitor);
 
-// Runs the simulation; with helpers, unless there is a max_rays, they make replicates too, and the result is the same. A run
-// stopped before its second replicate is done falls back on the replicates of its pilot, if it had one. Throws Error (failure)
-// if the ledger of any band does not close, or rays and landings do not tally, and what helpers throw.
+// Runs the simulation. With helpers, unless there is a max_rays, workers make replicates too, and the result is the same. A
+// run that is stopped before its second replicate is done falls back on the replicates of its pilot, if it had one. Throws
+// Error (failure) if the ledger of any band does not close or if rays and landings do not match, and whatever the helpers
+// throw.
 [[nodiscard]] RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
                                     const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers = nullptr);
 

@@ -1,12 +1,12 @@
 #pragma once
-// Mean and confidence interval from independent, equal replicates.
+// Mean and confidence interval of independent, equal replicates.
 
 #include <cstddef>
 #include <limits>
 
 namespace sunfleck {
 
-// A value with the half-width of its confidence interval, in its own unit; NaN where too few replicates are there to tell.
+// A value with the half-width of its confidence interval, in the value's unit; NaN if there are too few replicates.
 struct Estimate {
   double value = 0.0;
   double half_width = std::numeric_limits<double>::quiet_NaN();
@@ -18,7 +18,7 @@ struct Estimate {
 class ReplicateMean {
  public:
   ReplicateMean() = default;
-  // As it was when it had these.
+  // Restores an earlier state.
   ReplicateMean(std::size_t count, double mean, double squares) : count_(count), mean_(mean), squares_(squares) {}
 
   void add(double value) {
@@ -31,10 +31,11 @@ class ReplicateMean {
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] double mean() const { return mean_; }
   [[nodiscard]] double squares() const { return squares_; }
-  // Of the mean; NaN below two replicates.
+  // Returns the standard error of the mean; NaN below two replicates.
   [[nodiscard]] double standard_error() const;
   [[nodiscard]] Estimate estimate(double t_quantile) const { return {mean_, t_quantile * standard_error()}; }
-  // The same where all replicates may agree by chance: the half-width is then `unseen`, what may have escaped them all.
+  // Returns the same, except where all replicates agree, perhaps by chance: the half-width is then `unseen`, the amount
+  // that may have escaped them all.
   [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
 
  private:
@@ -43,12 +44,12 @@ class ReplicateMean {
   double squares_ = 0.0;
 };
 
-// Returns how many events may be expected, at most, where none was seen: the upper end of the two-sided confidence interval of
-// a Poisson mean (Garwood 1936, Biometrika 28:437), 3.69 at 95 %. Divided by the number of trials it is the upper end for a
-// share, a little above that of Clopper and Pearson (1934, Biometrika 26:404).
+// Returns the largest expected number of events that is consistent with none having been seen: the upper end of the
+// two-sided confidence interval of a Poisson mean (Garwood 1936, Biometrika 28:437), 3.69 at 95 %. Divided by the number of
+// trials it is the upper end for a share, a little above that of Clopper and Pearson (1934, Biometrika 26:404).
 [[nodiscard]] double unseen_events(double confidence);
 
-// The factor between standard error and half-width of a two-sided interval: Student's t with replicates - 1 degrees of
+// Returns the ratio of half-width to standard error for a two-sided interval: Student's t with replicates - 1 degrees of
 // freedom; NaN below two replicates.
 [[nodiscard]] double t_quantile(double confidence, std::size_t replicates);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The model's elements grouped by what the solver tallies: surfaces of one organ with the same optics.
+// The model's elements grouped as the solver tallies them: a surface holds the elements of one organ with the same optics.
 
 #include "transport/model.h"
 
@@ -21,11 +21,11 @@ struct Surfaces {
   std::vector<std::uint32_t> number_of;  // [element], index into `of`
 };
 
-// True if anything that light can meet reflects or transmits in some band, or glows: then light goes on after its first
-// landing.
+// Returns true if anything that light can meet reflects, transmits or emits in some band, so that light travels on after its
+// first landing.
 [[nodiscard]] bool scatters(const RadiationModel& model);
 
-// True if the band's light goes on after its first landing or starts on a lamp.
+// Returns true if the band's light travels on after its first landing or starts on a lamp.
 [[nodiscard]] bool scatters(const RadiationModel& model, std::size_t band);
 
 }  // namespace sunfleck

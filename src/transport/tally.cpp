@@ -10,10 +10,10 @@
 namespace sunfleck {
 namespace {
 
-// What the integers of all landings together may hold.
+// Largest value that the integer sums of all landings together may reach.
 constexpr double most_landed = 0x1p62;
 
-// All that landed in a band, as often as it did.
+// Returns the quanta that landed in a band, counted once per landing.
 double landed_quanta(const IndirectSums& indirect, std::size_t band) {
   double landed = 0.0;
   for (const auto* sums : {&indirect.surface_landed, &indirect.cell_landed}) {
@@ -58,7 +58,7 @@ Tally::Tally(const RadiationModel& model, const CounterLayout& layout, const Sur
   if (element_errors == ElementErrors::keep_sides) side_spread_.resize(2 * model.canopy.size() * bands);
 }
 
-// Areas by organ and layer, all and those that the beam can hit, and how much an organ absorbs at most.
+// Sums the areas by organ and layer, in total and for elements that the beam can hit, and finds the largest absorptances.
 void Tally::measure_elements() {
   const Canopy& canopy = model_.canopy;
   const std::size_t bands = quanta_.size();
@@ -101,7 +101,8 @@ void Tally::measure_elements() {
   }
 }
 
-// How a ray's quanta split on each face. Rounded the same way for every ray, to one quantum in some ten million.
+// Computes how a ray's quanta split on each face. The rounding is the same for every ray; it is one quantum in some ten
+// million.
 void Tally::split_rays() {
   constexpr double middle = 0.5;
   for (const SurfaceOptics& optics : model_.optics) {
@@ -248,13 +249,13 @@ void Tally::add(std::span<const std::uint32_t> counters, const DirectSums& sums,
   add_elements(counters, indirect);
 }
 
-// Light between mirrors lands so often that the sums over all replicates would overflow.
+// Throws Error (failure) if the sums over all replicates would overflow: light between mirrors can land that often.
 void Tally::count_landed(const IndirectSums& indirect) {
   for (std::size_t b = 0; b < landed_.size(); ++b) {
     landed_[b] += landed_quanta(indirect, b);
     if (landed_[b] <= most_landed) continue;
-    throw_failure(fmt::format("band {}: its light landed so often that the {} replicates' integers cannot hold it",
-                              model_.bands[b].name, replicates_),
+    throw_failure(fmt::format("band {}: its light landed too often for the integer sums of {} replicates", model_.bands[b].name,
+                              replicates_),
                   fmt::format("{:.3g} quanta, at most {:.3g} are possible", landed_[b], most_landed),
                   "lower reflectance + transmittance where surfaces enclose the light, or give fewer --passes");
   }

@@ -1,5 +1,5 @@
 #pragma once
-// From landings to fluxes: adds up the replicates, integers for the ledger, means and spreads for the rest.
+// Conversion of landings into fluxes: sums over replicates, integers for the ledger, means and spreads for the rest.
 
 #include "transport/accuracy.h"
 #include "transport/counters.h"
@@ -32,34 +32,35 @@ struct DirectSums {
   std::uint64_t soil_plane = 0, transmitted = 0, ground = 0, met = 0, missed = 0, lost = 0;
 };
 
-// The largest of the relative errors that a bound judges, and whose it is.
+// The largest of the relative errors that a bound applies to, and the figure with that error.
 struct JudgedError {
   double relative = 0.0;  // NaN below two replicates
   JudgedFigure figure;
 
-  // Keeps the larger of the two.
+  // Replaces the error by `other` if that is larger.
   void raise(double other, const JudgedFigure& of);
 };
 
 class Tally {
  public:
-  // All replicates are alike in `incidence`. All but that must outlive it; `receivers` may be null.
+  // All replicates have the same `incidence`. All other arguments must outlive the tally; `receivers` may be null.
   Tally(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, const PlaneReceivers* receivers,
         const Incidence& incidence, ElementErrors element_errors);
 
   [[nodiscard]] const std::vector<BandQuanta>& quanta() const { return quanta_; }
 
-  // Sums one replicate's counters; they are not added yet. Throws Error (failure) unless every ray sent is accounted for.
+  // Returns the sums of one replicate's counters without adding them to the tally. Throws Error (failure) unless every ray
+  // sent is accounted for.
   [[nodiscard]] DirectSums sum(std::span<const std::uint32_t> counters) const;
 
-  // What the first landings leave to be shot, as FirstLandings::scattered.
+  // Returns the flux that the first landings leave to be shot, as FirstLandings::scattered.
   [[nodiscard]] std::vector<std::int64_t> scattered(const DirectSums& sums) const;
 
-  // The same by zones of the receivers, as FirstLandings::scattered_by_zone. Empty without them.
+  // Returns the same by zones of the receivers, as FirstLandings::scattered_by_zone; empty without receivers.
   [[nodiscard]] std::vector<std::int64_t> scattered_by_zone(const DirectSums& sums, const PlaneSums& passed) const;
 
-  // Adds a replicate; `passed`: what its beam rays did at the receivers. Without an indirect pass what its first landings
-  // scattered, and in an endless canopy what the sky sends, count as unshot.
+  // Adds a replicate; `passed` holds the crossings of the receivers by its beam rays. Without an indirect pass the flux
+  // scattered by first landings counts as unshot, as does the sky's flux in an endless canopy.
   void add(std::span<const std::uint32_t> counters, const DirectSums& sums, const PlaneSums& passed,
            const IndirectSums* indirect);
 
@@ -67,32 +68,34 @@ class Tally {
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
   [[nodiscard]] std::uint64_t sky_rays() const { return sky_rays_; }
 
-  // What it takes to go on adding in another tally, of the same incidence. Their number depends on the model alone.
+  // Returns everything that another tally with the same incidence needs to continue. The number of values depends only on
+  // the model.
   [[nodiscard]] TallySums sums() const;
 
-  // False if there are too few or too many.
+  // Takes over the sums of another tally. Returns false if there are too few or too many.
   [[nodiscard]] bool restore(const TallySums& sums);
 
-  // The figure compared with the direct bound: the largest half-width, relative to its value, of the first-hit flux on
-  // vegetation and on the ground, either judged against at least 1 % of the incident flux; for organs also that of every
-  // organ with at least a tenth of the mean organ's flux; for triangles the area-weighted root-mean-square half-width of the
-  // elements' irradiance relative to its mean.
+  // Returns the error that is compared with the direct bound: the largest half-width, relative to its value, of the
+  // first-hit flux on vegetation and on the ground, each taken as at least 1 % of the incident flux. For organs it also
+  // includes every organ with at least a tenth of the mean organ's flux; for triangles it also includes the area-weighted
+  // root-mean-square half-width of the elements' irradiance, relative to its mean.
   [[nodiscard]] JudgedError direct_error(const Accuracy& accuracy) const;
 
-  // The same for all else that vegetation and soil absorb, the largest over the bands; half-widths hold the unshot flux.
+  // Returns the same for all other flux that vegetation and soil absorb, the largest over the bands; half-widths include
+  // the unshot flux.
   [[nodiscard]] JudgedError indirect_error(const Accuracy& accuracy) const;
 
-  // Everything but `stop`, `direct` and `indirect`. Throws Error (failure) if a ledger does not close.
+  // Returns everything but `stop`, `direct` and `indirect`. Throws Error (failure) if a ledger does not close.
   [[nodiscard]] RadiationResult result(double confidence) const;
 
  private:
   using Landings = DirectSums::Landings;
   struct BandMeans {                                         // W m-2 of ground
-    ReplicateMean vegetation, soil, reflected, transmitted;  // all that is absorbed, leaves
-    ReplicateMean indirect_vegetation, indirect_soil;        // absorbed other than from the beam's first landing
+    ReplicateMean vegetation, soil, reflected, transmitted;  // total flux absorbed or leaving
+    ReplicateMean indirect_vegetation, indirect_soil;        // absorbed flux except from the beam's first landings
   };
   struct OrganMeans {
-    ReplicateMean landed, sunlit;                                              // landed: beam rays' ground per organ area
+    ReplicateMean landed, sunlit;  // landed: ground area of the beam rays per organ area
     std::vector<ReplicateMean> direct, indirect, absorbed, indirect_absorbed;  // [band], W m-2 of organ
   };
   struct LayerMeans {
@@ -107,7 +110,7 @@ class Tally {
     }
   };
 
-  // Hands every sum to `archive`, the same for const and other tallies.
+  // Passes every sum to `archive`; serves const and other tallies alike.
   template <class Self, class Archive>
   static void visit_sums(Self& self, Archive& archive);
   void measure_elements();
@@ -154,20 +157,20 @@ class Tally {
   BeamExposure exposure_;
   std::vector<double> organ_absorptance_;  // [organ * bands + band], the largest of its faces; 0 if no light can reach it
   std::vector<double> vegetation_absorptance_, soil_absorptance_;  // [band], the largest of all such surfaces; 0 without any
-  bool beam_meets_vegetation_ = false;                             // some of it can be hit
+  bool beam_meets_vegetation_ = false;                             // the beam can hit some of it
   std::vector<bool> foliage_;                                      // [element]
   std::vector<double> organ_area_m2_;                              // [organ]
   std::vector<double> organ_facing_m2_;                            // [organ], of elements that the beam can hit
   std::vector<double> layer_foliage_m2_;                           // [layer]
   std::vector<double> layer_facing_m2_;                            // [layer], of foliage that the beam can hit
-  std::vector<bool> layer_holds_vegetation_;                       // [layer], some that light can reach
+  std::vector<bool> layer_holds_vegetation_;                       // [layer], holds vegetation that light can reach
   double foliage_m2_ = 0.0, facing_m2_ = 0.0;
   std::vector<QuantaSplit> splits_;  // of a ray: [(optics * 2 + side) * bands + band], then [band] of the soil plane
 
   std::size_t replicates_ = 0;
   std::uint64_t lost_ = 0, sky_rays_ = 0, packets_ = 0, rounds_ = 0;
   std::vector<FluxLedger> ledgers_;  // [band]
-  std::vector<double> landed_;       // [band], quanta that packets and sky rays brought, as often as they landed
+  std::vector<double> landed_;       // [band], quanta of packets and sky rays, counted once per landing
   ReplicateMean first_vegetation_, first_ground_, met_, ground_ratio_, sunlit_;
   std::vector<BandMeans> bands_;
   std::vector<OrganMeans> organs_;
@@ -178,7 +181,7 @@ class Tally {
   std::vector<std::uint64_t> soil_cells_;
   std::vector<std::uint64_t> element_hits_;  // [element], rays and packets; empty if errors are skipped
   ElementErrors element_errors_;
-  std::vector<Spread> direct_spread_;    // [element], landings; these three empty if errors are skipped
+  std::vector<Spread> direct_spread_;    // [element], landings; this and the next two are empty if errors are skipped
   std::vector<Spread> absorbed_spread_;  // [band * elements + element], W m-2 of element
   std::vector<Spread> indirect_spread_;  // [band * elements + element], W m-2 of element
   std::vector<Spread> side_spread_;      // [(2 * element + side) * bands + band], W m-2 of element; empty unless kept

@@ -12,22 +12,24 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// A share about which no more is known than that it lies between 0 and 1.
+// Half-widths of a share from here on mean that nothing is known but that it lies between 0 and 1.
 constexpr double unknown_share = 1.0 - 1e-9;
 
-// Judged against at least this share of the incident flux (design: an aggregate below 1 % is judged against that 1 %).
+// Figures are judged against at least this share of the incident flux (design: an aggregate below 1 % is judged against that
+// 1 %).
 constexpr double least_judged_share = 0.01;
 
-// Organs are judged from this share of the mean organ's flux upwards.
+// Organs are judged if they receive at least this share of the mean organ's flux.
 constexpr double least_judged_organ = 0.1;
 
-// Confidence intervals of single elements stay empty below this many landings (validation G2: a normal interval on fewer hits
-// covers too seldom).
+// Confidence intervals of single elements stay empty below this many landings (validation G2: a normal interval on fewer
+// hits too seldom covers the true value).
 constexpr std::uint64_t least_landings = 20;
 
 }  // namespace
 
-// What as many events as may have escaped all replicates would add to a mean to which each adds `event` in its replicate.
+// Returns how much the events that may have escaped all replicates would add to a mean if each adds `event` in its
+// replicate.
 double Tally::unseen(double event, double confidence) const {
   return unseen_events(confidence) * event / static_cast<double>(replicates_);
 }
@@ -41,7 +43,7 @@ double Tally::half_width(const Spread& spread, double quantile) const {
   return quantile * std::sqrt(std::max(0.0, spread.squares - spread.sum * spread.sum / n) / (n - 1.0) / n);
 }
 
-// What may still be absorbed, relative to what was.
+// Returns the flux that may still be absorbed, relative to the flux absorbed.
 double Tally::unshot_share(std::size_t band) const {
   const FluxLedger& ledger = ledgers_[band];
   const auto absorbed = static_cast<double>(ledger.absorbed_vegetation + ledger.absorbed_soil);
@@ -60,7 +62,7 @@ JudgedError Tally::direct_error(const Accuracy& accuracy) const {
   JudgedError largest;
   const double least = least_judged_share * met_.mean();
   if (!(least > 0.0)) return largest;
-  // Without vegetation in its way all of the beam is known to reach the ground.
+  // Without vegetation in its way the whole beam is known to reach the ground.
   const double one_ray = beam_meets_vegetation_ ? unseen(events_.beam_share, accuracy.confidence) : 0.0;
   largest.raise(relative_error(first_vegetation_, least, one_ray, quantile), {.of = JudgedFigure::Of::vegetation});
   largest.raise(relative_error(first_ground_, least, one_ray, quantile), {.of = JudgedFigure::Of::soil});
@@ -105,7 +107,7 @@ JudgedError Tally::indirect_error(const Accuracy& accuracy) const {
   return largest;
 }
 
-// The largest relative half-width of the organs' beam landings, or of what they absorb of all other light.
+// Returns the largest relative half-width of the organs' beam landings, or of their absorption of all other light.
 JudgedError Tally::organ_error(double quantile, bool indirect) const {
   std::vector<bool> soil(organs_.size());
   for (const Surface& surface : surfaces_.of) soil[surface.organ] = soil[surface.organ] || surface.soil;
@@ -133,7 +135,8 @@ JudgedError Tally::organ_error(double quantile, bool indirect) const {
   return largest;
 }
 
-// Spreads of the elements' flux: landings, or W m-2 of element times area, from `first` on.
+// Returns the root-mean-square half-width relative to the mean. `spreads` are those of the elements' landings or of their W
+// m-2, one per element from `first` on; the latter are multiplied by the element's area.
 double Tally::element_rms_error(double quantile, const std::vector<Spread>& spreads, std::size_t first) const {
   if (spreads.empty()) return none;
   const bool landings = &spreads == &direct_spread_;
@@ -226,8 +229,9 @@ BandResult Tally::band_result(std::size_t band, double confidence) const {
   return result;
 }
 
-// The share in direct sun of `facing_m2`, whose spread `mean` tells, or `parts` where there is none. Empty where the beam can
-// hit nothing of it, or where so few rays could that any share would agree with what they saw.
+// Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` or, where that is zero,
+// from `parts`. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree
+// with what the rays met.
 Estimate Tally::sunlit_estimate(const ReplicateMean& mean, double facing_m2, std::vector<FacingArea> parts,
                                 double confidence) const {
   if (!(facing_m2 > 0.0)) return {none, none};
@@ -237,7 +241,7 @@ Estimate Tally::sunlit_estimate(const ReplicateMean& mean, double facing_m2, std
   return unseen_share < unknown_share ? Estimate{mean.mean(), unseen_share} : Estimate{none, none};
 }
 
-// The parts of the organs about which the replicates agree: [organ]; empty for the others.
+// Returns the parts of each organ about which all replicates agree: [organ]; empty for the other organs.
 std::vector<std::vector<FacingArea>> Tally::agreed_organs() const {
   std::vector<std::vector<FacingArea>> parts(organs_.size());
   for (std::size_t e = 0; e < elements_.size(); ++e) {
@@ -248,7 +252,7 @@ std::vector<std::vector<FacingArea>> Tally::agreed_organs() const {
   return parts;
 }
 
-// The same for the foliage in each layer: [layer].
+// Returns the same for the foliage in each layer: [layer].
 std::vector<std::vector<FacingArea>> Tally::agreed_layers() const {
   const std::size_t count = layer_foliage_m2_.size();
   std::vector<std::vector<FacingArea>> parts(count);
@@ -269,7 +273,7 @@ std::vector<std::vector<FacingArea>> Tally::agreed_layers() const {
   return parts;
 }
 
-// The same for all foliage.
+// Returns the same for all foliage.
 std::vector<FacingArea> Tally::agreed_foliage() const {
   std::vector<FacingArea> parts;
   for (std::size_t e = 0; sunlit_.squares() == 0.0 && e < elements_.size(); ++e) {
@@ -279,7 +283,7 @@ std::vector<FacingArea> Tally::agreed_foliage() const {
   return parts;
 }
 
-// What one ray of the beam changes in a share of the rays that meet the scene, in one replicate.
+// Returns how much one beam ray changes a share of the rays that meet the scene, in one replicate.
 double Tally::share_of_one_ray() const {
   return beam_meets_vegetation_ && met_.mean() > 0.0 ? events_.beam_share / met_.mean() : 0.0;
 }
@@ -361,7 +365,7 @@ std::vector<double> Tally::side_errors(double quantile) const {
   for (std::size_t place = 0; place < side_spread_.size(); ++place) {
     const std::size_t bands = bands_.size();
     const double mean = side_spread_[place].sum / static_cast<double>(replicates_);
-    // A side that nothing fell on tells nothing, however often the other was hit.
+    // If no light fell on a side its error is unknown, however often the other side was hit.
     const bool enough = mean > 0.0 && element_hits_[place / bands / 2] >= least_landings;
     errors.push_back(enough ? half_width(side_spread_[place], quantile) + mean * unshot_share(place % bands) : none);
   }

@@ -1,4 +1,4 @@
-// A tally's sums as plain numbers, and back.
+// Conversion of a tally's sums to plain numbers and back.
 
 #include "transport/tally.h"
 
@@ -10,7 +10,7 @@
 namespace sunfleck {
 namespace {
 
-// Copies the numbers.
+// Appends the numbers of the sums that it visits.
 class Writer {
  public:
   explicit Writer(TallySums& sums) : sums_(sums) {}
@@ -38,12 +38,12 @@ class Writer {
   TallySums& sums_;
 };
 
-// Gives the numbers back; those that are missing are 0.
+// Reads the numbers back in the same order; missing numbers are read as 0.
 class Reader {
  public:
   explicit Reader(const TallySums& sums) : sums_(sums) {}
 
-  // True if there were as many numbers as were asked for.
+  // Returns true if exactly the available numbers were read.
   [[nodiscard]] bool fits() const { return integer_ == sums_.integers.size() && real_ == sums_.reals.size(); }
 
   template <class T>

@@ -1,5 +1,5 @@
 #pragma once
-// All that a tally has added up, as plain numbers in an order of its own; the first integer is the number of replicates.
+// All sums of a tally as plain numbers, in an order of its own; the first integer is the number of replicates.
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-// The interface between the solver and whatever sends rays. A tracer knows geometry only: which side of which element a ray
-// lands on, and where. Everything it returns is an integer.
+// The interface between the solver and the devices that trace rays. A tracer knows only geometry: which side of which
+// element a ray lands on, and where. Everything it counts is an integer.
 
 #include "shared/layout.h"
 
@@ -11,7 +11,7 @@
 
 namespace sunfleck {
 
-// The device a tracer works on, as summary.json names it.
+// The device on which a tracer runs, as named in summary.json.
 struct TracerDevice {
   std::string kind;  // "vulkan" or "cpu"
   std::string name;
@@ -19,7 +19,7 @@ struct TracerDevice {
   bool software = true;
 };
 
-// Asked now and then during long work; true ends it.
+// Called now and then during long work; a result of true ends the work.
 using StopQuestion = std::function<bool()>;
 
 enum class TraceOutcome { finished, stopped };
@@ -30,12 +30,12 @@ class Tracer {
 
   [[nodiscard]] virtual TracerDevice device() const = 0;
 
-  // Traces all rays of one replicate and adds their landings to `counters` (words as in transport/counters.h). Stopped: the
-  // counters hold part of the rays and are of no use.
+  // Traces all rays of one replicate and adds their landings to `counters` (numbered as in transport/counters.h). If
+  // stopped, the counters hold only part of the rays and must not be used.
   [[nodiscard]] virtual TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                 const StopQuestion& stop) = 0;
 
-  // Follows every packet to its end: landings[k] tells where packets[k] landed. Stopped: the landings are of no use.
+  // Follows every packet to its end; landings[k] is where packets[k] landed. If stopped, the landings must not be used.
   [[nodiscard]] virtual TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                            std::span<shared::Landing> landings, const StopQuestion& stop) = 0;
 };

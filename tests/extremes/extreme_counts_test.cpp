@@ -236,7 +236,7 @@ TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
     ADD_FAILURE() << "it overflowed unnoticed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::failure);
-    EXPECT_NE(std::string(error.what()).find("band NIR: its light landed so often"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("band NIR: its light landed too often"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("); "), std::string::npos);
     EXPECT_EQ(added, 3);  // 2^60.3 each, 2^62 in all
   }

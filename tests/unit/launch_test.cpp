@@ -83,7 +83,7 @@ TEST_F(NoJobTest, RefusesToBeOneOfSeveral) {
       FAIL() << rank;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(std::string(error.what()).find("2 processes started by MPI (this program was built without it); "),
+      EXPECT_NE(std::string(error.what()).find("2 processes started by MPI (this program was built without MPI); "),
                 std::string::npos)
           << error.what();
     }

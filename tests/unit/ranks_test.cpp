@@ -242,7 +242,7 @@ TEST_F(RanksTest, ThatFallSilentAreLost) {
   helpers_ = std::make_unique<RankHelpers>(lead_, 100ms);
   helpers_->wait_until_ready("the scene");
   const std::string message = message_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::failure);
-  EXPECT_NE(message.find(" on nowhere (not heard of for 0"), std::string::npos) << message;
+  EXPECT_NE(message.find(" on nowhere (nothing heard from it for 0"), std::string::npos) << message;
   EXPECT_FALSE(helpers_->wait_until_gone());
 }
 
@@ -252,7 +252,7 @@ TEST_F(RanksTest, ThatLeaveEarlyAreMissed) {
   helpers_ = std::make_unique<RankHelpers>(lead_, 60s);
   helpers_->wait_until_ready("the scene");
   for (const int rank : {1, 2}) LocalMailbox(post_, rank).post(0, LetterKind::gone, {});
-  EXPECT_NE(message_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::failure).find("ended before its time"),
+  EXPECT_NE(message_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::failure).find("ended early"),
             std::string::npos);
 }
 
