@@ -265,7 +265,7 @@ TEST(GltfReader, RefusesDamagedModels) {
        "extras.rank"},
       {"compression", [](json& d) { d["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }, "KHR_draco"},
       {"instances", [](json& d) { d["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = json::object(); }, "instancing"},
-      {"buffer length", [](json& d) { d["buffers"][0]["byteLength"] = 64; }, "only 60 are there"},
+      {"buffer length", [](json& d) { d["buffers"][0]["byteLength"] = 64; }, "only 60 are present"},
       {"no buffer length", [](json& d) { d["buffers"][0].erase("byteLength"); }, "no byteLength"},
       {"second buffer",
        [](json& d) {

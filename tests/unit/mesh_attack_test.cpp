@@ -83,7 +83,7 @@ TEST(MeshAttack, BrokenCan) {
       {"long word", "a.can", std::string(500, 'q'), ":1: ", "..."},
       {"only comments", "a.can", "# nothing\n\n", ": ", "no triangle found"},
       {"no gzip", "a.can.gz", good, ": ", "broken gzip file"},
-      {"gzip cut", "a.can.gz", gzip(good).substr(0, 20), ": ", "ends too early"},
+      {"gzip cut", "a.can.gz", gzip(good).substr(0, 20), ": ", "is truncated"},
       {"gzip with a tail", "a.can.gz", gzip(good) + "tail", ": ", "broken gzip file"},
       {"gzip checksum", "a.can.gz", gzip(good).replace(gzip(good).size() - 8, 1, "?"), ": ", "broken gzip file"},
       {"inside gzip", "a.can.gz", gzip(second("0 0 0", "0 nan 0")), ":2: ", "coordinate 'nan'"},
@@ -178,7 +178,7 @@ TEST(MeshAttack, NoFilesToRead) {
   static_cast<void>(folder.write("a.dae", "<COLLADA/>"));
   for (const auto& [name, words] : {std::pair{"gone.obj", "no such file"},
                                     {"folder.obj", "is a directory"},
-                                    {"pipe.obj", "no regular file"},
+                                    {"pipe.obj", "not a regular file"},
                                     {"empty.obj", "the file is empty"},
                                     {"a.dae", "unknown kind of mesh"},
                                     {"two\nlines.obj", "no such file"}}) {
