@@ -175,7 +175,7 @@ TEST(HostileFiles, ChainsOfNodesMayBeLong) {
   document["nodes"].push_back({{"mesh", 0}});
   EXPECT_NO_THROW(read_any_mesh(folder.write("a.glb", glb(document, gltf_binary()))));
   document["nodes"].back()["children"] = {0};
-  expect_refusal([&] { read_any_mesh(folder.write("a.glb", glb(document, gltf_binary()))); }, "met twice");
+  expect_refusal([&] { read_any_mesh(folder.write("a.glb", glb(document, gltf_binary()))); }, "reached twice");
 }
 
 // Buffers beside the file, by links too; elsewhere for those who ask for it.

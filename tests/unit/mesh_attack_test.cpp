@@ -81,7 +81,7 @@ TEST(MeshAttack, BrokenCan) {
       {"unknown key", "a.can", second("p ", "q "), ":2: ", "line begins with 'q'"},
       {"control characters", "a.can", "\x01\x02\tp\n", ":1: ", "'\?\?'"},
       {"long word", "a.can", std::string(500, 'q'), ":1: ", "..."},
-      {"only comments", "a.can", "# nothing\n\n", ": ", "no triangle found"},
+      {"only comments", "a.can", "# nothing\n\n", ": ", "no triangles found"},
       {"no gzip", "a.can.gz", good, ": ", "broken gzip file"},
       {"gzip cut", "a.can.gz", gzip(good).substr(0, 20), ": ", "is truncated"},
       {"gzip with a tail", "a.can.gz", gzip(good) + "tail", ": ", "broken gzip file"},
@@ -105,7 +105,7 @@ TEST(MeshAttack, BrokenObj) {
       {"two corners", "a.obj", bad(" 3//1 4//1", ""), ":9: ", "a face of 2 corners"},
       {"continued", "a.obj", bad("v 1 1 0", "v 1 1 \\\n0"), ":5: ", "backslash"},
       {"zero byte", "a.obj", obj_square() + std::string(1, '\0'), ": ", "zero byte"},
-      {"no face", "a.obj", obj_square().substr(0, obj_square().find("f ")), ": ", "no triangle found"},
+      {"no face", "a.obj", obj_square().substr(0, obj_square().find("f ")), ": ", "no triangles found"},
   });
 }
 
@@ -152,8 +152,8 @@ TEST(MeshAttack, BrokenStl) {
       {"binary cut", "a.stl", "_" + stl_binary_square().substr(1, 150), ": ", "a binary STL file of 2 triangles has 184"},
       {"binary huge", "a.stl", huge, ": ", "4294967295 triangles"},
       {"binary not a number", "a.stl", nan, ": ", "triangle 1"},
-      {"binary empty", "a.stl", std::string(84, '\0'), ": ", "no triangle found"},
-      {"text empty", "a.stl", "solid\nendsolid\n", ": ", "no triangle found"},
+      {"binary empty", "a.stl", std::string(84, '\0'), ": ", "no triangles found"},
+      {"text empty", "a.stl", "solid\nendsolid\n", ": ", "no triangles found"},
   });
 }
 
