@@ -115,13 +115,14 @@ TEST(MeshAttack, BrokenPly) {
   nan.replace(nan.find("end_header\n") + 13, 8, "\xff\xff\xff\xff\xff\xff\xff\xff");
   expect_refused({
       {"no PLY", "a.ply", bad("ply", "plx"), ":1: ", "does not begin with ply"},
-      {"no format", "a.ply", bad("format ascii 1.0\n", ""), ":13: ", "no format line"},
+      {"no format", "a.ply", bad("format ascii 1.0\n", ""), ":13: ", "the format line is missing"},
       {"unknown format", "a.ply", bad("ascii", "utf8"), ":2: ", "must be ascii"},
       {"unknown version", "a.ply", bad("1.0", "2.0"), ":2: ", "version"},
       {"unknown type", "a.ply", bad("float y", "real y"), ":7: ", "must be property"},
       {"unknown word", "a.ply", bad("comment", "remark"), ":3: ", "not a word of a PLY header"},
       {"negative count", "a.ply", bad("vertex 4", "vertex -4"), ":4: ", "element NAME COUNT"},
-      {"property of nothing", "a.ply", bad("comment made by hand", "property int a"), ":3: ", "belongs to no element"},
+      {"property of nothing", "a.ply", bad("comment made by hand", "property int a"),
+       ":3: ", "a property must follow an element"},
       {"float list size", "a.ply", bad("list uchar", "list float"), ":10: ", "integer type"},
       {"no header end", "a.ply", bad("end_header\n", ""), ":14: ", "not a word"},
       {"no z", "a.ply", bad("float z", "float w"), ": ", "vertices without z"},
