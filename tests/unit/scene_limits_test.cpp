@@ -46,7 +46,7 @@ TEST_F(SceneLimits, TextsAndKeysAreShort) {
 TEST_F(SceneLimits, MostPlanesSensorsBandsAndLayers) {
   std::string planes, sensors, bands;
   for (int i = 0; i < 65; ++i) planes += fmt::format("[[plane]]\nheight = {}\n", i);
-  expect_refused(bare_scene + planes, "at most 64");
+  expect_refused(bare_scene + planes, "but at most 64");
   expect_refused(bare_scene + "[[plane]]\nheight = 1\ncells = [64000000, 2]\n", "cells so far");
   for (int i = 0; i < 2; ++i)
     sensors += fmt::format("[[sensor]]\nname = \"s{}\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\npoints = 60000\n", i);
