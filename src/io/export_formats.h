@@ -28,9 +28,9 @@ struct ExportData {
 [[nodiscard]] std::string netcdf_bytes(const ExportData& data);
 [[nodiscard]] std::string caribu_csv(const ExportData& data);
 
-// Returns the label of an element in CARIBU files, O PPPPP LLL EEE: the species O (n of organs named leafN or stemN, 1 of names
-// without a number, 0 of soil); the plant; the leaf (the rank, at least 1, of organs named leaf..., 000 of all others); and the
-// number of the triangle in its organ, modulo 1000. Throws Error (failure) if a number has too many digits.
+// Returns the label of an element in CARIBU files, O PPPPP LLL EEE: the species (N for organs named leafN or stemN, 1 for names
+// without a number, 0 for soil); the plant; the leaf (the rank, at least 1, for organs named leaf..., 000 for all others); and
+// the number of the triangle in its organ, modulo 1000. Throws Error (failure) if a number has too many digits.
 [[nodiscard]] std::string caribu_label(const Organ& organ, std::size_t number_in_organ);
 
 // Returns the label of an element that its file already labelled, with only the plant replaced: other meshes or copies placed

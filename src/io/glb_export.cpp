@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* file_name = "canopy.glb";
 
-// Returns the name of a vertex attribute; glTF requires custom names to begin with `_` and recommends capitals.
+// Returns the name of a vertex attribute; custom names in glTF begin with `_` and are in capitals.
 std::string attribute_of(const std::string& band, std::string_view ending) {
   std::string name = "_" + band + "_";
   for (const char c : ending) name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));

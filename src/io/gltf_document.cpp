@@ -95,7 +95,7 @@ std::string_view reason_of(const json::exception& problem) {
   return words.starts_with('[') && name != words.npos ? words.substr(name + 2) : words;
 }
 
-// Removes the skipped sections after parsing. The library's callbacks would do it earlier, but they rescan a whole list at the
+// Parses the JSON, then removes the skipped sections. The library's callbacks could skip them, but rescan a whole list at the
 // end of each of its objects.
 json parse_json(const MeshSource& source, std::string_view text) {
   constexpr int deepest = 100;  // tinygltf follows extras recursively

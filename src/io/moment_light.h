@@ -11,8 +11,8 @@ struct MomentLight {
   std::optional<SkyModel> sky;  // as in RadiationModel
 };
 
-// Returns the light for a given position of the sun. A scene with weather needs a sun and a time (EXPECT), which selects the
-// weather; a scene without weather needs no time. Otherwise as light_at.
+// Returns the light for any position of the sun, which a scene with weather must have (EXPECT). `time` selects the weather; it
+// is empty if the scene has no time. Otherwise as light_at.
 [[nodiscard]] MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& sun,
                                       const std::optional<UtcTime>& time);
 

@@ -289,7 +289,7 @@ class PlyReader {
   std::size_t list_size(const PlyProperty& property) {
     const double size = body_.next(*property.list_size);
     if (!(size >= 0.0 && size <= static_cast<double>(body_.bytes_left())) || size != std::floor(size))
-      refuse(source_, body_.line(), fmt::format("a list of {} numbers", size), "the file ends before its end",
+      refuse(source_, body_.line(), fmt::format("a list of {} numbers", size), "the file ends before the end of the list",
              "export the file again");
     return static_cast<std::size_t>(size);
   }

@@ -13,8 +13,8 @@ namespace sunfleck {
 // Returns the bytes of a file that begins with the eight letters of `mark`.
 [[nodiscard]] std::string sealed(std::string_view mark, const nlohmann::json& content);
 
-// Returns the map; nothing if it is another kind of file, its checksum is wrong, or maps and lists are nested more than one
-// level.
+// Returns the map; nothing if it is another kind of file, its checksum is wrong, or maps and lists are nested more than two
+// deep.
 [[nodiscard]] std::optional<nlohmann::json> unsealed(std::string_view mark, std::string_view bytes);
 
 // Returns a JSON object of plain values; null if the text is damaged or holds anything else.

@@ -105,7 +105,7 @@ void refuse_non_text(const std::string& file, std::string_view text) {
   }
 }
 
-// Returns the line without its comment and without the content of its texts, cut to the longest input of a regular expression.
+// Returns the line without its comment and without the content of its texts, cut to fit regular expressions.
 std::string bare_line(std::string_view text, std::size_t number) {
   constexpr std::size_t longest = 300;
   std::string_view line;
