@@ -13,12 +13,13 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t most_text_bytes = std::size_t{4} << 30;  // about 40 million polygons
-// Polygons as text shrink to a third or a tenth; what grows more than this, beyond a size that harms nobody, is no such text.
+// Gzip shrinks polygons as text to a third or a tenth. Content that grows by more than most_growth, beyond a harmless size, is
+// not such text.
 constexpr std::size_t most_growth = 100;
 constexpr std::size_t harmless_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_corners = 1000;
 
-// Digits O PPPPP LLL EEE.
+// The digits O PPPPP LLL EEE of a label.
 struct CanLabel {
   std::uint64_t number = 0;
   std::uint32_t species = 0;  // 0 is soil
@@ -64,7 +65,7 @@ class CanReader {
       const std::string_view key = next_word(rest);
       if (key.empty() || key.starts_with('#')) continue;
       if (key != "p")
-        refuse(source_, lines.number(), fmt::format("line begins with {}", in_quotes(key)), "only polygons, p, are known",
+        refuse(source_, lines.number(), fmt::format("line begins with {}", in_quotes(key)), "only polygons, p, are supported",
                "write: p 1 LABEL 3 x1 y1 z1 x2 y2 z2 x3 y3 z3");
       read_polygon(lines.number(), rest);
     }
@@ -72,8 +73,8 @@ class CanReader {
   }
 
  private:
-  // The words after `p`: the number of arguments, of which the label is the first, the arguments, the number of corners,
-  // the corners.
+  // Reads the words after `p`: the number of arguments, the arguments (the first one is the label), the number of corners, the
+  // corners.
   void read_polygon(std::size_t line, std::string_view rest) {
     const std::int64_t arguments = count_word(source_, line, rest, "number of arguments", 1);
     const CanLabel label = parse_label(source_, line, next_word(rest));
@@ -116,8 +117,7 @@ std::string inflate_gzip(const MeshSource& source, std::size_t limit) {
   while (state != Z_STREAM_END || !rest.empty()) {
     if (state == Z_STREAM_END) inflateReset(&stream);  // a gzip file may have several members
     if (text.size() >= limit)
-      refuse(source, 0, fmt::format("holds more than {} bytes", limit), "a compressed file may hold that many",
-             "split the file");
+      refuse(source, 0, fmt::format("holds more than {} bytes", limit), "the limit for a compressed file", "split the file");
     const std::size_t have = text.size();
     text.resize(std::min(limit, std::max<std::size_t>(2 * have, 8 * source.bytes.size())));
     constexpr std::size_t piece = std::numeric_limits<uInt>::max();
@@ -130,7 +130,7 @@ std::string inflate_gzip(const MeshSource& source, std::size_t limit) {
     state = inflate(&stream, Z_NO_FLUSH);
     rest.remove_prefix(given - stream.avail_in);
     text.resize(have + room - stream.avail_out);
-    if (state == Z_BUF_ERROR || (state == Z_OK && rest.empty() && stream.avail_out > 0)) broken("it ends too early");
+    if (state == Z_BUF_ERROR || (state == Z_OK && rest.empty() && stream.avail_out > 0)) broken("it is truncated");
     if (state == Z_MEM_ERROR) throw std::bad_alloc();
     if (state != Z_OK && state != Z_STREAM_END) broken(stream.msg != nullptr ? stream.msg : "not compressed by gzip");
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 20U;  // such files have a dozen lines
 constexpr double sum_tolerance = 1e-12;                          // rounding of R + T as decimal fractions
 
-// The lines that say something, one after the other.
+// Iterates over the lines that are neither blank nor comments.
 class CaribuLines {
  public:
   explicit CaribuLines(const MeshSource& source) : source_(source), lines_(without_mark(source.bytes)) {}
@@ -31,7 +31,7 @@ class CaribuLines {
 
   double number(std::string_view what, std::string_view form) {
     const std::string_view text = word();
-    if (text.empty()) refuse_here(fmt::format("{} is missing", what), "the line ends too early", form);
+    if (text.empty()) refuse_here(fmt::format("{} is missing", what), "the line is too short", form);
     const std::optional<double> value = parse_number(text);
     if (!value) refuse_here(fmt::format("{} = {}", what, in_quotes(text)), "must be a finite number", form);
     return *value;
@@ -39,7 +39,7 @@ class CaribuLines {
 
   void end_of_line(std::string_view form) {
     if (const std::string_view more = word(); !more.empty())
-      refuse_here(fmt::format("{} at the end of the line", in_quotes(more)), "nothing more is known here", form);
+      refuse_here(fmt::format("{} at the end of the line", in_quotes(more)), "the line should end here", form);
   }
 
   [[noreturn]] void refuse_here(std::string_view what, std::string_view why, std::string_view cure) const {
@@ -66,13 +66,13 @@ class OptReader {
       else if (key == "e")
         read_species();
       else
-        lines_.refuse_here(fmt::format("line begins with {}", in_quotes(key)), "only n, s and e are known", species_form);
+        lines_.refuse_here(fmt::format("line begins with {}", in_quotes(key)), "only n, s and e are supported", species_form);
     }
-    if (!count_) refuse(source_, 0, "the number of species is missing", "an .opt file begins with it", count_form);
-    if (!has_soil_) refuse(source_, 0, "the soil is missing", "an .opt file has its reflectance", soil_form);
+    if (!count_) refuse(source_, 0, "the number of species is missing", "an .opt file needs it", count_form);
+    if (!has_soil_) refuse(source_, 0, "the soil is missing", "an .opt file needs its reflectance", soil_form);
     if (optics_.species.size() != *count_)
-      refuse(source_, 0, fmt::format("{} species", optics_.species.size()), fmt::format("the line n announces {}", *count_),
-             "correct that line, or add what is missing");
+      refuse(source_, 0, fmt::format("{} species", optics_.species.size()), fmt::format("the line n says {}", *count_),
+             "correct that line, or add the missing species");
     return std::move(optics_);
   }
 
@@ -82,7 +82,7 @@ class OptReader {
   static constexpr std::string_view species_form = "write: e d Rstem d Rup Tup d Rdown Tdown";
 
   void read_count() {
-    if (count_) lines_.refuse_here("n is given twice", "there is one number of species", "remove one of the lines");
+    if (count_) lines_.refuse_here("n is given twice", "a file has one number of species", "remove one of the lines");
     const std::string_view word = lines_.word();
     const std::optional<std::int64_t> count = parse_integer(word);
     if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_species))
@@ -93,7 +93,7 @@ class OptReader {
   }
 
   void read_soil() {
-    if (has_soil_) lines_.refuse_here("s is given twice", "there is one soil", "remove one of the lines");
+    if (has_soil_) lines_.refuse_here("s is given twice", "a file has one soil", "remove one of the lines");
     has_soil_ = true;
     optics_.soil_reflectance = read_face({"soil reflectance", ""}, soil_form).reflectance;
     lines_.end_of_line(soil_form);
@@ -101,7 +101,7 @@ class OptReader {
 
   void read_species() {
     if (optics_.species.size() == most_species)
-      lines_.refuse_here("one species too many", fmt::format("an .opt file may have {}", most_species), "remove this line");
+      lines_.refuse_here("too many species", fmt::format("an .opt file may have at most {}", most_species), "remove this line");
     SpeciesOptics species;
     species.stem_reflectance = read_face({"Rstem", ""}, species_form).reflectance;
     species.upper = read_face({"Rup", "Tup"}, species_form);
@@ -110,7 +110,7 @@ class OptReader {
     lines_.end_of_line(species_form);
   }
 
-  // `d` with a reflectance, and a transmittance where that has a name.
+  // Reads `d` with a reflectance, and with a transmittance if names[1] is not empty.
   FaceOptics read_face(const std::array<std::string_view, 2>& names, std::string_view form) {
     if (const std::string_view kind = lines_.word(); kind != "d")
       lines_.refuse_here(fmt::format("{} before {}", in_quotes(kind), names[0]), "must be d: surfaces are Lambertian", form);
@@ -127,7 +127,7 @@ class OptReader {
   double read_share(std::string_view name, std::string_view form) {
     const double value = lines_.number(name, form);
     if (!(value >= 0.0 && value <= 1.0))
-      lines_.refuse_here(fmt::format("{} = {}", name, value), "must lie in 0..1", "give a share of the light that arrives");
+      lines_.refuse_here(fmt::format("{} = {}", name, value), "must lie in 0..1", "give a share of the incident light");
     return value;
   }
 

@@ -1,7 +1,8 @@
 #pragma once
-// Reads the small files that stand beside a .can in a set of CARIBU's: `.opt`, optical properties of one waveband, and `.8`,
-// the domain that repeats. Light directions, `.light`, have light_reader.h. In all of them blank lines and what follows a # are
-// ignored; both throw Error (input), one line with file and line. `files`, where given, gets the file.
+// Readers of the small files that accompany a CARIBU .can file: `.opt` holds the optical properties of one waveband, `.8` the
+// periodic domain. light_reader.h reads the light directions, `.light`. All of them ignore blank lines and whatever follows a
+// #. Both readers throw Error (input) with one line that names the file and the line, and add the file to `files` if that is
+// given.
 
 #include "canopy/optics.h"
 #include "io/source_files.h"
@@ -11,7 +12,7 @@
 
 namespace sunfleck {
 
-// One optical species: its stems, which let nothing through, and both faces of its leaves.
+// One optical species: opaque stems, and both faces of the leaves.
 struct SpeciesOptics {
   double stem_reflectance = 0.0;
   FaceOptics upper, lower;
@@ -19,24 +20,24 @@ struct SpeciesOptics {
 
 struct CaribuOptics {
   double soil_reflectance = 0.0;
-  std::vector<SpeciesOptics> species;  // [species - 1]: the first digit of a label counts them from 1
+  std::vector<SpeciesOptics> species;  // [species - 1]; the first digit of a label is the species, from 1
 };
 
-inline constexpr std::size_t most_species = 9;  // a label has one digit for them
+inline constexpr std::size_t most_species = 9;  // a label has one digit for the species
 
-// Lines, in any order but that of the species: `n COUNT`, their number; `s d R`, the soil; for each species
-// `e d Rstem d Rup Tup d Rdown Tdown`. The letter d stands for Lambertian, the only kind there is here.
-// Refused: a line that begins otherwise, or has more or fewer words; a number outside 0..1, R + T > 1; n or s missing or given
-// twice; other than n species.
+// Reads the lines `n COUNT` (number of species), `s d R` (soil) and, for each species, `e d Rstem d Rup Tup d Rdown Tdown`.
+// Only the order of the species lines matters. The letter d means Lambertian, the only kind supported. Refuses lines that begin
+// otherwise or have the wrong number of words, numbers outside 0..1, R + T > 1, a missing or repeated n or s, and any number of
+// species other than n.
 [[nodiscard]] CaribuOptics read_opt(const std::filesystem::path& file, SourceFiles* files = nullptr);
 
-// A rectangle on the ground in the file's own unit, x east and y north.
+// A rectangle on the ground in the unit of the file, x east and y north.
 struct CaribuDomain {
   double x_min = 0.0, y_min = 0.0, x_max = 0.0, y_max = 0.0;
 };
 
-// Four numbers, `xmin ymin` and `xmax ymax`, on as many lines as the file likes. Refused: more or fewer, one that is not
-// finite, a rectangle without area.
+// Reads four numbers, `xmin ymin` and `xmax ymax`, on any number of lines. Refuses any other count, numbers that are not
+// finite, and a rectangle without area.
 [[nodiscard]] CaribuDomain read_domain(const std::filesystem::path& file, SourceFiles* files = nullptr);
 
 }  // namespace sunfleck

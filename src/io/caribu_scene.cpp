@@ -26,7 +26,8 @@ namespace {
 
 constexpr double smallest_plot_m = 1e-6, largest_plot_m = 1e6;  // as in a scene file
 constexpr double farthest_m = 1e7;
-constexpr double least_width = 0.01;  // of an isolated stand's plot, in the stand's largest extent: one seen edge-on has none
+// Least width of an isolated stand's plot as a share of the stand's largest extent; a stand seen edge-on has no width.
+constexpr double least_width = 0.01;
 constexpr double largest_sum = 1e15;  // W m-2, as in a scene file
 
 struct NamedOptics {
@@ -39,7 +40,7 @@ std::string shown(const std::filesystem::path& file) {
   return printable(file.filename().string());
 }
 
-// A basic string of TOML.
+// Returns a basic string of TOML.
 std::string toml_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -51,10 +52,10 @@ std::string toml_string(std::string_view text) {
 
 void check_file_name(const std::string& name) {
   if (is_utf8(name) && printable(name) == name) return;
-  throw_input(printable(name), "a scene file cannot name it: its name must be UTF-8 without control characters", "rename it");
+  throw_input(printable(name), "a scene file cannot name it: names must be UTF-8 without control characters", "rename it");
 }
 
-// Which surface of which species optics of this name are; none for soil.
+// Returns the surface and species that optics of this name belong to; nothing for soil.
 struct Surface {
   enum class Kind { leaf, stem } kind = Kind::leaf;
   std::size_t species = 1;
@@ -70,8 +71,9 @@ std::optional<Surface> surface_named(const std::string& canopy, const std::strin
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), surface.species);
     if (digits.empty() || (error == std::errc() && end == digits.data() + digits.size() && surface.species > 0)) return surface;
   }
-  throw_input(fmt::format("{}: optics \"{}\"", canopy, printable(name)), "an .opt file knows species of leaves and stems only",
-              "call its material leaf, stem, leaf2, stem2, ... or soil");
+  throw_input(fmt::format("{}: optics \"{}\"", canopy, printable(name)),
+              "an .opt file describes only the leaves and stems of species",
+              "name its material leaf, stem, leaf2, stem2, ... or soil");
 }
 
 class CaribuSceneText {
@@ -113,7 +115,7 @@ class CaribuSceneText {
     for (const CaribuBand& band : set_.bands) {
       if (std::any_of(bands_.begin(), bands_.end(), [&](const NamedOptics& other) { return other.band == band.name; }))
         throw_input(fmt::format("--optics {}", printable(band.file.string())),
-                    fmt::format("a band is called {} already", band.name), "name it: --optics NAME=FILE");
+                    fmt::format("there is already a band named {}", band.name), "name it: --optics NAME=FILE");
       bands_.push_back({printable(band.file.string()), band.name, read_opt(band.file, files_)});
     }
   }
@@ -127,8 +129,8 @@ class CaribuSceneText {
     const glm::dvec3 reach_m = glm::max(glm::abs(lo_m_), glm::abs(hi_m_));
     const double farthest = std::max({reach_m.x, reach_m.y, reach_m.z});
     if (farthest > farthest_m)
-      throw_input(canopy_, fmt::format("it reaches to {:.3g} m, at most {:.0e} m is possible", farthest, farthest_m),
-                  "give its unit with --scale, 0.01 for centimetres");
+      throw_input(canopy_, fmt::format("it extends to {:.3g} m, but at most {:.0e} m is allowed", farthest, farthest_m),
+                  "give its unit with --scale, e.g. 0.01 for centimetres");
   }
 
   void add_plot(const CaribuDomain& domain) {
@@ -138,11 +140,11 @@ class CaribuSceneText {
     check_plot(place);
     if (std::max(std::abs(at_m_.x), std::abs(at_m_.z)) > farthest_m)
       throw_input(place, fmt::format("its corner lies farther from zero than {:.0e} m", farthest_m),
-                  "give its unit with --scale, 0.01 for centimetres");
+                  "give its unit with --scale, e.g. 0.01 for centimetres");
     text_ += fmt::format("\n[plot]\nsize     = [{}, {}]\nperiodic = true\n", size_m_.x, size_m_.y);
   }
 
-  // As large as the canopy.
+  // Adds an isolated plot as large as the canopy.
   void add_plot() {
     const glm::dvec3 extent_m = hi_m_ - lo_m_;
     const double least_m = least_width * std::max({extent_m.x, extent_m.y, extent_m.z});
@@ -157,7 +159,7 @@ class CaribuSceneText {
       if (size_m >= smallest_plot_m && size_m <= largest_plot_m) continue;
       throw_input(fmt::format("{}: a plot of {:.6g} x {:.6g} m", place, size_m_.x, size_m_.y),
                   fmt::format("each side must lie in {}..{} m", smallest_plot_m, largest_plot_m),
-                  "give its unit with --scale, 0.01 for centimetres");
+                  "give its unit with --scale, e.g. 0.01 for centimetres");
     }
   }
 
@@ -170,8 +172,8 @@ class CaribuSceneText {
     }
     if (!(sum <= largest_sum))
       throw_input(printable(set_.light.string()),
-                  fmt::format("its directions sum to {:.3g} W m-2, at most {:.0e} is possible", sum, largest_sum),
-                  "give W m-2 on a horizontal plane");
+                  fmt::format("its weights sum to {:.3g} W m-2, but at most {:.0e} is allowed", sum, largest_sum),
+                  "give the weights in W m-2 on a horizontal plane");
     const bool beam = shining.size() == 1;
     names_light_ = !beam;
     if (beam) {
@@ -212,7 +214,7 @@ class CaribuSceneText {
     const std::size_t known = band.optics.species.size();
     if (species <= known) return;
     throw_input(fmt::format("{}: {}", canopy_, name),
-                fmt::format("it is of species {}, and {} has {}", species, band.file, known),
+                fmt::format("it belongs to species {}, but {} has only {}", species, band.file, known),
                 fmt::format("add the species to {}, or correct the labels", band.file));
   }
 
@@ -259,7 +261,7 @@ CaribuBand caribu_band(std::string_view word) {
   band.name = band.file.stem().string();
   std::transform(band.name.begin(), band.name.end(), band.name.begin(), [](unsigned char c) { return std::toupper(c); });
   if (!is_plain_name(band.name)) {
-    throw_input(fmt::format("--optics {}: a band of the name {}", printable(word), printable(band.name)), plain_name_rule,
+    throw_input(fmt::format("--optics {}: invalid band name {}", printable(word), printable(band.name)), plain_name_rule,
                 "name it: --optics NAME=FILE");
   }
   return band;

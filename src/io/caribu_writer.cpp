@@ -14,11 +14,11 @@ constexpr std::uint32_t most_plant = 99'999;
 constexpr int most_leaf = 999;
 
 [[noreturn]] void refuse(const char* what, std::int64_t number, std::int64_t most) {
-  throw_failure(fmt::format("{} {} has no label", what, number), fmt::format("CARIBU's labels number them 0..{}", most),
+  throw_failure(fmt::format("{} {} has no label", what, number), fmt::format("CARIBU labels have numbers 0..{}", most),
                 "choose another format");
 }
 
-// leaf2 is of species 2; leaf, and names that end otherwise, of species 1.
+// Returns the species: 2 for leaf2, 1 for leaf and any other ending.
 unsigned species_of(const std::string& name) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   unsigned species = 1;

@@ -18,7 +18,7 @@ constexpr Estimate zero{0.0, 0.0};
 constexpr Estimate StepBand::*terms[] = {&StepBand::incident, &StepBand::absorbed_vegetation, &StepBand::absorbed_soil,
                                          &StepBand::reflected, &StepBand::transmitted};
 
-// half_width of the sum: of the random errors alone.
+// A sum of fluxes; the half-width of `random` holds only the random errors.
 struct Sum {
   Estimate random{0.0, 0.0};
   double unshot = 0.0;

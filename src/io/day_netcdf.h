@@ -1,5 +1,5 @@
 #pragma once
-// day.nc: the fields of every triangle at every step, netCDF-4 with CF 1.8 attributes (xarray, R).
+// Writes day.nc: the fields of every triangle at every step, as netCDF-4 with CF 1.8 attributes (xarray, R).
 
 #include "io/day_course.h"
 #include "io/result_writer.h"
@@ -14,14 +14,14 @@ struct DayFields {
   const RunRecord& record;
   const RadiationModel& model;
   const DayCourse& course;
-  std::size_t steps = 0;  // of the course, from its first, > 0
-  // Of a step that is no night, as day_fields has them.
+  std::size_t steps = 0;  // number of steps to write, from the first, > 0
+  // Returns the values of a step that is not a night, laid out as by day_fields.
   std::function<std::vector<float>(std::size_t step)> fields;
 };
 
-// Dimensions time and triangle; times are the steps' starts in UTC, with their bounds. Light in single precision, zero at
-// night. Holds one step in memory at a time. Written to `aside`, in the same file system, and renamed.
-// Throws Error (failure).
+// Writes the dimensions time and triangle. The times are the starts of the steps in UTC, with their bounds; light is in single
+// precision, zero at night. Holds one step in memory at a time. Writes to `aside`, which must be on the same file system, and
+// renames it. Throws Error (failure).
 void write_day_netcdf(const std::filesystem::path& file, const std::filesystem::path& aside, const DayFields& day);
 
 }  // namespace sunfleck

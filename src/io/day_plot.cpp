@@ -15,11 +15,12 @@ constexpr int width_px = 1600;
 constexpr int height_px = 1100;
 constexpr PlotScript::Box fluxes_box{150.0, 440.0, 1360.0, 485.0};
 constexpr PlotScript::Box sunlit_box{150.0, 125.0, 1360.0, 265.0};
-constexpr std::size_t most_points = 48;  // with more steps than that the curves are lines only
+// With more steps than this, curves are drawn as lines without points.
+constexpr std::size_t most_points = 48;
 constexpr double seconds_per_day = 86400.0;
 constexpr double seconds_per_hour = 3600.0;
 
-// A number of exactly `digits` digits at `at`; empty otherwise.
+// Returns the number of exactly `digits` digits at `at`, or nothing.
 std::optional<int> digits_at(std::string_view text, std::size_t at, std::size_t digits) {
   if (text.size() < at + digits) return {};
   int number = 0;
@@ -57,7 +58,7 @@ double high_end(const Estimate& estimate) {
   return estimate.value + (std::isfinite(estimate.half_width) ? estimate.half_width : 0.0);
 }
 
-// Columns: middle of the step, value, its interval's ends.
+// Writes the columns: middle of the step, value, ends of its interval.
 void add_curve(PlotScript& script, const DayPlot& plot, const Curve& curve) {
   script.begin_data(curve.data);
   double last_end_s = plot.rows.front().start_s;
@@ -89,7 +90,7 @@ std::string curve_command(const Curve& curve, const char* colour, const std::str
       curve.data, colour, style);
 }
 
-// Labels at full hours of one date, at dates of several.
+// Labels full hours if there is one date, and dates if there are several.
 void set_time_axis(PlotScript& script, double begin_s, double end_s) {
   constexpr double room_px = 110.0;
   const double range_s = end_s - begin_s;

@@ -1,5 +1,5 @@
 #pragma once
-// day.png: the course of light over a day or several, in one band.
+// day.png: the course of light over one or several days, in one band.
 
 #include "transport/statistics.h"
 
@@ -10,16 +10,17 @@
 
 namespace sunfleck {
 
-// A step of a day; fluxes in the plot's unit, per ground area. The middle of the step is where it is drawn.
+// One step of a day, drawn at its middle. Fluxes are per ground area, in the unit of the plot.
 struct DayPlotRow {
-  double start_s = 0.0;  // local_clock_s of its start
+  double start_s = 0.0;  // start of the step, as local_clock_s gives it
   double step_s = 0.0;
   Estimate incident, absorbed_vegetation, absorbed_soil, reflected;
-  Estimate sunlit_leaf_fraction;  // value NaN: none, as at night
+  Estimate sunlit_leaf_fraction;  // NaN if there is none, as at night
 };
 
-// What a local clock shows, in seconds since 1970-01-01 00:00 of that clock: of "2002-08-08T10:10:00+08:00" or the same with a
-// blank for T, without seconds, or without offset, which is left aside. Empty for other text.
+// Returns the time that a local clock shows, in seconds since 1970-01-01 00:00 of that clock. Accepts
+// "2002-08-08T10:10:00+08:00", also with a blank for the T, without seconds or without the offset, which is ignored. Returns
+// nothing for any other text.
 [[nodiscard]] std::optional<double> local_clock_s(std::string_view time);
 
 struct DayPlot {
@@ -27,10 +28,10 @@ struct DayPlot {
   std::string band;
   std::string unit = "W m\u207b\u00b2";
   double confidence = 0.95;
-  std::vector<DayPlotRow> rows;  // in order of time, at least one; curves are interrupted where steps are left out
+  std::vector<DayPlotRow> rows;  // in order of time, at least one; the curves have a gap where steps are missing
 };
 
-// A gnuplot script, for draw_plot.
+// Returns a gnuplot script for draw_plot.
 [[nodiscard]] std::string day_plot(const DayPlot& plot);
 
 }  // namespace sunfleck

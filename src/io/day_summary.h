@@ -1,5 +1,5 @@
 #pragma once
-// summary.json of a day.
+// The summary.json of a day.
 
 #include "io/day_course.h"
 #include "io/result_writer.h"
@@ -11,7 +11,7 @@
 
 namespace sunfleck {
 
-// Of all simulated steps together; errors are those of the worst one.
+// Totals over all simulated steps; the errors are those of the worst step.
 struct DayTotals {
   std::size_t simulated = 0;
   std::size_t short_of_bound = 0;
@@ -24,15 +24,15 @@ struct DaySummary {
   const RunRecord& record;
   const RadiationModel& model;
   const DayCourse& course;
-  std::span<const StepLight> lights;  // of the first steps, those done
+  std::span<const StepLight> lights;  // light of the finished steps, from the first
   const DayTotals& totals;
-  const nlohmann::ordered_json& settings;  // that the result depends on
+  const nlohmann::ordered_json& settings;  // the settings that determine the result
 };
 
-// As text, two spaces of indent.
+// Returns the JSON text, indented by two spaces.
 [[nodiscard]] std::string day_summary_json(const DaySummary& day);
 
-// A short table of each date's sums, for people.
+// Returns a short table of the sums of each date, for the terminal.
 [[nodiscard]] std::string day_report(const DaySummary& day);
 
 }  // namespace sunfleck

@@ -12,11 +12,11 @@ namespace sunfleck {
 
 [[nodiscard]] std::vector<double> organ_areas_m2(const Canopy& canopy);  // [organ], one-sided
 
-// `lights` are those of the first steps of the course: all of them, or those done before the day was stopped, which the
-// tables say in a line of their own.
+// Returns day.csv. `lights` holds the light of the first steps of the course: all of them, or those finished before the day was
+// stopped; in that case a line of the tables says so.
 [[nodiscard]] std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                   std::span<const StepLight> lights);
-// Rows as in organs.csv, for each date.
+// Returns organs_day.csv, with the rows of organs.csv for each date.
 [[nodiscard]] std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                          std::span<const StepLight> lights);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A short mark of what something was made from.
+// A short fingerprint of data.
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 
 namespace sunfleck {
 
-// FNV-1a, 64 bits (Fowler, Noll and Vo).
+// The 64-bit FNV-1a hash (Fowler, Noll and Vo).
 class Digest {
  public:
   void add(std::string_view bytes) {
     for (const char c : bytes) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   }
-  // 16 hexadecimal digits.
+  // Returns 16 hexadecimal digits.
   [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// One band's columns, value by value.
+// Collects the columns of one band, value by value.
 class BandColumns {
  public:
   BandColumns(const RadiationModel& model, const RadiationResult& result, const ElementFields& fields, std::size_t band)

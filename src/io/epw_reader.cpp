@@ -1,4 +1,5 @@
-// EnergyPlus weather, as its data dictionary describes it ("Auxiliary Programs", EnergyPlus 24.1): fields by number, from 1.
+// Reads EnergyPlus weather as specified by its data dictionary ("Auxiliary Programs", EnergyPlus 24.1); fields are numbered
+// from 1.
 
 #include "io/mesh_formats.h"
 #include "io/weather_formats.h"
@@ -13,10 +14,10 @@ namespace {
 
 constexpr std::size_t header_lines = 8;
 constexpr std::size_t ghi_field = 14, dni_field = 15, dhi_field = 16;
-constexpr double missing_from = 9999.0;  // the dictionary's code for all three
+constexpr double missing_from = 9999.0;  // the dictionary's code for a missing value of all three
 constexpr std::size_t ordinary_hours = 8760, leap_hours = 8784;
-constexpr int ordinary_year = 2001, leap_year = 2000;  // stand for every year
-constexpr std::string_view again = "fetch the file again, or take another";
+constexpr int ordinary_year = 2001, leap_year = 2000;  // stand for every ordinary and every leap year
+constexpr std::string_view again = "download the file again, or use another one";
 
 class EpwReader {
  public:
@@ -32,7 +33,7 @@ class EpwReader {
     const std::size_t hours = result_.weather.intervals.size();
     if (hours != ordinary_hours && hours != leap_hours) {
       refuse(source_, 0, fmt::format("{} rows found", hours),
-             fmt::format("a year has {} hours, or {}", ordinary_hours, leap_hours), again);
+             fmt::format("a year has {} or {} hours", ordinary_hours, leap_hours), again);
     }
     result_.weather.source = Weather::Source::intervals;
     result_.weather.every_year = true;
@@ -68,19 +69,20 @@ class EpwReader {
 
   void read_header() {
     for (std::size_t i = 0; i < header_lines; ++i) {
-      if (!lines_.next()) refuse(source_, 0, fmt::format("ends after {} lines", i), "an EPW begins with eight of them", again);
+      if (!lines_.next())
+        refuse(source_, 0, fmt::format("ends after {} lines", i), "an EPW file begins with eight header lines", again);
       split_cells(lines_.line(), cells_);
       if (i == 0) read_location();
       if (cells_.front() == "DATA PERIODS" && number(3, "records per hour") != 1.0) {
-        refuse(source_, lines_.number(), fmt::format("{} records per hour", cells_[2]), "only one is known",
-               "give hourly values, or a CSV");
+        refuse(source_, lines_.number(), fmt::format("{} records per hour", cells_[2]), "only one is supported",
+               "use hourly values, or a CSV");
       }
     }
   }
 
   void read_location() {
     if (cells_.front() != "LOCATION") {
-      refuse(source_, 1, fmt::format("begins with {}", in_quotes(cells_.front())), "an EPW begins with LOCATION", again);
+      refuse(source_, 1, fmt::format("begins with {}", in_quotes(cells_.front())), "an EPW file begins with LOCATION", again);
     }
     Place place;
     place.latitude_rad = glm::radians(number(7, "latitude", -90.0, 90.0));
@@ -90,7 +92,7 @@ class EpwReader {
     result_.place = place;
   }
 
-  // The month, day and hour that come next, from the hours read before; a year with a 29 February is known when it comes.
+  // Checks that month, day and hour follow those of the row before. A leap year is recognised by its 29 February.
   void expect_next(int month, int day, int hour) {
     if (month == 2 && day == 29 && hour == 1 && month_ == 2 && day_ == 28 && hour_ == 24) days_in_[1] = 29;
     if (++hour_ > 24) {
@@ -102,7 +104,7 @@ class EpwReader {
     }
     if (month == month_ && day == day_ && hour == hour_) return;
     refuse(source_, lines_.number(), fmt::format("month {}, day {}, hour {}", month, day, hour),
-           month_ > 12 ? std::string("the year is over") : fmt::format("hour {} of {}/{} comes next", hour_, month_, day_),
+           month_ > 12 ? std::string("the year is over") : fmt::format("hour {} of {}/{} is expected", hour_, month_, day_),
            again);
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the exporters share: what they write, and one function a format.
+// Declarations shared by the exporters: their input, and one function per format.
 
 #include "io/element_fields.h"
 #include "io/exports.h"
@@ -21,33 +21,33 @@ struct ExportData {
   std::span<const ElementColour> colours;  // [element], or empty
 };
 
-// The files' bytes. Throws Error (failure) for a canopy too large for the format.
+// Return the bytes of the files. Throw Error (failure) if the canopy is too large for the format.
 [[nodiscard]] std::string vtp_bytes(const ExportData& data);
 [[nodiscard]] std::string ply_bytes(const ExportData& data);
 [[nodiscard]] std::string glb_bytes(const ExportData& data);
 [[nodiscard]] std::string netcdf_bytes(const ExportData& data);
 [[nodiscard]] std::string caribu_csv(const ExportData& data);
 
-// The label of an element in CARIBU's files, O PPPPP LLL EEE: O the species, from organs named leaf2, stem2, ... (1 for names
-// without number, 0 for soil), plant, leaf (the rank, at least 1, of organs named leaf...; 000 of all others), and the
-// triangle's number in its organ modulo 1000. Throws Error (failure) where a number has too many digits.
+// Returns the label of an element in CARIBU files, O PPPPP LLL EEE: the species (N for organs named leafN or stemN, 1 for names
+// without a number, 0 for soil); the plant; the leaf (the rank, at least 1, for organs named leaf..., 000 for all others); and
+// the number of the triangle in its organ, modulo 1000. Throws Error (failure) if a number has too many digits.
 [[nodiscard]] std::string caribu_label(const Organ& organ, std::size_t number_in_organ);
 
-// The same of an element whose file had this label: as it was, but for the plant, which other meshes or copies before it
-// renumber.
+// Returns the label of an element that its file already labelled, with only the plant replaced: other meshes or copies placed
+// before it change the plant numbers.
 [[nodiscard]] std::string caribu_label_as_read(const Organ& organ, std::uint64_t label);
 
-// The record of a run as text: what it was asked for, not on what or how fast it ran.
+// One entry of a run's record as text. The record holds the settings, not the device or the run time.
 struct RecordEntry {
   std::string key;
   std::string value;  // valid UTF-8, one line
 };
 [[nodiscard]] std::vector<RecordEntry> record_entries(const RunRecord& record, const RadiationModel& model);
 
-// On one line and valid UTF-8, as most formats want their names; what breaks this becomes '?'.
+// Returns the text as one line of valid UTF-8, which most formats require of names; replaces offending characters by '?'.
 [[nodiscard]] std::string clean_text(std::string_view text);
 
-// Formats with little-endian numbers.
+// Append the bytes of values for formats with little-endian numbers.
 template <class T>
 void append_bytes(std::string& bytes, std::span<const T> values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());

@@ -12,7 +12,7 @@
 namespace sunfleck {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "append_bytes copies numbers as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "append_bytes copies numbers as stored in memory");
 
 std::string bytes_of(ExportKind kind, const ExportData& data) {
   switch (kind) {

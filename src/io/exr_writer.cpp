@@ -19,7 +19,7 @@ struct FreeMemory {
   void operator()(unsigned char* memory) const { std::free(memory); }
 };
 
-// The plain arrays that tinyexr's header and image point to. It takes all it is given as changeable, and changes nothing.
+// The plain arrays that tinyexr's header and image point to. tinyexr takes non-const pointers but changes nothing.
 struct ExrArrays {
   std::vector<EXRChannelInfo> channels;
   std::vector<int> types;
@@ -27,7 +27,7 @@ struct ExrArrays {
   EXRAttribute comments{};
 
   explicit ExrArrays(const ExrImage& image) {
-    // The format has channels in the order of their names.
+    // The format requires the channels in the order of their names.
     std::vector<const ExrChannel*> sorted;
     for (const ExrChannel& channel : image.channels) sorted.push_back(&channel);
     std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
@@ -86,8 +86,8 @@ void write_exr(const ExrImage& image, const std::filesystem::path& file) {
   if (size == 0) {
     const std::string why = message != nullptr ? printable(message) : "out of memory";
     FreeEXRErrorMessage(message);
-    throw_failure(fmt::format("{}: no EXR of {} x {} pixels", printable(file.string()), image.width, image.height), why,
-                  "ask for a smaller picture");
+    throw_failure(fmt::format("{}: cannot encode {} x {} pixels as EXR", printable(file.string()), image.width, image.height),
+                  why, "ask for a smaller picture");
   }
   write_file(file, {reinterpret_cast<const char*>(bytes), size});
 }

@@ -1,5 +1,5 @@
 #pragma once
-// OpenEXR files: pictures whose pixels are measured values.
+// OpenEXR images whose pixels are measured values.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace sunfleck {
 
 struct ExrChannel {
-  std::string name;                                                     // 1 to 255 bytes, no two of an image equal
+  std::string name;                                                     // 1 to 255 bytes, distinct within an image
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;  // [row from the top][column]
 };
 
@@ -18,10 +18,11 @@ struct ExrImage {
   int width = 0;
   int height = 0;
   std::vector<ExrChannel> channels;
-  std::string comments;  // the file's attribute of that name: what the channels hold, and in which unit
+  std::string comments;  // attribute `comments` of the file: meaning and unit of the channels
 };
 
-// One part of scan lines with ZIP compression, 32 bits a value. Written aside and renamed. Throws Error (failure).
+// Writes a single-part scan-line image with ZIP compression and 32 bits per value. Writes aside and renames. Throws Error
+// (failure).
 void write_exr(const ExrImage& image, const std::filesystem::path& file);
 
 }  // namespace sunfleck

@@ -37,15 +37,15 @@ Handle open(const fs::path& file, const char* mode) {
   throw_failure(fmt::format("{}: cannot be written", printable(file.string())), std::strerror(code), write_cure(code));
 }
 
-// 0, or the errno that speaks against a new file of this name. A rename would go ahead.
+// Returns 0, or the errno that forbids replacing a file of this name; a rename alone would ignore it.
 int protection(const fs::path& file) {
   struct stat state {};
-  if (::stat(file.c_str(), &state) != 0) return 0;  // none there, or what opening the new one will tell
+  if (::stat(file.c_str(), &state) != 0) return 0;  // there is no file, or opening the new one will report why
   if (S_ISDIR(state.st_mode)) return EISDIR;
   return ::access(file.c_str(), W_OK) == 0 ? 0 : errno;
 }
 
-// Waits until the disk has a file or a folder. Returns 0 or errno; a file system that does not support it counts as done.
+// Waits until a file or folder is on the disk. Returns 0 or errno; a file system without fsync counts as success.
 int sync(int number) {
   int code = 0;
   do {
@@ -62,8 +62,8 @@ int sync_file(const fs::path& file) {
   return code;
 }
 
-// Waits until the disk has the entries of a folder. Returns 0 or errno; a folder that may be written but not read counts as
-// done.
+// Waits until the entries of a folder are on the disk. Returns 0 or errno; a folder that is writable but not readable counts as
+// success.
 int sync_folder(const fs::path& folder) {
   const int number = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (number < 0) return errno == EACCES ? 0 : errno;
@@ -72,14 +72,14 @@ int sync_folder(const fs::path& folder) {
   return code;
 }
 
-// Renames a file that the disk has, and waits for its new name. Returns 0 or errno.
+// Renames a file that is on the disk, and waits for its new name. Returns 0 or errno.
 int put_in_place(const fs::path& file, const fs::path& aside) {
   if (const int code = protection(file); code != 0) return code;
   if (std::rename(aside.c_str(), file.c_str()) != 0) return errno;
   return sync_folder(file.parent_path());
 }
 
-// Writes all bytes, waits until the disk has them, and closes. Returns 0 or errno.
+// Writes all bytes, waits until they are on the disk, and closes the file. Returns 0 or errno.
 int fill(int number, std::string_view bytes) {
   int code = 0;
   while (!bytes.empty() && code == 0) {
@@ -88,7 +88,7 @@ int fill(int number, std::string_view bytes) {
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
   }
   if (code == 0) code = sync(number);
-  if (::close(number) != 0 && code == 0) code = errno;  // a network's disk may be full only now
+  if (::close(number) != 0 && code == 0) code = errno;  // a full network disk may be reported only now
   return code;
 }
 
@@ -150,7 +150,8 @@ std::uintmax_t available_memory_bytes() {
     std::uintmax_t kib = 0;
     if (std::sscanf(line.c_str(), "MemAvailable: %ju kB", &kib) == 1) available = std::min(available, kib * 1024);
   }
-  std::uintmax_t limit = 0, used = 0;  // of the control group, version 2; "max" where there is no limit
+  // Memory of the control group, version 2; the limit is "max" if there is none.
+  std::uintmax_t limit = 0, used = 0;
   std::ifstream limit_file("/sys/fs/cgroup/memory.max"), used_file("/sys/fs/cgroup/memory.current");
   if (limit_file >> limit && used_file >> used) available = std::min(available, limit - std::min(limit, used));
   return available;
@@ -162,18 +163,18 @@ std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
   if (status.type() == fs::file_type::not_found) refuse_read(file, "there is no such file", "check the name and the folder");
   if (code) refuse_read(file, code.message(), "check the path and its permissions");
   if (fs::is_directory(status)) refuse_read(file, "it is a directory", "name a file");
-  if (!fs::is_regular_file(status)) refuse_read(file, "it is no regular file", "name a file on disk");
+  if (!fs::is_regular_file(status)) refuse_read(file, "it is not a regular file", "name a file on disk");
 
   const Handle handle = open(file, "rb");
   if (!handle) refuse_read(file, std::strerror(errno), "check its permissions");
   const std::uintmax_t size = fs::file_size(file, code);
   if (code) refuse_read(file, code.message(), "check the path and its permissions");
   if (const std::uintmax_t most = std::min(most_bytes, physical_memory_bytes()); size > most)
-    refuse_read(file, fmt::format("it has {} bytes, and at most {} are read", size, most), "give a smaller file");
+    refuse_read(file, fmt::format("it has {} bytes, but at most {} are allowed", size, most), "use a smaller file");
   std::string bytes(size, '\0');
   const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), handle.get());
   if (std::ferror(handle.get()) != 0) refuse_read(file, std::strerror(errno), "check the disk");
-  if (got != bytes.size()) refuse_read(file, "it became shorter while it was read", "try again when it is complete");
+  if (got != bytes.size()) refuse_read(file, "it was truncated while being read", "try again when it is complete");
   return bytes;
 }
 
@@ -186,18 +187,18 @@ std::string_view write_cure(int code) {
       return "raise the limit of file sizes (ulimit -f) or choose another disk";
     case ENOENT:
     case ENOTDIR:
-      return "make its folder first";
+      return "create its folder first";
     case EISDIR:
       return "remove that folder or choose another name";
     case EIO:
       return "check the disk";
     default:
-      return "choose a folder where files may be written";
+      return "choose a folder with write permission";
   }
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  constexpr mode_t mode = 0666;  // less the user's mask
+  constexpr mode_t mode = 0666;  // before the user's umask
   check_writable(file);
   const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
   ::unlink(aside.c_str());
@@ -224,10 +225,10 @@ void replace_file(const fs::path& file, const fs::path& aside) {
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
-  std::vector<fs::path> parents;  // that get an entry
+  std::vector<fs::path> parents;  // parents that get a new entry
   for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path()) parents.push_back(at.parent_path());
   fs::create_directories(folder, error);
-  if (error) throw_failure(printable(folder.string()), error.message(), "give a folder that can be written with -o");
+  if (error) throw_failure(printable(folder.string()), error.message(), "choose a writable folder with -o");
   for (const fs::path& parent : parents) {
     if (const int code = sync_folder(parent); code != 0) refuse_write(folder, code);
   }

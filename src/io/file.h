@@ -1,5 +1,5 @@
 #pragma once
-// Whole files in and out.
+// Reading and writing of whole files.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,51 +10,50 @@ namespace sunfleck {
 
 inline constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 30U;
 
-// The bytes of a regular file. Throws Error (input) if it is missing, no regular file or unreadable, and before memory for it
-// is taken if it is longer than `most_bytes` or than this machine's memory.
+// Returns the bytes of a regular file. Throws Error (input) if it is missing, not a regular file or unreadable, and also,
+// before allocating memory for it, if it is longer than `most_bytes` or than the memory of this machine.
 [[nodiscard]] std::string read_file(const std::filesystem::path& file, std::uintmax_t most_bytes = largest_file_bytes);
 
-// Of this machine; the largest number where the system does not say.
+// Returns the memory of this machine, or the largest number if the system does not report it.
 [[nodiscard]] std::uintmax_t physical_memory_bytes();
 
-// Returns how much memory this process could still take: what the system has to give, or what its control group has left if
-// that is less. The machine's memory where the system tells neither.
+// Returns how much more memory this process could allocate: the system's available memory, or what its control group has left
+// if that is less. Returns the memory of the machine if the system reports neither.
 [[nodiscard]] std::uintmax_t available_memory_bytes();
 
-// Writes aside, in the same folder, and renames, so that the file is whole or not there, whatever ends the program. It waits
-// until the disk has the bytes before it renames, and until the disk has the new name before it returns (fsync of the file and
-// of the folder), so that this holds for a power cut too; where the file system does not support that, it does not wait. The
-// folder must exist; a file that is write-protected stays. Throws Error (failure); if only the folder could not be brought to
-// the disk, the file is there all the same.
+// Writes to a temporary file in the same folder and renames it, so that the file is either complete or absent even if the
+// program is killed. To survive a power cut too, it calls fsync on the file before renaming it, and on the folder before
+// returning; where the file system does not support fsync, it does not wait. The folder must exist; a write-protected file is
+// not replaced. Throws Error (failure); if only the fsync of the folder failed, the new file is in place nevertheless.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-// Puts the finished `aside` in the place of `file`, on the same file system, and waits for the disk as write_file does. Throws
-// Error (failure), and removes `aside`.
+// Replaces `file` by the finished `aside`, on the same file system, and waits for the disk as write_file does. Throws Error
+// (failure) and removes `aside`.
 void replace_file(const std::filesystem::path& file, const std::filesystem::path& aside);
 
-// Makes the folder and those above it where they are missing, and waits until the disk has them. Throws Error (failure).
+// Creates the folder and its missing parents, and waits until they are on the disk. Throws Error (failure).
 void make_folder(const std::filesystem::path& folder);
 
-// Throws Error (failure) for what write_file would refuse to replace.
+// Throws Error (failure) if write_file would refuse to replace the file.
 void check_writable(const std::filesystem::path& file);
 
-// Whether `name` is what a program that was killed left of writing a file called `of`.
+// Returns whether `name` is a temporary file left by a program that was killed while it wrote a file named `of`.
 [[nodiscard]] bool is_left_aside(std::string_view name, std::string_view of);
 
-// What helps against the reason, an errno, that a file could not be written.
+// Returns advice for the errno with which writing a file failed.
 [[nodiscard]] std::string_view write_cure(int code);
 
-// True for text that is UTF-8 without overlong forms and surrogates (RFC 3629).
+// Returns whether the text is UTF-8 without overlong forms and surrogates (RFC 3629).
 [[nodiscard]] bool is_utf8(std::string_view text);
 
-// A name or a piece of a file as a one-line message shows it: control characters become '?', and so does all beyond ASCII in a
-// text that is not UTF-8.
+// Returns a name or a piece of a file in a form fit for a one-line message: replaces control characters by '?', and all
+// non-ASCII bytes too if the text is not UTF-8.
 [[nodiscard]] std::string printable(std::string_view text);
 
-// The text behind a UTF-8 byte order mark, where it begins with one.
+// Returns the text without a leading UTF-8 byte order mark.
 [[nodiscard]] std::string_view without_mark(std::string_view text);
 
-// The text itself, or its first `longest` bytes and "...", not cut inside a UTF-8 character.
+// Returns the text itself, or its first `longest` bytes and "...", never cut inside a UTF-8 character.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t longest);
 
 }  // namespace sunfleck

@@ -28,14 +28,14 @@ void FolderLock::make_folder() {
 void FolderLock::take() {
   if (number_ >= 0) return;
   const int number = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (number < 0) return;  // not there; one that cannot be read is found out by writing
+  if (number < 0) return;  // it does not exist, or writing will report that it is unreadable
   if (::flock(number, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
     number_ = number;
     return;
   }
   ::close(number);
   throw_failure(printable(folder_.string()), "another run is writing into this folder",
-                "wait until it ends, or give another folder with -o");
+                "wait until it ends, or choose another folder with -o");
 }
 
 }  // namespace sunfleck

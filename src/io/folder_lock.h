@@ -1,21 +1,21 @@
 #pragma once
-// One run at a time in a result folder.
+// Ensures that only one run at a time uses a result folder.
 
 #include <filesystem>
 
 namespace sunfleck {
 
-// An advisory lock (flock) on the folder itself: nothing is left behind in it, and the lock of a process that is killed goes
-// with it. On file systems that do not lock folders (some network ones) it holds nothing.
+// An advisory lock (flock) on the folder itself. It leaves no file behind, and the system releases it if the process is killed.
+// On file systems that do not lock folders (some network ones) it has no effect.
 class FolderLock {
  public:
-  // Takes the lock if the folder is there. Throws Error (failure) while another process has it.
+  // Takes the lock if the folder exists. Throws Error (failure) if another process holds it.
   explicit FolderLock(std::filesystem::path folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  // Makes the folder where it is missing, and takes its lock unless that is held already. Throws Error (failure).
+  // Creates the folder if it is missing, and takes its lock unless already held. Throws Error (failure).
   void make_folder();
 
  private:

@@ -15,14 +15,14 @@ namespace {
 
 constexpr const char* file_name = "canopy.glb";
 
-// An attribute of every vertex; glTF wants custom names to begin with `_` and to be of capitals.
+// Returns the name of a vertex attribute; custom names in glTF begin with `_` and are in capitals.
 std::string attribute_of(const std::string& band, std::string_view ending) {
   std::string name = "_" + band + "_";
   for (const char c : ending) name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return name;
 }
 
-// One node an organ below a node that holds the record and stands at the canopy's origin; one primitive an optics name.
+// Builds a root node with the record, at the canopy's origin, with one child per organ and one primitive per optics name.
 class CanopyWriter {
  public:
   explicit CanopyWriter(const ExportData& data) : data_(data) {
@@ -146,10 +146,11 @@ class CanopyWriter {
 }  // namespace
 
 std::string glb_bytes(const ExportData& data) {
-  constexpr std::size_t most_triangles = std::size_t{1} << 24;  // above, single precision leaves numbers of triangles out
+  // Beyond this, single precision cannot hold all triangle numbers.
+  constexpr std::size_t most_triangles = std::size_t{1} << 24;
   if (data.fields.size() > most_triangles) {
     throw_failure(fmt::format("{}: {} triangles", file_name, data.fields.size()),
-                  fmt::format("the format holds the numbers of at most {}", most_triangles), "export vtp or nc");
+                  fmt::format("the format can number at most {}", most_triangles), "export vtp or nc");
   }
   return gltf_bytes(CanopyWriter(data).take(), GltfForm::binary, file_name);
 }

@@ -1,4 +1,4 @@
-// From the bytes of a .gltf or .glb file to a model and its buffers.
+// Reads the bytes of a .gltf or .glb file into a model and its buffers.
 
 #include "base/error.h"
 #include "io/file.h"
@@ -21,10 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-static_assert(std::endian::native == std::endian::little, "glTF is read as it lies in memory");
+static_assert(std::endian::native == std::endian::little, "glTF numbers are read as stored in memory");
 
-constexpr std::string_view write_again = "write the file again";
-constexpr std::uint64_t most_buffer_bytes = std::uint64_t{8} << 30U;  // of all together: 2^28 positions and their indices
+constexpr std::string_view write_again = "export the file again";
+// The limit for all buffers together: 2^28 positions and their indices.
+constexpr std::uint64_t most_buffer_bytes = std::uint64_t{8} << 30U;
 
 struct GlbChunks {
   std::string_view json, binary;
@@ -36,7 +37,8 @@ std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
   return word;
 }
 
-// glTF 2.0, section 4.4: magic, version, length; then chunks of length, type, bytes: JSON first, BIN second if at all.
+// Splits a GLB file (glTF 2.0, section 4.4): magic, version, length; then chunks of length, type, bytes. JSON comes first; BIN,
+// if any, second.
 GlbChunks split_glb(const MeshSource& source) {
   constexpr std::size_t header = 12, chunk_header = 8;
   constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
@@ -45,10 +47,9 @@ GlbChunks split_glb(const MeshSource& source) {
     refuse(source, 0, fmt::format("only {} bytes", rest.size()), "a GLB file has at least 20", write_again);
   constexpr std::uint32_t swapped_two = 0x02000000;
   if (word_at(rest, 4) == swapped_two)
-    refuse(source, 0, "its numbers have the most significant byte first", "a GLB file has the least significant byte first",
-           "write it again with the bytes of each number turned round");
+    refuse(source, 0, "its numbers are big-endian", "a GLB file is little-endian", "save it with little-endian numbers");
   if (word_at(rest, 4) != 2)
-    refuse(source, 0, fmt::format("GLB version {}", word_at(rest, 4)), "only version 2 is read", "export it as glTF 2.0");
+    refuse(source, 0, fmt::format("GLB version {}", word_at(rest, 4)), "only version 2 is supported", "export it as glTF 2.0");
   if (word_at(rest, 8) != rest.size())
     refuse(source, 0, fmt::format("{} bytes", rest.size()), fmt::format("its header says {}", word_at(rest, 8)), write_again);
   rest.remove_prefix(header);
@@ -57,11 +58,11 @@ GlbChunks split_glb(const MeshSource& source) {
     const std::size_t length = rest.size() < chunk_header ? rest.size() : word_at(rest, 0);
     if (rest.size() < chunk_header || length > rest.size() - chunk_header)
       refuse(source, 0, fmt::format("GLB chunk {} of {} bytes", number, length),
-             fmt::format("only {} bytes are left", rest.size()), write_again);
+             fmt::format("only {} bytes remain", rest.size()), write_again);
     const std::string_view content = rest.substr(chunk_header, length);
     const std::uint32_t type = word_at(rest, 4);
     if (number == 0 && type != json_chunk)
-      refuse(source, 0, "the first GLB chunk is not JSON", "glTF 2.0 wants it first", write_again);
+      refuse(source, 0, "the first GLB chunk is not JSON", "glTF 2.0 requires it first", write_again);
     if (number == 0) chunks.json = content;
     if (number == 1 && type == binary_chunk) chunks.binary = content;
     rest.remove_prefix(chunk_header + length);
@@ -69,10 +70,10 @@ GlbChunks split_glb(const MeshSource& source) {
   return chunks;
 }
 
-// Buffers are read here; the rest of what is left out concerns pictures and motion, and may be missing or broken.
+// Sections to skip: they concern images and animation, and may be missing or broken. Buffers are read here.
 constexpr std::array<std::string_view, 6> left_out{"animations", "cameras", "images", "samplers", "skins", "textures"};
 
-// The deepest nesting of lists and objects.
+// Returns the deepest nesting of lists and objects.
 std::int64_t depth_of(std::string_view text) {
   std::int64_t depth = 0, deepest = 0;
   bool in_string = false;
@@ -87,37 +88,38 @@ std::int64_t depth_of(std::string_view text) {
   return deepest;
 }
 
-// The library's message without the name it gives the error, [json.exception.parse_error.101].
+// Returns the library's message without the error name in front, [json.exception.parse_error.101].
 std::string_view reason_of(const json::exception& problem) {
   const std::string_view words = problem.what();
   const std::size_t name = words.find("] ");
   return words.starts_with('[') && name != words.npos ? words.substr(name + 2) : words;
 }
 
-// Not by the library's callbacks: with them it goes through a whole list at the end of each of its objects.
+// Parses the JSON, then removes the skipped sections. The library's callbacks could skip them, but rescan a whole list at the
+// end of each of its objects.
 json parse_json(const MeshSource& source, std::string_view text) {
-  constexpr int deepest = 100;  // tinygltf follows extras by recursion
+  constexpr int deepest = 100;  // tinygltf follows extras recursively
   if (depth_of(text) > deepest)
-    refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "no glTF file needs that", write_again);
+    refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "glTF files need far less", write_again);
   try {
     json document = json::parse(text);
-    if (!document.is_object()) refuse(source, 0, "not a JSON object", "every glTF file is one", write_again);
+    if (!document.is_object()) refuse(source, 0, "not a JSON object", "a glTF file must be one", write_again);
     for (const std::string_view section : left_out) document.erase(std::string(section));
     return document;
   } catch (const json::exception& problem) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == text.npos || text[first] != '{')
-      refuse(source, 0, "not a glTF file", "it begins neither with glTF, as .glb does, nor with {, as .gltf does", write_again);
+      refuse(source, 0, "not a glTF file", "it begins neither with glTF (.glb) nor with { (.gltf)", write_again);
     refuse(source, 0, "malformed JSON", reason_of(problem), write_again);
   }
 }
 
-// tinygltf passes over an optional value of a wrong type and cuts indices to 32 bits; here both are refused.
+// Refuses optional values of a wrong type, which tinygltf ignores, and indices beyond 32 bits, which it truncates.
 class ValueCheck {
  public:
   ValueCheck(const MeshSource& source, const json& object, std::string_view where)
       : source_(source), object_(object), where_(where) {
-    if (!object.is_object()) refuse(source, 0, fmt::format("{} is no object", where), "glTF 2.0 wants one", write_again);
+    if (!object.is_object()) refuse(source, 0, fmt::format("{} is not an object", where), "glTF 2.0 requires one", write_again);
   }
 
   void index(const char* key) const { check(key, is_index); }
@@ -148,7 +150,7 @@ class ValueCheck {
 
   void refuse_value(const char* key, const json& value) const {
     refuse(source_, 0, fmt::format("malformed glTF, {}: {} = {}", where_, key, in_quotes(value.dump())),
-           "not the kind of value that glTF 2.0 wants", write_again);
+           "glTF 2.0 requires another type of value", write_again);
   }
 
   const MeshSource& source_;
@@ -161,7 +163,7 @@ void check_values(const MeshSource& source, const json& document) {
   const auto each = [&](const json& parent, const char* section, const auto& check) {
     const auto items = parent.find(section);
     if (items == parent.end()) return;
-    if (!items->is_array()) refuse(source, 0, fmt::format("{} is no array", section), "glTF 2.0 wants one", write_again);
+    if (!items->is_array()) refuse(source, 0, fmt::format("{} is not an array", section), "glTF 2.0 requires one", write_again);
     for (std::size_t i = 0; i < items->size(); ++i)
       check(ValueCheck(source, (*items)[i], fmt::format("{} {}", section, i)), (*items)[i]);
   };
@@ -203,7 +205,7 @@ std::string percent_decoded(std::string_view uri) {
   return text;
 }
 
-// Once symbolic links are followed.
+// Returns whether a path is inside the glTF file's folder after following symbolic links.
 bool lies_in_folder_of(const fs::path& gltf, const fs::path& file) {
   std::error_code code;
   const fs::path folder = fs::weakly_canonical(gltf.parent_path().empty() ? fs::path(".") : gltf.parent_path(), code);
@@ -217,25 +219,25 @@ std::string read_buffer(const MeshSource& source, const std::string& uri) {
     std::vector<unsigned char> bytes;
     std::string kind;
     if (!tinygltf::DecodeDataURI(&bytes, kind, uri, 0, false))
-      refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "not base64 data in a known form", write_again);
+      refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "not valid base64 data", write_again);
     return {bytes.begin(), bytes.end()};
   }
   const std::string decoded = percent_decoded(uri);
   if (decoded.find("://") != decoded.npos || decoded.find('\0') != decoded.npos)
-    refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must name a file", "export as .glb");
+    refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must name a file", "export it as .glb");
   const fs::path file = source.file.parent_path() / decoded;
   if (!source.allow_outside && !lies_in_folder_of(source.file, file))
-    refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must lie beside the glTF file or below it",
-           "move it there, export as .glb, or run with --allow-outside");
+    refuse(source, 0, fmt::format("buffer {}", in_quotes(uri)), "must lie in the glTF file's folder",
+           "move it there, export it as .glb, or run with --allow-outside");
   return read_source(file, source.files, most_buffer_bytes);
 }
 
-// A buffer may be longer than it says (GLB pads to 4 bytes), never shorter.
+// Reads the buffers. A buffer may be longer than its byteLength (GLB pads to 4 bytes), but not shorter.
 void read_buffers(const MeshSource& source, std::string_view binary, GltfDocument& document) {
   const json buffers = document.json.value("buffers", json::array());
   document.json.erase("buffers");
-  if (!buffers.is_array()) refuse(source, 0, "buffers is no array", "glTF 2.0 wants one", write_again);
-  document.owned.reserve(buffers.size());  // the views below stay valid
+  if (!buffers.is_array()) refuse(source, 0, "buffers is not an array", "glTF 2.0 requires one", write_again);
+  document.owned.reserve(buffers.size());  // keeps the views below valid
   std::uint64_t owned_bytes = 0;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const json& buffer = buffers[i];
@@ -246,7 +248,7 @@ void read_buffers(const MeshSource& source, std::string_view binary, GltfDocumen
       bytes = document.owned.emplace_back(read_buffer(source, buffer["uri"].get_ref<const std::string&>()));
       owned_bytes += bytes.size();
       if (owned_bytes > most_buffer_bytes)
-        refuse(source, 0, fmt::format("buffers of more than {} bytes", most_buffer_bytes), "one file may have that many",
+        refuse(source, 0, fmt::format("buffers of more than {} bytes", most_buffer_bytes), "the limit for one file",
                "split the file");
     } else if (i > 0 || binary.empty()) {
       refuse(source, 0, fmt::format("buffer {} has no content", i), "it has no uri and there is no GLB chunk for it",
@@ -254,7 +256,7 @@ void read_buffers(const MeshSource& source, std::string_view binary, GltfDocumen
     }
     const auto length = buffer["byteLength"].get<std::uint64_t>();
     if (length > bytes.size())
-      refuse(source, 0, fmt::format("buffer {} of {} bytes", i, length), fmt::format("only {} are there", bytes.size()),
+      refuse(source, 0, fmt::format("buffer {} of {} bytes", i, length), fmt::format("only {} are present", bytes.size()),
              write_again);
     document.buffers.push_back(bytes.substr(0, length));
   }
@@ -265,10 +267,10 @@ void refuse_extensions(const MeshSource& source, const tinygltf::Model& model) {
                                                    "KHR_draco_mesh_compression", "KHR_mesh_quantization"};
   const auto refuse_if_unread = [&](const std::string& name) {
     if (std::find(unread.begin(), unread.end(), name) != unread.end())
-      refuse(source, 0, fmt::format("needs the extension {}", name), "it is not read", "export without it");
+      refuse(source, 0, fmt::format("needs the extension {}", name), "it is not supported", "export the file without it");
   };
   for (const std::string& name : model.extensionsRequired) refuse_if_unread(name);
-  // Instances are geometry even where the file calls them optional.
+  // Instances are geometry even if the file declares them optional.
   for (const tinygltf::Node& node : model.nodes)
     for (const auto& [name, value] : node.extensions)
       if (name == unread.front()) refuse_if_unread(name);
@@ -289,7 +291,7 @@ GltfDocument open_gltf(const MeshSource& source) {
   try {
     const std::string text = document.json.dump();
     if (text.size() > std::numeric_limits<unsigned>::max())
-      refuse(source, 0, "more than 4 GiB of JSON", "glTF's own limit", "export as .glb");
+      refuse(source, 0, "more than 4 GiB of JSON", "glTF allows no more", "export it as .glb");
     loaded = tinygltf::TinyGLTF().LoadASCIIFromString(&document.model, &errors, &warnings, text.c_str(),
                                                       static_cast<unsigned>(text.size()), "", tinygltf::REQUIRE_VERSION);
   } catch (const Error&) {
@@ -301,11 +303,11 @@ GltfDocument open_gltf(const MeshSource& source) {
   } catch (const std::exception& problem) {
     errors = problem.what();
   }
-  // tinygltf also reports values of a wrong type that it then leaves out.
+  // tinygltf also reports values of a wrong type, which it then leaves out.
   if (!loaded || !errors.empty())
     refuse(source, 0, "malformed glTF", errors.empty() ? "no reason given" : errors.substr(0, errors.find('\n')), write_again);
   if (!document.model.asset.version.starts_with("2."))
-    refuse(source, 0, fmt::format("glTF version {}", in_quotes(document.model.asset.version)), "only 2.x is read",
+    refuse(source, 0, fmt::format("glTF version {}", in_quotes(document.model.asset.version)), "only 2.x is supported",
            "export it as glTF 2.0");
   refuse_extensions(source, document.model);
   return document;

@@ -1,5 +1,5 @@
 #pragma once
-// The two halves of the glTF reader: from bytes to a model with its buffers, and from there to triangles.
+// The two stages of the glTF reader: from bytes to a model with its buffers, and from there to triangles.
 
 #include "io/gltf_library.h"
 #include "io/mesh_formats.h"
@@ -11,12 +11,12 @@
 
 namespace sunfleck {
 
-// tinygltf's model without buffers and pictures, the bytes of each buffer, and the JSON itself for the extras, whose
-// integers tinygltf cuts to 32 bits. Indices inside the model are still unchecked.
+// A glTF file: tinygltf's model without buffers and images, the bytes of each buffer, and the JSON itself for the extras, whose
+// integers tinygltf truncates to 32 bits. The indices inside the model are not checked yet.
 struct GltfDocument {
   nlohmann::json json;
   tinygltf::Model model;
-  std::vector<std::string> owned;         // buffers that are not a part of the file itself
+  std::vector<std::string> owned;         // buffers that are not part of the file itself
   std::vector<std::string_view> buffers;  // [buffer], byteLength bytes
 };
 

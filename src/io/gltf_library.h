@@ -1,6 +1,6 @@
 #pragma once
-// tinygltf as we use it: it opens no files and decodes no pictures. Every file that needs it includes it through here, since
-// these switches change its classes.
+// Includes tinygltf, configured to open no files and to decode no images. Include it only through this header, because these
+// switches change its classes.
 
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE

@@ -42,11 +42,11 @@ int add_positions(tinygltf::Model& model, std::span<const std::array<float, 3>> 
 }
 
 std::string gltf_bytes(const tinygltf::Model& model, GltfForm form, std::string_view file) {
-  constexpr std::size_t most_bytes = std::size_t{3} << 30;  // GLB counts to 4 GiB, JSON included
+  constexpr std::size_t most_bytes = std::size_t{3} << 30;  // GLB is limited to 4 GiB, JSON included
   if (!model.buffers.empty() && model.buffers[0].data.size() > most_bytes)
-    throw_failure(fmt::format("{}: cannot be written as glTF", file), "it would hold more than 3 GiB", "write it in parts");
+    throw_failure(fmt::format("{}: cannot be written as glTF", file), "it would exceed 3 GiB", "write it in parts");
   std::ostringstream text;
-  text.exceptions(std::ios::badbit);  // a lack of memory would cut the text short in silence
+  text.exceptions(std::ios::badbit);  // otherwise a lack of memory would silently truncate the text
   const bool binary = form == GltfForm::binary;
   if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, !binary, binary))
     throw_failure(fmt::format("{}: cannot be written as glTF", file), "tinygltf refused it", "write another format");

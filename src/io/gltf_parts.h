@@ -1,5 +1,5 @@
 #pragma once
-// What the two glTF writers share.
+// Functions shared by the two glTF writers.
 
 #include "canopy/mesh.h"
 #include "io/gltf_library.h"
@@ -11,14 +11,14 @@
 
 namespace sunfleck {
 
-// plant1_leaf7; organ_from_name reads it back.
+// Returns e.g. plant1_leaf7, which organ_from_name reads back.
 [[nodiscard]] std::string node_name(const Organ& organ);
 
-// {"plant", "organ", "rank"}
+// Returns {"plant", "organ", "rank"}.
 [[nodiscard]] tinygltf::Value organ_extras(const Organ& organ);
 
-// Appends to the model's one buffer and describes the piece: `accessor` needs its types only. Returns the accessor's number.
-// All pieces are whole words, as GLB wants.
+// Appends the values to the model's only buffer with a view and an accessor, and returns the index of the accessor. Only the
+// types of `accessor` need to be set. The size of every value is a multiple of four bytes, because GLB requires that alignment.
 template <class T>
 int add_piece(tinygltf::Model& model, std::span<const T> values, int target, tinygltf::Accessor accessor) {
   static_assert(sizeof(T) % 4 == 0);
@@ -37,12 +37,12 @@ int add_piece(tinygltf::Model& model, std::span<const T> values, int target, tin
   return static_cast<int>(model.accessors.size() - 1);
 }
 
-// A VEC3 of floats with its bounds, which must be finite.
+// Adds a VEC3 of floats with its bounds; the positions must be finite.
 int add_positions(tinygltf::Model& model, std::span<const std::array<float, 3>> positions);
 
 enum class GltfForm { binary, text };
 
-// Throws Error (failure), naming `file`, beyond 3 GiB.
+// Returns the bytes of the file. Throws Error (failure), naming `file`, if it exceeds 3 GiB.
 [[nodiscard]] std::string gltf_bytes(const tinygltf::Model& model, GltfForm form, std::string_view file);
 
 }  // namespace sunfleck

@@ -20,9 +20,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view write_again = "write the file again";
+constexpr std::string_view write_again = "export the file again";
 
-// What is known of the organ a node belongs to; children inherit what they do not say themselves.
+// The known part of a node's organ; children inherit whatever they do not specify themselves.
 struct OrganHint {
   std::optional<std::uint32_t> plant;
   std::optional<std::string> name;
@@ -43,7 +43,7 @@ class GltfReader {
   Mesh read() {
     for (const tinygltf::Material& material : model_.materials)
       if (material.alphaMode != "OPAQUE" && material.pbrMetallicRoughness.baseColorTexture.index >= 0)
-        warn(fmt::format("{}: material {}: its transparency texture is not read; triangles count in full",
+        warn(fmt::format("{}: material {}: its transparency texture is not read; its triangles count as opaque",
                          source_.file.string(), in_quotes(material.name)));
     visited_.assign(model_.nodes.size(), false);
     std::vector<NodeVisit> open;
@@ -64,7 +64,7 @@ class GltfReader {
     return items[static_cast<std::size_t>(index)];
   }
 
-  // The nodes of the default scene, else of the first one, else those that are nobody's children.
+  // Returns the nodes of the default scene, otherwise those of the first scene, otherwise all nodes without a parent.
   std::vector<int> roots() const {
     if (model_.defaultScene >= 0 || !model_.scenes.empty())
       return item(model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
@@ -80,7 +80,7 @@ class GltfReader {
     return nodes;
   }
 
-  // Last first, so that the nodes come off the stack in the file's order.
+  // Pushes the nodes in reverse, so that they come off the stack in the order of the file.
   static void push(std::vector<NodeVisit>& open, const std::vector<int>& nodes, const NodeVisit& parent) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open.push_back({*node, parent.to_scene, parent.organ});
   }
@@ -89,7 +89,8 @@ class GltfReader {
     const tinygltf::Node& node = item(model_.nodes, visit.node, "node");
     const auto number = static_cast<std::size_t>(visit.node);
     if (visited_[number])
-      refuse(source_, 0, fmt::format("node {} is met twice", visit.node), "nodes must form trees, without cycles", write_again);
+      refuse(source_, 0, fmt::format("node {} is reached twice", visit.node), "nodes must form trees, without cycles",
+             write_again);
     visited_[number] = true;
     visit.to_scene = visit.to_scene * local_transform(node, visit.node);
     read_organ(node, visit);
@@ -124,7 +125,7 @@ class GltfReader {
     return transform;
   }
 
-  // Extras first, the node's name where it has none of them.
+  // Reads the organ from the extras, or from the node's name if there are none.
   void read_organ(const tinygltf::Node& node, NodeVisit& visit) const {
     const json& described = document_.json["nodes"][static_cast<std::size_t>(visit.node)];
     const auto extras = described.find("extras");
@@ -164,10 +165,10 @@ class GltfReader {
     std::size_t count = 0, stride = 0;
   };
 
-  // The bytes of an accessor whose every element lies in its view, and the view in its buffer.
+  // Returns the bytes of an accessor, after checking that all its elements lie in its view and the view in its buffer.
   Numbers numbers(int index, const tinygltf::Accessor& accessor, std::size_t element_bytes) const {
     const auto bad = [&](std::string_view why) { refuse(source_, 0, fmt::format("accessor {}", index), why, write_again); };
-    if (accessor.sparse.isSparse) bad("sparse accessors are not read");
+    if (accessor.sparse.isSparse) bad("sparse accessors are not supported");
     const tinygltf::BufferView& view = item(model_.bufferViews, accessor.bufferView, "bufferView");
     const std::string_view buffer = item(document_.buffers, view.buffer, "buffer");
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
@@ -186,12 +187,13 @@ class GltfReader {
     std::size_t count = 0;
   };
 
-  // Primitives of one mesh often share their positions; each accessor is added once a node.
+  // Adds each accessor only once per node, because primitives of a mesh often share their positions.
   VertexRange read_positions(int index, const glm::dmat4& to_scene) {
     if (const auto known = positions_.find(index); known != positions_.end()) return known->second;
     const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
     if (accessor.type != TINYGLTF_TYPE_VEC3 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
-      refuse(source_, 0, fmt::format("accessor {}", index), "positions must be VEC3 of float", "export without quantization");
+      refuse(source_, 0, fmt::format("accessor {}", index), "positions must be VEC3 of float",
+             "export it without quantization");
     const Numbers source = numbers(index, accessor, 3 * sizeof(float));
     const VertexRange range{static_cast<std::uint32_t>(builder_.vertex_count()), source.count};
     builder_.reserve_vertices(source.count);
@@ -201,7 +203,7 @@ class GltfReader {
       const glm::dvec3 moved = to_scene * glm::dvec4(position, 1.0);
       if (!std::isfinite(moved.x) || !std::isfinite(moved.y) || !std::isfinite(moved.z))
         refuse(source_, 0, fmt::format("accessor {}: position {} is not finite", index, i),
-               "it, or its node's transform, is infinite or nan", write_again);
+               "the position or the transform of its node is infinite or nan", write_again);
       static_cast<void>(builder_.add_vertex(moved));
     }
     positions_.emplace(index, range);
@@ -222,7 +224,7 @@ class GltfReader {
       std::memcpy(&indices[i], source.data + i * source.stride, bytes);
       if (indices[i] >= vertices)
         refuse(source_, 0, fmt::format("accessor {}: index {}", index, indices[i]),
-               fmt::format("must lie below {}, the number of positions", vertices), write_again);
+               fmt::format("must be less than {}, the number of positions", vertices), write_again);
     }
     return indices;
   }
@@ -234,7 +236,7 @@ class GltfReader {
       refuse(source_, 0, fmt::format("node {}: a primitive of mode {}", visit.node, mode), "must lie in 0..6", write_again);
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end())
-      refuse(source_, 0, fmt::format("node {}: a primitive without POSITION", visit.node), "it has no place", write_again);
+      refuse(source_, 0, fmt::format("node {}: a primitive without POSITION", visit.node), "it has no positions", write_again);
     const VertexRange range = read_positions(position->second, visit.to_scene);
     std::vector<std::uint32_t> corners;
     if (primitive.indices >= 0) {
@@ -245,7 +247,7 @@ class GltfReader {
     }
     if (corners.size() < 3 || (mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0))
       refuse(source_, 0, fmt::format("node {}: a primitive of {} corners", visit.node, corners.size()),
-             "they do not make up whole triangles", write_again);
+             "they do not form whole triangles", write_again);
     for (std::uint32_t& corner : corners) corner += range.first;
     add_triangles(mode, corners, material(primitive), visit);
   }
@@ -256,7 +258,7 @@ class GltfReader {
     return name.empty() ? builder_.default_optics(0) : builder_.optics(name);
   }
 
-  // glTF 2.0, section 3.7.4: a transform that mirrors (negative determinant) turns the winding, so that the front stays the
+  // glTF 2.0, section 3.7.4: a mirroring transform (negative determinant) reverses the winding, so that the front stays the
   // front.
   void add_triangles(int mode, std::span<const std::uint32_t> corners, std::uint32_t optics, const NodeVisit& visit) {
     const OrganHint& hint = visit.organ;
@@ -283,7 +285,7 @@ class GltfReader {
   const tinygltf::Model& model_;
   MeshBuilder builder_;
   std::vector<bool> visited_;
-  std::unordered_map<int, VertexRange> positions_;  // of the node being read, by accessor
+  std::unordered_map<int, VertexRange> positions_;  // of the current node, by accessor
 };
 
 }  // namespace

@@ -22,11 +22,11 @@
 namespace sunfleck {
 namespace {
 
-constexpr off_t largest_output_bytes = 64 << 20;  // a picture of ours has less than one megabyte
+constexpr off_t largest_output_bytes = 64 << 20;  // a picture of this program has less than one megabyte
 constexpr auto look_again = std::chrono::milliseconds(5);
 
-// Anonymous memory under a file number. The program reads its script from one and writes into two others: no pipe can break
-// or fill up, and no file is left behind.
+// An anonymous file in memory. gnuplot reads its script from one and writes to two others, so that no pipe can break or fill up
+// and no file is left behind.
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : number_(::memfd_create(name, MFD_CLOEXEC)) {}
@@ -38,7 +38,7 @@ class MemoryFile {
 
   [[nodiscard]] int number() const { return number_; }
 
-  // False, with errno, if it could not be made or filled.
+  // Fills the file. Returns false, with errno, if it could not be created or filled.
   [[nodiscard]] bool fill(std::string_view bytes) const {
     if (number_ < 0) return false;
     while (!bytes.empty()) {
@@ -74,7 +74,7 @@ struct Files {
   MemoryFile script{"script"}, picture{"picture"}, messages{"messages"};
 };
 
-// The user's environment without what changes gnuplot's language, number format or terminal.
+// Returns the user's environment without the variables that change gnuplot's language, number format or terminal.
 std::vector<std::string> plain_environment() {
   std::vector<std::string> kept{"LC_ALL=C.UTF-8"};
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -94,7 +94,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return list;
 }
 
-// Starts it in a process group of its own, so that whatever it starts in turn can be ended with it. Returns 0 or errno.
+// Starts gnuplot in its own process group, so that its child processes can be killed with it. Returns 0 or errno.
 int start(const Gnuplot& gnuplot, const Files& files, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
@@ -120,19 +120,19 @@ int start(const Gnuplot& gnuplot, const Files& files, pid_t& child) {
   return code;
 }
 
-// The last line of what gnuplot said: before it stand pieces of the script.
+// Returns the last line of gnuplot's messages; the lines before it are parts of the script.
 std::string last_message(std::string_view messages) {
   constexpr std::size_t longest = 160;
   constexpr std::string_view blanks = "\r\n\t ";
   const std::size_t end = messages.find_last_not_of(blanks);
   if (end == std::string_view::npos) return "";
   messages = messages.substr(0, end + 1);
-  messages.remove_prefix(messages.find_last_of("\r\n") + 1);  // none: npos + 1 is 0
+  messages.remove_prefix(messages.find_last_of("\r\n") + 1);  // if there is none, npos + 1 is 0
   messages.remove_prefix(messages.find_first_not_of(blanks));
   return printable(messages.substr(0, longest));
 }
 
-// Waits until it ends; kills it when its time is up or its output goes beyond all bounds. Returns why it failed, or nothing.
+// Waits until gnuplot ends; kills it after the time limit or if its output is too large. Returns why it failed, or nothing.
 std::optional<std::string> wait_for(pid_t child, const Gnuplot& gnuplot, const Files& files) {
   const auto begin = std::chrono::steady_clock::now();
   const auto end_all = [&] {
@@ -151,17 +151,18 @@ std::optional<std::string> wait_for(pid_t child, const Gnuplot& gnuplot, const F
     }
     if (files.picture.size() > largest_output_bytes || files.messages.size() > largest_output_bytes) {
       end_all();
-      return "it writes without end";
+      return "its output is too large";
     }
     std::this_thread::sleep_for(look_again);
   }
-  if (WIFSIGNALED(state)) return fmt::format("it was ended by signal {}", WTERMSIG(state));
+  if (WIFSIGNALED(state)) return fmt::format("it was killed by signal {}", WTERMSIG(state));
   if (WEXITSTATUS(state) == 0) return {};
   const std::string said = last_message(files.messages.content());
   return fmt::format("exit status {}{}{}", WEXITSTATUS(state), said.empty() ? "" : ": ", said);
 }
 
-// A whole PNG: its signature at the beginning (PNG specification, section 5.2), its last chunk at the end (section 11.2.5).
+// Returns whether the bytes are a whole PNG, with its signature at the beginning (PNG specification, section 5.2) and its last
+// chunk at the end (section 11.2.5).
 bool is_whole_png(std::string_view bytes) {
   constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
   constexpr std::string_view last_chunk("\0\0\0\0IEND\xae\x42\x60\x82", 12);

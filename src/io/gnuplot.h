@@ -1,5 +1,5 @@
 #pragma once
-// Plots through gnuplot, an optional program: without it a run lacks a picture and says so, and nothing else changes.
+// Plots drawn by gnuplot, an optional program: without it a run only lacks the picture and warns about it.
 
 #include <filesystem>
 #include <optional>
@@ -9,13 +9,13 @@
 namespace sunfleck {
 
 struct Gnuplot {
-  std::string program = "gnuplot";  // sought in PATH unless it holds a slash
-  double limit_s = 60.0;            // a run that takes longer is killed
+  std::string program = "gnuplot";  // searched in PATH unless it contains a slash
+  double limit_s = 60.0;            // a gnuplot process that runs longer is killed
 };
 
-// Runs a script that ends in one PNG on standard output, and writes that picture aside and renames it. No shell is involved,
-// the user's gnuplot settings are not read, and what does not end in time is killed. Returns, where there is no gnuplot or it
-// fails, the line to warn with, else nothing. Throws Error (failure) if the file cannot be written.
+// Runs a script that writes one PNG to standard output, and saves that picture aside and renames it. No shell is involved, and
+// the user's gnuplot settings are not read. Returns a warning line if gnuplot is missing, fails or is killed after the time
+// limit, otherwise nothing. Throws Error (failure) if the file cannot be written.
 [[nodiscard]] std::optional<std::string> draw_plot(std::string_view script, const std::filesystem::path& file,
                                                    const Gnuplot& gnuplot = {});
 

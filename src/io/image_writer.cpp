@@ -24,8 +24,8 @@ void write_png(const Image& image, const std::filesystem::path& file) {
   const int encoded =
       stbi_write_png_to_func(append, &bytes, image.width, image.height, channels, image.pixels.data(), image.width * channels);
   if (encoded == 0 || bytes.empty()) {
-    throw_failure(fmt::format("{}: no PNG of {} x {} pixels", file.string(), image.width, image.height), "out of memory",
-                  "ask for a smaller picture");
+    throw_failure(fmt::format("{}: cannot encode {} x {} pixels as PNG", file.string(), image.width, image.height),
+                  "out of memory", "ask for a smaller picture");
   }
   write_file(file, bytes);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// PNG files.
+// Writes PNG files.
 
 #include "view/image.h"
 
@@ -7,7 +7,7 @@
 
 namespace sunfleck {
 
-// Written aside and renamed. Throws Error (failure).
+// Writes aside and renames. Throws Error (failure).
 void write_png(const Image& image, const std::filesystem::path& file);
 
 }  // namespace sunfleck

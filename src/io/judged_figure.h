@@ -1,5 +1,5 @@
 #pragma once
-// The figure that a bound judges, in words.
+// Names the figure that a bound limits.
 
 #include "transport/model.h"
 #include "transport/result.h"
@@ -8,7 +8,7 @@
 
 namespace sunfleck {
 
-// Returns what the figure is, e.g. "beam on vegetation", "PAR absorbed by soil", "NIR absorbed by leaf 7 of plant 3".
+// Returns the name of the figure, e.g. "beam on vegetation", "PAR absorbed by soil", "NIR absorbed by leaf 7 of plant 3".
 [[nodiscard]] std::string figure_name(const JudgedFigure& figure, const RadiationModel& model);
 
 }  // namespace sunfleck

@@ -13,7 +13,7 @@ namespace sunfleck {
 
 namespace {
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // most_lights with long comments
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // enough for most_lights with long comments
 
 constexpr std::string_view line_form = "write: weight dx dy dz";
 
@@ -40,7 +40,7 @@ SkyLight parse_light(const MeshSource& source, std::size_t line, std::string_vie
   if (largest > 0.0) light.to_sky = glm::normalize(-travel / largest);
   if (largest == 0.0 || light.to_sky.y < least_sky_sine)
     refuse(source, line, fmt::format("direction {} {} {}", east, north, up), "light must travel downwards, dz < 0",
-           up > 0.0 ? "turn it round" : "raise the light above the horizon");
+           up > 0.0 ? "reverse it" : "raise the light above the horizon");
   return light;
 }
 
@@ -55,13 +55,13 @@ std::vector<SkyLight> read_lights(const std::filesystem::path& file, SourceFiles
     const std::string_view content = trimmed(lines.line().substr(0, lines.line().find('#')));
     if (content.empty()) continue;
     if (lights.size() == most_lights)
-      refuse(source, lines.number(), "one direction too many", fmt::format("a list may have {}", most_lights),
-             "join neighbouring directions");
+      refuse(source, lines.number(), "too many directions", fmt::format("a list may have at most {}", most_lights),
+             "merge neighbouring directions");
     lights.push_back(parse_light(source, lines.number(), content));
   }
-  if (lights.empty()) refuse(source, 0, "no direction in it", "a sky needs at least one", line_form);
+  if (lights.empty()) refuse(source, 0, "no directions", "a sky needs at least one", line_form);
   if (std::none_of(lights.begin(), lights.end(), [](const SkyLight& light) { return light.weight > 0.0; }))
-    refuse(source, 0, "all weights are 0", "a sky needs light", "give one direction a weight above 0");
+    refuse(source, 0, "all weights are 0", "a sky must send light", "give one direction a weight above 0");
   return lights;
 }
 

@@ -17,9 +17,10 @@ constexpr double largest_percent = 100.0;
 
 MeasuredRatio checked(const NumberTable& table, const NumberTable::Row& row, std::size_t height, std::size_t ratio) {
   const MeasuredRatio point{row.cells[height], row.cells[ratio]};
-  if (std::isnan(point.height_m)) refuse_table(table, row.line, "height_m is empty", "every row needs both", "fill it in");
+  if (std::isnan(point.height_m))
+    refuse_table(table, row.line, "height_m is empty", "every row needs both values", "fill it in");
   if (std::isnan(point.sunfleck_ratio))
-    refuse_table(table, row.line, "sunfleck_ratio is empty", "every row needs both", "fill it in or leave out the row");
+    refuse_table(table, row.line, "sunfleck_ratio is empty", "every row needs both values", "fill it in or remove the row");
   if (point.height_m < 0.0) {
     refuse_table(table, row.line, fmt::format("height_m = {:g}", point.height_m), "must not lie below the ground",
                  "give the height above the ground in metres");
@@ -37,7 +38,7 @@ void check_columns(const NumberTable& table) {
   if (table.find_column("height_m") && table.find_column("sunfleck_ratio") && table.columns.size() == 2) return;
   const std::string found = fmt::format("{}", fmt::join(table.columns, ","));
   refuse_table(table, table.header_line, fmt::format("columns {}", in_quotes(found)),
-               "it takes height_m and sunfleck_ratio, no other", columns_wanted);
+               "exactly height_m and sunfleck_ratio are expected", columns_wanted);
 }
 
 }  // namespace

@@ -54,11 +54,11 @@ Mesh read_format(const MeshSource& source, MeshFormat format) {
     case MeshFormat::unknown:
       break;
   }
-  refuse(source, 0, "unknown kind of mesh", "the name ends in none of .glb .gltf .obj .ply .stl .can .can.gz",
-         "convert it or name it by its format");
+  refuse(source, 0, "unknown kind of mesh", "the name must end in .glb, .gltf, .obj, .ply, .stl, .can or .can.gz",
+         "convert it, or rename it to match its format");
 }
 
-// To the scene's axes and metres. Elements are kept in single precision, so that is where a coordinate must still be finite.
+// Converts to the scene's axes and metres. Elements are stored in single precision, so coordinates must be finite in that.
 void place(const std::string& where, Mesh& mesh, UpAxis up, double scale) {
   for (glm::dvec3& v : mesh.vertices) {
     if (up == UpAxis::z) v = {-v.y, v.z, -v.x};
@@ -66,11 +66,11 @@ void place(const std::string& where, Mesh& mesh, UpAxis up, double scale) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (std::isnan(v.x + v.y + v.z) || largest > std::numeric_limits<float>::max())
       throw_input(fmt::format("{}: a vertex at ({}, {}, {}) m after scaling by {}", where, v.x, v.y, v.z, scale),
-                  "it must be finite in single precision, below 3.4e38", "check its numbers and scale");
+                  "it must be finite in single precision, i.e. below 3.4e38", "check its numbers and scale");
   }
 }
 
-// The number of the first that is out of range.
+// Returns the index of the first number that is out of range.
 std::optional<std::size_t> first_beyond(std::span<const std::uint32_t> numbers, std::size_t count) {
   const auto found = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) { return number >= count; });
   if (found == numbers.end()) return std::nullopt;
@@ -116,16 +116,16 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import, Sour
     const std::string bytes = format == MeshFormat::unknown ? std::string() : read_source(file, files);
     source.bytes = without_mark(bytes);
     if (source.bytes.empty() && format != MeshFormat::unknown)
-      refuse(source, 0, "the file is empty", "a mesh needs at least one triangle", "write it again");
+      refuse(source, 0, "the file is empty", "a mesh needs at least one triangle", "export it again");
     Mesh mesh = read_format(source, format);
     if (mesh.triangles.empty())
-      refuse(source, 0, "no triangle found", "a mesh needs at least one", "check that surfaces were exported");
+      refuse(source, 0, "no triangles found", "a mesh needs at least one", "check that surfaces were exported");
     place(printable(file.string()), mesh, import.up.value_or(format == MeshFormat::can ? UpAxis::z : UpAxis::y), import.scale);
     return mesh;
   } catch (const std::bad_alloc&) {
-    throw_failure(fmt::format("{}: cannot be held", printable(file.string())), "memory ran out", "read a smaller mesh");
+    throw_failure(fmt::format("{}: does not fit into memory", printable(file.string())), "out of memory", "use a smaller mesh");
   } catch (const std::length_error&) {
-    throw_failure(fmt::format("{}: cannot be held", printable(file.string())), "memory ran out", "read a smaller mesh");
+    throw_failure(fmt::format("{}: does not fit into memory", printable(file.string())), "out of memory", "use a smaller mesh");
   }
 }
 
@@ -217,7 +217,7 @@ std::optional<double> parse_number(std::string_view word) {
   double value = 0.0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-  // from_chars leaves the value alone where it is too small as where it is too large; strtod tells them apart.
+  // from_chars leaves the value unchanged both on underflow and on overflow; strtod tells them apart.
   if (code == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
   if (code == std::errc::invalid_argument || !std::isfinite(value)) return std::nullopt;
   return value;
@@ -233,7 +233,7 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
 
 double coordinate(const MeshSource& source, std::size_t line, std::string_view& rest) {
   const std::string_view word = next_word(rest);
-  if (word.empty()) refuse(source, line, "a coordinate is missing", "the line ends too early", "write the file again");
+  if (word.empty()) refuse(source, line, "a coordinate is missing", "the line is too short", "export the file again");
   const std::optional<double> value = parse_number(word);
   if (!value) refuse(source, line, fmt::format("coordinate {}", in_quotes(word)), "not a finite number", "correct the number");
   return *value;
@@ -242,7 +242,7 @@ double coordinate(const MeshSource& source, std::size_t line, std::string_view& 
 void MeshBuilder::reserve_vertices(std::size_t count) {
   const std::size_t wanted = mesh_.vertices.size() + count;
   if (count > most_vertices || wanted > most_vertices)
-    refuse(source_, 0, fmt::format("more than {} vertices", most_vertices), "one file may hold that many", "split the file");
+    refuse(source_, 0, fmt::format("more than {} vertices", most_vertices), "the limit for one file", "split the file");
   if (wanted > mesh_.vertices.capacity()) mesh_.vertices.reserve(std::max(wanted, 2 * mesh_.vertices.capacity()));
 }
 
@@ -264,7 +264,7 @@ std::uint32_t MeshBuilder::optics(std::string_view name) {
 
 std::uint32_t MeshBuilder::default_optics(std::size_t line) {
   if (!source_.optics)
-    refuse(source_, line, "triangles without a material", "the file names none here",
+    refuse(source_, line, "triangles without a material", "the file names no material here",
            "add optics = \"NAME\" to this file's [[geometry]] in the scene");
   return optics(*source_.optics);
 }
@@ -284,9 +284,9 @@ void MeshBuilder::check_name(std::string_view kind, std::string_view name) const
   const auto bad = [&](std::string_view why, std::string_view cure) {
     refuse(source_, 0, fmt::format("{} {}", kind, in_quotes(name)), why, cure);
   };
-  if (name.size() > longest_name) bad(fmt::format("a name may have {} bytes", longest_name), "shorten it");
+  if (name.size() > longest_name) bad(fmt::format("a name may have at most {} bytes", longest_name), "shorten it");
   if (!is_utf8(name)) bad("it is not UTF-8", "save the file as UTF-8");
-  if (printable(name) != name) bad("a name is one line without control characters", "rename it");
+  if (printable(name) != name) bad("a name must be one line without control characters", "rename it");
 }
 
 std::uint32_t MeshBuilder::default_organ(std::uint32_t optics) {
@@ -297,7 +297,7 @@ void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint3
                               std::optional<std::uint64_t> label) {
   DCHECK(corners.size(), >=, 3U);
   if (mesh_.triangles.size() + corners.size() > most_vertices)
-    refuse(source_, 0, fmt::format("more than {} triangles", most_vertices), "one file may hold that many", "split the file");
+    refuse(source_, 0, fmt::format("more than {} triangles", most_vertices), "the limit for one file", "split the file");
   for (std::size_t i = 2; i < corners.size(); ++i) {
     mesh_.triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
     mesh_.optics_of.push_back(optics);

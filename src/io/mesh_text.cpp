@@ -23,19 +23,19 @@ void check_arrays(const Mesh& mesh) {
   EXPECT(mesh.optics_of.size(), ==, mesh.triangles.size());
   EXPECT(mesh.organ_of.size(), ==, mesh.triangles.size());
   EXPECT(mesh.labels.empty() || mesh.labels.size() == mesh.triangles.size(), ==, true);
-  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();  // programs read vertex numbers into an int
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();  // programs store vertex numbers as int
   if (std::max(mesh.vertices.size(), mesh.triangles.size()) > most)
-    throw_failure(fmt::format("a mesh of {} triangles", mesh.triangles.size()), fmt::format("a file may hold {}", most),
+    throw_failure(fmt::format("a mesh of {} triangles", mesh.triangles.size()), fmt::format("a file may hold at most {}", most),
                   "write it in parts");
 }
 
-// What a label says of a surface is its optics: an ear of optics `leaf2` is a leaf of species 2.
+// Returns the organ for the label. A label states the optics of a surface: an ear with optics `leaf2` is a leaf of species 2.
 Organ organ_of_label(const Mesh& mesh, std::size_t triangle) {
   const Organ& organ = mesh.organs[mesh.organ_of[triangle]];
   return {organ.plant, mesh.optics_names[mesh.optics_of[triangle]], organ.rank};
 }
 
-// Whether reading its label back gives optics of this name.
+// Returns whether reading the label back yields optics of this name.
 bool survives_label(const std::string& optics) {
   constexpr std::string_view species = "23456789";
   const bool known = optics.starts_with("leaf") || optics.starts_with("stem");

@@ -1,5 +1,5 @@
 #pragma once
-// The bytes of a mesh in the formats that need no library.
+// Meshes as text or bytes in the formats that need no library.
 
 #include "canopy/mesh.h"
 
@@ -7,8 +7,8 @@
 
 namespace sunfleck {
 
-// Arrays must fit together, as in a mesh from read_mesh. See mesh_writer.h. Throws Error (failure) for what a format has no
-// numbers for.
+// Return the content of the file; see mesh_writer.h. The arrays must fit together, as in a mesh from read_mesh. Throw Error
+// (failure) for numbers that the format cannot hold.
 [[nodiscard]] std::string obj_text(const Mesh& mesh);
 [[nodiscard]] std::string ply_mesh_bytes(const Mesh& mesh);
 [[nodiscard]] std::string can_text(const Mesh& mesh);

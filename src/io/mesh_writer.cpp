@@ -19,7 +19,7 @@ namespace sunfleck {
 
 namespace {
 
-// Of one organ: its triangles by optics, in the mesh's order.
+// The triangles of one organ, by optics and in the order of the mesh.
 using Groups = std::map<std::uint32_t, std::vector<std::size_t>>;
 
 class GltfWriter {
@@ -43,7 +43,7 @@ class GltfWriter {
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) organs.at(mesh_.organ_of[i])[mesh_.optics_of[i]].push_back(i);
     for (std::size_t i = 0; i < organs.size(); ++i)
       if (!organs[i].empty()) add_organ(mesh_.organs[i], organs[i]);
-    if (model_.nodes.empty()) {  // an empty list is no valid glTF
+    if (model_.nodes.empty()) {  // glTF forbids empty lists
       model_.buffers.clear();
       model_.scenes.clear();
       model_.defaultScene = -1;
@@ -55,7 +55,7 @@ class GltfWriter {
   static constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
 
   void add_organ(const Organ& organ, const Groups& groups) {
-    std::vector<std::uint32_t> vertices;  // of the mesh, in the order of first use
+    std::vector<std::uint32_t> vertices;  // vertices of the mesh, in the order of first use
     tinygltf::Mesh shape;
     for (const auto& [optics, triangles] : groups) {
       std::vector<std::uint32_t> indices;
@@ -105,11 +105,11 @@ class GltfWriter {
   }
 
   const Mesh& mesh_;
-  std::vector<std::uint32_t> new_number_;  // [mesh vertex], in the organ being written
+  std::vector<std::uint32_t> new_number_;  // [mesh vertex], number within the current organ
   tinygltf::Model model_;
 };
 
-// In lower case.
+// Returns the ending in lower case.
 std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -127,7 +127,8 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
   const std::string ending = ending_of(file);
   if (!is_writable_mesh(file))
     throw_input(fmt::format("{}: unknown kind of mesh", printable(file.string())),
-                fmt::format("its name ends in '{}'", printable(ending)), fmt::format("let it end in {}", writable_meshes));
+                fmt::format("its name ends in '{}'", printable(ending)),
+                fmt::format("use a name that ends in {}", writable_meshes));
   if (ending == ".obj")
     write_file(file, obj_text(mesh));
   else if (ending == ".ply")
@@ -143,7 +144,7 @@ void write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
   const std::string name = printable(file.string());
   if (ending != ".glb" && ending != ".gltf")
     throw_input(fmt::format("{}: cannot be written as glTF", name), fmt::format("its name ends in '{}'", printable(ending)),
-                "let it end in .glb or .gltf");
+                "use a name that ends in .glb or .gltf");
   EXPECT(mesh.optics_of.size(), ==, mesh.triangles.size());
   EXPECT(mesh.organ_of.size(), ==, mesh.triangles.size());
   const tinygltf::Model model = GltfWriter(mesh).take();

@@ -9,27 +9,28 @@
 
 namespace sunfleck {
 
-// In the kind of mesh that the file's name says; upper and lower case do not matter. X south, Y up, Z west, metres, but for
-// .can. .glb, .gltf  as write_gltf .obj         triangles in the mesh's order; organs as objects, plant1_leaf7, optics as
-// materials; double precision .ply         binary; double precision; of each face `plant`, `rank`, and the numbers `organ` and
-// `optics`, which comments of
+// Writes the mesh in the format that the file's ending selects, in upper or lower case. Axes are X south, Y up, Z west and
+// lengths are metres, except in .can.
+// .glb, .gltf  as write_gltf
+// .obj         triangles in the order of the mesh, organs as objects (plant1_leaf7), optics as materials; double precision
+// .ply         binary, double precision; each face has `plant`, `rank`, and the numbers `organ` and `optics`, which comments of
 //              the header name
-// .can         CARIBU's polygons, triangles in order, x east, y north, z up; double precision. Labels are the mesh's own, or
-//              made by its rule (export_formats.h) of plant, rank and optics
-// Throws Error: input for another ending, failure for a mesh too large for the format, a plant or rank too large for a label,
-// or a file that cannot be written.
+// .can         CARIBU's polygons: triangles in order, x east, y north, z up; double precision. Labels are those of the mesh,
+//              or derived from plant, rank and optics by the rule in export_formats.h
+// Throws Error: input for another ending; failure if the mesh is too large for the format, a plant or rank is too large for a
+// label, or the file cannot be written.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 
-// True if write_mesh has a writer for this name.
+// Returns whether write_mesh has a writer for this name.
 [[nodiscard]] bool is_writable_mesh(const std::filesystem::path& file);
 inline constexpr const char* writable_meshes = ".glb, .gltf, .obj, .ply or .can";
 
-// The optics names that a .can file of the mesh cannot keep: it knows soil, and leaves and stems of nine species.
+// Returns the optics names that a .can file cannot hold: it supports soil, and the leaves and stems of nine species.
 [[nodiscard]] std::vector<std::string> optics_lost_in_can(const Mesh& mesh);
 
-// GLB (name ends in .glb) or glTF with embedded buffer (.gltf): one node a plant and organ with extras {"plant", "organ",
-// "rank"}, one material an optics name. read_mesh gives the same triangles, in single precision, with the same optics and
-// organs, organ by organ; organs without triangles are left out. From an empty mesh comes a valid file that read_mesh refuses.
+// Writes GLB (.glb) or glTF with an embedded buffer (.gltf), with one node per plant and organ, with extras {"plant", "organ",
+// "rank"}, and one material per optics name. read_mesh returns the same triangles in single precision, with the same optics and
+// organs, grouped by organ; organs without triangles are left out. An empty mesh yields a valid file that read_mesh refuses.
 // Throws Error: input for another ending, failure if the file cannot be written.
 void write_gltf(const Mesh& mesh, const std::filesystem::path& file);
 

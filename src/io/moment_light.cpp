@@ -11,7 +11,7 @@ namespace sunfleck {
 
 namespace {
 
-// The all-weather sky of a moment with less diffuse light is that of this; its shape lights nothing there.
+// Moments with less diffuse light get the all-weather sky of this value; such a sky sends no noticeable light.
 constexpr double least_dhi_w_m2 = 1e-3;
 
 Waveband lit_band(const Waveband& band, const BandLight& light, const Broadband& broadband,
@@ -61,24 +61,24 @@ MomentLight light_of(const Scene& scene) {
 
 void check_day(const Scene& scene) {
   if (!scene.moment) {
-    throw_input(printable(scene.file.string()) + ": sun", "`day` moves the sun, which takes a place and a date",
+    throw_input(printable(scene.file.string()) + ": sun", "`day` needs a place and a date to move the sun",
                 "give time, latitude and longitude in [sun]");
   }
   const SceneLight& light = scene.light;
   for (const BandLight& band : light.bands) {
     if (band.direct_w_m2 > 0.0) {
-      throw_input(band.direct_place, "a fixed irradiance on level ground has no course over a day",
+      throw_input(band.direct_place, "a fixed irradiance on level ground does not change over a day",
                   "give direct_normal instead, or [weather]");
     }
   }
   const bool moves = std::any_of(light.bands.begin(), light.bands.end(),
                                  [](const BandLight& band) { return band.share || band.direct_normal_w_m2 > 0.0; });
   if (!moves) {
-    throw_input(printable(scene.file.string()) + ": band", "no band's light follows the day",
+    throw_input(printable(scene.file.string()) + ": band", "no band has light that changes over a day",
                 "add [weather], or direct_normal to a [[band]]");
   }
   if (light.weather && light.weather->source == Weather::Source::moment && !light.weather->moment.has_parts()) {
-    throw_input(light.weather_place, "the global irradiance of one moment has no course over a day",
+    throw_input(light.weather_place, "the global irradiance of one moment does not change over a day",
                 "give a file, dni and dhi, or clear_sky = \"ineichen\"");
   }
 }

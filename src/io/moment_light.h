@@ -1,31 +1,31 @@
 #pragma once
-// The light of one moment: what a scene says of sun, sky and weather, made into numbers for the model.
+// Computes the light of one moment: turns the sun, sky and weather of a scene into numbers for the model.
 
 #include "io/scene_reader.h"
 
 namespace sunfleck {
 
 struct MomentLight {
-  SunPosition sun;              // means nothing for a scene without [sun]
+  SunPosition sun;              // meaningless for a scene without [sun]
   std::vector<Waveband> bands;  // [waveband], as in RadiationModel
   std::optional<SkyModel> sky;  // as in RadiationModel
 };
 
-// Under a sun that stands anywhere, which a scene with weather must have (EXPECT); `time` is the weather's, none where the
-// scene has none. Otherwise as light_at.
+// Returns the light for any position of the sun, which a scene with weather must have (EXPECT). `time` selects the weather; it
+// is empty if the scene has no time. Otherwise as light_at.
 [[nodiscard]] MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& sun,
                                       const std::optional<UtcTime>& time);
 
-// At another time than the scene's own, which must have a time and place (EXPECT). With the sun at or below the horizon there
-// is no beam; sky light is what the scene or its weather says. Throws Error (input), naming the time, where the weather has
-// nothing for it.
+// Returns the light at a time other than the scene's own; the scene must have a time and place (EXPECT). There is no beam while
+// the sun is at or below the horizon; the scene or its weather defines the sky light. Throws Error (input), naming the time, if
+// the weather has no data for it.
 [[nodiscard]] MomentLight light_at(const Scene& scene, const UtcTime& time);
 
-// At the scene's own moment, or for its own angles of the sun.
+// Returns the light at the scene's own time, or for its own sun angles.
 [[nodiscard]] MomentLight light_of(const Scene& scene);
 
-// Throws Error (input) if the scene does not say how its light changes over a day: it needs a place, [weather] or
-// direct_normal; a fixed `direct`, and weather of one moment's global irradiance, have no course.
+// Throws Error (input) unless the scene defines how its light changes over a day. It needs a place and either [weather] or
+// direct_normal; a fixed `direct` and weather with the global irradiance of one moment do not change over a day.
 void check_day(const Scene& scene);
 
 }  // namespace sunfleck

@@ -44,8 +44,8 @@ int put_all(int file, int variable, const double* values) {
   return nc_put_var_double(file, variable, values);
 }
 
-// After a failed write netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process ends and it does
-// so by itself. It is left alone, and the process ends, with the status it was going to have, before that.
+// After a failed write, netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process exits and the
+// library closes it by itself. The file is therefore left open, and the process exits with its intended status before that.
 void leave_before_libraries() {
   ::on_exit(
       [](int status, void*) {
@@ -63,13 +63,13 @@ bool reason_of_disk(int code) {
 
 NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)), cure_("export vtp or csv") {
   constexpr std::size_t first_bytes = std::size_t{1} << 20;
-  check(nc_create_mem(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be begun");
+  check(nc_create_mem(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
 }
 
 NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file)
     : name_(std::move(name)), cure_("free some space, or choose another folder with -o"), on_disk_(true) {
   errno = 0;
-  check(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be begun");
+  check(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
 }
 
 NetcdfFile::~NetcdfFile() {
@@ -80,7 +80,7 @@ void NetcdfFile::check(int status, std::string_view what) {
   if (status == NC_NOERR) return;
   const int reason = errno;
   if (!std::exchange(broken_, true)) leave_before_libraries();
-  // Below netCDF, HDF5 tells that a write failed, and what the system said stays in errno.
+  // Below netCDF, HDF5 reports only that a write failed; errno still holds the reason.
   const bool of_disk = status == NC_EHDFERR && on_disk_ && reason_of_disk(reason);
   throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : nc_strerror(status),
                 of_disk ? write_cure(reason) : cure_);

@@ -1,6 +1,6 @@
 #pragma once
-// A netCDF-4 file in memory or on disk, written by the C library: dimensions and variables with their attributes, then the
-// values.
+// A netCDF-4 file in memory or on disk, written by the C library. Dimensions and variables with their attributes come first,
+// then the values.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,34 +13,34 @@ namespace sunfleck {
 
 class NetcdfFile {
  public:
-  explicit NetcdfFile(std::string name);  // for messages
+  explicit NetcdfFile(std::string name);  // creates a file in memory; `name` is for messages
   NetcdfFile(std::string name, const std::filesystem::path& file);
   ~NetcdfFile();
   NetcdfFile(const NetcdfFile&) = delete;
   NetcdfFile& operator=(const NetcdfFile&) = delete;
 
-  // Numbers of the dimension and of the variable. Variables with dimensions are compressed (deflate 2 after shuffling); a
-  // float or double variable has NaN as its missing value.
+  // Define a dimension or variable and return its number. Variables with dimensions are compressed (deflate 2 after shuffling);
+  // NaN is the missing value of float and double variables.
   int dimension(const std::string& name, std::size_t size);
   template <class T>  // std::int32_t, std::int64_t, float or double
   int variable(const std::string& name, const std::vector<int>& dimensions);
 
-  // Of a variable with two dimensions: stored row by row, to be put so. A row is an index of the first dimension.
+  // Lays out a variable of two dimensions for writing by put_row. A row is an index of the first dimension.
   void store_by_row(int variable, std::size_t row_length);
 
-  // Of a variable, or of the file: number -1.
+  // Adds an attribute to a variable, or to the file if the number is -1.
   void attribute(int variable, const std::string& name, std::string_view text);
   void attribute(int variable, const std::string& name, std::span<const std::int32_t> numbers);
 
-  // All values, the last dimension fastest. The first put ends the definitions.
+  // Writes all values, the last dimension fastest. The first put ends the definitions.
   template <class T>
   void put(int variable, std::span<const T> values);
   void put_row(int variable, std::size_t row, std::span<const float> values);
 
-  // A variable of names, `name`(dimension, name_length), padded with zeros.
+  // Writes a variable of names, `name`(dimension, name_length), padded with zeros.
   void names(const std::string& name, int dimension, const std::vector<std::string>& values, std::string_view meaning);
 
-  // The finished file; nothing may follow. Of one on disk: `finish`.
+  // Completes the file; no other call may follow. Use `take` for a file in memory and `finish` for one on disk.
   [[nodiscard]] std::string take();
   void finish();
 
@@ -50,7 +50,7 @@ class NetcdfFile {
 
   std::string name_, cure_;
   bool on_disk_ = false;
-  bool broken_ = false;  // a call failed: the library is not to be called again with this file
+  bool broken_ = false;  // a call failed, so the library must not be called again with this file
   int file_ = -1;
 };
 

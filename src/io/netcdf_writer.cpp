@@ -10,7 +10,7 @@ namespace {
 
 constexpr int whole_file = -1;
 
-// CF 1.8, section 3.5: the meanings are words of letters, digits and _ - . + @ only.
+// Returns a flag meaning; CF 1.8, section 3.5 restricts these words to letters, digits and _ - . + @.
 std::string flag_word(const std::string& name) {
   std::string word = name;
   for (char& c : word) {
@@ -124,7 +124,7 @@ class ResultsWriter {
     file_.put(number, std::span<const double>(column.values));
   }
 
-  // A value of each band, W m-2 of ground, and where it has one its half-width.
+  // Adds a value for each band, W m-2 of ground, and its half-width if it has one.
   void add_balance(const char* name, std::string_view meaning, const std::function<Estimate(const BandResult&)>& term,
                    bool with_error) {
     std::vector<double> values, errors;
@@ -160,7 +160,7 @@ class ResultsWriter {
     add("leaf_area_index", {}, "1", "one-sided leaf area per ground area", std::vector{data_.result.leaf_area_index});
   }
 
-  // A value of each plane of the profile.
+  // Adds a value for each plane of the profile.
   void add_plane_values(const std::string& name, std::string_view units, std::string_view meaning,
                         const std::function<Estimate(const LayerResult&)>& term) {
     std::vector<double> values, errors;

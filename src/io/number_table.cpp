@@ -29,12 +29,12 @@ std::vector<std::string_view> split(std::string_view line) {
 void take_header(NumberTable& table, std::size_t line, const std::vector<std::string_view>& names) {
   table.header_line = line;
   if (names.size() > most_columns)
-    refuse_table(table, line, fmt::format("{} columns", names.size()), fmt::format("a table here may have {}", most_columns),
-                 "leave out what is not needed");
+    refuse_table(table, line, fmt::format("{} columns", names.size()), fmt::format("a table may have at most {}", most_columns),
+                 "remove the columns that are not needed");
   for (const std::string_view name : names) {
-    if (name.empty()) refuse_table(table, line, "a column without a name", "the header names every column", "name it");
+    if (name.empty()) refuse_table(table, line, "a column without a name", "the header must name every column", "name it");
     if (table.find_column(name))
-      refuse_table(table, line, fmt::format("column {} twice", in_quotes(name)), "names tell columns apart", "rename one");
+      refuse_table(table, line, fmt::format("column {} twice", in_quotes(name)), "column names must differ", "rename one");
     table.columns.emplace_back(name);
   }
 }
@@ -43,7 +43,7 @@ void take_row(NumberTable& table, std::size_t line, const std::vector<std::strin
   if (cells.size() != table.columns.size()) {
     refuse_table(table, line, fmt::format("{} cells", cells.size()),
                  fmt::format("the header in line {} has {} columns", table.header_line, table.columns.size()),
-                 "give as many cells, with a comma between them and a point in numbers");
+                 "give one cell per column, separated by commas, with a decimal point in numbers");
   }
   NumberTable::Row row{line, {}};
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -74,8 +74,8 @@ std::optional<std::size_t> NumberTable::find_column(std::string_view name) const
 std::size_t NumberTable::column(std::string_view name) const {
   const std::optional<std::size_t> found = find_column(name);
   if (!found) {
-    refuse_table(*this, header_line, fmt::format("no column {}", name), "it is needed",
-                 "give the file as this program writes it");
+    refuse_table(*this, header_line, fmt::format("no column {}", name), "it is required",
+                 "use a file as written by this program");
   }
   return *found;
 }
@@ -86,7 +86,7 @@ NumberTable read_number_table(const std::filesystem::path& file, const HeaderChe
   std::error_code error;
   const std::uintmax_t bytes_there = std::filesystem::file_size(file, error);
   if (!error && bytes_there > most_bytes) {
-    refuse_table(table, 0, fmt::format("{} bytes", bytes_there), "a table here may have 10 MB", "give fewer rows");
+    refuse_table(table, 0, fmt::format("{} bytes", bytes_there), "a table may have at most 10 MB", "give fewer rows");
   }
   const std::string bytes = read_file(file);
   for (LineReader lines(without_mark(bytes)); lines.next();) {
@@ -102,9 +102,9 @@ NumberTable read_number_table(const std::filesystem::path& file, const HeaderChe
     }
   }
   if (table.columns.empty())
-    refuse_table(table, 0, "nothing but blank lines and comments", "a line of column names comes first", "check the file");
+    refuse_table(table, 0, "only blank lines and comments", "a line of column names must come first", "check the file");
   if (table.rows.empty())
-    refuse_table(table, table.header_line, "no row below the header", "at least one is needed", "check the file");
+    refuse_table(table, table.header_line, "no rows below the header", "at least one is required", "check the file");
   return table;
 }
 

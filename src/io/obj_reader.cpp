@@ -10,25 +10,25 @@ namespace sunfleck {
 
 namespace {
 
-// tinyobjloader puts 0 in the place of a number it cannot read, knows no lines, and lets an exponent overflow, so the text is
-// checked before it sees it. Positions are taken from here too: in double precision, correctly rounded.
+// Checks the text before tinyobjloader parses it: that library replaces an unreadable number by 0, reports no line numbers, and
+// lets exponents overflow. The positions are also taken from here, in double precision and correctly rounded.
 class ObjText {
  public:
   explicit ObjText(const MeshSource& source) : source_(source) {}
 
   struct Checked {
-    std::vector<glm::dvec3> positions;  // all, in order
-    // The lines that are left for tinyobjloader: faces with corners in range, their materials, objects and groups, and a
-    // position without its numbers for each, which negative corners count.
+    std::vector<glm::dvec3> positions;  // all positions, in order
+    // The lines left for tinyobjloader: faces with corners in range, their materials, objects and groups, and, for negative
+    // corners, one dummy position per position.
     std::string faces;
   };
 
   Checked check() {
     if (source_.bytes.find('\0') != source_.bytes.npos)
-      refuse(source_, 0, "contains a zero byte", "an OBJ file is text", "write it again as OBJ");
+      refuse(source_, 0, "contains a zero byte", "an OBJ file is text", "export it again as OBJ");
     if (source_.bytes.find_first_of("\f\v") != source_.bytes.npos)
-      refuse(source_, 0, "contains a form feed or vertical tab", "blanks and tabs part the words of an OBJ file",
-             "write it again as OBJ");
+      refuse(source_, 0, "contains a form feed or vertical tab", "only blanks and tabs separate the words of an OBJ file",
+             "export it again as OBJ");
     LineReader lines(source_.bytes);
     while (lines.next()) check_line(lines.number(), lines.line());
     if (highest_ > static_cast<std::int64_t>(positions_.size())) refuse_corner(highest_line_, fmt::to_string(highest_));
@@ -40,7 +40,7 @@ class ObjText {
     const std::string_view whole = trimmed(rest);
     const std::string_view key = next_word(rest);
     if ((key == "v" || key == "f") && whole.ends_with('\\'))
-      refuse(source_, line, "line ends in a backslash", "continued lines are not read", "join it with the next line");
+      refuse(source_, line, "line ends in a backslash", "continued lines are not supported", "join it with the next line");
     if (key == "v") {
       glm::dvec3 position;
       for (int axis = 0; axis < 3; ++axis) position[axis] = coordinate(source_, line, rest);
@@ -69,7 +69,7 @@ class ObjText {
       refuse(source_, line, fmt::format("a face of {} corners", corners), "a face needs at least 3", "remove or complete it");
   }
 
-  // Of a corner like 7, 7/3, 7//5 or 7/3/5; empty for any other word.
+  // Returns the vertex number of a corner like 7, 7/3, 7//5 or 7/3/5; nothing for any other word.
   static std::optional<std::int64_t> vertex_number(std::string_view word) {
     const std::size_t slash = word.find('/');
     const std::optional<std::int64_t> number = parse_integer(word.substr(0, slash));
@@ -86,18 +86,18 @@ class ObjText {
   [[noreturn]] void refuse_corner(std::size_t line, std::string_view word) {
     refuse(source_, line, fmt::format("corner {}", in_quotes(word)),
            fmt::format("must be a vertex number in 1..{}, or negative to count back", positions_.size()),
-           "write the file again");
+           "export the file again");
   }
 
   const MeshSource& source_;
   std::vector<glm::dvec3> positions_;
   std::string faces_;
-  std::int64_t highest_ = 0;  // the highest corner number, which may come before its vertex
+  std::int64_t highest_ = 0;  // the highest corner number; the corner may precede its vertex
   std::size_t highest_line_ = 0;
   bool has_material_ = false;
 };
 
-// Faces with the state they stand in: the last material, object and group.
+// Adds faces with their state: the last material, object and group.
 class ObjFaces {
  public:
   ObjFaces(const MeshSource& source, std::span<const glm::dvec3> positions) : builder_(source) {
@@ -149,8 +149,8 @@ ObjFaces& faces(void* user) {
 
 }  // namespace
 
-// tinyobjloader's callbacks rather than its LoadObj: they give material names whose .mtl is missing, polygons as they stand
-// and faces in file order.
+// Uses tinyobjloader's callbacks instead of its LoadObj: they give the names of materials even if the .mtl is missing, and
+// polygons and faces unchanged in file order.
 Mesh read_obj(const MeshSource& source) {
   ObjText::Checked text = ObjText(source).check();
   ObjFaces mesh(source, text.positions);
@@ -167,7 +167,7 @@ Mesh read_obj(const MeshSource& source) {
   std::istringstream faces_only(std::move(text.faces));
   std::string warnings, errors;
   if (!tinyobj::LoadObjWithCallback(faces_only, callback, &mesh, nullptr, &warnings, &errors))
-    refuse(source, 0, "cannot be read as OBJ", errors, "write the file again");
+    refuse(source, 0, "cannot be read as OBJ", errors, "export the file again");
   return mesh.take();
 }
 

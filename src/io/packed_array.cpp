@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-// Looks at the nesting only.
+// Checks only the nesting depth.
 class DepthCheck : public nlohmann::json_sax<json> {
  public:
   explicit DepthCheck(std::size_t deepest) : deepest_(deepest) {}
@@ -42,7 +42,7 @@ Bytef* bytes_of(const void* data) {
 
 json read_cbor(std::string_view bytes, std::size_t deepest) {
   DepthCheck check(deepest);
-  if (!json::sax_parse(bytes, &check, json::input_format_t::cbor)) throw std::runtime_error("it is cut short or damaged");
+  if (!json::sax_parse(bytes, &check, json::input_format_t::cbor)) throw std::runtime_error("it is truncated or damaged");
   return json::from_cbor(bytes);
 }
 
@@ -74,7 +74,7 @@ bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> b
   if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
   std::size_t given = 0;
   std::size_t got = 0;
-  std::byte beyond{};  // one byte more than there may be tells a longer array
+  std::byte beyond{};  // one extra byte reveals a longer array
   int status = Z_OK;
   while (status == Z_OK) {
     if (stream.avail_in == 0) {

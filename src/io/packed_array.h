@@ -1,5 +1,5 @@
 #pragma once
-// Long arrays of numbers as CBOR byte strings: little-endian and deflated (zlib). And CBOR read that anyone may have written.
+// Stores long arrays of numbers as CBOR byte strings, little-endian and deflated (zlib), and reads CBOR from untrusted files.
 
 #include "base/error.h"
 
@@ -19,11 +19,11 @@ namespace sunfleck {
 
 static_assert(std::endian::native == std::endian::little);
 
-// Throws std::runtime_error for bytes that are no CBOR, or lists and maps more than `deepest` within each other: the library's
-// parser goes by recursion as deep as a file has it.
+// Parses CBOR. Throws std::runtime_error for malformed bytes, and for lists and maps nested more than `deepest` levels: the
+// library's parser recurses once per level of the file.
 [[nodiscard]] nlohmann::json read_cbor(std::string_view bytes, std::size_t deepest);
 
-// Throws std::runtime_error for what is no whole number, or none that T holds.
+// Returns the value as a T. Throws std::runtime_error unless it is a whole number in the range of T.
 template <class T>
 [[nodiscard]] T whole(const nlohmann::json& value) {
   const auto checked = [](auto number) {
@@ -37,10 +37,11 @@ template <class T>
 
 [[nodiscard]] nlohmann::json::binary_t deflated(std::span<const std::byte> bytes);
 
-// Fills `bytes`. False if the packed bytes are damaged or hold another number of bytes.
+// Fills `bytes`. Returns false if the packed bytes are damaged or hold a different number of bytes.
 [[nodiscard]] bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes);
 
-// False if so few packed bytes cannot hold so many: deflate makes 1032 bytes of one at most (zlib's technical details).
+// Returns false if the packed bytes are too few for `count` values: deflate expands at most 1032 times (zlib's technical
+// details).
 [[nodiscard]] bool may_hold(const nlohmann::json::binary_t& packed, std::size_t count, std::size_t size);
 
 template <class T>
@@ -49,7 +50,7 @@ template <class T>
   return nlohmann::json::binary(deflated(std::as_bytes(std::span(values))));
 }
 
-// `count` values. Throws std::runtime_error if that is not what was packed.
+// Returns `count` values. Throws std::runtime_error if a different number was packed.
 template <class T>
 [[nodiscard]] std::vector<T> unpack(const nlohmann::json& json, std::size_t count) {
   const nlohmann::json::binary_t& packed = json.get_binary();

@@ -15,19 +15,19 @@ namespace {
 constexpr int width_px = 1600;
 constexpr double left_px = 150.0;
 constexpr double between_px = 50.0;
-constexpr double colour_bar_px = 220.0;  // with its gap and labels
+constexpr double colour_bar_px = 220.0;  // including its gap and labels
 constexpr double head_px = 165.0;        // title, sunfleck ratio, names of the maps
 constexpr double map_axis_px = 150.0;
 constexpr double sizes_px = 230.0;
 constexpr double sizes_axis_px = 120.0;
 constexpr double highest_map_px = 760.0;
-constexpr double narrowest_slot_px = 340.0;  // for a map with its title
-constexpr double lowest_bar_px = 260.0;      // of the colour bar, beside maps that are lower
+constexpr double narrowest_slot_px = 340.0;  // width for a map with its title
+constexpr double lowest_bar_px = 260.0;      // minimum height of the colour bar, beside lower maps
 constexpr double widest_map_px = (width_px - left_px - between_px - colour_bar_px) / 2.0;
-constexpr std::size_t most_dots = 800;  // a side; a map has no more pixels than that
+constexpr std::size_t most_dots = 800;  // most dots per side; a map has no more pixels than this
 constexpr double cm2_per_m2 = 1e4;
 
-// Viridis at nine places (van der Walt and Smith 2015, matplotlib): even steps for the eye, in colour and in grey.
+// The palette Viridis at nine positions (van der Walt and Smith 2015, matplotlib), perceptually uniform in colour and in grey.
 constexpr const char* viridis =
     "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', "
     "7 '#addc30', 8 '#fde725')";
@@ -53,10 +53,10 @@ Frame make_frame(const Plot& plot) {
   return frame;
 }
 
-// How a map is cut into the dots of an image. Neighbouring cells are averaged where there are more than can be seen; one row or
-// column of cells is drawn twice, since an image has two of each at least.
+// How a map is divided into the dots of an image. Neighbouring cells are averaged if there are more than can be seen; a single
+// row or column of cells is drawn twice, because an image needs at least two.
 struct Dots {
-  std::size_t cells = 1;   // a side of a dot
+  std::size_t cells = 1;   // cells per side of a dot
   std::size_t copies = 1;  // of each dot
   double size_m = 0.0;
 };
@@ -67,7 +67,7 @@ Dots make_dots(std::size_t cells, std::size_t together, double length_m) {
   return {together, copies, length_m * dot_cells / static_cast<double>(cells * copies)};
 }
 
-// A line for each dot along X, a number for each along Z.
+// Writes one line per dot along X, with one number per dot along Z.
 void add_map(PlotScript& script, const char* name, const PlaneResult& plane, const std::vector<double>& w_m2,
              const Dots& along_x, const Dots& along_z) {
   script.begin_data(name);
@@ -87,7 +87,8 @@ void add_map(PlotScript& script, const char* name, const PlaneResult& plane, con
   script.end_data();
 }
 
-// The end of the colour scale: full beam at least; beyond the brightest cells but for some, which noise makes brighter still.
+// Returns the end of the colour scale: at least the full beam, and beyond all but the few brightest cells, whose excess is
+// noise.
 double brightest(const std::vector<double>& total_w_m2, double beam_w_m2) {
   constexpr double share_within = 0.995;
   std::vector<double> sorted = total_w_m2;
@@ -104,8 +105,8 @@ void draw_map(PlotScript& script, const Dots& along_x, const Dots& along_z, cons
              along_x.size_m);
 }
 
-// The map that is drawn: of the beam, each cell's share in direct sun times the beam's irradiance. The table's landings scatter
-// about that by the number of rays that happened to cross the cell, which would show as grain in full sun.
+// Returns the map to draw: for the beam, the sunlit share of each cell times the irradiance of the beam. The landings in the
+// table fluctuate with the number of rays that happened to cross each cell, which would show as grain in full sun.
 PlaneIrradiance without_grain(PlaneIrradiance irradiance, const PlaneResult& plane, double beam_w_m2) {
   for (std::size_t cell = 0; cell < plane.crossing.size(); ++cell) {
     if (plane.crossing[cell] == 0) continue;

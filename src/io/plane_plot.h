@@ -1,5 +1,5 @@
 #pragma once
-// PLANE.png: a receiver's facula map, of the beam and of all light, and how large its flecks are.
+// PLANE.png: the facula maps of a receiver, for the beam and for all light, and the sizes of its sunflecks.
 
 #include "transport/model.h"
 #include "transport/result.h"
@@ -9,7 +9,7 @@
 
 namespace sunfleck {
 
-// A gnuplot script, for draw_plot. North is up, west is left.
+// Returns a gnuplot script for draw_plot. North is up and west is left.
 [[nodiscard]] std::string plane_plot(const std::string& title, const RadiationModel& model, const RadiationResult& result,
                                      std::size_t plane, std::size_t band);
 

@@ -18,7 +18,7 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string("unknown");
 }
 
-// The lines before the columns' names.
+// Returns the lines before the column names.
 std::string head(const RunRecord& record, const PlaneResult& plane, const FleckSizes& sizes, const char* content,
                  const char* units) {
   std::string text = table_head(record,

@@ -1,5 +1,5 @@
 #pragma once
-// Facula maps as tables: what comes down through a horizontal receiver, cell by cell, and how large its sunflecks are.
+// Facula maps as tables: the light that comes down through a horizontal receiver, cell by cell, and the sizes of its sunflecks.
 
 #include "io/result_writer.h"
 #include "transport/fleck_sizes.h"
@@ -10,24 +10,25 @@
 
 namespace sunfleck {
 
-// The stem of a plane's files: "plane_0.500".
+// Returns the common stem of a plane's files, e.g. "plane_0.500".
 [[nodiscard]] std::string plane_stem(double height_m);
 
-// [cell], W m-2 downwards in a band: of the beam, and of all light.
+// Downward irradiance of each cell in one band, [cell], W m-2: of the beam, and of all light.
 struct PlaneIrradiance {
   std::vector<double> direct_w_m2, total_w_m2;
 };
 [[nodiscard]] PlaneIrradiance plane_irradiance(const RadiationModel& model, const RadiationResult& result, std::size_t plane,
                                                std::size_t band);
 
-// [cell], the share of the cell that the direct beam reaches; NaN where no ray would cross it.
+// Returns the share of each cell that the direct beam reaches, [cell]; NaN for cells that no ray would cross.
 [[nodiscard]] std::vector<double> plane_sunfleck(const PlaneResult& plane);
 
-// PLANE.csv: a row per cell, x fastest; x_m, z_m are its centre, sunfleck is empty where no ray would cross it.
+// Returns PLANE.csv: one row per cell, x fastest. x_m and z_m are the centre of the cell; sunfleck is empty for cells that no
+// ray would cross.
 [[nodiscard]] std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                     std::size_t plane);
 
-// PLANE_flecks.csv: a row per class of area.
+// Returns PLANE_flecks.csv: one row per area class.
 [[nodiscard]] std::string plane_flecks_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                            std::size_t plane);
 

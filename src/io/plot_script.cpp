@@ -12,7 +12,7 @@ constexpr std::string_view left_quote = "\xe2\x80\x98";   // U+2018
 constexpr std::string_view right_quote = "\xe2\x80\x99";  // U+2019
 constexpr std::string_view ellipsis = "\xe2\x80\xa6";     // U+2026
 
-// Length of the well-formed UTF-8 sequence (Unicode 15, table 3-7) at the beginning of `text`; 0 if there is none.
+// Returns the length of the well-formed UTF-8 sequence (Unicode 15, table 3-7) at the start of `text`; 0 if there is none.
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const auto follows = [&](std::size_t i, unsigned lo = 0x80, unsigned hi = 0xBF) { return byte(i) >= lo && byte(i) <= hi; };

@@ -13,7 +13,7 @@ namespace sunfleck {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary PLY is read as it lies in memory");
+static_assert(std::endian::native == std::endian::little, "binary PLY numbers are read as stored in memory");
 
 enum class PlyEncoding { ascii, little_endian, big_endian };
 
@@ -21,7 +21,7 @@ enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64
 
 struct PlyProperty {
   std::string_view name;
-  PlyType type = PlyType::float32;   // of the value, or of a list's entries
+  PlyType type = PlyType::float32;   // type of the value, or of a list's entries
   std::optional<PlyType> list_size;  // set for a list
 };
 
@@ -35,7 +35,7 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;
   std::string_view body;
-  std::size_t lines = 0;  // of the header
+  std::size_t lines = 0;  // lines of the header
 };
 
 std::optional<PlyType> type_named(std::string_view name) {
@@ -63,13 +63,13 @@ class PlyHeaderReader {
 
   PlyHeader read() {
     if (!lines_.next() || trimmed(lines_.line()) != "ply")
-      refuse(source_, 1, "does not begin with ply", "every PLY file does", "write the file again");
+      refuse(source_, 1, "does not begin with ply", "every PLY file must", "export the file again");
     bool has_format = false;
     while (lines_.next()) {
       std::string_view rest = lines_.line();
       const std::string_view key = next_word(rest);
       if (key == "end_header") {
-        if (!has_format) bad_line("there is no format line");
+        if (!has_format) bad_line("the format line is missing");
         header_.body = lines_.rest();
         header_.lines = lines_.number();
         return std::move(header_);
@@ -85,12 +85,12 @@ class PlyHeaderReader {
         bad_line("not a word of a PLY header");
       }
     }
-    refuse(source_, lines_.number(), "the header does not end", "end_header is missing", "write the file again");
+    refuse(source_, lines_.number(), "the header does not end", "end_header is missing", "export the file again");
   }
 
  private:
   [[noreturn]] void bad_line(std::string_view why) {
-    refuse(source_, lines_.number(), fmt::format("header line {}", in_quotes(lines_.line())), why, "write the file again");
+    refuse(source_, lines_.number(), fmt::format("header line {}", in_quotes(lines_.line())), why, "export the file again");
   }
 
   void read_format(std::string_view rest) {
@@ -116,12 +116,12 @@ class PlyHeaderReader {
   }
 
   void read_property(std::string_view rest) {
-    if (header_.elements.empty()) bad_line("it belongs to no element");
+    if (header_.elements.empty()) bad_line("a property must follow an element");
     PlyProperty property;
     std::string_view type = next_word(rest);
     if (type == "list") {
       property.list_size = type_named(next_word(rest));
-      if (!property.list_size || *property.list_size >= PlyType::float32) bad_line("a list's size needs an integer type");
+      if (!property.list_size || *property.list_size >= PlyType::float32) bad_line("the size of a list needs an integer type");
       type = next_word(rest);
     }
     const std::optional<PlyType> known = type_named(type);
@@ -136,7 +136,7 @@ class PlyHeaderReader {
   PlyHeader header_;
 };
 
-// The numbers of the body one after the other, whatever their encoding. In a text they may be spread over lines at will.
+// The numbers of the body in order, in any encoding. In a text file, numbers may be spread over lines freely.
 class PlyBody {
  public:
   PlyBody(const MeshSource& source, const PlyHeader& header)
@@ -146,15 +146,15 @@ class PlyBody {
 
   double next(PlyType type) { return encoding_ == PlyEncoding::ascii ? next_text() : next_binary(type); }
 
-  // The line of the last number, 0 where there are none.
+  // Returns the line of the last number; 0 in binary files.
   [[nodiscard]] std::size_t line() const { return encoding_ == PlyEncoding::ascii ? header_lines_ + lines_.number() : 0; }
 
-  // An upper bound: each number takes a byte and, in a text, a blank.
+  // Returns an upper bound for the numbers left: each takes a byte and, in a text file, a blank.
   [[nodiscard]] std::size_t bytes_left() const { return rest_.size() + lines_.rest().size(); }
 
  private:
   [[noreturn]] void refuse_end() const {
-    refuse(source_, line(), "the file ends too early", "the header promises more numbers", "write the file again");
+    refuse(source_, line(), "the file ends too early", "the header announces more numbers", "export the file again");
   }
 
   double next_text() {
@@ -232,20 +232,21 @@ class PlyReader {
   }
 
  private:
-  // The counts are not believed before the bytes for them are seen.
+  // Refuses counts that exceed the bytes present, before allocating memory for them.
   void check_element(const PlyElement& element) {
     std::size_t each = 0;
     for (const PlyProperty& property : element.properties) each += least_bytes(property);
     if (each > 0 && element.count > (body_.bytes_left() - promised_bytes_) / each)
       refuse(source_, 0, fmt::format("element {} {}", in_quotes(element.name), element.count),
-             fmt::format("only {} bytes follow", body_.bytes_left() - promised_bytes_), "write the file again");
+             fmt::format("only {} bytes follow", body_.bytes_left() - promised_bytes_), "export the file again");
     promised_bytes_ += each * element.count;
     if (element.name != "vertex") return;
     check_vertex(element);
     vertices_ += element.count;
   }
 
-  // A list may be empty; a number in a text has a blank before the next one, and the last one need not.
+  // Returns the fewest bytes that a property can take. A list may be empty; in a text file, a blank follows every number but
+  // the last.
   [[nodiscard]] std::size_t least_bytes(const PlyProperty& property) const {
     return header_.encoding == PlyEncoding::ascii ? 1 : size_of(property.list_size.value_or(property.type));
   }
@@ -254,7 +255,7 @@ class PlyReader {
     for (const std::string_view axis : {"x", "y", "z"})
       if (std::none_of(element.properties.begin(), element.properties.end(),
                        [&](const PlyProperty& p) { return p.name == axis && !p.list_size; }))
-        refuse(source_, 0, fmt::format("vertices without {}", axis), "each needs x, y and z", "write the file again");
+        refuse(source_, 0, fmt::format("vertices without {}", axis), "every vertex needs x, y and z", "export the file again");
   }
 
   void read_vertex(const PlyElement& element, std::size_t number) {
@@ -268,7 +269,7 @@ class PlyReader {
       if (property.name.size() != 1 || property.name[0] < 'x' || property.name[0] > 'z') continue;
       if (!std::isfinite(value))
         refuse(source_, body_.line(), fmt::format("vertex {}: {} = {}", number, property.name, value), "not a finite number",
-               "write the file again");
+               "export the file again");
       position[property.name[0] - 'x'] = value;
     }
     static_cast<void>(builder_.add_vertex(position));
@@ -288,7 +289,8 @@ class PlyReader {
   std::size_t list_size(const PlyProperty& property) {
     const double size = body_.next(*property.list_size);
     if (!(size >= 0.0 && size <= static_cast<double>(body_.bytes_left())) || size != std::floor(size))
-      refuse(source_, body_.line(), fmt::format("a list of {} numbers", size), "the file ends before", "write the file again");
+      refuse(source_, body_.line(), fmt::format("a list of {} numbers", size), "the file ends before the end of the list",
+             "export the file again");
     return static_cast<std::size_t>(size);
   }
 
@@ -306,7 +308,7 @@ class PlyReader {
       const double corner = body_.next(property.type);
       if (!(corner >= 0.0 && corner < static_cast<double>(vertices_)) || corner != std::floor(corner))
         refuse(source_, body_.line(), fmt::format("corner {}", corner),
-               fmt::format("must be a vertex number below {}", vertices_), "write the file again");
+               fmt::format("must be a vertex number below {}", vertices_), "export the file again");
       corners_.push_back(static_cast<std::uint32_t>(corner));
     }
     const std::uint32_t optics = builder_.default_optics(body_.line());
@@ -317,8 +319,8 @@ class PlyReader {
   PlyHeader header_;
   PlyBody body_;
   MeshBuilder builder_;
-  std::size_t vertices_ = 0;        // in the whole file
-  std::size_t promised_bytes_ = 0;  // by the header so far, at least
+  std::size_t vertices_ = 0;        // vertices in the whole file
+  std::size_t promised_bytes_ = 0;  // fewest bytes that the header has announced so far
   std::vector<std::uint32_t> corners_;
 };
 

@@ -66,13 +66,13 @@ void append_values(std::string& bytes, const ExportData& data, std::size_t eleme
 
 }  // namespace
 
-// The values stand at the vertices and not at the faces, since CloudCompare and meshio read none of a face's.
+// Stores the values at the vertices, because CloudCompare and meshio read no values of faces.
 std::string ply_bytes(const ExportData& data) {
   const std::size_t count = data.fields.size();
   constexpr std::size_t most_triangles = std::numeric_limits<std::int32_t>::max() / 3;
   if (count > most_triangles) {
     throw_failure(fmt::format("canopy.ply: {} triangles", count),
-                  fmt::format("the format's vertex numbers end at {} of them", most_triangles), "export vtp or nc");
+                  fmt::format("its vertex numbers suffice for at most {}", most_triangles), "export vtp or nc");
   }
   std::string bytes = header_of(data, corners_fit_float(data.model.canopy) ? "float" : "double");
   std::string values;

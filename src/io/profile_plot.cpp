@@ -17,9 +17,9 @@ constexpr double panel_bottom_px = 125.0;
 constexpr double panel_width_px = 680.0;
 constexpr double head_px = 120.0;  // title and note
 constexpr double legend_row_px = 31.0;
-constexpr double ratio_end = 1.02;  // points at 1 stand clear of the border
+constexpr double ratio_end = 1.02;  // keeps points at 1 clear of the border
 constexpr double headroom = 1.05;
-constexpr int point_types[] = {7, 5, 9, 13, 11, 15};  // filled, a shape each
+constexpr int point_types[] = {7, 5, 9, 13, 11, 15};  // one filled shape per curve
 constexpr const char* measured_style = "pointtype 6 pointsize 1.7 linewidth 1.6 linecolor '#000000'";
 
 struct Point {
@@ -34,7 +34,8 @@ Points sunfleck_points(const ProfileTable& profile) {
   return points;
 }
 
-// Per metre, so that profiles with layers of different thickness can be compared; at the middle of each layer.
+// Returns the absorbed flux at the middle of each layer, per metre, so that profiles with different layer thicknesses can be
+// compared.
 Points absorbed_points(const ProfileTable& profile, const std::string& band) {
   const auto found = std::find(profile.bands.begin(), profile.bands.end(), band);
   if (found == profile.bands.end()) return {};
@@ -85,7 +86,7 @@ std::string curve_style(std::size_t c) {
                      1 + c / std::size(plot_colours));
 }
 
-// The plot command of a panel. Something is drawn even where there is nothing, as gnuplot has no panel otherwise.
+// Returns the plot command of a panel. It always plots something, because gnuplot draws no panel otherwise.
 std::string plot_command(const std::string& panel, const std::vector<Points>& curves) {
   std::string command = "plot NaN notitle";
   for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -95,7 +96,7 @@ std::string plot_command(const std::string& panel, const std::vector<Points>& cu
   return command;
 }
 
-// Of the curves, then of the field data; nothing where one curve needs no name.
+// Returns the labels of the curves, then of the field data; nothing if there is only one curve.
 std::vector<std::string> legend_labels(const std::vector<ProfileCurve>& curves,
                                        const std::optional<MeasuredProfile>& measured) {
   std::vector<std::string> labels;
@@ -147,7 +148,7 @@ void add_panel(PlotScript& script, std::size_t panel, double panel_height_px, co
   script.x_title(label);
 }
 
-// What stands under the title.
+// Returns the note under the title.
 std::string note_on(const std::vector<ProfileCurve>& curves, const std::optional<MeasuredProfile>& measured, bool beam) {
   std::string intervals = interval_note(curves);
   if (!measured || !beam) return intervals;

@@ -1,5 +1,5 @@
 #pragma once
-// profile.png: what the light does with height, of one result or of several beside each other, with field data.
+// profile.png: light against height, for one result or several side by side, with field data.
 
 #include "io/measured_reader.h"
 #include "io/profile_table.h"
@@ -11,11 +11,11 @@
 namespace sunfleck {
 
 struct ProfileCurve {
-  std::string label;  // in the legend; shown where there is more than one curve or field data
+  std::string label;  // shown in the legend if there is more than one curve or field data
   ProfileTable profile;
 };
 
-// A gnuplot script, for draw_plot. `curves` is not empty; a curve without the band is drawn in the left panel only.
+// Returns a gnuplot script for draw_plot. `curves` must not be empty; a curve without the band is drawn only in the left panel.
 [[nodiscard]] std::string profile_plot(const std::string& title, const std::vector<ProfileCurve>& curves,
                                        const std::string& band, const std::optional<MeasuredProfile>& measured = {});
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view absorbed_suffix = "_absorbed";
 
-// The bands of a header, by their columns of absorbed flux.
+// Returns the bands in a header, found by their columns of absorbed flux.
 std::vector<std::string> bands_of(const NumberTable& table) {
   std::vector<std::string> bands;
   for (const std::string& column : table.columns) {
@@ -27,7 +27,7 @@ std::vector<std::string> bands_of(const NumberTable& table) {
   return bands;
 }
 
-// From the head line "seed 1, confidence 0.95".
+// Reads the confidence from the head line "seed 1, confidence 0.95".
 std::optional<double> confidence_of(const NumberTable& table) {
   constexpr std::string_view key = ", confidence ";
   for (const std::string& comment : table.comments) {
@@ -40,15 +40,15 @@ std::optional<double> confidence_of(const NumberTable& table) {
 
 void check_heights(const NumberTable& table, std::size_t height) {
   if (table.rows.size() < 2)
-    refuse_table(table, table.rows.back().line, "one row", "a profile has a layer and the top plane at least",
-                 "give the file as this program writes it");
+    refuse_table(table, table.rows.back().line, "only one row", "a profile needs at least one layer and the top plane",
+                 "use a file as written by this program");
   double below = -std::numeric_limits<double>::infinity();
   for (const NumberTable::Row& row : table.rows) {
     const double here = row.cells[height];
-    if (std::isnan(here)) refuse_table(table, row.line, "height_m is empty", "every plane has a height", "fill it in");
+    if (std::isnan(here)) refuse_table(table, row.line, "height_m is empty", "every plane needs a height", "fill it in");
     if (here <= below) {
-      refuse_table(table, row.line, fmt::format("height_m = {:g}", here), "heights ascend, the ground first",
-                   "give the file as this program writes it");
+      refuse_table(table, row.line, fmt::format("height_m = {:g}", here), "heights must ascend from the ground",
+                   "use a file as written by this program");
     }
     below = here;
   }
@@ -107,7 +107,7 @@ Agreement agreement(const ProfileTable& profile, const MeasuredProfile& measured
   }
   if (std::any_of(simulated.begin(), simulated.end(), [](double ratio) { return std::isnan(ratio); })) {
     throw_input(fmt::format("{}: nothing to compare with", measured.name), "the scene has no direct beam, so no sunflecks",
-                "give [sun] and a direct irradiance, or leave out --measured");
+                "add [sun] and a direct irradiance, or omit --measured");
   }
   return agreement(simulated, seen);
 }

@@ -18,10 +18,10 @@ using nlohmann::json;
 constexpr const char* store_format = "sunfleck pictures";
 constexpr int store_version = 1;
 
-// What a scene may hold: a mesh to 1e7 m, placed as far from zero and turned.
+// Largest coordinate of a scene: a mesh of up to 1e7 m, turned and placed as far from zero.
 constexpr double farthest_m = 1e8;
 constexpr double most_patches = 64e6;
-constexpr std::size_t deepest = 6;  // lists and maps within each other; a good file has four
+constexpr std::size_t deepest = 6;  // nesting depth of lists and maps; a valid file has four levels
 
 [[noreturn]] void refuse(const std::string& why) {
   throw std::runtime_error(why);
@@ -103,7 +103,7 @@ json result_json(const RadiationResult& result) {
           {"cell_sky", pack(result.cell_sky)}};
 }
 
-// A finite number in lo..hi.
+// Returns a finite number in lo..hi.
 double number(const json& object, const char* key, double lo, double hi) {
   const auto value = object.at(key).get<double>();
   require(value >= lo && value <= hi, key);
@@ -189,7 +189,7 @@ RadiationModel read_model(const json& from) {
                 plot.at("periodic").get<bool>()};
   model.layers = static_cast<int>(number(from, "layers", 1, most_layers));
   if (!from.at("sun").is_null()) {
-    constexpr double most_rad = 7.0;  // beyond a full turn
+    constexpr double most_rad = 7.0;  // more than a full turn
     const json& sun = from["sun"];
     model.sun = SunPosition{number(sun, "elevation_rad", -most_rad, most_rad), number(sun, "azimuth_rad", -most_rad, most_rad)};
   }
@@ -239,9 +239,10 @@ RadiationResult read_result(const json& from, const RadiationModel& model) {
 
 StoredResult read_checked(const std::string& bytes) {
   const json file = read_cbor(bytes, deepest);
-  if (file.at("format") != store_format) refuse("it is another kind of file");
+  if (file.at("format") != store_format) refuse("it is a different kind of file");
   const int version = whole<int>(file.at("version"));
-  if (version != store_version) refuse(fmt::format("version {}, this program reads {}", version, store_version));
+  if (version != store_version)
+    refuse(fmt::format("it has version {}, but this program reads version {}", version, store_version));
   StoredResult stored;
   stored.seed = whole<std::uint64_t>(file.at("seed"));
   stored.complete = file.at("complete").get<bool>();
@@ -285,7 +286,8 @@ StoredResult read_result_store(const std::filesystem::path& file) {
 
 StoredResult parse_result_store(const std::string& bytes, const std::filesystem::path& file) {
   const auto fail = [&](const std::string& why) {
-    throw_input(fmt::format("{}: cannot be drawn from", printable(file.string())), printable(why), "run its scene again");
+    throw_input(fmt::format("{}: cannot be used to draw pictures", printable(file.string())), printable(why),
+                "run its scene again");
   };
   try {
     StoredResult stored = read_checked(bytes);

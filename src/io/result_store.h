@@ -1,9 +1,9 @@
 #pragma once
-// A finished run in one file, pictures.cbor of the result folder: all that pictures are drawn from, so that `render` needs
-// neither the scene's files nor a simulation.
+// Stores a finished run in one file, pictures.cbor of the result folder. It holds everything needed to draw pictures, so that
+// `render` needs neither the scene's files nor a simulation.
 //
-// The file is CBOR (RFC 8949): a map of named numbers, texts and lists, and long arrays as byte strings, little-endian and
-// deflated (zlib). `format` and `version` say what it is; a reader refuses other versions.
+// The file is CBOR (RFC 8949): a map of named numbers, texts and lists, with long arrays as byte strings, little-endian and
+// deflated (zlib). `format` and `version` identify it; the reader refuses other versions.
 
 #include "io/result_writer.h"
 #include "io/scene_reader.h"
@@ -17,9 +17,10 @@ namespace sunfleck {
 
 inline constexpr const char* result_store_file = "pictures.cbor";
 
-// Of the scene: title, digest, model and camera; the model without the sky's kind, planes and sensors (`sky` is there if it has
-// one). Of the result: all that counts landings and quanta by side and by cell, what turns them into W m-2, leaf area index,
-// and the rays, packets, sky rays and relative errors of both passes. Files of earlier builds lack the sky rays: 0.
+// Content of the file. `scene` has the title, digest, model and camera; its model lacks the kind of sky, the planes and the
+// sensors (`sky` is set if the scene has one). `result` has all counts of landings and quanta by side and by cell, their
+// conversion to W m-2, the leaf area index, and the rays, packets, sky rays and relative errors of both passes. Sky rays are 0
+// in files from earlier builds.
 struct StoredResult {
   Scene scene;
   RadiationResult result;
@@ -27,14 +28,14 @@ struct StoredResult {
   bool complete = true;
 };
 
-// Written aside and renamed. Throws Error (failure).
+// Writes aside and renames. Throws Error (failure).
 void write_result_store(const std::filesystem::path& file, const RunRecord& record, const Scene& scene,
                         const RadiationResult& result);
 
-// Checks every size, index and range, so that what it returns can be drawn. Throws Error (input).
+// Reads the file and checks every size, index and range, so that the result can be drawn safely. Throws Error (input).
 [[nodiscard]] StoredResult read_result_store(const std::filesystem::path& file);
 
-// The same from the bytes of a file of that name.
+// Does the same with the bytes of a file of that name.
 [[nodiscard]] StoredResult parse_result_store(const std::string& bytes, const std::filesystem::path& file);
 
 }  // namespace sunfleck

@@ -53,7 +53,7 @@ ordered_json band_json(const BandResult& band) {
             {"transmitted", number_or_null(band.transmitted.half_width)}}}};
 }
 
-// The same in photons, for bands that ask for it: umol m-2 s-1 of ground.
+// Returns the same fluxes in photons, umol m-2 s-1 of ground, for bands with umol_per_joule.
 ordered_json photons_json(const BandResult& band, double umol_per_joule) {
   return {{"incident", band.incident * umol_per_joule},
           {"absorbed_vegetation", band.absorbed_vegetation.value * umol_per_joule},

@@ -18,10 +18,10 @@ using nlohmann::ordered_json;
 constexpr std::string_view state_mark = "SUNRUNS1";
 
 [[noreturn]] void throw_damaged(const fs::path& file) {
-  throw_input(printable(file.string()), "it is damaged", "leave --resume out: the run is computed anew");
+  throw_input(printable(file.string()), "it is damaged", "omit --resume to start the run anew");
 }
 
-// Throws std::runtime_error or json::exception for what is no such state.
+// Reads a state. Throws std::runtime_error or json::exception if the content is not a valid state.
 SolveState state_of(const json& from, const SolveState& blank) {
   SolveState state;
   state.work = {from.at("rays").get<double>(), from.at("packets").get<double>()};
@@ -70,7 +70,7 @@ void RunStore::write(const SolveState& state) const {
 void RunStore::remove() const {
   std::error_code error;
   fs::remove(file_, error);
-  if (error) throw_failure(printable(file_.string()), error.message(), "remove it: the run is finished");
+  if (error) throw_failure(printable(file_.string()), error.message(), "remove it; the run is finished");
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,6 @@
 #pragma once
-// The state of a run that is not finished, on disk: run_state.bin of the result folder, from which `run --resume` goes on. As
-// in io/sealed_file.h; its arrays are deflated (zlib).
+// Stores the state of an unfinished run in run_state.bin of the result folder, from which `run --resume` resumes. The file
+// format is that of io/sealed_file.h; its arrays are deflated (zlib).
 
 #include "transport/solve_state.h"
 
@@ -15,17 +15,17 @@ inline constexpr const char* run_state_file = "run_state.bin";
 
 class RunStore {
  public:
-  // `settings`: a JSON object of plain values, all that the bytes of the run's tables depend on.
+  // `settings` is a JSON object of plain values with everything that determines the bytes of the run's tables.
   RunStore(const std::filesystem::path& result_folder, const nlohmann::ordered_json& settings);
 
-  // What a run left; empty if there is none. `blank` tells its size. Throws Error (input) if its settings were others, naming
-  // the first difference, or if it is damaged.
+  // Returns the state left by an earlier run, or nothing. `blank` provides the sizes. Throws Error (input) if the settings
+  // differ, naming the first difference, or if the file is damaged.
   [[nodiscard]] std::optional<SolveState> read(const SolveState& blank) const;
 
-  // Written aside and renamed. Throws Error (failure).
+  // Writes aside and renames. Throws Error (failure).
   void write(const SolveState& state) const;
 
-  void remove() const;  // Throws Error (failure)
+  void remove() const;  // throws Error (failure)
 
  private:
   std::filesystem::path folder_, file_;

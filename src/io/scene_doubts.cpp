@@ -1,5 +1,4 @@
-// What can be read, but is seldom meant: lengths in the wrong unit, meshes upside down, leaves that are there twice, light
-// forgotten.
+// Warns about valid but unlikely input: lengths in the wrong unit, meshes upside down, duplicate leaves, missing light.
 
 #include "io/file.h"
 #include "io/scene_parts.h"
@@ -12,10 +11,10 @@
 namespace sunfleck {
 namespace {
 
-constexpr double tallest_m = 150.0;           // no plant is
-constexpr double densest = 30.0;              // one-sided area of all elements over the plot's
-constexpr double below_ground_m = 0.01;       // deeper than a mesh's foot may lie
-constexpr double least_share_of_area = 0.01;  // of the stand, below ground
+constexpr double tallest_m = 150.0;           // taller than any plant
+constexpr double densest = 30.0;              // one-sided area of all elements over that of the plot
+constexpr double below_ground_m = 0.01;       // the foot of a mesh may lie this deep
+constexpr double least_share_of_area = 0.01;  // share of the stand's area below ground
 
 struct Stand {
   double area_m2 = 0.0, buried_m2 = 0.0;
@@ -59,7 +58,7 @@ void doubt_light(const Scene& scene, const std::string& file, std::vector<std::s
   }
   if (scene.light.sky && !diffuse) {
     doubts.push_back(
-        fmt::format("{}: sky sends no light, as no band has any diffuse; add diffuse, in W m-2, to a [[band]]", file));
+        fmt::format("{}: sky sends no light, because no band has diffuse; add diffuse, in W m-2, to a [[band]]", file));
   }
 }
 
@@ -72,8 +71,8 @@ void doubt_copies(const Canopy& canopy, const std::string& file, std::vector<std
   if (canopy.copies.empty()) return;
   const Copy& first = canopy.copies.front();
   doubts.push_back(
-      fmt::format("{}: {} triangles coincide with earlier ones, {} with {} for one; the earlier one takes all light and "
-                  "the other none, so remove the copies (sunfleck info names them)",
+      fmt::format("{}: {} triangles coincide with earlier ones, e.g. {} with {}; the earlier one takes all light and "
+                  "the copy none, so remove the copies (sunfleck info names them)",
                   file, canopy.copies.size(), element_name(canopy, first.element), element_name(canopy, first.original)));
 }
 
@@ -86,19 +85,18 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
   doubt_copies(scene.model.canopy, file, doubts);
   const Stand stand = stand_of(scene.model.canopy);
   if (stand.top_m > tallest_m) {
-    doubts.push_back(
-        fmt::format("{}: the highest element stands {:.4g} m above the ground; for a mesh in centimetres add scale = 0.01",
-                    file, stand.top_m));
+    doubts.push_back(fmt::format(
+        "{}: the highest element is {:.4g} m above the ground; for a mesh in centimetres add scale = 0.01", file, stand.top_m));
   } else if (stand.area_m2 > densest * scene.model.plot.area_m2()) {
     doubts.push_back(fmt::format("{}: {:.4g} m2 of plants stand on {:.4g} m2; check plot.size, in metres, and scale", file,
                                  stand.area_m2, scene.model.plot.area_m2()));
   }
   if (scene.model.soil && stand.buried_m2 > least_share_of_area * stand.area_m2) {
-    doubts.push_back(
-        fmt::format("{}: {:.0f} % of the plants' area lies below the ground, y = 0, where soil hides it; lift them with at, or "
-                    "give up = \"z\" for a "
-                    "mesh whose z points up",
-                    file, 100.0 * stand.buried_m2 / stand.area_m2));
+    doubts.push_back(fmt::format(
+        "{}: {:.0f} % of the plants' area lies below the ground, y = 0, where soil hides it; raise them with at, or "
+        "set up = \"z\" for a "
+        "mesh whose z points up",
+        file, 100.0 * stand.buried_m2 / stand.area_m2));
   }
   return doubts;
 }

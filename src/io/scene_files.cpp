@@ -1,4 +1,4 @@
-// Files that a scene names.
+// Finds the files that a scene names.
 
 #include "io/scene_parts.h"
 
@@ -26,16 +26,16 @@ fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, con
   const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, code);
   if (code) table.refuse("file", "the scene's folder cannot be read: " + code.message(), "check its permissions");
   fs::path file = fs::weakly_canonical(folder / name, code);
-  if (code) table.refuse("file", "its path cannot be followed: " + code.message(), "correct the path");
+  if (code) table.refuse("file", "its path cannot be resolved: " + code.message(), "correct the path");
   if (!access.allow_outside && !lies_in(file, folder)) {
-    table.refuse("file", "it lies outside the scene's folder", "move it beside the scene, or run with --allow-outside");
+    table.refuse("file", "it lies outside the scene's folder", "move it into that folder, or run with --allow-outside");
   }
   access.files->note(folder / name);
   const fs::file_status status = fs::status(file, code);
   if (status.type() == fs::file_type::not_found) {
     table.refuse("file", "there is no such file; names are relative to the scene's folder", "correct the name");
   }
-  if (!fs::is_regular_file(status)) table.refuse("file", "it is not a file with content", wanted);
+  if (!fs::is_regular_file(status)) table.refuse("file", "it is not a regular file", wanted);
   return file;
 }
 

@@ -1,4 +1,4 @@
-// [[geometry]]: where triangles come from and which optics they get.
+// Reads [[geometry]]: the sources of triangles and their optics.
 
 #include "base/error.h"
 #include "io/file.h"
@@ -17,15 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t most_rows = 10000;
-constexpr std::int64_t most_plants = 10000;  // some 2e8 triangles of the generator, about 15 GB
-constexpr double farthest_m = 1e7;           // no coordinate of a scene lies farther from its zero
+constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the generator, about 15 GB
+constexpr double farthest_m = 1e7;           // largest coordinate of a scene
 
 constexpr NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
-  static_cast<void>(table.word("generator", {"maize"}));  // the only one there is
+  static_cast<void>(table.word("generator", {"maize"}));  // the only generator
   for (const char* key : {"optics", "up", "scale", "heading", "at"}) {
-    if (table.has(key)) table.refuse(key, "it is for files; a generated stand fills the plot from its corner", "remove it");
+    if (table.has(key))
+      table.refuse(key, "it is only for files; a generated stand fills the plot from its corner", "remove it");
   }
   MaizeStand stand;
   stand.rows = static_cast<int>(table.integer("rows", 1, most_rows).value_or(stand.rows));
@@ -35,8 +36,8 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
     table.refuse(table.has("rows")      ? "rows"
                  : table.has("per_row") ? "per_row"
                                         : "generator",
-                 fmt::format("rows * per_row gives {} plants, at most {} are possible", plants_so_far, most_plants),
-                 "make fewer; a periodic plot repeats them without end");
+                 fmt::format("rows * per_row gives {} plants, but at most {} are allowed", plants_so_far, most_plants),
+                 "use fewer; a periodic plot repeats them without end");
   }
   const auto spacing_m = table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres"});
   if (spacing_m) {
@@ -51,7 +52,7 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
 fs::path find_mesh(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
   fs::path file = find_scene_file(table, scene_file, access, "name a mesh file");
   if (!is_mesh_file(file)) {
-    table.refuse("file", "its format is not known", "give .glb, .gltf, .obj, .ply, .stl, .can or .can.gz");
+    table.refuse("file", "its format is unknown", "use .glb, .gltf, .obj, .ply, .stl, .can or .can.gz");
   }
   return file;
 }
@@ -69,13 +70,13 @@ std::vector<Placement> read_placements(const TomlTable& table) {
 const Mesh* find_given_mesh(const TomlTable& table, const SceneText& source) {
   const std::string name = *table.text("mesh");
   const auto found = source.meshes.find(name);
-  if (found == source.meshes.end()) table.refuse("mesh", "no mesh of that name is given", "correct the name");
+  if (found == source.meshes.end()) table.refuse("mesh", "there is no mesh of that name", "correct the name");
   return &found->second;
 }
 
 GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, const SceneAccess& access) {
   for (const char* key : {"rows", "per_row", "spacing", "seed"}) {
-    if (table.has(key)) table.refuse(key, "it is for generator = \"maize\"", "remove it; place a file's copies with `at`");
+    if (table.has(key)) table.refuse(key, "it is only for generator = \"maize\"", "remove it; place a file's copies with `at`");
   }
   MeshImport import;
   import.optics = table.text("optics");
@@ -94,13 +95,13 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
 }
 
 void refuse_many(const GeometryPart& part, std::size_t triangles) {
-  constexpr double bytes_each = 200.0;  // of a direct-only run, the tree included
+  constexpr double bytes_each = 200.0;  // for a direct-only run, including the tree
   const double memory = static_cast<double>(physical_memory_bytes());
   if (bytes_each * static_cast<double>(triangles) <= memory) return;
   part.table.refuse(part.source_key(),
-                    fmt::format("{} triangles up to here need about {:.0f} GB of memory, and this machine has {:.0f} GB",
+                    fmt::format("{} triangles so far need about {:.0f} GB of memory, but this machine has only {:.0f} GB",
                                 triangles, bytes_each * 1e-9 * static_cast<double>(triangles), 1e-9 * memory),
-                    "place fewer copies, or give a coarser mesh");
+                    "place fewer copies, or use a coarser mesh");
 }
 
 void refuse_far(const GeometryPart& part, const Mesh& mesh) {
@@ -110,7 +111,7 @@ void refuse_far(const GeometryPart& part, const Mesh& mesh) {
   }
   if (farthest > farthest_m) {
     part.table.refuse(part.source_key(),
-                      fmt::format("it reaches to {:.3g} m, at most {:.0e} m is possible", farthest, farthest_m),
+                      fmt::format("it extends to {:.3g} m, but at most {:.0e} m is allowed", farthest, farthest_m),
                       "give its unit with scale, e.g. scale = 0.001 for millimetres");
   }
 }
@@ -126,19 +127,19 @@ const OpticsInput* find_optics(const OpticsByName& defined, const std::string& n
   return found == defined.end() ? nullptr : &found->second;
 }
 
-// As a TOML key: names with other characters stand in quotes.
+// Returns the name as a TOML key, in quotes if it has other characters.
 std::string key_of(const std::string& name) {
   return is_plain_name(name) ? name : fmt::format("\"{}\"", printable(name));
 }
 
-// What to do about an undefined name.
+// Returns advice about an undefined name.
 std::string cure_of_undefined(const std::string& name, const OpticsByName& defined) {
   std::vector<std::string> names;
   for (const auto& [known, input] : defined) names.push_back(known);
   const std::string add = is_soil_name(name) ? fmt::format("add [optics.{}] or [soil]", key_of(name))
                                              : fmt::format("add [optics.{}] with reflectance", key_of(name));
   const auto nearest = nearest_word(name, names);
-  return nearest ? fmt::format("did you mean {}? else {}", printable(*nearest), add) : add;
+  return nearest ? fmt::format("did you mean {}? Otherwise {}", printable(*nearest), add) : add;
 }
 
 [[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
@@ -163,13 +164,13 @@ void allow_keys(const TomlTable& table, const SceneText& source) {
   }
 }
 
-// Of generator, file and mesh, one.
+// Requires exactly one of generator, file and mesh.
 void require_one_source(const TomlTable& table) {
   for (const char* other : {"file", "mesh"}) {
     if (!table.has(other)) continue;
     for (const char* first : {"generator", "file"}) {
       if (std::string_view(first) == other || !table.has(first)) continue;
-      table.refuse(other, fmt::format("{} is given too", first),
+      table.refuse(other, fmt::format("{} is also given", first),
                    "keep one of the two, and add another [[geometry]] for the other");
     }
   }
@@ -180,7 +181,7 @@ void require_one_source(const TomlTable& table) {
 
 std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access) {
   std::vector<GeometryPart> parts;
-  std::int64_t plants = 0;  // of all generators
+  std::int64_t plants = 0;  // total of all generators
   for (const TomlTable& table : root.tables("geometry")) {
     allow_keys(table, source);
     require_one_source(table);

@@ -1,4 +1,4 @@
-// What comes in: [sun] and [[band]].
+// Reads the light: [sun] and [[band]].
 
 #include "base/error.h"
 #include "io/file.h"
@@ -18,9 +18,9 @@ namespace {
 constexpr double largest_irradiance_w_m2 = 1e15;
 constexpr std::size_t most_bands = 1000;
 constexpr std::size_t longest_name = 64;
-constexpr double default_share = 0.5;  // PAR in solar radiation, interface of [weather]
+constexpr double default_share = 0.5;  // share of PAR in solar radiation
 
-// Years (UTC) that sun_position knows.
+// Years (UTC) supported by sun_position.
 constexpr int first_year = 1900;
 constexpr int last_year = 2100;
 
@@ -41,8 +41,7 @@ UtcTime to_utc(const OffsetTime& written) {
 
 SunInput read_moment(const TomlTable& sun) {
   for (const char* key : {"elevation", "azimuth"}) {
-    if (sun.has(key))
-      sun.refuse(key, "the sun is given by time and place already", "remove it, or time, latitude and longitude");
+    if (sun.has(key)) sun.refuse(key, "time and place already determine the sun", "remove it, or time, latitude and longitude");
   }
   sun.require("time", "time = 2002-08-08T10:10:00+08:00");
   sun.require("latitude", "latitude in degrees north, as in latitude = 40.02");
@@ -76,7 +75,7 @@ std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& e
   std::string name = *band.text("name");
   if (!is_plain_name(name)) band.refuse("name", plain_name_rule, "give a name such as PAR or band_1");
   if (std::any_of(earlier.begin(), earlier.end(), [&](const Waveband& other) { return other.name == name; })) {
-    band.refuse("name", "another [[band]] has this name", "give every band a name of its own");
+    band.refuse("name", "another [[band]] has this name", "give every band a different name");
   }
   return name;
 }
@@ -84,7 +83,7 @@ std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& e
 BandLight read_fixed_light(const TomlTable& band, bool has_sun, bool has_sky) {
   const NumberRange irradiance{.lo = 0.0, .hi = largest_irradiance_w_m2, .cure = "give W m-2"};
   if (band.has("direct") && band.has("direct_normal")) {
-    band.refuse("direct_normal", "direct is given too, and either follows from the other", "remove one of the two");
+    band.refuse("direct_normal", "direct is also given, and each follows from the other", "remove one of the two");
   }
   BandLight light;
   light.direct_w_m2 = band.number("direct", irradiance).value_or(0.0);
@@ -92,11 +91,10 @@ BandLight read_fixed_light(const TomlTable& band, bool has_sun, bool has_sky) {
   light.diffuse_w_m2 = band.number("diffuse", irradiance).value_or(0.0);
   if (band.has("direct")) light.direct_place = band.place("direct");
   if (light.direct_w_m2 + light.direct_normal_w_m2 > 0.0 && !has_sun) {
-    band.refuse(band.has("direct") ? "direct" : "direct_normal", "there is no [sun] for this light to come from",
-                "add [sun] or remove it");
+    band.refuse(band.has("direct") ? "direct" : "direct_normal", "this light needs a [sun]", "add [sun] or remove it");
   }
   if (light.diffuse_w_m2 > 0.0 && !has_sky) {
-    band.refuse("diffuse", "there is no [sky] for this light to come from", "add [sky] with model = \"uniform\", or remove it");
+    band.refuse("diffuse", "this light needs a [sky]", "add [sky] with model = \"uniform\", or remove it");
   }
   return light;
 }
@@ -104,10 +102,10 @@ BandLight read_fixed_light(const TomlTable& band, bool has_sun, bool has_sky) {
 BandLight read_band_light(const TomlTable& band, bool has_sun, bool has_sky, const std::optional<WeatherInput>& weather) {
   const auto share =
       band.number("share", {.lo = 0.0, .hi = 1.0, .is_share = true, .cure = "give a share of the broadband irradiance"});
-  if (share && !weather) band.refuse("share", "there is no [weather] to have a share of", "add [weather] or remove it");
+  if (share && !weather) band.refuse("share", "a share needs [weather]", "add [weather] or remove it");
   for (const char* key : {"direct", "direct_normal", "diffuse"}) {
     if (share && band.has(key)) {
-      band.refuse(key, "share is given too, which takes this light from [weather]", "remove one of the two");
+      band.refuse(key, "share is also given, which takes this light from [weather]", "remove one of the two");
     }
   }
   const bool fixed = band.has("direct") || band.has("direct_normal") || band.has("diffuse");
@@ -115,8 +113,7 @@ BandLight read_band_light(const TomlTable& band, bool has_sun, bool has_sky, con
   BandLight light;
   light.share = share.value_or(default_share);
   if (*light.share > 0.0 && !has_sky && weather->may_be_diffuse()) {
-    weather->table.refuse_table("there is no [sky] for its diffuse light to come from",
-                                "add [sky] with model = \"perez\" or another");
+    weather->table.refuse_table("its diffuse light needs a [sky]", "add [sky] with model = \"perez\" or another");
   }
   return light;
 }
@@ -141,8 +138,8 @@ BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
                       const std::optional<WeatherInput>& weather, std::vector<std::string>& warnings) {
   const std::vector<TomlTable> tables = root.tables("band");
   if (tables.empty()) root.require("band", "[[band]] with name = \"PAR\" and direct = 350.0");
-  if (tables.empty()) root.refuse("band", "there must be at least one", "add [[band]] with name = \"PAR\" and direct = 350.0");
-  if (tables.size() > most_bands) root.refuse("band", fmt::format("there may be at most {}", most_bands), "split the scene");
+  if (tables.empty()) root.refuse("band", "at least one is required", "add [[band]] with name = \"PAR\" and direct = 350.0");
+  if (tables.size() > most_bands) root.refuse("band", fmt::format("at most {} are allowed", most_bands), "split the scene");
   BandsInput input;
   for (const TomlTable& table : tables) {
     table.allow({"name", "direct", "direct_normal", "diffuse", "share", "umol_per_joule"});
@@ -153,7 +150,7 @@ BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
     input.bands.push_back(std::move(band));
     input.lights.push_back(read_band_light(table, sun.has_value(), sky.has_value(), weather));
     if (weather && !input.lights.back().share) {
-      warnings.push_back(fmt::format("{}: it has irradiance of its own, so [weather] gives it none", table.place()));
+      warnings.push_back(fmt::format("{}: it has its own irradiance, so [weather] does not affect it", table.place()));
     }
   }
   return input;

@@ -1,6 +1,6 @@
 #pragma once
-// The parts of a scene file, each read and checked from its tables. Only the scene reader uses them; it gives `access` a list
-// of files.
+// Reads and checks the parts of a scene file, each from its tables. Only the scene reader uses these functions; it sets
+// `access.files`.
 
 #include "canopy/maize.h"
 #include "io/mesh_reader.h"
@@ -12,15 +12,15 @@
 
 namespace sunfleck {
 
-// Where the file that `table.file` names lies, symbolic links resolved: relative to the scene's folder, and inside it unless
-// access allows more. Refused if it is not a regular file; `wanted` is the cure where it is something else. The unresolved path
-// goes to access.files: a link may come to lead elsewhere, and a missing file may appear.
+// Returns the location of the file named by `table.file`, with symbolic links resolved: relative to the scene's folder, and
+// inside it unless `access` allows more. Refuses anything but a regular file; `wanted` is the advice in the message. Adds the
+// unresolved path to access.files, because a link may be redirected and a missing file may appear.
 [[nodiscard]] std::filesystem::path find_scene_file(const TomlTable& table, const std::filesystem::path& scene_file,
                                                     const SceneAccess& access, std::string_view wanted);
 
-// Names that head columns or stand in cells of the result tables.
+// Returns whether a name may head columns or fill cells of the result tables.
 [[nodiscard]] bool is_plain_name(std::string_view name);
-inline constexpr std::string_view plain_name_rule = "it stands in tables: letters, digits, _ and -, at most 64";
+inline constexpr std::string_view plain_name_rule = "names in tables may have up to 64 letters, digits, _ and -";
 
 struct SunInput {
   SunPosition position;
@@ -47,7 +47,7 @@ struct SkyInput {
                                                const SceneAccess& access, const std::optional<SunInput>& sun,
                                                const std::optional<WeatherInput>& weather);
 
-// Names and photon units go to `bands`, whose irradiances stay 0; where light comes from is said by `lights`.
+// Names and photon units are in `bands`, whose irradiances are still 0; `lights` defines the sources of light.
 struct BandsInput {
   std::vector<Waveband> bands;
   std::vector<BandLight> lights;  // [waveband]
@@ -56,52 +56,52 @@ struct BandsInput {
                                     const std::optional<SkyInput>& sky, const std::optional<WeatherInput>& weather,
                                     std::vector<std::string>& warnings);
 
-// In ascending order of height.
+// Returns the planes in ascending order of height.
 [[nodiscard]] std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot);
 [[nodiscard]] std::vector<Sensor> read_sensors(const TomlTable& root);
 
-// Where `patch` is absent it is 0.05 m, or coarser (a warning says so) if the plot has too many such cells.
+// The default of `patch` is 0.05 m, or more, with a warning, if the plot would have too many such cells.
 [[nodiscard]] std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,
                                             std::vector<std::string>& warnings);
 
 struct OpticsInput {
   SurfaceOptics optics;
-  std::string place;  // of its table, for messages
+  std::string place;  // location of its table, for messages
 };
 using OpticsByName = std::map<std::string, OpticsInput>;
 [[nodiscard]] OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& bands);
 
-// One [[geometry]] table, read but not yet loaded.
+// One [[geometry]] table, read but without its triangles.
 struct GeometryPart {
   TomlTable table;
-  std::optional<MaizeStand> maize;  // one of these three
-  const Mesh* mesh = nullptr;       // of the SceneText
-  std::filesystem::path file;       // where it lies, symbolic links resolved
+  std::optional<MaizeStand> maize;  // exactly one of `maize`, `mesh` and `file` is set
+  const Mesh* mesh = nullptr;       // points into the SceneText
+  std::filesystem::path file;       // location of the file, symbolic links resolved
   MeshImport import;
   std::vector<Placement> placements;
 
   [[nodiscard]] std::string_view source_key() const { return maize ? "generator" : mesh != nullptr ? "mesh" : "file"; }
 };
-// The source must outlive the parts.
+// Reads the [[geometry]] tables. The source must outlive the parts.
 [[nodiscard]] std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source,
                                                       const SceneAccess& access);
 
-// Refuses more triangles than this machine's memory holds, before it takes the memory for their copies.
+// Loads the meshes. Refuses more triangles than fit into the memory of this machine, before allocating memory for their copies.
 [[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files);
 
-// Refuses the table whose mesh uses undefined optics. Names of soil need none of their own where there is [soil].
+// Refuses the table whose mesh uses undefined optics. Soil names need no definition if the scene has [soil].
 void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
                   const Scene& scene);
 
-// The optics of those names; names of soil that are not defined take the reflectance and colour of [soil]. Refuses the whole
-// text where one is missing.
+// Returns the optics of these names; undefined soil names take the reflectance and colour of [soil]. Refuses the whole text if
+// any other name is undefined.
 [[nodiscard]] std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<const std::string> names,
                                                          const OpticsByName& defined, const std::optional<Soil>& soil);
 
-// Warnings about what can be read but is seldom meant: lengths in another unit, plants below ground, light forgotten.
+// Returns warnings about valid but unlikely input: lengths in another unit, plants below ground, missing light.
 [[nodiscard]] std::vector<std::string> scene_doubts(const Scene& scene);
 
-// Warnings about where the geometry stands in the plot.
+// Returns warnings about the position of the geometry in the plot.
 [[nodiscard]] std::vector<std::string> placement_warnings(std::span<const GeometryPart> parts,
                                                           std::span<const PlacedMesh> meshes, const Scene& scene);
 

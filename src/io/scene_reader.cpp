@@ -17,7 +17,7 @@ namespace sunfleck {
 namespace {
 
 constexpr double farthest_m = 1e7;
-constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // a million positions in `at`
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // enough for a million positions in `at`
 constexpr double default_fov_deg = 40.0;
 
 std::string read_title(const TomlTable& root, const std::filesystem::path& file) {
@@ -64,7 +64,7 @@ std::optional<CameraPose> read_camera(const TomlTable& root) {
   pose.position_m = *table->triple("position", anywhere);
   pose.look_at_m = *table->triple("look_at", anywhere);
   if (pose.position_m == pose.look_at_m) {
-    table->refuse("look_at", "it is the camera's own position, so there is no direction to look in", "give another point");
+    table->refuse("look_at", "it equals the position of the camera, so there is no viewing direction", "give another point");
   }
   const NumberRange fov{.lo = 1.0, .hi = 179.0, .cure = "give degrees from the lower to the upper edge"};
   pose.fov_rad = glm::radians(table->number("fov", fov).value_or(default_fov_deg));
@@ -87,7 +87,7 @@ void warn_of_night(const SunInput& sun, std::vector<std::string>& warnings) {
 void warn_of_unused(const OpticsByName& optics, const Scene& scene, std::vector<std::string>& warnings) {
   const std::set<std::string> used(scene.model.canopy.optics_names.begin(), scene.model.canopy.optics_names.end());
   for (const auto& [name, input] : optics) {
-    if (!used.contains(name)) warnings.push_back(fmt::format("{} is used by no geometry", input.place));
+    if (!used.contains(name)) warnings.push_back(fmt::format("{} is not used by any geometry", input.place));
   }
 }
 
@@ -106,7 +106,7 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   for (const Organ& organ : mesh.organs) digest.add(fmt::format("{} {} {}\n", organ.plant, organ.name, organ.rank));
 }
 
-// `files` are those that were read for the text.
+// Returns the digest of a scene; `files` are those read for the text.
 std::string digest_of(std::string_view text, std::span<const SourceFile> files, std::span<const GeometryPart> parts) {
   Digest digest;
   digest.add(text);
@@ -148,7 +148,7 @@ void read_light(const TomlTable& root, const SceneAccess& access, Scene& scene) 
   }
 }
 
-// The same with a list of files: the caller's, else `own`.
+// Returns an access that always has a list of files: the caller's, or `own`.
 SceneAccess noting_access(SceneAccess access, SourceFiles& own) {
   if (access.files == nullptr) access.files = &own;
   return access;
@@ -161,7 +161,7 @@ TomlTable parse_scene(const SceneText& source) {
   return root;
 }
 
-// Returns the optics, of which the canopy takes its own.
+// Reads everything but the geometry, and returns the optics, from which the canopy takes its own.
 OpticsByName read_all_but_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access, Scene& scene) {
   scene.file = source.file;
   scene.title = read_title(root, source.file);
@@ -177,11 +177,11 @@ OpticsByName read_all_but_geometry(const TomlTable& root, const SceneText& sourc
   return optics;
 }
 
-// What the tree and the counters of a canopy were made for.
+// Refuses a change of the quantities for which the canopy's tree and counters were built.
 void check_same_ground(const TomlTable& root, const RadiationModel& model, const RadiationModel& other) {
   const auto refuse = [&](const char* what) {
-    root.refuse_table(fmt::format("{} is not as it was, and the canopy's tree was made for that", what),
-                      "change light and optics alone, or begin anew with the whole scene");
+    root.refuse_table(fmt::format("{} differs from the scene for which the canopy's tree was built", what),
+                      "change only light and optics, or load the whole scene anew");
   };
   const bool same_plot = model.plot.size_x_m == other.plot.size_x_m && model.plot.size_z_m == other.plot.size_z_m &&
                          model.plot.periodic == other.plot.periodic;
@@ -242,7 +242,7 @@ void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
   const auto is_read_again = [&](const SourceFile& known) {
     return std::any_of(read.begin(), read.end(), [&](const SourceFile& file) { return file.path == known.path; });
   };
-  std::erase_if(other.files, is_read_again);  // a scene is often given other light, from the same files
+  std::erase_if(other.files, is_read_again);  // a scene is often given new light from the same files
   other.files.insert(other.files.end(), read.begin(), read.end());
   other.model.canopy = std::move(scene.model.canopy);
   scene = std::move(other);

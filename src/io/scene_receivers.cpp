@@ -1,4 +1,4 @@
-// [[plane]] and [[sensor]]: where light is looked at.
+// Reads [[plane]] and [[sensor]], the places where light is measured.
 
 #include "io/plane_writer.h"
 #include "io/scene_parts.h"
@@ -16,13 +16,13 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t most_planes = 64;
-constexpr double most_cells = 64e6;  // of all planes: 1.5 GB with one band
+constexpr double most_cells = 64e6;  // of all planes together: 1.5 GB with one band
 constexpr double default_cell_m = 0.01;
-constexpr double default_cells = 1e6;  // the most of a plane whose cells were not asked for
+constexpr double default_cells = 1e6;  // most cells of a plane without `cells`
 constexpr double farthest_m = 1e7;
-constexpr std::int64_t most_points = 100000;  // of all sensors
+constexpr std::int64_t most_points = 100000;  // of all sensors together
 
-// About square cells of 1 cm, wider where they would be too many.
+// Chooses nearly square cells of 1 cm, or larger ones if there would be too many.
 void set_default_cells(PlaneReceiver& plane, const Plot& plot) {
   const double cell_m = std::max(default_cell_m, std::sqrt(plot.area_m2() / default_cells));
   const double along_x = std::clamp(std::round(plot.size_x_m / cell_m), 1.0, default_cells);
@@ -45,7 +45,7 @@ PlaneReceiver read_plane(const TomlTable& table, const Plot& plot) {
   }
   for (const double count : *cells) {
     if (count != std::floor(count))
-      table.refuse("cells", fmt::format("{} is no whole number", count), "write it as [180, 240]");
+      table.refuse("cells", fmt::format("{} is not a whole number", count), "write it as [180, 240]");
   }
   plane.cells_x = static_cast<int>((*cells)[0]);
   plane.cells_z = static_cast<int>((*cells)[1]);
@@ -57,7 +57,7 @@ std::string read_sensor_name(const TomlTable& table, std::set<std::string>& earl
   std::string name = *table.text("name");
   if (!is_plain_name(name)) table.refuse("name", plain_name_rule, "give a name such as ceptometer or row_1");
   if (!earlier.insert(name).second) {
-    table.refuse("name", "another [[sensor]] has this name", "give every sensor a name of its own");
+    table.refuse("name", "another [[sensor]] has this name", "give every sensor a different name");
   }
   return name;
 }
@@ -67,7 +67,7 @@ std::vector<glm::dvec3> read_points(const TomlTable& table) {
   table.require("from", "from = [0.2, 1.2, 0.1]");
   const glm::dvec3 from_m = *table.triple("from", anywhere);
   if (!table.has("to")) {
-    if (table.has("points")) table.refuse("points", "there is no `to` that the points lead to", "add to, or remove it");
+    if (table.has("points")) table.refuse("points", "points need `to`", "add to, or remove it");
     return {from_m};
   }
   table.require("points", "points = 80, spread from `from` to `to`");
@@ -92,10 +92,10 @@ Sensor read_sensor(const TomlTable& table, std::set<std::string>& earlier) {
   const auto normal = table.triple("normal", {.lo = -1e6, .hi = 1e6, .cure = "give a direction, such as [0, 1, 0] for up"});
   if (!normal) return sensor;
   if (sensor.response == SensorResponse::spherical) {
-    table.refuse("normal", "a spherical sensor looks everywhere", "remove it, or response = \"spherical\"");
+    table.refuse("normal", "a spherical sensor has no normal", "remove it, or response = \"spherical\"");
   }
   const double length = glm::length(*normal);
-  if (length < 1e-6) table.refuse("normal", "it has no direction", "give one, such as [0, 1, 0] for up");
+  if (length < 1e-6) table.refuse("normal", "it has zero length", "give one, such as [0, 1, 0] for up");
   sensor.normal = *normal / length;
   return sensor;
 }
@@ -105,7 +105,7 @@ Sensor read_sensor(const TomlTable& table, std::set<std::string>& earlier) {
 std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot) {
   const std::vector<TomlTable> tables = root.tables("plane");
   if (tables.size() > most_planes) {
-    root.refuse("plane", fmt::format("there are {}, at most {} are possible", tables.size(), most_planes), "remove some");
+    root.refuse("plane", fmt::format("there are {}, but at most {} are allowed", tables.size(), most_planes), "remove some");
   }
   std::vector<PlaneReceiver> planes;
   double cells = 0.0;
@@ -113,14 +113,14 @@ std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot) 
     const PlaneReceiver plane = read_plane(table, plot);
     const std::string stem = plane_stem(plane.height_m);
     if (std::any_of(planes.begin(), planes.end(), [&](const auto& other) { return plane_stem(other.height_m) == stem; })) {
-      table.refuse("height", fmt::format("another [[plane]] has this height, and would be {}.csv too", stem),
-                   "give every plane a height of its own, in whole millimetres");
+      table.refuse("height", fmt::format("another [[plane]] has this height and the same file, {}.csv", stem),
+                   "give every plane a different height, in whole millimetres");
     }
     planes.push_back(plane);
     cells += static_cast<double>(plane.cells_x) * plane.cells_z;
     if (cells > most_cells) {
       table.refuse(table.has("cells") ? "cells" : "height",
-                   fmt::format("the planes have {:.3g} cells so far, at most {:.3g} are possible", cells, most_cells),
+                   fmt::format("the planes have {:.3g} cells so far, but at most {:.3g} are allowed", cells, most_cells),
                    "use fewer");
     }
   }
@@ -137,7 +137,8 @@ std::vector<Sensor> read_sensors(const TomlTable& root) {
     points += sensors.back().points_m.size();
     if (points > static_cast<std::size_t>(most_points)) {
       table.refuse(table.has("points") ? "points" : "from",
-                   fmt::format("the sensors have {} points so far, at most {} are possible", points, most_points), "use fewer");
+                   fmt::format("the sensors have {} points so far, but at most {} are allowed", points, most_points),
+                   "use fewer");
     }
   }
   return sensors;

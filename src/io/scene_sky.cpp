@@ -1,4 +1,4 @@
-// [sky]: how diffuse light is spread over the hemisphere.
+// Reads [sky], the distribution of diffuse light over the hemisphere.
 
 #include "io/light_reader.h"
 #include "io/scene_parts.h"
@@ -17,7 +17,7 @@ constexpr int clear_type = 12;
 void refuse_foreign(const TomlTable& table, Named model) {
   const auto refuse = [&](const char* key, Named owner) {
     if (model == owner || !table.has(key)) return;
-    table.refuse(key, fmt::format("it is for model = \"{}\"", names[static_cast<std::size_t>(owner)]), "remove it");
+    table.refuse(key, fmt::format("it is only for model = \"{}\"", names[static_cast<std::size_t>(owner)]), "remove it");
   };
   refuse("type", Named::cie);
   refuse("dni", Named::perez);
@@ -81,7 +81,7 @@ std::optional<SkyInput> read_sky(const TomlTable& root, const std::filesystem::p
       break;
   }
   if (!sun && input.model.follows_sun()) {
-    table->refuse(table->has("type") ? "type" : "model", "this sky follows the sun, and there is no [sun]",
+    table->refuse(table->has("type") ? "type" : "model", "this sky depends on the sun, but there is no [sun]",
                   "add [sun], or choose uniform or cie-overcast");
   }
   return input;

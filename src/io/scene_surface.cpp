@@ -1,4 +1,4 @@
-// What surfaces do with light: [soil] and [optics.NAME].
+// Reads the optical properties of surfaces: [soil] and [optics.NAME].
 
 #include "io/file.h"
 #include "io/scene_parts.h"
@@ -12,17 +12,18 @@ namespace sunfleck {
 
 namespace {
 
-constexpr double most_patches = 64e6;    // cells of the soil's map: 512 MB a field in double precision
-constexpr double default_patches = 4e6;  // cells of a map that was not asked for, on a plot where 0.05 m gives too many
+constexpr double most_patches = 64e6;  // cells of the soil map: 512 MB per field in double precision
+// Most cells of a map without `patch`, on a plot where 0.05 m would give too many.
+constexpr double default_patches = 4e6;
 constexpr double sum_tolerance = 1e-12;  // rounding of reflectance + transmittance as decimal fractions
 constexpr std::size_t most_optics = 65535;
 constexpr std::size_t most_coefficients = 4'000'000;  // optics times bands; 32 bytes each
 
-constexpr NumberRange share{.lo = 0.0, .hi = 1.0, .is_share = true, .cure = "give a share of the light that arrives"};
+constexpr NumberRange share{.lo = 0.0, .hi = 1.0, .is_share = true, .cure = "give a share of the incident light"};
 
-constexpr NumberRange exitance{.lo = 0.0, .hi = 1e15, .cure = "give W m-2 that leave the upper side"};
+constexpr NumberRange exitance{.lo = 0.0, .hi = 1e15, .cure = "give the flux that leaves the upper side in W m-2"};
 
-// One number for all bands, or a table with a number for every band and no other; nothing if the key is absent.
+// Reads one number for all bands, or a table with exactly one number per band; returns nothing if the key is absent.
 std::optional<std::vector<double>> read_by_band(const TomlTable& table, std::string_view key,
                                                 const std::vector<Waveband>& bands, const NumberRange& range = share) {
   if (!table.is_table(key)) {
@@ -61,7 +62,7 @@ std::vector<FaceOptics> read_face(const TomlTable& table, const std::vector<Wave
     const double sum = reflectance[band] + transmittance[band];
     if (sum > 1.0 + sum_tolerance) {
       table.refuse("transmittance",
-                   fmt::format("reflectance + transmittance = {} in band {}, must be at most 1", sum, bands[band].name),
+                   fmt::format("reflectance + transmittance = {} in band {}, but must be at most 1", sum, bands[band].name),
                    "lower one of the two");
     }
     face.push_back({reflectance[band], transmittance[band]});
@@ -81,7 +82,7 @@ SurfaceOptics read_surface(const TomlTable& table, const std::string& name, cons
     return optics;
   }
   for (const char* key : {"reflectance", "transmittance"}) {
-    if (table.has(key)) table.refuse(key, "the faces have their own in upper and lower", "remove it, or upper and lower");
+    if (table.has(key)) table.refuse(key, "upper and lower give it for each face", "remove it, or upper and lower");
   }
   table.require("upper", fmt::format("[optics.{}.upper] with reflectance", printable(name)));
   table.require("lower", fmt::format("[optics.{}.lower] with reflectance", printable(name)));
@@ -114,12 +115,12 @@ std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>
   const double count = cells(plot, soil.patch_m);
   if (count <= most_patches) return soil;
   if (patch_m) {
-    table->refuse("patch", fmt::format("gives {:.3g} cells on this plot, at most {:.0f} are possible", count, most_patches),
-                  "give larger patches");
+    table->refuse("patch", fmt::format("gives {:.3g} cells on this plot, but at most {:.0f} are allowed", count, most_patches),
+                  "use larger patches");
   }
   soil.patch_m = std::sqrt(plot.area_m2() / default_patches);
-  warnings.push_back(fmt::format("{}.patch is {:.3g} m, since patches of 0.05 m would be {:.3g} on this plot", table->place(),
-                                 soil.patch_m, count));
+  warnings.push_back(fmt::format("{}.patch is {:.3g} m, because there would be {:.3g} patches of 0.05 m on this plot",
+                                 table->place(), soil.patch_m, count));
   return soil;
 }
 
@@ -127,15 +128,16 @@ OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& ban
   const auto all = root.table("optics");
   if (!all) return {};
   const std::size_t names = all->keys().size();
-  if (names > most_optics) all->refuse_table(fmt::format("more than {} names", most_optics), "define fewer");
+  if (names > most_optics) all->refuse_table(fmt::format("there are more than {} names", most_optics), "define fewer");
   if (names * bands.size() > most_coefficients) {
-    all->refuse_table(fmt::format("{} names with {} bands each, more than {} in all", names, bands.size(), most_coefficients),
-                      "define fewer, or split the bands over scenes");
+    all->refuse_table(
+        fmt::format("{} names with {} bands each give more than {} coefficients", names, bands.size(), most_coefficients),
+        "define fewer, or split the bands over scenes");
   }
   OpticsByName optics;
   for (const std::string& name : all->keys()) {
     if (!all->is_table(name)) {
-      all->refuse(name, "optics are tables with the name of a mesh's material",
+      all->refuse(name, "each entry must be a table named after a material of a mesh",
                   "write [optics.leaf] with reflectance below it, or remove this key");
     }
     if (name.empty()) all->refuse(name, "a name must not be empty", "give the name of a mesh's material");

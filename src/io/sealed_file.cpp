@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t deepest = 2;  // lists and maps within each other
+constexpr std::size_t deepest = 2;  // nesting depth of lists and maps
 constexpr std::size_t mark_bytes = 8;
 constexpr std::size_t head_bytes = mark_bytes + sizeof(std::uint32_t);
 
@@ -73,7 +73,7 @@ void expect_same_settings(const ordered_json& now, const ordered_json& noted, co
       throw_input(fmt::format("--resume {}", printable(result_folder.string())),
                   fmt::format("{} has other settings: {} was {}, now {}", what, printable(key), value_text(noted, key),
                               value_text(now, key)),
-                  "give the same, or leave --resume out to compute it anew");
+                  "use the same settings, or omit --resume to start anew");
     }
   }
 }

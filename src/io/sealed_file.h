@@ -1,6 +1,6 @@
 #pragma once
-// What the program keeps for itself, to go on with later: a CBOR map (RFC 8949) behind eight letters, which say what it is, and
-// a check sum (CRC-32, little-endian) of the map. And the settings it was made with.
+// Files in which the program keeps its own state in order to resume later: eight letters identify the kind of file, then follow
+// a CBOR map (RFC 8949) and its checksum (CRC-32, little-endian). Also compares the settings stored in them.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -10,17 +10,18 @@
 
 namespace sunfleck {
 
-// The bytes of a file; `mark` are its eight letters.
+// Returns the bytes of a file that begins with the eight letters of `mark`.
 [[nodiscard]] std::string sealed(std::string_view mark, const nlohmann::json& content);
 
-// The map. None if it is another kind of file, its sum is wrong, or maps and lists lie deeper than one in the other.
+// Returns the map; nothing if it is another kind of file, its checksum is wrong, or maps and lists are nested more than two
+// deep.
 [[nodiscard]] std::optional<nlohmann::json> unsealed(std::string_view mark, std::string_view bytes);
 
-// A JSON object of plain values; null if the text is damaged or holds more than those.
+// Returns a JSON object of plain values; null if the text is damaged or holds anything else.
 [[nodiscard]] nlohmann::ordered_json parse_settings(const std::string& text);
 
-// Throws Error (input), naming the first one that differs, unless both are the same. `what` was made with `noted` ("that day")
-// in `result_folder`.
+// Throws Error (input), naming the first difference, unless the settings are equal. `noted` are those of `what` ("that day") in
+// `result_folder`.
 void expect_same_settings(const nlohmann::ordered_json& now, const nlohmann::ordered_json& noted, const std::string& what,
                           const std::filesystem::path& result_folder);
 

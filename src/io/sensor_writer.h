@@ -1,5 +1,5 @@
 #pragma once
-// sensors.csv: what the points of a scene's sensors read.
+// sensors.csv: the readings of the scene's sensor points.
 
 #include "io/result_writer.h"
 
@@ -7,8 +7,9 @@
 
 namespace sunfleck {
 
-// A row for each point in the order of the scene: sensor (its name), point (from 0 on within its sensor), x, y, z (m, scene's
-// axes), and by band direct, sky and scattered, each with its half-width. The result has readings of all the model's sensors.
+// Returns one row per point in the order of the scene: sensor (its name), point (from 0 within its sensor), x, y, z (m, in the
+// scene's axes), and for each band direct, sky and scattered, each with its half-width. The result must have readings of all
+// sensors of the model.
 [[nodiscard]] std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 
 }  // namespace sunfleck

@@ -17,7 +17,8 @@ void SourceFiles::note(const std::filesystem::path& file) {
 }
 
 std::string SourceFiles::read(const std::filesystem::path& file, std::uintmax_t most_bytes) {
-  note(file);  // before it is read: whatever is written from now on makes another stamp
+  // The stamp is taken before reading, so that any later write leads to a different stamp.
+  note(file);
   std::string bytes = read_file(file, most_bytes);
   Digest digest;
   digest.add(bytes);

@@ -1,4 +1,4 @@
-// A weather station's CSV.
+// Reads the CSV file of a weather station.
 
 #include "io/mesh_formats.h"
 #include "io/weather_formats.h"
@@ -15,7 +15,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t not_there = static_cast<std::size_t>(-1);
-constexpr int first_year = 1900, last_year = 2100;  // where the sun's position is known
+constexpr int first_year = 1900, last_year = 2100;  // years for which the sun's position is known
 constexpr std::string_view time_cure = "write it as 2002-08-08T10:10:00+08:00";
 
 struct Columns {
@@ -40,10 +40,10 @@ class StationReader {
         read_row();
       }
     }
-    if (columns_.count == 0) refuse(source_, 0, "no line of column names found", "there is no row", "begin with time,ghi");
+    if (columns_.count == 0) refuse(source_, 0, "no line of column names found", "the file has no rows", "begin with time,ghi");
     if (intervals_.size() < 2) {
       refuse(source_, 0, fmt::format("{} row found", intervals_.empty() ? "no" : "one"),
-             "an interval's length is the step to the next one's start, so two are needed", "add rows");
+             "an interval lasts until the next one starts, so at least two are needed", "add rows");
     }
     set_lengths();
     WeatherFile result;
@@ -67,21 +67,21 @@ class StationReader {
       for (const auto& [known, column] :
            {std::pair{"time", &columns_.time}, {"ghi", &columns_.ghi}, {"dni", &columns_.dni}, {"dhi", &columns_.dhi}}) {
         if (name != known) continue;
-        if (*column != not_there) refuse(source_, line_, fmt::format("column {}", known), "is there twice", "keep one");
+        if (*column != not_there) refuse(source_, line_, fmt::format("column {}", known), "appears twice", "keep one");
         *column = i;
       }
     }
     if (columns_.time == not_there) {
       refuse(source_, line_, fmt::format("the line of column names is {}", in_quotes(cells_.front())),
-             "no column is called time", "begin with a line such as time,ghi or time,dni,dhi; separate by commas");
+             "no column is named time", "begin with a line such as time,ghi or time,dni,dhi; separate by commas");
     }
     const bool one_part = (columns_.dni == not_there) != (columns_.dhi == not_there);
     if (one_part) {
       refuse(source_, line_, fmt::format("column {} is missing", columns_.dni == not_there ? "dni" : "dhi"),
-             "direct normal and diffuse horizontal irradiance come together", "add it, or give ghi alone");
+             "direct normal and diffuse horizontal irradiance are needed together", "add it, or give only ghi");
     }
     if (columns_.ghi == not_there && columns_.dni == not_there) {
-      refuse(source_, line_, "no irradiance", "no column is called ghi, nor dni and dhi", "name the columns so, in W m-2");
+      refuse(source_, line_, "no irradiance", "no columns are named ghi, or dni and dhi", "add such columns, in W m-2");
     }
   }
 
@@ -109,17 +109,17 @@ class StationReader {
     const std::optional<double> value = parse_number(cell);
     if (!value) {
       refuse(source_, line_, fmt::format("{} {}", column, in_quotes(cell)),
-             "must be a number, and missing ones are not guessed", "fill it in, or leave the row out to make a gap");
+             "must be a number; missing values are not interpolated", "fill it in, or remove the row to leave a gap");
     }
     if (*value < 0.0 || *value > most_broadband_w_m2) {
       refuse(source_, line_, fmt::format("{} = {}", column, *value),
              fmt::format("must lie in 0..{} W m-2", most_broadband_w_m2),
-             *value < 0.0 ? "set a pyranometer's offset at night to 0" : "give the mean over the interval in W m-2");
+             *value < 0.0 ? "set the night offset of the pyranometer to 0" : "give the mean over the interval in W m-2");
     }
     return *value;
   }
 
-  // Digits at the front of `rest`, exactly `count`; empty if there are other characters.
+  // Removes exactly `count` digits from the front of `rest` and returns their value; nothing if there are other characters.
   static std::optional<int> take_digits(std::string_view& rest, std::size_t count) {
     if (rest.size() < count) return std::nullopt;
     int value = 0;
@@ -135,12 +135,12 @@ class StationReader {
     rest.remove_prefix(1);
     return true;
   }
-  // Two digits after one of the separators.
+  // Removes one of the separators and two digits.
   static std::optional<int> take_part(std::string_view& rest, std::string_view separators) {
     return take(rest, separators) ? take_digits(rest, 2) : std::nullopt;
   }
 
-  // Seconds with decimals, after a colon; 0 where there is none.
+  // Removes a colon and seconds with decimals; returns 0 if there are none.
   static std::optional<double> take_seconds(std::string_view& rest) {
     if (rest.empty() || rest.front() != ':') return 0.0;
     const std::optional<int> whole = take_part(rest, ":");
@@ -156,7 +156,7 @@ class StationReader {
     return digits > 0 ? std::optional<double>(second) : std::nullopt;
   }
 
-  // Z, +08, +0800 or +08:00, in minutes east of Greenwich.
+  // Removes Z, +08, +0800 or +08:00 and returns minutes, positive to the east.
   static std::optional<int> take_offset(std::string_view& rest) {
     if (take(rest, "Zz")) return 0;
     const bool west = rest.starts_with('-');
@@ -181,9 +181,9 @@ class StationReader {
                minute = take_part(rest, ":");
     const auto second = take_seconds(rest);
     if (!year || !month || !day || !hour || !minute || !second)
-      refuse(source_, line_, shown, "is no ISO 8601 date and time", time_cure);
+      refuse(source_, line_, shown, "is not an ISO 8601 date and time", time_cure);
     rest = trimmed(rest);
-    if (rest.empty()) refuse(source_, line_, shown, "has no offset from UTC, so the instant is unknown", time_cure);
+    if (rest.empty()) refuse(source_, line_, shown, "has no offset from UTC, so the time is ambiguous", time_cure);
     const auto offset = take_offset(rest);
     if (!offset || !rest.empty()) refuse(source_, line_, shown, "its offset from UTC cannot be read", time_cure);
     constexpr int days_in[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
@@ -192,7 +192,7 @@ class StationReader {
                         *day <= days_in[*month - 1] + (*month == 2 && leap ? 1 : 0) && *hour <= 23 && *minute <= 59 &&
                         *second < 60.0;
     if (!exists) refuse(source_, line_, shown, "there is no such date or time", "correct it");
-    // A day inside the years that sun_position knows, so that the offset does not leave them.
+    // Excludes the first and last year for which the sun's position is known, so that the offset cannot lead out of them.
     if (*year <= first_year || *year >= last_year) {
       refuse(source_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
              "correct the year");
@@ -200,14 +200,14 @@ class StationReader {
     return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * *offset);
   }
 
-  // Each lasts to the next one's start; but where that is further than the most common step, only that long.
+  // Lets each interval last until the next one starts, but no longer than the most common step.
   void set_lengths() {
     std::map<long long, std::size_t> counts;  // by step in milliseconds
     for (std::size_t i = 0; i + 1 < intervals_.size(); ++i) {
       intervals_[i].length_s = seconds_between(intervals_[i].start, intervals_[i + 1].start);
       ++counts[std::llround(1000.0 * intervals_[i].length_s)];
     }
-    // From the longest step down, so that it wins over one as common.
+    // Goes from the longest step down, so that the longer of two equally common steps wins.
     const auto common =
         std::max_element(counts.rbegin(), counts.rend(), [](const auto& a, const auto& b) { return a.second < b.second; });
     const double longest_s = 0.001 * static_cast<double>(common->first);

@@ -23,7 +23,7 @@ constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
 
-// Every number of a step's light, in the order of the file.
+// Visits every number of a step's light, in the order of the file.
 template <class Light, class Visit>
 void for_each_number(Light& light, const Visit& visit) {
   const auto visit_estimate = [&](auto& estimate) {
@@ -65,10 +65,10 @@ std::optional<double> error_of(const json& value) {
 void remove_file(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);
-  if (error) throw_failure(printable(file.string()), error.message(), "remove it, or give another folder with -o");
+  if (error) throw_failure(printable(file.string()), error.message(), "remove it, or choose another folder with -o");
 }
 
-// Finished ones and what was begun.
+// Removes finished steps and temporary files.
 void remove_steps(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -98,7 +98,7 @@ std::vector<float> day_fields(const RadiationModel& model, const RadiationResult
     for (const LightColumn column : columns) {
       const auto found = std::find_if(band.begin(), band.end(), [&](const LightValues& v) { return v.column == column; });
       if (found == band.end()) {
-        fields.insert(fields.end(), all.size(), 0.0F);  // a sky without light
+        fields.insert(fields.end(), all.size(), 0.0F);  // for a sky without light
       } else {
         for (const double value : found->values) fields.push_back(static_cast<float>(value));
       }
@@ -128,7 +128,7 @@ StepStore::Found StepStore::find() const {
   if (!fs::exists(file, error)) return Found::nothing;
   ordered_json noted = parse_settings(read_file(file));
   if (!noted.is_object() || !noted.contains(finished_key)) {
-    throw_input(printable(file.string()), "it is damaged", "leave --resume out: the day is computed anew");
+    throw_input(printable(file.string()), "it is damaged", "omit --resume to start the day anew");
   }
   const bool finished = noted[finished_key] == true;
   noted.erase(finished_key);
@@ -165,7 +165,7 @@ std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& sto
                         {"indirect_error", error_json(stored.indirect_error)},
                         {"reached_bound", stored.reached_bound},
                         {"seconds", stored.seconds}};
-  // Where no thread can be had the file is written when the future is asked.
+  // If no thread can be started, the file is written when the future is read.
   return std::async(std::launch::async | std::launch::deferred,
                     [file = file_of(step), bytes = sealed(step_mark, content)] { write_file(file, bytes); });
 }
@@ -192,7 +192,7 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
     return stored;
   } catch (const json::exception&) {
     return std::nullopt;
-  } catch (const std::runtime_error&) {  // an array that cannot be unpacked
+  } catch (const std::runtime_error&) {  // an array cannot be unpacked
     return std::nullopt;
   }
 }

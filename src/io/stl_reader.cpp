@@ -13,9 +13,9 @@ namespace sunfleck {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies in memory");
+static_assert(std::endian::native == std::endian::little, "binary STL numbers are read as stored in memory");
 
-constexpr std::size_t header_bytes = 84;  // 80 of comment, then the number of triangles
+constexpr std::size_t header_bytes = 84;  // 80 bytes of comment, then the number of triangles
 constexpr std::size_t facet_bytes = 50;   // normal, three corners, 2 bytes of attributes
 
 std::uint32_t swapped(std::uint32_t word) {
@@ -28,8 +28,8 @@ std::uint32_t declared_facets(std::string_view bytes) {
   return count;
 }
 
-// Binary files may begin with `solid` too, so the size decides. A text cannot match it: its bytes 80..83 read as a number
-// would ask for more than 6 GB.
+// Compares the size, because binary files may begin with `solid` too. A text file cannot match: bytes 80..83, read as a number,
+// would require more than 6 GB.
 bool has_facets(std::string_view bytes, std::uint32_t count) {
   return bytes.size() == header_bytes + facet_bytes * std::size_t{count};
 }
@@ -62,7 +62,7 @@ class StlReader {
         const glm::dvec3 corner(numbers[i], numbers[i + 1], numbers[i + 2]);
         if (!std::isfinite(corner.x + corner.y + corner.z))
           refuse(source_, 0, fmt::format("triangle {}: a coordinate is not finite", facet + 1), "it is infinite or nan",
-                 "write the file again");
+                 "export the file again");
         corners_.push_back(builder_.add_vertex(corner));
       }
       builder_.add_polygon(corners_, optics, organ);
@@ -78,14 +78,14 @@ class StlReader {
       if (!key.empty()) read_line(lines.number(), key, rest);
     }
     if (state_ != State::outside)
-      refuse(source_, lines.number(), "the file ends inside a solid", "endsolid is missing", "write the file again");
+      refuse(source_, lines.number(), "the file ends inside a solid", "endsolid is missing", "export the file again");
     return builder_.take();
   }
 
  private:
   enum class State { outside, solid, facet, loop, closed };
 
-  // One line of the grammar: solid { facet { outer loop { vertex vertex vertex } endloop } endfacet } endsolid
+  // Reads one line of the grammar: solid { facet { outer loop { vertex vertex vertex } endloop } endfacet } endsolid
   void read_line(std::size_t line, std::string_view key, std::string_view rest) {
     if (key == "vertex" && state_ == State::loop) {
       glm::dvec3 corner;
@@ -103,7 +103,7 @@ class StlReader {
     const auto* step =
         std::find_if(std::begin(steps), std::end(steps), [&](const Step& s) { return s.key == key && s.from == state_; });
     if (step == std::end(steps))
-      refuse(source_, line, in_quotes(key), "not expected here in an STL file", "write the file again");
+      refuse(source_, line, in_quotes(key), "not expected here in an STL file", "export the file again");
     state_ = step->to;
     if (key == "endloop") end_loop(line);
   }
@@ -111,7 +111,7 @@ class StlReader {
   void end_loop(std::size_t line) {
     if (corners_.size() != 3)
       refuse(source_, line, fmt::format("a facet of {} corners", corners_.size()), "an STL facet has 3",
-             "write the file again");
+             "export the file again");
     const std::uint32_t optics = builder_.default_optics(line);
     builder_.add_polygon(corners_, optics, builder_.default_organ(optics));
     corners_.clear();
@@ -136,15 +136,15 @@ Mesh read_stl(const MeshSource& source) {
     }
   const std::size_t size = source.bytes.size();
   if (size < header_bytes)
-    refuse(source, 0, fmt::format("only {} bytes", size), "a binary STL file has at least 84, a text one begins with solid",
-           "write the file again");
+    refuse(source, 0, fmt::format("only {} bytes", size), "a binary STL file has at least 84, a text file begins with solid",
+           "export the file again");
   const std::uint32_t count = declared_facets(source.bytes);
   if (has_facets(source.bytes, swapped(count)))
-    refuse(source, 0, fmt::format("its number of triangles is {}, most significant byte first", swapped(count)),
-           "an STL file has the least significant byte first", "write it again with the bytes of each number turned round");
+    refuse(source, 0, fmt::format("its numbers are big-endian: {} triangles", swapped(count)), "an STL file is little-endian",
+           "save it with little-endian numbers");
   refuse(source, 0, fmt::format("{} bytes", size),
          fmt::format("a binary STL file of {} triangles has {}", count, header_bytes + facet_bytes * std::size_t{count}),
-         "write the file again");
+         "export the file again");
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// What the result tables have in common as text.
+// Text functions shared by the result tables.
 
 #include "io/result_writer.h"
 
@@ -8,19 +8,19 @@
 
 namespace sunfleck {
 
-// The `#` lines: title, content, seed and confidence, units.
+// Returns the `#` lines: title, content, seed and confidence, units.
 [[nodiscard]] std::string table_head(const RunRecord& record, std::string_view content, std::string_view units);
 
-// A comma and nine significant digits; the cell stays empty for NaN.
+// Appends a comma and nine significant digits; the cell stays empty for NaN.
 void append_number(std::string& row, double value);
 
-// Value and half-width.
+// Appends the value and its half-width.
 void append_estimate(std::string& row, const Estimate& estimate);
 
-// A share as it is told to users: its estimate, which has no bias, may exceed 1 by chance, the share itself cannot.
+// Limits a share to 1 for reporting: the estimate is unbiased and may exceed 1 by chance, although the share cannot.
 [[nodiscard]] Estimate as_share(Estimate estimate);
 
-// Quoted as RFC 4180 has it if the text holds a comma, a quote or a line break.
+// Returns the text, quoted as in RFC 4180 if it holds a comma, a quote or a line break.
 [[nodiscard]] std::string csv_field(std::string_view text);
 
 }  // namespace sunfleck

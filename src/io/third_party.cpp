@@ -1,6 +1,7 @@
-// The one file that compiles the body of a header-only library.
+// Compiles the implementation of a header-only library, in this file alone.
 
-#include <fstream>  // tinygltf forgets it where it is told to open no files
+// tinygltf needs this header but omits it if TINYGLTF_NO_FS is set.
+#include <fstream>
 
 #define TINYGLTF_IMPLEMENTATION
 #include "io/gltf_library.h"

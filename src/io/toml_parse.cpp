@@ -1,4 +1,4 @@
-// From text to a TomlTable: what toml++ leaves unchecked, and its errors as one line.
+// Parses text into a TomlTable, adds checks that toml++ lacks, and reports its errors on one line.
 
 #include "base/error.h"
 #include "io/file.h"
@@ -15,8 +15,8 @@ namespace sunfleck {
 
 namespace {
 
-// Deeper than any key of a scene; toml++ makes a table of every segment and frees them by recursion, so that a chain of
-// 100,000 segments overflows the stack. (It limits nested arrays and inline tables to 256 by itself.)
+// Most dots in a key, more than any key of a scene needs. toml++ makes a table of every segment and frees them recursively, so
+// a chain of 100,000 segments would overflow the stack. (It limits nested arrays and inline tables to 256 itself.)
 constexpr int max_dots_in_key = 8;
 
 std::size_t count_lines(std::string_view text) {
@@ -32,7 +32,7 @@ bool is_ascii(char c) {
   return static_cast<unsigned char>(c) < 0x80U;
 }
 
-// The place after the string that starts at `begin`; an unterminated one ends at its line or at the text's end, and the
+// Returns the position after the string that starts at `begin`. An unterminated string ends with its line or the text; the
 // parser refuses it later.
 std::size_t end_of_string(const std::string& file, std::string_view text, std::size_t begin) {
   const char quote = text[begin];
@@ -43,12 +43,12 @@ std::size_t end_of_string(const std::string& file, std::string_view text, std::s
     if (text[at] == '\\' && quote == '"') {
       const std::size_t next = text.find_first_not_of(" \t\r\n", at + 1);
       if (next != text.npos && !is_ascii(text[next]))
-        refuse_at(file, text, at, "a backslash before a letter beyond ASCII", "it is no escape",
-                  "move the letter or write \\uXXXX");
+        refuse_at(file, text, at, "a backslash before a non-ASCII character", "this is not an escape sequence",
+                  "move the character or write \\uXXXX");
       at += 2;
     } else if (multi_line && text.substr(at, 3) == fence) {
       at += 3;
-      // Up to two quotes may stand directly before the closing three.
+      // Up to two quotes may precede the closing three.
       for (int extra = 0; extra < 2 && at < text.size() && text[at] == quote; ++extra) ++at;
       return at;
     } else if (!multi_line && (text[at] == quote || text[at] == '\n')) {
@@ -60,15 +60,16 @@ std::size_t end_of_string(const std::string& file, std::string_view text, std::s
   return text.size();
 }
 
-// Outside strings and comments TOML is ASCII. toml++ 3.3 asks of any other letter there, and behind a line-ending backslash,
-// whether it is a blank, in a function whose behaviour is undefined for most letters; so they are refused before.
+// Refuses non-ASCII characters outside strings and comments, and after a line-ending backslash. toml++ 3.3 would test whether
+// they are blanks with a function whose behaviour is undefined for most characters.
 void check_syntax(const std::string& file, std::string_view text) {
   int dots = 0;
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (c == '"' || c == '\'') {
       if (at > 0 && std::string_view(" \t\r\n=[{,.").find(text[at - 1]) == std::string_view::npos)
-        refuse_at(file, text, at, "a quote inside a word", "texts begin with it", "put a blank or a comma before it");
+        refuse_at(file, text, at, "a quote inside a word", "only texts may begin with a quote",
+                  "put a blank or a comma before it");
       at = end_of_string(file, text, at);
       continue;
     }
@@ -77,11 +78,12 @@ void check_syntax(const std::string& file, std::string_view text) {
       continue;
     }
     if (!is_ascii(c))
-      refuse_at(file, text, at, "a letter beyond ASCII", "only texts in quotes and comments may have it", "write it in quotes");
+      refuse_at(file, text, at, "a non-ASCII character", "these are allowed only in quoted texts and comments",
+                "write it in quotes");
     if (std::string_view("\n=[]{},").find(c) != std::string_view::npos) dots = 0;
     if (c == '.' && ++dots > max_dots_in_key)
       refuse_at(file, text, at, "a dotted key",
-                fmt::format("has more than {} dots, deeper than any key of a scene", max_dots_in_key), "shorten it");
+                fmt::format("has more than {} dots, more than any key of a scene", max_dots_in_key), "shorten it");
     ++at;
   }
 }
@@ -98,12 +100,12 @@ void refuse_non_text(const std::string& file, std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     if (!is_utf8(text.substr(at, end - at)))
-      refuse_at(file, text, at, "a letter that is not UTF-8", "a scene is UTF-8 text", "save the file as UTF-8");
+      refuse_at(file, text, at, "a character that is not UTF-8", "a scene is UTF-8 text", "save the file as UTF-8");
     at = end + 1;
   }
 }
 
-// The line without comment and the content of its texts; no longer than a pattern may take.
+// Returns the line without its comment and without the content of its texts, cut to fit regular expressions.
 std::string bare_line(std::string_view text, std::size_t number) {
   constexpr std::size_t longest = 300;
   std::string_view line;
@@ -129,20 +131,20 @@ struct Cure {
 
 constexpr const char* cure_of_backslash = "write / for each backslash, or put the text in single quotes";
 
-// Signs in the parser's description.
+// Patterns in the parser's description.
 constexpr Cure cures_by_description[] = {
     {"utf-8", "save the file as UTF-8"},
     {"redefine", "keep one of the two"},
     {"parsing time", "write the time as hh:mm:ss, with seconds"},
-    {"end-of-file", "finish it; the file may be cut off"},
+    {"end-of-file", "complete it; the file may be truncated"},
     {"escape sequence", cure_of_backslash},
     {"unicode scalar", cure_of_backslash},
 };
 
-// Signs in the line, as regular expressions.
+// Patterns in the line, as regular expressions.
 constexpr Cure cures_by_line[] = {
     {R"(=\s*(True|TRUE|False|FALSE)\b)", "write true or false"},
-    {R"([0-9]\s*%)", "write the share without a sign, 0.1 for 10 %"},
+    {R"([0-9]\s*%)", "write the share without a percent sign, 0.1 for 10 %"},
     {R"(=\s*[-+]?[0-9]+,[0-9])", "write the number with a point, not a comma"},
     {R"(=\s*(?!(true|false|inf|nan)\b)([A-Za-z]|\.{0,2}[/\\]))", "put the text in quotes"},
 };

@@ -16,8 +16,8 @@ namespace sunfleck {
 
 namespace {
 
-constexpr std::size_t longest_text = 4096;  // the longest path of Linux
-constexpr std::size_t longest_shown = 200;  // of what a message repeats
+constexpr std::size_t longest_text = 4096;  // the longest path in Linux
+constexpr std::size_t longest_shown = 200;  // longest excerpt shown in a message
 
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
@@ -58,7 +58,7 @@ std::string value_of(const toml::node& node) {
   return written.str();
 }
 
-// "= value", where a value is worth showing.
+// Returns "= value" if the value is worth showing.
 std::string assigned(const toml::node& node) {
   return node.is_table() || node.is_array_of_tables() ? "" : " = " + value_of(node);
 }
@@ -84,8 +84,8 @@ bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-// Optimal string alignment distance: insert, delete, replace or swap two neighbours (Damerau 1964), row by row. Upper and
-// lower case count as the same.
+// Returns the optimal string alignment distance: insert, delete, replace or swap two neighbours (Damerau 1964), row by row.
+// Ignores case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -198,7 +198,7 @@ std::vector<std::string> TomlTable::keys() const {
 double TomlTable::checked(std::string_view key, const toml::node& item, std::optional<std::size_t> index,
                           const NumberRange& range) const {
   if (!item.is_number()) {
-    refuse_item(key, item, index, "must be a number, is " + kind_of(item),
+    refuse_item(key, item, index, "must be a number, not " + kind_of(item),
                 item.is_string() ? "write it without quotes" : "give a number");
   }
   const double value = item.is_integer() ? static_cast<double>(item.as_integer()->get()) : item.as_floating_point()->get();
@@ -223,7 +223,7 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
   const bool unbounded = hi == std::numeric_limits<std::int64_t>::max();
   const std::string rule = unbounded ? fmt::format("must be a whole number of at least {}", lo)
                                      : fmt::format("must be a whole number in {}..{}", lo, hi);
-  if (!node->is_integer()) refuse(key, rule + ", is " + kind_of(*node), "write it without quotes or decimals");
+  if (!node->is_integer()) refuse(key, rule + ", not " + kind_of(*node), "write it without quotes or decimals");
   const std::int64_t value = node->as_integer()->get();
   if (value < lo || value > hi) refuse(key, rule, "give a value in that range");
   return value;
@@ -232,17 +232,17 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
 std::optional<bool> TomlTable::boolean(std::string_view key) const {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
-  if (!node->is_boolean()) refuse(key, "must be true or false, is " + kind_of(*node), "write true or false, without quotes");
+  if (!node->is_boolean()) refuse(key, "must be true or false, not " + kind_of(*node), "write true or false, without quotes");
   return node->as_boolean()->get();
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) const {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
-  if (!node->is_string()) refuse(key, "must be a text, is " + kind_of(*node), "write it in quotes");
+  if (!node->is_string()) refuse(key, "must be a text, not " + kind_of(*node), "write it in quotes");
   const std::string& value = node->as_string()->get();
   const bool control = std::any_of(value.begin(), value.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; });
-  if (control) refuse(key, "must be one line without control characters", "take them out");
+  if (control) refuse(key, "must be one line without control characters", "remove them");
   if (value.empty()) refuse(key, "must not be empty", "give a text or remove the key");
   if (value.size() > longest_text) refuse(key, fmt::format("must have at most {} bytes", longest_text), "shorten it");
   return value;
@@ -263,7 +263,7 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
   if (node == nullptr) return std::nullopt;
   const toml::array* list = node->as_array();
   if (list == nullptr || list->size() != count) {
-    const std::string found = list == nullptr ? "is " + kind_of(*node) : fmt::format("has {}", list->size());
+    const std::string found = list == nullptr ? "not " + kind_of(*node) : fmt::format("but has {}", list->size());
     refuse(key, fmt::format("must be a list of {} numbers, {}", count, found),
            count == 2 ? "write it as [1.8, 2.4]" : "write it as [0.1, 0.2, 0.3]");
   }
@@ -276,10 +276,11 @@ glm::dvec3 TomlTable::checked_triple(std::string_view key, const toml::node& ite
                                      const NumberRange& range) const {
   const toml::array* list = item.as_array();
   if (list == nullptr) {
-    refuse_item(key, item, index, "must be a list of positions, is " + kind_of(item), "write it as [[0.9, 0.0, 1.2]]");
+    refuse_item(key, item, index, "must be a list of positions, not " + kind_of(item), "write it as [[0.9, 0.0, 1.2]]");
   }
   if (list->size() != 3) {
-    refuse_item(key, item, index, fmt::format("must be x, y, z, has {} numbers", list->size()), "write it as [0.9, 0.0, 1.2]");
+    refuse_item(key, item, index, fmt::format("must be x, y, z, but has {} numbers", list->size()),
+                "write it as [0.9, 0.0, 1.2]");
   }
   return {checked(key, (*list)[0], index, range), checked(key, (*list)[1], index, range),
           checked(key, (*list)[2], index, range)};
@@ -296,7 +297,7 @@ std::optional<std::vector<glm::dvec3>> TomlTable::triples(std::string_view key, 
   if (node == nullptr) return std::nullopt;
   const toml::array* list = node->as_array();
   if (list == nullptr || list->empty()) {
-    refuse(key, "must be a list of at least one position, is " + (list == nullptr ? kind_of(*node) : "empty"),
+    refuse(key, "must be a list of at least one position, but is " + (list == nullptr ? kind_of(*node) : "empty"),
            "write it as [[0.9, 0.0, 1.2]]");
   }
   std::vector<glm::dvec3> values;
@@ -312,7 +313,7 @@ std::optional<std::vector<double>> TomlTable::number_or_list(std::string_view ke
   if (list == nullptr) return std::vector<double>(count, checked(key, *node, std::nullopt, range));
   if (list->size() != count) {
     refuse(key, fmt::format("has {} numbers for {} positions in `at`", list->size(), count),
-           "give one for each, or one number");
+           "give one for each position, or a single number");
   }
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(checked(key, (*list)[i], i, range));
@@ -324,9 +325,9 @@ std::optional<OffsetTime> TomlTable::offset_time(std::string_view key) const {
   if (node == nullptr) return std::nullopt;
   const auto* value = node->as_date_time();
   constexpr auto example = "write it as 2002-08-08T10:10:00+08:00, without quotes";
-  if (value == nullptr) refuse(key, "must be a date and time with its offset from UTC, is " + kind_of(*node), example);
+  if (value == nullptr) refuse(key, "must be a date and time with its offset from UTC, not " + kind_of(*node), example);
   const toml::date_time& moment = value->get();
-  if (!moment.offset) refuse(key, "has no offset from UTC, so the instant is unknown", example);
+  if (!moment.offset) refuse(key, "has no offset from UTC, so the time is ambiguous", example);
   return OffsetTime{.year = moment.date.year,
                     .month = moment.date.month,
                     .day = moment.date.day,
@@ -341,8 +342,8 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) const {
   if (node == nullptr) return std::nullopt;
   const toml::table* found = node->as_table();
   if (found == nullptr) {
-    refuse(key, "must be a table, is " + (node->is_array_of_tables() ? "a list of tables" : kind_of(*node)),
-           fmt::format("write [{}], once, with its keys below", dotted(key)));
+    refuse(key, "must be a table, not " + (node->is_array_of_tables() ? "a list of tables" : kind_of(*node)),
+           fmt::format("write [{}] once, with its keys below it", dotted(key)));
   }
   const unsigned line = table_->find(key)->first.source().begin.line;
   return TomlTable(file_, std::shared_ptr<const toml::table>(table_, found), dotted(key), line);
@@ -351,13 +352,13 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) const {
 std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   const toml::node* node = find(key);
   if (node == nullptr) return {};
-  const std::string cure = fmt::format("write [[{}]] with two brackets, its keys below", dotted(key));
+  const std::string cure = fmt::format("write [[{}]] with two brackets, and its keys below it", dotted(key));
   const toml::array* list = node->as_array();
-  if (list == nullptr) refuse(key, "must be a list of tables, is " + kind_of(*node), cure);
+  if (list == nullptr) refuse(key, "must be a list of tables, not " + kind_of(*node), cure);
   std::vector<TomlTable> found;
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::table* item = (*list)[i].as_table();
-    if (item == nullptr) refuse_item(key, (*list)[i], i, "must be a table, is " + kind_of((*list)[i]), cure);
+    if (item == nullptr) refuse_item(key, (*list)[i], i, "must be a table, not " + kind_of((*list)[i]), cure);
     found.push_back(TomlTable(file_, std::shared_ptr<const toml::table>(table_, item), dotted(key), item->source().begin.line));
   }
   return found;

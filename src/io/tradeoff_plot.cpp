@@ -14,9 +14,9 @@ constexpr int width_px = 1600;
 constexpr int height_px = 900;
 constexpr double panel_left_px[] = {150.0, 640.0, 1130.0};
 constexpr double panel_bottom_px = 125.0, panel_width_px = 440.0, panel_height_px = 555.0;
-constexpr int point_types[] = {7, 5, 9, 13};  // filled, a shape each
+constexpr int point_types[] = {7, 5, 9, 13};  // one filled shape per quantity
 constexpr int label_pt = 16, slope_pt = 17;
-// Room around the points, as factors of time and error: for slopes on the right, names of settings above.
+// Margins around the points, as factors of time and error, with space for slopes on the right and names of settings above.
 constexpr double room_left = 2.2, room_right = 6.0, room_below = 2.5, room_above = 10.0;
 
 struct Axis {
@@ -79,7 +79,7 @@ const PowerLaw* fit_of(const TradeoffReport& report, Ladder panel, Quantity quan
   return nullptr;
 }
 
-// Columns: seconds, error, error by the fit.
+// Writes the columns: seconds, error, error according to the fit.
 void add_data(PlotScript& script, const TradeoffReport& report, Ladder panel, Ladder rows, Quantity quantity) {
   const PowerLaw* law = fit_of(report, panel, quantity);
   script.begin_data(data_name(rows, quantity));
@@ -114,7 +114,7 @@ std::string rung_text(const TradeoffRung& rung) {
   return "";
 }
 
-// The name of each setting beside its highest point, where there is room for one.
+// Writes the name of each setting beside its highest point, if there is room.
 void name_settings(PlotScript& script, const TradeoffReport& report, Ladder panel) {
   constexpr double least_time_ratio = 1.15, least_error_ratio = 1.3;
   double last_s = 0.0, last_error = 0.0;
@@ -135,7 +135,7 @@ void name_settings(PlotScript& script, const TradeoffReport& report, Ladder pane
   }
 }
 
-// The slope over rays beside the end of each curve; none covers another.
+// Writes the slope over rays beside the end of each curve, without overlaps.
 void name_slopes(PlotScript& script, const TradeoffReport& report, Ladder panel, const Axes& axes) {
   constexpr double line_px = 25.0;
   struct Slope {
@@ -165,7 +165,7 @@ void name_slopes(PlotScript& script, const TradeoffReport& report, Ladder panel,
   }
 }
 
-// Of passes the measured points and the fitted line, of whole runs points and what joins them.
+// Returns the plot command: measured points and fitted lines for the passes, connected points for whole runs.
 std::string curves(Ladder panel) {
   std::string command = "plot NaN notitle";
   for (const Quantity quantity : quantities) {

@@ -1,5 +1,5 @@
 #pragma once
-// tradeoff.png: error against time, a panel for each ladder.
+// tradeoff.png: error against time, one panel per ladder.
 
 #include "io/tradeoff_table.h"
 
@@ -7,8 +7,9 @@
 
 namespace sunfleck {
 
-// The gnuplot script. Logarithmic axes; a curve a quantity through what its ladder measured, with the slope of the error over
-// rays beside it; the recommended bound and the marked grid where there are such. Any report can be drawn.
+// Returns the gnuplot script. The axes are logarithmic; each quantity has a curve through the measurements of the ladder,
+// annotated with the slope of its error over rays. The recommended bound and the marked grid are shown if present. Any report
+// can be drawn.
 [[nodiscard]] std::string tradeoff_plot(const TradeoffReport& report);
 
 }  // namespace sunfleck

@@ -44,7 +44,7 @@ constexpr const char* type_name<std::uint32_t> = "UInt32";
 template <>
 constexpr const char* type_name<std::int64_t> = "Int64";
 
-// VTK's XML format, version 1.0, with the numbers appended raw: each array stands behind its number of bytes.
+// Writes VTK's XML format, version 1.0, with raw appended numbers: the size in bytes precedes each array.
 class VtpWriter {
  public:
   explicit VtpWriter(const ExportData& data) : data_(data) {}
@@ -78,7 +78,7 @@ class VtpWriter {
   }
 
  private:
-  // Texts go in as character codes, each ended by 0: so no character of a name can break the file.
+  // Writes texts as character codes, each text ended by 0, so that no character of a name can break the file.
   void add_texts(std::string_view name, const std::vector<std::string>& texts) {
     xml_ +=
         fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">", escaped(name), texts.size());

@@ -1,5 +1,5 @@
 #pragma once
-// What the readers of weather share. Only they use it.
+// Declarations shared by the weather readers, and used only by them.
 
 #include "io/weather_reader.h"
 
@@ -17,11 +17,11 @@ struct WeatherSource {
 [[nodiscard]] WeatherFile read_station(const WeatherSource& source);
 [[nodiscard]] WeatherFile read_epw(const WeatherSource& source);
 
-// Throws Error (input) `FILE:LINE: what (why); cure`; line 0: the place has no line.
+// Throws Error (input) `FILE:LINE: what (why); cure`. Line 0 leaves the line out.
 [[noreturn]] void refuse(const WeatherSource& source, std::size_t line, std::string_view what, std::string_view why,
                          std::string_view cure);
 
-// A line cut at its commas, blanks and double quotes about each cell taken off. The views are into `line`.
+// Splits a line at its commas and strips blanks and double quotes from each cell. The views point into `line`.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells);
 
 }  // namespace sunfleck

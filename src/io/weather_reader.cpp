@@ -33,18 +33,18 @@ bool is_weather_file(const fs::path& file) {
 
 WeatherFile read_weather(const fs::path& file, SourceFiles* files) {
   WeatherSource source{file, {}};
-  if (!is_weather_file(file)) refuse(source, 0, "its format is not known", "weather is .csv or .epw", "give one of these");
+  if (!is_weather_file(file)) refuse(source, 0, "unknown format", "weather files are .csv or .epw", "use one of these");
   std::error_code code;
   const std::uintmax_t size = fs::file_size(file, code);
   if (!code && size > most_bytes) {
-    refuse(source, 0, fmt::format("has {} bytes", size), fmt::format("at most {} are possible", most_bytes),
+    refuse(source, 0, fmt::format("has {} bytes", size), fmt::format("at most {} are allowed", most_bytes),
            "cut out the days of interest");
   }
   const std::string bytes = read_source(file, files);
   source.bytes = without_mark(bytes);
-  if (source.bytes.empty()) refuse(source, 0, "the file is empty", "weather needs at least one row", "write it again");
+  if (source.bytes.empty()) refuse(source, 0, "the file is empty", "a weather file needs at least one row", "export it again");
   if (bytes.find('\0') != std::string::npos) {
-    refuse(source, 0, "has a zero byte", "weather files are plain text", "save it as text, UTF-8");
+    refuse(source, 0, "contains a zero byte", "a weather file is plain text", "save it as UTF-8 text");
   }
   return lower_extension(file) == ".epw" ? read_epw(source) : read_station(source);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Time series of broadband irradiance: a station's CSV and EnergyPlus weather (EPW).
+// Reads time series of broadband irradiance: CSV files of a station and EnergyPlus weather (EPW).
 
 #include "io/source_files.h"
 #include "light/weather.h"
@@ -11,31 +11,30 @@
 namespace sunfleck {
 
 struct WeatherFile {
-  Weather weather;             // of Source::intervals, with at least one
-  std::optional<Place> place;  // where an EPW says it was measured
-  // [month - 1], the year that an EPW's month stems from (months of typical years are of different ones).
+  Weather weather;             // its source is Source::intervals; at least one interval
+  std::optional<Place> place;  // the location stated by an EPW file
+  // [month - 1], the year each month of an EPW file comes from; in typical years the months come from different years.
   std::optional<std::array<int, 12>> years;
 };
 
-// True for .csv and .epw, in either case of letters.
+// Returns true for .csv and .epw, in upper or lower case.
 [[nodiscard]] bool is_weather_file(const std::filesystem::path& file);
 
-// Throws Error (input), one line `FILE:LINE: what (why); cure`. Values are W m-2 in 0..most_broadband_w_m2.
+// Reads a weather file; values are W m-2 in 0..most_broadband_w_m2. Throws Error (input), one line `FILE:LINE: what (why);
+// cure`. Adds the file to `files` if that is given.
 //
-// CSV: a line of column names, then a row per interval in ascending order. `time` is ISO 8601 with an offset and marks the
-// start of its interval, which lasts to the next row's, the last one as long as the one before; a step longer than the most
-// common one is a gap behind an interval of that length. Irradiance in `ghi`, or `dni` and `dhi`; where all three are given
-// ghi is not used. Other columns are not looked at, lines that begin with # and blank lines are skipped. A missing value is
-// refused.
+// CSV: a line of column names, then one row per interval in ascending order. `time` is ISO 8601 with an offset and marks the
+// start of the interval. An interval lasts until the next row; the last one is as long as the one before. A step longer than
+// the most common one is an interval of the common length followed by a gap. Irradiance is in `ghi`, or in `dni` and `dhi`; if
+// all three are present, ghi is not used. Other columns are ignored, and so are blank lines and lines that begin with #. A
+// missing value is refused.
 //
-// EPW: eight header lines, then 8760 hours (8784 in a leap year) of local standard time. An hour's number, 1 to 24, marks its
-// end. They hold in every year (Weather::every_year): a date is found by month, day and hour. Values marked as missing (from
-// 9999) are kept as such and refused when they are used.
-//
-// `files`, where given, gets it.
+// EPW: eight header lines, then 8760 hours (8784 in a leap year) of local standard time. The number of an hour, 1 to 24, marks
+// its end. The data hold for every year (Weather::every_year): a date is looked up by month, day and hour. Values marked as
+// missing (9999 and above) are kept as such and refused only when used.
 [[nodiscard]] WeatherFile read_weather(const std::filesystem::path& file, SourceFiles* files = nullptr);
 
-// More is no irradiance on earth but another unit (kJ, or a sum over the interval).
+// Larger values are not an irradiance on earth but another unit (kJ, or a sum over the interval).
 inline constexpr double most_broadband_w_m2 = 3000.0;
 
 }  // namespace sunfleck

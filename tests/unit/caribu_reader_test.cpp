@@ -53,7 +53,7 @@ TEST(CaribuReader, OpticsAreRefusedWithFileAndLine) {
   EXPECT_EQ(refused(head + species), "accepted");
   EXPECT_TRUE(refused("").starts_with("a.opt: the number of species is missing ("));
   EXPECT_TRUE(refused("n 1\n" + species).starts_with("a.opt: the soil is missing ("));
-  EXPECT_EQ(refused(head), "a.opt: 0 species (the line n announces 1); correct that line, or add what is missing");
+  EXPECT_EQ(refused(head), "a.opt: 0 species (the line n says 1); correct that line, or add the missing species");
   EXPECT_TRUE(refused(head + species + species).starts_with("a.opt: 2 species ("));
   EXPECT_TRUE(refused("n 0\n").starts_with("a.opt:1: number of species '0' ("));
   EXPECT_TRUE(refused("n 10\n").starts_with("a.opt:1: number of species '10' ("));
@@ -75,7 +75,7 @@ TEST(CaribuReader, OpticsAreRefusedWithFileAndLine) {
   EXPECT_TRUE(refused(head + species.substr(0, species.size() - 1) + " 5\n").starts_with("a.opt:3: '5' at the end"));
   std::string many = "n 9\ns d 0\n";
   for (int i = 0; i < 10; ++i) many += species;
-  EXPECT_TRUE(refused(many).starts_with("a.opt:12: one species too many ("));
+  EXPECT_TRUE(refused(many).starts_with("a.opt:12: too many species ("));
   EXPECT_TRUE(refusal(folder / "none.opt").starts_with("none.opt: cannot be read ("));
 }
 

@@ -155,20 +155,20 @@ TEST_F(CaribuScenes, OtherMeshesWithNamesOfSpecies) {
   EXPECT_EQ(made.model.optics[0].upper[0].reflectance, 0.4);
   EXPECT_NEAR(made.model.canopy.corners[0][0].y, 0.0, 1e-6) << "y is up in such a file";
   of.canopy = folder_.write("bark.obj", "v 1 0 1\nv 2 0 1\nv 1 1 1\nusemtl bark\nf 1 2 3\n");
-  EXPECT_NE(refusal(of).find("bark.obj: optics \"bark\" (an .opt file knows species"), std::string::npos) << refusal(of);
+  EXPECT_NE(refusal(of).find("bark.obj: optics \"bark\" (an .opt file describes only"), std::string::npos) << refusal(of);
 }
 
 TEST_F(CaribuScenes, RefuseWhatDoesNotFit) {
   CaribuSet of = set();
   of.bands[1].file = folder_ / "one.opt";
-  EXPECT_NE(refusal(of).find("stand.can: leaf2 (it is of species 2, and "), std::string::npos) << refusal(of);
+  EXPECT_NE(refusal(of).find("stand.can: leaf2 (it belongs to species 2, but "), std::string::npos) << refusal(of);
   EXPECT_NE(refusal(of).find("one.opt has 1)"), std::string::npos) << refusal(of);
   of = set();
   of.bands[1].name = "PAR";
-  EXPECT_NE(refusal(of).find("nir.opt (a band is called PAR already); "), std::string::npos) << refusal(of);
+  EXPECT_NE(refusal(of).find("nir.opt (there is already a band named PAR); "), std::string::npos) << refusal(of);
   of = set();
   of.scale = 1e7;
-  EXPECT_NE(refusal(of).find("stand.can (it reaches to 6e+07 m, "), std::string::npos) << refusal(of);
+  EXPECT_NE(refusal(of).find("stand.can (it extends to 6e+07 m, "), std::string::npos) << refusal(of);
   of.scale = 1e-8;
   EXPECT_NE(refusal(of).find("plot.8: a plot of 6e-08 x 4e-08 m (each side must lie in"), std::string::npos) << refusal(of);
   of.domain.reset();
@@ -178,7 +178,7 @@ TEST_F(CaribuScenes, RefuseWhatDoesNotFit) {
   EXPECT_NE(refusal(of).find("far.8 (its corner lies farther"), std::string::npos) << refusal(of);
   of = set();
   of.light = folder_.write("bright.light", "1e15 0 0 -1\n1e15 1 0 -1\n");
-  EXPECT_NE(refusal(of).find("bright.light (its directions sum to 2e+15"), std::string::npos) << refusal(of);
+  EXPECT_NE(refusal(of).find("bright.light (its weights sum to 2e+15"), std::string::npos) << refusal(of);
   of = set();
   names_.canopy = "st\xe4nd.can";
   EXPECT_NE(refusal(of).find("cannot name it"), std::string::npos) << refusal(of);

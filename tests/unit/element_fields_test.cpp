@@ -133,7 +133,7 @@ TEST(Caribu, Labels) {
   EXPECT_EQ(caribu_label({1, "stem", 0}, 0), "100001000000");
   EXPECT_EQ(caribu_label({1, "ear", 5}, 0), "100001000000");
   EXPECT_EQ(caribu_label({0, "soil", 0}, 5), "000000000005");
-  EXPECT_NE(message_of({100'000, "leaf", 1}).find("plant 100000 has no label (CARIBU's labels number them 0..99999); "),
+  EXPECT_NE(message_of({100'000, "leaf", 1}).find("plant 100000 has no label (CARIBU labels have numbers 0..99999); "),
             std::string::npos);
   EXPECT_NE(message_of({1, "leaf", 1000}), "");
   EXPECT_NE(message_of({1, "leaf", -1}), "");

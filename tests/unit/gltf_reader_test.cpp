@@ -227,12 +227,12 @@ TEST(GltfReader, RefusesDamagedModels) {
       {"scene index", [](json& d) { d["scene"] = 3; }, "scene 3"},
       {"root index", [](json& d) { d["scenes"][0]["nodes"] = {5}; }, "node 5"},
       {"child index", [](json& d) { d["nodes"][0]["children"] = {1}; }, "node 1"},
-      {"cycle", [](json& d) { d["nodes"][0]["children"] = {0}; }, "met twice"},
+      {"cycle", [](json& d) { d["nodes"][0]["children"] = {0}; }, "reached twice"},
       {"shared child",
        [](json& d) {
          d["scenes"][0]["nodes"] = {0, 0};
        },
-       "met twice"},
+       "reached twice"},
       {"matrix",
        [](json& d) {
          d["nodes"][0]["matrix"] = {1, 2, 3};
@@ -265,7 +265,7 @@ TEST(GltfReader, RefusesDamagedModels) {
        "extras.rank"},
       {"compression", [](json& d) { d["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }, "KHR_draco"},
       {"instances", [](json& d) { d["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = json::object(); }, "instancing"},
-      {"buffer length", [](json& d) { d["buffers"][0]["byteLength"] = 64; }, "only 60 are there"},
+      {"buffer length", [](json& d) { d["buffers"][0]["byteLength"] = 64; }, "only 60 are present"},
       {"no buffer length", [](json& d) { d["buffers"][0].erase("byteLength"); }, "no byteLength"},
       {"second buffer",
        [](json& d) {

@@ -68,7 +68,7 @@ TEST_F(Impostor, ThatFailsIsQuoted) {
   EXPECT_EQ(warning("echo 'plot oops' >&2; echo '         line 3: undefined variable: oops' >&2; exit 7"),
             "gnuplot failed: profile.png is left out (exit status 7: line 3: undefined variable: oops)");
   EXPECT_EQ(warning("exit 3"), "gnuplot failed: profile.png is left out (exit status 3)");
-  EXPECT_EQ(warning("kill -9 $$"), "gnuplot failed: profile.png is left out (it was ended by signal 9)");
+  EXPECT_EQ(warning("kill -9 $$"), "gnuplot failed: profile.png is left out (it was killed by signal 9)");
   EXPECT_FALSE(fs::exists(file()));
 }
 
@@ -79,8 +79,8 @@ TEST_F(Impostor, ThatDrawsNothing) {
 }
 
 TEST_F(Impostor, ThatWritesWithoutEnd) {
-  EXPECT_EQ(warning("cat /dev/zero"), "gnuplot failed: profile.png is left out (it writes without end)");
-  EXPECT_EQ(warning("cat /dev/zero >&2"), "gnuplot failed: profile.png is left out (it writes without end)");
+  EXPECT_EQ(warning("cat /dev/zero"), "gnuplot failed: profile.png is left out (its output is too large)");
+  EXPECT_EQ(warning("cat /dev/zero >&2"), "gnuplot failed: profile.png is left out (its output is too large)");
 }
 
 TEST_F(Impostor, SeesNeitherTheUsersSettingsNorHisLanguage) {

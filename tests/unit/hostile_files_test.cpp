@@ -82,8 +82,8 @@ TEST(HostileFiles, WhatIsNoFileIsRefusedByEveryReader) {
     fs::create_symlink(reader.name, folder.path() / "loop" / reader.name);
     expect_refusal([&] { reader.read(folder / reader.name); }, "no such file");
     expect_refusal([&] { reader.read(folder.path() / "folder" / reader.name); }, "directory");
-    expect_refusal([&] { reader.read(folder.path() / "pipe" / reader.name); }, "no regular file");
-    expect_refusal([&] { reader.read(folder.path() / "device" / reader.name); }, "no regular file");
+    expect_refusal([&] { reader.read(folder.path() / "pipe" / reader.name); }, "not a regular file");
+    expect_refusal([&] { reader.read(folder.path() / "device" / reader.name); }, "not a regular file");
     expect_refusal([&] { reader.read(folder.path() / "loop" / reader.name); }, "ymbolic links");
     expect_refusal([&] { reader.read(folder.write(reader.name, "")); }, "");
   }
@@ -141,7 +141,7 @@ TEST(HostileFiles, SwappedBytesAreNamed) {
                                     {"b.glb", turned(good, {0, 4, 8, 12, 16})},
                                     {"a.stl", turned(stl, {80})}})
     expect_refusal([&, &name = name, &bytes = bytes] { read_any_mesh(folder.write(name, bytes)); },
-                   "most significant byte first");
+                   "its numbers are big-endian");
 }
 
 TEST(HostileFiles, MeshesPromiseNoMoreThanTheyHold) {
@@ -175,7 +175,7 @@ TEST(HostileFiles, ChainsOfNodesMayBeLong) {
   document["nodes"].push_back({{"mesh", 0}});
   EXPECT_NO_THROW(read_any_mesh(folder.write("a.glb", glb(document, gltf_binary()))));
   document["nodes"].back()["children"] = {0};
-  expect_refusal([&] { read_any_mesh(folder.write("a.glb", glb(document, gltf_binary()))); }, "met twice");
+  expect_refusal([&] { read_any_mesh(folder.write("a.glb", glb(document, gltf_binary()))); }, "reached twice");
 }
 
 // Buffers beside the file, by links too; elsewhere for those who ask for it.
@@ -198,12 +198,12 @@ TEST(HostileFiles, BuffersStayInTheirFolder) {
                                  std::string("%2e%2e/square.bin"), (folder / "square.bin").string()}) {
     SCOPED_TRACE(uri);
     const fs::path file = with_buffer(uri);
-    expect_refusal([&] { read_any_mesh(file); }, "must lie beside");
+    expect_refusal([&] { read_any_mesh(file); }, "must lie in the glTF file's folder");
     EXPECT_NO_THROW(static_cast<void>(read_mesh(file, {.allow_outside = true})));
   }
   expect_refusal([&] { read_any_mesh(with_buffer("a%00.bin")); }, "must name a file");
   ASSERT_EQ(::mkfifo((folder / "scene/pipe.bin").c_str(), 0600), 0);
-  expect_refusal([&] { read_any_mesh(with_buffer("pipe.bin")); }, "no regular file");
+  expect_refusal([&] { read_any_mesh(with_buffer("pipe.bin")); }, "not a regular file");
 }
 
 TEST(HostileFiles, NamesAreTextOnOneLine) {

@@ -58,9 +58,9 @@ TEST(LightReader, ExtremeLengthsKeepTheirDirection) {
 TEST(LightReader, RefusesWithFileAndLine) {
   const TempFolder folder;
   const auto refused = [&](std::string_view text) { return refusal(folder.write("x.light", text)); };
-  EXPECT_EQ(refused(""), "x.light: no direction in it (a sky needs at least one); write: weight dx dy dz");
+  EXPECT_EQ(refused(""), "x.light: no directions (a sky needs at least one); write: weight dx dy dz");
   EXPECT_TRUE(refused("# only\n\n").starts_with("x.light: no direction"));
-  EXPECT_EQ(refused("1 0 0 -1\n1 0 0 1\n"), "x.light:2: direction 0 0 1 (light must travel downwards, dz < 0); turn it round");
+  EXPECT_EQ(refused("1 0 0 -1\n1 0 0 1\n"), "x.light:2: direction 0 0 1 (light must travel downwards, dz < 0); reverse it");
   EXPECT_TRUE(refused("1 1 0 0\n").starts_with("x.light:1: direction 1 0 0 ("));
   EXPECT_TRUE(refused("1 1 0 -1e-9\n").starts_with("x.light:1: direction 1 0 -1e-09 ("));
   EXPECT_TRUE(refused("1 0 0 0\n").starts_with("x.light:1: direction 0 0 0 ("));
@@ -79,8 +79,7 @@ TEST(LightReader, RefusesMoreThanAHundredThousand) {
   std::string text;
   for (std::size_t i = 0; i < most_lights; ++i) text += "1 0 0 -1\n";
   EXPECT_EQ(read_lights(folder.write("full.light", text)).size(), most_lights);
-  EXPECT_TRUE(
-      refusal(folder.write("more.light", text + "1 0 0 -1\n")).starts_with("more.light:100001: one direction too many"));
+  EXPECT_TRUE(refusal(folder.write("more.light", text + "1 0 0 -1\n")).starts_with("more.light:100001: too many directions"));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_F(Measured, TakesWhatSpreadsheetsAndRWrite) {
 }
 
 TEST_F(Measured, RefusesOtherColumns) {
-  const std::string cure = "(it takes height_m and sunfleck_ratio, no other); give the header height_m,sunfleck_ratio";
+  const std::string cure = "(exactly height_m and sunfleck_ratio are expected); give the header height_m,sunfleck_ratio";
   EXPECT_EQ(message("0.1,0.2\n0.3,0.4\n"), "field.csv:1: columns '0.1,0.2' " + cure);
   EXPECT_EQ(message("height,ratio\n0.3,0.4\n"), "field.csv:1: columns 'height,ratio' " + cure);
   EXPECT_EQ(message("height_m,sunfleck_ratio,n\n0.3,0.4,3\n"), "field.csv:1: columns 'height_m,sunfleck_ratio,n' " + cure);
@@ -54,9 +54,9 @@ TEST_F(Measured, RefusesOtherColumns) {
   EXPECT_EQ(message("a,b\nx,y\n"), "field.csv:1: columns 'a,b' " + cure);
   EXPECT_EQ(message("#\nheight_m\n0.3\n"), "field.csv:2: columns 'height_m' " + cure);
   EXPECT_EQ(message("height_m;sunfleck_ratio\n0.3\n"), "field.csv:1: columns 'height_m;sunfleck_ratio' " + cure);
-  EXPECT_EQ(message("height_m,height_m\n"), "field.csv:1: column 'height_m' twice (names tell columns apart); rename one");
+  EXPECT_EQ(message("height_m,height_m\n"), "field.csv:1: column 'height_m' twice (column names must differ); rename one");
   EXPECT_EQ(message(",height_m,sunfleck_ratio\n1,2,3\n"),
-            "field.csv:1: a column without a name (the header names every column); name it");
+            "field.csv:1: a column without a name (the header must name every column); name it");
 }
 
 TEST_F(Measured, RefusesWhatIsNoShareOrNoHeight) {
@@ -66,30 +66,31 @@ TEST_F(Measured, RefusesWhatIsNoShareOrNoHeight) {
             "field.csv:3: sunfleck_ratio = -0.1 (must lie in 0..1); give the share of the horizontal plane in direct sun");
   EXPECT_EQ(message(head + "-0.5,0.1\n"),
             "field.csv:2: height_m = -0.5 (must not lie below the ground); give the height above the ground in metres");
-  EXPECT_EQ(message(head + ",0.1\n"), "field.csv:2: height_m is empty (every row needs both); fill it in");
+  EXPECT_EQ(message(head + ",0.1\n"), "field.csv:2: height_m is empty (every row needs both values); fill it in");
   EXPECT_EQ(message(head + "1,\n"),
-            "field.csv:2: sunfleck_ratio is empty (every row needs both); fill it in or leave out the row");
+            "field.csv:2: sunfleck_ratio is empty (every row needs both values); fill it in or remove the row");
   for (const char* bad : {"nan", "NaN", "inf", "-inf", "1e999", "0x1p-1", "0.1.2", "1 m", "--1", "\"", "1e"})
     EXPECT_EQ(message(head + "1," + bad + "\n"),
               "field.csv:2: sunfleck_ratio = '" + std::string(bad) + "' (not a finite number); correct the number");
   EXPECT_EQ(message(head + "0,5,0,2\n"),
-            "field.csv:2: 4 cells (the header in line 1 has 2 columns); give as many cells, with a comma between them and a "
-            "point in numbers");
+            "field.csv:2: 4 cells (the header in line 1 has 2 columns); give one cell per column, separated by commas, "
+            "with a decimal point in numbers");
   EXPECT_EQ(message(head + "1\n").substr(0, 20), "field.csv:2: 1 cells");
 }
 
 TEST_F(Measured, RefusesFilesWithoutContent) {
   for (const char* nothing : {"", "\n\n", "# only\n# remarks\n", "\xef\xbb\xbf"})
     EXPECT_EQ(message(nothing),
-              "field.csv: nothing but blank lines and comments (a line of column names comes first); check the file");
+              "field.csv: only blank lines and comments (a line of column names must come first); check the file");
   EXPECT_EQ(message("height_m,sunfleck_ratio\n# none\n"),
-            "field.csv:1: no row below the header (at least one is needed); check the file");
+            "field.csv:1: no rows below the header (at least one is required); check the file");
   EXPECT_THROW(static_cast<void>(read_measured(folder_ / "missing.csv")), Error);
   EXPECT_THROW(static_cast<void>(read_measured(folder_.path())), Error);
 }
 
 TEST_F(Measured, RefusesFilesThatAreNoTable) {
-  EXPECT_EQ(message(std::string(10'000'001, '0')), "field.csv: 10000001 bytes (a table here may have 10 MB); give fewer rows");
+  EXPECT_EQ(message(std::string(10'000'001, '0')),
+            "field.csv: 10000001 bytes (a table may have at most 10 MB); give fewer rows");
   EXPECT_NE(message(std::string("\0\1\2\3\xff\xfe,\x1b[31m", 12)).find("field.csv:1: "), std::string::npos);
   EXPECT_LT(message(std::string(1'000'000, 'x')).size(), 200U) << "a long cell is cut";
 }

@@ -81,9 +81,9 @@ TEST(MeshAttack, BrokenCan) {
       {"unknown key", "a.can", second("p ", "q "), ":2: ", "line begins with 'q'"},
       {"control characters", "a.can", "\x01\x02\tp\n", ":1: ", "'\?\?'"},
       {"long word", "a.can", std::string(500, 'q'), ":1: ", "..."},
-      {"only comments", "a.can", "# nothing\n\n", ": ", "no triangle found"},
+      {"only comments", "a.can", "# nothing\n\n", ": ", "no triangles found"},
       {"no gzip", "a.can.gz", good, ": ", "broken gzip file"},
-      {"gzip cut", "a.can.gz", gzip(good).substr(0, 20), ": ", "ends too early"},
+      {"gzip cut", "a.can.gz", gzip(good).substr(0, 20), ": ", "is truncated"},
       {"gzip with a tail", "a.can.gz", gzip(good) + "tail", ": ", "broken gzip file"},
       {"gzip checksum", "a.can.gz", gzip(good).replace(gzip(good).size() - 8, 1, "?"), ": ", "broken gzip file"},
       {"inside gzip", "a.can.gz", gzip(second("0 0 0", "0 nan 0")), ":2: ", "coordinate 'nan'"},
@@ -105,7 +105,7 @@ TEST(MeshAttack, BrokenObj) {
       {"two corners", "a.obj", bad(" 3//1 4//1", ""), ":9: ", "a face of 2 corners"},
       {"continued", "a.obj", bad("v 1 1 0", "v 1 1 \\\n0"), ":5: ", "backslash"},
       {"zero byte", "a.obj", obj_square() + std::string(1, '\0'), ": ", "zero byte"},
-      {"no face", "a.obj", obj_square().substr(0, obj_square().find("f ")), ": ", "no triangle found"},
+      {"no face", "a.obj", obj_square().substr(0, obj_square().find("f ")), ": ", "no triangles found"},
   });
 }
 
@@ -115,13 +115,14 @@ TEST(MeshAttack, BrokenPly) {
   nan.replace(nan.find("end_header\n") + 13, 8, "\xff\xff\xff\xff\xff\xff\xff\xff");
   expect_refused({
       {"no PLY", "a.ply", bad("ply", "plx"), ":1: ", "does not begin with ply"},
-      {"no format", "a.ply", bad("format ascii 1.0\n", ""), ":13: ", "no format line"},
+      {"no format", "a.ply", bad("format ascii 1.0\n", ""), ":13: ", "the format line is missing"},
       {"unknown format", "a.ply", bad("ascii", "utf8"), ":2: ", "must be ascii"},
       {"unknown version", "a.ply", bad("1.0", "2.0"), ":2: ", "version"},
       {"unknown type", "a.ply", bad("float y", "real y"), ":7: ", "must be property"},
       {"unknown word", "a.ply", bad("comment", "remark"), ":3: ", "not a word of a PLY header"},
       {"negative count", "a.ply", bad("vertex 4", "vertex -4"), ":4: ", "element NAME COUNT"},
-      {"property of nothing", "a.ply", bad("comment made by hand", "property int a"), ":3: ", "belongs to no element"},
+      {"property of nothing", "a.ply", bad("comment made by hand", "property int a"),
+       ":3: ", "a property must follow an element"},
       {"float list size", "a.ply", bad("list uchar", "list float"), ":10: ", "integer type"},
       {"no header end", "a.ply", bad("end_header\n", ""), ":14: ", "not a word"},
       {"no z", "a.ply", bad("float z", "float w"), ": ", "vertices without z"},
@@ -152,8 +153,8 @@ TEST(MeshAttack, BrokenStl) {
       {"binary cut", "a.stl", "_" + stl_binary_square().substr(1, 150), ": ", "a binary STL file of 2 triangles has 184"},
       {"binary huge", "a.stl", huge, ": ", "4294967295 triangles"},
       {"binary not a number", "a.stl", nan, ": ", "triangle 1"},
-      {"binary empty", "a.stl", std::string(84, '\0'), ": ", "no triangle found"},
-      {"text empty", "a.stl", "solid\nendsolid\n", ": ", "no triangle found"},
+      {"binary empty", "a.stl", std::string(84, '\0'), ": ", "no triangles found"},
+      {"text empty", "a.stl", "solid\nendsolid\n", ": ", "no triangles found"},
   });
 }
 
@@ -178,7 +179,7 @@ TEST(MeshAttack, NoFilesToRead) {
   static_cast<void>(folder.write("a.dae", "<COLLADA/>"));
   for (const auto& [name, words] : {std::pair{"gone.obj", "no such file"},
                                     {"folder.obj", "is a directory"},
-                                    {"pipe.obj", "no regular file"},
+                                    {"pipe.obj", "not a regular file"},
                                     {"empty.obj", "the file is empty"},
                                     {"a.dae", "unknown kind of mesh"},
                                     {"two\nlines.obj", "no such file"}}) {

@@ -187,7 +187,7 @@ TEST(File, SaysWhyItCannotWrite) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::failure);
-    EXPECT_NE(std::string(error.what()).find("x.csv: cannot be written (No such file or directory); make its folder first"),
+    EXPECT_NE(std::string(error.what()).find("x.csv: cannot be written (No such file or directory); create its folder first"),
               std::string::npos);
   }
   std::filesystem::create_directory(folder / "taken");

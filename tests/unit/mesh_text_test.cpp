@@ -126,7 +126,8 @@ TEST(MeshText, RefusesWhatHasNoPlace) {
     }
     return "";
   };
-  EXPECT_NE(message(random_mesh(), "a.stl").find("a.stl: unknown kind of mesh (its name ends in '.stl'); let it end in .glb"),
+  EXPECT_NE(message(random_mesh(), "a.stl")
+                .find("a.stl: unknown kind of mesh (its name ends in '.stl'); use a name that ends in .glb"),
             std::string::npos);
   EXPECT_FALSE(is_writable_mesh("a.can.gz"));
   EXPECT_NE(message(random_mesh(), "gone/a.obj").find("gone/a.obj"), std::string::npos);

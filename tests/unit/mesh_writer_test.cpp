@@ -102,7 +102,7 @@ TEST(MeshWriter, EmptyMeshMakesAFileWithoutTriangles) {
       static_cast<void>(read_mesh(folder / name, {}));
       FAIL();
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("no triangle found"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("no triangles found"), std::string::npos) << error.what();
     }
   }
 }

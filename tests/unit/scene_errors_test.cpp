@@ -73,7 +73,7 @@ const std::vector<Breakage> breakages = {
      "[[band]]\nname    = \"PAR\"\ndirect  = 350.0\ndiffuse = 0.0\n\n[[band]]\nname          = \"NIR_1\"\ndirect_normal = "
      "400\n",
      "[band]\nname = \"PAR\"\n", "[band]", "band", "two brackets"},
-    {"BandTwice", "NIR_1", "PAR", "name          =", "band.name", "name of its own"},
+    {"BandTwice", "NIR_1", "PAR", "name          =", "band.name", "a different name"},
     {"BandNameSpace", "\"NIR_1\"", "\"N I R\"", "N I R", "band.name", "letters, digits"},
     {"BandNameEmpty", "\"NIR_1\"", "\"\"", "\"\"", "band.name", "must not be empty"},
     {"BandNameMissing", "name          = \"NIR_1\"\n", "", "[[band]]\ndirect_normal", "band.name", "add name"},

@@ -46,7 +46,7 @@ TEST_F(SceneLimits, TextsAndKeysAreShort) {
 TEST_F(SceneLimits, MostPlanesSensorsBandsAndLayers) {
   std::string planes, sensors, bands;
   for (int i = 0; i < 65; ++i) planes += fmt::format("[[plane]]\nheight = {}\n", i);
-  expect_refused(bare_scene + planes, "at most 64");
+  expect_refused(bare_scene + planes, "but at most 64");
   expect_refused(bare_scene + "[[plane]]\nheight = 1\ncells = [64000000, 2]\n", "cells so far");
   for (int i = 0; i < 2; ++i)
     sensors += fmt::format("[[sensor]]\nname = \"s{}\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\npoints = 60000\n", i);
@@ -111,12 +111,12 @@ TEST_F(SceneLimits, LettersBeyondAscii) {
             "Bl\xc3\xa4tter \xf0\x9f\x8c\xbd");
   EXPECT_EQ(read("title = \"\"\"a \\\n  b\xc3\xa4\"\"\"\n" + bare_scene).title, "a b\xc3\xa4");
   EXPECT_NO_THROW(static_cast<void>(read(bare_scene + "[optics.\"Bl\xc3\xa4tter\"]\nreflectance = 0.1\n")));
-  expect_refused(bare_scene + "[optics.Bl\xc3\xa4tter]\nreflectance = 0.1\n", "scene.toml:5: a letter beyond ASCII");
-  expect_refused("title =\xc2\xa0\"a\"\n" + bare_scene, "scene.toml:1: a letter beyond ASCII");
+  expect_refused(bare_scene + "[optics.Bl\xc3\xa4tter]\nreflectance = 0.1\n", "scene.toml:5: a non-ASCII character");
+  expect_refused("title =\xc2\xa0\"a\"\n" + bare_scene, "scene.toml:1: a non-ASCII character");
   expect_refused("title = \"\"\"a \\\n  \xc3\xa4\"\"\"\n" + bare_scene, "scene.toml:1: a backslash");
   expect_refused("title = 12\"\xc3\xa4\"\n" + bare_scene, "a quote inside a word");
   expect_refused("title = \"a\"'\xc3\xa4'\n" + bare_scene, "a quote inside a word");
-  expect_refused(bare_scene + "\n# \xe4\n", "scene.toml:6: a letter that is not UTF-8");
+  expect_refused(bare_scene + "\n# \xe4\n", "scene.toml:6: a character that is not UTF-8");
 }
 
 }  // namespace

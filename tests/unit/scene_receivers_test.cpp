@@ -71,18 +71,18 @@ TEST_F(SceneReceivers, RefusesWhatIsNoPlane) {
   expect_refused("[[plane]]\nheight = inf\n", "height", "plane.height", "0..10000000");
   expect_refused("[[plane]]\nheight = \"top\"\n", "height", "plane.height", "number");
   expect_refused(head + "cells = [10, 0]\n", "cells", "plane.cells, item 2 = 0", "whole numbers");
-  expect_refused(head + "cells = [10, 10.5]\n", "cells", "plane.cells", "10.5 is no whole number");
+  expect_refused(head + "cells = [10, 10.5]\n", "cells", "plane.cells", "10.5 is not a whole number");
   expect_refused(head + "cells = 10\n", "cells", "plane.cells = 10", "list of 2");
-  expect_refused(head + "cells = [10000, 10000]\n", "cells", "plane.cells", "1e+08 cells so far, at most 6.4e+07");
+  expect_refused(head + "cells = [10000, 10000]\n", "cells", "plane.cells", "1e+08 cells so far, but at most 6.4e+07");
   expect_refused(head + "cells = [8000, 8000]\n[[plane]]\nheight = 2\n", "height = 2", "plane.height", "use fewer");
   expect_refused(head + "cell = [10, 10]\n", "cell =", "plane.cell", "did you mean cells?");
-  expect_refused(head + "[[plane]]\nheight = 0.50\n", "height = 0.50", "plane.height", "height of its own");
-  expect_refused(head + "[[plane]]\nheight = 0.5004\n", "height = 0.5004", "plane.height", "would be plane_0.500.csv too");
+  expect_refused(head + "[[plane]]\nheight = 0.50\n", "height = 0.50", "plane.height", "a different height");
+  expect_refused(head + "[[plane]]\nheight = 0.5004\n", "height = 0.5004", "plane.height", "the same file, plane_0.500.csv");
   std::string many;
   for (int i = 0; i < 65; ++i) many += fmt::format("[[plane]]\nheight = {}\ncells = [1, 1]\n", i);
   const auto message = message_of([&] { static_cast<void>(read(bare_scene + many)); });
   ASSERT_TRUE(message);
-  EXPECT_NE(message->find("there are 65, at most 64"), std::string::npos) << *message;
+  EXPECT_NE(message->find("there are 65, but at most 64"), std::string::npos) << *message;
   EXPECT_EQ(read(bare_scene + many.substr(0, many.rfind("[[plane]]"))).model.planes.size(), 64U);
 }
 
@@ -103,7 +103,7 @@ TEST_F(SceneReceivers, RefusesWhatIsNoSensor) {
   expect_refused(head + "normal = [0, 0, 0]\n", "normal", "sensor.normal", "no direction");
   expect_refused(head + "response = \"spherical\"\nnormal = [0, 1, 0]\n", "normal", "sensor.normal", "remove it");
   expect_refused(head + "[[sensor]]\nname = \"a\"\nfrom = [0, 2, 0]\n", "name = \"a\"\nfrom = [0, 2", "sensor.name",
-                 "name of its own");
+                 "a different name");
   expect_refused(head + "height = 1\n", "height", "sensor.height", "remove it");
   expect_refused(line + "points = 60000\n[[sensor]]\nname = \"b\"\nfrom = [0, 1, 0]\nto = [0, 2, 0]\npoints = 60001\n",
                  "points = 60001", "sensor.points", "120001 points");

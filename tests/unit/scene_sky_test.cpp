@@ -136,7 +136,7 @@ TEST_F(SceneSky, WeatherIsSplitAndShared) {
   EXPECT_EQ(shares.model.bands[2].direct_w_m2, 0.0);
   EXPECT_EQ(shares.model.bands[2].diffuse_w_m2, 7.0);
   ASSERT_EQ(shares.warnings.size(), 1U);
-  EXPECT_NE(shares.warnings[0].find("it has irradiance of its own"), std::string::npos) << shares.warnings[0];
+  EXPECT_NE(shares.warnings[0].find("it has its own irradiance"), std::string::npos) << shares.warnings[0];
   const SunPosition sun = *scene.model.sun;
   const Scene erbs = read(plot + moment + uniform + "[weather]\nghi = 800\nsplit = \"erbs\"\n" + par);
   EXPECT_NEAR(erbs.model.bands[0].diffuse_w_m2, 400.0 * erbs_diffuse_share(800.0, sun, 220), 1e-10);
@@ -189,17 +189,17 @@ TEST_F(SceneSky, RefusesWhatIsNoWeather) {
   expect_refused(head + "ghi = nan\n", "ghi", "weather.ghi", "0..3000");
   expect_refused(head + "dni = 600\n", "[weather]", "weather.dhi", "add dhi");
   expect_refused(head + "dhi = 600\n", "[weather]", "weather.dni", "add dni");
-  expect_refused(head + "ghi = 600\ndhi = 60\n", "dhi", "weather.dhi", "ghi is given too");
+  expect_refused(head + "ghi = 600\ndhi = 60\n", "dhi", "weather.dhi", "ghi is also given");
   expect_refused(head + "dni = 600\ndhi = 60\nsplit = \"erbs\"\n", "split", "weather.split", "nothing to split");
   expect_refused(head + "clear_sky = \"ineichen\"\nsplit = \"erbs\"\n", "split", "weather.split", "nothing to split");
   expect_refused(head + "ghi = 600\nsplit = \"reindl\"\n", "split", "weather.split", "one of spitters, erbs");
   expect_refused(head + "clear_sky = \"bird\"\n", "clear_sky", "weather.clear_sky", "one of ineichen");
-  expect_refused(head + "clear_sky = \"ineichen\"\nghi = 3\n", "ghi", "weather.ghi", "clear_sky is given too");
+  expect_refused(head + "clear_sky = \"ineichen\"\nghi = 3\n", "ghi", "weather.ghi", "clear_sky is also given");
   expect_refused(head + "clear_sky = \"ineichen\"\nlinke_turbidity = 0.5\n", "linke", "weather.linke_turbidity", "1..20");
   expect_refused(head + "clear_sky = \"ineichen\"\naltitude = 1e5\n", "altitude", "weather.altitude", "metres above sea");
-  expect_refused(head + "ghi = 600\nlinke_turbidity = 3\n", "linke", "weather.linke_turbidity", "it is for clear_sky");
-  expect_refused(head + "ghi = 600\naltitude = 3\n", "altitude", "weather.altitude", "it is for clear_sky");
-  expect_refused(head + "file = \"station.csv\"\nghi = 600\n", "ghi", "weather.ghi", "a file is given too");
+  expect_refused(head + "ghi = 600\nlinke_turbidity = 3\n", "linke", "weather.linke_turbidity", "it is only for clear_sky");
+  expect_refused(head + "ghi = 600\naltitude = 3\n", "altitude", "weather.altitude", "it is only for clear_sky");
+  expect_refused(head + "file = \"station.csv\"\nghi = 600\n", "ghi", "weather.ghi", "a file is also given");
   expect_refused(head + "file = \"no.csv\"\n", "file", "weather.file", "no such file");
   expect_refused(head + "file = \"scene.toml\"\n", "file", "weather.file", ".csv or .epw");
   expect_refused(head + "file = \".\"\n", "file", "weather.file", "name a .csv or .epw file");
@@ -224,10 +224,10 @@ TEST_F(SceneSky, RefusesWeatherThatDoesNotHoldTheMoment) {
 
 TEST_F(SceneSky, RefusesBandsAtOddsWithTheWeather) {
   const std::string head = plot + moment + uniform + "[weather]\nghi = 800\n" + par + "share = 0.5\n";
-  expect_refused(head + "direct = 3\n", "direct", "band.direct", "share is given too");
-  expect_refused(head + "direct = 0\n", "direct", "band.direct", "share is given too");
-  expect_refused(head + "direct_normal = 3\n", "direct_normal", "band.direct_normal", "share is given too");
-  expect_refused(head + "diffuse = 3\n", "diffuse", "band.diffuse", "share is given too");
+  expect_refused(head + "direct = 3\n", "direct", "band.direct", "share is also given");
+  expect_refused(head + "direct = 0\n", "direct", "band.direct", "share is also given");
+  expect_refused(head + "direct_normal = 3\n", "direct_normal", "band.direct_normal", "share is also given");
+  expect_refused(head + "diffuse = 3\n", "diffuse", "band.diffuse", "share is also given");
   expect_refused(replaced(head, "0.5", "1.5"), "share", "band.share = 1.5", "percent");
   expect_refused(plot + moment + "[weather]\nghi = 800\n" + par, "[weather]", "weather", "add [sky]");
   expect_refused(plot + moment + "[weather]\ndni = 800\ndhi = 1\n" + par, "[weather]", "weather", "add [sky]");

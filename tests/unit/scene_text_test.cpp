@@ -80,7 +80,7 @@ TEST(SceneText, WantsOneSourceOfTriangles) {
   for (const char* more : {"file = \"plates.obj\"\n", "generator = \"maize\"\n"}) {
     const auto message = message_of([&] { static_cast<void>(read(leaf(), more)); });
     ASSERT_TRUE(message.has_value());
-    EXPECT_NE(message->find("is given too"), std::string::npos) << *message;
+    EXPECT_NE(message->find("is also given"), std::string::npos) << *message;
   }
   const auto unknown = message_of([] {
     static_cast<void>(read_scene(SceneText{"given.toml", head + "[[geometry]]\nmesh = \"b\"\n", {{"a", leaf()}}}));
