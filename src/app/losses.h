@@ -1,5 +1,5 @@
 #pragma once
-// What could not be written at the end of a run. The rest of its results is kept all the same.
+// Collects the files that could not be written at the end of a run. The other results are kept.
 
 #include "base/error.h"
 
@@ -12,7 +12,7 @@ namespace sunfleck {
 
 class Losses {
  public:
-  // Does `work`. If it fails, or memory runs out, `name` counts as lost.
+  // Does `work`. If it fails or memory runs out, `name` counts as not written.
   template <class Work>
   void attempt(const std::string& name, Work&& work) {
     try {
@@ -27,7 +27,8 @@ class Losses {
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
-  // Throws Error (failure) if anything was lost: the first reason, and how much more there is. `cure`: what else helps.
+  // Throws Error (failure) if any file was not written, with the first reason and the number of other files. `cure` is added as
+  // further advice.
   void complain(const std::string& cure = {}) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The command line as plain values; the defaults stand beside the names.
+// The command line as plain values; the defaults stand next to the names.
 
 #include "app/picture.h"
 
@@ -12,36 +12,36 @@
 
 namespace sunfleck {
 
-// CARIBU's files beside a mesh that stands in a scene's place.
+// CARIBU's files for a mesh that is given instead of a scene file.
 struct StandFiles {
-  std::vector<std::string> optics;      // FILE or NAME=FILE, one for each band
+  std::vector<std::string> optics;      // FILE or NAME=FILE, one per band
   std::filesystem::path light, domain;  // may be empty
-  std::optional<double> scale;          // metres in a unit of the mesh and the domain; default 1
+  std::optional<double> scale;          // metres per unit of the mesh and the domain; default 1
 
-  // The option given first in this order, for messages; empty without any.
+  // Returns the first of these options that was given, in this order, for messages; empty if none was.
   [[nodiscard]] std::string first_given() const;
 };
 
 struct RunOptions {
-  std::filesystem::path scene;  // or a mesh, with `stand`
+  std::filesystem::path scene;  // scene file, or a mesh that is completed by `stand`
   StandFiles stand;
   std::filesystem::path output;        // empty: results/<stem of the scene>
   std::string device = "auto";         // auto | gpu | lavapipe | cpu | INDEX | NAME
-  int device_turn = 0;                 // see DeviceAsked; not on the command line
+  int device_turn = 0;                 // see DeviceWish::turn; not on the command line
   std::optional<double> direct_error;  // replace the scene's bounds
   std::optional<double> indirect_error;
   std::optional<double> grid_m;
   std::optional<int> passes;
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_rays;
-  std::optional<std::uint64_t> memory_bytes;  // for replicates in the making; none: a quarter of what is free
+  std::optional<std::uint64_t> memory_bytes;  // for replicates in progress; none: a quarter of the free memory
   std::uint64_t seed = 1;
-  int threads = 0;                             // 0: as many as there are cores
-  std::vector<std::string> exports;            // of the names of io/exports.h
+  int threads = 0;                             // 0: all cores
+  std::vector<std::string> exports;            // export names, see io/exports.h
   std::filesystem::path measured;              // empty: no field data
   std::vector<std::filesystem::path> compare;  // folders of earlier results
-  std::vector<std::string> images{"all"};      // file stems, all or none
-  std::optional<Picture> extra_picture;        // beside them, where --chart or --field asks for it
+  std::vector<std::string> images{"all"};      // file stems, `all` or `none`
+  std::optional<Picture> extra_picture;        // an additional picture if --chart or --field was given
   PictureOptions pictures;
   bool resume = false;
   bool allow_outside = false;
@@ -49,7 +49,7 @@ struct RunOptions {
   bool json = false;
 };
 
-// Of several dates, each has the same local hours.
+// Options of `day`. With several dates, each has the same local hours.
 struct DayOptions {
   RunOptions run;        // images: all, none or day
   std::string from, to;  // HH:MM; empty: sunrise and sunset
@@ -59,21 +59,23 @@ struct DayOptions {
 };
 
 struct RenderOptions {
-  RunOptions run;              // scene: that, or the folder of a finished run; what simulates it; how it is looked at
+  // `scene` is a scene file or the folder of a finished run; the other options say how to simulate it and how to view it.
+  RunOptions run;
   std::filesystem::path file;  // .png or .exr; empty: <chart>_<field>.png in the folder, or <scene>_<chart>_<field>.png
   Picture picture;
   bool chart_given = false;
-  std::string simulating;  // the first option given that only a simulation needs; empty: none
+  std::string simulating;  // the first given option that only a simulation needs; empty: none
 };
 
 struct ViewOptions {
-  RunOptions run;  // output: where pictures and results are saved; json: a line on standard output for each event
+  // `output` is the folder for saved pictures and results; `json` prints one line on standard output per event.
+  RunOptions run;
   Picture picture;
 };
 
 struct ValidateOptions {
   std::filesystem::path output;    // empty: results/validate
-  std::vector<std::string> cases;  // parts of names: only those; empty: all
+  std::vector<std::string> cases;  // parts of the names of the cases to run; empty: all cases
   std::string device = "auto";
   int threads = 0;
   bool quiet = false;
@@ -81,13 +83,14 @@ struct ValidateOptions {
 };
 
 struct TradeoffOptions {
-  RunOptions run;                  // of it scene, output, device, threads, seed, grid_m (one more, marked in the plot),
-                                   // max_seconds, allow_outside, quiet, json
-  double finest_rays = 8e6;        // about as many as the finest grid has; all other work follows from it
-  int seeds = 8;                   // runs of each setting, with the seeds run.seed, run.seed + 1, ...
-  std::vector<double> meshes;      // coarser ones too: shares of the triangles that are kept
-  double asked_error = 0.01;       // what a setting is recommended for,
-  std::string quantity = "organ";  // of canopy, layer, organ or triangle
+  // Only scene, output, device, threads, seed, grid_m (an additional grid, marked in the plot), max_seconds, allow_outside, quiet
+  // and json are used.
+  RunOptions run;
+  double finest_rays = 8e6;        // approximate number of rays of the finest grid; all other work is derived from it
+  int seeds = 8;                   // runs per setting, with the seeds run.seed, run.seed + 1, ...
+  std::vector<double> meshes;      // shares of the triangles kept in the coarser meshes that are measured too
+  double asked_error = 0.01;       // relative error for which a setting is recommended
+  std::string quantity = "organ";  // quantity the error applies to: canopy, layer, organ or triangle
 };
 
 struct MaizeOptions {
@@ -100,25 +103,25 @@ struct MaizeOptions {
 struct ConvertOptions {
   std::filesystem::path input, output;
   StandFiles stand;
-  bool z_up = false;  // the input's z axis points up, which a .can's does anyway
+  bool z_up = false;  // the input's z axis points up, as it always does in a .can
   bool allow_outside = false;
 };
 
 struct InfoOptions {
-  RunOptions run;  // whose memory is foretold; without a scene: devices only
+  RunOptions run;  // the run whose memory is forecast; without a scene only the devices are listed
 };
 
-// The command and its options; or, for --help and --version, what to print.
+// The parsed command with its options, or the text to print for --help and --version.
 struct TextToPrint {
   std::string text;
 };
 using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, ViewOptions, ValidateOptions, TradeoffOptions,
                              MaizeOptions, ConvertOptions, InfoOptions>;
 
-// Throws Error (input) on bad usage.
+// Parses the command line. Throws Error (input) on bad usage.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);
 
 [[nodiscard]] std::string version();  // e.g. "0.1.0"
-[[nodiscard]] std::string commit();   // as built; "unknown" outside a repository
+[[nodiscard]] std::string commit();   // of the build; "unknown" outside a repository
 
 }  // namespace sunfleck

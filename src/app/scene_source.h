@@ -1,5 +1,5 @@
 #pragma once
-// Where a command's scene comes from: a scene file, or a mesh with CARIBU's files beside it.
+// Loads a command's scene from a scene file, or from a mesh with CARIBU's files.
 
 #include "app/options.h"
 #include "io/caribu_scene.h"
@@ -10,18 +10,19 @@
 
 namespace sunfleck {
 
-// The scene, whichever of the two `scene` is. Throws Error (input) also for a mesh without optics or light, for the options of
-// one beside a scene file, and for the day of a mesh, which has no place. Scene::files has CARIBU's files too; the digest
-// covers them by the values that the scene's text takes from them.
+// Loads the scene from whichever of the two `scene` is. Also throws Error (input) for a mesh without optics or light, for mesh
+// options next to a scene file, and for a day with a mesh, which has no place. Scene::files includes CARIBU's files; the digest
+// covers them through the values that the scene's text takes from them.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& scene, const StandFiles& stand, const SceneAccess& access);
 
-// The set that a mesh makes with these options. Throws Error (input) where optics or light are missing.
+// Returns the set of files that a mesh forms with these options. Throws Error (input) if optics or light are missing.
 [[nodiscard]] CaribuSet caribu_set(const std::filesystem::path& mesh, const StandFiles& stand, bool allow_outside);
 
-// The name of `file` for a scene in `folder`: relative if it lies there or below, links resolved; else the whole path.
+// Returns the name of `file` for a scene in `folder`: relative if the file is in that folder or below it, after resolving
+// links; otherwise the absolute path.
 [[nodiscard]] std::filesystem::path name_from(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-// What results are called after: the file's name without .toml, .can, .can.gz, ...
+// Returns the name for results: the scene's file name without .toml, .can, .can.gz, ...
 [[nodiscard]] std::string scene_stem(const std::filesystem::path& scene);
 
 }  // namespace sunfleck
