@@ -1,5 +1,5 @@
 #pragma once
-// One scene in a window, with all that works on it.
+// One scene in a window, with everything that works on it.
 
 #include "app/options.h"
 #include "app/pictures.h"
@@ -15,20 +15,20 @@ namespace sunfleck {
 
 class Session {
  public:
-  // Reads the scene and begins to simulate it. Throws Error (input) for a broken scene, Error (device) without the device.
-  // `files` gets all that reading tries, also if it fails; `notify` is called from other threads.
+  // Reads the scene and starts simulating it. Throws Error (input) for a broken scene and Error (device) without the device.
+  // `files` receives all files that reading tries, even if it fails; `notify` is called from other threads.
   Session(const ViewOptions& options, const std::filesystem::path& scene_file, SourceFiles& files,
           const std::function<void()>& notify);
 
   std::filesystem::path file;
 
  private:
-  Scene scene_;  // until `light` takes it over
+  Scene scene_;  // moved into `light`
 
  public:
   const std::string title;
-  const LightWish light_of_scene;                // to begin with
-  const std::vector<std::string> bands, optics;  // their names
+  const LightWish light_of_scene;                // initial light
+  const std::vector<std::string> bands, optics;  // names
   const std::vector<std::string> warnings;       // of the scene, one line each
   SceneTree tree;
   const ShownBox box;
