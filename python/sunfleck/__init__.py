@@ -4,12 +4,12 @@
 
     result = sunfleck.run("scenes/maize_sparse.toml", error=0.01)
     result.bands["PAR"]["absorbed_vegetation"]   # W m-2 of ground
-    result["PAR_absorbed"]                       # W m-2, one number for each triangle
+    result["PAR_absorbed"]                       # W m-2, one number per triangle
 
-The same engine as the program `sunfleck`: same scene files, same options, same numbers, bit for bit. Axes are X south, Y up,
-Z west; lengths are metres, fluxes W m-2, angles degrees. `Simulation` keeps tree and device for scenes that are simulated again
-under other light; `day` runs the course of days; `sun_position` and `sky` need no canopy; `sunfleck.caribu` speaks CARIBU's
-vocabulary.
+The module uses the engine of the program `sunfleck`: same scene files, same options, same numbers, bit for bit. Axes are X
+south, Y up, Z west; lengths are in metres, fluxes in W m-2, angles in degrees. `Simulation` keeps the tree and the device for
+scenes that are simulated again under other light; `day` simulates one or more days; `sun_position` and `sky` need no canopy;
+`sunfleck.caribu` offers CARIBU's interface.
 """
 
 from ._core import commit as __commit__

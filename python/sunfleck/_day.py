@@ -1,4 +1,4 @@
-"""The course of days."""
+"""Simulation of whole days."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class DayResult:
-    """The numbers of a day or several, as `sunfleck day` gives them; BAND stands for the name of a band."""
+    """The results of one or more days, as `sunfleck day` gives them; BAND stands for the name of a band."""
 
     def __init__(self, core: Any) -> None:
         self._core = core
@@ -32,34 +32,35 @@ class DayResult:
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """summary.json."""
+        """The contents of summary.json."""
         return json.loads(self._core.summary())
 
     @functools.cached_property
     def steps(self) -> dict[str, Any]:
-        """The columns of day.csv as arrays of shape (steps,): time (a list of texts, start of the step with offset), step_s,
-        elevation_deg, azimuth_deg (of the middle), BAND_incident, BAND_absorbed_vegetation, BAND_absorbed_soil, BAND_reflected
-        (W m-2 of ground), sunlit_leaf_fraction, each of these with its _error, a half-width."""
+        """The columns of day.csv as arrays of shape (steps,): time (a list of strings: the start of each step with its UTC
+        offset), step_s, elevation_deg and azimuth_deg (at the midpoint of the step), BAND_incident, BAND_absorbed_vegetation,
+        BAND_absorbed_soil, BAND_reflected (W m-2 of ground) and sunlit_leaf_fraction, these with their half-widths _error."""
         return self._core.steps()
 
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
-        """What organs absorbed: date (a list), organ (a list of names), plant, rank, area_m2, all by organ, and arrays of shape
+        """The absorption of organs: date (a list); organ (a list of names), plant, rank and area_m2 by organ; and arrays of shape
         (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), BAND_error (relative), with photon units BAND_absorbed_mol_m2."""
         return self._core.organs()
 
     @functools.cached_property
     def triangles(self) -> dict[str, np.ndarray]:
-        """The fields of day.nc, single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
-        BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed, BAND_error. Nights are 0."""
+        """The fields of day.nc in single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
+        BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed, BAND_error. They
+        are 0 at night."""
         return self._core.triangles()
 
     def table(self, name: str) -> str:
-        """The text of day.csv or organs_day.csv, byte for byte as the program writes it."""
+        """Returns the text of day.csv or organs_day.csv, byte for byte as the program writes it."""
         return self._core.table(name)
 
     def to_xarray(self) -> xarray.Dataset:
-        """`steps` and `triangles` as an xarray Dataset with the dimensions time (UTC) and triangle. Needs xarray."""
+        """Returns `steps` and `triangles` as an xarray Dataset with the dimensions time (UTC) and triangle. Needs xarray."""
         import xarray
 
         times = np.array([_utc(text) for text in self.steps["time"]], dtype="datetime64[ns]")
@@ -107,12 +108,13 @@ def day(
     seed: int = 1,
     progress: Optional[Progress] = None,
 ) -> DayResult:
-    """Simulates the course of a day or several, one tree for all: the numbers of `sunfleck day`, bit for bit.
+    """Simulates one or more days in steps with a single tree. Gives the numbers of `sunfleck day`, bit for bit.
 
     scene, folder, device, threads, allow_outside: as for `Simulation`; the scene needs a place, and [weather] or direct_normal.
-    start, stop: local clock "HH:MM" (default: sunrise and sunset). step: minutes. date, to_date: "YYYY-MM-DD" (default: the
-        scene's own). error ... seed, progress: as for `Simulation.run`; bounds hold for each step, max_seconds for all together.
-    Raises InputError (a ValueError) for bad input; KeyboardInterrupt after Ctrl-C.
+    start, stop: local time "HH:MM" (default: sunrise and sunset). step: minutes. date, to_date: "YYYY-MM-DD" (default: the
+        scene's date). error ... seed, progress: as for `Simulation.run`; error bounds apply to each step, max_seconds to all steps
+        together.
+    Raises InputError (a ValueError) for bad input and KeyboardInterrupt after Ctrl-C.
     """
     work = work_options(
         {

@@ -1,16 +1,16 @@
-"""What can go wrong. Every message is one line: where and what (why); what to do."""
+"""The exceptions of the module. Every message is one line: where and what (why); what to do."""
 
 
 class SunfleckError(RuntimeError):
-    """Work that could not be finished: a full disk, a lost device, memory that ran out."""
+    """The work could not be finished: the disk is full, the device was lost or memory ran out."""
 
 
 class DeviceError(SunfleckError):
-    """No device of the asked kind."""
+    """There is no device of the requested kind."""
 
 
 class InputError(ValueError):
-    """Bad input: a scene, an array or an option."""
+    """A scene, an array or an option is invalid."""
 
 
 def refuse(what: str, why: str, cure: str) -> None:

@@ -19,11 +19,11 @@ Time = Union[datetime.datetime, np.datetime64, str]
 
 
 def sun_position(time: Any, latitude: float, longitude: float, altitude: float = 0.0) -> tuple[Any, Any]:
-    """Where the sun stands: true elevation (without refraction) and azimuth clockwise from north, both in degrees.
+    """Returns the sun's true elevation (without refraction) and its azimuth clockwise from north, both in degrees.
 
-    time: a datetime with a time zone, a text such as "2002-08-08T10:10:00+08:00", a numpy.datetime64 (UTC), or a sequence or
-        array of them; years 1900 to 2100. latitude, longitude: degrees north and east. altitude: m.
-    Returns floats for one time, arrays of the shape of `time` for many. To 0.0003 degrees of the NREL algorithm.
+    time: a datetime with a time zone, a string such as "2002-08-08T10:10:00+08:00", a numpy.datetime64 (UTC), or a sequence or
+        array of these; years 1900 to 2100. latitude, longitude: degrees north and east. altitude: m.
+    Returns floats for one time, arrays of the shape of `time` for several. Within 0.0003 degrees of the NREL algorithm.
     """
     latitude, longitude, altitude = real(latitude, "latitude"), real(longitude, "longitude"), real(altitude, "altitude")
     if not -90.0 <= latitude <= 90.0:
@@ -34,7 +34,7 @@ def sun_position(time: Any, latitude: float, longitude: float, altitude: float =
         return _core.sun_position(_unix_seconds(time), latitude, longitude, altitude)
     times = np.asarray(time)
     if times.dtype.kind not in "MOU":
-        refuse(f"time: {times.dtype}", "must be times", "give datetime with a time zone, numpy.datetime64 or ISO texts")
+        refuse(f"time: {times.dtype}", "must be times", "give datetime with a time zone, numpy.datetime64 or ISO strings")
     positions = np.array(
         [_core.sun_position(_unix_seconds(one), latitude, longitude, altitude) for one in times.ravel()], dtype=float
     ).reshape(-1, 2)
@@ -52,23 +52,24 @@ def _unix_seconds(time: Any) -> float:
             refuse("time = NaT", "must be a time", "remove it")
         return float(time.astype("datetime64[us]").astype(np.int64)) * 1e-6
     if not isinstance(time, datetime.datetime):
-        refuse(f"time: {type(time).__name__}", "must be a datetime", "give datetime with a time zone, numpy.datetime64 or a text")
+        refuse(f"time: {type(time).__name__}", "must be a datetime", "give datetime with a time zone, numpy.datetime64 or a string")
     if time.tzinfo is None:
         refuse(f"time = {time.isoformat()}", "has no time zone", "add one, e.g. tzinfo=datetime.timezone.utc")
     return time.timestamp()
 
 
 class Sky:
-    """A sky of horizontal irradiance 1: its radiance, and directions drawn from it. See `sky`."""
+    """A sky of horizontal irradiance 1: gives its radiance, and directions drawn from it. See `sky`."""
 
     def __init__(self, core: Any) -> None:
         self._core = core
 
     def radiance(self, elevation: Any, azimuth: Any) -> Any:
-        """Radiance, sr-1, towards elevation and azimuth (degrees, clockwise from north; arrays that broadcast): the W m-2 sr-1 of a
-        sky that sheds 1 W m-2 on a level plane. 0 below the horizon. A list of lights has none."""
+        """Returns the radiance, sr-1, towards elevation and azimuth (degrees, clockwise from north; arrays that broadcast): the
+        radiance in W m-2 sr-1 of a sky that gives a horizontal plane 1 W m-2. It is 0 below the horizon. A list of lights has no
+        radiance."""
         if self._core.is_list:
-            refuse("radiance", "a sky of single lights has none", "see `lights`")
+            refuse("radiance", "a sky of single lights has no radiance", "use `lights`")
         up, around = np.broadcast_arrays(np.asarray(elevation, dtype=float), np.asarray(azimuth, dtype=float))
         if not (np.isfinite(up).all() and np.isfinite(around).all()):
             refuse("elevation, azimuth", "must be finite", "remove NaN and infinity")
@@ -76,18 +77,18 @@ class Sky:
         return values if values.shape else float(values)
 
     def draw(self, count: int, seed: int = 1) -> np.ndarray:
-        """`count` unit vectors towards the sky (X south, Y up, Z west), shape (count, 3), each of which stands for the same share
-        of the irradiance of a level plane."""
+        """Returns `count` unit vectors towards the sky (X south, Y up, Z west), shape (count, 3). Each represents the same share
+        of the irradiance of a horizontal plane."""
         return self._core.draw(whole(count, "count", 0, 2**31), whole(seed, "seed", 0, 2**64 - 1))
 
     @property
     def lights(self) -> list[tuple[float, tuple[float, float, float]]]:
-        """Of a list of directions: share of the horizontal irradiance, and unit vector towards the light. Else empty."""
+        """The share of the horizontal irradiance and the unit vector of each light of a list; empty for other skies."""
         return self._core.lights()
 
     @property
     def spherical_irradiance(self) -> float:
-        """Irradiance of a sphere's cross-section: 2 under a uniform sky."""
+        """The flux on a sphere per area of its cross-section: 2 under a uniform sky."""
         return self._core.spherical_irradiance
 
 
@@ -99,7 +100,7 @@ def sky(
     allow_outside: bool = False,
     **more: Any,
 ) -> Sky:
-    """The sky that a scene's [sky] describes: sky("cie", type=12, sun={"elevation": 40, "azimuth": 120}).
+    """Returns the sky described by a scene's [sky] table: sky("cie", type=12, sun={"elevation": 40, "azimuth": 120}).
 
     model: uniform, cie-overcast, cie-clear, cie (with type=1..15), perez (with dni=, dhi=, W m-2), lights (with file=); or the
         whole table as a dict. sun: as a scene's [sun]; models that follow the sun need it.

@@ -1,4 +1,4 @@
-"""Checks of the numbers that say how much work is done."""
+"""Checks the numbers that determine how much work is done."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Number = Union[int, float, np.integer, np.floating]
 
 
 def real(value: Any, name: str) -> float:
-    """A finite number."""
+    """Returns the value if it is a finite number."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         refuse(f"{name}: {type(value).__name__}", "must be a number", "give one")
     if not math.isfinite(value):
@@ -27,7 +27,7 @@ def real(value: Any, name: str) -> float:
 def above_zero(value: Any, name: str) -> float:
     number = real(value, name)
     if number <= 0.0:
-        refuse(f"{name} = {value}", "must be above 0", "give a larger one")
+        refuse(f"{name} = {value}", "must be above 0", "give a larger number")
     return number
 
 
@@ -39,7 +39,7 @@ def whole(value: Any, name: str, lo: int, hi: int) -> int:
     except TypeError:
         refuse(f"{name} = {value!r}", "must be a whole number", f"give one of {lo}..{hi}")
     if isinstance(value, (bool, np.bool_)) or not lo <= number <= hi:
-        refuse(f"{name} = {value!r}", f"must lie in {lo}..{hi}", "give another")
+        refuse(f"{name} = {value!r}", f"must lie in {lo}..{hi}", "give another number")
     return number
 
 
@@ -51,7 +51,7 @@ def bound(value: Any, name: str) -> float:
 
 
 def work_options(work: Mapping[str, Any]) -> Any:
-    """The keyword arguments of run() that limit its work, checked, as the compiled part takes them."""
+    """Checks the keyword arguments of run() that limit its work, and returns them in the form the compiled part takes."""
     both = work["error"]
     checked = {
         "direct_error": bound(value, "direct_error") if (value := _first(work["direct_error"], both)) is not None else None,

@@ -1,4 +1,4 @@
-"""What a simulation found, as arrays."""
+"""The results of a simulation as arrays."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _UNITS = {"area_m2": "m2", "x": "m", "y": "m", "z": "m"}
 
 
 class Result:
-    """One simulation's numbers. BAND stands for the name of a band, such as PAR.
+    """The results of one simulation. BAND stands for the name of a band, such as PAR.
 
-    Fluxes are in W m-2 of the band's own unit of irradiance; errors are half-widths of confidence intervals, unshot flux
-    included, NaN where there are too few hits for one. Axes: X south, Y up, Z west, metres. Arrays are computed when they are
-    asked for; those of the triangles are views of memory that the result owns, and cannot be written to.
+    Fluxes are in W m-2, or in the band's own unit of irradiance; errors are half-widths of confidence intervals that include
+    the unshot flux, NaN if there are too few hits. Axes: X south, Y up, Z west, metres. Arrays are computed on first access;
+    those of the triangles are read-only views of memory that the result owns.
     """
 
     def __init__(self, outcome: Any) -> None:
@@ -32,18 +32,18 @@ class Result:
 
     @property
     def complete(self) -> bool:
-        """Whether the asked work was done, or the asked bounds were reached."""
+        """Whether the requested work was done, or the requested bounds were reached."""
         return self._outcome.complete
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """summary.json: energy balance, errors reached, device, seconds, settings."""
+        """The contents of summary.json: energy balance, errors reached, device, seconds, settings."""
         return json.loads(self._outcome.summary())
 
     @property
     def bands(self) -> dict[str, dict[str, Any]]:
-        """The energy balance of each band by its name, W m-2 of ground: incident, absorbed_vegetation, absorbed_soil, reflected,
-        transmitted, unshot; their half-widths in `error`; `residual`, the quanta that are missing from the sum, is 0."""
+        """The energy balance of each band by name, W m-2 of ground: incident, absorbed_vegetation, absorbed_soil, reflected,
+        transmitted, unshot; their half-widths are in `error`; `residual`, the quanta missing from the sum, is 0."""
         return {band["name"]: band for band in self.summary["bands"]}
 
     @functools.cached_property
@@ -58,53 +58,53 @@ class Result:
         return self._outcome.triangles()
 
     def __getitem__(self, column: str) -> np.ndarray:
-        """A column of `triangles`: result["PAR_absorbed"]."""
+        """Returns a column of `triangles`: result["PAR_absorbed"]."""
         try:
             return self.triangles[column]
         except KeyError:
-            refuse(f"result[{column!r}]", "there is no such column of triangles", f"use one of {', '.join(self.triangles)}")
+            refuse(f"result[{column!r}]", "no such column of triangles", f"use one of {', '.join(self.triangles)}")
             raise
 
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
         """The columns of organs.csv as arrays of shape (organs,): plant, organ (a list of names), rank, area_m2, sunlit_fraction
         and its _error, BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), BAND_error (relative). Soil
-        elements of a mesh are among them, the ground of [soil] is not."""
+        elements of a mesh are included, the ground of [soil] is not."""
         return self._outcome.organs()
 
     @functools.cached_property
     def profile(self) -> dict[str, np.ndarray]:
-        """The columns of profile.csv as arrays of shape (layers + 1,), bottom first, the last row being the top plane: height_m,
-        leaf_area_index, sunfleck_ratio, sunlit_leaf_fraction, BAND_down, BAND_up, BAND_absorbed, each with its _error."""
+        """The columns of profile.csv as arrays of shape (layers + 1,), from the ground up, with the top plane in the last row:
+        height_m, leaf_area_index, sunfleck_ratio, sunlit_leaf_fraction, BAND_down, BAND_up, BAND_absorbed, each with its _error."""
         return self._outcome.profile()
 
     @functools.cached_property
     def planes(self) -> list[dict[str, Any]]:
-        """A dict for each [[plane]]: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its _error, and maps of shape
+        """One dict per [[plane]]: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its _error, and maps of shape
         (cells along Z, cells along X): sunfleck, BAND_direct, BAND_total (W m-2 downwards)."""
         return self._outcome.planes()
 
     @functools.cached_property
     def sensors(self) -> list[dict[str, Any]]:
-        """A dict for each [[sensor]]: name, and arrays of shape (points,): x, y, z, BAND_direct, BAND_sky, BAND_scattered with
+        """One dict per [[sensor]]: name, and arrays of shape (points,): x, y, z, BAND_direct, BAND_sky, BAND_scattered with
         their _error."""
         return self._outcome.sensors()
 
     @functools.cached_property
     def corners(self) -> np.ndarray:
-        """The triangles' corners, m, shape (triangles, 3 corners, 3 axes), as they were traced: wrapped into the plot."""
+        """The corners of the triangles, m, shape (triangles, 3 corners, 3 axes), as traced: wrapped into the plot."""
         return self._outcome.corners()
 
     def table(self, name: str) -> str:
-        """The text of profile.csv, organs.csv, triangles.csv or sensors.csv, byte for byte as the program writes it."""
+        """Returns the text of profile.csv, organs.csv, triangles.csv or sensors.csv, byte for byte as the program writes it."""
         return self._outcome.table(name)
 
     def save(
         self, folder: Union[str, os.PathLike], *, export: Iterable[str] = ("csv",), images: Union[str, Iterable[str]] = "none"
     ) -> None:
-        """Writes a result folder, as `sunfleck run -o FOLDER --export ... --images ...` does; an earlier result there is replaced.
+        """Writes a result folder, as `sunfleck run -o FOLDER --export ... --images ...` does. Replaces an earlier result there.
 
-        `export`: of csv, nc, vtp, glb, ply, caribu. `images`: "none", "all", or file stems such as "rank_total".
+        `export`: any of csv, nc, vtp, glb, ply, caribu. `images`: "none", "all", or file stems such as "rank_total".
         """
         exports = [export] if isinstance(export, str) else list(export)
         for name in exports:
@@ -113,8 +113,8 @@ class Result:
         self._outcome.write(os.fspath(folder), exports, [images] if isinstance(images, str) else list(images))
 
     def to_xarray(self) -> xarray.Dataset:
-        """The variables of results.nc as an xarray Dataset: fields by `triangle`, the profile by `plane_height`, the balance by
-        `band`; in each other sensor or map a user looks at the lists `planes` and `sensors`. Needs xarray."""
+        """Returns the variables of results.nc as an xarray Dataset: fields by `triangle`, the profile by `plane_height`, the
+        balance by `band`. Maps and sensors are in the lists `planes` and `sensors` instead. Needs xarray."""
         import xarray
 
         columns = dict(self.triangles)

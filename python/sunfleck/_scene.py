@@ -1,4 +1,4 @@
-"""Scenes as Python has them: the path of a file, or a dict with the keys of one, meshes as numpy arrays."""
+"""Scenes in Python: the path of a scene file, or a dict with its keys and with meshes as numpy arrays."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ Scene = Union[str, os.PathLike, Mapping[str, Any]]
 
 _MESH_KEYS = ("vertices", "triangles", "optics", "organ", "plant", "rank")
 _PLACE_KEYS = ("up", "scale", "heading", "at")
-_DICT_NAME = "scene"  # what messages call a scene that is no file
+_DICT_NAME = "scene"  # name in messages of a scene that is not a file
 
 
 class SceneSource:
-    """A scene taken apart: text for the reader, meshes beside it, and the folder in which files are looked for."""
+    """A scene in parts: text for the reader, meshes, and the folder in which files are looked up."""
 
     def __init__(self, scene: Scene, folder: Union[str, os.PathLike, None] = None) -> None:
         self.meshes: dict[str, Any] = {}
@@ -34,9 +34,9 @@ class SceneSource:
             self.text: Union[str, None] = _toml(self._tables)
             return
         if not isinstance(scene, (str, os.PathLike)):
-            refuse(f"scene: {type(scene).__name__}", "must be the path of a scene file or a dict with its keys", "give one of the two")
+            refuse(f"scene: {type(scene).__name__}", "must be the path of a scene file or a dict with its keys", "give either")
         if folder is not None:
-            refuse("folder", "a scene file has one of its own", "leave it out")
+            refuse("folder", "a scene file has its own folder", "leave it out")
         self.file = Path(scene)
         self.text = None
 
@@ -49,7 +49,7 @@ class SceneSource:
         return self._tables
 
     def text_with(self, changes: Mapping[str, Any]) -> str:
-        """The text with other tables of light and optics; None takes a table away."""
+        """Returns the text with other tables of light and optics; None removes a table."""
         tables = {key: value for key, value in self.tables.items() if key != "geometry"}
         for key, value in changes.items():
             if value is None:
@@ -82,7 +82,7 @@ class SceneSource:
             return _plain(part, place)
         unknown = sorted(set(part) - set(_MESH_KEYS) - set(_PLACE_KEYS))
         if unknown:
-            refuse(f"{place}.{unknown[0]}", "not known beside vertices", f"use {', '.join(_MESH_KEYS + _PLACE_KEYS)}")
+            refuse(f"{place}.{unknown[0]}", "unknown key next to vertices", f"use {', '.join(_MESH_KEYS + _PLACE_KEYS)}")
         name = f"mesh{number}"
         self.meshes[name] = _mesh(part, place)
         return {"mesh": name, **_plain({key: part[key] for key in _PLACE_KEYS if key in part}, place)}
@@ -93,7 +93,7 @@ def _toml(tables: Mapping[str, Any]) -> str:
 
 
 def _plain(value: Any, place: str) -> Any:
-    """Numpy's numbers and arrays, tuples and paths as TOML has them."""
+    """Converts numpy's numbers and arrays, tuples and paths to TOML's types."""
     if isinstance(value, Mapping):
         return {str(key): _plain(item, f"{place}.{key}") for key, item in value.items() if item is not None}
     if isinstance(value, (bool, int, float, str, datetime.datetime)):
@@ -106,11 +106,11 @@ def _plain(value: Any, place: str) -> Any:
         return [_plain(item, f"{place}[{number}]") for number, item in enumerate(value)]
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    refuse(f"{place}: {type(value).__name__}", "a scene knows numbers, texts, times, lists and dicts", "convert it")
+    refuse(f"{place}: {type(value).__name__}", "must be a number, string, time, list or dict", "convert it")
 
 
 def _moment(value: Any, place: str) -> Any:
-    """A time as a datetime: texts are read as ISO 8601."""
+    """Returns a time as a datetime; reads strings as ISO 8601."""
     if not isinstance(value, str):
         return value
     try:
@@ -132,7 +132,7 @@ def _vertices(value: Any, place: str) -> np.ndarray:
         refuse(f"{place}.vertices: shape {array.shape}", "must be (n, 3), or (m, 3, 3) for the corners of m triangles", "reshape it")
     bad = np.argwhere(~np.isfinite(array).reshape(-1, 3).all(axis=1))
     if bad.size:
-        refuse(f"{place}.vertices: NaN or infinity at vertex {bad[0, 0]}", "all must be finite", "remove or repair it")
+        refuse(f"{place}.vertices: NaN or infinity at vertex {bad[0, 0]}", "must be finite", "remove or repair it")
     return array
 
 
@@ -144,16 +144,16 @@ def _triangles(part: Mapping[str, Any], vertices: np.ndarray, place: str) -> np.
         return np.arange(3 * len(vertices), dtype=np.uint32).reshape(-1, 3)
     array = _array(part["triangles"], name, "iu", "whole numbers")
     if array.ndim != 2 or array.shape[1] != 3:
-        refuse(f"{name}: shape {array.shape}", "must be (m, 3)", "give three vertex numbers for each triangle")
+        refuse(f"{name}: shape {array.shape}", "must be (m, 3)", "give three vertex numbers per triangle")
     count = vertices.size // 3
     if array.size and (array.min() < 0 or array.max() >= count):
         worst = array.min() if array.min() < 0 else array.max()
-        refuse(f"{name}: vertex number {worst}", f"there are {count}, counted from 0", "correct the triangles")
+        refuse(f"{name}: vertex number {worst}", f"there are {count} vertices, counted from 0", "correct the triangles")
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
 def _numbers(part: Mapping[str, Any], key: str, fallback: int, count: int, place: str) -> np.ndarray:
-    """One whole number for all triangles, or one each."""
+    """Returns a whole number per triangle, given one for all or one each."""
     name = f"{place}.{key}"
     array = _array(part.get(key, fallback), name, "iu", "whole numbers")
     if array.ndim > 1 or (array.ndim == 1 and len(array) != count):
@@ -164,20 +164,20 @@ def _numbers(part: Mapping[str, Any], key: str, fallback: int, count: int, place
 
 
 def _names(part: Mapping[str, Any], key: str, fallback: Any, count: int, place: str) -> tuple[list[str], np.ndarray]:
-    """One name for all triangles, or one each: the names that occur, and the number of each triangle's."""
+    """Returns the distinct names and, per triangle, the index of its name, given one name for all or one each."""
     name = f"{place}.{key}"
     value = part.get(key, fallback)
     if value is None:
-        refuse(name, "is missing", "give the name of an [optics] table for all triangles, or one for each")
+        refuse(name, "is missing", "give the name of an [optics] table for all triangles, or one name for each")
     if isinstance(value, str):
         return [value], np.zeros(count, dtype=np.uint32)
     array = _array(value, name, "UO", "names")
     if array.shape != (count,):
         refuse(f"{name}: shape {array.shape}", f"must be one name, or one for each of {count} triangles", "correct its length")
     if not all(isinstance(item, str) for item in array.tolist()):
-        refuse(f"{name}: something that is no text", "must be names", "give a list of str")
+        refuse(f"{name}: an item that is not a string", "must be names", "give a list of str")
     found, first, inverse = np.unique(array.astype(str), return_index=True, return_inverse=True)
-    order = np.argsort(first, kind="stable")  # as they come
+    order = np.argsort(first, kind="stable")  # in order of first appearance
     rank = np.empty(len(order), dtype=np.uint32)
     rank[order] = np.arange(len(order), dtype=np.uint32)
     return [str(found[i]) for i in order], rank[inverse]
@@ -188,7 +188,7 @@ def _mesh(part: Mapping[str, Any], place: str) -> Any:
     triangles = _triangles(part, vertices, place)
     count = len(triangles)
     if count == 0:
-        refuse(f"{place}.triangles: none", "a mesh needs at least one", "give some, or leave this geometry out")
+        refuse(f"{place}.triangles: none", "a mesh needs at least one triangle", "add triangles, or leave this geometry out")
     optics_names, optics = _names(part, "optics", None, count, place)
     kind_names, kinds = (optics_names, optics) if "organ" not in part else _names(part, "organ", None, count, place)
     plants = _numbers(part, "plant", 1, count, place)

@@ -1,4 +1,4 @@
-"""Simulations: one, or many of one canopy."""
+"""Simulations of a scene, once or repeatedly with one canopy."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ UNCHANGED: Any = _Unchanged()
 
 @contextlib.contextmanager
 def without_line_numbers(source: SceneSource) -> Iterator[None]:
-    """Messages about a text that the user never saw name no line of it."""
+    """Removes line numbers from messages about a text that the user never saw."""
     try:
         yield
     except InputError as error:
@@ -37,19 +37,19 @@ def without_line_numbers(source: SceneSource) -> Iterator[None]:
 
 
 class Simulation:
-    """A scene whose tree and device are kept, so that another sun, sky or optics costs only its tracing.
+    """A scene whose tree and device are kept, so that another sun, sky or optics costs only the tracing.
 
     scene: the path of a scene file (TOML), or a dict with its keys. In a dict an entry of `geometry` may hold arrays instead of
-        a file: `vertices`, float (n, 3), m, with `triangles`, int (m, 3), or vertices (m, 3, 3) alone; `optics`, a name of
-        [optics] or m of them; and optionally `organ` (names; default: as optics), `plant` and `rank` (whole numbers; default 1
-        and 0), one for all or m of them; besides `up` ("y" or "z"), `scale`, `heading` and `at` as for files.
-    folder: where a dict's files are looked for (default: the current folder).
-    device: auto, gpu, lavapipe, cpu, a number or a name, as the program's --device.
-    threads: of the CPU path, 0 for all cores. (Of lavapipe those of the first simulation of a process.)
+        a file: `vertices`, float (n, 3), m, with `triangles`, int (m, 3), or vertices (m, 3, 3) alone; `optics`, one name of an
+        [optics] table or m names; and optionally `organ` (names; default: as optics), `plant` and `rank` (whole numbers; default
+        1 and 0), one for all triangles or m of them; `up` ("y" or "z"), `scale`, `heading` and `at` work as for files.
+    folder: folder in which the files of a dict are looked up (default: the current folder).
+    device: auto, gpu, lavapipe, cpu, a device number or part of a device name, as with the program's --device.
+    threads: number of threads of the CPU path, 0 for all cores. (For lavapipe the first simulation of a process decides.)
     allow_outside: whether files may lie outside the scene's folder.
 
-    Raises InputError (a ValueError) for a bad scene or array, DeviceError without such a device. Warnings about the scene are
-    Python's warnings. A Simulation serves one thread at a time; others run while it traces.
+    Raises InputError (a ValueError) for a bad scene or array, DeviceError if there is no such device. Warnings about the scene
+    are issued as Python warnings. Only one thread at a time may use a Simulation; other threads run while it traces.
     """
 
     def __init__(
@@ -81,10 +81,10 @@ class Simulation:
         soil: Mapping[str, Any] = UNCHANGED,
         optics: Mapping[str, Mapping[str, Any]] = UNCHANGED,
     ) -> None:
-        """Other light or optics from here on, each a table of a scene file: sun={"elevation": 40, "azimuth": 120}.
+        """Changes light or optics from now on; each argument is a table of a scene file: sun={"elevation": 40, "azimuth": 120}.
 
-        sun, sky and weather replace the table that was (None: there is none), band all bands; soil and optics replace the keys
-        and names that they give. Raises InputError, and changes nothing, where the new scene is not sound.
+        sun, sky and weather replace the whole table (None removes it), band replaces all bands; soil and optics replace only the
+        keys and names that they contain. Raises InputError and changes nothing if the new scene is invalid.
         """
         given = {"sun": sun, "sky": sky, "band": band, "weather": weather, "soil": soil, "optics": optics}
         changes = {key: value for key, value in given.items() if value is not UNCHANGED}
@@ -120,16 +120,17 @@ class Simulation:
         triangle_errors: bool = True,
         progress: Optional[Progress] = None,
     ) -> Result:
-        """Simulates, and gives the numbers of `sunfleck run` with the same options, bit for bit.
+        """Simulates the scene. Gives the numbers of `sunfleck run` with the same options, bit for bit.
 
         sun ... optics: as in `relight`; they stay until they are changed again.
-        error, direct_error, indirect_error: relative error bounds, in place of the scene's [accuracy].
-        grid (m), passes: fixed work instead. max_seconds, max_rays: stop there; `complete` of the result is then False.
-        memory: bytes for replicates in the making, by default a quarter of what is free.
-        triangle_errors: whether the errors of single triangles are kept, 32 bytes a triangle and band.
+        error, direct_error, indirect_error: relative error bounds that replace the scene's [accuracy].
+        grid (m), passes: fixed work instead of a bound. max_seconds, max_rays: limits; a result that they cut short has
+            `complete` False.
+        memory: bytes for replicates in progress, by default a quarter of the free memory.
+        triangle_errors: whether the errors of single triangles are kept, at 32 bytes per triangle and band.
         progress: called about ten times a second with {"stage", "rays", "fraction", "seconds_left", "pass",
-            "relative_error", "bound"}; an exception from it ends
-            the simulation and is raised here, as KeyboardInterrupt is after Ctrl-C.
+            "relative_error", "bound"}. An exception from it ends the simulation and is raised here, as is KeyboardInterrupt
+            after Ctrl-C.
         """
         options = work_options(
             {
@@ -143,17 +144,17 @@ class Simulation:
 
     @property
     def device(self) -> dict[str, str]:
-        """What traces: kind ("vulkan" or "cpu"), name, driver."""
+        """The device that traces: kind ("vulkan" or "cpu"), name, driver."""
         return self._core.device
 
     @property
     def sun(self) -> Optional[tuple[float, float]]:
-        """Elevation and azimuth (clockwise from north) of the sun as it stands, degrees; None without a sun."""
+        """The sun's current elevation and azimuth (clockwise from north), degrees; None without a sun."""
         return self._core.sun
 
     @property
     def triangles(self) -> int:
-        """How many triangles the canopy has."""
+        """The number of triangles of the canopy."""
         return self._core.triangles
 
     @contextlib.contextmanager
@@ -172,8 +173,8 @@ class Simulation:
 def run(scene: Scene, **options: Any) -> Result:
     """Simulates a scene once: Simulation(scene, folder=, device=, threads=, allow_outside=).run(...).
 
-    The first four options go to `Simulation`, all others to its `run`. A scene that is simulated more than once, under other
-    light, is better kept as a Simulation.
+    The four options named above go to `Simulation`, all others to its `run`. For several simulations of one scene under
+    different light, a Simulation is faster.
     """
     kept = {name: options.pop(name) for name in ("folder", "device", "threads", "allow_outside") if name in options}
     return Simulation(scene, **kept).run(**options)

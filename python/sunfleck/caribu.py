@@ -1,4 +1,4 @@
-"""CARIBU's vocabulary (Chelle and Andrieu 1998; alinea.caribu of OpenAlea) on sunfleck's engine: change one import.
+"""CARIBU's interface (Chelle and Andrieu 1998; alinea.caribu of OpenAlea) on sunfleck's engine: change one import.
 
     from sunfleck.caribu import CaribuScene
 
@@ -7,8 +7,8 @@
     raw, aggregated = scene.run(direct=False, infinite=True)
     aggregated["par"]["Eabs"]["leaf"]
 
-Axes are CARIBU's: z up, y north, x east. What it computes instead of projections and nested radiosity, and with what error, is
-what `sunfleck run` computes; an infinite canopy has no limits.
+Axes are CARIBU's: z up, y north, x east. Instead of projections and nested radiosity it computes what `sunfleck run` computes,
+with the same errors; an infinite canopy really is infinite.
 """
 
 from __future__ import annotations
@@ -31,23 +31,23 @@ Light = tuple[float, Sequence[float]]
 Material = Union[tuple[float], tuple[float, float], tuple[float, float, float, float]]
 
 _METRES = {"mm": 0.001, "cm": 0.01, "dm": 0.1, "m": 1.0, "dam": 10.0, "hm": 100.0, "km": 1000.0}
-_LEAST_SHARE_OF_EXTENT = 1e-3  # a canopy that is a line or a point from above still gets a plot
+_LEAST_SHARE_OF_EXTENT = 1e-3  # gives a canopy that is a line or a point from above a plot
 
 
 class CaribuScene:
     """Triangles under lights.
 
-    scene: {primitive: [triangle, ...]}, a triangle being three points (x, y, z).
-    light: [(energy, (x, y, z)), ...]: irradiance of a horizontal plane, and the way the light travels (z < 0).
+    scene: {primitive: [triangle, ...]}, where a triangle is three points (x, y, z).
+    light: [(energy, (x, y, z)), ...]: the irradiance of a horizontal plane, and the direction in which the light travels (z < 0).
     pattern: (xmin, ymin, xmax, ymax), or ((xmin, ymin), (xmax, ymax)): the domain that an infinite canopy repeats.
-    opt: {band: {primitive: material}} or {band: material}, a material being (reflectance,) of an opaque surface, (reflectance,
+    opt: {band: {primitive: material}} or {band: material}, where a material is (reflectance,) for an opaque surface, (reflectance,
         transmittance), or (reflectance_sup, transmittance_sup, reflectance_inf, transmittance_inf).
     soil_reflectance: {band: reflectance}, or one number for all bands.
-    soil_mesh: anything but None puts a soil under a canopy that is not infinite; infinite ones always have one.
-    z_soil: its height (default: 0, or the lowest point below).
-    scene_unit: of the points and the pattern: mm, cm, dm, m, dam, hm or km. Energies are per square metre.
+    soil_mesh: anything but None adds soil under a canopy that is not infinite; an infinite one always has soil.
+    z_soil: height of the soil (default: 0, or the lowest point if that is below 0).
+    scene_unit: unit of the points and the pattern: mm, cm, dm, m, dam, hm or km. Energies are per square metre.
 
-    Raises InputError (a ValueError) for what is not like that.
+    Raises InputError (a ValueError) for any other input.
     """
 
     default_light: Light = (1.0, (0.0, 0.0, -1.0))
@@ -68,7 +68,7 @@ class CaribuScene:
         scene_unit: str = "m",
     ) -> None:
         if scene_unit not in _METRES:
-            refuse(f"scene_unit = {scene_unit!r}", "not known", f"use {', '.join(_METRES)}")
+            refuse(f"scene_unit = {scene_unit!r}", "unknown unit", f"use {', '.join(_METRES)}")
         self.scene_unit = scene_unit
         self.scene = _checked_scene(scene)
         self.light = [_checked_light(one, number) for number, one in enumerate(light or [self.default_light])]
@@ -99,23 +99,24 @@ class CaribuScene:
         device: str = "auto",
         threads: int = 0,
     ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """The light on every triangle, and by primitive: (raw, aggregated).
+        """Returns the light on every triangle and on every primitive: (raw, aggregated).
 
-        direct: the first landing alone; False: scattered light too. infinite: the pattern repeats without end.
-        d_sphere, layers, height, screen_size, screen_resolution, split_face: of CARIBU's own methods; nothing here depends on them.
-        simplify: leaves the level of bands out, where there is one.
-        error: relative error bound of what the primitives receive; seed, device, threads: as in sunfleck.run.
+        direct: True counts only the first landing, False scattered light too. infinite: repeats the pattern without end.
+        d_sphere, layers, height, screen_size, screen_resolution, split_face: accepted for CARIBU's own methods and ignored.
+        simplify: leaves out the level of bands if there is only one.
+        error: relative error bound of the light the primitives receive; seed, device, threads: as in sunfleck.run.
 
-        raw[band][quantity][primitive] is a list by triangle, aggregated[band][quantity][primitive] the mean by area, of area the
-        sum. Quantities: area (m2, one-sided), Eabs, Ei, Ei_sup, Ei_inf (absorbed, incident on both faces, on the upper and on the
-        lower, per area of one face, in the lights' unit), and Eabs_error, the half-width of its 95 % confidence interval (of an
-        aggregate: as if errors of its triangles were independent; NaN where too few rays tell). The upper face is that from which
-        the corners run counter-clockwise. soil_aggregated and result, the simulation's own, are set.
+        raw[band][quantity][primitive] is a list by triangle; aggregated[band][quantity][primitive] is the mean weighted by area,
+        or the sum for area. Quantities: area (m2, one-sided), Eabs, Ei, Ei_sup, Ei_inf (absorbed, incident on both faces, on the
+        upper and on the lower face, per area of one face, in the lights' unit), and Eabs_error, the half-width of the 95 %
+        confidence interval of Eabs (for an aggregate as if the errors of its triangles were independent; NaN if there are too few
+        rays). The upper face is the one from which the corners run counter-clockwise. Sets soil_aggregated, and result to the
+        simulation's own result.
         """
         if sensors is not None:
-            refuse("sensors", "not known here", "give the whole scene to sunfleck.run, with [[sensor]] or [[plane]]")
+            refuse("sensors", "not supported here", "give the whole scene to sunfleck.run, with [[sensor]] or [[plane]]")
         if infinite and self.pattern is None:
-            refuse("pattern", "an infinite canopy repeats it, and there is none", "give (xmin, ymin, xmax, ymax)")
+            refuse("pattern", "an infinite canopy needs one to repeat", "give (xmin, ymin, xmax, ymax)")
         error = bound(error, "error")
         with tempfile.TemporaryDirectory(prefix="sunfleck") as folder:
             tables = self._tables(direct, infinite, Path(folder))
@@ -136,7 +137,7 @@ class CaribuScene:
         for primitive in self.scene:
             material = given.get(primitive, fallback)
             if material is None:
-                refuse(f"opt[{band!r}]", f"primitive {primitive!r} has none", "give its material, or one of 'default'")
+                refuse(f"opt[{band!r}]", f"primitive {primitive!r} has no material", "give its material, or a 'default'")
             materials[primitive] = _checked_material(material, f"opt[{band!r}][{primitive!r}]")
         return materials
 
@@ -144,7 +145,7 @@ class CaribuScene:
         value = given.get(band, self.default_soil_reflectance) if isinstance(given, Mapping) else given
         reflectance = self.default_soil_reflectance if value is None else real(value, f"soil_reflectance[{band!r}]")
         if not 0.0 <= reflectance <= 1.0:
-            refuse(f"soil_reflectance[{band!r}] = {value}", "must lie in 0..1", "give a share")
+            refuse(f"soil_reflectance[{band!r}] = {value}", "must lie in 0..1", "give a fraction")
         return reflectance
 
     def _tables(self, direct: bool, infinite: bool, folder: Path) -> dict[str, Any]:
@@ -186,11 +187,11 @@ class CaribuScene:
         return tuple(float(edge) for edge in (*(lo - spare)[:2], *(hi + spare)[:2]))
 
     def _band_names(self, direct: bool) -> list[str]:
-        """Names that tables can have. Without scattered light one band tells of all."""
+        """Returns band names valid in tables. Without scattered light one band represents all."""
         return ["b0"] if direct else [f"b{number}" for number in range(len(self.material))]
 
     def _optics(self, direct: bool) -> dict[str, list[Material]]:
-        """The materials that occur, by the name of their table: one for each band."""
+        """Returns the distinct materials by the name of their table: one for each band."""
         if direct:
             return {"black": [(0.0,)]}
         return {f"m{number}": list(materials) for number, materials in enumerate(self._distinct())}
@@ -257,14 +258,14 @@ class CaribuScene:
         for number, band in enumerate(self.material):
             reflectance = self.soil_reflectance[band]
             absorbed = self.result.bands["b0" if direct else f"b{number}"]["absorbed_soil"]
-            # What a black soil absorbs is what falls on it.
+            # A black soil absorbs all the light that falls on it.
             incident = absorbed if direct else absorbed / (1.0 - reflectance) if reflectance < 1.0 else math.nan
             kept = (1.0 - reflectance) * incident if direct else absorbed
             self.soil_aggregated[band] = {"area": area, "Ei": incident, "Eabs": kept}
 
 
 def _absorptances(material: Material) -> tuple[float, float]:
-    """Of the upper and the lower face."""
+    """Returns the absorptances of the upper and the lower face."""
     reflectance_up, transmittance_up, reflectance_down, transmittance_down = _faces(material)
     return 1.0 - reflectance_up - transmittance_up, 1.0 - reflectance_down - transmittance_down
 
@@ -276,7 +277,7 @@ def _faces(material: Material) -> tuple[float, float, float, float]:
 
 
 def _surface(materials: list[Material], bands: list[str]) -> dict[str, Any]:
-    """An [optics] table, a material for each band."""
+    """Returns an [optics] table from one material per band."""
     faces = [_faces(material) for material in materials]
     side = lambda first: {  # noqa: E731
         "reflectance": {band: face[first] for band, face in zip(bands, faces)},
@@ -306,7 +307,7 @@ def _aggregated(raw: Mapping[str, Mapping[Any, list[float]]]) -> dict[str, dict[
 
 def _checked_scene(scene: Any) -> dict[Any, np.ndarray]:
     if isinstance(scene, (str, os.PathLike)):
-        refuse("scene", "a file", "run files with `sunfleck run STAND.can --optics ... --light ... --domain ...`, or convert them")
+        refuse("scene", "is a file", "run it with `sunfleck run STAND.can --optics ... --light ... --domain ...`, or convert it")
     if not isinstance(scene, Mapping) or not scene:
         refuse(f"scene: {type(scene).__name__}", "must be a dict with at least one primitive", "give {name: [triangle, ...]}")
     checked = {}
@@ -318,7 +319,7 @@ def _checked_scene(scene: Any) -> dict[Any, np.ndarray]:
         if array.ndim != 3 or array.shape[1:] != (3, 3):
             refuse(f"scene[{primitive!r}]: shape {array.shape}", "must be a list of triangles of three points (x, y, z)", "reshape it")
         if not np.isfinite(array).all():
-            refuse(f"scene[{primitive!r}]", "it holds NaN or infinity", "remove or repair these triangles")
+            refuse(f"scene[{primitive!r}]", "contains NaN or infinity", "remove or repair these triangles")
         checked[primitive] = array
     return checked
 
@@ -328,12 +329,12 @@ def _checked_light(light: Any, number: int) -> Light:
     try:
         energy, (x, y, z) = light
     except (TypeError, ValueError):
-        refuse(place, "must be (energy, (x, y, z))", "give the irradiance of a level plane and the way the light travels")
+        refuse(place, "must be (energy, (x, y, z))", "give the irradiance of a horizontal plane and the direction of travel")
     energy, way = real(energy, f"{place} energy"), tuple(real(value, f"{place} direction") for value in (x, y, z))
     if energy < 0.0:
         refuse(f"{place} energy = {energy}", "must not be negative", "give an irradiance")
     if way[2] >= 0.0:
-        refuse(f"{place} direction = {way}", "light travels downwards, z < 0", "turn its sign")
+        refuse(f"{place} direction = {way}", "light must travel downwards, z < 0", "reverse its sign")
     return energy, way
 
 
@@ -342,20 +343,20 @@ def _checked_pattern(pattern: Any) -> Optional[tuple[float, float, float, float]
         return None
     flat = np.asarray(pattern, dtype=object).ravel().tolist()
     if len(flat) != 4:
-        refuse(f"pattern: {len(flat)} numbers", "must be (xmin, ymin, xmax, ymax)", "give four")
+        refuse(f"pattern: {len(flat)} numbers", "must be (xmin, ymin, xmax, ymax)", "give four numbers")
     x_lo, y_lo, x_hi, y_hi = (real(value, "pattern") for value in flat)
     if not (x_lo < x_hi and y_lo < y_hi):
-        refuse(f"pattern = {tuple(flat)}", "it has no area", "give (xmin, ymin, xmax, ymax)")
+        refuse(f"pattern = {tuple(flat)}", "has no area", "give (xmin, ymin, xmax, ymax)")
     return x_lo, y_lo, x_hi, y_hi
 
 
 def _checked_material(material: Any, place: str) -> Material:
     if not isinstance(material, Sequence) or isinstance(material, str) or len(material) not in (1, 2, 4):
         refuse(
-            f"{place} = {material!r}", "must be (reflectance,), (reflectance, transmittance) or four of them by face", "give a tuple"
+            f"{place} = {material!r}", "must be (reflectance,), (reflectance, transmittance) or both pairs by face", "give a tuple"
         )
     checked = tuple(real(value, place) for value in material)
     for reflectance, transmittance in (_faces(checked)[:2], _faces(checked)[2:]):
         if reflectance < 0.0 or transmittance < 0.0 or reflectance + transmittance > 1.0:
-            refuse(f"{place} = {material!r}", "reflectance and transmittance are shares, together at most 1", "correct them")
+            refuse(f"{place} = {material!r}", "reflectance and transmittance are fractions, together at most 1", "correct them")
     return checked

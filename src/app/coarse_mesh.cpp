@@ -10,10 +10,10 @@
 namespace sunfleck {
 namespace {
 
-// Any change of shape will do if the share asks for it; relative to the surface's extent.
+// Any deformation is accepted if the share requires it; relative to the surface's extent.
 constexpr float most_deformation = 1.0F;
 
-// Corners that coincide become one, so that neighbouring triangles are known to be neighbours.
+// A surface whose coincident corners are merged, so that neighbouring triangles are recognised as neighbours.
 struct IndexedSurface {
   std::vector<glm::vec3> vertices;
   std::vector<unsigned> indices;

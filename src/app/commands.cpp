@@ -81,7 +81,8 @@ int write_maize(const MaizeOptions& options) {
   start_log(Verbosity::normal);
   exit_on_interrupts();
   const Mesh mesh = make_maize({options.rows, options.per_row, options.spacing_m[0], options.spacing_m[1], options.seed});
-  watch_for_interrupts();  // a file that was begun is finished
+  // From here on a signal does not end the program at once, so that a file once begun is finished.
+  watch_for_interrupts();
   write_gltf(mesh, options.output);
   fmt::print("{}: {} triangles, {} organs\n", options.output.string(), mesh.triangles.size(), mesh.organs.size());
   return exit_done;

@@ -1,11 +1,12 @@
 #pragma once
-// The commands of the program; each returns the exit status.
+// The commands of the program. Each returns the exit status.
 
 #include "app/options.h"
 
 namespace sunfleck {
 
-// 0: done, the bound reached if there is one; 1: stopped short of it; 130: interrupted. Results are written in every case.
+// Returns 0 if the run is done and has reached its bound, if any; 1 if it stopped short of the bound; 130 if it was
+// interrupted. Results are written in every case.
 [[nodiscard]] int run(const RunOptions& options);
 
 // Returns true in a rank other than 0 for commands that do not share their work: rank 0 works alone, the others have nothing to

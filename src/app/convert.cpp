@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* default_optics = "leaf";  // of triangles whose mesh names none
+constexpr const char* default_optics = "leaf";  // for triangles whose mesh names no optics
 
 bool is_scene_file(const fs::path& file) {
   return file.extension() == ".toml";
@@ -39,27 +39,27 @@ void check(const ConvertOptions& options) {
   const std::string out = printable(options.output.string());
   const bool to_scene = is_scene_file(options.output);
   if (!is_mesh_file(options.input) && !is_scene_file(options.input))
-    throw_input(in, "its name ends in none of .glb .gltf .obj .ply .stl .can .can.gz .toml", "give a mesh or a scene file");
+    throw_input(in, "unknown file ending, none of .glb .gltf .obj .ply .stl .can .can.gz .toml", "give a mesh or a scene file");
   if (!to_scene && !is_writable_mesh(options.output))
-    throw_input(out, "its name tells no kind of file that can be written",
-                fmt::format("let it end in {}, or in .toml", writable_meshes));
+    throw_input(out, "unknown file ending", fmt::format("use {}, or .toml", writable_meshes));
   if (to_scene && is_scene_file(options.input))
-    throw_input(out, "both are scene files", fmt::format("let it end in {}", writable_meshes));
+    throw_input(out, "the input and the output are both scene files",
+                fmt::format("give the output the ending {}", writable_meshes));
   const std::string option = options.stand.first_given();
   if (!to_scene && !option.empty() && option != "--scale")
-    throw_input(option, "a mesh holds no such thing", "leave it out, or let the second file end in .toml");
+    throw_input(option, "a mesh file cannot hold this", "leave it out, or give the output the ending .toml");
   if (is_scene_file(options.input) && options.stand.scale) throw_input("--scale", "a scene is in metres", "leave it out");
   if (options.z_up && (to_scene || is_scene_file(options.input)))
-    throw_input("--z-up", "it is for a mesh that becomes another mesh",
-                "leave it out, or write up = \"z\" below the scene's [[geometry]]");
+    throw_input("--z-up", "only applies when a mesh is converted to another mesh",
+                "leave it out, or write up = \"z\" under [[geometry]] in the scene");
   for (const fs::path& file : inputs(options)) {
     std::error_code error;
     if (!file.empty() && fs::equivalent(file, options.output, error))
-      throw_input(out, fmt::format("it is the input {}", printable(file.string())), "give another name");
+      throw_input(out, fmt::format("it is the same file as the input {}", printable(file.string())), "give another name");
   }
 }
 
-// Welded: corners that coincide are one vertex.
+// Returns the canopy as a mesh in which coincident corners are welded into one vertex.
 Mesh mesh_of(const Canopy& canopy) {
   Mesh mesh;
   mesh.optics_of.assign(canopy.optics_of.begin(), canopy.optics_of.end());
@@ -92,7 +92,7 @@ Mesh read_input(const ConvertOptions& options) {
   const Scene scene = read_scene(options.input, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   if (scene.model.canopy.size() == 0)
-    throw_input(printable(options.input.string()), "the scene has no triangle", "give one with a [[geometry]]");
+    throw_input(printable(options.input.string()), "the scene has no triangles", "give a scene with a [[geometry]]");
   return mesh_of(scene.model.canopy);
 }
 
@@ -101,7 +101,7 @@ int write_as_mesh(const ConvertOptions& options) {
   if (is_can_file(options.output)) {
     const std::vector<std::string> lost = optics_lost_in_can(mesh);
     if (!lost.empty())
-      warn(printable(fmt::format("{}: optics {} become stems: a .can knows soil, leaf, stem, leaf2, stem2, ...",
+      warn(printable(fmt::format("{}: optics {} become stems: a .can only has soil, leaf, stem, leaf2, stem2, ...",
                                  options.output.string(), fmt::join(lost, ", "))));
   }
   write_mesh(mesh, options.output);
@@ -110,10 +110,11 @@ int write_as_mesh(const ConvertOptions& options) {
   return exit_done;
 }
 
-// A file that the scene names: where it lies, if that is in the scene's folder; else beside it.
+// A file that the scene names. It stays where it is if that is within the scene's folder; otherwise it is copied next to the
+// scene.
 struct NamedFile {
   fs::path from;
-  fs::path name;  // in the scene
+  fs::path name;  // as written in the scene
   bool copied = false;
 };
 
@@ -121,12 +122,12 @@ NamedFile named_file(const fs::path& folder, const fs::path& file) {
   const fs::path name = name_from(folder, file);
   if (name.is_relative()) return {file, name, false};
   if (file.extension() == ".gltf")
-    throw_input(printable(file.string()), "it lies outside the scene's folder, and may need files beside it",
-                "give the scene a name in its folder, or convert it to .glb first");
+    throw_input(printable(file.string()), "outside the scene's folder, and it may refer to files next to it",
+                "write the scene into the folder of this file, or convert the file to .glb first");
   return {file, file.filename(), true};
 }
 
-// What has to be written for its copy: nothing where a file of the same content is there already.
+// Returns the bytes to write for the file's copy; none if a file with the same content is already there.
 std::optional<std::string> bytes_to_copy(const fs::path& folder, const NamedFile& file) {
   if (!file.copied) return std::nullopt;
   const fs::path to = folder / file.name;
@@ -136,8 +137,8 @@ std::optional<std::string> bytes_to_copy(const fs::path& folder, const NamedFile
   if (!fs::exists(there)) return bytes;
   if (fs::is_regular_file(there) && read_file(to) == bytes) return std::nullopt;
   throw_input(printable(to.string()),
-              fmt::format("another file than {}, which the scene needs beside it", printable(file.from.string())),
-              "give the scene another folder");
+              fmt::format("a different file from {}, which has to be copied here for the scene", printable(file.from.string())),
+              "write the scene into another folder");
 }
 
 int write_as_scene(const ConvertOptions& options) {

@@ -5,9 +5,9 @@
 
 namespace sunfleck {
 
-// A mesh with CARIBU's files becomes a scene file; a mesh, or the whole canopy of a scene, another kind of mesh. A scene runs
-// as it stands: files that do not lie in its folder or below are copied beside it. No input is written over, and no other file
-// beside OUT. Returns the exit status. Throws Error.
+// Converts a mesh with CARIBU's files to a scene file, or a mesh or the whole canopy of a scene to another mesh format. The new
+// scene file is ready to run: files outside its folder are copied next to it. No input is overwritten, nor any other file next
+// to OUT. Returns the exit status. Throws Error.
 [[nodiscard]] int convert(const ConvertOptions& options);
 
 }  // namespace sunfleck

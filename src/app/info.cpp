@@ -40,7 +40,7 @@ std::string clock_time(const std::optional<UtcTime>& utc, int offset_minutes) {
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-// The date at the place's own clock.
+// Returns the date on the place's own clock.
 LocalDate local_date(const SunMoment& moment) {
   using namespace std::chrono;
   const UtcTime& utc = moment.time;
@@ -69,7 +69,7 @@ ordered_json sun_json(const Scene& scene) {
   return sun;
 }
 
-// Copies of triangles, by the organ they belong to and the organ they lie on.
+// Counts coincident triangles by the organ they belong to and the organ they coincide with.
 ordered_json copies_json(const Canopy& canopy) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> triangles;
   for (const Copy& copy : canopy.copies) ++triangles[{canopy.organ_of[copy.element], canopy.organ_of[copy.original]}];
@@ -91,7 +91,7 @@ ordered_json copies_json(const Canopy& canopy) {
 void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
   const SolveSettings settings = solve_settings(options, scene, options.threads);
   Simulation simulation(std::move(scene), options);
-  ProgressLine line("foretelling the memory of a run");
+  ProgressLine line("forecasting the memory of a run");
   const auto memory = forecast_memory(simulation, settings, terminal_monitor(line));
   if (!memory) throw_failure("info", "interrupted", "start it again");
   info["memory_bytes"] = memory->bytes;
@@ -125,7 +125,8 @@ void print_copies(const ordered_json& info) {
   constexpr std::size_t most_lines = 10;
   const ordered_json& organs = info["coincident_organs"];
   if (organs.empty()) return;
-  fmt::print("{} triangles coincide with earlier ones and take no light:\n", info["coincident_triangles"].get<std::size_t>());
+  fmt::print("{} triangles coincide with earlier ones and receive no light:\n",
+             info["coincident_triangles"].get<std::size_t>());
   const auto name = [](const ordered_json& organ) {
     return fmt::format("{} of plant {}", printable(organ["organ"].get<std::string>()), organ["plant"].get<std::uint32_t>());
   };
@@ -133,7 +134,8 @@ void print_copies(const ordered_json& info) {
     fmt::print("  {} of {} with {}\n", organs[k]["triangles"].get<std::size_t>(), name(organs[k]),
                name(organs[k]["coincide_with"]));
   }
-  if (organs.size() > most_lines) fmt::print("  and those of {} more organs (--json lists all)\n", organs.size() - most_lines);
+  if (organs.size() > most_lines)
+    fmt::print("  and those of {} more organs (--json lists them all)\n", organs.size() - most_lines);
 }
 
 void print_lines(const ordered_json& info) {
@@ -151,7 +153,7 @@ void print_lines(const ordered_json& info) {
   for (const auto& [name, area] : info["area_by_optics_m2"].items()) fmt::print("  {}: {:.5g} m2\n", name, area.get<double>());
   print_copies(info);
   constexpr double mib = 1048576.0;
-  fmt::print("memory needed: {:.1f} MiB on {}, {:.1f} MiB of it for {} replicates in the making\n",
+  fmt::print("memory needed: {:.1f} MiB on {}, of which {:.1f} MiB for {} replicates in progress\n",
              info["memory_bytes"].get<double>() / mib, info["memory_device"].get<std::string>(),
              info["replicates_at_once"].get<double>() * info["replicate_bytes"].get<double>() / mib,
              info["replicates_at_once"].get<std::size_t>());

@@ -11,7 +11,7 @@
 namespace sunfleck {
 namespace {
 
-// Decimal digits, or a number like 1e6 that is whole and held exactly by a double.
+// Parses decimal digits, or a number such as 1e6 that is whole and that a double holds exactly.
 std::optional<std::uint64_t> whole_number_of(const std::string& text) {
   const char* const end = text.data() + text.size();
   std::uint64_t whole = 0;
@@ -31,7 +31,8 @@ CLI::Validator relative_error() {
             double value = 0.0;
             const bool good = CLI::detail::lexical_cast(text, value) && value > 0.0 && value < 1.0;
             return good ? std::string()
-                        : fmt::format("{} (must be a number between 0 and 1, with a point: give 0.02 for 2 percent)", text);
+                        : fmt::format("{} (must be a number between 0 and 1, with a decimal point: give 0.02 for 2 percent)",
+                                      text);
           },
           "0..1"};
 }
@@ -82,7 +83,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   const std::string list = fmt::format("{}", fmt::join(words, ", "));
   return {[=](const std::string& text) {
             const bool known = std::find(words.begin(), words.end(), text) != words.end();
-            return known ? std::string() : fmt::format("{} (must be of: {})", text, list);
+            return known ? std::string() : fmt::format("{} (must be one of: {})", text, list);
           },
           ""};
 }

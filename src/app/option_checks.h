@@ -1,5 +1,5 @@
 #pragma once
-// What CLI11 checks a value with. A message reads `VALUE (why)`.
+// CLI11 validators for option values. Their messages read `VALUE (why)`.
 
 #include <CLI/CLI.hpp>
 
@@ -13,14 +13,14 @@ namespace sunfleck {
 [[nodiscard]] CLI::Validator positive();        // and finite
 [[nodiscard]] CLI::Validator not_empty();
 
-// To be used with transform(): it rewrites the number in digits, as CLI11 alone would wrap -1 round and read 010 as octal.
-// Takes 1e6 too.
+// Use with transform(): rewrites the number in decimal digits, because CLI11 alone would wrap -1 around and read 010 as octal.
+// Accepts 1e6 too.
 [[nodiscard]] CLI::Validator whole_number(std::uint64_t lo, std::uint64_t hi);
 
-// To be used with transform(), for the items of a list: takes the blanks around one away.
+// Use with transform() for the items of a list: trims the blanks around each item.
 [[nodiscard]] CLI::Validator without_blanks();
 
-// To be used with transform(): the kinds of devices in lower case; other words, which are names, stay.
+// Use with transform(): turns the device kinds into lower case and leaves any other word, a device name, as it is.
 [[nodiscard]] CLI::Validator device_kind();
 
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);

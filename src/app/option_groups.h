@@ -1,5 +1,5 @@
 #pragma once
-// The commands and their options as CLI11 is told of them; each fills the plain values of app/options.h.
+// Declares the commands and their options to CLI11; each function fills the plain structs of app/options.h.
 
 #include "app/options.h"
 
@@ -10,9 +10,9 @@
 
 namespace sunfleck {
 
-constexpr std::uint64_t most_plants = 10000;  // as in a scene file
+constexpr std::uint64_t most_plants = 10000;  // the same limit as in a scene file
 
-// What the command line has in words.
+// Options that are given as words and converted after parsing.
 struct OptionWords {
   std::optional<double> both_errors;
   std::string size = "1600x1200";

@@ -46,7 +46,7 @@ void read_pictures(const OptionWords& words, PictureOptions& options) {
   read_size(words.size, options);
   options.view = choice_of<ViewKind>(view_names(), words.view);
   if (options.repeat % 2 == 0) {
-    throw_input(fmt::format("--repeat {}", options.repeat), "must be odd: the plot stands in the middle of its copies",
+    throw_input(fmt::format("--repeat {}", options.repeat), "must be odd: the plot is in the middle of its copies",
                 fmt::format("give {}", options.repeat + 1));
   }
 }
@@ -60,10 +60,10 @@ void check_images(const RunOptions& options) {
   const bool none = std::find(options.images.begin(), options.images.end(), "none") != options.images.end();
   if (!none || (options.images.size() == 1 && !options.extra_picture)) return;
   throw_input(fmt::format("--images {}", fmt::join(options.images, ",")),
-              "none stands alone, without other pictures, --chart and --field", "leave none out, or the others");
+              "none cannot be combined with other pictures, --chart or --field", "remove either none or the others");
 }
 
-// CARIBU's users expect its table.
+// Adds the table that CARIBU's users expect.
 void add_caribu_table(RunOptions& options) {
   const std::string table = export_name(ExportKind::caribu);
   const bool given = std::find(options.exports.begin(), options.exports.end(), table) != options.exports.end();
@@ -120,22 +120,23 @@ void check_stand(const MaizeOptions& options) {
   const std::uint64_t plants = static_cast<std::uint64_t>(options.rows) * static_cast<std::uint64_t>(options.per_row);
   if (plants <= most_plants) return;
   throw_input(fmt::format("--rows {} --per-row {}", options.rows, options.per_row),
-              fmt::format("{} plants, at most {} are possible", plants, most_plants),
+              fmt::format("{} plants; at most {} are allowed", plants, most_plants),
               "give fewer; a periodic plot repeats them without end");
 }
 
-// CLI11's message in three parts. Its own checks say `OPTION: what is wrong`, ours `OPTION: VALUE (why)`.
+// Rethrows CLI11's message in three parts. Messages of its own checks read `OPTION: what is wrong`, those of ours `OPTION:
+// VALUE (why)`.
 [[noreturn]] void throw_usage(const CLI::ParseError& error, const CLI::App& app, int argc, const char* const* argv) {
   const std::string first = argc > 1 ? printable(argv[1]) : "";
   const auto chosen = app.get_subcommands();
   if (chosen.empty() && (first.empty() || first[0] != '-')) {
-    throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "no command of this program",
+    throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "unknown command",
                 "use run, day, render, view, validate, tradeoff, maize, convert or info; see sunfleck --help");
   }
   const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
   const std::vector<std::string> unknown = app.remaining(true);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !unknown.empty()) {
-    throw_input("command line: " + printable(unknown.front()), "not known here", cure);
+    throw_input("command line: " + printable(unknown.front()), "unknown option or argument", cure);
   }
   const std::string what = printable(error.what());
   const std::size_t colon = what.find(": ");

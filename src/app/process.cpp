@@ -20,7 +20,7 @@
 namespace sunfleck {
 namespace {
 
-// Without a buffer or an exception of its own: memory and standard error may both be gone.
+// Uses neither a buffer nor an exception, since memory and standard error may both be gone.
 int fail_with(const char* message, const char* after = "") {
   std::fputs("sunfleck: ", stderr);
   std::fputs(message, stderr);
@@ -31,21 +31,21 @@ int fail_with(const char* message, const char* after = "") {
 
 int output_lost(int code) {
   return fail_with(three_part_message("standard output: cannot be written", std::strerror(code),
-                                      "the result files are as far as they were; print to another place")
+                                      "the result files are not affected; send standard output elsewhere")
                        .c_str());
 }
 
 }  // namespace
 
 void prepare_process() {
-  // Large arrays go back to the system when they are freed. By default glibc keeps ever larger ones for later, which took a
+  // Returns large arrays to the system when they are freed. By default glibc keeps ever larger ones for later use, which took a
   // seventh more memory and four times as much system time on a stand of a million triangles.
   constexpr int large_bytes = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, large_bytes);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
-    // The wrong way round, so that use is an error, as it is with a closed stream.
+    // Opened in the wrong direction, so that use is an error, as with a closed stream.
     if (::fcntl(number, F_GETFD) < 0) static_cast<void>(::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY));
   }
 }
@@ -58,7 +58,7 @@ int finish_output(int status) {
 }
 
 int report_exception() {
-  // A launcher ends all at the first bad status: rank 0 has to be able to say why.
+  // A launcher ends all ranks at the first bad status, so rank 0 must be able to report the reason first.
   if (is_silent_rank()) return 0;
   try {
     throw;
@@ -66,14 +66,14 @@ int report_exception() {
     static_cast<void>(fail_with(error.what()));
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {
-    return fail_with("out of memory (the system gives no more); make the scene or the pictures smaller, or free some memory");
+    return fail_with("out of memory (allocation failed); make the scene or the pictures smaller, or free some memory");
   } catch (const std::length_error&) {
-    return fail_with("out of memory (more is needed than a process can have); make the scene or the pictures smaller");
+    return fail_with("out of memory (more than a process can address); make the scene or the pictures smaller");
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return error.code().value() == EPIPE ? 0 : output_lost(error.code().value());
-    return fail_with(error.what(), " (the system refused it); free memory or threads, or give fewer --threads");
+    return fail_with(error.what(), " (refused by the system); free memory or threads, or give fewer --threads");
   } catch (const std::exception& error) {
-    return fail_with(error.what(), "; this is a mistake of the program, please report it");
+    return fail_with(error.what(), "; this is a bug in the program, please report it");
   }
 }
 

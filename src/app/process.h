@@ -1,17 +1,19 @@
 #pragma once
-// The program as a process: what the system may do to it, and its last words.
+// Handles the program as a process: signals and limits of the system at the start, output and errors at the end.
 
 namespace sunfleck {
 
-// At the very start. A pipe whose reader has gone and a limit of file sizes become errors of the calls that meet them, not
-// the end of the program; no file is opened in the place of a standard stream that was closed.
-// Memory that is freed goes back to the system.
+// Call at the very start. Turns a pipe whose reader has gone and a file size limit into errors of the calls concerned, instead
+// of the end of the program; keeps files from being opened in place of a closed standard stream; makes freed memory return to
+// the system.
 void prepare_process();
 
-// At the very end: what was printed has to arrive, or the run failed. A reader that wanted no more is no failure.
+// Call at the very end. Flushes standard output; if that fails the run failed, unless the reader merely stopped reading.
+// Returns the exit status.
 [[nodiscard]] int finish_output(int status);
 
-// From a catch block: says in one line what is being thrown, unless rank 0 of an MPI job will say it. Returns the exit status.
+// Call from a catch block. Reports the current exception in one line, unless rank 0 of an MPI job reports it. Returns the exit
+// status.
 [[nodiscard]] int report_exception();
 
 }  // namespace sunfleck

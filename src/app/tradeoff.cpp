@@ -34,7 +34,7 @@ Scene read_lit_scene(const RunOptions& options) {
     return std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w_m2) { return w_m2 > 0.0; });
   });
   if (!model.has_beam() && !model.has_sky() && !lamps) {
-    throw_input(printable(options.scene.string()), "no light comes in: every run is exact",
+    throw_input(printable(options.scene.string()), "the scene has no light, so every run is exact",
                 "give a scene with a sun above the horizon, a sky or a lamp");
   }
   model.planes.clear();
@@ -42,7 +42,7 @@ Scene read_lit_scene(const RunOptions& options) {
   return scene;
 }
 
-// Tried before rays are traced, and rid of what an earlier measurement left.
+// Checks before any ray is traced that the results can be written, and removes those of an earlier measurement.
 void prepare(const fs::path& folder, FolderLock& lock, const TradeoffReport& report) {
   lock.make_folder();
   check_writable(folder / plot_file);
@@ -72,10 +72,10 @@ void say_what_lacks(const TradeoffOptions& options, const TradeoffReport& report
   if (!report.record.complete) {
     const std::string why =
         interrupted() ? "interrupted" : fmt::format("stopped after --max-seconds {}", *options.run.max_seconds);
-    warn(fmt::format("{} after {} settings; they are kept, marked incomplete", why, report.rungs.size()));
+    warn(fmt::format("{} after {} settings; they are kept and marked incomplete", why, report.rungs.size()));
   }
   if (!report.recommendation && report.record.complete)
-    warn(fmt::format("no bound is recommended: against this reference no error per {} can be told; give more --rays",
+    warn(fmt::format("no bound is recommended: this reference cannot resolve the error per {}; give more --rays",
                      options.quantity));
 }
 

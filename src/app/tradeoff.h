@@ -1,5 +1,5 @@
 #pragma once
-// sunfleck tradeoff.
+// The command `tradeoff`.
 
 #include "app/options.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// True errors: runs against a reference made of a few long ones.
+// True errors: compares runs with a reference that is the mean of a few long runs.
 
 #include "app/tradeoff_values.h"
 #include "transport/statistics.h"
@@ -12,19 +12,19 @@ namespace sunfleck {
 
 class TradeoffReference {
  public:
-  // All parts are alike but for their seeds.
+  // Adds one part of the reference. All parts differ only in their seeds.
   void add(const RunValues& part);
-  // With at least two parts. The parts' values, as run values without half-widths.
+  // Returns the mean of the parts as run values without half-widths. Needs at least two parts.
   [[nodiscard]] RunValues values() const;
   void judge_by(RunNorms norms) { norms_ = std::move(norms); }
 
   [[nodiscard]] std::size_t parts() const { return parts_; }
-  // Its own standard error, in the same norm as errors of runs. NaN where nothing is judged.
+  // Returns the reference's own standard error, in the same norm as the errors of runs. NaN if nothing is judged.
   [[nodiscard]] double own_error(Quantity quantity) const;
 
-  // A run's error, its half-widths being those of `replicates` replicates at that confidence: a value is covered if it and
-  // the reference differ by no more than the interval of their difference. Quantities with other numbers of values than the
-  // reference has (triangles of a coarser mesh) have no error.
+  // Returns the error of a run whose half-widths come from `replicates` replicates at that confidence. A value counts as
+  // covered if it differs from the reference by no more than the confidence interval of their difference. A quantity whose
+  // number of values differs from the reference's (triangles of a coarser mesh) has no error.
   [[nodiscard]] QuantityError error(Quantity quantity, const QuantityValues& run, double confidence,
                                     std::size_t replicates) const;
 
@@ -34,8 +34,9 @@ class TradeoffReference {
   RunNorms norms_;
 };
 
-// The root mean square of a setting's errors over its runs, without what the reference adds: their squares' mean less the
-// square of the reference's own. NaN where less than half of that mean would be left: the reference is not fine enough to tell.
+// Returns the root mean square of a setting's errors over its runs, corrected for the reference's own error: the mean of their
+// squares minus the square of the reference's error. NaN if less than half of the mean would be left, since the reference is
+// then not accurate enough.
 [[nodiscard]] double typical_error(const std::vector<double>& errors, double reference_error);
 
 }  // namespace sunfleck

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Bounds beyond the finest rung: the error falls at least so fast with the bound, and no faster, whatever few rungs say; the
-// time grows at most with its square, as packets do.
+// Limits beyond the finest setting: the error falls at least this fast with the bound and no faster, whatever a few settings
+// suggest; the time grows at most with the square of the bound's inverse, as packets do.
 constexpr double least_error_slope = 0.5, most_error_slope = 1.0;
 constexpr double most_time_slope = 2.0;
 
@@ -23,13 +23,13 @@ double rms(const TradeoffRung& rung, Quantity quantity) {
   return rung.runs.empty() ? none : std::sqrt(squares / static_cast<double>(rung.runs.size()));
 }
 
-// A rung of the ladder of bounds, as logarithms; the error is that of this or any finer rung, so that it never falls with a
-// wider bound.
+// One setting of the series of bounds, in logarithms. The error is the larger of this and any finer setting's, so that it never
+// falls as the bound widens.
 struct Step {
   double bound = 0.0, error = 0.0, seconds = 0.0;
 };
 
-// From the widest bound to the finest.
+// Returns the steps from the widest bound to the finest.
 std::vector<Step> bound_steps(const std::vector<TradeoffRung>& rungs, Quantity quantity) {
   std::vector<Step> steps;
   for (const TradeoffRung& rung : rungs) {
@@ -53,7 +53,8 @@ double largest_excess(const std::vector<TradeoffRung>& rungs, Quantity quantity)
   return largest;
 }
 
-// Between the steps on both sides of `at`; beyond the finest with the slope between the last two, kept between the limits.
+// Interpolates between the steps on both sides of `at`; beyond the finest it extrapolates with the slope between the last two,
+// clamped to the limits.
 double interpolated(const std::vector<Step>& steps, double Step::*from, double Step::*to, double at, double least_slope,
                     double most_slope) {
   if (steps.size() == 1) return steps[0].*to + most_slope * (at - steps[0].*from);
@@ -128,14 +129,14 @@ std::optional<Recommendation> recommend(const std::vector<TradeoffRung>& rungs, 
   const double wanted = std::log(asked_error / found.margin);
   double bound = steps.front().bound;
   if (steps.front().error > wanted) {
-    // What steps the error down by one takes 1 / slope of the bound.
+    // Lowering the error by one logarithmic unit lowers the bound by 1 / slope.
     bound = interpolated(steps, &Step::error, &Step::bound, wanted, 1.0 / most_error_slope, 1.0 / least_error_slope);
   }
   found.bound = two_digits_down(std::exp(bound));
   bound = std::log(found.bound);
   found.extrapolated = bound < steps.back().bound - 0.01;
   found.expected = std::exp(interpolated(steps, &Step::bound, &Step::error, bound, least_error_slope, most_error_slope));
-  // Seconds fall with a wider bound: their slope is negative.
+  // A wider bound takes less time, so the slope of the seconds is negative.
   found.seconds = std::exp(interpolated(steps, &Step::bound, &Step::seconds, bound, -most_time_slope, 0.0));
   return found;
 }

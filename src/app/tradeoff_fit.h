@@ -1,5 +1,5 @@
 #pragma once
-// What the measured settings say: how fast errors fall, and which bound gives an asked error.
+// Evaluates the measured settings: how fast errors fall, and which bound gives a required error.
 
 #include "io/tradeoff_table.h"
 
@@ -14,18 +14,19 @@ struct WorkAndError {
   double error = 0.0;
 };
 
-// Points that are not positive and finite are left out. None with fewer than two of different work.
+// Fits a power law. Points that are not positive and finite are left out. None if fewer than two points differ in work.
 [[nodiscard]] std::optional<PowerLaw> fit_power_law(std::span<const WorkAndError> points);
 
-// Slopes of the ladders of grids and packets; those that cannot be fitted are left out.
+// Returns the slopes of the series of grids and of packets; those that cannot be fitted are left out.
 [[nodiscard]] std::vector<TradeoffFit> fit_ladders(const std::vector<TradeoffRung>& rungs);
 
-// The widest bound, of two digits, with which runs meet the asked error, foreseen from the rungs of the ladder of bounds
-// (others are passed over, and those whose error the reference does not tell). A bound's error is interpolated between rungs,
-// in logarithms. It is to lie below the asked error by a margin: the most that any run measured exceeds its own rung's root
-// mean square. With n runs measured that is a tolerance limit free of any distribution (Wilks 1941, Annals of Mathematical
-// Statistics 12:91): nine of ten further runs meet it but for a chance of 0.9^n, 3 % for 32. A bound beyond the finest rung is
-// extrapolated, marked so. None without rungs.
+// Returns the widest bound, with two digits, at which runs are expected to meet the required error. The bound is predicted from
+// the series of bounds; other series are ignored, as are settings whose error the reference cannot resolve. The error at a
+// bound is interpolated between the measured settings, in logarithms, and has to lie below the required error by a margin: the
+// largest factor by which any measured run exceeds the root mean square of its own setting. With n measured runs that is a
+// distribution-free tolerance limit (Wilks 1941, Annals of Mathematical Statistics 12:91): nine of ten further runs meet it
+// except with probability 0.9^n, 3 % for 32. A bound beyond the finest setting is extrapolated and marked as such. None without
+// settings.
 [[nodiscard]] std::optional<Recommendation> recommend(const std::vector<TradeoffRung>& rungs, double asked_error,
                                                       Quantity quantity);
 

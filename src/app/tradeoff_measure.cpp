@@ -20,14 +20,15 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The bounds measured: from here on halved, at least so many, until one meets the asked error, but no more whose runs would
-// have more than this share of the reference's rays or packets. Half the bound takes four times the packets (they fall with the
-// root of their number) and, as their errors fall faster, fewer than four times the rays.
+// The bounds that are measured: starting here they are halved, at least `least_bounds` times, until one meets the required
+// error, but not where runs would need more than this share of the reference's rays or packets. Halving the bound takes four
+// times the packets (errors fall with the square root of their number) and, since their errors fall faster, fewer than four
+// times the rays.
 constexpr double widest_bound = 0.02;
 constexpr std::size_t least_bounds = 3, most_bounds = 10;
 constexpr double growth_per_bound = 4.0;
 constexpr double most_of_reference = 1.0;
-// Seeds of the reference's parts, apart from those of the runs.
+// Offset of the seeds of the reference's parts, which keeps them apart from those of the runs.
 constexpr std::uint64_t reference_seed = std::uint64_t{1} << 40U;
 
 enum class Light { direct, indirect, absorbed };
@@ -50,7 +51,7 @@ class Measurement {
     for (const double packets : plan_.packets) foreseen_ += options.seeds * 2.0 * tradeoff_replicates * packets;
   }
 
-  // False if it was stopped before all was measured.
+  // Returns false if stopped before all was measured.
   bool run() {
     if (!measure_references()) return false;
     for (std::size_t k = 0; k < plan_.grids_m.size(); ++k) {
@@ -86,7 +87,7 @@ class Measurement {
     [[nodiscard]] std::uint64_t rays() const { return result.direct.rays + result.indirect.sky_rays + result.indirect.packets; }
   };
 
-  // None if it was stopped.
+  // Returns none if stopped.
   std::optional<Simulated> simulate(Simulation& simulation, SolveSettings settings, std::uint64_t seed) {
     if (stop()) return {};
     settings.seed = seed;
@@ -152,7 +153,7 @@ class Measurement {
     }
   }
 
-  // All seeds of a setting; what they tell is in the report, and on the disk. False if it was stopped meanwhile.
+  // Runs a setting with all its seeds, and stores what it shows in the report and on disk. Returns false if stopped meanwhile.
   bool measure(TradeoffRung rung, Simulation& simulation, const SolveSettings& settings, int seeds) {
     const Light light = light_of(rung.ladder);
     const TradeoffReference& truth = reference(light);
@@ -212,14 +213,14 @@ class Measurement {
     return true;
   }
 
-  // The finest bound on a coarser mesh: what it is off by is the mesh.
+  // Measures the finest bound on a coarser mesh, so that its error is the error of the mesh.
   bool measure_mesh(double share) {
     if (stop()) return false;
     RadiationModel model = all_light_.model();
     model.canopy = coarsened(all_light_.model().canopy, share);
     const double kept = static_cast<double>(model.canopy.size()) /
                         static_cast<double>(std::max<std::size_t>(1, all_light_.model().canopy.size()));
-    say(fmt::format("mesh {:g}: {} triangles, {:.3g} of them kept", share, model.canopy.size(), kept));
+    say(fmt::format("mesh {:g}: {} triangles, {:.3g} of the original", share, model.canopy.size(), kept));
     Scene scene;
     scene.model = std::move(model);
     Simulation coarse(std::move(scene), options_.run);
@@ -237,7 +238,7 @@ class Measurement {
   const std::filesystem::path& table_;
   std::array<TradeoffReference, 3> references_;  // [light]
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double foreseen_ = 1.0;  // rays and packets, as far as can be told
+  double foreseen_ = 1.0;  // rays and packets, as far as can be predicted
   std::uint64_t rays_ = 0, last_direct_ = 0, last_indirect_ = 0;
   double finest_bound_ = widest_bound;
   ProgressLine progress_{"measuring"};

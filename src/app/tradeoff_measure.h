@@ -1,5 +1,5 @@
 #pragma once
-// Runs a scene with all the settings of a tradeoff, and with the reference they are compared with.
+// Runs a scene with all the settings of a trade-off, and with the reference they are compared with.
 
 #include "app/options.h"
 #include "io/tradeoff_table.h"
@@ -12,8 +12,9 @@ namespace sunfleck {
 
 [[nodiscard]] Quantity asked_quantity(const TradeoffOptions& options);
 
-// Adds the reference's figures and the rungs to the report, and writes the table after every rung. False if Ctrl-C or
-// --max-seconds ended it before all was measured; a rung that was begun stays with the runs that are whole.
+// Adds the figures of the reference and the measured settings to the report, and writes the table after every setting. Returns
+// false if Ctrl-C or --max-seconds ended the work before all was measured; an unfinished setting stays in the report with its
+// complete runs.
 [[nodiscard]] bool measure_tradeoff(const TradeoffOptions& options, const SolveSettings& settings, Simulation& simulation,
                                     const std::filesystem::path& table, TradeoffReport& report);
 

@@ -11,12 +11,12 @@ namespace {
 
 constexpr int grid_rungs = 6;  // three decades of rays
 constexpr int packet_rungs = 5;
-constexpr double least_packets = 256;    // no round has fewer: below that the work hardly falls
-constexpr double rays_per_packet = 8.0;  // of the finest rungs: packets cost more and gain as much
+constexpr double least_packets = 256;    // no round has fewer, since below this the work hardly falls
+constexpr double rays_per_packet = 8.0;  // at the finest settings: a packet costs more and contributes as much
 constexpr double rung_refinement = 4.0;
-constexpr double reference_rays = 4.0, reference_packets = 16.0;  // times those of the finest rung
+constexpr double reference_rays = 4.0, reference_packets = 16.0;  // relative to those of the finest setting
 
-// The nearest number that stays short when it is doubled.
+// Returns the nearest number that stays short when doubled.
 double round_number(double value) {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
   double nearest = decade;

@@ -1,5 +1,5 @@
 #pragma once
-// The settings that `tradeoff` measures on a scene.
+// Plans the settings that `tradeoff` measures on a scene.
 
 #include "transport/model.h"
 #include "transport/solve.h"
@@ -9,28 +9,30 @@
 
 namespace sunfleck {
 
-// Replicates of every run with fixed work, and parts of the reference, each a run with such replicates.
+// Number of replicates of every run with fixed work, and number of parts of the reference, each a run with that many
+// replicates.
 inline constexpr int tradeoff_replicates = 8;
 inline constexpr int reference_parts = 4;
 
 struct TradeoffPlan {
-  std::vector<double> grids_m;    // spacings, the widest first; empty without a beam
-  std::vector<double> packets;    // of the first round of a replicate, the fewest first; empty where no light is scattered
+  std::vector<double> grids_m;  // spacings, the widest first; empty without a beam
+  // Packets in the first round of a replicate, the fewest first; empty where no light is scattered.
+  std::vector<double> packets;
   double reference_grid_m = 0.0;  // of each part
   double reference_packets = 0.0;
 };
 
-// Six grids, each with four times the rays of the one before: the finest has about `finest_rays` and a round spacing.
-// `own_grid_m` is one more, where it is none of them. Five packet numbers, each four times the one before: the last an
-// eighth of the rays, none below what any round has. The reference has 4 times the rays of the finest grid and 16 times the
-// most packets.
+// Plans six grids, each with four times the rays of the one before: the finest has about `finest_rays` rays and a round
+// spacing. `own_grid_m` is added unless it is among them. The packet numbers are five, each four times the one before: the last
+// is an eighth of the rays, and none is below the minimum of a round. The reference has 4 times the rays of the finest grid and
+// 16 times the largest number of packets.
 [[nodiscard]] TradeoffPlan plan_tradeoff(const RadiationModel& model, double finest_rays, std::optional<double> own_grid_m);
 
-// How many times the seeds asked for a rung of grids or packets has that is so many before the last: what is cheap is
-// repeated more often, four times at most, as slopes hang on all rungs alike.
+// Returns the factor on the number of seeds (1, 2, then 4) for the grid or packet setting `before_last` places before the
+// finest: cheap settings are repeated more often, because all settings weigh equally in the fitted slope.
 [[nodiscard]] int seeds_factor(std::size_t before_last);
 
-// The work of a ladder's rung and of a part of the reference.
+// Return the settings of a run of a series, and of one part of the reference.
 [[nodiscard]] SolveSettings grid_settings(SolveSettings settings, double grid_m);
 [[nodiscard]] SolveSettings packet_settings(SolveSettings settings, const RadiationModel& model, double packets);
 [[nodiscard]] SolveSettings reference_settings(SolveSettings settings, const TradeoffPlan& plan);

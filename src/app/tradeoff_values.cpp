@@ -8,7 +8,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// As the bounds of a run are judged (Tally).
+// The same limits by which a run's bounds are judged (Tally).
 constexpr double least_judged_share = 0.01;
 constexpr double least_judged_organ = 0.1;
 
@@ -22,7 +22,7 @@ void add(QuantityValues& values, const Estimate& estimate) {
   values.half_width.push_back(estimate.half_width);
 }
 
-// W m-2 of ground that vegetation and soil absorb where the beam first lands.
+// Flux that vegetation and soil absorb where the beam first lands, W per m2 of ground.
 struct DirectAbsorbed {
   double vegetation = 0.0, soil = 0.0;
 };

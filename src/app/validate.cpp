@@ -23,7 +23,7 @@
 namespace sunfleck {
 namespace {
 
-// A tracer that brings its tree along.
+// A tracer that owns its tree on the device.
 class DeviceTracer final : public Tracer {
  public:
   DeviceTracer(const GpuContext& context, const Bvh& bvh, CpuTracer::Scene scene, std::size_t counter_words)
@@ -63,7 +63,7 @@ void write_tables(const std::filesystem::path& folder, const ValidationRecord& r
   write_file(folder / "validate.json", validation_json(record, answers));
 }
 
-// What goes to standard output while the table grows.
+// Prints the table on standard output while it grows.
 class TablePrinter {
  public:
   explicit TablePrinter(const ValidateOptions& options) : all_(!options.quiet && !options.json), failures_(!options.json) {
@@ -89,7 +89,7 @@ void check_layer(const GpuContext* context) {
   if (context == nullptr || context->validation_messages().empty()) return;
   throw_failure(context->validation_messages().front(),
                 fmt::format("{} messages of the Vulkan validation layer", context->validation_messages().size()),
-                "report it with the device");
+                "report this message and the device");
 }
 
 }  // namespace
@@ -108,7 +108,8 @@ int validate(const ValidateOptions& options) {
   lock.make_folder();
   ValidationRecord record{version(), commit(), device_of(context.get()), false};
   watch_for_interrupts();
-  write_tables(folder, record, {});  // tried before the work
+  // Written once before the work, so that an unwritable folder is noticed at once.
+  write_tables(folder, record, {});
   say(device_line(record.device));
 
   CaseBench bench(tracer_maker(context.get()), interrupted, context == nullptr);

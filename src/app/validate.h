@@ -1,5 +1,5 @@
 #pragma once
-// sunfleck validate.
+// The command `validate`.
 
 #include "app/options.h"
 

@@ -26,7 +26,7 @@ Cells cells_of(const JudgedAnswer& judged) {
   return cells;
 }
 
-// What a reader needs to know of a failed case beside its numbers.
+// Returns what a reader needs to know about a failed case besides its numbers.
 std::string remark(const JudgedAnswer& judged) {
   const KnownAnswer& answer = judged.answer;
   if (judged.passed) return {};

@@ -9,7 +9,7 @@
 
 namespace sunfleck {
 
-// How the table came about.
+// Where and how the table was made.
 struct ValidationRecord {
   std::string version;
   std::string commit;
@@ -18,14 +18,14 @@ struct ValidationRecord {
   double seconds = 0.0;
 };
 
-// A line of the table for people, the one above all others, and the one below: how many passed and failed.
+// Return the table for people: one line of it, its heading, and its last line with the numbers of passed and failed cases.
 [[nodiscard]] std::string answer_line(const JudgedAnswer& judged);
 [[nodiscard]] std::string answer_heading();
 [[nodiscard]] std::string answer_summary(const ValidationRecord& record, std::span<const JudgedAnswer> answers);
 
 [[nodiscard]] std::size_t count_failed(std::span<const JudgedAnswer> answers);
 
-// validate.md and validate.json; of a case that ended by an error the numbers are left out, or null.
+// Return the contents of validate.md and validate.json. For a case that ended with an error the numbers are left out, or null.
 [[nodiscard]] std::string validation_markdown(const ValidationRecord& record, std::span<const JudgedAnswer> answers);
 [[nodiscard]] std::string validation_json(const ValidationRecord& record, std::span<const JudgedAnswer> answers);
 

@@ -14,7 +14,7 @@ namespace sunfleck {
 
 namespace {
 
-// The format of every uniform_texel buffer: bits come through unchanged. On lavapipe (Mesa 22.3.6) random fetches of it take as
+// The format of every uniform_texel buffer, which passes bits unchanged. On lavapipe (Mesa 22.3.6) random fetches of it take as
 // long as those of R32G32B32A32_SFLOAT (within 4 %) and 0.4 times as long as those from a storage buffer.
 constexpr vk::Format texel_format = vk::Format::eR32G32B32A32Uint;
 constexpr std::size_t texel_bytes = 16;

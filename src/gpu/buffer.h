@@ -12,7 +12,7 @@ namespace sunfleck {
 
 enum class BufferUse {
   storage,        // read and written by shaders
-  uniform_texel,  // read-only, fetched as four 32-bit unsigned words a texel (usamplerBuffer)
+  uniform_texel,  // read-only, fetched as four 32-bit unsigned words per texel (usamplerBuffer)
 };
 
 // A device-local buffer with its memory.
@@ -24,14 +24,14 @@ struct GpuBuffer {
 
   BufferUse use = BufferUse::storage;
   std::size_t bytes = 0;
-  std::unique_ptr<Handles, Destroy> handles;  // none: there is no such buffer yet
+  std::unique_ptr<Handles, Destroy> handles;  // null: the buffer does not exist yet
 };
 
-// `bytes` may be 0: the buffer then has room for one texel, so that it can be bound. Throws Error (failure) naming `what` when
-// memory runs out, Error (device) when it is above the device's limit for this use. The contents are undefined.
+// Creates a buffer with undefined contents. `bytes` may be 0: the buffer then has room for one texel, so that it can be bound.
+// Throws Error (failure) naming `what` if memory runs out, Error (device) if the size exceeds the device's limit for this use.
 [[nodiscard]] GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what);
 
-// Copies through the staging memory, in pieces; one fence a piece. offset + size <= bytes.
+// Copy data through the staging memory, in pieces with one fence each. offset + size <= bytes.
 void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset = 0);
 void download(const GpuContext& context, const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset = 0);
 

@@ -25,7 +25,7 @@ void ComputePipeline::Destroy::operator()(Handles* handles) const noexcept {
 
 ComputePipeline::ComputePipeline(const GpuContext& context, const ShaderCode& code, const Specialisation& constants)
     : context_(context), code_(code), handles_(new Handles) {
-  // What any device guarantees (Vulkan specification, table "Required Limits").
+  // Every device guarantees these limits (Vulkan specification, table "Required Limits").
   EXPECT(code.push_bytes, <=, 128u);
   EXPECT(code.push_bytes % 4, ==, 0u);
   EXPECT(code.group_size, >=, 1u);
@@ -69,8 +69,8 @@ void ComputePipeline::create_pipeline(const Specialisation& constants) {
   handles_->pipeline = device.createComputePipeline(nullptr, {{}, stage, *handles_->layout});
 }
 
-// Done for every run: a handle alone does not tell whether a buffer is still the one that was bound, since a new buffer may
-// get the handle of one destroyed.
+// Binds the buffers for every run. A handle alone does not tell whether a buffer is still the one that was bound, since a new
+// buffer may get the handle of a destroyed one.
 void ComputePipeline::bind(std::span<const GpuBuffer* const> buffers) {
   EXPECT(buffers.size(), ==, code_.bindings.size());
   std::vector<vk::DescriptorBufferInfo> infos(buffers.size());

@@ -35,8 +35,8 @@ std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& phys
   return std::nullopt;
 }
 
-// Empty, or what the device lacks. The figures beside the feature and the version are guaranteed by Vulkan 1.0 (table "Required
-// Limits" of the specification), and the buffers and shaders of this program rely on them.
+// Returns what the device lacks; empty if nothing. Vulkan 1.0 guarantees the limits checked besides the feature and the version
+// (table "Required Limits" of the specification), and the buffers and shaders of this program rely on them.
 std::string find_lack(const vk::raii::PhysicalDevice& physical) {
   const auto properties = physical.getProperties();
   if (properties.apiVersion < api_version) {
@@ -79,7 +79,7 @@ FoundDevice describe(const vk::raii::PhysicalDevice& physical) {
   return found;
 }
 
-// In the loader's order; empty if its drivers find nothing.
+// Returns the devices in the loader's order; empty if its drivers find none.
 std::vector<vk::raii::PhysicalDevice> enumerate(const vk::raii::Instance& instance) {
   try {
     return vk::raii::PhysicalDevices(instance);
@@ -127,7 +127,7 @@ std::string wish_text(const DeviceWish& wish) {
   return fmt::format("Vulkan device \"{}\"", wish.name);
 }
 
-// Smaller is better: usable, then by kind.
+// Returns the rank of a device, smaller is better: usable devices first, then by kind.
 int preference(const FoundDevice& found) {
   const int unusable = found.description.unusable.empty() ? 0 : 10;
   switch (found.type) {
@@ -145,7 +145,7 @@ int preference(const FoundDevice& found) {
   return unusable + 4;
 }
 
-// The number of the best device that fits the wish.
+// Returns the index of the best device that fits the wish.
 std::size_t choose(const DeviceWish& wish, const std::vector<FoundDevice>& all) {
   std::vector<std::optional<int>> preferences(all.size());
   std::string names;
@@ -187,7 +187,7 @@ void create_device(GpuContext::Handles& handles) {
   const std::uint32_t family = compute_family(handles.physical).value();
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
-  // A device that is Vulkan only through a translation must be told that this is known.
+  // A device that only translates Vulkan to another API requires this extension to be enabled.
   constexpr const char* portability_subset = "VK_KHR_portability_subset";
   std::vector<const char*> extensions;
   if (has_extension(handles.physical.enumerateDeviceExtensionProperties(), portability_subset))

@@ -1,6 +1,6 @@
 #pragma once
-// Vulkan instance, device and queue; compute only. Not one word about what is computed, and none of Vulkan itself: that
-// stands in gpu/handles.h, for it takes a compiler seconds to read.
+// Vulkan instance, device and queue, for compute only. Knows nothing about what is computed. Vulkan's own types are kept in
+// gpu/handles.h, because its headers take a compiler seconds to read.
 
 #include <cstdint>
 #include <memory>
@@ -11,25 +11,26 @@
 
 namespace sunfleck {
 
-// A Vulkan device as the loader lists it.
+// A Vulkan device as listed by the loader.
 struct DeviceDescription {
   std::string name;
   std::string driver;     // name and version
   bool software = false;  // runs on the CPU (lavapipe)
-  std::string unusable;   // empty, or one line that names what it lacks
+  std::string unusable;   // empty, or one line that names what the device lacks
 };
 
-// Thorough adds synchronisation validation and checks inside the shaders (reads and writes out of bounds); far slower.
+// Thorough validation adds synchronisation validation and checks of out-of-bounds access inside the shaders; far slower.
 enum class Validation { off, on, thorough };
 
-// Which device to take: any real GPU before software; or by number in list_devices() or a part of its name in any case
-// ("lavapipe" is understood too: Mesa calls that device llvmpipe). Of several that fit, usable ones come first, then discrete
-// before integrated before virtual ones.
+// Which device to use: any, with real GPUs before software; or one given by its index in list_devices() or by part of its name,
+// ignoring case ("lavapipe" is also understood: Mesa calls that device llvmpipe). Among several that fit, usable devices come
+// first, then discrete before integrated before virtual ones.
 struct DeviceWish {
   enum class Kind { any, hardware, software, index, name } kind = Kind::any;
   int index = 0;
   std::string name;
-  int turn = 0;  // of several that are as good as each other the one that is so many places behind the first, counted round
+  // Among equally good devices, selects the one this many places after the first, cyclically.
+  int turn = 0;
 };
 
 struct DeviceLimits {
@@ -40,26 +41,25 @@ struct DeviceLimits {
   std::uint64_t heap_bytes = 0;               // largest device-local heap
 };
 
-// Threads of software Vulkan; must come before the first context or list of devices. 0: as many as there are cores.
+// Sets the number of threads of software Vulkan; must precede the first context or list of devices. 0: all cores.
 void set_software_threads(int threads);
 
-// The place of the smallest of the values that are there; of several equal ones the one whose turn it is. None if none is
-// there.
+// Returns the index of the smallest value present; among several equal ones the one at position `turn`, cyclically. None if no
+// value is present.
 [[nodiscard]] std::optional<std::size_t> smallest_in_turn(std::span<const std::optional<int>> values, int turn);
 
-// All devices of this machine; empty where there is no Vulkan at all. Never throws for lack of a driver.
+// Returns all devices of this machine; empty if there is no Vulkan at all. Never throws because a driver is missing.
 [[nodiscard]] std::vector<DeviceDescription> list_devices();
 
-// Is the Khronos validation layer installed?
+// Returns true if the Khronos validation layer is installed.
 [[nodiscard]] bool validation_installed();
 
-// Owns instance, device, one compute queue, one command buffer and the staging memory. Used by one thread at a time.
+// Owns instance, device, one compute queue, one command buffer and the staging memory. Only one thread may use it at a time.
 class GpuContext {
  public:
-  // Throws Error (device) if no device fits the wish, or the one that fits lacks what is needed; the line names the limit.
-  // Throws Error (failure) if memory runs out or the device is lost meanwhile.
-  // Unless validation is off every warning or error of the validation layer is kept in validation_messages(); if the layer is
-  // not installed that is an Error (device) too.
+  // Throws Error (device) if no device fits the wish, or if the one that fits lacks a requirement; the message names the limit.
+  // Throws Error (failure) if memory runs out or the device is lost meanwhile. Unless validation is off, every warning or error
+  // of the validation layer is kept in validation_messages(); if the layer is not installed, that is an Error (device) too.
   GpuContext(const DeviceWish& wish, Validation validation);
   ~GpuContext();
   GpuContext(const GpuContext&) = delete;
@@ -69,7 +69,7 @@ class GpuContext {
   [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const { return messages_; }
 
-  // What Vulkan knows it by (gpu/handles.h).
+  // Vulkan's handles (gpu/handles.h).
   struct Handles;
   [[nodiscard]] const Handles& handles() const { return *handles_; }
 

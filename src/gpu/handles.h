@@ -1,5 +1,5 @@
 #pragma once
-// Contexts, buffers and pipelines as Vulkan knows them. For the sources of gpu alone.
+// Vulkan's handles behind contexts, buffers and pipelines. Only for the sources of gpu.
 
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
@@ -11,7 +11,7 @@
 
 namespace sunfleck {
 
-// Host-visible, coherent memory, mapped for good, through which all data travel to and from the device.
+// Host-visible, coherent, permanently mapped memory through which all data travel to and from the device.
 struct Staging {
   static constexpr std::size_t bytes = std::size_t{16} << 20;
   vk::raii::DeviceMemory memory{nullptr};
@@ -19,7 +19,7 @@ struct Staging {
   std::byte* data = nullptr;
 };
 
-// Members end in the reverse of this order.
+// Members are destroyed in the reverse of this order.
 struct GpuContext::Handles {
   vk::raii::Context loader;
   vk::raii::Instance instance{nullptr};
@@ -47,20 +47,21 @@ struct ComputePipeline::Handles {
   vk::raii::DescriptorSet set{nullptr};
 };
 
-// Memory of a type that has all `required` properties, and the `preferred` ones too if there is such a type. Vulkan-Hpp's
-// exceptions pass through.
+// Allocates memory of a type that has all `required` properties, and the `preferred` ones too if such a type exists. Lets
+// Vulkan-Hpp's exceptions pass through.
 [[nodiscard]] vk::raii::DeviceMemory allocate(const GpuContext::Handles& context, const vk::MemoryRequirements& needs,
                                               vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred);
 
-// The one command buffer, emptied and begun. What earlier submissions wrote is visible to the transfers and compute
-// shaders recorded here; barriers between commands of the same recording are the caller's. Throws Error (failure).
+// Returns the single command buffer, reset and begun. Writes of earlier submissions are visible to the transfers and compute
+// shaders recorded here; barriers between commands of the same recording are the caller's responsibility. Throws Error
+// (failure).
 [[nodiscard]] const vk::raii::CommandBuffer& begin_commands(const GpuContext& context);
-// Ends that command buffer, submits it and waits; then its writes are visible to the host. Throws Error (failure) if the
+// Ends that command buffer, submits it and waits; afterwards its writes are visible to the host. Throws Error (failure) if the
 // device is lost.
 void submit_and_wait(const GpuContext& context);
 
-// Every Vulkan call that fails after a device was chosen ends here: Error (failure) saying `what` was being done, on which
-// device, and why.
+// Reports every Vulkan call that fails after a device was chosen. Throws Error (failure) that names the operation `what`, the
+// device and the reason.
 [[noreturn]] void throw_call_failed(const GpuContext& context, const std::string& what, const vk::SystemError& error);
 
 }  // namespace sunfleck

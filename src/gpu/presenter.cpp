@@ -16,7 +16,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t patience_ns = 200'000'000;  // for an image of a window that may be hidden
+constexpr std::uint64_t patience_ns = 200'000'000;  // wait for an image; a hidden window may not deliver one
 constexpr const char* no_window_cure = "use `sunfleck render` for a picture, or `sunfleck run` for results and pictures";
 
 constexpr std::array wanted_formats{vk::Format::eB8G8R8A8Unorm, vk::Format::eR8G8B8A8Unorm};
@@ -48,7 +48,7 @@ bool can_draw(const vk::raii::PhysicalDevice& physical, const vk::raii::SurfaceK
          (physical.getSurfaceCapabilitiesKHR(*surface).supportedUsageFlags & vk::ImageUsageFlagBits::eTransferDst);
 }
 
-// Smaller is better.
+// Returns the rank of a device, smaller is better.
 int rank(const vk::PhysicalDeviceProperties& properties, const std::string& preferred) {
   if (!preferred.empty() && preferred == properties.deviceName.data()) return 0;
   switch (properties.deviceType) {
@@ -210,7 +210,7 @@ void Presenter::take_pixels(const WindowPicture& picture) {
   });
 }
 
-// What of the picture lies within the window.
+// Copies the part of the picture that lies within the window.
 void Presenter::copy_pixels(const Target& target) const {
   const glm::ivec2 at = pixels_.at;
   const int width = std::min(pixels_.width, size_px_.x - at.x);
@@ -248,7 +248,7 @@ void Presenter::wait_for_last_frame() {
   in_flight_ = false;
 }
 
-// False if the swapchain no longer fits the window.
+// Presents the image. Returns false if the swapchain no longer fits the window.
 bool Presenter::present(std::uint32_t image) {
   try {
     const vk::SwapchainKHR swapchain = *swapchain_;

@@ -1,6 +1,5 @@
 #pragma once
-// A device that draws into a window: on each image of the swapchain a picture, copied pixel by pixel, and what others record
-// over it.
+// Draws into a window: copies a picture pixel by pixel to each image of the swapchain and lets callers record commands over it.
 
 #include "gpu/context.h"
 #include "gpu/window.h"
@@ -16,13 +15,14 @@ namespace sunfleck {
 
 class Presenter {
  public:
-  // The instance must outlive it. `device`: name of the one preferred. Throws Error (device) if none can draw into the surface.
+  // The instance must outlive the object. `device` names the preferred device. Throws Error (device) if no device can draw into
+  // the surface.
   Presenter(const vk::raii::Instance& instance, vk::raii::SurfaceKHR surface, const std::string& device);
   ~Presenter();
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
-  // What draws over the picture is made for these.
+  // Handles that the code drawing over the picture needs.
   struct Handles {
     VkPhysicalDevice physical;
     VkDevice device;
@@ -35,7 +35,7 @@ class Presenter {
   [[nodiscard]] Handles handles() const;
   [[nodiscard]] const DeviceDescription& description() const { return description_; }
 
-  // Draws one frame in a window of that size, or none where the window is just changing its size. `overlay` records into a
+  // Draws one frame in a window of that size; does nothing while the window is changing its size. `overlay` records into a
   // command buffer within the render pass.
   void draw(glm::ivec2 size_px, const WindowPicture& picture, bool changed, std::uint32_t background,
             const std::function<void(VkCommandBuffer)>& overlay);
@@ -52,12 +52,12 @@ class Presenter {
     vk::raii::Framebuffer framebuffer{nullptr};
     vk::raii::Semaphore drawn{nullptr};
   };
-  // Pixels on their way to the device.
+  // Pixels waiting to be copied to the device.
   struct Pixels {
     vk::raii::DeviceMemory memory{nullptr};
     vk::raii::Buffer buffer{nullptr};
     std::uint32_t* data = nullptr;
-    std::size_t room = 0;  // pixels
+    std::size_t room = 0;  // capacity in pixels
     int width = 0, height = 0;
     glm::ivec2 at{0};
   };

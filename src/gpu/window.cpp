@@ -28,7 +28,7 @@ std::string glfw_reason() {
   return reason != nullptr ? reason : "no reason given";
 }
 
-// GLFW, from its start to its end.
+// Initialises GLFW and terminates it at the end.
 class Library {
  public:
   Library() {
@@ -54,7 +54,7 @@ void throw_vulkan_failed(const vk::SystemError& error) {
 
 }  // namespace
 
-// Members end in the reverse of this order.
+// Members are destroyed in the reverse of this order.
 class Window::Screen {
  public:
   explicit Screen(const WindowSettings& settings) : loader_(open_loader()) {
@@ -124,7 +124,7 @@ class Window::Screen {
     static constexpr ImWchar glyphs[] = {0x20, 0xff, 0x2010, 0x2026, 0x2070, 0x209f, 0x2190, 0x2193, 0x2260, 0x2265, 0};
     ImFontConfig font;
     font.FontDataOwnedByAtlas = false;
-    // ImGui does not write to the font, though it takes a pointer that would let it.
+    // ImGui does not write to the font, although it takes a pointer to non-const data.
     void* const bytes = const_cast<unsigned char*>(settings.font.data());
     io.Fonts->AddFontFromMemoryTTF(bytes, static_cast<int>(settings.font.size()), font_px * scale_, &font, glyphs);
     ImGui_ImplGlfw_InitForVulkan(window_, true);

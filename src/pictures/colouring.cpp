@@ -33,7 +33,7 @@ Colouring mapped(const FieldValues& values, const MapScale& scale) {
   return colouring;
 }
 
-// Up to `count` numbers 1, 2 or 5 times a power of ten, the largest first, none above `top`.
+// Returns up to `count` numbers of the form 1, 2 or 5 times a power of ten, the largest first, none above `top`.
 std::vector<double> round_levels(double top, int count) {
   std::vector<double> levels;
   if (!(top > 0.0)) return levels;
@@ -48,10 +48,10 @@ std::vector<double> round_levels(double top, int count) {
   return levels;
 }
 
-// The legend shows the commonest surface under some round irradiances, and without light.
+// The legend shows the surface with the largest area at some round irradiances, and without light.
 Colouring hue_mapped(const FieldValues& values, const SurfaceColours& surfaces) {
   constexpr int swatches = 6;
-  constexpr double brightest_swatch = 1.25;  // of what nearly all surfaces stay below
+  constexpr double brightest_swatch = 1.25;  // relative to the value that nearly all surfaces stay below
   const ToneMap tones = make_tone_map(values.w_m2, values.area_m2, surfaces.reflectance);
   Colouring colouring;
   colouring.colours.reserve(values.w_m2.size());

@@ -1,5 +1,5 @@
 #pragma once
-// A field's numbers as the colours and the legend of a chart.
+// Turns the numbers of a field into the colours and the legend of a chart.
 
 #include "pictures/fields.h"
 #include "pictures/picture.h"
@@ -21,15 +21,16 @@ struct Colouring {
   std::string note;  // for the footer; may be empty
 };
 
-// What hue mapping needs to know of the surfaces.
+// Properties of the surfaces that hue mapping needs.
 struct SurfaceColours {
   std::vector<Colour> reflectance;  // [surface number]
-  std::string name;                 // of the commonest surface by area, and its colour: the legend's swatches show it
+  // Name and colour of the surface with the largest area, which the legend's swatches show.
+  std::string name;
   Colour typical{};
 };
 [[nodiscard]] SurfaceColours surface_colours(const RadiationModel& model, const CounterLayout& layout);
 
-// `title` is the field's, with its unit; `top_w_m2` as in PictureOptions.
+// Returns the colours and the legend of a field. `title` is the field's, with its unit; `top_w_m2` is as in PictureOptions.
 [[nodiscard]] Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces,
                                      const std::string& title, std::optional<double> top_w_m2 = {});
 

@@ -23,7 +23,7 @@ double irradiance(LightField field, double direct_w_m2, double sky_w_m2, double 
     case LightField::indirect:
       return indirect_w_m2;
     case LightField::scattered:
-      return std::max(0.0, indirect_w_m2 - sky_w_m2);  // the sky's part is never larger but by rounding
+      return std::max(0.0, indirect_w_m2 - sky_w_m2);  // the sky's part is larger only by rounding
     case LightField::total:
     case LightField::absorbed:
       return direct_w_m2 + indirect_w_m2;

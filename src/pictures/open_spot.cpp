@@ -9,7 +9,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr int spots_a_side = 17;  // odd: the middle is one of them
+constexpr int spots_a_side = 17;  // odd, so that the middle is one of them
 constexpr float clear_m = 0.1F;
 
 bool is_open(const Canopy& canopy, const glm::vec3& spot_m) {

@@ -1,5 +1,5 @@
 #pragma once
-// Where a camera can stand in a canopy.
+// Finds room for a camera in a canopy.
 
 #include "transport/model.h"
 
@@ -7,8 +7,8 @@
 
 namespace sunfleck {
 
-// The place over the plot, at that height, that is nearest to the plot's middle and 10 cm clear of every element's corners and
-// centroid; where there is none, the middle. Scene's axes.
+// Returns the point over the plot at that height that is nearest to the middle of the plot and at least 10 cm away from every
+// element's corners and centroid; the middle if there is none. In the scene's axes.
 [[nodiscard]] glm::dvec3 open_spot(const RadiationModel& model, double height_m);
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// What pictures are asked for, and how they are looked at.
+// The pictures that can be requested, and from where they are seen.
 
 #include <optional>
 #include <string>
@@ -7,13 +7,14 @@
 
 namespace sunfleck {
 
-// Irradiance by the beam's first landings, by the sky unscattered, by all but the beam, by everything; what is absorbed; or
-// irradiance by all but beam and unscattered sky, which is scattered light and that of lamps.
+// The light to show. direct: irradiance by the beam's first landings. sky: by unscattered sky light. indirect: by everything
+// except the beam. total: by all light. absorbed: absorbed flux instead of irradiance. scattered: irradiance by everything
+// except the beam and unscattered sky light, that is by scattered light and the light of lamps.
 enum class LightField { direct, sky, indirect, total, absorbed, scattered };
 
 enum class ChartKind { rank, rank_interval, hue, map };
 
-// The scene's camera, or from above, from the south, or upwards from the middle of the plot's ground.
+// The scene's camera, a view from above, from the south, or upwards from the middle of the plot's ground.
 enum class ViewKind { camera, top, side, fisheye };
 
 struct Picture {
@@ -27,20 +28,23 @@ struct PictureOptions {
   std::string band;  // empty: the scene's first
   ViewKind view = ViewKind::camera;
   int width = 1600, height = 1200;
-  int samples = 4;                 // a pixel
-  int repeat = 1;                  // of a periodic plot: odd, so many plots along X and along Z, itself in the middle
-  std::optional<double> top_w_m2;  // where the scales of rank_interval and map end; none: as the values suggest
+  int samples = 4;  // per pixel
+  // Plots shown along X and along Z if the plot is periodic; odd, with the plot itself in the middle.
+  int repeat = 1;
+  // Upper end of the scales of rank_interval and map; none: chosen from the values.
+  std::optional<double> top_w_m2;
 };
 
-// As on the command line, in the order of the enumerations.
+// Return the names used on the command line, in the order of the enumerations.
 [[nodiscard]] std::vector<std::string> field_names();
 [[nodiscard]] std::vector<std::string> chart_names();
 [[nodiscard]] std::vector<std::string> view_names();
 
-// Stem of its file: chart_field, "rank_direct".
+// Returns the stem of the picture's file: chart_field, e.g. "rank_direct".
 [[nodiscard]] std::string stem_of(const Picture& picture);
 
-// Every picture there is, by stem; and those that `all` stands for: rank and hue of direct, indirect and total.
+// Return every possible picture, ordered by stem, and the pictures `all` stands for: rank and hue of direct, indirect and
+// total.
 [[nodiscard]] std::vector<Picture> all_pictures();
 [[nodiscard]] std::vector<Picture> usual_pictures();
 

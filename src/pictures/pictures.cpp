@@ -20,7 +20,7 @@
 namespace sunfleck {
 namespace {
 
-// Where a canopy photograph is taken from: between the plants, above the clods of the soil.
+// Height from which a canopy photograph is taken: between the plants, above the clods of the soil.
 constexpr double fisheye_height_m = 0.1;
 
 std::string subtitle_line(const RadiationModel& model, const RadiationResult& result) {
@@ -47,13 +47,13 @@ std::string footer_line(LightField field, const RadiationResult& result, const s
   return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
 }
 
-// One look at a scene: a picture's rows, band by band.
+// One look at a scene, passed on in bands of rows.
 class Look {
  public:
   Look(const Drawing& drawing, const PictureOptions& options, const Camera& camera)
       : options_(options), viewer_(drawing.engine.viewer(picture_look(drawing.scene.model, drawing.layout, options, camera))) {}
 
-  // Hands over every band of rows, top to bottom; false if stopped.
+  // Passes on every band of rows, from top to bottom. Returns false if stopped.
   template <class Receive>
   [[nodiscard]] bool each_band(const StopQuestion& stop, const Receive& receive) const {
     for (const RowBand& rows : row_bands(options_.width, options_.height, options_.samples)) {
@@ -78,22 +78,22 @@ std::size_t picture_band(const RadiationModel& model, const std::string& name) {
     if (model.bands[b].name == name) return b;
     known += (known.empty() ? "" : ", ") + model.bands[b].name;
   }
-  throw_input(fmt::format("--band {}", printable(name)), "no band of the scene", "give one of " + known);
+  throw_input(fmt::format("--band {}", printable(name)), "the scene has no such waveband", "give one of " + known);
 }
 
 void check_view(const RadiationModel& model, const PictureOptions& options) {
   static_cast<void>(picture_band(model, options.band));
   if (options.repeat == 1 || model.plot.periodic) return;
-  throw_input(fmt::format("--repeat {}", options.repeat), "the plot stands alone: it has no neighbours",
+  throw_input(fmt::format("--repeat {}", options.repeat), "the plot is isolated: it has no neighbours",
               "leave --repeat out, or make the scene periodic");
 }
 
 void check_field(const RadiationModel& model, const Picture& picture) {
   if (has_field(model, picture.field)) return;
-  const char* why = "nothing in the scene reflects, transmits or glows, and there is no sky";
+  const char* why = "nothing in the scene reflects, transmits or emits light, and there is no sky";
   if (picture.field == LightField::direct) why = "the scene has no beam";
   if (picture.field == LightField::sky) why = "the scene has no light from the sky";
-  throw_input("picture " + stem_of(picture), why, "ask for another field");
+  throw_input("picture " + stem_of(picture), why, "choose another field");
 }
 
 ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout) {
@@ -128,7 +128,7 @@ CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout
   look.view.ground = make_ground_map(layout);
   look.offsets = sample_offsets(options.samples);
   if (options.repeat == 1) return look;
-  // Seen from the side, copies in front would hide the plot itself.
+  // In a side view, copies in front would hide the plot itself.
   const bool from_the_side = options.view == ViewKind::camera || options.view == ViewKind::side;
   look.copies = {options.repeat, model.canopy.period_m,
                  from_the_side ? SeenCopies::Which::not_before_plot : SeenCopies::Which::all};

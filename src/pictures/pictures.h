@@ -1,5 +1,5 @@
 #pragma once
-// From a result to its pictures.
+// Draws the pictures of a result.
 
 #include "io/exr_writer.h"
 #include "io/scene_reader.h"
@@ -21,14 +21,15 @@
 
 namespace sunfleck {
 
-// The number of the band of that name, of the first for an empty one. Throws Error (input) if the scene has none such.
+// Returns the number of the waveband of that name; an empty name means the first. Throws Error (input) if the scene has no such
+// waveband.
 [[nodiscard]] std::size_t picture_band(const RadiationModel& model, const std::string& name);
 
-// Throws Error (input) if the scene does not have what a picture is to show, or cannot be looked at that way.
+// Throw Error (input) if the scene lacks what a picture is to show, or does not allow the view.
 void check_view(const RadiationModel& model, const PictureOptions& options);
 void check_field(const RadiationModel& model, const Picture& picture);
 
-// What is drawn. `layout` is the scene's, `result` of the scene; the tree of the engine is the scene's.
+// What to draw. `layout` is the scene's, `result` is of that scene, and the engine holds the scene's tree.
 struct Drawing {
   const Scene& scene;
   const CounterLayout& layout;
@@ -36,26 +37,26 @@ struct Drawing {
   const Engine& engine;
 };
 
-// The parts that draw_charts is made of, for who draws one scene again and again.
+// Building blocks of draw_charts, for callers that redraw one scene.
 
-// Plot and canopy.
+// The box around the plot and the canopy.
 struct ShownBox {
   glm::dvec3 lo_m, hi_m;
 };
 [[nodiscard]] ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout);
 
-// The scene's own camera, or the view asked for.
+// Returns the scene's own camera or the requested view.
 [[nodiscard]] Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options);
 
-// How a viewer looks through that camera: size, samples and copies of the plot are those of the options.
+// Returns how to look through that camera, with the size, samples and copies of the plot that the options give.
 [[nodiscard]] CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,
                                       const Camera& camera);
 
-// What the viewer saw, rows of a picture of those options.
+// Returns what the viewer saw as rows of a picture with those options.
 [[nodiscard]] SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, const RowBand& rows,
                                          const PictureOptions& options);
 
-// Colours and words of one chart. `title` is the scene's.
+// Colours and text of one chart. `title` is the scene's.
 struct ChartContent {
   std::vector<Colour> colours;  // linear, [surface number]
   ChartText text;
@@ -69,15 +70,15 @@ struct ChartSource {
 [[nodiscard]] ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
                                          const SurfaceColours& surfaces);
 
-// Draws charts of one view: the scene is looked at once for all of them. Each is handed over as soon as it is finished, in
-// order. False if stopped before the last.
+// Draws charts of one view: the scene is looked at only once for all of them. Passes each on as soon as it is finished, in
+// order. Returns false if stopped before the last.
 using ChartReceiver = std::function<void(const Picture& picture, const Image& image)>;
 [[nodiscard]] bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
                                const StopQuestion& stop, const ChartReceiver& receive);
 
-// The values themselves. Channels: "Y" the field in W m-2, mean over the samples of the pixel that see a surface, 0 where none
-// does; "A" the share of samples that see one; "element" the number of the element that most of them see, 4294967295 where it
-// is none, which the soil is not. None if stopped.
+// Returns the values themselves, or none if stopped. Channels: "Y" is the field in W m-2, averaged over the pixel's samples
+// that see a surface, 0 if none does; "A" is the share of samples that see a surface; "element" is the number of the element
+// that most of them see, 4294967295 if most see none (the soil is not an element).
 [[nodiscard]] std::optional<ExrImage> draw_values(const Drawing& drawing, const PictureOptions& options, LightField field,
                                                   const StopQuestion& stop);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Between numpy's arrays and our vectors.
+// Converts between numpy's arrays and C++ vectors.
 
 #include "canopy/mesh.h"
 
@@ -13,7 +13,8 @@
 
 namespace sunfleck {
 
-// A vector as an array of that shape, without a copy: read-only, and `owner` lives as long as the array. Empty vectors too.
+// Returns a read-only array of that shape that refers to a vector without a copy; `owner` lives as long as the array. The
+// vector may be empty.
 template <class T>
 pybind11::array view_of(const std::vector<T>& values, std::vector<pybind11::ssize_t> shape, const pybind11::handle& owner) {
   pybind11::array_t<T> array(std::move(shape), values.data(), owner);
@@ -25,7 +26,7 @@ pybind11::array view_of(const std::vector<T>& values, const pybind11::handle& ow
   return view_of(values, {static_cast<pybind11::ssize_t>(values.size())}, owner);
 }
 
-// A vector that the array takes over.
+// Returns an array that takes over the vector.
 template <class T>
 pybind11::array array_of(std::vector<T>&& values, std::vector<pybind11::ssize_t> shape) {
   auto* kept = new std::vector<T>(std::move(values));
@@ -41,8 +42,8 @@ pybind11::array array_of(std::vector<T>&& values) {
 using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
 using Numbers = pybind11::array_t<std::uint32_t, pybind11::array::c_style>;
 
-// vertices: [vertex][3], m; triangles: [triangle][3], vertex numbers; optics, organs: [triangle], indices into the names that
-// follow. Throws ValueError for other shapes; whether the numbers fit is for import_mesh to say.
+// Returns a mesh. vertices: [vertex][3], m; triangles: [triangle][3], vertex numbers; optics, organs: [triangle], indices into
+// the names that follow them. Throws ValueError for other shapes; import_mesh checks the ranges of the numbers.
 [[nodiscard]] Mesh mesh_of(const Doubles& vertices, const Numbers& triangles, const Numbers& optics,
                            const std::vector<std::string>& optics_names, const Numbers& organs,
                            const std::vector<std::tuple<std::uint32_t, std::string, int>>& organ_names);

@@ -1,5 +1,5 @@
 #pragma once
-// A table as a dict of arrays, column by column under the names of the result files.
+// A table as a dict of arrays, one per column, named as in the result files.
 
 #include "python/arrays.h"
 #include "transport/statistics.h"
@@ -17,7 +17,7 @@ class Columns {
   void add(const std::string& name, std::vector<T> values) {
     dict_[name.c_str()] = array_of(std::move(values), shape_);
   }
-  // `name` and `name_error`, the half-widths; `estimate` tells that of row i.
+  // Adds `name` and its half-widths `name_error`; `estimate(i)` returns the estimate of row i.
   template <class Get>
   void add_estimates(const std::string& name, std::size_t rows, const Get& estimate) {
     std::vector<double> values(rows);

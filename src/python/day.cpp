@@ -44,10 +44,10 @@ class Day {
     const RadiationModel& model = day_.scene.model;
     if (name == "day.csv") return day_csv(day_.record, model, day_.plan.course, day_.lights);
     if (name == "organs_day.csv") return organs_day_csv(day_.record, model, day_.plan.course, day_.lights);
-    throw py::value_error(name + " (no table of a day); ask for day.csv or organs_day.csv");
+    throw py::value_error(name + " (not a table of a day); use day.csv or organs_day.csv");
   }
 
-  // [step], as the columns of day.csv.
+  // Returns the columns of day.csv, [step].
   [[nodiscard]] py::dict steps() const {
     const std::size_t rows = day_.lights.size();
     const DayCourse& course = day_.plan.course;
@@ -73,7 +73,7 @@ class Day {
     return columns.take();
   }
 
-  // [date, organ]: what organs absorbed, as the columns of organs_day.csv; dates without a step are left out.
+  // Returns what organs absorbed, [date, organ], as the columns of organs_day.csv; dates without a step are left out.
   [[nodiscard]] py::dict organs() const {
     const RadiationModel& model = day_.scene.model;
     const std::vector<Organ>& organs = model.canopy.organs;
@@ -102,7 +102,7 @@ class Day {
     return columns.take();
   }
 
-  // [step, triangle], single precision, as the variables of day.nc; those of a night are zero.
+  // Returns the variables of day.nc, [step, triangle], in single precision; those of a night are zero.
   [[nodiscard]] py::dict triangles() const {
     const RadiationModel& model = day_.scene.model;
     const std::vector<LightColumn> kinds = day_columns(model);
@@ -145,7 +145,7 @@ class Day {
   InMemoryDay day_;
 };
 
-// When, and how the work is limited.
+// Creates a day from its times and the limits of its work.
 std::unique_ptr<Day> day_of(const std::filesystem::path& file, const std::optional<std::string>& text,
                             std::map<std::string, Mesh> meshes, bool allow_outside, const DayRequest& request,
                             const WorkRequest& limits, const std::string& device, int threads, const py::object& progress) {

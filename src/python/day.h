@@ -1,5 +1,5 @@
 #pragma once
-// A day as Python sees it.
+// Binds a day for Python.
 
 #include <pybind11/pybind11.h>
 

@@ -22,17 +22,17 @@ namespace py = pybind11;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-// Seconds since 1970-01-01 UTC to elevation and azimuth, degrees.
+// Converts seconds since 1970-01-01 UTC to elevation and azimuth in degrees.
 std::pair<double, double> sun_position_deg(double unix_s, double latitude_deg, double longitude_deg, double altitude_m) {
   const UtcTime time = plus_seconds({.year = 1970}, unix_s);
   const SunPosition sun = sun_position(time, {latitude_deg * degree, longitude_deg * degree, altitude_m});
   return {sun.elevation_rad / degree, sun.azimuth_rad / degree};
 }
 
-// The sky of a scene's text: that of its own moment, of horizontal irradiance 1.
+// Returns the sky of a scene's text at its own moment, with horizontal irradiance 1.
 Sky sky_of(const std::string& file, const std::string& text, bool allow_outside) {
   const Scene scene = read_scene(SceneText{file, text, {}}, {.allow_outside = allow_outside});
-  if (!scene.model.sky) throw_input("sky", "the scene has none", "add [sky] with a model");
+  if (!scene.model.sky) throw_input("sky", "the scene has no sky", "add [sky] with a model");
   return {*scene.model.sky, scene.model.sun.value_or(SunPosition{})};
 }
 
@@ -45,7 +45,7 @@ py::array radiance(const Sky& sky, const Doubles& elevation_deg, const Doubles& 
   return array_of(std::move(values));
 }
 
-// [n][3], drawn with density radiance times cosine, one from each n-th of the zenith angles' distribution.
+// Returns directions [n][3] drawn with density radiance times cosine, one from each n-th of the distribution of zenith angles.
 py::array draw(const Sky& sky, std::size_t count, std::uint64_t seed) {
   std::vector<double> directions;
   directions.reserve(3 * count);

@@ -1,5 +1,5 @@
 #pragma once
-// Sun and sky alone, without a canopy.
+// Binds the sun and the sky for Python, without a canopy.
 
 #include <pybind11/pybind11.h>
 

@@ -17,13 +17,13 @@ namespace py = pybind11;
 constexpr std::chrono::milliseconds listening_interval{20};
 constexpr std::chrono::milliseconds telling_interval{100};
 
-// What the two threads know of each other.
+// State shared by the two threads.
 struct Desk {
   std::atomic<bool> stop = false;
   std::mutex mutex;
   std::condition_variable changed;
   bool done = false;
-  Progress progress;  // the last that is known
+  Progress progress;  // the latest known
 };
 
 py::dict as_dict(const Progress& progress) {
@@ -39,7 +39,7 @@ py::dict as_dict(const Progress& progress) {
   return dict;
 }
 
-// Waits for the work's end; throws what Python has to throw meanwhile.
+// Waits for the end of the work; throws what Python raises meanwhile.
 void attend(Desk& desk, const py::object& progress) {
   auto last_told = std::chrono::steady_clock::now() - telling_interval;
   while (true) {

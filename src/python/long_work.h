@@ -1,5 +1,5 @@
 #pragma once
-// Work that takes long, beside an interpreter that goes on.
+// Runs long work while the Python interpreter continues.
 
 #include "transport/solve.h"
 
@@ -9,10 +9,10 @@
 
 namespace sunfleck {
 
-// Does the work in a thread of its own. Meanwhile the calling thread, without the interpreter's lock but for moments, listens
-// to Ctrl-C (where it is Python's main thread) and tells `progress` (None or a callable that takes a dict) how far the work is,
-// ten times a second, whether there is news or not, and at the end. An exception from either ends the work, and is thrown on
-// when it has ended; what the work throws comes before.
+// Does the work in a thread of its own. Meanwhile the calling thread, which holds the interpreter's lock only for moments,
+// listens for Ctrl-C (if it is Python's main thread) and reports the progress to `progress` (None or a callable that takes a
+// dict), ten times a second, whether there is news or not, and at the end. An exception from either ends the work and is
+// rethrown when it has ended; an exception from the work itself takes precedence.
 void do_long_work(const std::function<void(const Monitor&)>& work, const pybind11::object& progress);
 
 }  // namespace sunfleck

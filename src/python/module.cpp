@@ -1,4 +1,4 @@
-// The compiled part of the Python module; what users see of it stands in python/sunfleck.
+// The compiled part of the Python module; the part that users see is in python/sunfleck.
 
 #include "base/error.h"
 #include "base/log.h"
@@ -16,7 +16,7 @@ namespace {
 
 namespace py = pybind11;
 
-// The kinds of Error as Python's; `errors` holds the classes.
+// Raises the Python exception for the kind of Error; `errors` holds the classes.
 void translate(const sunfleck::Error& error, const py::object& errors) {
   const char* name = "SunfleckError";
   if (error.kind() == sunfleck::ErrorKind::input) name = "InputError";
@@ -28,7 +28,7 @@ void translate(const sunfleck::Error& error, const py::object& errors) {
 
 PYBIND11_MODULE(_core, module) {
   sunfleck::start_log(sunfleck::Verbosity::quiet);
-  // Never destroyed: the interpreter is gone before what is static here.
+  // Never destroyed, because the interpreter ends before static objects are destroyed.
   static const py::object& errors = *new py::object(py::module_::import("sunfleck._errors"));
   // NOLINTNEXTLINE(performance-unnecessary-value-param): so pybind11 wants it
   py::register_exception_translator([](std::exception_ptr pointer) {

@@ -23,7 +23,7 @@ py::ssize_t signed_size(std::size_t size) {
 
 py::dict plane_columns(const RadiationModel& model, const RadiationResult& result, std::size_t plane) {
   const PlaneResult& from = result.planes[plane];
-  // Cells are numbered x fastest.
+  // Cell numbers vary fastest along x.
   Columns columns({signed_size(from.cells_z), signed_size(from.cells_x)});
   columns.set("height_m", py::float_(from.height_m));
   columns.set("sunfleck_ratio", py::float_(from.sunfleck_ratio.value));
@@ -82,8 +82,7 @@ std::string Outcome::table(const std::string& name) const {
   if (name == "triangles.csv") return triangles_csv(simulated_.record, model, simulated_.result);
   if (name == "sensors.csv" && !simulated_.result.sensors.empty())
     return sensors_csv(simulated_.record, model, simulated_.result);
-  throw py::value_error(name +
-                        " (no table of this result); ask for profile.csv, organs.csv, triangles.csv or, where the scene " +
+  throw py::value_error(name + " (not a table of this result); use profile.csv, organs.csv, triangles.csv or, if the scene " +
                         "has sensors, sensors.csv");
 }
 

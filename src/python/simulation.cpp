@@ -21,7 +21,7 @@ namespace {
 
 namespace py = pybind11;
 
-// A scene's text with its meshes, or none where the file itself is to be read.
+// Returns a scene's text with its meshes.
 SceneText text_of(const std::filesystem::path& file, const std::string& text, std::map<std::string, Mesh> meshes) {
   return {file, text, std::move(meshes)};
 }
@@ -65,7 +65,7 @@ class PythonSimulation {
     dict["driver"] = device.driver;
     return dict;
   }
-  // Degrees; None without a sun.
+  // Returns the sun's position in degrees; None without a sun.
   [[nodiscard]] py::object sun() const {
     const auto& sun = simulation_->scene().model.sun;
     constexpr double degree = 3.14159265358979323846 / 180.0;
@@ -74,13 +74,13 @@ class PythonSimulation {
   }
 
  private:
-  // One call at a time: while it traces, the interpreter's other threads run.
+  // Admits one call at a time, because the interpreter's other threads run while it traces.
   class Turn {
    public:
     explicit Turn(std::atomic<bool>& busy) : busy_(busy) {
       if (busy.exchange(true)) {
-        throw_failure("Simulation", "it is at work in another thread, one call at a time is possible",
-                      "wait for it, or make a Simulation for each thread");
+        throw_failure("Simulation", "already running in another thread; one call at a time",
+                      "wait for it, or create one Simulation per thread");
       }
     }
     ~Turn() { busy_ = false; }
@@ -96,6 +96,7 @@ class PythonSimulation {
   std::atomic<bool> busy_ = false;
 };
 
+// Builds the request that limits the work.
 WorkRequest work_request(std::optional<double> direct_error, std::optional<double> indirect_error, std::optional<double> grid_m,
                          std::optional<int> passes, std::optional<double> max_seconds, std::optional<std::uint64_t> max_rays,
                          std::optional<std::uint64_t> memory_bytes, std::uint64_t seed, bool triangle_errors) {

@@ -1,5 +1,5 @@
 #pragma once
-// The simulation as Python sees it.
+// Binds the simulation for Python.
 
 #include <pybind11/pybind11.h>
 

@@ -1,12 +1,13 @@
 #pragma once
-// Ctrl-C, SIGTERM and a terminal that is closed. What is ignored from outside (nohup) stays ignored.
+// Handles Ctrl-C, SIGTERM and the closing of the terminal. Signals that are already ignored (nohup) stay ignored.
 
 namespace sunfleck {
 
-// While nothing is written yet: they end the program at once, with one line and the exit status of an interrupted run.
+// Use while nothing has been written yet: signals end the program at once, with one line and the exit status of an interrupted
+// run.
 void exit_on_interrupts();
 
-// From now on they end the work cleanly; a second signal of the same kind ends the program at once.
+// From now on signals end the work cleanly; a second signal of the same kind ends the program at once.
 void watch_for_interrupts();
 [[nodiscard]] bool interrupted();
 

@@ -101,7 +101,7 @@ bool Ranks::serve(const std::function<void(const std::function<void(const Task&)
   } catch (const Error& error) {
     report(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    report(ErrorKind::failure, three_part_message("out of memory", "the system gives no more", "put fewer ranks on a machine"));
+    report(ErrorKind::failure, three_part_message("out of memory", "allocation failed", "put fewer ranks on a machine"));
   }
   return served_;
 }

@@ -11,18 +11,18 @@
 
 namespace sunfleck {
 
-// CARIBU's files beside a mesh that stands in a scene's place.
+// CARIBU's files for a mesh that is given instead of a scene file.
 struct StandFiles {
-  std::vector<std::string> optics;      // FILE or NAME=FILE, one for each band
+  std::vector<std::string> optics;      // FILE or NAME=FILE, one per band
   std::filesystem::path light, domain;  // may be empty
   std::optional<double> scale;          // metres per unit of the mesh and the domain; default 1
 
-  // Returns the first option given, in this order, for messages; empty if none is.
+  // Returns the first of these options that was given, in this order, for messages; empty if none was.
   [[nodiscard]] std::string first_given() const;
 };
 
 struct SceneRequest {
-  std::filesystem::path scene;  // or a mesh, with `stand`
+  std::filesystem::path scene;  // scene file, or a mesh that is completed by `stand`
   StandFiles stand;
   bool allow_outside = false;  // the scene may name files outside its folder
 };
@@ -40,7 +40,7 @@ struct WorkRequest {
   std::optional<int> passes;
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_rays;
-  std::optional<std::uint64_t> memory_bytes;  // for replicates in the making; none: a quarter of what is free
+  std::optional<std::uint64_t> memory_bytes;  // for replicates in progress; none: a quarter of the free memory
   std::uint64_t seed = 1;
   bool triangle_errors = false;  // errors of single triangles are kept too, which costs memory and time
   bool resume = false;           // resumes what an earlier run left in the folder

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 void refuse_stand(const fs::path& scene, const StandFiles& stand) {
   const std::string option = stand.first_given();
   if (option.empty()) return;
-  throw_input(option, fmt::format("{} is a scene file, which holds all that", printable(scene.string())),
-              "leave it out, or give a .can in place of the scene");
+  throw_input(option, fmt::format("{} is a scene file, which already defines this", printable(scene.string())),
+              "leave it out, or give a .can instead of the scene");
 }
 
 }  // namespace
@@ -59,8 +59,8 @@ Scene load_scene(const SceneRequest& request, ScenePurpose purpose, SourceFiles*
     return read_scene(scene, {request.allow_outside, purpose, files});
   }
   if (purpose == ScenePurpose::day) {
-    throw_input(printable(scene.string()), "a day needs a place, a date and weather, which a mesh has not",
-                "make a scene of it with sunfleck convert, and add them");
+    throw_input(printable(scene.string()), "a mesh file has no place, date or weather, which a day needs",
+                "convert it to a scene with sunfleck convert and add them");
   }
   const CaribuSet set = caribu_set(scene, stand, request.allow_outside);
   const fs::path folder = scene.parent_path();
@@ -68,7 +68,7 @@ Scene load_scene(const SceneRequest& request, ScenePurpose purpose, SourceFiles*
   if (files == nullptr) files = &own;
   const CaribuScene made =
       caribu_scene(set, {name_from(folder, scene).generic_string(), name_from(folder, stand.light).generic_string()}, files);
-  // Every file was named by the user; a .can names no others.
+  // The user named every file; a .can refers to no others.
   return read_scene(SceneText{scene, made.text, {}},
                     {.allow_outside = request.allow_outside || is_can_file(scene), .files = files});
 }
@@ -88,7 +88,8 @@ bool remove_receivers(Scene& scene) {
 
 std::string scene_stem(const fs::path& scene) {
   const fs::path stem = scene.stem();
-  return is_can_file(scene) && is_can_file(stem) ? stem.stem().string() : stem.string();  // of .can.gz
+  // The stem of a .can.gz still ends in .can.
+  return is_can_file(scene) && is_can_file(stem) ? stem.stem().string() : stem.string();
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// The files that could not be written at the end of a run, whose other results are kept.
+// Collects the files that could not be written at the end of a run. The other results are kept.
 
 #include "base/error.h"
 
@@ -12,7 +12,7 @@ namespace sunfleck {
 
 class UnwrittenFiles {
  public:
-  // Does `work`. If it fails, or memory runs out, `name` counts as not written.
+  // Does `work`. If it fails or memory runs out, `name` counts as not written.
   template <class Work>
   void attempt(const std::string& name, Work&& work) {
     try {
@@ -27,7 +27,8 @@ class UnwrittenFiles {
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
-  // Throws Error (failure) if there is any: the first reason, followed by `cure` and the number of others.
+  // Throws Error (failure) if any file was not written, with the first reason and the number of other files. `cure` is added as
+  // further advice.
   void throw_if_any(const std::string& cure = {}) const;
 
  private:

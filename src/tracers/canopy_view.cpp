@@ -22,11 +22,11 @@
 namespace sunfleck {
 namespace {
 
-// Samples between two questions whether to stop.
+// Number of samples between two checks whether to stop.
 constexpr std::uint32_t software_samples_per_slice = 1U << 18U;
 constexpr std::uint32_t hardware_samples_per_slice = 1U << 22U;
 
-// Boxes of the canopy and of the ground, in the plot itself.
+// Returns the boxes of the canopy and of the ground in the plot itself.
 std::vector<Box> seen_boxes(const Bvh& bvh, const shared::GroundMap& ground) {
   std::vector<Box> boxes;
   for (int slot = 0; slot < 8 && !bvh.nodes.empty(); ++slot) {
@@ -38,7 +38,7 @@ std::vector<Box> seen_boxes(const Bvh& bvh, const shared::GroundMap& ground) {
   return boxes;
 }
 
-// Nearest and farthest depth of a box's corners; for a fisheye its least distance, and no end.
+// Returns the smallest and largest depth of a box's corners; for a fisheye the smallest distance and infinity.
 std::pair<double, double> depths(const shared::ViewBlock& view, const Box& box) {
   constexpr double endless = std::numeric_limits<double>::infinity();
   const glm::dvec3 lo = glm::dvec3(box.lo) - glm::dvec3(view.position);
@@ -53,7 +53,7 @@ std::pair<double, double> depths(const shared::ViewBlock& view, const Box& box) 
   return result;
 }
 
-// Numbers of plots to the south and to the west, the plot itself first, then ring by ring around it.
+// Returns plot offsets to the south and to the west: the plot itself first, then ring by ring around it.
 std::vector<glm::ivec2> copies_around(int repeat) {
   EXPECT(repeat % 2, ==, 1);
   EXPECT(repeat, <=, 9);
@@ -68,15 +68,15 @@ std::vector<glm::ivec2> copies_around(int repeat) {
   return copies;
 }
 
-// Whether a copy that is `away` from the plot stands nearer to the camera than the plot, seen from above.
+// Returns true if a copy displaced by `away` is nearer to the camera than the plot, seen from above.
 bool stands_before_plot(const shared::ViewBlock& view, glm::dvec2 away) {
   if (view.kind == shared::view_fisheye) return false;
   const double farther = away.x * view.forward.x + away.y * view.forward.z;
   return farther < -0x1p-20 * glm::length(away);
 }
 
-// [copy]: the plot itself first, then those copies that are not behind the camera. Instead of the copy the camera is moved, the
-// other way; its rays begin a little before the nearest depth of canopy and ground.
+// Returns a view per copy: the plot itself first, then the copies that are not behind the camera. The camera is displaced in
+// the opposite direction instead of the copy; its rays begin shortly before the nearest depth of canopy and ground.
 std::vector<shared::ViewBlock> views_of_copies(const Bvh& bvh, const CanopyLook& look) {
   const std::vector<Box> boxes = seen_boxes(bvh, look.view.ground);
   std::vector<shared::ViewBlock> views;
@@ -99,8 +99,8 @@ std::vector<shared::ViewBlock> views_of_copies(const Bvh& bvh, const CanopyLook&
   return views;
 }
 
-// The equidistant projection: the angle to `forward` grows in proportion to the distance from the circle's centre. Zero
-// outside the circle. Devices may differ in sine and cosine, so all take these.
+// Returns the direction in the equidistant projection: the angle to `forward` is proportional to the distance from the circle's
+// centre. Zero outside the circle. Computed here for all devices, because their sine and cosine may differ.
 glm::vec3 fisheye_direction(const shared::ViewBlock& view, glm::vec2 at) {
   const double across = (double{at.x} - view.circle_centre.x) * view.per_radius.x;
   const double up = (double{view.circle_centre.y} - at.y) * view.per_radius.y;
@@ -112,7 +112,7 @@ glm::vec3 fisheye_direction(const shared::ViewBlock& view, glm::vec2 at) {
          sine_per_share * (across * glm::dvec3(view.right) + up * glm::dvec3(view.up));
 }
 
-// Samples counted from the first one of a row.
+// The samples of a slice, counted from the first sample of a row.
 struct SampleGrid {
   const shared::ViewBlock& view;
   const std::vector<glm::vec2>& offsets;
@@ -152,7 +152,7 @@ shared::SeenSurface see_sample(const Bvh& bvh, const std::vector<shared::ViewBlo
   return kept;
 }
 
-// What both viewers begin with.
+// Common base of both viewers.
 class LookingViewer : public CanopyViewer {
  protected:
   LookingViewer(const Bvh& bvh, CanopyLook look) : bvh_(bvh) { take(std::move(look)); }
@@ -177,7 +177,7 @@ class LookingViewer : public CanopyViewer {
  private:
   const Bvh& bvh_;
   std::vector<glm::vec2> offsets_;
-  std::vector<shared::ViewBlock> views_;  // [copy]
+  std::vector<shared::ViewBlock> views_;  // one view per copy
 };
 
 class CpuViewer final : public LookingViewer {
@@ -253,7 +253,7 @@ class GpuViewer final : public LookingViewer {
   }
 
  private:
-  // What is large enough from an earlier look stays.
+  // Keeps the buffers of an earlier look that are large enough.
   void prepare() {
     slice_ = samples_per_slice();
     blocks_ = upload_storage(context_, std::span<const shared::ViewBlock>(views()), "the cameras");

@@ -14,7 +14,7 @@
 namespace sunfleck {
 namespace {
 
-// The most between two questions whether to stop: a fraction of a second.
+// Largest number of rays between two checks whether to stop: a fraction of a second.
 constexpr std::uint32_t rays_per_slice = 1U << 18U;
 constexpr std::uint32_t packets_per_slice = 1U << 17U;
 

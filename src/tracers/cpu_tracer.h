@@ -1,6 +1,6 @@
 #pragma once
-// The reference tracer: walks the tree on all cores with the arithmetic it shares with the shaders, or tests every element
-// when the tree itself is in doubt.
+// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, or tests every element when
+// the tree itself is in doubt.
 
 #include "bvh/bvh.h"
 #include "shared/layout.h"
@@ -16,15 +16,15 @@ enum class CpuWalk { tree, every_element };
 
 class CpuTracer final : public Tracer {
  public:
-  // The tree must outlive the tracer. `period` tells an endless canopy from an isolated stand, `has_soil` whether there
-  // is a soil plane to land on.
+  // The tree must outlive the tracer. `periodic` distinguishes an endless canopy from an isolated stand; `has_soil` says
+  // whether there is a soil plane to land on.
   struct Scene {
     bool periodic = true;
     bool has_soil = true;
   };
   CpuTracer(const Bvh& bvh, Scene scene, CpuWalk walk = CpuWalk::tree);
 
-  // From here on it asks whether to stop about that often.
+  // Makes the tracer check about this often whether to stop, from now on.
   void answer_within(double seconds);
 
   [[nodiscard]] TracerDevice device() const override;
@@ -34,11 +34,11 @@ class CpuTracer final : public Tracer {
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
 
-  // Where one packet lands that has come as far as `packet.origin` after `crossings` periods.
+  // Returns the landing of a packet that has reached `packet.origin` after `crossings` periods.
   [[nodiscard]] shared::Landing follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
                                               std::uint32_t crossings) const;
 
-  // Follows one ray to its end, from where it paused, and counts its landing.
+  // Follows one paused ray to its end and counts its landing.
   void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters) const;
 
  private:
@@ -56,10 +56,10 @@ class CpuTracer final : public Tracer {
   const Bvh& bvh_;
   Scene scene_;
   CpuWalk walk_;
-  DispatchBudget beam_budget_, packet_budget_;  // rays between two questions whether to stop
+  DispatchBudget beam_budget_, packet_budget_;  // rays between two checks whether to stop
 };
 
-// Threads of the CPU path from here on, for as long as the object lives; 0: as many as there are cores.
+// Sets the number of threads of the CPU path for the lifetime of the object; 0: all cores.
 class CpuThreads {
  public:
   explicit CpuThreads(int threads);

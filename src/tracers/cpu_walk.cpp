@@ -5,24 +5,25 @@
 #include <array>
 #include <bit>
 
-// One copy of the walk for processors with eight lanes, one for all; which is chosen when the program starts. Both find the
-// same hits: boxes need not be met exactly, and triangles are computed alike.
+// The walk is compiled twice, for processors with eight lanes and for all others; the choice is made when the program starts.
+// Both find the same hits: box tests need not be exact, and triangles are computed alike.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define WALK_FOR_EACH_PROCESSOR [[gnu::target_clones("avx2", "default")]]
 #else
 #define WALK_FOR_EACH_PROCESSOR
 #endif
 #define INLINED [[gnu::always_inline]] inline
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors cross no call: all that have them are inlined
+// Vectors cross no call boundary, since all functions that take them are inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace sunfleck {
 namespace {
 
-// One lane a child slot.
+// One lane per child slot.
 using UInt8 [[gnu::vector_size(32)]] = std::uint32_t;
 using Int8 [[gnu::vector_size(32)]] = std::int32_t;
 using Float8 [[gnu::vector_size(32)]] = float;
-// One lane a corner.
+// One lane per corner.
 using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 using Long2 [[gnu::vector_size(16)]] = std::int64_t;
 using Float4 [[gnu::vector_size(16)]] = float;
@@ -31,7 +32,7 @@ glm::vec3 corner(const std::array<float, 3>& at) {
   return {at[0], at[1], at[2]};
 }
 
-// A ray as shared::meet_triangle sees it, its axes already in their order.
+// A ray as shared::meet_triangle sees it, with its axes already in order.
 struct EdgeRay {
   std::size_t x, y, z;
   float origin[3];
@@ -51,7 +52,7 @@ INLINED bool any(Int4 holds) {
   return (halves[0] | halves[1]) != 0;
 }
 
-// False only where shared::meet_triangle finds the ray outside of the edges: the same u, v and w, side by side.
+// Returns false only if shared::meet_triangle finds the ray outside the edges: computes the same u, v and w in parallel.
 INLINED bool within_edges(const EdgeRay& ray, const BvhTriangle& t) {
   const Float4 z = Float4{t.a[ray.z], t.b[ray.z], t.c[ray.z], ray.origin[2]} - ray.origin[2];
   const Float4 x = Float4{t.a[ray.x], t.b[ray.x], t.c[ray.x], ray.origin[0]} - ray.origin[0] - ray.shear_x * z;
@@ -81,7 +82,7 @@ CpuHit no_hit(float limit) {
   return best;
 }
 
-// Converting eight bytes at once would go byte by byte in GCC 12.
+// GCC 12 would convert eight bytes at once byte by byte.
 INLINED Float8 as_floats(const std::array<std::uint8_t, 8>& bytes) {
   const auto [low, high] = std::bit_cast<std::array<std::uint32_t, 2>>(bytes);
   const UInt8 words{low, low, low, low, high, high, high, high};
@@ -89,7 +90,7 @@ INLINED Float8 as_floats(const std::array<std::uint8_t, 8>& bytes) {
   return __builtin_convertvector(std::bit_cast<Int8>(lanes), Float8);
 }
 
-// Which lanes of a comparison hold, bit by bit.
+// Returns a bit mask of the lanes in which a comparison holds.
 INLINED unsigned bits_of(const Int8& holds) {
   Int8 bits = holds & Int8{1, 2, 4, 8, 16, 32, 64, 128};
   bits |= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 0, 1, 2, 3);
@@ -98,7 +99,7 @@ INLINED unsigned bits_of(const Int8& holds) {
   return static_cast<unsigned>(bits[0]);
 }
 
-// A ray as the boxes of all nodes see it.
+// A ray in the form used for the boxes of all nodes.
 struct BoxRay {
   float origin[3];
   float inverse[3];
@@ -115,7 +116,7 @@ INLINED BoxRay box_ray(const shared::Ray& ray) {
   return result;
 }
 
-// Per child slot where the ray enters its box; the bits of those that it enters before `limit`.
+// Computes for each child slot where the ray enters its box. Returns the bits of the slots that it enters before `limit`.
 INLINED unsigned enter_children(const BvhNode& node, const BoxRay& ray, float limit, Float8& enter) {
   const std::array<std::uint8_t, 8>* const lo[3] = {&node.lo_x, &node.lo_y, &node.lo_z};
   const std::array<std::uint8_t, 8>* const hi[3] = {&node.hi_x, &node.hi_y, &node.hi_z};
@@ -137,7 +138,7 @@ struct Visit {
   float enter;
 };
 
-// The slots of a mask by how far they lie along the ray, roughly: bit (k XOR octant) for slot k.
+// Orders the slots of a mask roughly along the ray: bit (k XOR octant) for slot k.
 INLINED unsigned along_ray(unsigned slots, unsigned octant) {
   if ((octant & 1U) != 0) slots = (slots & 0x55U) << 1U | (slots >> 1U & 0x55U);
   if ((octant & 2U) != 0) slots = (slots & 0x33U) << 2U | (slots >> 2U & 0x33U);

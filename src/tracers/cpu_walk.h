@@ -1,5 +1,6 @@
 #pragma once
-// The walk over the tree on the CPU: nearest hit of one ray in one period, bit for bit what shaders/traverse.glsl finds.
+// Walks the tree on the CPU: finds the nearest hit of one ray in one period, bit for bit the hit that shaders/traverse.glsl
+// finds.
 
 #include "bvh/bvh.h"
 #include "shared/intersect.h"
@@ -9,7 +10,7 @@
 
 namespace sunfleck {
 
-// Nearest hit of one ray among the references of one period; `triangle` is its place in leaf order.
+// The nearest hit of one ray among the references of one period; `triangle` is its index in leaf order.
 struct CpuHit {
   bool found = false;
   float t = 0.0F;
@@ -20,16 +21,16 @@ struct CpuHit {
   std::uint32_t triangle = 0;
 };
 
-// Elements where the canopy has them only, or their copies that reach into the period as well.
+// Selects elements at their own place only, or also their copies that extend into the period.
 enum class Images { all, originals };
 
-// An element's copy that a ray does not meet: the one it starts from.
+// The copy of an element that a ray ignores, because the ray starts on it.
 struct OwnElement {
   std::uint32_t element = shared::no_element;
   std::uint32_t image = 0;
 };
 
-// Nearest hit with 0 < t <= limit; at equal distance the first as shared::hit_precedes says.
+// Return the nearest hit with 0 < t <= limit; at equal distance the first in the order of shared::hit_precedes.
 [[nodiscard]] CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images images = Images::all,
                                  OwnElement own = {});
 [[nodiscard]] CpuHit nearest_hit_of_all(const Bvh& bvh, const shared::Ray& ray, float limit, OwnElement own = {});

@@ -1,5 +1,5 @@
 #pragma once
-// How many rays at a time, so that a device shared with a window answers soon.
+// Limits the rays per dispatch, so that a device shared with a window responds soon.
 
 #include <algorithm>
 #include <chrono>
@@ -7,8 +7,8 @@
 
 namespace sunfleck {
 
-// Follows the speed of a device: rays() last about as long as asked, as the last ones did. Where no time is asked they are
-// always the most.
+// Adapts to the speed of a device: rays() is the number that takes about the requested time, judging by earlier dispatches.
+// Without a requested time it is always the maximum.
 class DispatchBudget {
  public:
   DispatchBudget(std::uint32_t most, double seconds)
@@ -16,11 +16,11 @@ class DispatchBudget {
 
   [[nodiscard]] std::uint32_t rays() const { return rays_; }
 
-  // `rays` rays have taken that long.
+  // Records that `rays` rays took that long.
   void took(std::uint32_t rays, double seconds) {
     if (seconds_ <= 0.0 || rays < least) return;
     const double fit = static_cast<double>(rays) * seconds_ / std::max(seconds, 1e-6);
-    // At most twice as many as before: one measurement may be wrong.
+    // At most doubles the number, since a single measurement may be wrong.
     const double next = std::min({fit, 2.0 * static_cast<double>(rays_), static_cast<double>(most_)});
     rays_ = std::max(std::min(most_, least), static_cast<std::uint32_t>(next));
   }
@@ -32,7 +32,7 @@ class DispatchBudget {
   std::uint32_t rays_;
 };
 
-// Runs from where it is made.
+// Starts when constructed.
 class DispatchClock {
  public:
   [[nodiscard]] double seconds() const {

@@ -9,7 +9,7 @@ namespace {
 template <class T>
 GpuBuffer upload_array(const GpuContext& context, TreeFetch fetch, const std::vector<T>& array, const char* what) {
   const BufferUse use = fetch == TreeFetch::texel_buffers ? BufferUse::uniform_texel : BufferUse::storage;
-  // A canopy without elements still has a root to look at: an empty node.
+  // A canopy without elements still has a root node, which is empty.
   const std::vector<T> empty(1);
   const std::span<const std::byte> bytes = std::as_bytes(std::span(array.empty() ? empty : array));
   GpuBuffer buffer = create_buffer(context, use, bytes.size(), what);

@@ -1,5 +1,5 @@
 #pragma once
-// The tree on the device, shared by all that trace it.
+// The tree on the device, shared by everything that traces it.
 
 #include "bvh/bvh.h"
 #include "gpu/buffer.h"
@@ -10,13 +10,13 @@ namespace sunfleck {
 // How the shaders read the tree.
 enum class TreeFetch { texel_buffers, storage_buffers };
 
-// Texel buffers where they are large enough for the tree: 1.4 to 1.9 times faster on lavapipe.
+// Returns texel buffers if they can hold the tree: 1.4 to 1.9 times faster on lavapipe.
 [[nodiscard]] TreeFetch preferred_fetch(const GpuContext& context, const Bvh& bvh);
 
 struct GpuTree {
   GpuTree(const GpuContext& context, const Bvh& bvh, TreeFetch fetch);
 
-  // Of bindings 0 and 1 of every shader that includes tree.glsl.
+  // Returns the use of bindings 0 and 1 of every shader that includes tree.glsl.
   [[nodiscard]] BufferUse use() const { return nodes.use; }
 
   TreeFetch fetch;

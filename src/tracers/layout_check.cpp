@@ -1,4 +1,4 @@
-// Sizes and offsets that the shaders' scalar block layout gives the shared structs.
+// Checks the sizes and offsets that the shaders' scalar block layout gives the shared structs.
 
 #include "bvh/bvh.h"
 #include "shared/layout.h"

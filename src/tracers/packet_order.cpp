@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t window = 512;
 constexpr std::size_t windows_per_task = 16;
-constexpr std::size_t sectors = 128;  // of the sphere: 16 an octant
+constexpr std::size_t sectors = 128;  // of the sphere: 16 per octant
 
-// The octahedron's faces, each cut into a grid by two of the direction's shares.
+// Returns a sector: the octahedron's faces, each divided into a grid by two components of the direction.
 std::uint8_t sector_of(const glm::vec3& direction) {
   const float x = std::fabs(direction.x);
   const float y = std::fabs(direction.y);
@@ -27,7 +27,7 @@ std::uint8_t sector_of(const glm::vec3& direction) {
   return static_cast<std::uint8_t>(octant * 16 + row * 4 + column);
 }
 
-// Counting sort; packets of one sector stay as they were.
+// Counting sort that keeps the order of packets within a sector.
 void order_window(std::span<const shared::Packet> packets, std::uint32_t first, std::span<std::uint32_t> order) {
   std::array<std::uint8_t, window> sector{};
   std::array<std::uint32_t, sectors + 1> begin{};

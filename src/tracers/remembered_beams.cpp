@@ -6,7 +6,7 @@
 namespace sunfleck {
 namespace {
 
-// Blocks have no padding: they are uploaded byte for byte.
+// Blocks have no padding, since they are uploaded byte for byte.
 bool same(const shared::BeamBlock& one, const shared::BeamBlock& other) {
   return std::memcmp(&one, &other, sizeof one) == 0;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A tracer that remembers what beams have hit: where they land depends on the sun and the canopy alone, so that other optics or
-// another sky need no beam to be traced again.
+// A tracer that remembers what beams have hit. Their landings depend only on the sun and the canopy, so that no beam needs to
+// be traced again for other optics or another sky.
 
 #include "shared/layout.h"
 #include "transport/tracer.h"
@@ -16,11 +16,11 @@ namespace sunfleck {
 
 class RememberedBeams final : public Tracer {
  public:
-  // The tracer must outlive it. The landings of as many beams of one direction are kept as fit into `most_bytes`; a beam from
-  // another direction takes their room.
+  // The tracer must outlive the object. Keeps the landings of as many beams of one direction as fit into `most_bytes`; a beam
+  // from another direction replaces them.
   RememberedBeams(Tracer& tracer, std::size_t most_bytes) : tracer_(tracer), most_bytes_(most_bytes) {}
 
-  // Beams that were not traced, because they were remembered.
+  // Returns the number of beams that were not traced because they were remembered.
   [[nodiscard]] std::uint64_t spared() const { return spared_; }
 
   [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
@@ -34,7 +34,7 @@ class RememberedBeams final : public Tracer {
 
   struct Beam {
     shared::BeamBlock block;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> landed;  // word of the counters, count; words that are not 0
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> landed;  // word of the counters, count; only words that are not 0
   };
 
   Tracer& tracer_;

@@ -1,5 +1,5 @@
 #pragma once
-// One device for two threads: one that draws and one that simulates. Who draws is served first.
+// Shares one device between a thread that draws and one that simulates. Drawing has priority.
 
 #include "tracers/canopy_view.h"
 #include "transport/tracer.h"
@@ -10,13 +10,13 @@
 
 namespace sunfleck {
 
-// Whose turn it is. Tracing gives way between two dispatches, so a drawing waits for one dispatch at most.
+// Arbitrates the device. Tracing gives way between two dispatches, so that drawing waits for one dispatch at most.
 class DeviceTurn {
  public:
   void begin_drawing();
   void begin_tracing();
   void end();
-  // For who traces: lets waiting drawings have their turns.
+  // Lets waiting drawings have their turn; called by the tracing thread.
   void give_way();
 
  private:
@@ -26,7 +26,7 @@ class DeviceTurn {
   int drawings_waiting_ = 0;
 };
 
-// A turn for as long as the object lives.
+// Hold a turn for the lifetime of the object.
 class DrawingTurn {
  public:
   explicit DrawingTurn(DeviceTurn& turn) : turn_(turn) { turn_.begin_drawing(); }
@@ -49,7 +49,7 @@ class TracingTurn {
   DeviceTurn& turn_;
 };
 
-// The tracer of a device in turns; both must outlive it.
+// A tracer that takes turns; both arguments must outlive it.
 class TurnTakingTracer final : public Tracer {
  public:
   TurnTakingTracer(Tracer& tracer, DeviceTurn& turn) : tracer_(tracer), turn_(turn) {}
@@ -66,7 +66,7 @@ class TurnTakingTracer final : public Tracer {
   DeviceTurn& turn_;
 };
 
-// A viewer of a device in turns; the turn must outlive it.
+// A viewer that takes turns; the turn must outlive it.
 class TurnTakingViewer final : public CanopyViewer {
  public:
   TurnTakingViewer(std::unique_ptr<CanopyViewer> viewer, DeviceTurn& turn) : viewer_(std::move(viewer)), turn_(turn) {}

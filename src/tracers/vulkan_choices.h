@@ -1,5 +1,5 @@
 #pragma once
-// How the Vulkan tracer's work is cut.
+// How the Vulkan tracer divides its work.
 
 #include "shared/layout.h"
 
@@ -7,11 +7,11 @@
 
 namespace sunfleck {
 
-// What comes out does not depend on any of these.
+// None of these affects the results.
 struct VulkanChoices {
-  std::uint32_t rays_per_dispatch = 0;            // at most; 0: as suits software or hardware
-  std::uint32_t group_size = shared::group_size;  // threads a workgroup, at most 128
-  double seconds_per_dispatch = 0.0;              // about, however fast the device is; 0: any
+  std::uint32_t rays_per_dispatch = 0;            // at most; 0: a default for software or hardware
+  std::uint32_t group_size = shared::group_size;  // threads per workgroup, at most 128
+  double seconds_per_dispatch = 0.0;              // approximate, adapts to the device; 0: no target
 };
 
 }  // namespace sunfleck

@@ -25,7 +25,7 @@ ShaderCode packets_shader(const GpuTree& tree, std::uint32_t group_size) {
   return {"packets", spirv, bindings, sizeof(shared::PacketPush), group_size};
 }
 
-// On all cores: while packets are brought into order the device has nothing to do.
+// Uses all cores, because the device is idle while packets are being ordered.
 template <class Action>
 void for_each_index(std::size_t count, const Action& action) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {

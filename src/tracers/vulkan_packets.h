@@ -1,6 +1,6 @@
 #pragma once
-// The part of the Vulkan tracer that follows packets. Made when the first packet is to be traced: a run without scattering has
-// neither its buffers nor its shader.
+// The part of the Vulkan tracer that follows packets. It is created when the first packet is traced, so that a run without
+// scattering has neither its buffers nor its shader.
 
 #include "gpu/buffer.h"
 #include "gpu/compute.h"
@@ -14,7 +14,7 @@ namespace sunfleck {
 
 class VulkanPackets {
  public:
-  // All but the choices must outlive it; they are complete.
+  // All arguments except the choices must outlive the object; the choices are complete.
   VulkanPackets(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, CpuTracer::Scene scene,
                 const VulkanChoices& choices);
 
@@ -23,7 +23,8 @@ class VulkanPackets {
 
  private:
   void dispatch(const shared::PacketPush& push);
-  // Packets that one period kept too long are followed to their end on the CPU; returns how many go on.
+  // Follows packets that took too many steps in one period to their end on the CPU. Returns the number of packets that
+  // continue.
   [[nodiscard]] std::uint32_t take_out_stuck(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                              std::vector<std::pair<std::uint32_t, shared::Landing>>& finished);
 
@@ -35,7 +36,7 @@ class VulkanPackets {
   GpuBuffer scene_, packets_, landings_, inbox_, outbox_;
   ComputePipeline pipeline_;
   std::vector<shared::Packet> sent_;     // of one dispatch, in the order of packet_order.h
-  std::vector<shared::Landing> landed_;  // theirs
+  std::vector<shared::Landing> landed_;  // of the packets in sent_
 };
 
 }  // namespace sunfleck

@@ -11,12 +11,12 @@
 namespace sunfleck {
 namespace {
 
-// Rays of one dispatch, measured as a compromise between overhead and the time until Ctrl-C or a display is heard: about
-// 50 ms each on two cores of software Vulkan, a few ms on a large GPU.
+// Rays per dispatch, measured as a compromise between overhead and the response time to Ctrl-C or a display: about 50 ms each
+// on two cores of software Vulkan, a few ms on a large GPU.
 constexpr std::uint32_t software_rays_per_dispatch = 1U << 17U;
 constexpr std::uint32_t hardware_rays_per_dispatch = 1U << 22U;
 
-// Packets travel to the device and back: no more at a time than the smallest storage binding there is holds.
+// Packets travel to the device and back, at most as many at a time as the smallest guaranteed storage binding holds.
 constexpr std::uint32_t most_packets_per_dispatch = 1U << 20U;
 
 constexpr std::size_t outbox_head_bytes = sizeof(std::uint32_t);

@@ -1,5 +1,5 @@
 #pragma once
-// The tracer on Vulkan: uploads the tree once, cuts every replicate into short dispatches, and sends paused rays on.
+// The tracer on Vulkan: uploads the tree once, divides every replicate into short dispatches and resumes paused rays.
 
 #include "bvh/bvh.h"
 #include "gpu/buffer.h"
@@ -18,9 +18,9 @@ namespace sunfleck {
 
 class VulkanTracer final : public Tracer {
  public:
-  // Context, tree and device tree must outlive the tracer. `counter_words` is the length of the counters of every
-  // count_beam. Throws Error (device) naming the limit if the counters are too large for the device, Error (failure) if
-  // its memory runs out.
+  // Context, tree and device tree must outlive the tracer. `counter_words` is the length of the counters of every count_beam.
+  // Throws Error (device) naming the limit if the counters are too large for the device, and Error (failure) if its memory runs
+  // out.
   VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, CpuTracer::Scene scene,
                std::size_t counter_words, VulkanChoices choices = {});
 
@@ -32,11 +32,11 @@ class VulkanTracer final : public Tracer {
 
  private:
   void dispatch(const shared::BeamPush& push);
-  // Adds what the device has counted.
+  // Adds the counts of the device.
   void add_landings(std::span<std::uint32_t> counters) const;
-  // The rays that paused in the last dispatch.
+  // Returns the number of rays that paused in the last dispatch.
   [[nodiscard]] std::uint32_t paused_count() const;
-  // Rays that one period kept too long are followed to their end on the CPU; the others go on in the next dispatch.
+  // Follows rays that took too many steps in one period to their end on the CPU; the others continue in the next dispatch.
   [[nodiscard]] std::uint32_t take_out_stuck_rays(const shared::BeamBlock& beam, std::uint32_t paused,
                                                   std::span<std::uint32_t> counters);
 
@@ -48,7 +48,7 @@ class VulkanTracer final : public Tracer {
   const GpuTree& tree_;
   GpuBuffer beam_, counters_, inbox_, outbox_;
   ComputePipeline pipeline_;
-  std::unique_ptr<VulkanPackets> packets_;  // once there are any
+  std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
 };
 
 }  // namespace sunfleck

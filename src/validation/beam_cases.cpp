@@ -20,10 +20,10 @@ void add_plate(CaseMesh& mesh, double x, double y, double size_x, double size_y,
             from_east_north_up(x + size_x / 2, y + size_y / 2, z), from_east_north_up(x - size_x / 2, y + size_y / 2, z));
 }
 
-// Irradiance of a triangle alone is |n . s| / sin h of the horizontal one, on the side that faces the sun.
+// The irradiance of a single triangle is |n . s| / sin h of the horizontal irradiance, on the side that faces the sun.
 void triangle_under_the_sun(CaseBench& bench) {
   struct Row {
-    double elevation_deg, azimuth_deg, irradiance, rays;  // a sun nearly along the triangle meets it rarely
+    double elevation_deg, azimuth_deg, irradiance, rays;  // a sun nearly parallel to the triangle hits it rarely
   };
   constexpr std::array rows = {Row{90.0, 0.0, 0.83481207, 1e6},     Row{53.0176, 120.569, 0.42046146, 1e6},
                                Row{30.0, 120.569, 0.11818550, 4e6}, Row{15.0, 120.569, 1.21861230, 1e6},
@@ -45,7 +45,7 @@ void triangle_under_the_sun(CaseBench& bench) {
   bench.equal("triangle, rays on the side away from the sun", static_cast<double>(on_dark_side), 0.0, 0.0);
 }
 
-// Shadows of level plates are as large as the plates, of tilted ones area * |n . s| / sin h.
+// The shadows of horizontal plates are as large as the plates, those of tilted ones area * |n . s| / sin h.
 void plates_under_the_sun(CaseBench& bench) {
   CaseMesh level;
   add_plate(level, 0.5, 0.5, 0.4, 0.3, 0.8);
@@ -80,7 +80,7 @@ void plates_under_the_sun(CaseBench& bench) {
   bench.compare("sunlit soil below both", of_both.bands[0].absorbed_soil, 0.76948351, {.largest_error = 2e-4});
 }
 
-// Strips without end across the sun: they span the plot, or reach `beyond` its border on both sides.
+// Builds endless strips across the sun's direction, which span the plot or extend `beyond` its border on both sides.
 RadiationModel blind(double tilt_deg, double elevation_deg, double azimuth_deg, double beyond) {
   const double across = 0.4 * std::cos(tilt_deg * case_degree);
   const double rise = 0.4 * std::sin(tilt_deg * case_degree);
@@ -109,7 +109,7 @@ void blinds(CaseBench& bench) {
   bench.equal("closed blind, quanta on soil", static_cast<double>(result.bands[0].ledger.absorbed_soil), 0.0, 0.0);
 }
 
-// Squares of every second field of a board over a plot of 2 x 2 m.
+// Adds squares on every second field of a board over a plot of 2 x 2 m.
 void add_board(CaseMesh& mesh, int fields, double y_m) {
   const double field_m = 2.0 / fields;
   for (int x = 0; x < fields; ++x) {
@@ -117,8 +117,9 @@ void add_board(CaseMesh& mesh, int fields, double y_m) {
   }
 }
 
-// A board half a period on is its own negative; one with twice as many fields repeats there. So the product of boards of
-// doubled frequency has mean 0 however they are shifted: from any direction each board halves what reaches it.
+// A board shifted by half a period is its own negative, while one with twice as many fields repeats there. The product of
+// boards of doubled frequency therefore has mean 0 however they are shifted: from any direction, each board halves what reaches
+// it.
 void checkerboards(CaseBench& bench) {
   CaseMesh mesh;
   for (int layer = 1; layer <= 3; ++layer) {
@@ -139,8 +140,8 @@ void checkerboards(CaseBench& bench) {
   }
 }
 
-// Strips along Z high over a narrow plot and others near the ground, the sun in the south: how much of the lower ones the upper
-// ones' copies shade some 170 periods on.
+// High strips along Z over a narrow plot and others near the ground, with the sun in the south: the share of the lower ones
+// that is shaded by the upper ones' copies some 170 periods away.
 void far_shadow(CaseBench& bench) {
   constexpr double period_m = 0.1, width_m = 0.05, top_m = 3.0, low_m = 0.01, elevation_deg = 10.0;
   CaseMesh mesh;
@@ -153,13 +154,13 @@ void far_shadow(CaseBench& bench) {
   const double tangent = std::tan(elevation_deg * case_degree);
   const double shift_m = (top_m - low_m) / tangent;
   const double lit = 1.0 - overlap_after_shift(width_m, width_m, period_m, -shift_m) / width_m;
-  // Each period rounds a height of up to 3 m to half a unit of its last place.
+  // Each period rounds a height of up to 3 m to half a unit in its last place.
   const double rounding = shift_m / period_m * std::ldexp(1.0, -23) / tangent / width_m;
   bench.compare("shadow 170 periods from its strip", result.organs[1].sunlit_fraction, lit,
                 {.largest_error = 2e-3, .tolerance = rounding});
 }
 
-// A strip that casts its shadow across the plot's corner, and the same in the plot's middle.
+// A strip that casts its shadow across the plot's corner, and the same strip in the plot's middle.
 void across_the_corner(CaseBench& bench) {
   for (const bool at_corner : {true, false}) {
     const double middle = at_corner ? 0.0 : 0.5;

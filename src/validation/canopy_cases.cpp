@@ -1,4 +1,4 @@
-// Canopies of many leaves: what the beam passes, and what becomes of scattered light.
+// Canopies of many leaves: the share of the beam that passes them, and the fate of scattered light.
 
 #include "base/random.h"
 #include "validation/case_scenes.h"
@@ -26,14 +26,14 @@ double inclination_rad(LeafAngles angles, RandomStream& random) {
   return std::acos(random.unit());
 }
 
-// Exponential waiting times (Knuth 1969, The Art of Computer Programming 2, 3.4.1).
+// Uses exponential waiting times (Knuth 1969, The Art of Computer Programming 2, 3.4.1).
 int poisson(double mean, RandomStream& random) {
   int count = -1;
   for (double sum = 0.0; sum < mean; ++count) sum -= std::log(1.0 - random.unit());
   return count;
 }
 
-// Square leaves over a square plot, their middles evenly from `low_m` to `high_m` above the ground.
+// Builds square leaves over a square plot, with centres uniformly distributed from `low_m` to `high_m` above the ground.
 Mesh scattered_leaves(int count, double leaf_m2, double plot_m, double low_m, double high_m, LeafAngles angles,
                       RandomStream& random) {
   CaseMesh mesh;
@@ -47,13 +47,13 @@ Mesh scattered_leaves(int count, double leaf_m2, double plot_m, double low_m, do
   return mesh.mesh();
 }
 
-// The mean over random scenes of y where x has a known mean: x as a control variate with a fitted slope.
+// Mean of y over random scenes, given that x has a known mean: uses x as a control variate with a fitted slope.
 class KnownMean {
  public:
   explicit KnownMean(double mean_x) : mean_x_(mean_x) {}
   void add(double x, double y) { points_.emplace_back(x, y); }
 
-  // With its standard error in place of the half-width.
+  // Returns the estimate with its standard error in place of the half-width.
   [[nodiscard]] Estimate fit() const {
     const auto n = static_cast<double>(points_.size());
     double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
@@ -70,7 +70,7 @@ class KnownMean {
   std::vector<std::pair<double, double>> points_;
 };
 
-// An estimate whose half-width is a standard error of so many degrees of freedom plus one.
+// Converts an estimate whose half-width is a standard error with `replicates` - 1 degrees of freedom.
 Estimate with_half_width(const Estimate& estimate, std::size_t replicates) {
   return {estimate.value, estimate.half_width * t_quantile(Ask{}.confidence, replicates)};
 }
@@ -83,21 +83,21 @@ constexpr std::array level_cases = {LevelCase{par_band, "PAR"}, LevelCase{nir_ba
                                     LevelCase{{"white", 0.5, 0.5, 0.0}, "leaves that absorb nothing"},
                                     LevelCase{{"through", 0.0, 0.3, 0.0}, "leaves that only transmit"}};
 
-// Level leaves in a tall canopy: what leaves of size do to reflectance, that light which came through a gap leaves through it,
-// is nearly linear in their size over the canopy's height; explicit leaves of 1 % of the height reflect 0.0015 more in PAR and
-// 0.0025 in NIR than infinitely small ones.
+// Horizontal leaves in a tall canopy. Leaves of finite size affect reflectance, because light that came through a gap leaves
+// through the same gap; the effect is nearly linear in their size relative to the canopy's height. Explicit leaves of 1 % of
+// the height reflect 0.0015 more in PAR and 0.0025 more in NIR than infinitely small ones.
 constexpr double level_leaf_m2 = 0.0016, level_height_m = 20.0, level_index = 3.0;
 constexpr double finite_leaves = 4e-4;
 
 }  // namespace
 
-// With a number of leaves drawn from Poisson's distribution exp(-K L) is the exact expectation, K = G / cos Z the leaves' mean
-// projection on the ground along the beam; their sunlit area per ground area is (1 - exp(-K L)) / K.
+// If the number of leaves is drawn from a Poisson distribution, exp(-K L) is the exact expectation, where K = G / cos Z is the
+// leaves' mean projection on the ground along the beam; their sunlit area per ground area is (1 - exp(-K L)) / K.
 void random_leaf_cases(CaseBench& bench) {
   struct Row {
     const char* what;
     LeafAngles angles;
-    double extinction, index;  // at the sun of Beijing: G = 1/2, cos Z, 2/pi sin Z
+    double extinction, index;  // for the sun of Beijing: G = 1/2, cos Z, 2/pi sin Z
   };
   const double zenith_rad = 0.5 * pi - beijing_sun().elevation_rad;
   constexpr double leaf_m2 = 0.0025, plot_m = 2.0, height_m = 5.0;
@@ -131,7 +131,7 @@ void random_leaf_cases(CaseBench& bench) {
 void two_stream_cases(CaseBench& bench) {
   std::vector<LeafBand> bands;
   for (const LevelCase& each : level_cases) bands.push_back(each.band);
-  // The beam passes `count` leaves with (1 - leaf area)^count, here exp(-level_index) to half a leaf.
+  // The beam passes `count` leaves with probability (1 - leaf area)^count, here exp(-level_index) to within half a leaf.
   const int count = static_cast<int>(std::lround(-level_index / std::log1p(-level_leaf_m2)));
   const KnownMean empty(std::exp(count * std::log1p(-level_leaf_m2)));
   std::vector<std::array<KnownMean, 3>> fluxes(bands.size(), {empty, empty, empty});
@@ -171,8 +171,8 @@ void two_stream_cases(CaseBench& bench) {
 
 namespace {
 
-// 300 square leaves of 0.1 m over 1 m2 from a generator that other programs can write down as easily: SplitMix64, six numbers a
-// leaf.
+// 300 square leaves of 0.1 m over 1 m2, from a generator that is easy to reproduce in other programs: SplitMix64, six numbers
+// per leaf.
 Mesh explicit_leaves() {
   std::uint64_t state = 20020808;
   const auto unit = [&] {

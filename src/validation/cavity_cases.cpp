@@ -1,4 +1,4 @@
-// Cavities whose light is known exactly.
+// Cavities with exactly known light.
 
 #include "validation/case_scenes.h"
 #include "validation/known_cases.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t walls = 6;
 
-// A rectangle facing along u x v, cut into n x n cells.
+// Adds a rectangle facing along u x v, cut into n x n cells.
 void add_wall(CaseMesh& mesh, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
   constexpr int n = 3;
   mesh.organ(fmt::format("wall{}", mesh.mesh().organs.size()));
@@ -28,7 +28,7 @@ void add_wall(CaseMesh& mesh, const glm::dvec3& corner, const glm::dvec3& u, con
   }
 }
 
-// A closed box of 1 x 0.6 x 0.8 m whose upper faces look inwards, with leaves in it, none through a wall.
+// Builds a closed box of 1 x 0.6 x 0.8 m whose upper faces look inwards, with leaves in it that do not intersect the walls.
 Mesh furnished_box() {
   const glm::dvec3 x(1.0, 0.0, 0.0);
   const glm::dvec3 y(0.0, 0.6, 0.0);
@@ -49,7 +49,7 @@ Mesh furnished_box() {
   return mesh.mesh();
 }
 
-// Half a sphere of radius 0.5, open upwards, in rings of trapezoids; the upper faces look inwards.
+// Builds half a sphere of radius 0.5, open upwards, from rings of trapezoids; the upper faces look inwards.
 Mesh bowl(int around, int rings) {
   CaseMesh mesh;
   mesh.organ("bowl");
@@ -70,8 +70,8 @@ Mesh bowl(int around, int rings) {
 
 }  // namespace
 
-// In a closed box whose walls all emit E and reflect rho, every surface receives E / (1 - rho), both sides of leaves with
-// rho + tau = 1 too.
+// In a closed box whose walls all emit E and reflect rho, every surface receives E / (1 - rho), including both sides of leaves
+// with rho + tau = 1.
 void furnace_cases(CaseBench& bench) {
   constexpr std::array reflectances = {0.1, 0.5, 0.9, 0.95};
   constexpr std::array<FaceOptics, 4> leaves = {FaceOptics{0.5, 0.5}, {0.3, 0.7}, {1.0, 0.0}, {0.15, 0.85}};
@@ -84,7 +84,7 @@ void furnace_cases(CaseBench& bench) {
     }
   }
   const RadiationResult result = bench.simulate(model, case_work(model, 1.0, 4096));
-  // Of what leaves a point within the packets' offset of a wall (2^-17 of the extent) some slips out beside it.
+  // Of the light leaving a point within the packets' offset from a wall (2^-17 of the extent), some slips out beside it.
   constexpr double slipped = 2e-5;
   double absorbed_by_leaves = 0.0;
   for (std::size_t b = 0; b < reflectances.size(); ++b) {
@@ -100,9 +100,9 @@ void furnace_cases(CaseBench& bench) {
   bench.equal("absorbed by leaves that absorb nothing", absorbed_by_leaves, 0.0, 1e-12);
 }
 
-// Of a beam from any direction into a spherical cavity that keeps the share f of its sphere, rho (1 - f) / (1 - rho f) comes
-// out again. In a cavity of plane facets a facet does not see itself: f is 1 - opening / inner area (reciprocity). Outside of
-// the bowl and ground are black.
+// Of a beam from any direction into a spherical cavity that is the share f of its sphere, rho (1 - f) / (1 - rho f) comes out
+// again. In a cavity of plane facets a facet does not see itself, so f is 1 - opening / inner area (reciprocity). The outside
+// of the bowl and the ground are black.
 void cavity_cases(CaseBench& bench) {
   constexpr std::array inside = {0.2, 0.5, 0.8};
   constexpr int around = 96;

@@ -1,5 +1,5 @@
-// Every ray and every tally in integers: the tree against testing every element, the device against the CPU path, counters
-// beyond what single precision holds, and the ledger.
+// Compares every ray and every tally as integers: the tree with a test of every element, the device with the CPU path, counters
+// beyond the range of single precision, and the ledger.
 
 #include "base/random.h"
 #include "transport/beam_block.h"
@@ -46,7 +46,7 @@ double landings_apart(const Landings& a, const Landings& b) {
   return static_cast<double>(apart);
 }
 
-// From points on the elements, in any direction.
+// Creates packets that start from points on the elements, in any direction.
 std::vector<shared::Packet> packets_from_elements(const SceneTree& tree, std::size_t count) {
   RandomStream random(17, 0);
   std::vector<shared::Packet> packets(count);
@@ -71,7 +71,7 @@ std::vector<shared::Packet> packets_from_elements(const SceneTree& tree, std::si
   return packets;
 }
 
-// Every integer of a result.
+// Returns every integer of a result.
 std::vector<std::int64_t> integers_of(const RadiationResult& result) {
   std::vector<std::int64_t> all;
   const auto append = [&](const auto& values) {
@@ -92,7 +92,7 @@ std::vector<std::int64_t> integers_of(const RadiationResult& result) {
   return all;
 }
 
-// A plot of random leaves in PAR and NIR, in sun and sky.
+// Builds a plot of random leaves in PAR and NIR, in sun and sky.
 RadiationModel leaves_in_sun_and_sky(const Plot& plot) {
   RadiationModel model =
       leaf_case(random_leaf_mesh(150, 0.02, plot, 1.0, 5), plot, beijing_sun(), std::array{par_band, nir_band});
@@ -122,7 +122,7 @@ void compare_with_cpu_path(CaseBench& bench, const char* name, const RadiationMo
   bench.equal(fmt::format("{}, integers of a whole run unlike the CPU path's", name), static_cast<double>(apart), 0.0, 0.0);
 }
 
-// Rays of one replicate beyond 2^24, where a counter in single precision stands still.
+// Rays of one replicate beyond 2^24, where a single-precision counter would stop counting.
 constexpr double many_rays = 4097.0 * 4097.0;
 
 double counted(const CaseBench& bench, const RadiationModel& model, std::uint32_t& rays, bool on_elements) {
@@ -160,7 +160,7 @@ void counter_cases(CaseBench& bench) {
   bare.soil->patch_m = 1.0;
   const double on_soil = counted(bench, bare, rays, false);
   bench.equal("2^24 and more rays on one cell of the soil", on_soil, rays, 0.0);
-  // One level triangle that with its copies covers the plot.
+  // One horizontal triangle that covers the plot together with its copies.
   CaseMesh mesh;
   mesh.triangle({-0.5, 0.5, -0.5}, {-0.5, 0.5, 3.0}, {3.0, 0.5, -0.5});
   RadiationModel covered = black_case(mesh.mesh(), {1.0, 1.0, true}, beijing_sun());
@@ -171,7 +171,7 @@ void counter_cases(CaseBench& bench) {
 
 namespace {
 
-// What a ledger says of black surfaces, from the tallies by side and by cell of the soil's map.
+// Compares the ledger of black surfaces with the tallies by side and by cell of the soil's map.
 void black_tallies(CaseBench& bench) {
   const Plot plot{1.0, 1.0, true};
   RadiationModel model = black_case(random_leaf_mesh(150, 0.02, plot, 1.0, 5), plot, beijing_sun());
@@ -190,7 +190,7 @@ void black_tallies(CaseBench& bench) {
               static_cast<double>(ledger.absorbed_soil - sum(sky.cell_indirect)), 0.0, 0.0);
 }
 
-// Leaves and soil that absorb nothing: all must come back out, to the quantum.
+// With leaves and soil that absorb nothing, all light must come back out, to the quantum.
 void nothing_absorbed(CaseBench& bench) {
   const Plot plot{1.0, 1.0, true};
   constexpr std::array bands = {LeafBand{"even", 0.5, 0.5, 1.0}, LeafBand{"uneven", 0.7, 0.3, 1.0},

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Two surfaces whose upper faces see each other, an organ each.
+// Two surfaces whose upper faces see each other, one organ each.
 struct Pair {
   const char* what;
   Mesh mesh;
@@ -41,7 +41,7 @@ Mesh floor_and_wall(double height_m) {
   return mesh.mesh();
 }
 
-// Polygons of the discs' area; at the rim they differ by 1.2e-3 of the radius, which changes the factor in second order only.
+// Polygons of the discs' area. At the rim they differ by 1.2e-3 of the radius, which affects the factor only in second order.
 Mesh facing_discs(double first_radius_m, double second_radius_m) {
   constexpr int corners = 64;
   CaseMesh mesh;
@@ -52,7 +52,7 @@ Mesh facing_discs(double first_radius_m, double second_radius_m) {
   return mesh.mesh();
 }
 
-// Share of what one surface of the pair emits that lands on the other.
+// Returns the share of the light emitted by one surface of the pair that lands on the other.
 Estimate view_factor(const CaseBench& bench, const Pair& pair, std::size_t from) {
   RadiationModel model = lamp_case(pair.mesh, {1.0, 1.0, false});
   model.optics.at(from).emission_w_m2 = {1.0};
@@ -66,7 +66,7 @@ constexpr PlateStack two_faced{{0.30, 0.10}, {0.05, 0.55}, 0.40};
 const std::vector<std::pair<const char*, PlateStack>> stacks = {{"PAR", par}, {"NIR", nir}, {"faces unlike", two_faced}};
 constexpr double plate_step_m = 0.4;
 
-// Plates of the plot's size over soil, the top one first, an organ each; `turned`: corners in the opposite order.
+// Builds plates of the plot's size over soil, the top one first, one organ each; `turned` reverses the order of the corners.
 RadiationModel plates_over_soil(std::size_t count, bool turned) {
   CaseMesh mesh;
   for (std::size_t k = 0; k < count; ++k) {
@@ -88,7 +88,7 @@ RadiationModel plates_over_soil(std::size_t count, bool turned) {
   return model;
 }
 
-// The plane halfway between a plate and the next below it, or the soil.
+// Returns the plane halfway between a plate and the next one below it, or the soil.
 std::size_t plane_below(const RadiationModel& model, std::size_t count, std::size_t plate) {
   const double between = static_cast<double>(count - plate) - 0.5;  // in steps from the ground
   return static_cast<std::size_t>(between / static_cast<double>(count) * model.layers);
@@ -131,7 +131,7 @@ void compare_turned_plates(CaseBench& bench) {
   }
 }
 
-// Upright strips along Z without end, one in each period: each sees its neighbours' back, which is its own copy's.
+// Vertical endless strips along Z, one per period: each sees the back of its neighbours, which are its own copies.
 void strips_that_face_their_copies(CaseBench& bench) {
   struct Row {
     double gap_m, factor;  // sqrt(1 + g^2) - g for strips of width 1 (Hottel's crossed strings)
@@ -151,7 +151,7 @@ void strips_that_face_their_copies(CaseBench& bench) {
   }
 }
 
-// Leaning strips that scatter, every half metre.
+// Builds leaning strips that scatter, one every half metre.
 RadiationModel leaning_strips(int strips) {
   constexpr double pitch_m = 0.5;
   CaseMesh mesh;
@@ -162,7 +162,8 @@ RadiationModel leaning_strips(int strips) {
   return leaf_case(mesh.mesh(), {strips * pitch_m, 1.0, true}, beijing_sun(), std::array{nir_band});
 }
 
-// A strip meets itself in the next period as it meets another one there: a plot of two strips is known by a plot of one.
+// A strip meets its own copy in the next period just as it meets a second strip there, so a plot of one strip predicts a plot
+// of two.
 void one_strip_and_two(CaseBench& bench) {
   const RadiationModel one = leaning_strips(1);
   const RadiationModel two = leaning_strips(2);
@@ -203,7 +204,7 @@ void endless_strip_cases(CaseBench& bench) {
   one_strip_and_two(bench);
 }
 
-// Plates of the plot's size are infinite ones. Where every packet goes is certain: nothing is left to chance.
+// Plates of the plot's size act as infinite plates. The path of every packet is certain, so no chance is involved.
 void parallel_plate_cases(CaseBench& bench) {
   struct Row {
     double lamp, other;  // reflectances; the lamp's plate emits 1
@@ -229,7 +230,7 @@ void parallel_plate_cases(CaseBench& bench) {
   }
 }
 
-// Reflectance and transmittance are told apart: light that comes through a plate returns from the soil, what it reflects does
+// Distinguishes reflectance from transmittance: light that a plate transmits returns from the soil, light that it reflects does
 // not.
 void plate_over_soil_cases(CaseBench& bench) {
   compare_plates(bench, 1);

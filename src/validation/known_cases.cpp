@@ -45,7 +45,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-// The rows of one group; what it throws becomes a row.
+// Returns the rows of one group; an exception it throws becomes a row.
 std::vector<KnownAnswer> answers_of(const CaseGroup& group, CaseBench& bench) {
   std::string trouble;
   try {
@@ -91,8 +91,8 @@ std::vector<CaseGroup> choose_case_groups(const std::vector<std::string>& parts)
     if (found) continue;
     std::vector<const char*> names;
     for (const CaseGroup& group : groups) names.push_back(group.name);
-    throw_input(fmt::format("--cases \"{}\"", part), "no group of cases has this in its name",
-                fmt::format("give a part of one of: {}", fmt::join(names, ", ")));
+    throw_input(fmt::format("--cases \"{}\"", part), "no group of cases contains this in its name",
+                fmt::format("give part of one of: {}", fmt::join(names, ", ")));
   }
   std::vector<CaseGroup> result;
   for (std::size_t k = 0; k < groups.size(); ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes whose light is known, run on the user's own device.
+// Scenes with known light, run on the user's own device.
 
 #include "validation/case_bench.h"
 
@@ -13,14 +13,14 @@ namespace sunfleck {
 // Cases that share scenes.
 struct CaseGroup {
   const char* name;
-  std::size_t estimates;  // rows of compare(); the verdicts hold for the table of all groups
+  std::size_t estimates;  // rows of compare(); the verdicts are for the table of all groups
   void (*run)(CaseBench& bench);
 };
 
 [[nodiscard]] std::span<const CaseGroup> all_case_groups();
 
-// Those with one of the parts in their name, in any case; all without parts. Throws Error (input) for a part that no name
-// holds.
+// Returns the groups whose names contain one of the parts, ignoring case; all groups if there are no parts. Throws Error
+// (input) for a part that no name contains.
 [[nodiscard]] std::vector<CaseGroup> choose_case_groups(const std::vector<std::string>& parts);
 
 struct JudgedAnswer {
@@ -28,12 +28,12 @@ struct JudgedAnswer {
   bool passed = false;
 };
 
-// Runs the groups; `report` is called with each row when its group is done. A group that fails to give its answers is one row
-// that says why, and the others go on. False if it was stopped. Lets Error of kind device and lack of memory pass.
+// Runs the groups; calls `report` with each row when its group is done. A group that fails to give its answers becomes one row
+// that says why, and the others continue. Returns false if stopped. Lets Error of kind device and lack of memory pass through.
 [[nodiscard]] bool run_case_groups(std::span<const CaseGroup> groups, CaseBench& bench,
                                    const std::function<void(const JudgedAnswer&)>& report);
 
-// The groups, theme by theme.
+// The groups, by topic.
 void beam_cases(CaseBench& bench);
 void wrap_cases(CaseBench& bench);
 void view_factor_cases(CaseBench& bench);

@@ -30,7 +30,7 @@ double absorbed_by_plate(const PlateLight& light, const PlateStack& stack, std::
 LevelCanopyLight light_in_level_canopy(double leaf_area_index, const FaceOptics& leaf, double soil_reflectance) {
   const double lost = 1.0 - leaf.transmittance;
   const double rate = std::sqrt(std::max(0.0, lost * lost - leaf.reflectance * leaf.reflectance));
-  // sinh(rate L) / rate, which is L where nothing is absorbed.
+  // sinh(rate L) / rate, which tends to L where nothing is absorbed.
   const double sine = rate > 1e-9 ? std::sinh(rate * leaf_area_index) / rate : leaf_area_index;
   const double denominator = std::cosh(rate * leaf_area_index) + lost * sine;
   const double reflected_over_black = leaf.reflectance * sine / denominator;

@@ -1,4 +1,4 @@
-// Skies: their integrals, and what surfaces take of their light.
+// Skies: their integrals, and the light that surfaces receive from them.
 
 #include "light/sky.h"
 #include "validation/case_scenes.h"
@@ -23,7 +23,8 @@ glm::dvec3 towards_sky(double zenith_rad, double azimuth_rad) {
   return {-std::sin(zenith_rad) * std::cos(azimuth_rad), std::cos(zenith_rad), -std::sin(zenith_rad) * std::sin(azimuth_rad)};
 }
 
-// The integral of radiance times f over the hemisphere: Gauss and Legendre's three by two points in each of the sky's cells.
+// Integrates radiance times f over the hemisphere with Gauss-Legendre quadrature, three by two points in each of the sky's
+// cells.
 template <class Value, class Function>
 Value sky_integral(const Sky& sky, const Function& f) {
   constexpr std::array point{0.1127016653792583, 0.5, 0.8872983346207417};
@@ -47,7 +48,7 @@ double on_plane(const Sky& sky, double tilt_rad) {
   return sky_integral<double>(sky, [&](const glm::dvec3& d) { return std::max(0.0, glm::dot(normal, d)); });
 }
 
-// North, east, south, west.
+// Returns the irradiance of walls facing north, east, south, west.
 glm::dvec4 on_walls(const Sky& sky) {
   return sky_integral<glm::dvec4>(sky, [](const glm::dvec3& d) { return glm::max(glm::dvec4(-d.x, -d.z, d.x, d.z), 0.0); });
 }
@@ -59,7 +60,7 @@ double zenith_radiance(const Sky& sky) {
   return sum / Sky::columns;
 }
 
-// A sky of cells keeps the models' planes to 3e-4; a plane's own horizon cuts cells.
+// A sky of cells matches the models' values on planes to 3e-4; a plane's own horizon cuts through cells.
 constexpr double cells = 3e-4;
 
 void compare_walls(CaseBench& bench, const std::string& name, const Sky& sky, const std::array<double, 4>& expected) {
@@ -88,7 +89,7 @@ struct StandardSky {
   std::array<double, 4> walls;
 };
 
-// ISO 15469:2004, by quadrature over 400 x 1440 directions, sun of Beijing; horizontal irradiance over zenith radiance.
+// ISO 15469:2004, by quadrature over 400 x 1440 directions with the sun of Beijing: horizontal irradiance over zenith radiance.
 constexpr std::array standard_skies = {StandardSky{1, 2.44954, {0.37918, 0.37918, 0.37918, 0.37918}},
                                        StandardSky{3, 2.76999, {0.44665, 0.44665, 0.44665, 0.44665}},
                                        StandardSky{4, 2.47889, {0.33892, 0.49337, 0.44326, 0.31672}},
@@ -142,7 +143,7 @@ void sky_integral_cases(CaseBench& bench) {
   }
 }
 
-// Both faces of an upright square above black ground together take what the two walls of the tables take.
+// The two faces of a vertical square above black ground together receive what the two walls in the tables receive.
 void sky_light_cases(CaseBench& bench) {
   struct Row {
     const char* name;

@@ -1,4 +1,4 @@
-// Sun positions against NREL's Solar Position Algorithm (Reda and Andreas 2004), and the split of measured irradiance.
+// Sun positions compared with NREL's Solar Position Algorithm (Reda and Andreas 2004), and the split of measured irradiance.
 
 #include "light/sun.h"
 #include "light/sun_events.h"
@@ -26,14 +26,14 @@ double great_circle_deg(const SunPosition& sun, double elevation_deg, double azi
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / case_degree;
 }
 
-constexpr double spa_deg = 0.0003;  // what the algorithm claims of itself
+constexpr double spa_deg = 0.0003;  // accuracy stated for the algorithm
 constexpr double three_digits_deg = 0.001;
 
 struct Events {
   const char* name;
   LocalDate date;
   Place place;
-  double rise_s, transit_s, set_s;  // local time of that day; below 0: not in the calculator's list for this date
+  double rise_s, transit_s, set_s;  // local time of that day; below 0: not listed by the calculator for this date
 };
 
 double clock_s(int hour, int minute, int second) {
@@ -84,7 +84,7 @@ void sun_position_cases(CaseBench& bench) {
 
 void sun_event_cases(CaseBench& bench) {
   const Place golden = place_deg(39.742476, -105.1786), south = place_deg(-35.0, 0.0), ohio = place_deg(40.0, -80.0);
-  // NREL's calculator lists the events of a UTC date: the sunset it gives with 2 August 2015 is that of the evening before.
+  // NREL's calculator lists the events of a UTC date: the sunset it gives for 2 August 2015 is that of the evening before.
   const std::array rows = {
       Events{"Golden 2015-01-02", {2015, 1, 2, -420}, golden, clock_s(7, 21, 55), clock_s(12, 4, 45), clock_s(16, 47, 43)},
       Events{"Golden 2015-08-01", {2015, 8, 1, -420}, golden, -1.0, -1.0, clock_s(19, 13, 58)},
@@ -112,7 +112,7 @@ void weather_cases(CaseBench& bench) {
   // Spitters, Toussaint and Goudriaan 1986, hourly relation.
   bench.equal("Spitters, diffuse share of 800 W m-2", spitters_diffuse_share(800.0, beijing_sun(), 220), 0.22454, 2e-5);
   bench.equal("Spitters, diffuse share of 400 W m-2", spitters_diffuse_share(400.0, beijing_sun(), 220), 0.84684, 2e-5);
-  // Ineichen and Perez 2002 at sea level, Linke turbidity 3, as pvlib has them with 1364 W m-2 outside the atmosphere.
+  // Ineichen and Perez 2002 at sea level, Linke turbidity 3, as implemented in pvlib with 1364 W m-2 outside the atmosphere.
   struct Row {
     double zenith_deg, air_mass, ghi, dni, dhi;
   };

@@ -13,9 +13,9 @@
 namespace sunfleck {
 namespace {
 
-// The part of the picture that the scene fills, from the middle; half the picture is `half_height` high: a tangent or a length.
-// Kept free: a strip at the top for the titles, at the bottom for the footer, at the left for an axis' letter and at the right
-// for the legend. The type's size, and so the width of letter and legend, follows the picture's height.
+// The part of the picture that the scene may fill, measured from the middle; half the picture is `half_height` high, as a
+// tangent or a length. Free strips remain for the titles at the top, the footer at the bottom, an axis' letter at the left and
+// the legend at the right. The type size, and so the width of letter and legend, scales with the picture's height.
 struct Window {
   double left, right, bottom, top;
 };
@@ -39,10 +39,10 @@ struct Interval {
   }
 };
 
-// Where the camera must stand, keeping its direction, so that all points just fit into the window. In coordinates (a, b, d)
-// along right, up and forward a point appears at the tangent (a - a0)/(d - d0); that it lies between the tangents l and r is
-// linear in the camera's (a0, d0):  a0 - l d0 <= min(a - l d)  and  a0 - r d0 >= max(a - r d).  The farthest-forward d0 for
-// which an a0 exists is (min - max)/(r - l); the same holds for b with bottom and top.
+// Returns the position, for a fixed direction, from which all points just fit into the window. In coordinates (a, b, d) along
+// right, up and forward a point appears at the tangent (a - a0)/(d - d0). That it lies between the tangents l and r is linear
+// in the camera's (a0, d0):  a0 - l d0 <= min(a - l d)  and  a0 - r d0 >= max(a - r d).  The farthest-forward d0 for which an
+// a0 exists is (min - max)/(r - l); the same holds for b with bottom and top.
 glm::dvec3 fitting_position(const Camera& camera, const Window& window, std::span<const glm::dvec3> points_m) {
   Interval across, upwards;
   for (const glm::dvec3& point : points_m) {
@@ -59,7 +59,7 @@ glm::dvec3 fitting_position(const Camera& camera, const Window& window, std::spa
   return a0 * camera.right + b0 * camera.up + d0 * camera.forward;
 }
 
-// Corners of the box and tips of axes from its lowest corner that reach beyond it.
+// Returns the corners of the box and the tips of the axes from its lowest corner, which extend beyond it.
 std::array<glm::dvec3, 11> points_to_show(glm::dvec3 lo_m, glm::dvec3 hi_m) {
   const glm::dvec3 extent_m = hi_m - lo_m;
   const double overhang_m = axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
@@ -78,7 +78,8 @@ std::array<glm::dvec3, 11> points_to_show(glm::dvec3 lo_m, glm::dvec3 hi_m) {
   return points_m;
 }
 
-// An orthographic camera of that direction whose picture is as small as the points allow, and which stands before them all.
+// Returns an orthographic camera of that direction that shows the smallest picture containing the points and stands in front of
+// them all.
 Camera fitting_orthographic(glm::dvec3 forward, glm::dvec3 right, double aspect, std::span<const glm::dvec3> points_m) {
   EXPECT(aspect, >, 0.0);
   Camera camera;
@@ -104,12 +105,12 @@ Camera fitting_orthographic(glm::dvec3 forward, glm::dvec3 right, double aspect,
   return camera;
 }
 
-// The point (x, y) of the picture from its middle, in half heights of the picture.
+// Returns the point (x, y) of the picture relative to its middle, in half heights of the picture.
 glm::dvec2 from_middle(const Camera& camera, glm::dvec2 at) {
   return {(2.0 * at.x - 1.0) * camera.aspect, 1.0 - 2.0 * at.y};
 }
 
-// The same from the centre of a fisheye's circle, in radii of the circle.
+// Returns the point relative to the centre of a fisheye's circle, in radii of the circle.
 glm::dvec2 from_zenith(const Camera& camera, glm::dvec2 at) {
   return glm::dvec2((at.x - camera.circle_centre.x) * camera.aspect, camera.circle_centre.y - at.y) / camera.circle_radius;
 }
@@ -136,7 +137,8 @@ Camera look_at(glm::dvec3 position_m, glm::dvec3 look_at_m, double vertical_fov_
   camera.position_m = position_m;
   camera.forward = glm::normalize(look_at_m - position_m);
   const glm::dvec3 across = glm::cross(camera.forward, glm::dvec3(0.0, 1.0, 0.0));
-  constexpr double vertical = 1e-9;  // rad: nearer to the vertical than this, Y gives no direction in the picture
+  // rad: nearer to the vertical than this, Y defines no direction in the picture.
+  constexpr double vertical = 1e-9;
   camera.right =
       glm::normalize(glm::length(across) > vertical ? across : glm::cross(camera.forward, glm::dvec3(1.0, 0.0, 0.0)));
   camera.up = glm::cross(camera.right, camera.forward);
@@ -168,7 +170,7 @@ Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect) {
 
 Camera fisheye_view(glm::dvec3 position_m, double aspect) {
   EXPECT(aspect, >, 0.0);
-  constexpr double letter_room = 0.035;  // around the circle, in heights of the picture
+  constexpr double letter_room = 0.035;  // around the circle, in picture heights
   const Window window = free_window(0.5, aspect);
   Camera camera;
   camera.kind = Projection::fisheye;

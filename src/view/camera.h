@@ -13,59 +13,60 @@ enum class Projection {
   fisheye,       // equidistant hemisphere about `forward`: distance from the circle's centre is proportional to the angle
 };
 
-// All positions in the frame that the caller uses throughout (the scene's axes).
+// A camera. All positions are in one frame chosen by the caller, usually the scene's axes.
 struct Camera {
   glm::dvec3 position_m{0.0};
-  glm::dvec3 forward{0.0, 0.0, -1.0};  // unit; so are right and up, the three perpendicular to each other
+  glm::dvec3 forward{0.0, 0.0, -1.0};  // `forward`, `right` and `up` are perpendicular unit vectors
   glm::dvec3 right{1.0, 0.0, 0.0};
   glm::dvec3 up{0.0, 1.0, 0.0};
-  double tan_half_fov = 0.364;  // perspective: vertical
+  double tan_half_fov = 0.364;  // perspective: of the vertical field of view
   double aspect = 4.0 / 3.0;    // width over height
   Projection kind = Projection::perspective;
-  double half_height_m = 1.0;          // orthographic: half of what the picture's height shows
-  glm::dvec2 circle_centre{0.5, 0.5};  // fisheye: where `forward` appears; x, y as in ray_direction
-  double circle_radius = 0.5;          // fisheye: of the circle 90 degrees from `forward`, in heights of the picture
+  double half_height_m = 1.0;          // orthographic: half the height that the picture shows
+  glm::dvec2 circle_centre{0.5, 0.5};  // fisheye: place of `forward` in the picture, x and y as in ray_direction
+  double circle_radius = 0.5;          // fisheye: radius of the circle 90 degrees from `forward`, in picture heights
 };
 
-// A camera that looks from `position_m` at `look_at_m` with Y up (looking straight up or down: X is up in the picture).
+// Returns a camera that looks from `position_m` at `look_at_m` with Y up; straight up or down, X is up in the picture.
 [[nodiscard]] Camera look_at(glm::dvec3 position_m, glm::dvec3 look_at_m, double vertical_fov_rad, double aspect);
 
-// How far a chart's axes reach beyond the box of plot and canopy, as a share of its largest extent.
+// Length by which a chart's axes extend beyond the box of plot and canopy, as a share of its largest extent.
 inline constexpr double axis_overhang = 0.08;
 
-// A three-quarter view, from the south-west and above, in which the whole box fits with a margin, as do axes from its lowest
-// corner that reach beyond it. The margin at the top leaves room for titles, at the right for a legend.
+// Returns a three-quarter view from the south-west and above that fits the whole box with a margin, including axes from its
+// lowest corner that extend beyond it. The margin leaves room for titles at the top and a legend at the right.
 [[nodiscard]] Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect);
 
-// Straight down, orthographic, the whole box in view: north is up in the picture, east right. Margins as above.
+// Returns an orthographic view straight down that fits the whole box: north is up, east is right. Margins are as above.
 [[nodiscard]] Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect);
 
-// Level from the south towards north, orthographic, the whole box in view: east is right, and rows, which run north-south,
-// stand side by side as in a section across them. Margins as above.
+// Returns a level orthographic view from the south that fits the whole box: east is right, and rows, which run north-south,
+// appear side by side as in a section across them. Margins are as above.
 [[nodiscard]] Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect);
 
-// Straight up from a point, the upper hemisphere in a circle as canopy photographs are taken: zenith in its centre, north up
-// and so east left, the horizon on its edge. The circle leaves room for titles, legend and the letters around it.
+// Returns a view straight up from a point that shows the upper hemisphere as a circle, as in canopy photographs: the zenith in
+// the centre, the horizon on the edge, north up and therefore east left. Leaves room for titles, the legend and the letters
+// around the circle.
 [[nodiscard]] Camera fisheye_view(glm::dvec3 position_m, double aspect);
 
-// Whether rays leave through the point (x, y) of the picture; a fisheye has none outside its circle.
+// Returns true if the camera has a ray through the point (x, y) of the picture; a fisheye has none outside its circle.
 [[nodiscard]] bool in_view(const Camera& camera, glm::dvec2 at);
 
-// Where the ray through the point (x, y) of the picture begins; x runs 0..1 to the right, y 0..1 downwards.
+// Returns the origin of the ray through the point (x, y) of the picture; x runs 0..1 to the right, y 0..1 downwards.
 [[nodiscard]] glm::dvec3 ray_origin(const Camera& camera, glm::dvec2 at);
 
-// Direction (unit) through the point (x, y), which a fisheye continues outside its circle.
+// Returns the unit direction through the point (x, y). A fisheye's projection is continued outside its circle.
 [[nodiscard]] glm::dvec3 ray_direction(const Camera& camera, glm::dvec2 at);
 
-// Where a point appears: x, y as above and its depth, m, along `forward`; a fisheye's depth is the distance. None if it is not
-// in front of the camera, for a fisheye not in its circle.
+// The image of a point: x and y as above, and its depth along `forward` in m, which for a fisheye is the distance. project()
+// returns none for a point that is not in front of the camera, or not in a fisheye's circle.
 struct Appearance {
   glm::dvec2 at{0.0};
   double depth_m = 0.0;
 };
 [[nodiscard]] std::optional<Appearance> project(const Camera& camera, glm::dvec3 point_m);
 
-// The length in the scene, at that depth, of a pixel's height in a picture `height` pixels high.
+// Returns the length in the scene, at that depth, of one pixel's height in a picture `height` pixels high.
 [[nodiscard]] double pixel_size_m(const Camera& camera, int height, double depth_m);
 
 }  // namespace sunfleck

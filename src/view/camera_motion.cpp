@@ -22,7 +22,7 @@ glm::dvec3 turned_about_vertical(const glm::dvec3& v, double angle_rad) {
   return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
 }
 
-// The height that the picture shows at the point the camera turns about.
+// Returns the height that the picture shows at the point the camera turns about.
 double shown_height_m(const HandCamera& hand) {
   if (hand.camera.kind == Projection::orthographic) return 2.0 * hand.camera.half_height_m;
   return 2.0 * hand.camera.tan_half_fov * hand.distance_m;
@@ -40,7 +40,7 @@ void orbit(HandCamera& hand, double right_rad, double up_rad) {
   if (camera.kind == Projection::fisheye) return;
   const glm::dvec3 pivot = camera.position_m + hand.distance_m * camera.forward;
   const glm::dvec3 right = glm::normalize(turned_about_vertical({camera.right.x, 0.0, camera.right.z}, right_rad));
-  const glm::dvec3 level = glm::cross(above, right);  // ahead, level
+  const glm::dvec3 level = glm::cross(above, right);  // straight ahead and level
   const glm::dvec3 ahead = turned_about_vertical(camera.forward, right_rad);
   const double now = std::atan2(ahead.y, glm::dot(ahead, level));
   const double next = std::clamp(now - up_rad, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);

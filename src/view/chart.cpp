@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 3> axis_names = {"X", "Y", "Z"};
 constexpr std::array<std::string_view, 4> bearings = {"N", "E", "S", "W"};
 
-// Sizes in pixels, all in proportion to the picture's height; at the default 1200 pixels the smallest type measures 21, which
+// Sizes in pixels, all proportional to the picture's height. At the default 1200 pixels the smallest type measures 21, which
 // stays readable at half size.
 struct Layout {
   explicit Layout(double height)
@@ -34,7 +34,7 @@ struct Layout {
   double margin, title, subtitle, label, footer, axis_letter, axis_line, border_line;
 };
 
-// The sky's colour in a row of a picture of that height.
+// Returns the sky's colour in a row of a picture of that height.
 Colour background_of(int row, int height) {
   const Colour top = from_srgb(sky_top);
   const Colour bottom = from_srgb(sky_bottom);
@@ -76,7 +76,7 @@ void draw_border(Image& image, const SeenScene& scene, const Plot& plot, const L
   }
 }
 
-// A letter in the middle of `at_px`, with a thin pale edge that keeps it legible on any ground.
+// Draws a letter centred on `at_px`, with a thin pale edge that keeps it legible on any background.
 void draw_letter(Image& image, const Typeface& face, std::string_view letter, glm::dvec2 at_px, double size_px, Colour colour) {
   const glm::dvec2 baseline_px = at_px + 0.5 * size_px * glm::dvec2(-face.width_px(letter, 1.0), Typeface::cap_height);
   const double edge_px = std::max(1.0, 0.07 * size_px);
@@ -95,7 +95,7 @@ Segment axis_segment(const ChartFrame& frame, int axis) {
   return segment;
 }
 
-// An axis seen end-on has its letter opposite to where the others point.
+// The letter of an axis seen end-on is placed opposite to the direction of the other axes.
 void draw_axis_letters(Image& image, const Typeface& face, const ChartFrame& frame, const Layout& layout) {
   const glm::dvec2 size(image.width, image.height);
   std::array<glm::dvec2, 3> along{};  // px
@@ -120,10 +120,10 @@ void draw_axis_letters(Image& image, const Typeface& face, const ChartFrame& fra
   }
 }
 
-// The circle of a fisheye, the horizon, with the points of the compass around it.
+// Draws the circle of a fisheye, the horizon, with the points of the compass around it.
 void draw_horizon(Image& image, const Typeface& face, const Camera& camera, const Layout& layout) {
   const glm::dvec2 centre_px = camera.circle_centre * glm::dvec2(image.width, image.height);
-  const double radius_px = camera.circle_radius * image.height + layout.border_line;  // the line lies around it
+  const double radius_px = camera.circle_radius * image.height + layout.border_line;  // the line lies outside the circle
   outline_rectangle(image, {centre_px - radius_px, centre_px + radius_px}, {radius_px}, layout.border_line, {from_srgb(ink)});
   const std::array<glm::dvec3, 4> directions = {{{-1, 0, 0}, {0, 0, -1}, {1, 0, 0}, {0, 0, 1}}};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -134,7 +134,7 @@ void draw_horizon(Image& image, const Typeface& face, const Camera& camera, cons
   }
 }
 
-// Draws a line at `size_px`, or smaller so that it is no wider than `room_px`.
+// Draws a line of text at `size_px`, or smaller so that it is no wider than `room_px`.
 void draw_fitting(Image& image, const Typeface& face, std::string_view line, glm::dvec2 baseline_px, double size_px,
                   double room_px, const std::array<std::uint8_t, 3>& colour) {
   if (line.empty()) return;

@@ -1,5 +1,5 @@
 #pragma once
-// A finished chart: coloured surfaces, axes, the plot's border, title and legend.
+// Draws finished charts: coloured surfaces, axes, the plot's border, title and legend.
 
 #include "canopy/plot.h"
 #include "view/camera.h"
@@ -15,7 +15,7 @@
 
 namespace sunfleck {
 
-// UTF-8, a line each. What is too long for the picture is set smaller.
+// Text of a chart: UTF-8, one line each. A line too long for the picture is set in a smaller size.
 struct ChartText {
   std::string title;
   std::string subtitle;      // may be empty
@@ -25,7 +25,7 @@ struct ChartText {
   std::optional<ColourBar> bar;  // below the entries of the legend
 };
 
-// What a chart shows, and how large. A fisheye's chart has the horizon's circle and N, E, S, W instead of axes and border.
+// What a chart shows, and its size. A fisheye's chart has the horizon's circle and N, E, S, W instead of axes and border.
 struct ChartFrame {
   int width = 0;
   int height = 0;
@@ -34,21 +34,21 @@ struct ChartFrame {
   double height_m = 0.0;  // of the canopy, for the length of the axes
 };
 
-// A chart that is painted band of rows by band of rows; how the rows are cut changes no pixel.
+// A chart that is painted in bands of rows; the division into bands does not affect any pixel.
 //
-// Surfaces in their colours averaged over each pixel's samples over a soft background, those of neighbouring copies of the plot
-// mixed half and half with it; the axes from the plot's origin in red (X), green (Y), blue (Z) with their letters, the plot's
-// border at ground level in black, both hidden where a surface stands before them (their letters never are); text in a
-// sans-serif type whose size follows the picture's height, readable at half size.
+// Surfaces are shown in their colours, averaged over each pixel's samples, on a soft background; neighbouring copies of the
+// plot are blended half and half with it. The axes start at the plot's origin in red (X), green (Y) and blue (Z) with their
+// letters, and the plot's border is black at ground level; both are hidden behind surfaces (the letters never are). Text is in
+// a sans-serif typeface whose size scales with the picture's height and which stays readable at half size.
 class ChartCanvas {
  public:
   // colours: linear, [surface number].
   ChartCanvas(const ChartFrame& frame, std::vector<Colour> colours);
 
-  // Paints the rows that are in `seen`; each row once, in any order.
+  // Paints the rows that `seen` holds. Call once per row, in any order.
   void paint(const SurfaceImage& seen);
 
-  // After all rows. The picture is handed over.
+  // Adds lines and text after all rows are painted, and returns the picture.
   [[nodiscard]] Image finish(const ChartText& text);
 
  private:
@@ -57,7 +57,7 @@ class ChartCanvas {
   Image image_;
 };
 
-// The same in one go, at the size of `seen`.
+// Draws a whole chart at once, at the size of `seen`.
 [[nodiscard]] Image draw_chart(const SurfaceImage& seen, std::span<const Colour> colours, const Camera& camera,
                                const Plot& plot, double height_m, const ChartText& text);
 

@@ -12,19 +12,19 @@ namespace {
 
 constexpr int rank_count = 5;
 
-// sRGB. Lightness (CIELAB L*) rises by 13 or more from class to class, so the order survives greyscale print; the hue runs
-// indigo, blue, green, orange, yellow, from shade to sun. Any two differ by at least 23 in CIELAB, for normal vision as under
-// the protanope, deuteranope and tritanope simulations of Machado, Oliveira and Fernandes (2009).
+// sRGB. Lightness (CIELAB L*) rises by 13 or more from class to class, so that the order survives greyscale print; the hue runs
+// from shade to sun as indigo, blue, green, orange, yellow. Any two colours differ by at least 23 in CIELAB, for normal vision
+// as well as under the protanope, deuteranope and tritanope simulations of Machado, Oliveira and Fernandes (2009).
 constexpr std::array<std::array<std::uint8_t, 3>, rank_count> rank_srgb = {
     {{0x24, 0x1a, 0x63}, {0x20, 0x64, 0xb4}, {0x17, 0xa2, 0x7f}, {0xe8, 0xa5, 0x3a}, {0xff, 0xef, 0x8a}}};
 
-// Equal values and the weight they have together: no class boundary can part them.
+// Equal values and their total weight; no class boundary can separate them.
 struct Group {
   double value = 0.0;
   double weight = 0.0;
 };
 
-// In rising order of value; negative values count as zero, values without weight are left out.
+// Returns the groups in ascending order of value. Negative values count as zero; values without weight are left out.
 std::vector<Group> groups_by_value(std::span<const double> values, std::span<const double> weights) {
   EXPECT(values.size(), ==, weights.size());
   std::vector<Group> items;
@@ -52,7 +52,7 @@ double weight_of(std::span<const Group> groups) {
   return weight;
 }
 
-// Of groups in rising order; 0 without any.
+// Returns the quantile of groups in ascending order; 0 without groups.
 double quantile(std::span<const Group> groups, double share) {
   const double wanted = share * weight_of(groups);
   double below = 0.0;
@@ -101,7 +101,7 @@ RankScale equal_count_ranks(std::span<const double> values, std::span<const doub
   RankScale scale;
   scale.bounds.fill(quantile(lit, rank_top_share));
   scale.bounds[0] = groups.front().value;
-  // A group goes where its middle falls, so that a boundary is off its share by half a group at most.
+  // A group belongs to the class that contains its middle, so that a boundary is off by at most half a group.
   int next = 1;
   double below = 0.0;
   for (const Group& group : lit) {

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers to colours.
+// Maps numbers to colours.
 
 #include <array>
 #include <cstdint>
@@ -10,57 +10,58 @@ namespace sunfleck {
 
 using Colour = std::array<double, 3>;  // linear red, green, blue, 0..1
 
-// The smallest value that no more than 1 - share of the weight exceeds; 0 without weight. values, weights: [item], finite,
-// weights not negative; share in 0..1.
+// Returns the smallest value that no more than 1 - share of the weight exceeds; 0 without weight. values and weights are [item]
+// and finite; weights are not negative; share is in 0..1.
 [[nodiscard]] double weighted_quantile(std::span<const double> values, std::span<const double> weights, double share);
 
-// Scales end where no more than a thousandth of the lit area is brighter: the very largest of many estimates is the noise of
+// Scales end where no more than a thousandth of the lit area is brighter, because the largest of many estimates is the noise of
 // the smallest sliver.
 inline constexpr double rank_top_share = 0.999;
 
-// Five classes of irradiance: the colour rank chart. A value v belongs to the class k with bounds[k] <= v < bounds[k + 1];
-// the last class includes its upper bound, and values outside are put in the nearest class. A class whose two bounds are
-// equal is empty. Where all bounds are equal (nothing but zeros) every value belongs to class 0.
+// Five classes of irradiance for the colour rank chart. A value v belongs to the class k with bounds[k] <= v < bounds[k + 1];
+// the last class includes its upper bound, and values outside belong to the nearest class. A class whose two bounds are equal
+// is empty. If all bounds are equal (nothing but zeros), every value belongs to class 0.
 struct RankScale {
   std::array<double, 6> bounds{};
-  bool open = false;  // values lie above the last bound: the last class has no upper one
+  bool open = false;  // values exceed the last bound, so the last class has no upper bound
 };
 
-// Classes that hold equal shares of the weight (weights: areas, say) of the values above zero; zeros and negative values come
-// into class 0 on top of its share, so that a canopy mostly in shade still shows its sunlit part in five colours. A class is
-// off its share by no more than the weight of one group of equal values. The scale runs from the smallest value that has
-// weight to the quantile rank_top_share of those above zero. Without any weight, or where all values are equal, the bounds are
-// those of equal_interval_ranks. values, weights: [item], finite, weights not negative.
+// Returns classes that hold equal shares of the weight (areas, for example) of the values above zero. Zero and negative values
+// are added to class 0 in addition to its share, so that a mostly shaded canopy still shows its sunlit part in five colours. A
+// class deviates from its share by at most the weight of one group of equal values. The scale runs from the smallest value that
+// has weight to the quantile rank_top_share of the values above zero. Without any weight, or if all values are equal, the
+// bounds are those of equal_interval_ranks. values and weights are [item] and finite; weights are not negative.
 [[nodiscard]] RankScale equal_count_ranks(std::span<const double> values, std::span<const double> weights);
 
-// Classes of equal width between 0 and the quantile rank_top_share of the values above zero; and the largest value where
+// Returns classes of equal width from 0 to the quantile rank_top_share of the values above zero, or to the largest value if
 // nothing has weight.
 [[nodiscard]] RankScale equal_interval_ranks(std::span<const double> values, std::span<const double> weights);
 
 [[nodiscard]] int rank_of(const RankScale& scale, double value);
 
-// From class 0, the darkest shade, to class 4, full sun: distinct in hue and in lightness, also without colour vision.
+// Returns a colour from class 0, the darkest shade, to class 4, full sun. They differ in hue and in lightness, also without
+// colour vision.
 [[nodiscard]] Colour rank_colour(int rank);
 
-// The continuous map: from 0 to the quantile map_top_share of all values by weight (the largest value where that is 0). What is
-// brighter takes the last colour.
+// The continuous map, from 0 to the quantile map_top_share of all values by weight (the largest value if that is 0). Brighter
+// values take the last colour.
 inline constexpr double map_top_share = 0.995;
 struct MapScale {
   double top = 0.0;
-  bool open = false;  // values lie above the top
+  bool open = false;  // values exceed the top
 };
 [[nodiscard]] MapScale make_map_scale(std::span<const double> values, std::span<const double> weights);
 
-// The same two scales, from 0 to a top that is given (> 0).
+// Return the same two scales, from 0 to a given top (> 0).
 [[nodiscard]] RankScale rank_scale_to(double top, std::span<const double> values);
 [[nodiscard]] MapScale map_scale_to(double top, std::span<const double> values);
 
-// The colour of a value in the map; of 0 where the scale has no length.
+// Returns the colour of a value in the map; the colour of 0 if the scale has no length.
 [[nodiscard]] Colour map_colour(const MapScale& scale, double value);
 
 [[nodiscard]] std::array<std::uint8_t, 3> to_srgb(const Colour& linear);
 [[nodiscard]] Colour from_srgb(const std::array<std::uint8_t, 3>& srgb);
-// The same for encoded values 0..1 that are no whole 255ths.
+// Converts encoded values 0..1 that need not be whole 255ths.
 [[nodiscard]] Colour from_encoded(const Colour& encoded);
 
 }  // namespace sunfleck

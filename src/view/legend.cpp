@@ -18,9 +18,9 @@ namespace {
 constexpr std::string_view range_dash = " – ";
 constexpr std::size_t fewest_ticks = 4;
 
-// A legend's label, cut at its dash: both numbers are set flush right, so that their digits stand in columns.
+// A legend's label, split at its dash. Both numbers are right-aligned, so that their digits line up in columns.
 struct Label {
-  std::string_view from, to;  // `to` is empty where there is no dash
+  std::string_view from, to;  // `to` is empty if there is no dash
 
   explicit Label(std::string_view label) : from(label) {
     const std::size_t dash = label.find(range_dash);
@@ -30,7 +30,7 @@ struct Label {
   }
 };
 
-// The legend's panel: where its parts lie for a type size of 1, from the panel's upper left corner.
+// The layout of the legend's panel for a type size of 1, relative to the panel's upper left corner.
 struct LegendPlan {
   std::string_view title, unit;
   std::vector<Tick> ticks;  // of the colour bar
@@ -80,17 +80,17 @@ struct LegendPlan {
   }
 };
 
-// What all parts of a legend are drawn with.
+// Everything needed to draw the parts of a legend.
 struct LegendPen {
   Image& image;
   const Typeface& face;
   const LegendPlan& plan;
-  double size;             // of the type, px
-  glm::dvec2 corner{0.0};  // of the panel, upper left
+  double size;             // type size, px
+  glm::dvec2 corner{0.0};  // upper left corner of the panel
 
   [[nodiscard]] double hairline() const { return std::max(1.0, 0.05 * size); }
 
-  // Text whose capitals are centred on the height `middle_y`, ending at `right_x`.
+  // Draws text that ends at `right_x`, with its capitals centred on the height `middle_y`.
   void flush_right(std::string_view text, double right_x, double middle_y) const {
     const glm::dvec2 baseline(right_x - face.width_px(text, size), middle_y + 0.5 * Typeface::cap_height * size);
     face.draw(image, text, baseline, size, from_srgb(ink));
@@ -121,7 +121,7 @@ void draw_entries(const LegendPen& pen, const std::vector<LegendEntry>& entries)
   }
 }
 
-// At `share` of the way from the first colour to the last.
+// Returns the colour at `share` of the way from the first to the last.
 Colour colour_at(const std::vector<Colour>& colours, double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(colours.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(place), colours.size() - 1);
@@ -156,7 +156,7 @@ void draw_bar(const LegendPen& pen, const ColourBar& bar) {
 }  // namespace
 
 std::vector<LegendEntry> rank_legend(const RankScale& scale) {
-  const double largest = scale.open ? scale.bounds[scale.bounds.size() - 2] : scale.bounds.back();  // of those printed
+  const double largest = scale.open ? scale.bounds[scale.bounds.size() - 2] : scale.bounds.back();  // the largest printed bound
   int decimals = largest > 0.0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(largest))), 0, 12) : 0;
   const auto number = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
   const std::set<double> different(scale.bounds.begin(), scale.bounds.end());
@@ -184,13 +184,14 @@ std::vector<LegendEntry> rank_legend(const RankScale& scale) {
 std::vector<Tick> round_ticks(double lo, double hi) {
   EXPECT(lo, <=, hi);
   if (lo == hi) return {{lo, fmt::format("{:.3g}", lo)}};
-  // From a step that has at most two ticks down to the first that has enough: 1, 2, 5 and powers of ten times these.
+  // Tries steps from one that gives at most two ticks down to the first that gives enough: 1, 2, 5 and powers of ten times
+  // these.
   int power = static_cast<int>(std::ceil(std::log10(hi - lo))) + 1;
   for (;; --power) {
     for (const double factor : {5.0, 2.0, 1.0}) {
       const double step = power < 0 ? factor / std::pow(10.0, -power) : factor * std::pow(10.0, power);
-      // Ends that are multiples but for rounding count.
-      const double first = std::ceil(lo / step - 1e-9) + 0.0;  // not -0
+      // Ends that are multiples except for rounding count as multiples.
+      const double first = std::ceil(lo / step - 1e-9) + 0.0;  // + 0.0 avoids -0
       const double last = std::floor(hi / step + 1e-9);
       if (last - first + 1.0 < static_cast<double>(fewest_ticks)) continue;
       std::vector<Tick> ticks;

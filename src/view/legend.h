@@ -1,5 +1,5 @@
 #pragma once
-// The legend of a chart: classes, or a colour bar, in a panel with a title.
+// The legend of a chart: classes or a colour bar in a panel with a title.
 
 #include "view/colour_scale.h"
 #include "view/image.h"
@@ -12,46 +12,48 @@
 
 namespace sunfleck {
 
-// One entry of the legend, from its top to its bottom.
+// One entry of the legend; entries are listed from top to bottom.
 struct LegendEntry {
   Colour colour{};
   std::string label;  // "FROM – TO" (en dash) is set in two columns
 };
 
-// A continuous scale, drawn upright with `hi` at its top and ticks at round numbers.
+// A continuous scale, drawn upright with `hi` at the top and ticks at round numbers.
 struct ColourBar {
   double lo = 0.0;
-  double hi = 1.0;              // > lo, or equal to it where all values are the same: one tick then
-  std::vector<Colour> colours;  // from lo to hi at even distances, at least one; blended in between
+  double hi = 1.0;              // > lo; or equal to lo if all values are the same, which gives one tick
+  std::vector<Colour> colours;  // evenly spaced from lo to hi and interpolated, at least one
 };
 
-// UTF-8, a line each.
+// UTF-8, one line each.
 struct Legend {
-  std::string title;  // e.g. "Direct PAR irradiance, W m⁻²": what follows the last ", " is a line of its own
+  // e.g. "Direct PAR irradiance, W m⁻²"; the part after the last ", " is set on a line of its own
+  std::string title;
   std::optional<ColourBar> bar;
-  std::vector<LegendEntry> entries;  // above the bar, if there is one: what is beyond its end, say
+  std::vector<LegendEntry> entries;  // above the bar if there is one, for example for values beyond its end
 };
 
-// The entries of a rank chart, full sun first, labelled with the bounds to three digits of the largest, or as many more as it
-// takes to tell the bounds apart; "≥ FROM" for the last class of an open scale. Empty classes are left out.
+// Returns the entries of a rank chart, full sun first. Labels show the bounds to three digits of the largest, or as many more
+// as are needed to distinguish them; "≥ FROM" for the last class of an open scale. Empty classes are left out.
 [[nodiscard]] std::vector<LegendEntry> rank_legend(const RankScale& scale);
 
-// Numbers between lo and hi, ends included, that are multiples of 1, 2 or 5 times a power of ten: four to eight of them, and
-// their labels, all with the same number of decimals.
+// Returns the numbers from lo to hi, inclusive, that are multiples of 1, 2 or 5 times a power of ten, four to eight of them,
+// with labels that all have the same number of decimals.
 struct Tick {
   double value = 0.0;
   std::string label;
 };
 [[nodiscard]] std::vector<Tick> round_ticks(double lo, double hi);
 
-// Where a legend's panel may lie, in pixels: its upper right corner and the room to the left of it and below.
+// The room for a legend's panel, in pixels: its upper right corner and the size to the left and below.
 struct LegendRoom {
   glm::dvec2 corner_px{0.0};
   double width_px = 0.0;
   double height_px = 0.0;
 };
 
-// Draws the panel in type of `size_px`, or smaller so that it fits into its room. Nothing for a legend without bar and entries.
+// Draws the panel in type of `size_px`, or smaller if needed to fit into its room. Draws nothing for a legend without bar and
+// entries.
 void draw_legend(Image& image, const Typeface& face, const Legend& legend, const LegendRoom& room, double size_px);
 
 }  // namespace sunfleck

@@ -8,14 +8,14 @@
 namespace sunfleck {
 namespace {
 
-// Signed distance to the edge of a rounded rectangle, negative inside.
+// Returns the signed distance to the edge of a rounded rectangle, negative inside.
 double edge_distance_px(const Rectangle& rectangle, double radius_px, glm::dvec2 at) {
   const glm::dvec2 half = 0.5 * (rectangle.hi - rectangle.lo);
   const glm::dvec2 beyond = glm::abs(at - 0.5 * (rectangle.lo + rectangle.hi)) - half + radius_px;
   return glm::length(glm::max(beyond, 0.0)) + std::min(std::max(beyond.x, beyond.y), 0.0) - radius_px;
 }
 
-// `coverage_at(distance)` of every pixel touched, from the signed distance of its middle to the edge.
+// Blends every pixel touched by `coverage_at(distance)`, given the signed distance of its middle from the edge.
 template <class CoverageAt>
 void paint_rectangle(Image& image, const Rectangle& rectangle, Corners corners, const Paint& paint, CoverageAt coverage_at) {
   const PixelRange range = pixels_in(rectangle, image.width, image.height);

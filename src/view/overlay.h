@@ -1,6 +1,6 @@
 #pragma once
-// Flat marks over a finished picture, in pixels: x to the right, y downwards, (0, 0) the upper left corner of the picture and
-// (0.5, 0.5) the middle of its first pixel. Edges are anti-aliased; what lies outside the picture is cut off.
+// Draws flat marks over a finished picture, in pixels: x to the right, y downwards, (0, 0) is the upper left corner of the
+// picture and (0.5, 0.5) the middle of its first pixel. Edges are anti-aliased; parts outside the picture are clipped.
 
 #include "view/colour_scale.h"
 #include "view/image.h"
@@ -23,10 +23,10 @@ struct Corners {
   double radius_px = 0.0;
 };
 
-// Mixes `paint` over a pixel, `coverage` (0..1) of which it covers. Light adds: the mixture is made in linear values.
+// Blends `paint` into a pixel, of which it covers `coverage` (0..1). Blends linear values, as light adds.
 void blend(std::array<std::uint8_t, 3>& pixel, const Paint& paint, double coverage);
 
-// The whole pixels that a rectangle touches, within the picture: columns [left, right), rows [top, bottom).
+// The whole pixels within the picture that a rectangle touches: columns [left, right), rows [top, bottom).
 struct PixelRange {
   int left = 0, right = 0, top = 0, bottom = 0;
 };
@@ -34,7 +34,7 @@ struct PixelRange {
 
 void fill_rectangle(Image& image, const Rectangle& rectangle, Corners corners, const Paint& paint);
 
-// A line of `width_px` along the inner side of the rectangle's edge.
+// Draws a line of `width_px` along the inside of the rectangle's edge.
 void outline_rectangle(Image& image, const Rectangle& rectangle, Corners corners, double width_px, const Paint& paint);
 
 }  // namespace sunfleck

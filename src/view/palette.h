@@ -1,5 +1,5 @@
 #pragma once
-// Colours of a chart's furniture, sRGB: near-black ink, greys for what comes second, a soft sky.
+// Colours of a chart's furniture, sRGB: near-black ink, greys for secondary elements, a soft sky.
 
 #include <array>
 #include <cstdint>

@@ -14,15 +14,15 @@ glm::dvec2 to_pixels(const Appearance& appearance, const Image& image) {
   return {appearance.at.x * image.width, appearance.at.y * image.height};
 }
 
-// Rows of the picture that are both in the range and in what is seen.
+// Returns the rows that are both in the range and in `seen`.
 PixelRange seen_rows(PixelRange range, const SurfaceImage& seen) {
   range.top = std::max(range.top, seen.first_row);
   range.bottom = std::min(range.bottom, seen.first_row + seen.height);
   return range;
 }
 
-// The share of a pixel's samples that see nothing nearer than `depth_m`. Differences below two pixels' sizes count as none,
-// and so do surfaces no more than a pixel's size above or below the ground.
+// Returns the share of a pixel's samples that see nothing nearer than `depth_m`. Differences below two pixel sizes are ignored,
+// as are surfaces within one pixel size of the ground.
 double visible_share(const SeenScene& scene, const Image& image, int column, int row, double depth_m) {
   const SurfaceImage& seen = scene.seen;
   const glm::dvec2 middle((column + 0.5) / image.width, (row + 0.5) / image.height);
@@ -41,21 +41,21 @@ double visible_share(const SeenScene& scene, const Image& image, int column, int
   return static_cast<double>(visible) / seen.samples;
 }
 
-// A segment as it appears: its ends in pixels and their depths.
+// A segment as it appears: its ends in pixels, and their depths.
 struct Stroke {
   glm::dvec2 from{0.0}, to{0.0};
   double from_depth_m = 0.0, to_depth_m = 0.0;
 
   Projection kind = Projection::perspective;
 
-  // Depth at the share `t` of the way in the picture: in perspective its reciprocal is linear there.
+  // Returns the depth at the share `t` of the way in the picture; in perspective its reciprocal is linear there.
   [[nodiscard]] double depth_m(double t) const {
     if (kind == Projection::orthographic) return (1.0 - t) * from_depth_m + t * to_depth_m;
     return 1.0 / ((1.0 - t) / from_depth_m + t / to_depth_m);
   }
 };
 
-// None where the segment is wholly behind the camera; else the part before it.
+// Returns the part of the segment in front of the camera; none if it is wholly behind.
 std::optional<Stroke> appearance(const SeenScene& scene, const Image& image, const Segment& segment) {
   const auto depth = [&](glm::dvec3 point) { return glm::dot(point - scene.camera.position_m, scene.camera.forward); };
   const double nearest_m = 1e-3 * glm::distance(segment.from_m, segment.to_m);
@@ -82,7 +82,7 @@ void draw_stroke(Image& image, const SeenScene& scene, const Stroke& stroke, dou
                           image.height),
                 scene.seen);
   for (int row = rows.top; row < rows.bottom; ++row) {
-    // The part of the line within reach of this row, and so the columns to look at.
+    // The part of the line within reach of this row, and therefore the columns to look at.
     const auto share_at = [&](double y) { return std::clamp((y - stroke.from.y) / along.y, 0.0, 1.0); };
     const bool level = std::abs(along.y) < 1e-9;
     const double x0 = stroke.from.x + along.x * (level ? 0.0 : share_at(row + 0.5 - reach));
@@ -99,7 +99,7 @@ void draw_stroke(Image& image, const SeenScene& scene, const Stroke& stroke, dou
   }
 }
 
-// Corners in either order of turning.
+// Corners in either order of rotation.
 using FlatTriangle = std::array<glm::dvec2, 3>;
 
 void fill_triangle(Image& image, const SeenScene& scene, FlatTriangle corners, double depth_m, const Paint& paint) {
@@ -110,7 +110,7 @@ void fill_triangle(Image& image, const SeenScene& scene, FlatTriangle corners, d
   const PixelRange range = seen_rows(pixels_in(box, image.width, image.height), scene.seen);
   for (int row = range.top; row < range.bottom; ++row) {
     for (int column = range.left; column < range.right; ++column) {
-      double inside_px = 1.0;  // least distance from the three edges, inwards
+      double inside_px = 1.0;  // smallest distance from the three edges, inwards
       for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec2 edge = glm::normalize(corners[(i + 1) % 3] - corners[i]);
         inside_px = std::min(inside_px, cross(edge, glm::dvec2(column + 0.5, row + 0.5) - corners[i]));

@@ -1,5 +1,5 @@
 #pragma once
-// Lines that stand in the scene, drawn over its picture and hidden where a surface stands before them.
+// Draws lines placed in the scene over its picture, hidden behind nearer surfaces.
 
 #include "view/camera.h"
 #include "view/image.h"
@@ -10,8 +10,8 @@
 
 namespace sunfleck {
 
-// What lines are drawn over: of the whole picture only the rows that `seen` holds are drawn upon. A sample on the ground (y =
-// 0, to a pixel's size) hides nothing, so that lines lie upon it. Not for a fisheye, in which lines are curved.
+// What lines are drawn over: only the rows of the picture that `seen` holds are changed. A sample on the ground (y = 0 within a
+// pixel's size) hides nothing, so that lines can lie on the ground. Not for a fisheye, in which lines are curved.
 struct SeenScene {
   const SurfaceImage& seen;
   const Camera& camera;
@@ -22,11 +22,11 @@ struct Segment {
   glm::dvec3 to_m{0.0};
 };
 
-// A line of even width with round ends. Of each pixel the share of samples with a nearer surface stays as it is.
+// Draws a line of constant width with round ends. In each pixel, the share of samples with a nearer surface stays unchanged.
 void draw_line(Image& image, const SeenScene& scene, const Segment& segment, double width_px, const Paint& paint);
 
-// The same, ending in an arrow head in the plane of the picture whose point is at `to_m`; a line that runs so nearly along
-// the view that the head would be longer than the line has none.
+// Draws such a line with an arrow head in the plane of the picture whose point is at `to_m`. A line so nearly parallel to the
+// view that the head would be longer than the line gets no head.
 void draw_arrow(Image& image, const SeenScene& scene, const Segment& segment, double width_px, const Paint& paint);
 
 }  // namespace sunfleck

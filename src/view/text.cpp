@@ -16,8 +16,8 @@ namespace {
 
 constexpr char32_t replacement = 0xfffd;
 
-// The next code point of a line, which is cut by what was read; at least one byte is. Overlong forms, surrogates and values
-// above U+10FFFF are no UTF-8 (Unicode 15.0, table 3-7).
+// Removes the next code point from the line and returns it; removes at least one byte. Overlong forms, surrogates and values
+// above U+10FFFF are invalid (Unicode 15.0, table 3-7).
 char32_t take_code_point(std::string_view& line) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(line[i]); };
   const unsigned char first = byte(0);
@@ -33,7 +33,7 @@ char32_t take_code_point(std::string_view& line) {
   return good ? value : replacement;
 }
 
-// One letter of a set line: its glyph and where its origin lies from the line's start.
+// One letter of a set line: its glyph and its origin relative to the line's start.
 struct SetGlyph {
   int glyph = 0;
   double x_px = 0.0;
@@ -60,7 +60,7 @@ SetLine set(const stbtt_fontinfo& font, std::string_view line, double scale) {
   return result;
 }
 
-// Dark type on a light ground is mixed in encoded values: mixed in linear light its thin strokes would look too faint.
+// Mixes encoded values: mixed in linear light, the thin strokes of dark type on a light background would look too faint.
 void mix_encoded(std::array<std::uint8_t, 3>& pixel, const std::array<std::uint8_t, 3>& colour, double coverage) {
   for (std::size_t i = 0; i < 3; ++i) {
     pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] + coverage * (colour[i] - pixel[i])));
@@ -87,7 +87,8 @@ double Typeface::width_px(std::string_view line, double size_px) const {
 void Typeface::draw(Image& image, std::string_view line, glm::dvec2 baseline_px, double size_px, const Colour& colour) const {
   const float scale = stbtt_ScaleForMappingEmToPixels(font_.get(), static_cast<float>(size_px));
   const std::array<std::uint8_t, 3> encoded = to_srgb(colour);
-  const int baseline_row = static_cast<int>(std::lround(baseline_px.y));  // level with the rows, so that stems stay crisp
+  // Aligned with the rows, so that stems stay crisp.
+  const int baseline_row = static_cast<int>(std::lround(baseline_px.y));
   std::vector<unsigned char> coverage;
   for (const SetGlyph& letter : set(*font_, line, scale).glyphs) {
     const double x_px = baseline_px.x + letter.x_px;

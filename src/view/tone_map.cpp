@@ -9,8 +9,10 @@
 namespace sunfleck {
 namespace {
 
-constexpr double white_share = 0.995;    // of the surfaces' area, no brighter than L995
-constexpr double white_over_top = 1.25;  // Lwhite / L995
+// Share of the surfaces' area that is no brighter than L995.
+constexpr double white_share = 0.995;
+// Lwhite / L995
+constexpr double white_over_top = 1.25;
 
 double log_mean(std::span<const double> values, std::span<const double> weights) {
   double sum = 0.0;

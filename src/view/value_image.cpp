@@ -7,7 +7,7 @@
 namespace sunfleck {
 namespace {
 
-// Of sorted numbers the most frequent one, the lowest of several.
+// Returns the most frequent of sorted numbers, the lowest if tied.
 std::uint32_t most_frequent(std::span<const std::uint32_t> sorted) {
   std::uint32_t best = SurfaceImage::nothing;
   std::ptrdiff_t most = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers instead of colours: a picture of the surfaces' values themselves.
+// Pictures of numbers instead of colours: the surfaces' values themselves.
 
 #include "view/surface_image.h"
 
@@ -9,19 +9,19 @@
 
 namespace sunfleck {
 
-// All [row][column]. The rows of a whole picture, or of a band of it.
+// Values, all [row][column], of a whole picture or a band of its rows.
 struct ValueImage {
   int width = 0;
   int height = 0;
-  std::vector<float> value;            // mean over the samples that see a surface; 0 where none does
+  std::vector<float> value;            // mean over the samples that see a surface; 0 if none does
   std::vector<float> coverage;         // share of the samples that see a surface, 0..1
-  std::vector<std::uint32_t> surface;  // the one that most samples see (the lowest number of several), or SurfaceImage::nothing
+  std::vector<std::uint32_t> surface;  // seen by most samples (the lowest number if tied), or SurfaceImage::nothing
 };
 
-// values: [surface number]. Copies of the plot have the values of the plot.
+// Averages the values of the surfaces seen. values: [surface number]. Copies of the plot have the plot's values.
 [[nodiscard]] ValueImage resolve_values(const SurfaceImage& seen, std::span<const double> values);
 
-// Puts the rows of `band` below those of `image`, which may be empty so far.
+// Appends the rows of `band` below those of `image`, which may still be empty.
 void append_rows(ValueImage& image, const ValueImage& band);
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// A camera as the tracers take it.
+// Converts a camera to the form the tracers use.
 
 #include "shared/layout.h"
 #include "shared/view_layout.h"
@@ -12,11 +12,11 @@ namespace sunfleck {
 struct PictureSize {
   int width = 0;
   int height = 0;
-  int samples = 1;  // a pixel
+  int samples = 1;  // per pixel
 };
 
-// The camera's part of the block, for a scene whose local frame begins at `origin_m`: elements and ground are left 0, for the
-// caller to fill in.
+// Returns the camera's part of the block, for a scene whose local frame begins at `origin_m`. `elements` and `ground` are left
+// 0 for the caller to fill in.
 [[nodiscard]] shared::ViewBlock make_view_block(const Camera& camera, const PictureSize& size, glm::dvec3 origin_m);
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// Tells when files are no longer as they were read.
+// Watches files for changes since they were read.
 
 #include "io/source_files.h"
 
@@ -12,18 +12,18 @@ namespace sunfleck {
 
 class FileWatch {
  public:
-  // Watches no file any more.
+  // Stops watching all files.
   void clear() { known_.clear(); }
 
-  // Watches these too, each as it was when it was first read. What was known of one of them before no longer counts.
+  // Also watches these files, each from the state in which it was first read. Replaces what was known about them before.
   void add(std::span<const SourceFile> files);
 
-  // Looks at all of them. True if one was written, replaced or made since it was read or last looked at. A file that is away is
-  // waited for: an editor may be about to put a new one in its place.
+  // Looks at all files. Returns true if one was written, replaced or created since it was read or last looked at. A missing
+  // file counts as unchanged, because an editor may be about to put a new one in its place.
   [[nodiscard]] bool has_changed();
 
  private:
-  std::map<std::filesystem::path, std::optional<FileStamp>> known_;  // none: it was missing
+  std::map<std::filesystem::path, std::optional<FileStamp>> known_;  // none: the file was missing
 };
 
 }  // namespace sunfleck

@@ -13,11 +13,11 @@ namespace {
 constexpr double turn_rad_per_height = 3.0;
 constexpr double zoom_per_notch = 0.88;
 constexpr float click_slack_px = 4.0F;
-// A camera that has not been moved for so long rests.
+// Time without motion after which the camera is at rest.
 constexpr double rest_s = 0.15;
 constexpr double extents_per_second = 0.6;
 
-// 1 towards `forth`, -1 towards `back`, 0 with neither or both keys held.
+// Returns 1 towards `forth`, -1 towards `back`, 0 if neither or both keys are held.
 double pull(char forth, char back) {
   return (ImGui::IsKeyDown(forth) ? 1.0 : 0.0) - (ImGui::IsKeyDown(back) ? 1.0 : 0.0);
 }
@@ -30,7 +30,7 @@ bool Hands::busy(double now_s) const {
 
 bool Hands::drag(ViewerState& state, const Stage& stage) {
   const ImGuiIO& io = ImGui::GetIO();
-  // In the frame of the press the mouse has come from elsewhere.
+  // In the frame of the press, the mouse position still jumps from elsewhere.
   if (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)) return false;
   if (!pressed_on_picture_ || (io.MouseDelta.x == 0.0F && io.MouseDelta.y == 0.0F)) return false;
   const ImVec2 from_press = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0.0F);

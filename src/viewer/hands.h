@@ -1,5 +1,5 @@
 #pragma once
-// Mouse and keyboard over the picture: they move the camera and pick. Dear ImGui; within a frame.
+// Handles mouse and keyboard over the picture, which move the camera and pick elements. Uses Dear ImGui within a frame.
 
 #include "viewer/state.h"
 
@@ -8,7 +8,7 @@
 
 namespace sunfleck {
 
-// Where the picture lies in the window, and how large the scene is.
+// The picture's place in the window, and the extent of the scene.
 struct Stage {
   float left_px = 0.0F, width_px = 0.0F, height_px = 0.0F;
   glm::dvec3 lo_m{0.0}, hi_m{0.0};
@@ -16,10 +16,10 @@ struct Stage {
 
 class Hands {
  public:
-  // Moves state.hand by what was done since the last frame. Returns the pixel of the picture that was clicked.
+  // Moves state.hand according to the input since the last frame. Returns the pixel of the picture that was clicked, if any.
   [[nodiscard]] std::optional<glm::ivec2> steer(ViewerState& state, const Stage& stage, double now_s);
 
-  // Whether the camera will be moved on: a button is held, or it has moved a moment ago.
+  // Returns true if the camera is expected to move on: a button is held, or the camera moved a moment ago.
   [[nodiscard]] bool busy(double now_s) const;
 
  private:

@@ -77,7 +77,7 @@ std::optional<SkyModel> sky_of(const SkyWish& wish, const Scene& scene) {
   return sky;
 }
 
-// Only what matters: fields that a choice leaves out of use are all alike.
+// Resets the fields that the other choices make irrelevant, so that only relevant differences remain.
 SunWish in_use(SunWish sun) {
   if (sun.by_clock) {
     sun.elevation_deg = sun.azimuth_deg = 0.0;
@@ -97,8 +97,8 @@ SkyWish in_use(const SkyWish& sky) {
   return wish;
 }
 
-// The scene's own moment is left to the digit, so that a window that nobody touched shows what `run` computes. A sun that does
-// not shine still tells what time it is.
+// Keeps the scene's own moment exactly, so that an untouched window shows what `run` computes. A sun that does not shine still
+// defines the time.
 void grant_light(const LightWish& wish, const Scene& scene, RadiationModel& model) {
   const LightWish own = wish_of(scene);
   model.sun = scene.model.sun;
@@ -128,7 +128,8 @@ void grant_light(const LightWish& wish, const Scene& scene, RadiationModel& mode
     if (!model.sky) band.diffuse_w_m2 = 0.0;
   }
   if (model.sky && model.sky->follows_sun() && !model.sun) {
-    throw_input("sky", "it follows the sun, and there is none", "switch the sun on, or choose uniform or overcast");
+    throw_input("sky", "it follows the sun, but the scene has no sun",
+                "switch the sun on, or choose a uniform or overcast sky");
   }
 }
 

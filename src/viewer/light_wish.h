@@ -1,5 +1,5 @@
 #pragma once
-// What a window lets its user change of a scene's light, as plain numbers in the units of users: degrees, hours, W m-2.
+// The light of a scene as the user of a window can change it: plain numbers in degrees, hours and W m-2.
 
 #include "io/scene_reader.h"
 #include "transport/model.h"
@@ -12,9 +12,10 @@ namespace sunfleck {
 
 struct SunWish {
   bool shines = false;
-  bool by_clock = false;  // where date, time and place say, or at the angles below
+  // The sun's position follows from date, time and place if true, else from the angles below.
+  bool by_clock = false;
   int year = 2000, month = 6, day = 21;
-  double hour = 12.0;      // local, 0..24
+  double hour = 12.0;      // local time, 0..24
   int offset_minutes = 0;  // local time minus UTC
   double latitude_deg = 45.0, longitude_deg = 0.0, altitude_m = 0.0;
   double elevation_deg = 45.0, azimuth_deg = 180.0;
@@ -26,8 +27,8 @@ enum class SkyWishKind { none, uniform, overcast, clear, general, all_weather, o
 
 struct SkyWish {
   SkyWishKind kind = SkyWishKind::none;
-  int cie_type = 12;                          // general
-  double dni_w_m2 = 500.0, dhi_w_m2 = 150.0;  // all_weather
+  int cie_type = 12;                          // for `general`
+  double dni_w_m2 = 500.0, dhi_w_m2 = 150.0;  // for `all_weather`
 
   friend bool operator==(const SkyWish&, const SkyWish&) = default;
 };
@@ -40,7 +41,7 @@ struct BandWish {
   friend bool operator==(const BandWish&, const BandWish&) = default;
 };
 
-// Coefficients of one surface in one band, by face.
+// Coefficients of one face of a surface in one band.
 struct FaceWish {
   double reflectance = 0.0, transmittance = 0.0;
 
@@ -55,7 +56,7 @@ struct SurfaceWish {
 struct LightWish {
   SunWish sun;
   SkyWish sky;
-  bool own_irradiance = false;           // `bands` below, or what the scene says of the moment
+  bool own_irradiance = false;           // use `bands` instead of the scene's irradiance
   std::vector<BandWish> bands;           // [band]
   std::vector<SurfaceWish> optics;       // [optics number]
   std::vector<double> soil_reflectance;  // [band]; empty without a soil plane
@@ -63,23 +64,23 @@ struct LightWish {
   friend bool operator==(const LightWish&, const LightWish&) = default;
 };
 
-// As the band is lit.
+// Returns the band's light as the scene has it.
 [[nodiscard]] BandWish band_wish(const Waveband& band);
 
-// As the scene is.
+// Returns the scene's own light.
 [[nodiscard]] LightWish wish_of(const Scene& scene);
 
-// What differs, for the log: "sun", "sky", "irradiance", "optics"; the first that does. Empty where nothing does.
+// Returns the first difference for the log: "sun", "sky", "irradiance" or "optics"; empty if there is none.
 [[nodiscard]] std::string first_difference(const LightWish& one, const LightWish& other);
 
-// A mark of the light that a wish makes: as Digest::text, the same for wishes between which first_difference finds none.
+// Returns a digest of the requested light in the form of Digest::text. Equal whenever first_difference finds no difference.
 [[nodiscard]] std::string digest_of(const LightWish& wish);
 
-// Local date and time of a wish by the clock, in UTC. Throws Error (input) for a date that does not exist.
+// Returns the local date and time of a sun that follows the clock, in UTC. Throws Error (input) for a date that does not exist.
 [[nodiscard]] UtcTime time_of(const SunWish& sun);
 
-// Makes the wish true in `model`, which began as a copy of scene.model. Throws Error (input), one line, where that is
-// impossible; the model is then as it was.
+// Applies the requested light to `model`, which began as a copy of scene.model. If that is impossible, throws Error (input)
+// with one line and leaves the model unchanged.
 void grant(const LightWish& wish, const Scene& scene, RadiationModel& model);
 
 }  // namespace sunfleck

@@ -17,15 +17,16 @@
 namespace sunfleck {
 namespace {
 
-// Landings of beams are kept for other optics while they fit into this.
+// Landings of beams are kept for reuse with other optics while they fit into this many bytes.
 constexpr std::size_t most_beam_bytes = std::size_t{512} << 20U;
-// Errors of single sides are kept while they fit into this: a field of ten million triangles does without.
+// Errors of single sides are kept while they fit into this many bytes: a field of ten million triangles does without.
 constexpr std::size_t most_side_bytes = std::size_t{256} << 20U;
-// Between two results of one wish: to be drawn they must be copied and painted, which shall take but a small part of the time.
+// Minimum pause between two results of one request: drawing a result takes copying and painting, which should need only a small
+// part of the time.
 constexpr double least_pause_s = 0.15;
 constexpr double pause_per_second = 0.25;
 
-// The scene without its triangles.
+// Returns a copy of the scene without its triangles.
 Scene light_of_scene(Scene& scene) {
   Canopy canopy = std::exchange(scene.model.canopy, {});
   Scene light = scene;
@@ -47,7 +48,7 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
 std::string what_went_wrong(const std::exception& error) {
   const bool memory =
       dynamic_cast<const std::bad_alloc*>(&error) != nullptr || dynamic_cast<const std::length_error*>(&error) != nullptr;
-  return memory ? "out of memory (the system gives no more); close other programs or load a smaller scene" : error.what();
+  return memory ? "out of memory (allocation failed); close other programs or load a smaller scene" : error.what();
 }
 
 std::uint64_t rays_of(const RadiationResult& result) {
@@ -152,7 +153,7 @@ bool LiveLight::wants_result() const {
 void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
   {
     const std::lock_guard lock(result_mutex_);
-    // What is there belongs to the light before; it goes as soon as the scene no longer tells how it came about.
+    // The old result belongs to the previous light and is removed, because the scene no longer describes it.
     Scene& scene = simulation_.scene();
     grant(wish, original_, scene.model);
     const bool changed = !first_difference(wish_of(original_), wish).empty();
@@ -175,7 +176,7 @@ void LiveLight::simulate_wish(const LightWish& wish, std::uint64_t number) {
 
 void LiveLight::take_result(RadiationResult result, std::uint64_t number, bool complete) {
   if (superseded(number)) return;
-  // There before it is told of, so that who hears of it finds it.
+  // The result is stored before it is announced, so that anyone notified finds it.
   const std::uint64_t version = news().version + 1;
   {
     const std::lock_guard lock(result_mutex_);
@@ -218,8 +219,8 @@ void LiveLight::save_if_asked() {
     if (!result_) throw_failure(folder.string(), "there is no result to save", "change the light, or load the scene again");
     write(folder, *result_);
     outcome.done = true;
-    outcome.text = fmt::format("saved in {}{}", folder.string(), is_done(result_->stop) ? "" : " (not complete)");
-    if (has_receivers_) outcome.text += "; planes and sensors are left to `run`";
+    outcome.text = fmt::format("saved in {}{}", folder.string(), is_done(result_->stop) ? "" : " (incomplete)");
+    if (has_receivers_) outcome.text += "; only `run` writes planes and sensors";
   } catch (const std::exception& error) {
     outcome.text = what_went_wrong(error);
   }

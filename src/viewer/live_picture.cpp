@@ -15,9 +15,9 @@
 namespace sunfleck {
 namespace {
 
-// A preview may take as long as this; with painting, a hand that turns the camera sees it follow.
+// Time a preview may take; with painting added, the picture still follows the hand that turns the camera.
 constexpr double preview_s = 0.035;
-// Where one sample a pixel comes nearly as soon, there is no preview.
+// No preview is drawn if one sample per pixel takes no longer than this.
 constexpr double soon_s = 0.06;
 constexpr int coarsest_step = 12;  // pixels
 constexpr Colour picked_colour{1.0, 0.0, 0.6};
@@ -32,7 +32,7 @@ bool same_camera(const Camera& a, const Camera& b) {
          a.circle_centre == b.circle_centre && a.circle_radius == b.circle_radius;
 }
 
-// A small picture's samples, each repeated over the pixels of a large one that it stands for.
+// Enlarges a small picture: repeats each sample over the pixels of the large picture that it stands for.
 SurfaceImage enlarged(const SurfaceImage& small, int width, int height) {
   SurfaceImage large{width, height, 1, {}, {}, {}, 0};
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -175,10 +175,11 @@ void LivePicture::work() {
     try {
       draw_once();
     } catch (const std::bad_alloc&) {
-      problem = "out of memory (the system gives no more); make the window smaller, or take fewer samples";
+      problem = "out of memory (allocation failed); make the window smaller, or use fewer samples";
     } catch (const std::exception& error) {
       problem = error.what();
-      over = true;  // a device that fails once fails again: the window goes on without a new picture, and says so
+      // A device that failed once would fail again: the window continues without new pictures and reports the error.
+      over = true;
     }
     {
       const std::lock_guard lock(mutex_);
@@ -217,7 +218,7 @@ void LivePicture::draw_once() {
   if (content_) paint(*sight_);
 }
 
-// Pixels between two samples of a preview, 1 where none is needed.
+// Returns the distance in pixels between two samples of a preview; 1 if no preview is needed.
 int LivePicture::preview_step(const PictureOptions& options) const {
   const double samples = static_cast<double>(options.width) * options.height;
   if (samples / samples_per_second_ <= soon_s) return 1;
@@ -237,7 +238,7 @@ std::vector<shared::SeenSurface> LivePicture::see(const PictureOptions& options,
   std::vector<shared::SeenSurface> all;
   all.reserve(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height) *
               static_cast<std::size_t>(options.samples));
-  // Bands of rows that are seen within a preview's time, so that the next move of the camera is heard.
+  // Bands are short enough to be seen within a preview's time, so that the next camera motion is noticed.
   const double row_s = static_cast<double>(options.width) * options.samples / samples_per_second_;
   const auto rows = static_cast<std::uint32_t>(std::clamp(preview_s / row_s, 1.0, static_cast<double>(options.height)));
   const auto height = static_cast<std::uint32_t>(options.height);
@@ -273,7 +274,7 @@ bool LivePicture::look_at(Sight& sight, Fineness fineness, Haste haste) {
   return true;
 }
 
-// While the light begins anew there is no result: what was painted last stays.
+// While the light restarts there is no result, and the last content stays.
 void LivePicture::refresh_content(const PictureWish& wish) {
   static_cast<void>(light_.with_result([&](const Scene& scene, const RadiationResult& result, const LightStamp& stamp) {
     if (content_ && content_->light.version == stamp.version && same_style(content_->wish, wish)) return;

@@ -1,6 +1,5 @@
 #pragma once
-// The picture in a window: looked at and painted beside whatever else goes on, roughly while the camera moves and finely once
-// it rests.
+// Draws the picture of a window in a thread of its own, coarsely while the camera moves and finely once it rests.
 
 #include "pictures/pictures.h"
 #include "simulate/simulated_scene.h"
@@ -21,17 +20,17 @@ namespace sunfleck {
 
 struct PictureWish {
   Camera camera;
-  PictureOptions options;  // size, samples, repeat; band and top of the scale; the view is the camera's
+  PictureOptions options;  // size, samples, repeat, band and upper end of the scale; the view is the camera's
   Picture picture;
-  std::optional<std::uint32_t> picked;  // element
-  bool moving = false;                  // the camera will be another one soon
+  std::optional<std::uint32_t> picked;  // element number
+  bool moving = false;                  // the camera is about to change again
 };
 
-// Whether two wishes see the same, or colour it the same.
+// Return whether two requests see the same surfaces, and whether they colour them alike.
 [[nodiscard]] bool same_look(const PictureWish& a, const PictureWish& b);
 [[nodiscard]] bool same_style(const PictureWish& a, const PictureWish& b);
 
-// What a picked element is and receives.
+// Description of a picked element and the light it receives.
 struct PickedElement {
   std::uint32_t element = 0;
   std::string organ, optics;
@@ -39,7 +38,7 @@ struct PickedElement {
   double area_m2 = 0.0;
   struct Face {
     double direct_w_m2 = 0.0, sky_w_m2 = 0.0, scattered_w_m2 = 0.0;  // incident
-    double half_width_w_m2 = 0.0;                                    // of their sum; NaN where too few rays tell
+    double half_width_w_m2 = 0.0;                                    // of their sum; NaN if there are too few hits
     [[nodiscard]] double total_w_m2() const { return direct_w_m2 + sky_w_m2 + scattered_w_m2; }
   };
   Face upper, lower;
@@ -49,39 +48,40 @@ struct PickedElement {
 enum class Fineness { preview, one_sample, full };
 
 struct LivePictureFrame {
-  std::uint64_t number = 0;           // rises with every frame
+  std::uint64_t number = 0;           // increases with every frame
   std::vector<std::uint32_t> pixels;  // [row][column], 0x00RRGGBB
   int width = 0, height = 0;
-  std::vector<std::uint32_t> surface;  // [row][column], what the first sample sees, or SurfaceImage::nothing
+  std::vector<std::uint32_t> surface;  // [row][column], seen by the first sample; or SurfaceImage::nothing
   Fineness fineness = Fineness::preview;
   LightStamp light;
-  std::uint64_t look = 0;  // number of the wish's camera and size
+  std::uint64_t look = 0;  // number of the request's camera and size
   double look_s = 0.0, paint_s = 0.0;
   std::optional<PickedElement> picked;
 };
 
-// Its picture as a PNG. Throws Error (failure).
+// Writes the frame's picture as a PNG. Throws Error (failure).
 void write_frame(const LivePictureFrame& frame, const std::filesystem::path& file);
 
 class LivePicture {
  public:
-  // All must outlive it. `notify` is called from the drawing thread when there is a new frame.
+  // All arguments must outlive the object. `notify` is called from the drawing thread when there is a new frame.
   LivePicture(const LiveLight& light, const Tracing& tracing, std::function<void()> notify);
   ~LivePicture();
   LivePicture(const LivePicture&) = delete;
   LivePicture& operator=(const LivePicture&) = delete;
 
-  // Returns the number of this look: the last one's if camera, size, samples and copies are the same.
+  // Requests a picture. Returns the number of its look, which stays the same if camera, size, samples and copies did not
+  // change.
   std::uint64_t ask(const PictureWish& wish);
-  // The light has news.
+  // Tells the drawing thread that the light has changed.
   void light_changed();
 
-  // None before the first one.
+  // Returns the latest frame; null before the first one.
   [[nodiscard]] std::shared_ptr<const LivePictureFrame> frame() const;
   [[nodiscard]] std::string problem() const;
 
  private:
-  // A look and how far it got.
+  // A view of the scene and how finely it has been drawn so far.
   struct Sight {
     PictureWish wish;
     std::uint64_t look = 0;
@@ -89,7 +89,7 @@ class LivePicture {
     Fineness fineness = Fineness::preview;
     double look_s = 0.0;
   };
-  // Colours and words, of some light and some wish.
+  // Colours and text for one result and one request.
   struct Content {
     LightStamp light;
     PictureWish wish;
@@ -114,16 +114,16 @@ class LivePicture {
 
   std::atomic<bool> quitting_ = false;
   std::atomic<std::uint64_t> look_ = 0;
-  std::atomic<std::uint64_t> wish_number_ = 0;  // of the last wish
+  std::atomic<std::uint64_t> wish_number_ = 0;  // of the last request
 
-  mutable std::mutex mutex_;  // of the next ones
+  mutable std::mutex mutex_;  // guards the members up to problem_
   std::condition_variable order_;
   std::optional<PictureWish> wish_;
   std::uint64_t light_number_ = 0;
   std::shared_ptr<const LivePictureFrame> frame_;
   std::string problem_;
 
-  // Of the drawing thread alone.
+  // Used by the drawing thread only.
   std::unique_ptr<CanopyViewer> viewer_;
   std::optional<Sight> sight_;
   std::optional<Content> content_;

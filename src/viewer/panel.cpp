@@ -23,7 +23,7 @@ void text(const std::string& line) {
   ImGui::TextUnformatted(line.c_str());
 }
 
-// Notes where the control just drawn lies.
+// Records the position of the control just drawn.
 void note(ViewerState& state, const std::string& name) {
   const ImVec2 lo = ImGui::GetItemRectMin();
   const ImVec2 hi = ImGui::GetItemRectMax();
@@ -35,7 +35,7 @@ struct Span {
   const char* format = "%.2f";
 };
 
-// `name` is the control's for programs, `label` for people.
+// `name` identifies the control to programs, `label` is shown to people.
 bool slider(ViewerState& state, const std::string& name, const char* label, double& value, const Span& span) {
   const bool changed = ImGui::SliderScalar((label + ("##" + name)).c_str(), ImGuiDataType_Double, &value, &span.lo, &span.hi,
                                            span.format, ImGuiSliderFlags_AlwaysClamp);
@@ -77,7 +77,7 @@ bool choose(ViewerState& state, const std::string& name, const char* label, Choi
 
 std::string error_text(const char* pass, const std::optional<double>& error, double bound) {
   if (!error) return fmt::format("{} error: not known yet", pass);
-  return fmt::format("{} error {:.2g} (asked for {:.2g})", pass, *error, bound);
+  return fmt::format("{} error {:.2g} (target {:.2g})", pass, *error, bound);
 }
 
 void draw_state(const ViewerState& state) {
@@ -94,15 +94,15 @@ void draw_state(const ViewerState& state) {
                                   news.indirect_error.value_or(0.0) / std::max(1e-9, news.indirect_bound));
   const float done = current && news.complete ? 1.0F : static_cast<float>(std::min(0.99, 1.0 / (reached * reached)));
   const std::string phase = !news.problem.empty() ? "not possible"
-                            : !current            ? "begins anew"
+                            : !current            ? "restarting"
                             : news.complete
-                                ? fmt::format("{}, {:.1f} s", is_done(news.stop) ? "done" : "stopped short", news.seconds)
+                                ? fmt::format("{}, {:.1f} s", is_done(news.stop) ? "done" : "stopped early", news.seconds)
                                 : fmt::format("{:.1f} s", news.seconds);
   ImGui::ProgressBar(current ? done : 0.0F, {-1.0F, 0.0F}, phase.c_str());
   text(error_text("Direct", news.direct_error, news.direct_bound));
   text(error_text("Indirect", news.indirect_error, news.indirect_bound));
   const auto rays = static_cast<double>(news.rays);
-  text(fmt::format("{:.2f} million rays, {:.2f} million a second", 1e-6 * rays,
+  text(fmt::format("{:.2f} million rays, {:.2f} million per second", 1e-6 * rays,
                    news.seconds > 0.0 ? 1e-6 * rays / news.seconds : 0.0));
   const double look_ms = state.frame ? 1e3 * (state.frame->look_s + state.frame->paint_s) : 0.0;
   text(fmt::format("Frame {:.0f} ms, picture {:.0f} ms", state.frame_ms, look_ms));
@@ -141,7 +141,7 @@ void draw_sun(ViewerState& state) {
   ImGui::SameLine();
   int by_clock = sun.by_clock ? 1 : 0;
   if (ImGui::RadioButton("angles", &by_clock, 0)) {
-    // From where the sun stands now.
+    // Start from the sun's current position.
     if (sun.by_clock && state.news.sun) {
       constexpr double degrees = 180.0 / 3.14159265358979323846;
       sun.elevation_deg = state.news.sun->elevation_rad * degrees;
@@ -181,7 +181,7 @@ void draw_sky(ViewerState& state) {
   }
 }
 
-// Reflectance and transmittance never add up to more than 1: the other one gives way.
+// Keeps reflectance plus transmittance at 1 or below by lowering the one that is not being changed.
 void draw_faces(ViewerState& state, const std::string& name, std::initializer_list<FaceWish*> faces) {
   FaceWish face = **faces.begin();
   if (slider(state, "reflectance/" + name, "reflectance", face.reflectance, {0.0, 1.0, "%.3f"}))
@@ -193,7 +193,7 @@ void draw_faces(ViewerState& state, const std::string& name, std::initializer_li
 
 void draw_optics(ViewerState& state) {
   const std::size_t band = state.band();
-  text(state.bands[band] + " (the band that is shown)");
+  text(state.bands[band] + " (the band shown)");
   for (std::size_t i = 0; i < state.optics_names.size(); ++i) {
     const std::string& name = state.optics_names[i];
     FaceWish& upper = state.light.optics[i].upper[band];
@@ -225,7 +225,7 @@ void draw_picture(ViewerState& state) {
   }
   const bool scaled = state.picture.chart == ChartKind::rank_interval || state.picture.chart == ChartKind::map;
   state.options.top_w_m2 = scaled && state.own_range ? std::optional(state.range_top_w_m2) : std::nullopt;
-  slider(state, "samples", "Samples a pixel", state.options.samples, 1, 16);
+  slider(state, "samples", "Samples per pixel", state.options.samples, 1, 16);
 }
 
 void draw_views(ViewerState& state, PanelOrders& orders) {
@@ -238,8 +238,8 @@ void draw_views(ViewerState& state, PanelOrders& orders) {
   orders.fit = button(state, "fit", "Fit");
   orders.copy_camera = button(state, "copy_camera", "Copy camera as TOML");
   ImGui::TextDisabled(
-      "Drag: turn. Right: shift. Wheel: nearer.\nW A S D Q E: fly. F: fit. 1-4: views.\nH: this panel. Click: pick. Ctrl+Q: "
-      "leave.");
+      "Drag: orbit. Right: pan. Wheel: zoom.\nW A S D Q E: fly. F: fit. 1-4: views.\nH: hide panel. Click: pick. Ctrl+Q: "
+      "quit.");
 }
 
 std::string with_error(double value, double half_width) {

@@ -18,7 +18,7 @@ constexpr ImU32 fleck_band = IM_COL32(214, 120, 0, 60);
 constexpr ImU32 down_colour = IM_COL32(0, 90, 180, 255);
 constexpr ImU32 down_band = IM_COL32(0, 90, 180, 50);
 
-// From a share 0..1 and a height 0..1 to pixels.
+// Maps a share 0..1 and a height 0..1 to pixels.
 struct PlotArea {
   ImVec2 lo, hi;
   [[nodiscard]] ImVec2 at(double share, double height) const {
@@ -72,7 +72,7 @@ void draw_profile(const std::vector<LayerResult>& layers, std::size_t band, floa
   canvas.AddText({area.lo.x, area.hi.y + 0.1F * line}, axis_colour, "0");
   canvas.AddText({area.hi.x - 0.6F * line, area.hi.y + 0.1F * line}, axis_colour, "1");
   canvas.AddText({area.lo.x + 2.0F * line, area.hi.y + 0.1F * line}, fleck_colour, "sunfleck ratio");
-  canvas.AddText({area.lo.x + 9.0F * line, area.hi.y + 0.1F * line}, down_colour, "light, share");
+  canvas.AddText({area.lo.x + 9.0F * line, area.hi.y + 0.1F * line}, down_colour, "light share");
   ImGui::Dummy({width_px, height_px});
 }
 
@@ -86,7 +86,7 @@ void draw_balance(const BandResult& band, float width_px) {
                                    {"soil", band.absorbed_soil, IM_COL32(140, 100, 60, 255)},
                                    {"reflected", band.reflected, IM_COL32(230, 190, 60, 255)},
                                    {"transmitted", band.transmitted, IM_COL32(90, 150, 200, 255)},
-                                   {"under way", {band.unshot, std::nan("")}, IM_COL32(170, 170, 170, 255)}}};
+                                   {"unshot", {band.unshot, std::nan("")}, IM_COL32(170, 170, 170, 255)}}};
   const float line = ImGui::GetTextLineHeight();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& canvas = *ImGui::GetWindowDrawList();

@@ -1,5 +1,5 @@
 #pragma once
-// Small live plots in the panel. Dear ImGui; within a window of it.
+// Draws small live plots in the panel. Uses Dear ImGui within a window.
 
 #include "transport/result.h"
 
@@ -8,10 +8,10 @@
 
 namespace sunfleck {
 
-// Sunfleck ratio and downward light against height, both as shares of what is above the canopy, with bands of their errors.
+// Draws sunfleck ratio and downward light against height, as shares of their values above the canopy, with error bands.
 void draw_profile(const std::vector<LayerResult>& layers, std::size_t band, float width_px);
 
-// Where a band's light goes: a bar of its shares, and their figures.
+// Draws where a band's light goes: a bar of its shares, and their figures.
 void draw_balance(const BandResult& band, float width_px);
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// The fields of the events that a window tells.
+// Builds the fields of the events that a window writes.
 
 #include "viewer/live_light.h"
 #include "viewer/live_picture.h"
@@ -10,12 +10,12 @@
 
 namespace sunfleck {
 
-// Of a result that has reached its bounds, W m-2 of ground of one band; null where an error is not known.
+// Returns the fields of a result that has reached its bounds, in W m-2 of ground for one band; null where an error is unknown.
 [[nodiscard]] nlohmann::json converged_fields(const LightNews& news, std::size_t band);
 
 [[nodiscard]] nlohmann::json picked_fields(const PickedElement& picked);
 
-// From input to screen: median, 99 % and worst of all frames, ms; at least one frame.
+// Returns the times from input to screen over all frames: median, 99th percentile and maximum, ms. Needs at least one frame.
 [[nodiscard]] nlohmann::json frame_fields(std::vector<double> seconds);
 
 }  // namespace sunfleck

@@ -9,7 +9,7 @@ namespace sunfleck {
 namespace {
 
 Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file, SourceFiles& files) {
-  // A file that was dropped on the window is a scene file.
+  // A file dropped on the window is a scene file.
   const StandFiles stand = file == options.run.scene ? options.run.stand : StandFiles{};
   Scene scene = load_scene({file, stand, options.run.allow_outside}, ScenePurpose::moment, &files);
   check_view(scene.model, options.run.pictures);
@@ -24,7 +24,7 @@ std::vector<std::string> names_of(const std::vector<Named>& things) {
   return names;
 }
 
-// The folder and the name of what is saved follow the scene that is looked at.
+// Returns the run options for the scene that is shown, which decides the folder and the name of saved files.
 RunOptions run_options(const ViewOptions& options, const std::filesystem::path& file) {
   RunOptions run = options.run;
   run.scene = file;

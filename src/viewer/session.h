@@ -1,5 +1,5 @@
 #pragma once
-// One scene in a window, with all that works on it.
+// One scene in a window, with everything that works on it.
 
 #include "app/options.h"
 #include "pictures/pictures.h"
@@ -16,16 +16,16 @@ namespace sunfleck {
 
 class Session {
  public:
-  // Reads the scene and begins to simulate it. Throws Error (input) for a broken scene, Error (device) without the device.
-  // `files` gets all that reading tries, also if it fails; `notify` is called from other threads.
+  // Reads the scene and starts simulating it. Throws Error (input) for a broken scene and Error (device) without the device.
+  // `files` receives all files that reading tries, even if it fails; `notify` is called from other threads.
   Session(const ViewOptions& options, const std::filesystem::path& scene_file, SourceFiles& files,
           const std::function<void()>& notify);
 
   std::filesystem::path file;
   Simulation simulation;  // its light is changed by `light` alone
   const std::string title;
-  const LightWish light_of_scene;                // to begin with
-  const std::vector<std::string> bands, optics;  // their names
+  const LightWish light_of_scene;                // initial light
+  const std::vector<std::string> bands, optics;  // names
   const std::vector<std::string> warnings;       // of the scene, one line each
   const ShownBox box;
   LiveLight light;

@@ -1,5 +1,5 @@
 #pragma once
-// What a window shows and what its user has set.
+// The state of a window: what it shows and what its user has set.
 
 #include "pictures/picture.h"
 #include "view/camera_motion.h"
@@ -20,7 +20,8 @@ struct ViewerState {
   // Set by the user.
   LightWish light;
   HandCamera hand;
-  bool camera_as_given = true;  // nobody has moved it since the view was chosen: it goes on to fit the window
+  // Nobody has moved the camera since the view was chosen, so it keeps fitting the window.
+  bool camera_as_given = true;
   PictureOptions options;
   Picture picture;
   std::optional<std::uint32_t> picked;
@@ -30,7 +31,7 @@ struct ViewerState {
   bool own_range = false;
   double range_top_w_m2 = 500.0;
 
-  // Told to the user.
+  // Shown to the user.
   LightNews news;
   std::shared_ptr<const LivePictureFrame> frame;
   std::string message;  // one line
@@ -40,16 +41,16 @@ struct ViewerState {
   std::vector<std::string> optics_names;
   double frame_ms = 0.0;
 
-  // Where the panel's controls lie, px: left, top, right, bottom.
+  // Positions of the panel's controls, px: left, top, right, bottom.
   std::map<std::string, std::array<float, 4>> controls;
 
-  [[nodiscard]] std::size_t band() const;  // number of the one shown
+  [[nodiscard]] std::size_t band() const;  // number of the band shown
 };
 
-// Whether the frame tells of the element that is picked; a moment after the click it does.
+// Returns true if the frame describes the picked element, which it does a moment after the click.
 [[nodiscard]] bool is_picked_shown(const ViewerState& state);
 
-// What the panel was asked for, once.
+// One-time requests from the panel.
 struct PanelOrders {
   std::optional<ViewKind> view;
   bool fit = false;

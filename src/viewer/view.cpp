@@ -30,7 +30,8 @@ int view(const ViewOptions& options) {
     status = viewer.run();
   }
   if (const auto& messages = window.validation_messages(); !messages.empty()) {
-    throw_failure(messages.front(), "a message of the Vulkan validation layer about the window", "report it with the device");
+    throw_failure(messages.front(), "a message of the Vulkan validation layer about the window",
+                  "report this message and the device");
   }
   return status;
 }

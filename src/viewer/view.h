@@ -1,11 +1,11 @@
 #pragma once
-// The command `view`: a scene in a window.
+// The command `view`: shows a scene in a window.
 
 #include "app/options.h"
 
 namespace sunfleck {
 
-// Until the window is closed. Returns the exit status. Throws Error (input) for a broken scene, Error (device) without a
+// Runs until the window is closed. Returns the exit status. Throws Error (input) for a broken scene, Error (device) without a
 // display.
 [[nodiscard]] int view(const ViewOptions& options);
 

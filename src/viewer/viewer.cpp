@@ -24,11 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// A frame at least so often while something changes by itself, and while nothing does.
+// Longest time between two frames while something changes by itself, and while nothing does.
 constexpr double busy_wait_s = 0.03;
 constexpr double idle_wait_s = 0.25;
 constexpr double message_s = 8.0;
-// While a day is played each moment is shown at least so long, once it has a first picture.
+// Shortest time each moment of a played day is shown, once it has a first picture.
 constexpr double played_moment_s = 0.35;
 constexpr std::uint32_t background = 0x00e8ecf0;
 constexpr double degrees = 180.0 / std::numbers::pi;
@@ -135,7 +135,7 @@ void Viewer::take_news() {
   }
 }
 
-// Once for each problem, as long as it lasts.
+// Reports each problem once while it lasts.
 void Viewer::tell_problem(std::string& told, const std::string& problem) {
   if (problem == told) return;
   told = problem;
@@ -144,7 +144,7 @@ void Viewer::tell_problem(std::string& told, const std::string& problem) {
 
 void Viewer::take_picture() {
   const auto frame = session_->picture.frame();
-  // What it shows must be known: the news that go with it may come in the next round.
+  // The frame waits until the news it belongs to has arrived, possibly in the next iteration.
   if (!frame || frame->number == shown_frame_ || frame->light.version > state_.news.version) return;
   shown_frame_ = frame->number;
   state_.frame = frame;
@@ -201,7 +201,7 @@ void Viewer::obey(const PanelOrders& orders) {
   if (orders.copy_camera) {
     const std::string toml = camera_toml(state_.hand);
     if (!toml.empty()) window_.set_clipboard(toml);
-    say_to_user(toml.empty() ? "This view has no place in a scene file; render it with --view." : "Camera copied.", false);
+    say_to_user(toml.empty() ? "A scene file cannot hold this view; use render --view." : "Camera copied.", false);
     if (!toml.empty()) events_.tell("camera_copied", {{"toml", toml}});
   }
   if (orders.reset_light) {
@@ -216,7 +216,7 @@ void Viewer::obey(const PanelOrders& orders) {
   }
 }
 
-// Beside what `run` writes into results/<scene>, not in its place.
+// The default is a folder next to what `run` writes into results/<scene>, so that nothing there is replaced.
 fs::path Viewer::save_folder() const {
   return options_.run.output.empty() ? fs::path("results") / (scene_stem(session_->file) + "_view") : options_.run.output;
 }
@@ -240,7 +240,7 @@ void Viewer::save_picture() {
   });
 }
 
-// A view that nobody has moved fits the window as `render` would fit its picture.
+// Fits an unmoved camera to the window as `render` would fit its picture.
 void Viewer::place_camera(const Stage& place) {
   state_.options.width = std::max(64, static_cast<int>(place.width_px));
   state_.options.height = std::max(64, static_cast<int>(place.height_px));
@@ -258,7 +258,7 @@ void Viewer::place_camera(const Stage& place) {
 }
 
 void Viewer::pick(glm::ivec2 pixel) {
-  if (!state_.frame || shown_frame_ == 0) return;  // or it is a picture of the scene before
+  if (!state_.frame || shown_frame_ == 0) return;  // otherwise it shows the previous scene
   const LivePictureFrame& frame = *state_.frame;
   state_.picked.reset();
   picked_told_ = false;
@@ -268,7 +268,7 @@ void Viewer::pick(glm::ivec2 pixel) {
   if (surface / 2 < session_->light.geometry().model.canopy.size()) state_.picked = surface / 2;
 }
 
-// From sunrise to sunset, over and over.
+// Moves the time from sunrise to sunset, over and over.
 void Viewer::play() {
   SunWish& sun = state_.light.sun;
   if (!state_.playing || !sun.by_clock) return;

@@ -1,5 +1,5 @@
 #pragma once
-// The loop of the window: input, what follows from it, and a frame.
+// The main loop of the window: handles input and draws frames.
 
 #include "app/options.h"
 #include "gpu/window.h"
@@ -23,16 +23,16 @@ namespace sunfleck {
 
 class Viewer {
  public:
-  // Loads the scene; the window must outlive it. Throws as Session does.
+  // Loads the scene; the window must outlive the object. Throws as Session does.
   Viewer(const ViewOptions& options, Window& window);
 
-  // Until the window is closed or the program interrupted. Returns the exit status.
+  // Runs until the window is closed or the program interrupted. Returns the exit status.
   [[nodiscard]] int run();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  // What a camera that nobody has moved was made for.
+  // The view and size for which an unmoved camera was placed.
   struct Placed {
     ViewKind view;
     int width, height;
@@ -71,10 +71,10 @@ class Viewer {
   Events events_;
   Clock::time_point start_ = Clock::now();
 
-  std::vector<std::future<void>> leaving_;  // of sessions before; they end in their own time
+  std::vector<std::future<void>> leaving_;  // earlier sessions while they end
   std::unique_ptr<Session> session_;
   std::filesystem::path loading_file_;
-  std::unique_ptr<SourceFiles> loading_files_;  // the loading thread's until it is done
+  std::unique_ptr<SourceFiles> loading_files_;  // used by the loading thread until it is done
   std::future<std::unique_ptr<Session>> loading_;
   FileWatch watch_;
   double next_look_at_files_s_ = 0.0;
@@ -85,8 +85,8 @@ class Viewer {
   std::optional<LightWish> asked_light_;
   std::optional<PictureWish> asked_picture_;
   double asked_light_at_s_ = 0.0;
-  std::uint64_t light_number_ = 0;  // of the last wish
-  std::uint64_t told_first_ = 0;    // wishes whose first picture and whose end were told
+  std::uint64_t light_number_ = 0;  // of the last request
+  std::uint64_t told_first_ = 0;    // requests whose first picture and whose end were reported
   std::uint64_t told_done_ = 0;
   std::uint64_t shown_frame_ = 0;
   bool new_pixels_ = true;

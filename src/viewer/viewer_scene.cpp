@@ -1,4 +1,4 @@
-// Which scene the window shows: loading, entering, and watching its files.
+// The scene of the window: loading it, entering it and watching its files.
 
 #include "app/terminal.h"
 #include "base/error.h"
@@ -23,7 +23,7 @@ constexpr double look_at_files_s = 0.5;
 
 }  // namespace
 
-// Camera and charts stay as they are when a scene is loaded anew; its light is its own.
+// Enters a loaded scene. Camera and charts stay as they are if the same scene is reloaded; the light is the scene's.
 void Viewer::enter(std::unique_ptr<Session> session) {
   const bool another = session_ && session_->file != session->file;
   const auto ended = [](const std::future<void>& one) {
@@ -38,7 +38,7 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.title = session_->title;
   state_.device = device_line(session_->simulation.device());
   state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), scene.model.plot.size_x_m,
-                                 scene.model.plot.size_z_m, scene.model.plot.periodic ? ", endless" : "");
+                                 scene.model.plot.size_z_m, scene.model.plot.periodic ? ", periodic" : "");
   state_.bands = session_->bands;
   state_.optics_names = session_->optics;
   if (state_.band() == 0) state_.options.band.clear();
@@ -87,7 +87,7 @@ void Viewer::finish_loading() {
   } catch (const std::exception& error) {
     say_to_user(error.what(), true);
   }
-  // Those of a scene that failed too: where one was broken or missing it may yet be mended.
+  // Also watches the files of a scene that failed to load, since a broken or missing one may be repaired.
   if (session_->file == loading_file_) watch_.add(loading_files_->list());
   if (to_load_) load(*std::exchange(to_load_, std::nullopt));
 }
@@ -97,7 +97,7 @@ void Viewer::take_dropped_files() {
     if (file.extension() == ".toml") {
       load(file);
     } else {
-      say_to_user(fmt::format("{} (no scene file); drop a .toml", printable(file.filename().string())), true);
+      say_to_user(fmt::format("{} (not a scene file); drop a .toml file", printable(file.filename().string())), true);
     }
   }
 }

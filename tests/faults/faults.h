@@ -102,7 +102,7 @@ class FaultTest : public regression::ProgramTest {
     EXPECT_EQ(line.find('\n'), line.size() - 1) << outcome.err;
     EXPECT_NE(line.find(names), std::string::npos) << line << "does not name " << names;
     EXPECT_TRUE(line.find(" (") < line.find("); ")) << line;
-    EXPECT_EQ(line.find("mistake of the program"), std::string::npos) << line;
+    EXPECT_EQ(line.find("bug in the program"), std::string::npos) << line;
   }
 
   void preload(const std::map<std::string, std::string>& variables) {

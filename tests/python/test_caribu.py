@@ -135,7 +135,7 @@ BAD = {
     "a pattern without area": (lambda: CaribuScene(HALVES, pattern=(0, 0, 0, 1)), "no area"),
     "a material of three": (lambda: CaribuScene(HALVES, opt={"par": (0.1, 0.1, 0.1)}), "opt['par']"),
     "a material above one": (lambda: CaribuScene(HALVES, opt={"par": (0.6, 0.5)}), "together at most 1"),
-    "a missing material": (lambda: CaribuScene(HALVES, opt={"par": {"upper": (0.1,)}}), "primitive 'lower' has none"),
+    "a missing material": (lambda: CaribuScene(HALVES, opt={"par": {"upper": (0.1,)}}), "primitive 'lower' has no material"),
     "soil above one": (lambda: CaribuScene(HALVES, soil_reflectance=1.5), "soil_reflectance"),
     "no pattern": (lambda: CaribuScene(HALVES).run(infinite=True), "pattern"),
     "sensors": (lambda: CaribuScene(HALVES, pattern=SQUARE).run(sensors={}), "sensors"),

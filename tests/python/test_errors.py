@@ -39,7 +39,7 @@ MESHES = {
     "undefined optics": ({"vertices": LEAVES, "optics": "petal"}, 'uses optics "petal", which is not defined'),
     "too few optics": ({"vertices": LEAVES, "optics": ["leaf"]}, "optics: shape (1,)"),
     "optics by number": ({"vertices": LEAVES, "optics": [0, 0, 0]}, "optics: dtype int64"),
-    "optics that are no names": ({"vertices": LEAVES, "optics": np.array(["leaf", None, 1], object)}, "something that is no text"),
+    "optics that are no names": ({"vertices": LEAVES, "optics": np.array(["leaf", None, 1], object)}, "an item that is not a string"),
     "too many plants": ({"vertices": LEAVES, "plant": [1, 2]}, "plant: shape (2,)"),
     "half plants": ({"vertices": LEAVES, "plant": 1.5}, "plant: dtype float64"),
     "negative plants": ({"vertices": LEAVES, "plant": -1}, "plant: -1"),

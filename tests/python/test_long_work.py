@@ -69,7 +69,7 @@ def test_one_call_at_a_time():
     thread = threading.Thread(target=lambda: simulation.run(error=1e-7, max_seconds=1.0, progress=lambda _: begun.set()))
     thread.start()
     assert begun.wait(20)
-    with pytest.raises(sunfleck.SunfleckError, match="at work in another thread"):
+    with pytest.raises(sunfleck.SunfleckError, match="already running in another thread"):
         simulation.run()
     thread.join()
 

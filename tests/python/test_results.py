@@ -47,7 +47,7 @@ def test_is_told_in_a_line(result):
 
 
 def test_unknown_columns_are_named(result):
-    with pytest.raises(ValueError, match="there is no such column"):
+    with pytest.raises(ValueError, match="no such column"):
         result["PAR_absorbd"]
 
 

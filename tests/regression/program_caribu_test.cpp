@@ -180,7 +180,7 @@ TEST_F(CaribuProgram, EveryCommandOfAScene) {
   static_cast<void>(run(Arguments{"run", "packed.can.gz"} + stand_ + quick_));
   EXPECT_TRUE(exists("summary.json", "results/packed"));
   expect_one_error(run(Arguments{"render", "results/packed"} + stand_), 2, "--optics");
-  expect_one_error(run({"day", "stand.can"}), 2, "stand.can (a day needs a place");
+  expect_one_error(run({"day", "stand.can"}), 2, "stand.can (a mesh file has no place");
 }
 
 TEST_F(CaribuProgram, MistakesAreOneLine) {
@@ -271,22 +271,22 @@ TEST_F(Convert, MistakesAreOneLine) {
   const std::string before = content(folder_ / "stand.can");
   std::filesystem::create_symlink("stand.can", folder_ / "link.can");
   refused({"stand.can"}, "out");
-  refused({"stand.can", "stand.can"}, "stand.can (it is the input");
-  refused({"stand.can", "link.can"}, "link.can (it is the input");
-  refused({"stand.can", "a.xyz"}, "let it end in .glb, .gltf, .obj, .ply or .can, or in .toml");
+  refused({"stand.can", "stand.can"}, "stand.can (it is the same file as the input");
+  refused({"stand.can", "link.can"}, "link.can (it is the same file as the input");
+  refused({"stand.can", "a.xyz"}, "use .glb, .gltf, .obj, .ply or .can, or .toml");
   refused({"stand.can", "a.can.gz"}, "a.can.gz (");
   refused({"a.dae", "a.glb"}, "a.dae (");
   refused({"none.can", "a.glb"}, "none.can");
-  refused({scene, "a.toml"}, "a.toml (both are scene files");
+  refused({scene, "a.toml"}, "a.toml (the input and the output are both scene files");
   refused({"stand.can", "a.toml"}, "stand.can (a mesh alone");
-  refused({"stand.can", "a.glb", "--light", "sun.light"}, "--light (a mesh holds no such thing");
+  refused({"stand.can", "a.glb", "--light", "sun.light"}, "--light (a mesh file cannot hold this");
   refused({scene, "a.glb", "--scale", "2"}, "--scale (");
   refused({"stand.can", "a.toml", "--z-up", "--optics", "par.opt", "--light", "sun.light"}, "--z-up (");
   refused({"stand.can", "gone/a.glb"}, "gone/a.glb", 1);
   refused({"stand.can", "gone/a.toml", "--optics", "par.opt", "--light", "sun.light"}, "gone/", 1);
   EXPECT_EQ(content(folder_ / "stand.can"), before);
   folder_.write("bare.toml", "[plot]\nsize = [1, 1]\n[[band]]\nname = \"PAR\"\n");
-  refused({"bare.toml", "a.glb"}, "bare.toml (the scene has no triangle");
+  refused({"bare.toml", "a.glb"}, "bare.toml (the scene has no triangles");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.glb"));
 }
 

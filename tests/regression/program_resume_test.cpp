@@ -79,7 +79,7 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   go({"--resume"}, -1, "out", signal_when_kept(SIGKILL, 300));
   may_be_killed_ = false;
   const Outcome stopped = go({"--resume"}, 130, "out", signal_when_kept(SIGINT, 200));
-  EXPECT_NE(stopped.err.find("--resume goes on"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("--resume continues the run"), std::string::npos) << stopped.err;
   const auto replicates = summary()["direct"]["replicates"].get<int>();
   EXPECT_GT(replicates, 2);
   // Not one replicate is lost at Ctrl-C.

@@ -165,7 +165,7 @@ TEST_F(Tradeoff, NeedsLight) {
   std::ofstream(folder_ / "dark.toml") << dark;
   const Outcome outcome = run({"tradeoff", "dark.toml", "-o", "bad", "--device", "cpu"});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("sunfleck: dark.toml (no light comes in"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("sunfleck: dark.toml (the scene has no light"), std::string::npos) << outcome.err;
   EXPECT_FALSE(exists("tradeoff.csv", "bad"));
 }
 

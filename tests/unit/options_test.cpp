@@ -129,7 +129,7 @@ TEST(Options, OfPicturesAreShared) {
     EXPECT_EQ(options.band, "NIR");
   }
   EXPECT_EQ(refusal({"run", "a.toml", "--repeat", "2"}),
-            "--repeat 2 (must be odd: the plot stands in the middle of its copies); give 3");
+            "--repeat 2 (must be odd: the plot is in the middle of its copies); give 3");
   EXPECT_NE(refusal({"render", "a.toml", "--view", "below"}).find("--view below"), std::string::npos);
 }
 
@@ -238,7 +238,7 @@ TEST(Options, OfCaribusFiles) {
   EXPECT_EQ(std::get<InfoOptions>(parse({"info", "a.can", "--light", "x.light"})).run.stand.first_given(), "--light");
   EXPECT_EQ(std::get<RenderOptions>(parse({"render", "out", "--domain", "x.8"})).simulating, "--domain");
   EXPECT_EQ(std::get<ViewOptions>(parse({"view", "a.can", "--scale", "2"})).run.stand.first_given(), "--scale");
-  EXPECT_NE(refusal({"day", "a.can", "--optics", "a.opt"}).find("--optics (not known here)"), std::string::npos);
+  EXPECT_NE(refusal({"day", "a.can", "--optics", "a.opt"}).find("--optics (unknown option or argument)"), std::string::npos);
   const auto convert = std::get<ConvertOptions>(parse({"convert", "a.obj", "b.glb", "--z-up"}));
   EXPECT_EQ(convert.input, "a.obj");
   EXPECT_EQ(convert.output, "b.glb");
@@ -250,13 +250,15 @@ TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--passes", "4"}),
             "command line: --passes 4 (must be a whole number in 8..65536); see sunfleck run --help");
   for (const std::string text : {"2%", "0,02", "2"}) {
-    EXPECT_EQ(refusal({"run", "a.toml", "--error", text.c_str()}),
-              "command line: --error " + text +
-                  " (must be a number between 0 and 1, with a point: give 0.02 for 2 percent); see sunfleck run --help");
+    EXPECT_EQ(
+        refusal({"run", "a.toml", "--error", text.c_str()}),
+        "command line: --error " + text +
+            " (must be a number between 0 and 1, with a decimal point: give 0.02 for 2 percent); see sunfleck run --help");
   }
-  EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}), "command line: --bogus (not known here); see sunfleck run --help");
+  EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}),
+            "command line: --bogus (unknown option or argument); see sunfleck run --help");
   EXPECT_EQ(refusal({"ran"}),
-            "ran (no command of this program); use run, day, render, view, validate, tradeoff, maize, convert or info; see "
+            "ran (unknown command); use run, day, render, view, validate, tradeoff, maize, convert or info; see "
             "sunfleck --help");
   EXPECT_EQ(
       refusal({}),
