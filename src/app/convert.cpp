@@ -1,13 +1,13 @@
 #include "app/convert.h"
 
-#include "app/interrupt.h"
-#include "app/scene_source.h"
-#include "app/simulation.h"
+#include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "io/file.h"
 #include "io/mesh_reader.h"
 #include "io/mesh_writer.h"
+#include "simulate/interrupt.h"
+#include "simulate/scene_source.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,7 @@
 #include "app/option_groups.h"
 
 #include "app/option_checks.h"
+#include "base/version.h"
 #include "io/exports.h"
 
 #include <fmt/format.h>

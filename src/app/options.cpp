@@ -2,6 +2,7 @@
 
 #include "app/option_groups.h"
 #include "base/error.h"
+#include "base/version.h"
 #include "io/exports.h"
 #include "io/file.h"
 #include "io/mesh_reader.h"

@@ -1,7 +1,6 @@
 #include "viewer/session.h"
 
-#include "app/pictures.h"
-#include "app/scene_source.h"
+#include "simulate/scene_source.h"
 
 #include <utility>
 

@@ -5,6 +5,8 @@
 #include "base/log.h"
 #include "io/file.h"
 #include "light/sun_events.h"
+#include "simulate/interrupt.h"
+#include "simulate/scene_source.h"
 #include "viewer/panel.h"
 #include "viewer/reports.h"
 
