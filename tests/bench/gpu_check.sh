@@ -20,7 +20,7 @@ cmake --build "$build" --target sunfleck sunfleck_bench agreement_tests
 
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
-# Fails with the program's own message and status where there is no such device.
+# Fails with the program's own message and status if there is no such device.
 "$build/sunfleck" run scenes/maize_sparse.toml --grid 0.05 -o "$work/first" --device "$device" --images none --quiet
 name="$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["device"]["name"])' "$work/first/summary.json")"
 echo "device: $name" >&2

@@ -19,7 +19,7 @@ TITLES = {"cpu": "CPU path", "device": "Vulkan path", "embree1": "Embree, one ra
 COLOURS = {"cpu": "#0072b2", "device": "#d55e00", "embree1": "#666666"}
 DASHES = {"beam": 1, "leaf": 2}
 RAYS = {"beam": "sun's beam", "leaf": "packets from leaves"}
-# Bounds of the table in the README: what must hold, what is aimed at.
+# Bounds of the table in the README: required values and goals.
 GOALS = {
     "beam/device": (0.50, 0.65),
     "leaf/device": (0.45, 0.60),
@@ -142,7 +142,7 @@ def run_once(command):
 
 
 def peak_bytes(command):
-    with get_context("spawn").Pool(1) as pool:  # a fresh parent: the peak is over all its children
+    with get_context("spawn").Pool(1) as pool:  # a fresh parent, since the peak is that of all its children
         return pool.apply(run_once, (command,))
 
 

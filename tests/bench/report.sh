@@ -29,7 +29,8 @@ measure() {
     --benchmark_min_time=0.2 "${@:4}" --benchmark_out="$work/$3.json" --benchmark_out_format=json > "$work/$3.log" ||
     { cat "$work/$3.log" >&2; exit 1; }
 }
-# Repetitions of all of a group take turns, so that a noisy machine is noisy for all; but large canopies are made once.
+# The repetitions of a group's measurements take turns, so that a noisy machine affects all of them; but large canopies are made
+# only once.
 measure 'trace|build|safeguard' 5 ratios --benchmark_enable_random_interleaving=true
 measure 'feature|solve' 3 runs --benchmark_enable_random_interleaving=true
 measure growth 3 growth
