@@ -64,7 +64,7 @@ def test_infinite_canopy_over_soil():
     reflectance, transmittance, soil = 0.4, 0.3, 0.35
     scene = CaribuScene(plate, light=[(200.0, (0.3, -0.2, -1.0))], pattern=SQUARE, opt={"nir": (reflectance, transmittance)}, soil_reflectance=soil)
     _, aggregated = scene.run(direct=False, infinite=True, error=0.002, simplify=True)
-    between = 200.0 * transmittance / (1.0 - soil * reflectance)  # what comes down below the plate
+    between = 200.0 * transmittance / (1.0 - soil * reflectance)  # light that comes down below the plate
     absorbed = (1.0 - reflectance - transmittance) * (200.0 + soil * between)
     assert within(aggregated["Eabs"]["plate"], absorbed, 0.002)
     assert within(aggregated["Ei_sup"]["plate"], 200.0, 0.002)
@@ -102,7 +102,7 @@ def test_lists_of_lights():
 
 def test_light_comes_from_where_it_comes():
     """Facing west: lit by light that travels east, on the side it faces."""
-    wall = {"wall": [[(0.5, 0.2, 0.2), (0.5, 0.2, 0.8), (0.5, 0.8, 0.2)]]}  # counter-clockwise seen from the west
+    wall = {"wall": [[(0.5, 0.2, 0.2), (0.5, 0.2, 0.8), (0.5, 0.8, 0.2)]]}  # counter-clockwise when seen from the west
     for x, lit in ((1.0, "Ei_sup"), (-1.0, "Ei_inf")):
         _, aggregated = CaribuScene(wall, light=[(1.0, (x, 0.0, -1.0))], pattern=SQUARE).run(error=0.005, simplify=True)
         assert within(aggregated[lit]["wall"], 1.0, 0.005), "of a sun of 45 degrees: as much as a level plane"

@@ -34,7 +34,7 @@ def check(python, place, **environment):
 
 def test_pip(tmp_path):
     run([sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv"])
-    # From a copy: pip leaves what it builds beside the sources. The compiled part is this build's.
+    # Installs from a copy, because pip leaves its build files beside the sources. The compiled part is that of this build.
     source = tmp_path / "source"
     source.mkdir()
     for name in ("CMakeLists.txt", "README.md", "pyproject.toml", "setup.py"):

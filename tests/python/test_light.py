@@ -53,7 +53,7 @@ def level_irradiance(sky, step=0.5):
 def test_skies_shed_one_watt(model):
     more = {"cie": {"type": 7}, "perez": {"dni": 500.0, "dhi": 200.0}}.get(model, {})
     sky = sunfleck.sky(model, sun={"elevation": 40.0, "azimuth": 120.0}, **more)
-    # Midpoints of half a degree beside cells of half and one degree.
+    # The tolerance covers midpoints of half a degree against cells of half and one degree.
     assert level_irradiance(sky) == pytest.approx(1.0, abs=2e-3)
     assert sky.radiance(-5.0, 0.0) == 0.0
     assert sky.lights == []
@@ -66,7 +66,7 @@ def test_uniform_sky():
     ways = sky.draw(20000, seed=3)
     assert ways.shape == (20000, 3)
     assert np.allclose(np.linalg.norm(ways, axis=1), 1.0)
-    # The mean sine of elevation, weighted by the cosine law, is 2/3; strata in zenith angle leave far less than 1/sqrt(n).
+    # The mean sine of elevation, weighted by the cosine law, is 2/3; strata in zenith angle leave an error far below 1/sqrt(n).
     assert ways[:, 1].mean() == pytest.approx(2.0 / 3.0, abs=1e-4)
     assert np.array_equal(ways, sky.draw(20000, seed=3)) and not np.array_equal(ways, sky.draw(20000, seed=4))
 
