@@ -9,7 +9,7 @@ import zlib
 import numpy
 
 WIDTH, HEIGHT = 1100, 900
-# "fixed" is the font that every X server has.
+# The font "fixed" is on every X server.
 TWM_SETTINGS = """NoTitle
 RandomPlacement
 BorderWidth 0
@@ -55,7 +55,7 @@ class Screen:
     def drag(self, start, end, button=1, steps=8):
         self.do("mousemove", *map(int, start))
         self.do("mousedown", button)
-        time.sleep(0.4)  # for a frame to see it go down here, and below to see where it ends before it goes up
+        time.sleep(0.4)  # lets a frame see the button go down; the sleep below lets it see the end before the button goes up
         for k in range(1, steps + 1):
             self.do("mousemove", *(int(a + (b - a) * k / steps) for a, b in zip(start, end)))
             time.sleep(0.03)
@@ -77,7 +77,8 @@ class Screen:
         """The screen as an array of rows, columns, red-green-blue."""
         with open(os.path.join(self.folder, "Xvfb_screen0"), "rb") as file:
             data = file.read()
-        head = struct.unpack(">25I", data[:100])  # XWDFile.h: sizes of the head and the colour map come first and 20th
+        # XWDFile.h: the size of the header is the first number, the size of the colour map the 20th
+        head = struct.unpack(">25I", data[:100])
         start = head[0] + 12 * head[19]
         rows = numpy.frombuffer(data, numpy.uint8, head[12] * head[5], start).reshape(head[5], head[12] // 4, 4)
         return rows[:, :head[4], 2::-1].copy()

@@ -47,12 +47,12 @@ file = "leaves.obj"
 optics = "leaf"
 up = "y"
 """
-# The same leaf for a set of CARIBU's files, one polygon a line.
+# The same leaf as a .can file of CARIBU, one polygon per line.
 CAN = """p 1 100001001001 3  0.3 0.3 0.4  0.7 0.3 0.4  0.3 0.7 0.4
 p 1 100001001001 3  0.7 0.3 0.4  0.7 0.7 0.4  0.3 0.7 0.4
 """
 OPT = "n 1\ns d 0.15\ne d 0.1 d 0.12 0.06 d 0.12 0.06\n"
-# A leaf of plant 1 in the plot's middle, one of plant 2 above its north-eastern corner.
+# A leaf of plant 1 in the plot's middle, and a leaf of plant 2 above its north-eastern corner.
 MESH = """o plant1_leaf4
 v 0.35 0.4 0.35
 v 0.35 0.4 0.65
@@ -267,7 +267,7 @@ class WindowTest(unittest.TestCase):
         if not any(event["event"] == "picture" for event in heard):
             heard.append(window.wait_for("picture"))
         self.screen.do("mousemove", *map(int, window.in_picture(0.5, 0.5)))
-        self.screen.do("click", 4)  # the wheel
+        self.screen.do("click", 4)  # turns the wheel
         heard.append(window.wait_for("picture"))
         heard += window.listen_for(1.0)
         self.assertNotIn("restarted", [event["event"] for event in heard])
@@ -281,14 +281,14 @@ class WindowTest(unittest.TestCase):
 
     def test_picking_names_the_organ(self):
         window = self.open("--view", "top")
-        # The middle of the plot is the middle of leaf 4; the picture's margins keep it off the window's middle.
+        # The middle of the plot is the middle of leaf 4; the picture's margins shift it from the window's middle.
         seen = window.picture().astype(int)
         for organ, plant, rank, corner in (("leaf", 1, 4, (0.5, 0.5)), ("leaf", 2, 7, (0.15, 0.15))):
             self.screen.do("mousemove", *map(int, self.plot_to_screen(window, seen, corner)))
             self.screen.do("click", 1)
             event = window.wait_for("picked")
             self.assertEqual((event["organ"], event["plant"], event["rank"]), (organ, plant, rank))
-            # Half of the square, lit by nothing but the beam and the light of the soil.
+            # Half of the square, lit only by the beam and the light from the soil.
             self.assertAlmostEqual(event["area_m2"], 0.045 if plant == 1 else 0.02, places=6)
             self.assertAlmostEqual(event["upper"]["direct"] / 350.0, 1.0, delta=0.02)
             self.assertEqual(event["lower"]["direct"], 0.0)
@@ -365,7 +365,7 @@ class WindowTest(unittest.TestCase):
         window.wait_for("picture", wish=1)
         self.keep_shot("mesh_changed")
         self.assertGreater(numpy.mean(numpy.any(before != window.picture(), axis=2)), 0.005)
-        # A mesh that is broken is told; when it is away for a moment, that is waited for.
+        # A broken mesh is reported; if the mesh is missing for a moment, the window waits for it.
         self.write("leaves.obj", "f 1 2 3\n")
         self.assertIn("leaves.obj", window.wait_for("problem")["text"])
         os.remove(os.path.join(self.folder, "leaves.obj"))
