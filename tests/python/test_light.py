@@ -1,4 +1,4 @@
-"""Sun and sky without a canopy."""
+"""Tests sun and sky without a canopy."""
 
 import datetime
 import json
@@ -41,7 +41,7 @@ def test_bad_times_and_places(arguments):
 
 
 def level_irradiance(sky, step=0.5):
-    """The integral of radiance times the sine of elevation."""
+    """Returns the integral of radiance times the sine of elevation."""
     elevation = np.arange(step / 2, 90, step)
     azimuth = np.arange(step / 2, 360, step)
     radiance = sky.radiance(elevation[:, None], azimuth[None, :])

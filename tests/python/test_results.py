@@ -1,4 +1,4 @@
-"""Arrays: views of what the result owns; xarray; folders; memory."""
+"""Tests arrays, which are views of the result's memory, xarray, folders, and memory use."""
 
 import gc
 import os

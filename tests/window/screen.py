@@ -1,4 +1,4 @@
-"""A display of its own with a window manager, input as from a hand, and what is to be seen on it."""
+"""Provides a separate display with a window manager, input as from a hand, and pictures of the display."""
 
 import os
 import struct
@@ -48,7 +48,7 @@ class Screen:
             process.wait()
 
     def do(self, *words):
-        """One xdotool command, such as do("key", "h"); returns what it prints."""
+        """Runs one xdotool command, such as do("key", "h"); returns what it prints."""
         return subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, capture_output=True,
                               text=True, timeout=60).stdout.strip()
 
@@ -63,7 +63,7 @@ class Screen:
         self.do("mouseup", button)
 
     def still_shot(self):
-        """A shot once two in a row are alike."""
+        """Returns a shot as soon as two in a row are alike."""
         last = self.shot()
         for _ in range(100):
             time.sleep(0.25)
@@ -74,7 +74,7 @@ class Screen:
         return now
 
     def shot(self):
-        """The screen as an array of rows, columns, red-green-blue."""
+        """Returns the screen as an array of rows, columns, red-green-blue."""
         with open(os.path.join(self.folder, "Xvfb_screen0"), "rb") as file:
             data = file.read()
         # XWDFile.h: the size of the header is the first number, the size of the colour map the 20th
@@ -96,7 +96,7 @@ def write_png(file, pixels):
 
 
 def read_png(file):
-    """8-bit red-green-blue without interlacing, which is what the program writes."""
+    """Reads 8-bit red-green-blue without interlacing, the format that the program writes."""
     with open(file, "rb") as stream:
         data = stream.read()
     place, body = 8, b""
@@ -117,7 +117,7 @@ def read_png(file):
 
 
 def unfiltered(kind, row, above):
-    """One row by the PNG specification, section 9.2."""
+    """Reverses the filter of one row by the PNG specification, section 9.2."""
     if kind == 0:
         return row
     if kind == 2:

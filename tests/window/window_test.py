@@ -1,7 +1,7 @@
-"""The window as a user drives it: python3 window_test.py PROGRAM OUT [unittest's arguments]
+"""Tests the window as a user drives it: python3 window_test.py PROGRAM OUT [unittest's arguments]
 
-Starts `sunfleck view` on a display of its own, with software Vulkan, moves a real mouse over it and looks at the screen. Screen
-shots stay in OUT. Exit status 77 where the display's programs are missing.
+Starts `sunfleck view` on a separate display, with software Vulkan, moves a real mouse over it and looks at the screen. Screen
+shots stay in OUT. Exits with status 77 where the display's programs are missing.
 """
 
 import json
@@ -71,7 +71,7 @@ f 5 7 8
 
 
 class Window:
-    """The program, and the events that it tells."""
+    """The program, and the events that it reports."""
 
     def __init__(self, screen, folder, *arguments, scene="leaves.toml"):
         self.screen = screen
@@ -108,7 +108,7 @@ class Window:
         self.events.append(event)
 
     def wait_for(self, name, **fields):
-        """The next event of that name with these values."""
+        """Waits for the next event of that name with these values, and returns it."""
         end = time.monotonic() + PATIENCE_S
         while time.monotonic() < end:
             try:
@@ -124,7 +124,7 @@ class Window:
         raise AssertionError(f"no {name} {fields} within {PATIENCE_S:.0f} s; last: {self.events[-3:]}")
 
     def listen_for(self, seconds):
-        """All events of the next seconds."""
+        """Returns all events of the next seconds."""
         end = time.monotonic() + seconds
         heard = []
         while time.monotonic() < end:
@@ -139,13 +139,13 @@ class Window:
         return heard
 
     def last_restart(self, because):
-        """The number of the last wish that a drag has led to, which have all been told by then."""
+        """Returns the number of the last wish caused by a drag; by then all of them have been reported."""
         wish = self.wait_for("restarted", because=because)["wish"]
         marks = [event for event in self.peek() if event["event"] == "restarted"]
         return marks[-1]["wish"] if marks else wish
 
     def peek(self):
-        """What is told within a moment, left to be waited for."""
+        """Returns the events of a short moment, and leaves them in the queue to be waited for."""
         time.sleep(0.5)
         heard = []
         while not self.lines.empty():
@@ -155,7 +155,7 @@ class Window:
         return [event for event in heard if event is not None]
 
     def place(self, control, share=0.5):
-        """The middle of a control, or a place along it. Waits until it is drawn."""
+        """Returns the middle of a control, or a place along it. Waits until it is drawn."""
         while control not in self.controls:
             self.wait_for("controls")
         left, top, right, bottom = self.controls[control]
@@ -166,7 +166,7 @@ class Window:
         return left + x * width, top + y * height
 
     def picture(self):
-        """What the screen shows of the picture, the pointer away from it."""
+        """Returns the picture as the screen shows it, with the pointer moved away."""
         self.screen.do("mousemove", WIDTH - 1, HEIGHT - 1)
         left, top, width, height = map(int, self.stage)
         return self.screen.still_shot()[top:top + height, left:left + width]
@@ -230,7 +230,7 @@ class WindowTest(unittest.TestCase):
         write_png(os.path.join(OUT, name + ".png"), self.screen.shot())
 
     def wait_until_changed(self, before):
-        """Until a third of the screen is different."""
+        """Waits until a third of the screen has changed."""
         end = time.monotonic() + PATIENCE_S
         while numpy.mean(numpy.any(before != self.screen.shot(), axis=2)) < 0.3:
             self.assertLess(time.monotonic(), end, "the screen stays as it is")
@@ -299,8 +299,8 @@ class WindowTest(unittest.TestCase):
         self.expect_clean_end(window)
 
     def plot_to_screen(self, window, seen, place):
-        """Where a place of the square plot (X, Z in metres) is in a picture from above: north is up and east right, the plot's
-        western and southern border are black, its eastern one is the red axis."""
+        """Finds a place of the square plot (X, Z in metres) in a picture from above: north is up and east right, the plot's western
+        and southern borders are black, its eastern border is the red axis."""
         black = numpy.all(seen < 100, axis=2)
         red = (seen[:, :, 0] > 150) & (seen[:, :, 1] < 80) & (seen[:, :, 2] < 80)
         west, east, south = black.mean(axis=0).argmax(), red.mean(axis=0).argmax(), black.mean(axis=1).argmax()
