@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 scene=scenes/maize_sparse.toml
 results=results/maize_sparse
 program=build/release/sunfleck
-seal=results/maize_sparse.sha256 # of the program, the scene and every result the last demo left
+seal=results/maize_sparse.sha256 # checksums of the program, the scene and every result of the last demo
 
 scripts/install_packages.sh run
 [ -f build/release/build.ninja ] || cmake --preset release

@@ -29,7 +29,7 @@ if [ ${#missing[@]} -eq 0 ]; then
   exit 0
 fi
 
-# sudo may ask for a password where somebody can type it; it never waits for one elsewhere.
+# sudo may ask for a password at a terminal; it never waits for one elsewhere.
 if [ "$(id -u)" -eq 0 ]; then
   as_root=()
 elif command -v sudo > /dev/null && { sudo -n true 2> /dev/null || { [ -t 0 ] && sudo -v; }; }; then
