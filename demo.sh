@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program and runs the main job: the light on a sparse maize stand.
-# The last line is the folder with the results. What is done already is not done again.
+# The last line of output names the folder with the results. Steps that are already done are not repeated.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

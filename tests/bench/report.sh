@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures everything that engine speed is judged by and writes one Markdown table of ratios:
+# Measures all figures of the engine's speed and writes one Markdown table of ratios:
 #   tests/bench/report.sh [--device NAME] [--build DIR] [--plot GROWTH.png] [FILE.md]
-# NAME as for `sunfleck run`, lavapipe if none is given; DIR holds the program and its tests, build/ci if none is given. Takes
+# NAME is a device as for `sunfleck run`, lavapipe by default; DIR holds the program and its tests, build/ci by default. Takes
 # a quarter of an hour on two cores, which should have nothing else to do.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

@@ -154,7 +154,7 @@ TEST(Extremes, OfEqualTrianglesTheFirstIsLit) {
   });
 }
 
-// Of coplanar triangles with different shapes either may be hit: together they shade what the larger one shades.
+// Either of two coplanar triangles with different shapes may be hit: together they shade what the larger one shades.
 TEST(Extremes, CoplanarTrianglesShadeTheirUnion) {
   MeshMaker maker;
   maker.level(0.3, 0.7, 0.4, 0.7, 0.9);

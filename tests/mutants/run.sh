@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the program with one deliberate mistake at a time, in a folder of its own, and expects `sunfleck validate` to find it on
-# the CPU path and on software Vulkan: tests/mutants/run.sh [MUTANT ...]. Without names: every *.patch of this folder.
+# Builds the program with one deliberate mistake at a time, in a separate folder, and expects `sunfleck validate` to find it on
+# the CPU path and on software Vulkan: tests/mutants/run.sh [MUTANT ...]. Without names it takes every *.patch of this folder.
 # SUNFLECK_REQUIRE_DEVICE=1 makes the lack of software Vulkan an error.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# package_test.sh BUILD CPACK: makes the Debian package of a build, installs it below a scratch root with a dpkg database of its own,
-# runs what was installed, removes it, and looks whether anything is left. The machine's own packages are not touched.
+# package_test.sh BUILD CPACK: makes the Debian package of a build, installs it below a scratch root with a separate dpkg
+# database, runs the installed program, removes it, and checks that nothing is left. The machine's own packages are not touched.
 set -euo pipefail
 build=$1
 cpack=$2

@@ -18,7 +18,7 @@ struct Reference {
   double error;  // error of the reference itself
 };
 
-// Expects agreement within three standard errors of the difference, and an own error of at most `largest`.
+// Expects agreement within three standard errors of the difference, and our own error to be at most `largest`.
 void expect_within(const Estimate& got, const Reference& reference, double largest, const std::string& what) {
   const double own = standard_error(got, replicates);
   const double error = std::hypot(own, reference.error);

@@ -65,7 +65,7 @@ class Regression {
     y_.push_back(y);
   }
   struct Fit {
-    double value, error;  // The value and its standard error.
+    double value, error;  // the value and its standard error
   };
   [[nodiscard]] Fit fit() const {
     const auto n = static_cast<double>(x_.size());
