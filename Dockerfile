@@ -1,4 +1,4 @@
-# sunfleck in a container: docker build -t sunfleck . && docker run --rm -v "$PWD:/work" sunfleck run stand.toml
+# Runs sunfleck in a container: docker build -t sunfleck . && docker run --rm -v "$PWD:/work" sunfleck run stand.toml
 FROM debian:12 AS build
 WORKDIR /sunfleck
 COPY scripts scripts
@@ -8,7 +8,7 @@ RUN cmake --preset release && cmake --build --preset release && cpack -G DEB --c
 
 FROM debian:12
 COPY --from=build /package/*.deb /tmp/
-# What the package recommends comes with it: software Vulkan and gnuplot.
+# Also installs what the package recommends: software Vulkan and gnuplot.
 RUN apt-get update && apt-get install -y /tmp/*.deb && rm -rf /tmp/*.deb /var/lib/apt/lists/*
 WORKDIR /work
 ENTRYPOINT ["sunfleck"]

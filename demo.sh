@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program and runs the main job: the light on a sparse maize stand.
-# The last line is the folder with the results. What is done already is not done again.
+# The last line of output names the folder with the results. Steps that are already done are not repeated.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 scene=scenes/maize_sparse.toml
 results=results/maize_sparse
 program=build/release/sunfleck
-seal=results/maize_sparse.sha256 # of the program, the scene and every result the last demo left
+seal=results/maize_sparse.sha256 # checksums of the program, the scene and every result of the last demo
 
 scripts/install_packages.sh run
 [ -f build/release/build.ninja ] || cmake --preset release

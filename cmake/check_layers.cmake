@@ -2,7 +2,7 @@
 #   cmake -D ROOT=<project> -P cmake/check_layers.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# What a folder may include besides itself. A single file is an exception to "never sideways".
+# Folders that a folder may include besides itself. A single file is an exception to "never sideways".
 set(below_base "")
 set(below_canopy base shared)
 set(below_light canopy base shared)
@@ -24,7 +24,7 @@ set(below_shared "")
 
 set(layers "base|canopy|light|bvh|gpu|transport|cluster|view|tracers|validation|io|pictures|simulate|app|viewer|python|shared")
 
-# Libraries that only these folders may name, by the beginning of their headers.
+# Libraries that only certain folders may use, by the beginning of their headers' names.
 set(libraries "vulkan|GLFW|toml|CLI|nlohmann|tiny_gltf|tiny_obj_loader|zlib|erfa|stb|tinyexr|netcdf|meshopt|imgui|backends|mpi|pybind11|Python")
 set(users_of_vulkan gpu)
 set(users_of_GLFW gpu)

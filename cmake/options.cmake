@@ -1,4 +1,4 @@
-# Compiler settings every target of ours is built with.
+# Compiler settings of all our targets.
 add_library(sunfleck_options INTERFACE)
 # Contraction of a*b+c would make CPU and GPU differ in the last bit; see shaders/shared/bridge.h.
 target_compile_options(sunfleck_options INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
@@ -19,14 +19,14 @@ if(SUNFLECK_COVERAGE)
   target_link_options(sunfleck_options INTERFACE --coverage)
 endif()
 if(SUNFLECK_FUZZ)
-  # Every target is watched by the fuzzer; a number too large for the integer it becomes is a finding too.
+  # The fuzzer observes every target; a number too large for its integer type counts as a finding too.
   target_compile_options(sunfleck_options INTERFACE
     -g -fsanitize=fuzzer-no-link,address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(sunfleck_options INTERFACE -fsanitize=address,undefined)
 endif()
 target_include_directories(sunfleck_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/shaders)
 
-# One static library a folder: sunfleck_folder(<name> SOURCES ... USES <targets>)
+# Adds one static library per folder: sunfleck_folder(<name> SOURCES ... USES <targets>)
 function(sunfleck_folder name)
   cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
   add_library(sunfleck_${name} STATIC ${ARG_SOURCES})

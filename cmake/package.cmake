@@ -1,4 +1,4 @@
-# A Debian package of what is installed: cpack -G DEB in the build folder, or the target `package`.
+# Makes a Debian package of the installed files: cpack -G DEB in the build folder, or the target `package`.
 install(DIRECTORY scenes/ DESTINATION share/sunfleck/scenes)
 install(FILES README.md CHANGELOG.md DESTINATION share/doc/sunfleck)
 install(DIRECTORY docs/ DESTINATION share/doc/sunfleck/docs)
@@ -17,7 +17,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# Libraries that are linked are found by dpkg-shlibdeps; these are opened at run time.
+# dpkg-shlibdeps finds the linked libraries; the following are opened at run time.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libvulkan1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers, gnuplot-nox")

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Which lines of src the tests execute: scripts/coverage.sh [ctest options]
+# Measures which lines of src the tests execute: scripts/coverage.sh [ctest options]
 # Builds with counters in build/coverage, runs the tests (or those that ctest's options choose), prints the share of lines by
-# file, and fails below 85 %. Left out: the long tests, and those of physics, whose statistics take most of an hour where
-# threads share the counters and hardly add to the share.
-# SUNFLECK_COVERAGE_TARGETS: what to build instead of these tests.
+# file, and fails below 85 %. Leaves out the long tests, and the physics tests, whose statistics take most of an hour while
+# threads share the counters, and hardly add to the share.
+# SUNFLECK_COVERAGE_TARGETS names other targets to build instead of these tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 least=85

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs those packages of packages.txt that are missing: scripts/install_packages.sh run|test|full
-# "run" is what the program needs, "test" that and what its tests need, "full" that and what its longest checks need. Asks nothing; does nothing where nothing is missing.
+# "run" stands for the packages that the program needs, "test" adds those of its tests, and "full" those of its longest checks.
+# Asks no questions, and does nothing if nothing is missing.
 set -euo pipefail
 list="$(dirname "${BASH_SOURCE[0]}")/packages.txt"
 
@@ -29,7 +30,7 @@ if [ ${#missing[@]} -eq 0 ]; then
   exit 0
 fi
 
-# sudo may ask for a password where somebody can type it; it never waits for one elsewhere.
+# sudo may ask for a password at a terminal; it never waits for one elsewhere.
 if [ "$(id -u)" -eq 0 ]; then
   as_root=()
 elif command -v sudo > /dev/null && { sudo -n true 2> /dev/null || { [ -t 0 ] && sudo -v; }; }; then

@@ -1,8 +1,8 @@
-"""setuptools as the build backend of pyproject.toml, the system's own where there is one.
+"""Provides setuptools as the build backend of pyproject.toml, the system's own if there is one.
 
-pip builds in an environment of its own that hides what is installed, and would fetch setuptools anew even on machines that have it
-and no network. So pyproject.toml requires nothing, and this backend looks for the system's; it asks pip for setuptools only where
-there is none.
+pip builds in a separate environment that hides installed packages, and would download setuptools even on machines that have it but
+no network. So pyproject.toml requires nothing, and this backend looks for the system's setuptools; it asks pip for setuptools only
+if there is none.
 """
 
 import sys

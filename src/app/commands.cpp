@@ -18,7 +18,7 @@
 namespace sunfleck {
 namespace {
 
-// What a rank other than 0 does of a run.
+// Does the part of a rank other than 0 in a run.
 int help_with_run(const RunOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
     Simulation simulation(load_scene(options), options);
@@ -81,7 +81,7 @@ int write_maize(const MaizeOptions& options) {
   start_log(Verbosity::normal);
   exit_on_interrupts();
   const Mesh mesh = make_maize({options.rows, options.per_row, options.spacing_m[0], options.spacing_m[1], options.seed});
-  // From here on a signal does not end the program at once, so that a file once begun is finished.
+  // From here on a signal does not end the program at once, so that an unfinished file is completed.
   watch_for_interrupts();
   write_gltf(mesh, options.output);
   fmt::print("{}: {} triangles, {} organs\n", options.output.string(), mesh.triangles.size(), mesh.organs.size());

@@ -37,7 +37,7 @@ constexpr const char* fields_file = "day.nc";
 constexpr const char* plot_file = "day.png";
 constexpr const char* resume_hint = ", then continue with --resume";
 
-// The folder's store of steps: a step is written to the disk while the next one is simulated.
+// Stores the steps in the folder: a step is written to the disk while the next one is simulated.
 class FolderSink final : public DaySink {
  public:
   FolderSink(const StepStore& store, const DayCourse& course) : store_(store), course_(course) {}
@@ -67,7 +67,7 @@ class FolderSink final : public DaySink {
 
   const StepStore& store_;
   const DayCourse& course_;
-  std::future<void> writing_;  // of the last step
+  std::future<void> writing_;  // writes the last step
 };
 
 void draw_day(const fs::path& folder, const RunRecord& record, const RadiationModel& model, const DayCourse& course,
@@ -97,7 +97,7 @@ void write_fields(const fs::path& folder, const RunRecord& record, const Radiati
                   const SimulatedDay& day, const StepStore& store) {
   const auto fields = [&store](std::size_t step) {
     std::optional<StoredStep> stored = store.read(step);
-    if (!stored) throw_failure(fmt::format("step {}", step + 1), "its file is gone or damaged", "run again with --resume");
+    if (!stored) throw_failure(fmt::format("step {}", step + 1), "its file is missing or damaged", "run again with --resume");
     return std::move(stored->fields);
   };
   write_day_netcdf(folder / fields_file, store.scratch_file(), {record, model, course, day.lights.size(), fields});
@@ -106,13 +106,14 @@ void write_fields(const fs::path& folder, const RunRecord& record, const Radiati
   say(fmt::format("{}: {:.1f} MB", fields_file, megabytes));
 }
 
-// A day and the folder it fills.
+// A day and the folder for its results.
 struct DayJob {
   const DayOptions& options;
   const fs::path& folder;
   const DayPlan& plan;
   StepStore& store;
-  const ordered_json& settings;  // that the bytes depend on
+  // Everything on which the bytes depend.
+  const ordered_json& settings;
 };
 
 UnwrittenFiles write_tables(const DayJob& job, const RunRecord& record, const RadiationModel& model, const SimulatedDay& day) {
@@ -153,8 +154,8 @@ void write_day(const DayJob& job, RunRecord record, const RadiationModel& model,
   unwritten.throw_if_any(resume_hint);
 }
 
-// Simulates the steps until they are done, --max-seconds have passed or Ctrl-C; an error leaves the finished ones where they
-// are.
+// Simulates the steps until they are done, --max-seconds have passed or Ctrl-C stops them; an error leaves the finished steps
+// in place.
 SimulatedDay run_steps(Simulation& simulation, const DayJob& job, const SolveSettings& settings, Ranks& ranks) {
   ProgressLine line("day");
   RunHooks hooks{terminal_monitor(line), nullptr, &ranks};
@@ -186,11 +187,11 @@ int warn_if_stopped(const DayCourse& course, const SimulatedDay& day, const RunO
 
 Scene read_day_scene(const RunOptions& options) {
   Scene scene = load_scene_with_warnings(options, ScenePurpose::day);
-  if (remove_receivers(scene)) say("planes and sensors are left to `run`");
+  if (remove_receivers(scene)) say("planes and sensors are ignored; only `run` computes them");
   return scene;
 }
 
-// What a rank other than 0 does of a day.
+// Does the part of a rank other than 0 in a day.
 int help_with_day(const DayOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
     Scene scene = read_day_scene(options.run);
@@ -203,7 +204,7 @@ int help_with_day(const DayOptions& options, Ranks& ranks) {
   return served ? exit_done : exit_failed;
 }
 
-// Makes the folder ready for the steps that are still to be simulated.
+// Prepares the folder for the steps that are still to be simulated.
 void open_day_folder(const fs::path& folder, FolderLock& lock, StepStore& store, bool resumed) {
   if (resumed) {
     reopen_folder(folder);

@@ -27,7 +27,7 @@ bool is_exr(const fs::path& file) {
   return file.extension() == ".exr";
 }
 
-// Where the picture goes; checked before any work.
+// Returns the picture's file, checked before any work.
 fs::path picture_file(const RenderOptions& options, bool finished_run) {
   fs::path file = options.file;
   const fs::path name = stem_of(options.picture) + ".png";
@@ -37,12 +37,12 @@ fs::path picture_file(const RenderOptions& options, bool finished_run) {
                 "give a picture.png, or a values.exr for the values themselves");
   }
   if (is_exr(file) && options.chart_given) {
-    throw_input("--chart", "an .exr file holds values, no colours", "leave it out, or name a .png");
+    throw_input("--chart", "an .exr file contains values, not colours", "leave it out, or name a .png");
   }
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
-    throw_failure(printable(file.string()), "its folder does not exist", "make the folder first");
+    throw_failure(printable(file.string()), "its folder does not exist", "create the folder first");
   }
   if (::access(folder.c_str(), W_OK) != 0) {
     throw_failure(printable(file.string()), "its folder cannot be written", "name another place with -o");
@@ -50,7 +50,7 @@ fs::path picture_file(const RenderOptions& options, bool finished_run) {
   return file;
 }
 
-// A scene with its result, where there is one already.
+// A scene, with its result if there is one already.
 struct Source {
   Scene scene;
   std::optional<RadiationResult> result;
@@ -70,11 +70,11 @@ Source read_source(const RenderOptions& options, bool finished_run) {
                 "give a scene, or run it first");
   }
   StoredResult stored = read_result_store(store);
-  if (!stored.complete) warn("the run stopped before its work was done: its picture is noisier than it was meant to be");
+  if (!stored.complete) warn("the run stopped before it was finished, so its picture is noisier than intended");
   return {std::move(stored.scene), std::move(stored.result)};
 }
 
-// False if stopped.
+// Returns false if stopped.
 bool write_picture(const Drawing& drawing, const RenderOptions& options, const fs::path& file) {
   if (!is_exr(file)) {
     return draw_charts(drawing, options.run.pictures, std::span(&options.picture, 1), interrupted,

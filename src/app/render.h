@@ -1,11 +1,11 @@
 #pragma once
-// The command `render`: one picture.
+// The command `render` draws one picture.
 
 #include "app/options.h"
 
 namespace sunfleck {
 
-// Exit status as of `run`. A finished run's folder is drawn from what is stored there; a scene is simulated first.
+// Returns the exit status, as `run` does. Draws a finished run's folder from its stored data; simulates a scene first.
 [[nodiscard]] int render(const RenderOptions& options);
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// What a run says on standard output when it is done.
+// Makes the report of a finished run for standard output.
 
 #include "io/result_writer.h"
 
@@ -7,7 +7,7 @@
 
 namespace sunfleck {
 
-// A short table of the balance, for people.
+// Returns a short table of the balance, for people to read.
 [[nodiscard]] std::string balance_report(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 
 }  // namespace sunfleck

@@ -64,10 +64,10 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
   std::string line = "interrupted";
   if (result.stop == StopReason::time_spent)
     line = fmt::format("stopped after --max-seconds {}", settings.max_seconds.value_or(0));
-  if (result.stop == StopReason::replicates_spent) line = "stopped at the most replicates of a run";
+  if (result.stop == StopReason::replicates_spent) line = "stopped at the largest number of replicates of a run";
   if (result.stop == StopReason::rays_spent) line = fmt::format("stopped at --max-rays {}", settings.max_rays.value_or(0));
   if (result.direct.rays + result.indirect.sky_rays + result.indirect.packets == 0) {
-    line += " before the first rays were counted: the tables hold no light yet";
+    line += " before the first rays were counted: the tables contain no light yet";
   } else {
     line += fmt::format(" after {} replicates", result.direct.replicates);
     const std::string direct =

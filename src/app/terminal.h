@@ -1,5 +1,5 @@
 #pragma once
-// What every simulating command does alike at a terminal: messages, progress, Ctrl-C and the exit status.
+// The behaviour that all simulating commands share at a terminal: messages, progress, Ctrl-C and the exit status.
 
 #include "app/options.h"
 #include "base/log.h"
@@ -26,10 +26,10 @@ void start_at_terminal(const RunOptions& options);
 // Returns the device in use, as one line for the user.
 [[nodiscard]] std::string device_line(const TracerDevice& device);
 
-// Returns what a progress line shows of a solver's progress.
+// Returns the part of a solver's progress that a progress line shows.
 [[nodiscard]] ProgressLine::State progress_state(const Progress& progress);
 
-// Returns a monitor that draws the progress line, which must outlive it, and is interrupted by Ctrl-C.
+// Returns a monitor that draws the progress line, which must outlive it, and that Ctrl-C interrupts.
 [[nodiscard]] Monitor terminal_monitor(ProgressLine& line);
 
 // Runs the simulation with a progress line, until Ctrl-C. The checkpoint and the ranks may be null.
@@ -38,20 +38,20 @@ void start_at_terminal(const RunOptions& options);
 
 [[nodiscard]] int exit_status(StopReason stop);
 
-// Says in one line what ended a run early, which figures of which pass fell short of their bounds, and `cure`; says nothing of
-// a run that did all its work.
+// Says in one line why a run ended early and which figures of which pass fell short of their bounds, followed by `cure`; says
+// nothing if a run did all its work.
 void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view cure = "");
 
-// Returns the part of that line about a pass: "direct error 0.0037 of 0.001 (beam on vegetation)". Empty for a pass that reached
-// its bound, has none, or has no light.
+// Returns the part of that line about a pass: "direct error 0.0037 of 0.001 (beam on vegetation)". Empty for a pass that
+// reached its bound, has none, or has no light.
 [[nodiscard]] std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
                                     const std::optional<JudgedFigure>& judged, const RadiationModel& model);
 
-// Says that the `work` in the folder, a run or a day, is finished, or prints its summary if --json asks for it. Returns the
+// Says that the `work` in the folder, a run or a day, is finished, or prints its summary if --json requests it. Returns the
 // exit status.
 [[nodiscard]] int tell_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work);
 
-// Prints the balance of a result and its folder, or its summary if --json asks for it.
+// Prints the balance of a result and its folder, or its summary if --json requests it.
 void print_result(const std::filesystem::path& folder, const RunOptions& options, const SimulatedScene& simulated);
 
 }  // namespace sunfleck

@@ -21,7 +21,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr const char* summary_file = "summary.json";
-constexpr int pauses_per_write = 50;  // so that writing the state takes at most 1/50 of the time
+constexpr int pauses_per_write = 50;  // limits writing the state to 1/50 of the time
 constexpr std::chrono::milliseconds shortest_pause{500};
 
 template <class T>
@@ -29,7 +29,7 @@ ordered_json value_or_null(const std::optional<T>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-// Everything that the bytes of the tables depend on, as summary.json has it.
+// Returns everything on which the bytes of the tables depend, as in summary.json.
 ordered_json run_settings(const Scene& scene, const SolveSettings& settings) {
   return {{"command", "run"},
           {"sunfleck", version()},
@@ -44,7 +44,7 @@ ordered_json run_settings(const Scene& scene, const SolveSettings& settings) {
           {"max_rays", value_or_null(settings.max_rays)}};
 }
 
-// The settings, and whether sums of single triangles are kept.
+// Returns the settings, extended by whether sums of single triangles are kept.
 ordered_json state_settings(ordered_json settings, ElementErrors element_errors) {
   settings["of_triangles"] = element_errors != ElementErrors::skip;
   return settings;
@@ -66,7 +66,7 @@ Checkpoint::Found Checkpoint::find(const RadiationModel& model) {
   return found_ ? Found::begun : Found::nothing;
 }
 
-// The summary of a finished run holds its settings; a file that is no summary of ours says nothing.
+// The summary of a finished run contains its settings; a file that is not a summary of this program is ignored.
 bool Checkpoint::is_finished() const {
   std::error_code error;
   if (!fs::is_regular_file(folder_ / summary_file, error)) return false;

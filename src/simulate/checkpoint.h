@@ -14,25 +14,25 @@
 
 namespace sunfleck {
 
-// Writes the state after a finished replicate, once fifty times as long has passed as the last write took and at least half a
-// second: this costs at most 2 % of the time. Writes it once more at the end of a run that is stopped.
+// Writes the state after a finished replicate, once fifty times the duration of the last write has passed and at least half a
+// second: this costs at most 2 % of the time. Writes it once more at the end of a stopped run.
 class Checkpoint {
  public:
-  // `exports` are those the run is asked for.
+  // `exports` are the exports requested for the run.
   Checkpoint(std::filesystem::path folder, std::vector<std::string> exports, const Scene& scene, const SolveSettings& settings);
 
   enum class Found { nothing, begun, finished };
-  // Returns what an earlier run left in the folder. Throws Error (input) if its settings were others, if its state is damaged,
-  // or if it is finished without a file that `exports` asks for.
+  // Returns what an earlier run left in the folder. Throws Error (input) if its settings were different, if its state is
+  // damaged, or if it is finished but lacks a file that `exports` requires.
   [[nodiscard]] Found find(const RadiationModel& model);
 
-  // Returns the state of the run that was begun; null without one.
+  // Returns the state of the unfinished run, or null if there is none.
   [[nodiscard]] const SolveState* state() const { return found_ ? &*found_ : nullptr; }
 
-  // Says from where the run resumes, for the user.
+  // Returns a line for the user that says from where the run resumes.
   [[nodiscard]] std::string resume_line() const;
 
-  // Makes the monitor hand over states, and writes them; a disk that takes none is reported once.
+  // Makes the monitor hand over states, and writes them; a disk that rejects them is reported once.
   void attend(Monitor& monitor);
 
   // Returns whether a state of this run is in the folder.

@@ -16,12 +16,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// next_work foresees replicates of which sixteen reach 0.7 of the bounds, so that a run rarely fails its checks: half of its
-// work is spare. With fewer packets each, a step makes as many replicates as it needs, and the spare work is what lies between
-// two checks. Rays cost little beside packets, and a beam that lags behind would cost all packets of more replicates.
+// next_work sizes replicates so that sixteen of them reach 0.7 of the bounds and a run rarely fails its checks: half of its
+// work is spare. With fewer packets in each replicate, a step makes as many replicates as it needs, and the spare work is only
+// that between two checks. Rays cost little beside packets, and a beam that lags behind would cost all packets of more
+// replicates.
 constexpr double share_of_next_packets = 0.4;
-// The sun may have moved to where much more work is needed, as when the first beams reach the ground. If the error is still
-// this many bounds after this many replicates, the step starts again with pilots: it would need 75 replicates, not some 20.
+// The sun may have moved to where much more work is needed, for example when the first beams reach the ground. If the error is
+// still this many times the bound after this many replicates, the step starts again with pilots: otherwise it would need 75
+// replicates instead of about 20.
 constexpr int judged_replicates = 12;
 constexpr double most_bounds = 2.5;
 
@@ -63,7 +65,7 @@ class DayRun {
            (hooks_.ranks != nullptr && hooks_.ranks->interrupted());
   }
 
-  // Simulates a step by day; empty if stopped meanwhile.
+  // Simulates a daytime step; returns nothing if it was stopped meanwhile.
   std::optional<StoredStep> simulate(std::size_t step) {
     if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(step);
     set_light(simulation_.scene().model, plan_.lights[step]);
@@ -95,7 +97,7 @@ class DayRun {
     return stored;
   }
 
-  // Empty if the step began with far too little work; counts decide that, not the clock.
+  // Returns nothing if the step began with far too little work; counts decide that, not the clock.
   std::optional<RadiationResult> solve(const SolveSettings& settings) {
     std::atomic<bool> too_little = false;  // the solver's threads read it
     int replicates = 0;
@@ -112,7 +114,7 @@ class DayRun {
     return result;
   }
 
-  // Reports a step's progress as the day's.
+  // Reports a step's progress as progress of the day.
   void report(const Progress& state) const {
     if (!hooks_.monitor.report) return;
     Progress whole = state;

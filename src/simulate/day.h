@@ -1,8 +1,8 @@
 #pragma once
-// The steps of a day or of several, simulated one after the other with one tree.
+// Simulates the steps of one or several days, one after the other with one tree.
 //
-// Step n, from 0, has the seed RandomStream(seed, n).word(). Its replicates begin as large as the last simulated step's would
-// now be chosen (RadiationResult::next_work), which is stored with the step: a day that was stopped anywhere and is resumed
+// Step n, from 0, has the seed RandomStream(seed, n).word(). Its replicates begin at the size that the last simulated step
+// would now choose (RadiationResult::next_work), which is stored with the step: a day that was stopped anywhere and is resumed
 // gives the same bytes as one that was not.
 
 #include "io/day_summary.h"
@@ -20,13 +20,13 @@
 
 namespace sunfleck {
 
-// Where the steps of a day go, and where steps that were done earlier come from.
+// Receives the steps of a day, and provides the steps that were simulated earlier.
 class DaySink {
  public:
   virtual ~DaySink() = default;
-  // Returns a step by day that was simulated earlier; empty: it is to be simulated.
+  // Returns a daytime step that was simulated earlier; empty if it has yet to be simulated.
   [[nodiscard]] virtual std::optional<StoredStep> find(std::size_t step) = 0;
-  // Takes a step that was just simulated; all but its fields is used afterwards.
+  // Takes a step that was just simulated; everything except its fields is used afterwards.
   virtual void take(std::size_t step, StoredStep& simulated) = 0;
 };
 
@@ -35,19 +35,19 @@ struct SimulatedDay {
   DayTotals totals;
 };
 
-// Returns the solver's settings for the steps: without a limit of time, which ends a day between rays and not by smaller
-// replicates, so that its bytes do not depend on the clock.
+// Returns the solver's settings for the steps. They contain no time limit: --max-seconds interrupts a day between rays instead
+// of making replicates smaller, so that its bytes do not depend on the clock.
 [[nodiscard]] SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads);
 
 // Returns everything that the bytes of a finished step depend on.
 [[nodiscard]] nlohmann::ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings,
                                                   const DayPlan& plan);
 
-// Puts a model under the light of a moment.
+// Sets the light of a moment in a model.
 void set_light(RadiationModel& model, const MomentLight& light);
 
-// Simulates the steps of the plan in their order, until hooks.monitor.interrupted stops them; a step that was begun is left out
-// then. The monitor's report is of the whole day; hooks.checkpoint is not used, since the sink keeps the steps. Throws as
+// Simulates the steps of the plan in their order, until hooks.monitor.interrupted stops them, which discards the step in
+// progress. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps. Throws as
 // Simulation::solve does, and what the sink throws.
 [[nodiscard]] SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings,
                                         DaySink& sink, const RunHooks& hooks);

@@ -22,10 +22,10 @@ using std::chrono::year_month_day;
 constexpr int minutes_per_hour = 60;
 constexpr int minutes_per_day = 1440;
 constexpr double seconds_per_minute = 60.0;
-// Where the sun's position is known.
+// Range of years in which the sun's position is known.
 constexpr int first_year = 1900, last_year = 2100;
 
-// Digits only, so many; -1 for anything else.
+// Returns the number made of exactly this many digits; -1 for any other text.
 int number_of(std::string_view text, std::size_t digits) {
   int number = 0;
   const bool good = text.size() == digits && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -34,7 +34,7 @@ int number_of(std::string_view text, std::size_t digits) {
   return number;
 }
 
-// 24:00 is the end of the day.
+// Reads a time; 24:00 is the end of the day.
 int read_clock(const char* option, const std::string& text) {
   const std::string_view view = text;
   const std::size_t colon = std::min(view.find(':'), view.size());
@@ -60,7 +60,7 @@ sys_days read_date(const char* option, const std::string& text) {
                             std::chrono::day(static_cast<unsigned>(day))};
   if (!date.ok()) throw_input(place, "there is no such date", "check the month and the day");
   if (year < first_year || year > last_year) {
-    throw_input(place, fmt::format("years {} to {} are known", first_year, last_year), "give a date in these");
+    throw_input(place, fmt::format("must lie in the years {} to {}", first_year, last_year), "give a date in this range");
   }
   return sys_days(date);
 }
@@ -71,7 +71,7 @@ LocalDate local_date(sys_days date, int offset_minutes) {
           static_cast<int>(static_cast<unsigned>(day.day())), offset_minutes};
 }
 
-// So many minutes of the local clock after midnight of the date.
+// Returns the time this many minutes of the local clock after midnight of the date.
 UtcTime utc_at(const LocalDate& date, double minutes) {
   return plus_seconds({date.year, date.month, date.day}, (minutes - date.offset_minutes) * seconds_per_minute);
 }
@@ -87,7 +87,7 @@ std::vector<sys_days> dates_of(const DayRequest& request, const SunMoment& momen
     throw_input(fmt::format("--to-date {}", request.to_date), "it lies before the first date", "give the later date");
   }
   std::vector<sys_days> dates;
-  // More dates than steps are refused later on.
+  // More dates than steps are rejected later.
   for (sys_days date = first; date <= last && dates.size() <= most_day_steps; date += std::chrono::days(1)) {
     dates.push_back(date);
   }
@@ -98,8 +98,8 @@ struct Daylight {
   int from_min = minutes_per_day, to_min = 0;
 };
 
-// From the first sunrise to the last sunset of the dates. Where the clock is far from local time one of them lies beyond
-// midnight.
+// Returns the span from the first sunrise to the last sunset of the dates. Where the clock is far from local time, one of them
+// lies beyond midnight.
 Daylight daylight(const std::vector<sys_days>& dates, const SunMoment& moment) {
   Daylight light;
   for (const sys_days day : dates) {
@@ -164,7 +164,7 @@ DayPlan plan_day(const DayRequest& request, const Scene& scene) {
   if (steps_a_date * dates.size() > most_day_steps) {
     throw_input(fmt::format("--step {}", request.step_min),
                 fmt::format("more than {} steps on {} dates", most_day_steps,
-                            dates.size() > most_day_steps ? "so many" : fmt::to_string(dates.size())),
+                            dates.size() > most_day_steps ? "these" : fmt::to_string(dates.size())),
                 "give longer steps or fewer dates");
   }
   for (const sys_days date : dates) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which steps a day has: what the options of `day` ask for, laid over the scene's place and weather.
+// Plans the steps of a day: combines the options of `day` with the scene's place and weather.
 
 #include "io/day_course.h"
 #include "io/moment_light.h"
@@ -14,15 +14,16 @@ inline constexpr std::size_t most_day_steps = 10000;
 
 struct DayPlan {
   DayCourse course;
-  std::vector<MomentLight> lights;  // [step], at its middle; night steps without bands
+  std::vector<MomentLight> lights;  // [step], at its middle; night steps have no bands
   int from_min = 0, to_min = 0;     // local clock, minutes since midnight
 };
 
-// The scene's own date, and sunrise to sunset of all dates rounded outwards to whole steps, where the options leave them open.
-// Throws Error (input) for times and dates that do not exist or are out of order, too many steps, a scene without a course of
-// its light, and weather that has nothing for a step.
+// Plans the steps. Options that are not given default to the scene's own date, and to sunrise and sunset of all dates, rounded
+// outwards to whole steps. Throws Error (input) for times and dates that do not exist or are out of order, too many steps, a
+// scene whose light has no course over the day, and weather that does not cover a step.
 [[nodiscard]] DayPlan plan_day(const DayRequest& request, const Scene& scene);
 
-[[nodiscard]] std::string clock_text(int minutes);  // HH:MM
+// Returns HH:MM.
+[[nodiscard]] std::string clock_text(int minutes);
 
 }  // namespace sunfleck

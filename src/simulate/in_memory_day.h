@@ -1,5 +1,5 @@
 #pragma once
-// A day that is simulated in memory, without a folder.
+// Simulates a day in memory, without a folder.
 
 #include "io/day_course.h"
 #include "io/result_writer.h"
@@ -17,14 +17,15 @@ struct InMemoryDay {
   Scene scene;
   DayPlan plan;
   RunRecord record;
-  std::vector<StepLight> lights;           // [step]; fewer than the plan has if stopped
-  std::vector<std::vector<float>> fields;  // [step][(band * columns + column) * elements + element], W m-2; empty by night
-  std::string summary;                     // summary.json
+  std::vector<StepLight> lights;  // [step]; fewer than the plan has if stopped
+  // W m-2, [step][(band * columns + column) * elements + element]; empty by night
+  std::vector<std::vector<float>> fields;
+  std::string summary;  // summary.json
 };
 
-// Simulates a scene that was read for a day, without its planes and sensors; the result is that of the command `day` with these
-// requests, bit for bit. `work.max_seconds` and monitor.interrupted stop the day: the step that is not whole is left out. The
-// monitor's report is of the whole day. Throws Error as `day` does.
+// Simulates a scene that was read for a day, without its planes and sensors; the result equals that of the command `day` with
+// these requests, bit for bit. `work.max_seconds` and monitor.interrupted stop the day and discard the unfinished step. The
+// monitor's report covers the whole day. Throws Error as `day` does.
 [[nodiscard]] InMemoryDay simulate_in_memory(Scene scene, const DayRequest& request, const WorkRequest& work,
                                              const DeviceRequest& device, const Monitor& monitor);
 

@@ -8,7 +8,7 @@
 namespace sunfleck {
 namespace {
 
-// The only thing a signal handler may write to.
+// The only object that a signal handler may write to.
 volatile std::sig_atomic_t signal_came = 0;
 
 extern "C" void note_signal(int) {

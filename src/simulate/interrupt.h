@@ -3,11 +3,11 @@
 
 namespace sunfleck {
 
-// Use while nothing has been written yet: signals end the program at once, with one line and the exit status of an interrupted
-// run.
+// Makes signals end the program at once, with one line and the exit status of an interrupted run. For use while nothing has
+// been written yet.
 void exit_on_interrupts();
 
-// From now on signals end the work cleanly; a second signal of the same kind ends the program at once.
+// Makes signals end the work cleanly from now on; a second signal of the same kind ends the program at once.
 void watch_for_interrupts();
 [[nodiscard]] bool interrupted();
 

@@ -11,7 +11,7 @@ constexpr double mib = 1048576.0;
 // Replicates that run side by side seldom reach their peaks at the same time.
 constexpr double at_their_peak = 0.7;
 
-// Returns the memory of the program and its libraries; on Vulkan also of the driver and its compiled shaders.
+// Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
 double program_bytes(const TracerDevice& device) {
   return (device.kind == "cpu" ? 24.0 : 118.0) * mib;
 }
@@ -24,9 +24,9 @@ double tree_bytes(const Bvh& bvh) {
   return static_cast<double>(bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(BvhTriangle));
 }
 
-// Returns what the solver keeps of all replicates: the sums and the result made from them.
+// Returns the memory of the solver's results of all replicates: the sums and the result made from them.
 double sum_bytes(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
-  constexpr double tallies = 3.0;  // the run's, its pilot's and the result's
+  constexpr double tallies = 3.0;  // those of the run, of its pilot and of the result
   constexpr double numbering = 3.0 * sizeof(std::uint32_t);
   const auto elements = static_cast<double>(model.canopy.size());
   const auto bands = static_cast<double>(model.bands.size());
@@ -42,9 +42,9 @@ double sum_bytes(const RadiationModel& model, const CounterLayout& layout, const
 }  // namespace
 
 std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const SolveSettings& settings, const Monitor& monitor) {
-  // One tree reference while the tree is built, besides its place in the finished tree.
+  // Bytes of one tree reference while the tree is built, in addition to its place in the finished tree.
   constexpr double building = 64.0 + sizeof(Reference);
-  // One element packed for the store in the result folder, and once more as the text of the file.
+  // Bytes of one element packed for the store in the result folder, including its copy in the file's text.
   constexpr double stored = 100.0;
   const RadiationModel& model = simulation.model();
   const SceneTree& tree = simulation.tracing().tree;

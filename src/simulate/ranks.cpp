@@ -34,7 +34,7 @@ class ReplicateBench {
   }
 
  private:
-  // Returns the tally of the last order where it fits this one, as it nearly always does.
+  // Returns the tally of the last order if it fits this one, which is nearly always the case.
   std::shared_ptr<const Tally> tally_of(const ReplicateOrder& order) {
     const std::lock_guard lock(mutex_);
     if (!tally_ || order.beam_rays != beam_rays_) {
@@ -60,7 +60,7 @@ Ranks::~Ranks() {
   if (!job_) return;
   try {
     if (helpers_ ? helpers_->wait_until_gone() : served_) job_->finish();
-  } catch (const std::exception&) {  // without an orderly end the launcher ends the others
+  } catch (const std::exception&) {  // without a proper end the launcher ends the others
   }
 }
 
@@ -75,7 +75,7 @@ void Ranks::gather(const Simulation& simulation, const SolveSettings& settings) 
   if (!job_->seat().hint.empty()) say(job_->seat().hint);
   helpers_->wait_until_ready(what_is_simulated(simulation));
   if (settings.max_rays) {
-    say("--max-rays: one replicate is made after the other, by rank 0 alone");
+    say("--max-rays: rank 0 alone makes the replicates, one after another");
     release();
   } else {
     say(fmt::format("{} ranks", count()));
@@ -101,7 +101,7 @@ bool Ranks::serve(const std::function<void(const std::function<void(const Task&)
   } catch (const Error& error) {
     report(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    report(ErrorKind::failure, three_part_message("out of memory", "allocation failed", "put fewer ranks on a machine"));
+    report(ErrorKind::failure, three_part_message("out of memory", "allocation failed", "run fewer ranks per machine"));
   }
   return served_;
 }

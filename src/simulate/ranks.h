@@ -1,6 +1,6 @@
 #pragma once
-// A run or day that several processes work on, started by an MPI launcher: rank 0 does everything that the program does alone,
-// and the others are workers that make replicates for it.
+// Shares a run or a day among several processes, started by an MPI launcher: rank 0 does everything that the program does
+// alone, and the others are workers that make replicates for it.
 
 #include "cluster/job.h"
 #include "cluster/rank_helpers.h"
@@ -16,7 +16,7 @@ namespace sunfleck {
 
 class Ranks {
  public:
-  // Joins the job. A process that is alone has no job, and then nothing below does anything. Throws as join_job.
+  // Joins the job. A single process has no job, and then none of the functions below do anything. Throws as join_job.
   Ranks();
   // Ends the workers and leaves the job with them, unless one was lost.
   ~Ranks();
@@ -26,35 +26,34 @@ class Ranks {
   [[nodiscard]] int count() const { return job_ ? job_->seat().ranks : 1; }
   [[nodiscard]] bool is_worker() const { return job_ && job_->seat().rank > 0; }
 
-  // Gives a request this rank's share of the cores, unless it names a number of threads, and its turn among like devices.
+  // Gives a request this rank's share of the cores, unless it specifies a number of threads, and its turn among equal devices.
   void take_seat(DeviceRequest& request) const;
 
-  // Rank 0 waits until the workers have read the same scene, and says what there is to say about them. Throws the first error
-  // of theirs.
+  // In rank 0: waits until the workers have read the same scene, and reports on them. Throws their first error.
   void gather(const Simulation& simulation, const SolveSettings& settings);
-  // Returns what makes replicates for `solve`; null without workers.
+  // Returns the helpers that make replicates for `solve`; null without workers.
   [[nodiscard]] ReplicateHelpers* helpers() { return helpers_.get(); }
   void set_stage(std::uint64_t stage);  // selects the light for Task::set_light
   [[nodiscard]] bool interrupted() const { return helpers_ && helpers_->interrupted(); }
   // Tells the workers that no more replicates are needed.
   void release();
 
-  // What a worker simulates with.
+  // The settings with which a worker simulates.
   struct Task {
     Simulation& simulation;
     const SolveSettings& settings;
     std::function<void(std::uint64_t stage)> set_light;  // may be empty
   };
   // Makes replicates in a worker until rank 0 needs no more. `begin` prepares the task as rank 0 does, and passes it to the
-  // function that it is given; rank 0 reports its errors. Returns whether the job came to an orderly end.
+  // function that it receives; rank 0 reports its errors. Returns whether the job ended properly.
   [[nodiscard]] bool serve(const std::function<void(const std::function<void(const Task&)>&)>& begin);
 
  private:
   void make_replicates(const Task& task);
 
   std::unique_ptr<Job> job_;
-  std::unique_ptr<RankHelpers> helpers_;  // rank 0's
-  bool served_ = false;                   // a worker's: until the orderly end
+  std::unique_ptr<RankHelpers> helpers_;  // in rank 0
+  bool served_ = false;                   // in a worker: true once the job ended properly
 };
 
 }  // namespace sunfleck

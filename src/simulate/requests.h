@@ -1,5 +1,5 @@
 #pragma once
-// What a user asks of a simulation, as plain values: the same from the command line, the window and Python.
+// A user's requests for a simulation as plain values: the same for the command line, the window and Python.
 
 #include "pictures/picture.h"
 
@@ -11,7 +11,7 @@
 
 namespace sunfleck {
 
-// CARIBU's files for a mesh that is given instead of a scene file.
+// CARIBU's files that accompany a mesh given instead of a scene file.
 struct StandFiles {
   std::vector<std::string> optics;      // FILE or NAME=FILE, one per band
   std::filesystem::path light, domain;  // may be empty
@@ -22,42 +22,42 @@ struct StandFiles {
 };
 
 struct SceneRequest {
-  std::filesystem::path scene;  // scene file, or a mesh that is completed by `stand`
+  std::filesystem::path scene;  // scene file, or a mesh that `stand` completes
   StandFiles stand;
   bool allow_outside = false;  // the scene may name files outside its folder
 };
 
 struct DeviceRequest {
   std::string device = "auto";  // auto | gpu | lavapipe | cpu | INDEX | NAME
-  int device_turn = 0;          // see DeviceAsked; set by MPI ranks
+  int device_turn = 0;          // see DeviceAsked; set for MPI ranks
   int threads = 0;              // 0: one per core
 };
 
-// How much work a simulation does.
+// The amount of work of a simulation.
 struct WorkRequest {
   std::optional<double> direct_error, indirect_error;  // replace the scene's bounds
   std::optional<double> grid_m;
   std::optional<int> passes;
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_rays;
-  std::optional<std::uint64_t> memory_bytes;  // for replicates in progress; none: a quarter of the free memory
+  std::optional<std::uint64_t> memory_bytes;  // for replicates in progress; by default a quarter of the free memory
   std::uint64_t seed = 1;
-  bool triangle_errors = false;  // errors of single triangles are kept too, which costs memory and time
-  bool resume = false;           // resumes what an earlier run left in the folder
+  bool triangle_errors = false;  // also keeps errors of single triangles, which costs memory and time
+  bool resume = false;           // resumes an earlier run's work in the folder
 };
 
-// What is written into a result's folder.
+// The contents of a result folder.
 struct ResultRequest {
   std::filesystem::path output;                // empty: results/<stem of the scene>
   std::vector<std::string> exports;            // names of io/exports.h
   std::filesystem::path measured;              // field data; may be empty
   std::vector<std::filesystem::path> compare;  // folders of earlier results
   std::vector<std::string> images{"all"};      // file stems, all or none
-  std::optional<Picture> extra_picture;        // beside those, where --chart or --field asks for it
+  std::optional<Picture> extra_picture;        // drawn in addition, where --chart or --field requests it
   PictureOptions pictures;
 };
 
-// Of several dates, each has the same local hours.
+// The hours of a day. If there are several dates, all have the same local hours.
 struct DayRequest {
   std::string from, to;  // HH:MM; empty: sunrise and sunset
   std::string date;      // YYYY-MM-DD; empty: the scene's own

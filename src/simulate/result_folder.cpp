@@ -40,13 +40,13 @@ bool asks_for(const ResultRequest& request, const std::string& image) {
   return std::find(request.images.begin(), request.images.end(), image) != request.images.end();
 }
 
-// Returns whether a run writes a receiver's map or plot under that name.
+// Returns whether a run writes a receiver's map or plot under this name.
 bool is_plane_file(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   return file.filename().string().rfind("plane_", 0) == 0 && (extension == ".csv" || extension == ".png");
 }
 
-// Returns the pictures that are asked for one by one.
+// Returns the pictures that are requested one by one.
 std::vector<Picture> named_pictures(const ResultRequest& request) {
   std::vector<Picture> named;
   for (const Picture& picture : all_pictures()) {
@@ -55,8 +55,8 @@ std::vector<Picture> named_pictures(const ResultRequest& request) {
   return named;
 }
 
-// Returns the pictures named and, of those that `all` stands for, the ones that have something to show: none of a light that
-// the scene does not have, no total where all light is direct.
+// Returns the pictures requested by name and, of those that `all` stands for, the ones that have something to show: none of
+// light that the scene does not have, and no total where all light is direct.
 std::vector<Picture> wanted_pictures(const ResultRequest& request, const RadiationModel& model, const RadiationResult& result) {
   std::vector<Picture> wanted = named_pictures(request);
   if (!asks_for(request, "all")) return wanted;
@@ -68,7 +68,7 @@ std::vector<Picture> wanted_pictures(const ResultRequest& request, const Radiati
   return wanted;
 }
 
-// Returns the colours of elements in the rank chart of total light: the mean of both faces.
+// Returns the colours of elements in the rank chart of total light, as the mean of both faces.
 std::vector<ElementColour> element_colours(const Drawing& drawing, std::size_t band) {
   const RadiationModel& model = drawing.scene.model;
   const FieldValues values = field_values(model, drawing.layout, drawing.result, band, LightField::total);
@@ -111,7 +111,7 @@ void write_tables(const std::filesystem::path& folder, const RunRecord& record, 
   }
 }
 
-// Reports the first plot that gnuplot could not draw, and then tries no other.
+// Draws plots until gnuplot fails; reports that failure and then tries no other plot.
 class Plots {
  public:
   Plots(const std::filesystem::path& folder, UnwrittenFiles& unwritten) : folder_(folder), unwritten_(unwritten) {}
@@ -150,7 +150,7 @@ void write_plots(const std::filesystem::path& folder, const ResultRequest& reque
   }
 }
 
-// Returns false if interrupted before all were drawn.
+// Draws the pictures; returns false if interrupted before all were drawn.
 bool write_pictures(const std::filesystem::path& folder, const ResultRequest& request, const Drawing& drawing,
                     UnwrittenFiles& unwritten) {
   const std::vector<Picture> wanted = wanted_pictures(request, drawing.scene.model, drawing.result);
@@ -164,7 +164,7 @@ bool write_pictures(const std::filesystem::path& folder, const ResultRequest& re
   return finished;
 }
 
-// Returns whether a run or a day writes a file of that name, other than the summary.
+// Returns whether a run or a day writes a file of this name, other than the summary.
 bool is_file_of_runs(const std::string& name) {
   std::vector<std::string> names{profile_file,   profile_plot_file, organs_file,      sensors_file, result_store_file,
                                  run_state_file, "day.csv",         "organs_day.csv", "day.nc",     "day.png"};
@@ -215,7 +215,7 @@ void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, OldRe
 
 void reopen_folder(const std::filesystem::path& folder) {
   write_file(folder / summary_file, "{\"complete\": false}\n");
-  // Files that were being written when an earlier run was killed.
+  // Removes the files that were being written when an earlier run was killed.
   remove_files(folder, names_in(folder, [](const std::string& name) {
                  const std::string of = std::filesystem::path(name).stem().stem().string();  // NAME.NUMBER.tmp
                  return is_left_aside(name, of) && (of == summary_file || is_file_of_runs(of));

@@ -1,5 +1,5 @@
 #pragma once
-// Where a command's scene comes from: a scene file, or a mesh with CARIBU's files beside it.
+// Reads a command's scene: a scene file, or a mesh with CARIBU's files beside it.
 
 #include "io/caribu_scene.h"
 #include "io/scene_reader.h"
@@ -10,26 +10,28 @@
 
 namespace sunfleck {
 
-// Reads the scene, whichever of the two it is; `files`, if given, gets every file that is tried, also if reading fails. Throws
-// Error (input) also for a mesh without optics or light, for the options of a mesh beside a scene file, and for the day of a
-// mesh, which has no place. Scene::files has CARIBU's files too; the digest covers them by the values that the scene's text
-// takes from them.
+// Reads the scene, whichever of the two it is; `files`, if given, receives every file that is tried, even if reading fails.
+// Throws Error (input) also for a mesh without optics or light, for the options of a mesh beside a scene file, and for the day
+// of a mesh, which has no place. Scene::files includes CARIBU's files; the digest covers them by the values that the scene's
+// text takes from them.
 [[nodiscard]] Scene load_scene(const SceneRequest& request, ScenePurpose purpose = ScenePurpose::moment,
                                SourceFiles* files = nullptr);
 
 // Reads the scene as load_scene does, and prints its warnings.
 [[nodiscard]] Scene load_scene_with_warnings(const SceneRequest& request, ScenePurpose purpose = ScenePurpose::moment);
 
-// Removes planes and sensors, which days and windows leave to `run`. Returns whether there were any.
+// Removes planes and sensors, which only `run` computes and not a day or the window. Returns whether there were any.
 bool remove_receivers(Scene& scene);
 
-// Returns the set that a mesh makes with these options. Throws Error (input) where optics or light are missing.
+// Returns the set of CARIBU files that a mesh and these options specify. Throws Error (input) where optics or light are
+// missing.
 [[nodiscard]] CaribuSet caribu_set(const std::filesystem::path& mesh, const StandFiles& stand, bool allow_outside);
 
-// Returns the name of `file` for a scene in `folder`: relative if it lies there or below, links resolved; else the whole path.
+// Returns the name of `file` for a scene in `folder`: relative if the file lies there or below, after resolving links;
+// otherwise the whole path.
 [[nodiscard]] std::filesystem::path name_from(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-// Returns the name that results are called after: the file's own without .toml, .can, .can.gz, ...
+// Returns the name after which results are called: the file's own name without .toml, .can, .can.gz, ...
 [[nodiscard]] std::string scene_stem(const std::filesystem::path& scene);
 
 }  // namespace sunfleck

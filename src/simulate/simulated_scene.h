@@ -1,5 +1,5 @@
 #pragma once
-// A result together with the scene it is of and the tree it is drawn with.
+// A result together with its scene, and the tree with which it is drawn.
 
 #include "base/stopwatch.h"
 #include "io/result_writer.h"
@@ -14,9 +14,9 @@
 
 namespace sunfleck {
 
-// What a canopy is traced with.
+// The tree and the engine that trace a canopy.
 class Tracing {
-  Stopwatch watch_;  // first, since it times what follows
+  Stopwatch watch_;  // first member, since it times the members that follow
 
  public:
   Tracing(const RadiationModel& model, const DeviceAsked& device, EngineUse use);
@@ -33,11 +33,11 @@ struct SimulatedScene {
   RunRecord record;
   RadiationResult result;
 
-  // Returns what its pictures are drawn from; it must outlive that.
+  // Returns the data from which its pictures are drawn; this object must outlive it.
   [[nodiscard]] Drawing drawing() const { return {*scene, tracing->tree.layout, result, tracing->engine}; }
 };
 
-// True for a run that did all the work it was asked for.
+// Returns whether a run did all the requested work.
 [[nodiscard]] bool is_done(StopReason stop);
 
 }  // namespace sunfleck

@@ -18,7 +18,8 @@
 namespace sunfleck {
 namespace {
 
-// Half-widths at a point come out at about ten times the bound of the totals: a few percent where those have 0.3 %.
+// Returns the number of rays per sensor. Half-widths at a point are about ten times the bound of the totals: a few percent
+// where that is 0.3 %.
 std::uint32_t sensor_rays(const SolveSettings& settings) {
   const double bound = settings.grid_m || settings.passes ? 0.01 : settings.accuracy.indirect;
   return static_cast<std::uint32_t>(std::clamp(3.0 / bound, 64.0, 16384.0));
@@ -57,7 +58,7 @@ void check_grid(const WorkRequest& work, const Scene& scene) {
   if (*work.grid_m >= finest_m) return;
   throw_input(
       fmt::format("--grid {}", *work.grid_m),
-      fmt::format("{} replicates on this plot reach {:.2g} m, each of {} rays at most", replicates, finest_m, max_grid_rays),
+      fmt::format("{} replicates on this plot reach {:.2g} m, with at most {} rays each", replicates, finest_m, max_grid_rays),
       "give a wider grid or more --passes");
 }
 

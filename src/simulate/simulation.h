@@ -1,5 +1,5 @@
 #pragma once
-// A scene with its tree on a device: what the commands, the window, Python and the ranks of an MPI job simulate with.
+// A scene with its tree on a device, with which the commands, the window, Python and the ranks of an MPI job simulate.
 
 #include "io/result_writer.h"
 #include "io/scene_reader.h"
@@ -19,15 +19,16 @@ class Checkpoint;
 class Ranks;
 class ReplicateHelpers;
 
-// Returns the solver's settings for this work. `threads` as in DeviceRequest.
+// Returns the solver's settings for this work. `threads` has the same meaning as in DeviceRequest.
 [[nodiscard]] SolveSettings solve_settings(const WorkRequest& work, const Scene& scene, int threads = 0);
 
 // Throws Error (input) for a grid so fine that the scene's rays could not be numbered.
 void check_grid(const WorkRequest& work, const Scene& scene);
 
-// Who watches a run and takes part in it. All may be empty.
+// Observers and participants of a run. All may be empty.
 struct RunHooks {
-  Monitor monitor;                   // called from the simulating thread; may ask to be interrupted from others
+  // Called from the simulating thread; other threads may ask it to interrupt the run.
+  Monitor monitor;
   Checkpoint* checkpoint = nullptr;  // keeps the run's state
   Ranks* ranks = nullptr;            // make replicates too
 };
@@ -41,15 +42,16 @@ class Simulation {
   // Returns a simulation of a model with the same triangles, soil and plot, which shares the tree and the device.
   [[nodiscard]] Simulation with_model(RadiationModel model) const;
 
-  // Gives the scene other light, as relight of io/scene_reader.h. Results at hand keep the scene that they are of.
+  // Gives the scene other light, like relight of io/scene_reader.h. Existing results keep the scene to which they belong.
   void relight(const SceneText& light, const SceneAccess& access);
 
-  // The scene; through the mutable one only its light, optics and title may be changed, and only while nothing is simulated.
+  // Returns the scene. Through the mutable reference only its light, optics and title may be changed, and only while nothing is
+  // being simulated.
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] Scene& scene() { return *scene_; }
   [[nodiscard]] const RadiationModel& model() const { return scene_->model; }
 
-  // Keeps landings of beams for runs with other optics, while they fit into so many bytes.
+  // Keeps landings of beams for runs with other optics, as long as they fit into `most_bytes`.
   void remember_beams(std::size_t most_bytes);
   [[nodiscard]] std::uint64_t spared_beams() const { return beams_ ? beams_->spared() : 0; }
 
@@ -57,13 +59,13 @@ class Simulation {
   [[nodiscard]] RadiationResult solve(const SolveSettings& settings, const Monitor& monitor,
                                       ReplicateHelpers* helpers = nullptr);
 
-  // Simulates the scene and returns the result with the record of how it came about.
+  // Simulates the scene and returns the result with its record, which describes how it was computed.
   [[nodiscard]] SimulatedScene run(const SolveSettings& settings, const RunHooks& hooks = {});
 
   // Returns a result of this scene with its record.
   [[nodiscard]] SimulatedScene simulated(const SolveSettings& settings, RadiationResult result) const;
 
-  // Returns a record of what is simulated, without a result.
+  // Returns a record of the simulation, without a result.
   [[nodiscard]] RunRecord record(const SolveSettings& settings) const;
 
   [[nodiscard]] const Tracing& tracing() const { return *tracing_; }
@@ -73,8 +75,8 @@ class Simulation {
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] std::size_t tree_bytes() const;
 
-  // Throws Error (failure) for a message of the validation layer: such a message is a mistake of the program, and nothing that
-  // was computed can be trusted.
+  // Throws Error (failure) for a message of the validation layer: such a message indicates a mistake in the program, so no
+  // computed value can be trusted.
   void check_validation() const;
 
  private:

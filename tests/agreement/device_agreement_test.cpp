@@ -1,4 +1,5 @@
-// CPU walk, CPU test of every element, and Vulkan count the same landings, word for word, however the work is cut.
+// Tests that the CPU walk, the CPU test of every element, and Vulkan count the same landings, word for word, however the work
+// is cut.
 
 #include "agreement/scenes.h"
 #include "support/device.h"
@@ -25,7 +26,7 @@ Counters count(Tracer& tracer, const shared::BeamBlock& beam, const CounterLayou
   return counters;
 }
 
-// Every ray is counted once, and none is lost.
+// Expects every ray to be counted once, and none to be lost.
 void expect_all_counted(const Counters& counters, const shared::BeamBlock& beam, bool periodic) {
   const auto landed = std::accumulate(counters.begin(), counters.end(), std::uint64_t{0}) - counters[shared::counter_met];
   EXPECT_EQ(landed, std::uint64_t{beam.columns} * beam.rows);
@@ -55,7 +56,7 @@ class DeviceAgreement : public DeviceTest {
     return count(tracer, beam, prepared.layout);
   }
 
-  // `doubted_rays` are also traced by testing every element.
+  // Also traces `doubted_rays` rays by testing every element.
   void expect_agreement(const RadiationModel& model, double rays, double doubted_rays) const {
     const Prepared prepared(model);
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
@@ -136,8 +137,8 @@ TEST_F(DeviceAgreement, OnDuplicatesAndCoplanarLeaves) {
   }
 }
 
-// A period of 5 cm below a leaf 12 m high: more than 30,000 periods on the way to the ground, so that every ray pauses between
-// dispatches.
+// A period of 5 cm lies below a leaf 12 m high: a ray passes more than 30,000 periods on the way to the ground, so every ray
+// pauses between dispatches.
 TEST_F(DeviceAgreement, WithALowSunOverATinyPlot) {
   MeshMaker maker;
   maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
@@ -145,7 +146,7 @@ TEST_F(DeviceAgreement, WithALowSunOverATinyPlot) {
   expect_agreement(black_model(maker.mesh(), {0.05, 0.05, true}, sun_at(0.5, 33)), 300, 30);
 }
 
-// Neighbouring rays do their steps in different periods here, so that a group of them does more than each of them.
+// Here neighbouring rays do their steps in different periods, so a group of them takes more steps than each single ray.
 TEST_F(DeviceAgreement, WithALowSunThroughSlivers) {
   MeshMaker maker;
   maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
@@ -171,7 +172,7 @@ TEST_F(DeviceAgreement, OnAPileThatNeighboursWalkDifferently) {
   expect_agreement(black_model(maker.mesh(), unit_plot, sun_at(90, 0)), 200, 0);
 }
 
-// Thousands of periods first, then the pile: the steps of both count together.
+// A ray first passes thousands of periods, then the pile: the steps of both count together.
 TEST_F(DeviceAgreement, OnAPileBelowATallGap) {
   MeshMaker maker;
   maker.level(0.01, 0.02, 0.01, 0.02, 6.0);

@@ -1,5 +1,5 @@
-// Embree as the outside judge: it meets the same element as our walk, except where a ray passes an edge, or two surfaces meet,
-// within what single precision can tell.
+// Compares our walk with Embree, the independent reference: both meet the same element, except where a ray passes an edge, or
+// where two surfaces meet, closer than single precision can distinguish.
 
 #include "agreement/scenes.h"
 #include "shared/beam.h"
@@ -30,7 +30,7 @@ struct JudgedHit {
   std::uint32_t triangle = 0;
 };
 
-// The references of one period in Embree, in the order of the tree's leaves.
+// Holds the references of one period in Embree, in the order of the tree's leaves.
 class Judge {
  public:
   explicit Judge(const Bvh& bvh) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
@@ -73,11 +73,11 @@ class Judge {
   RTCScene scene_;
 };
 
-// Ray and triangle in double precision, seen along the ray.
+// A ray and a triangle in double precision, seen along the ray.
 struct Aim {
-  double length_m = 0.0;  // from the ray's origin to the farthest corner
-  double edge_m = 0.0;    // sideways from the ray to the nearest edge
-  double t = 0.0;         // to the triangle's plane
+  double length_m = 0.0;  // distance from the ray's origin to the farthest corner
+  double edge_m = 0.0;    // sideways distance from the ray to the nearest edge
+  double t = 0.0;         // distance to the triangle's plane
   double slant = 0.0;     // |cosine| between ray and normal
 };
 
@@ -101,9 +101,9 @@ Aim aim_at(const BvhTriangle& triangle, const shared::Ray& ray) {
   return aim;
 }
 
-// Both tests shift a corner sideways by a few roundings of its distance L from the origin: ours by one for the difference, one
-// for the sum, and 2^-22 for shear (reciprocal and product), together below 2^-21 L on each of two axes; Embree's Pluecker
-// coordinates by about as much.
+// Returns the tolerance of both tests, which shift a corner sideways by a few roundings of its distance L from the origin: ours
+// by one for the difference, one for the sum, and 2^-22 for shear (reciprocal and product), together below 2^-21 L on each of
+// two axes; Embree's Pluecker coordinates by about as much.
 double tolerance_m(const Aim& aim) {
   return std::ldexp(aim.length_m, -20);
 }
@@ -121,7 +121,7 @@ bool explained(const Bvh& bvh, const shared::Ray& ray, float limit, const CpuHit
   return std::abs(aims[0].t - aims[1].t) <= tolerance_t(aims[0], ray) + tolerance_t(aims[1], ray);
 }
 
-// Counts where our walk and Embree part, and asks for the reason of each.
+// Counts where our walk and Embree differ, and checks the reason for each difference.
 class Comparison {
  public:
   explicit Comparison(const Bvh& bvh) : bvh_(bvh), judge_(bvh) { EXPECT_EQ(judge_.error(), RTC_ERROR_NONE); }
@@ -177,7 +177,7 @@ TEST(EmbreeAgreement, OnTheSparsePlotsBeam) {
 
 TEST(EmbreeAgreement, OnRandomTrianglesFromAllSides) {
   const Canopy canopy = testing_bvh::isolated(testing_bvh::scattered(20'000, 1.0, 0.05, 3));
-  const Bvh bvh = build_bvh(canopy, 0x1p-18F);  // 2^-19 of the extent of 2 m
+  const Bvh bvh = build_bvh(canopy, 0x1p-18F);  // 2^-19 of the extent, 2 m
   Comparison comparison(bvh);
   testing_bvh::Random random(4);
   for (int k = 0; k < 200'000; ++k) {

@@ -1,5 +1,5 @@
-// Packets land on the same places on the CPU path and on the device, bit by bit, however the work is cut; and so whole runs
-// with scattered light give the same numbers on both.
+// Tests that packets land on the same places on the CPU path and on the device, bit by bit, however the work is cut, so that
+// whole runs with scattered light give the same numbers on both.
 
 #include "agreement/scenes.h"
 #include "support/device.h"
@@ -21,8 +21,8 @@ using namespace test;
 constexpr Plot unit_plot{1.0, 1.0, true};
 constexpr Plot unit_stand{1.0, 1.0, false};
 
-// From random points on the elements, on the ground and between; into all directions, every fourth nearly level: its slope is
-// about `least_slope`.
+// Returns packets from random points on the elements, on the ground and between them, in all directions; every fourth is nearly
+// level, with a slope of about `least_slope`.
 std::vector<shared::Packet> random_packets(const RadiationModel& model, const Prepared& prepared, std::size_t count,
                                            double least_slope) {
   const shared::PacketBlock scene = make_packet_block(model, prepared.layout);
@@ -77,7 +77,7 @@ std::size_t apart(const Landings& a, const Landings& b) {
 
 class PacketsAgreement : public DeviceTest {
  protected:
-  // `doubted` packets are also traced by testing every element.
+  // Also traces `doubted` packets by testing every element.
   void expect_agreement(const RadiationModel& model, std::size_t count, std::size_t doubted, double least_slope = 1e-5) const {
     const Prepared prepared(model);
     const shared::PacketBlock scene = make_packet_block(model, prepared.layout);
@@ -148,7 +148,7 @@ TEST_F(PacketsAgreement, WithoutElements) {
   for (const Plot& plot : {unit_plot, unit_stand}) expect_agreement(black_model({}, plot, paper_sun()), 1'000, 1'000, 1e-3);
 }
 
-// A period of 5 cm below a leaf 12 m high: level packets pass thousands of periods and pause between dispatches.
+// A period of 5 cm lies below a leaf 12 m high: level packets pass thousands of periods and pause between dispatches.
 TEST_F(PacketsAgreement, OverATinyPlot) {
   MeshMaker maker;
   maker.level(0.01, 0.02, 0.01, 0.02, 12.0);

@@ -1,4 +1,5 @@
-// What cameras of every kind see, alone and amidst copies of the plot: known pixels, and the same ones on CPU and device.
+// Tests what cameras of every kind see, for a single plot and among its copies: known pixels, and the same pixels on CPU and
+// device.
 
 #include "agreement/scenes.h"
 #include "support/device.h"
@@ -45,7 +46,7 @@ Seen see_on_cpu(const Prepared& prepared, const CanopyLook& look) {
   return view_with_cpu(prepared.bvh, look)->see(0, look.view.height, {});
 }
 
-// Straight down on a square of 2 m, north up.
+// Returns a camera that looks straight down on a square of 2 m, north up.
 Camera above(glm::dvec3 position_m, double half_height_m) {
   Camera camera = top_view({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, 1.0);
   camera.position_m = position_m;
@@ -53,9 +54,9 @@ Camera above(glm::dvec3 position_m, double half_height_m) {
   return camera;
 }
 
-// Two level squares of 1 m, one 0.25 m below the other and half a metre south and west of it. Pixels measure 0.25 m; samples
-// lie off their diagonals. Row r sees x = r/4 - 3/16, column c z = 13/8 - c/4. Digits are elements, all seen from above; the
-// first triangle of a square is its half with z > x.
+// Two level squares of 1 m: one lies 0.25 m below the other and half a metre south and west of it. Pixels measure 0.25 m;
+// samples lie off their diagonals. Row r sees x = r/4 - 3/16, column c sees z = 13/8 - c/4. Digits are elements, all seen from
+// above; the first triangle of a square is its half with z > x.
 TEST(Picture, OfTwoSquaresIsExact) {
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
@@ -82,13 +83,13 @@ TEST(Picture, OfTwoSquaresIsExact) {
     }
     const auto element = static_cast<std::uint32_t>(expected[pixel] - '0');
     EXPECT_EQ(seen[pixel].surface, 2 * element) << pixel;  // the upper side
-    // 3 m above the ground; coordinates of a few units in 24 bits.
+    // The camera is 3 m above the ground; the tolerance covers coordinates of a few units in 24 bits.
     EXPECT_NEAR(seen[pixel].depth, element < 2 ? 2.5 : 2.75, 4.0 * 0x1p-23) << pixel;
     EXPECT_EQ(seen[pixel].copy, 0U) << pixel;
   }
 }
 
-// A fisheye below a level square sees its lower side up to the angle of its edges.
+// A fisheye camera below a level square sees its lower side up to the angle of its edges.
 TEST(Picture, OfASquareAboveAFisheyeIsAsWideAsItsAngle) {
   MeshMaker maker;
   maker.level(0.0, 2.0, 0.0, 2.0, 2.0);
@@ -100,7 +101,7 @@ TEST(Picture, OfASquareAboveAFisheyeIsAsWideAsItsAngle) {
   constexpr int size = 101;
   const Seen seen = see_on_cpu(prepared, look_of(model, prepared.layout, camera, {size, size, 1}));
   const auto at = [&](int column, int row) { return seen[static_cast<std::size_t>(row) * size + column]; };
-  // 45 degrees from the zenith are half a radius, 25.25 pixels from the middle of pixel 50.
+  // An angle of 45 degrees from the zenith is half a radius: 25.25 pixels from the middle of pixel 50.
   for (int away = 0; away <= 50; ++away) {
     for (const auto& sample : {at(50 - away, 50), at(50 + away, 50), at(50, 50 - away), at(50, 50 + away)}) {
       EXPECT_EQ(sample.surface != shared::seen_nothing, away <= 25) << away;
@@ -111,8 +112,8 @@ TEST(Picture, OfASquareAboveAFisheyeIsAsWideAsItsAngle) {
   EXPECT_EQ(at(0, 0).surface, shared::seen_nothing);
 }
 
-// A leaf in the middle of its plot, 64 pixels to a metre: every copy is the plot's own picture moved by 64 pixels, to the
-// pixel, since all lengths are short binary fractions.
+// A leaf lies in the middle of its plot, with 64 pixels to a metre: every copy is the plot's own picture moved by exactly 64
+// pixels, since all lengths are short binary fractions.
 TEST(Picture, HasEachNeighbourExactlyOnePeriodAway) {
   MeshMaker maker;
   maker.level(0.25, 0.6875, 0.3125, 0.75, 0.5);
@@ -139,7 +140,7 @@ TEST(Picture, HasEachNeighbourExactlyOnePeriodAway) {
   EXPECT_EQ(leaf, 9U * 28U * 28U);
 }
 
-// Whichever way the plot is wrapped: a leaf that hangs over the border is whole, and each copy has one.
+// However the plot is wrapped, a leaf that reaches over the border is whole, and each copy shows one.
 TEST(Picture, ShowsLeavesWholeAcrossTheBorder) {
   MeshMaker maker;
   maker.level(0.75, 1.25, 0.25, 0.75, 0.5);
@@ -159,7 +160,7 @@ TEST(Picture, ShowsLeavesWholeAcrossTheBorder) {
   }
 }
 
-// From the side the southern copies would hide the plot; without them it is seen as if it stood alone.
+// Seen from the side, the southern copies would hide the plot; without them it looks as if it stood alone.
 TEST(Picture, LeavesOutTheCopiesBeforeThePlot) {
   const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, paper_sun());
   const Prepared prepared(model);
@@ -180,14 +181,14 @@ TEST(Picture, LeavesOutTheCopiesBeforeThePlot) {
     }
     ++plot;
     hidden += all[k].copy != 0 ? 1 : 0;
-    // Leaves of the copies beside it reach into its rows, before its own or behind them.
+    // Leaves of the copies beside the plot reach into its rows, in front of its own leaves or behind them.
     EXPECT_TRUE(cut[k].copy == 0 ? cut[k].surface == alone[k].surface : cut[k].depth < alone[k].depth) << k;
   }
   EXPECT_GT(hidden, plot * 9 / 10);
   EXPECT_GT(beside, plot / 2);
 }
 
-// A leaf lying in the ground of the neighbouring plot is seen there and not the ground.
+// A leaf that lies in the ground of the neighbouring plot is visible there instead of the ground.
 TEST(Picture, ShowsALeafThatLiesInTheNeighboursGround) {
   MeshMaker maker;
   maker.level(0.75, 1.25, 0.25, 0.75, 0.0);
@@ -271,7 +272,7 @@ TEST_F(PictureAgreement, OfAnEmptyStand) {
   expect_same_pictures(without_soil(black_model(MeshMaker().mesh(), square_stand, paper_sun())), 1.0, 1);
 }
 
-// The host looks again where the device ran out of steps, over all copies.
+// The host repeats the search, over all copies, where the device ran out of steps.
 TEST_F(PictureAgreement, OfAPileTooHighForOneDispatchAmidstItsCopies) {
   MeshMaker maker;
   add_pile(maker, 10'000, 0.2, 0.5);

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes on which all tracers must agree, ordinary and nasty ones.
+// Scenes on which all tracers must agree, both ordinary and difficult.
 
 #include "canopy/maize.h"
 #include "support/bvh_check.h"
@@ -21,7 +21,8 @@ inline RadiationModel maize_model(const MaizeStand& stand, const SunPosition& su
   return black_model(make_maize(stand), plot, sun);
 }
 
-// `count` square leaves of `size_m` at random places of a box over a plot of 1 m2, turned at random; they cross each other.
+// Returns `count` square leaves of `size_m` at random places of a box over a plot of 1 m2, turned at random; they cross each
+// other.
 inline Mesh random_leaves(int count, double size_m, unsigned seed) {
   testing_bvh::Random random(seed);
   MeshMaker maker;
@@ -35,7 +36,7 @@ inline Mesh random_leaves(int count, double size_m, unsigned seed) {
   return maker.mesh();
 }
 
-// A level plate over the whole plot of 1 m2, cut into cells x cells squares, with every other square 0.25 m higher.
+// Returns a level plate over the whole plot of 1 m2, cut into cells x cells squares, with every other square 0.25 m higher.
 inline Mesh gridded_plate(int cells) {
   MeshMaker maker;
   for (int x = 0; x < cells; ++x) {
@@ -47,7 +48,7 @@ inline Mesh gridded_plate(int cells) {
   return maker.mesh();
 }
 
-// Level leaves that lie in each other's plane, overlap, and are there several times over.
+// Returns level leaves that lie in one plane, overlap, and occur several times.
 inline Mesh coplanar_leaves() {
   MeshMaker maker;
   for (int copy = 0; copy < 5; ++copy) {
@@ -60,13 +61,13 @@ inline Mesh coplanar_leaves() {
   return maker.mesh();
 }
 
-// The same level triangle so many times: more steps for one ray than a dispatch on lavapipe has.
+// Adds the same level triangle `copies` times: more steps for one ray than a dispatch on lavapipe allows.
 inline void add_pile(MeshMaker& maker, int copies, double size_m, double y) {
   for (int copy = 0; copy < copies; ++copy) maker.triangle({0.0, y, 0.0}, {0.0, y, size_m}, {size_m, y, 0.0});
 }
 
-// Slivers from somewhere to anywhere over a plot of `size_m`, close to one height: a vertical ray meets the boxes of many and
-// next to no triangle, and its neighbours meet others.
+// Adds slivers at random places of a plot of `size_m`, close to one height: a vertical ray meets the boxes of many and almost
+// no triangle, and its neighbours meet others.
 inline void add_slivers(MeshMaker& maker, int count, double size_m, double y, double width_m, unsigned seed) {
   testing_bvh::Random random(seed);
   for (int sliver = 0; sliver < count; ++sliver) {

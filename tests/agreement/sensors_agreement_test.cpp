@@ -1,4 +1,4 @@
-// Sensors read the same numbers, bit by bit, on the CPU path and on the device.
+// Tests that sensors read the same numbers, bit by bit, on the CPU path and on the device.
 
 #include "agreement/scenes.h"
 #include "support/device.h"

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-// The shared text on a device, for shared_text_test.cpp.
+// Runs the shared text on a device, for shared_text_test.cpp.
 
 #include "shared_text.h"
 

@@ -1,4 +1,4 @@
-// Every function of the shared text at once, itself in the shared text: what goes in and what comes out.
+// Calls every function of the shared text, and is itself shared text: one struct for the inputs and one for the outputs.
 #ifndef SUNFLECK_TESTS_SHARED_TEXT_H
 #define SUNFLECK_TESTS_SHARED_TEXT_H
 
@@ -99,7 +99,7 @@ INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput give
   return result;
 }
 
-// One ray for the walk over the tree, and what came of it.
+// One ray for the walk over the tree, and its result.
 struct WalkedRay {
   vec3 origin;
   float limit;
@@ -110,11 +110,11 @@ struct WalkedHit {
   float weight_c;
   uint lower;
   uint element;
-  uint found;  // 2: too many steps
+  uint found;  // 2 means too many steps
 };
 
 struct TextPush {
-  vec3 direction;  // of all rays
+  vec3 direction;  // the same for all rays
   uint count;
 };
 

@@ -1,4 +1,4 @@
-// The shared text gives the same bits on the device as in C++, on a million inputs.
+// Tests that the shared text gives the same bits on the device as in C++, for a million inputs.
 
 #include "agreement/shared_text.h"
 #include "gpu/buffer.h"
@@ -19,7 +19,7 @@ namespace {
 using testing_bvh::Random;
 using testing_bvh::uniform;
 
-// All members are one 32-bit word or vectors of them.
+// All members are 32-bit words or vectors of them.
 static_assert(sizeof(shared::TextInput) == 23 * 4);
 static_assert(sizeof(shared::TextOutput) == 48 * 4);
 static_assert(sizeof(shared::TextPush) == 16);
@@ -27,7 +27,7 @@ static_assert(sizeof(shared::TextPush) == 16);
 constexpr std::uint32_t batch = 1U << 17U;
 constexpr int batches = 8;
 
-// Half of the points lie on a coarse lattice, where zeros, ties, edges and corners are frequent.
+// Returns a point; half of the points lie on a coarse lattice, where zeros, ties, edges and corners are frequent.
 glm::vec3 some_point(Random& random, bool on_lattice) {
   if (!on_lattice) return testing_bvh::point(random, 2.0);
   const auto coordinate = [&] { return static_cast<float>(static_cast<int>(random() % 17U) - 8) * 0.25F; };
@@ -36,7 +36,7 @@ glm::vec3 some_point(Random& random, bool on_lattice) {
   return {x, y, coordinate()};
 }
 
-// Any sign, exponent of 2^-100..2^100 and fraction.
+// Returns a number with any sign, any exponent of 2^-100..2^100 and any fraction.
 float some_divisor(Random& random) {
   const std::uint32_t exponent = 27U + static_cast<std::uint32_t>(random() % 200U);
   const auto sign_and_fraction = static_cast<std::uint32_t>(random()) & 0x807fffffU;
@@ -149,7 +149,7 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
     }
   }
   EXPECT_EQ(apart, 0U);
-  EXPECT_GT(met, std::size_t{batch} * batches / 5);  // so that weights and distances were compared
+  EXPECT_GT(met, std::size_t{batch} * batches / 5);  // ensures that weights and distances were compared
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The sparse maize plot under the paper's sun: no ray differs between CPU path and device, neither in ten million landings nor
-// ray by ray along their ways from period to period.
+// Tests the sparse maize plot under the paper's sun: no ray differs between CPU path and device, neither in ten million
+// landings nor ray by ray on their ways from period to period.
 
 #include "agreement/scenes.h"
 #include "agreement/shared_text.h"

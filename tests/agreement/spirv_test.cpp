@@ -1,5 +1,5 @@
-// The embedded shaders keep the rules of the shared text: arithmetic that decides a hit may not be contracted, and nothing is
-// used whose last bit a device may choose.
+// Tests that the embedded shaders keep the rules of the shared text: arithmetic that decides a hit may not be contracted, and
+// the shaders use nothing whose last bit a device may choose.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-// The headers that glslang writes rely on <cstdint>.
+// The headers written by glslang rely on <cstdint>.
 #include "direct.spirv.h"
 #include "direct_storage.spirv.h"
 #include "packets.spirv.h"
@@ -21,7 +21,7 @@
 namespace sunfleck {
 namespace {
 
-// Numbers of the SPIR-V specification 1.5, section 3: instructions and decorations.
+// Numbers from the SPIR-V specification 1.5, section 3: instructions and decorations.
 enum : std::uint32_t {
   op_name = 5,
   op_ext_inst = 12,
@@ -38,7 +38,7 @@ enum : std::uint32_t {
   op_dot = 148,
   no_contraction = 42,
 };
-// Of GLSL.std.450: findLSB and findMSB of unsigned numbers.
+// From GLSL.std.450: findLSB and findMSB of unsigned numbers.
 const std::set<std::uint32_t> allowed_library_calls = {73, 75};
 
 struct Instruction {
@@ -56,7 +56,7 @@ std::vector<Instruction> instructions_of(std::span<const std::uint32_t> spirv) {
   return all;
 }
 
-// Up to the bracket behind which glslang writes the types of parameters.
+// Returns the name up to the bracket after which glslang writes the types of parameters.
 std::string text_of(std::span<const std::uint32_t> words) {
   const auto* text = reinterpret_cast<const char*>(words.data());
   const std::string name(text);
@@ -67,7 +67,7 @@ bool rounds(std::uint32_t code) {
   return code == op_f_add || code == op_f_sub || code == op_f_mul;
 }
 
-// Products and sums of floats per function: those that may be contracted, and all.
+// Counts the products and sums of floats per function: those that may be contracted, and all.
 struct Sums {
   std::map<std::string, int> contractible;
   int all = 0;
@@ -101,7 +101,7 @@ class EmbeddedShader : public testing::TestWithParam<std::string> {};
 TEST_P(EmbeddedShader, ContractsNothingThatDecides) {
   const Sums sums = sums_of(instructions_of(shaders.at(GetParam())));
   EXPECT_GT(sums.all, 75);
-  // Boxes are padded for the rounding of their test, whichever way it goes: 3 of vectors for the node, 12 for a child.
+  // Boxes are padded for the rounding of their test, in either direction: 3 operations on vectors for the node, 12 for a child.
   const std::map<std::string, int> expected = {{"meet_children", 15}};
   EXPECT_EQ(sums.contractible, expected);
 }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-// The walk over the tree alone, for sparse_plot_test.cpp: one thread, one ray through one period.
+// Runs the walk over the tree alone, for sparse_plot_test.cpp: one thread follows one ray through one period.
 
 #include "shared_text.h"
 #include "tree.glsl"

@@ -1,4 +1,4 @@
-// From triangles to a tree, ours and Embree's, on one thread each.
+// Measures the building of a tree from triangles, ours and Embree's, on one thread each.
 
 #include "bench/benches.h"
 #include "bench/measure.h"

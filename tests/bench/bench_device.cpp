@@ -1,7 +1,7 @@
-// What matters on a GPU: that it finds the CPU path's hits, and how fast with which choices.
-//   device/agree/RAYS            ten million rays on both; counter "differ" is how many land elsewhere
+// Measures what matters on a GPU: whether it finds the CPU path's hits, and how fast it is with which choices.
+//   device/agree/RAYS            ten million rays on both; the counter "differ" is the number that land elsewhere
 //   device/fetch/RAYS/HOW        the tree in texel buffers or in storage buffers
-//   device/group/RAYS/SIZE       threads a workgroup
+//   device/group/RAYS/SIZE       threads per workgroup
 
 #include "bench/benches.h"
 #include "bench/measure.h"

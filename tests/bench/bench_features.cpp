@@ -1,5 +1,5 @@
-// Whole simulations. feature: fixed work, eight replicates of 32,768 beam rays and as many first packets, with one optional
-// feature. solve: the paper's scene to its bounds.
+// Measures whole simulations. feature: fixed work, eight replicates with 32,768 beam rays and as many first packets each, with
+// one optional feature. solve: the paper's scene to its bounds.
 
 #include "bench/benches.h"
 #include "bench/measure.h"
@@ -63,7 +63,7 @@ std::vector<Feature> all_features() {
           {"200_layers", [](RadiationModel& model) { model.layers = 200; }}};
 }
 
-// Adds up the seconds inside a tracer; the rest of a simulation is the host's.
+// Adds up the seconds spent inside a tracer; the rest of a simulation runs on the host.
 class Timed final : public Tracer {
  public:
   explicit Timed(Tracer& tracer) : tracer_(tracer) {}
@@ -94,7 +94,7 @@ class Timed final : public Tracer {
   double seconds_ = 0.0;
 };
 
-// Counter "tracing": seconds of each simulation that the tracer took.
+// Counter "tracing": seconds that the tracer took in each simulation.
 void time_solve(benchmark::State& state, const Stand& stand, const GpuContext* context, const SolveSettings& settings) {
   Ours ours(stand, context);
   Timed timed(ours.tracer());

@@ -1,4 +1,5 @@
-// What precautions cost: padded boxes, the element that a packet leaves left out, edges that no ray slips through.
+// Measures the cost of precautions: padded boxes, leaving out the element that a packet starts from, edges that no ray slips
+// through.
 
 #include "bench/benches.h"
 #include "bench/measure.h"
@@ -45,8 +46,8 @@ void with_own_element(benchmark::State& state, const GpuContext* context, Precau
   for (auto _ : state) (void)ours.tracer().trace(scene, packets, landings, {});
 }
 
-// Moeller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection": two edges share no arithmetic, so that a ray
-// may pass between two triangles.
+// Returns the distance by Moeller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection": the tests of two
+// triangles at a common edge share no arithmetic, so a ray may pass between them.
 float plain_distance(const shared::Ray& ray, const BvhTriangle& triangle) {
   const glm::vec3 a(triangle.a[0], triangle.a[1], triangle.a[2]);
   const glm::vec3 to_b = glm::vec3(triangle.b[0], triangle.b[1], triangle.b[2]) - a;
@@ -68,7 +69,7 @@ float watertight_distance(const shared::Ray& ray, const BvhTriangle& triangle) {
   return hit.met ? hit.t : 0.0F;
 }
 
-// One ray against as many triangles as it meets on its way: neighbours in the tree.
+// Tests one ray against as many triangles as it meets on its way: neighbours in the tree.
 void with_watertight_edges(benchmark::State& state, const GpuContext*, Precaution precaution) {
   const Stand& stand = stand_of(paper_plants);
   const shared::BeamBlock beam = beam_of(stand, 1U << 14U);

@@ -1,4 +1,4 @@
-// Rays per second: Embree, the CPU path and the Vulkan path on the same rays.
+// Measures rays per second: Embree, the CPU path and the Vulkan path on the same rays.
 
 #include "bench/benches.h"
 #include "bench/measure.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array all_plots = {Plots::endless, Plots::single};
 constexpr std::array all_rays = {Rays::beam, Rays::leaf, Rays::random};
-// From 32,000 triangles to ten million.
+// Plants, for 32,000 to ten million triangles.
 constexpr std::array fields = {2, 16, 158, 630};
 
 const char* name_of(Plots plots) {

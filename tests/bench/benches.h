@@ -1,6 +1,6 @@
 #pragma once
-// The groups of measurements; main.cpp tells what they are. `context`: none leaves out what needs a Vulkan device, and must
-// outlive the run.
+// Registers the groups of measurements; main.cpp describes them. Without `context`, measurements that need a Vulkan device are
+// left out; it must outlive the run.
 
 #include "gpu/context.h"
 

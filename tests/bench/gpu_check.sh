@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Checks the program on a real GPU and measures what to choose there, in one go:
+# Checks the program on a real GPU and measures which choices are best there, in one go:
 #   tests/bench/gpu_check.sh [--device NAME] [FILE.md]
-# Builds, runs the agreement tests on that device, compares ten million hits with the CPU path, measures rays a second with each
+# Builds, runs the agreement tests on that device, compares ten million hits with the CPU path, measures rays per second with each
 # choice (tree fetch, workgroup size) and the host's part, and the time to a picture; writes one Markdown table. Without --device it
-# takes the first device that is not software; `--device lavapipe` tries the script itself. Exit status 3: no such device.
+# takes the first device that is not software; `--device lavapipe` tries the script itself. Exits with status 3 if there is no such
+# device.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -20,7 +21,7 @@ cmake --build "$build" --target sunfleck sunfleck_bench agreement_tests
 
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
-# Fails with the program's own message and status where there is no such device.
+# Fails with the program's own message and status if there is no such device.
 "$build/sunfleck" run scenes/maize_sparse.toml --grid 0.05 -o "$work/first" --device "$device" --images none --quiet
 name="$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["device"]["name"])' "$work/first/summary.json")"
 echo "device: $name" >&2

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The table of gpu_check.sh: agreement, rays a second by choice, the host's part, time to a picture. Medians."""
+"""Makes the table of gpu_check.sh from medians: agreement, rays per second by choice, the host's part, time to a picture."""
 
 import argparse
 import datetime

@@ -1,13 +1,13 @@
-// sunfleck_bench [--device=NAME] [Google Benchmark's options]: what our engine costs, beside Embree in the same process.
-//   trace/RAYS/PLOT/WHO        rays a second; RAYS: beam, leaf or random (packets in the tree's order, or in none);
+// sunfleck_bench [--device=NAME] [Google Benchmark's options]: measures our engine beside Embree in the same process.
+//   trace/RAYS/PLOT/WHO        rays per second; RAYS: beam, leaf or random (packets in the tree's order, or in random order);
 //                              PLOT: endless or single; WHO: embree1, embree8, cpu or device
 //   growth/RAYS/WHO/plants:N   the same over canopies from 32,000 to ten million triangles
 //   build/WHO/plants:N         from triangles to a finished tree, on one thread
 //   safeguard/WHAT/WHO/WITH    with and without a precaution
 //   feature/WHAT/WHO           a whole simulation of fixed work, with one optional feature
-//   solve/paper/WHO            the paper's scene to its bounds; counter "tracing" is what the tracer takes of it, s
-//   device/...                 what gpu_check.sh asks of a device: see bench_device.cpp
-// Ratios are of medians: --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true, as report.sh runs it.
+//   solve/paper/WHO            the paper's scene to its bounds; counter "tracing" is the tracer's part of the time, s
+//   device/...                 the measurements of gpu_check.sh: see bench_device.cpp
+// The ratios compare medians: --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true, as report.sh runs it.
 
 #include "bench/benches.h"
 
@@ -23,7 +23,7 @@
 
 namespace {
 
-// Takes our own option out of the command line; what is left is Google Benchmark's.
+// Takes our own option out of the command line and leaves Google Benchmark's options.
 std::string take_device(std::vector<char*>& arguments) {
   constexpr std::string_view option = "--device=";
   std::string device = "lavapipe";

@@ -1,5 +1,5 @@
 #pragma once
-// Our own tracers over a stand.
+// Runs our own tracers over a stand.
 
 #include "bench/stand.h"
 #include "gpu/context.h"
@@ -12,7 +12,7 @@
 
 namespace sunfleck::bench {
 
-// How the Vulkan path works; the program's own choices if nothing is said.
+// How the Vulkan path works; by default the program's own choices.
 struct OurChoices {
   std::optional<TreeFetch> fetch;
   VulkanChoices cut;

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t packets_per_task = 256;
 constexpr unsigned lanes = 8;
 
-// How far a ray looks in the period it is in, and whether that is the end of its way.
+// How far a ray looks in its current period, and whether it ends there.
 struct Leg {
   float limit = 0.0F;
   bool last = false;
@@ -51,7 +51,7 @@ RTCRay ray_of(const shared::Ray& ray, float limit) {
           0};
 }
 
-// Sums `count` over the packets of all tasks.
+// Returns the sum of `count` over the packets of all tasks.
 template <class Count>
 std::uint64_t sum_over(std::span<const shared::Packet> packets, const Count& count) {
   return tbb::parallel_reduce(
@@ -60,7 +60,7 @@ std::uint64_t sum_over(std::span<const shared::Packet> packets, const Count& cou
       std::plus<>());
 }
 
-// Eight rays on their way side by side. A lane that has come to its end sleeps.
+// Follows eight rays side by side. A lane whose ray has ended sleeps.
 class Eight {
  public:
   Eight(const shared::PacketBlock& scene, bool endless, std::span<const shared::Packet> packets)

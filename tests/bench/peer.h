@@ -1,5 +1,5 @@
 #pragma once
-// Embree as the measure: the same references, the same rays, the same walk from period to period.
+// Embree as the yardstick: it gets the same references, the same rays, and the same walk from period to period.
 
 #include "bench/stand.h"
 
@@ -14,8 +14,8 @@ namespace sunfleck::bench {
 
 class Peer {
  public:
-  // Hands the triangles to Embree as it comes: medium quality, not robust, all cores for building unless `threads` says
-  // otherwise. Nothing is built yet.
+  // Hands the triangles to Embree with its default settings: medium quality, not robust, and all cores for building unless
+  // `threads` says otherwise. Builds nothing yet.
   explicit Peer(const Stand& stand, int threads = 0);
   ~Peer();
   Peer(const Peer&) = delete;
@@ -24,7 +24,7 @@ class Peer {
   // Builds Embree's tree.
   void build() const { rtcCommitScene(scene_); }
 
-  // Follows the packets to their ends on all cores, a ray or eight rays at a time; how many met an element.
+  // Follows the packets to their ends on all cores, one ray or eight rays at a time; returns how many met an element.
   [[nodiscard]] std::uint64_t follow_each(const shared::PacketBlock& scene, std::span<const shared::Packet> packets) const;
   [[nodiscard]] std::uint64_t follow_eight(const shared::PacketBlock& scene, std::span<const shared::Packet> packets) const;
 

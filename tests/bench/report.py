@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Markdown tables from what report.sh measured: ratios to Embree, growth, whole runs, memory. All figures are medians."""
+"""Makes Markdown tables from the measurements of report.sh: ratios to Embree, growth, whole runs, memory. All figures are medians."""
 
 import argparse
 import datetime
@@ -19,7 +19,7 @@ TITLES = {"cpu": "CPU path", "device": "Vulkan path", "embree1": "Embree, one ra
 COLOURS = {"cpu": "#0072b2", "device": "#d55e00", "embree1": "#666666"}
 DASHES = {"beam": 1, "leaf": 2}
 RAYS = {"beam": "sun's beam", "leaf": "packets from leaves"}
-# Bounds of the table in the README: what must hold, what is aimed at.
+# Bounds of the table in the README: required values and goals.
 GOALS = {
     "beam/device": (0.50, 0.65),
     "leaf/device": (0.45, 0.60),
@@ -29,7 +29,7 @@ GOALS = {
 
 
 def medians(file):
-    """{name: {"ms": median wall time, counters...}} of a file of Google Benchmark."""
+    """Returns {name: {"ms": median wall time, counters...}} from a file of Google Benchmark."""
     runs = {}
     for run in json.loads(file.read_text())["benchmarks"]:
         if run["run_type"] == "iteration":
@@ -42,7 +42,7 @@ def medians(file):
 
 
 def table(head, rows):
-    """A table's lines; numbers are given as text already."""
+    """Returns the lines of a table whose numbers are given as text."""
     lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]
     return "\n".join("| " + " | ".join(row) + " |" for row in lines) + "\n"
 
@@ -120,7 +120,7 @@ def growth(grown):
 
 
 def plot_growth(grown, file):
-    """Time per ray against triangles, log-log, a line for each tracer and kind of rays."""
+    """Plots time per ray against triangles, log-log, with a line for each tracer and kind of rays."""
     lines = sorted({tuple(name.split("/")[1:3]) for name in grown})
     script = [f'set terminal pngcairo size 1000,640 font "DejaVu Sans,13"; set output "{file}"',
               'set logscale xy; set grid; set key right bottom reverse Left; set format x "10^{%T}"',
@@ -136,18 +136,18 @@ def plot_growth(grown, file):
 
 
 def run_once(command):
-    """Peak memory, bytes, of a command that must succeed."""
+    """Returns the peak memory, bytes, of a command that must succeed."""
     subprocess.run(command, check=True, capture_output=True)
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
 
 
 def peak_bytes(command):
-    with get_context("spawn").Pool(1) as pool:  # a fresh parent: the peak is over all its children
+    with get_context("spawn").Pool(1) as pool:  # a fresh parent, since the peak is that of all its children
         return pool.apply(run_once, (command,))
 
 
 def memory(program, device, folder):
-    """Bytes a triangle of a direct-only run: the slope between two generated fields."""
+    """Returns the bytes per triangle of a direct-only run: the slope between two generated fields."""
     peaks = []
     for plants in (16, 158):
         rows = {16: 4, 158: 79}[plants]

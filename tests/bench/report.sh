@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures everything that engine speed is judged by and writes one Markdown table of ratios:
+# Measures all figures of the engine's speed and writes one Markdown table of ratios:
 #   tests/bench/report.sh [--device NAME] [--build DIR] [--plot GROWTH.png] [FILE.md]
-# NAME as for `sunfleck run`, lavapipe if none is given; DIR holds the program and its tests, build/ci if none is given. Takes
+# NAME is a device as for `sunfleck run`, lavapipe by default; DIR holds the program and its tests, build/ci by default. Takes
 # a quarter of an hour on two cores, which should have nothing else to do.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -29,7 +29,8 @@ measure() {
     --benchmark_min_time=0.2 "${@:4}" --benchmark_out="$work/$3.json" --benchmark_out_format=json > "$work/$3.log" ||
     { cat "$work/$3.log" >&2; exit 1; }
 }
-# Repetitions of all of a group take turns, so that a noisy machine is noisy for all; but large canopies are made once.
+# The repetitions of a group's measurements take turns, so that a noisy machine affects all of them; but large canopies are made
+# only once.
 measure 'trace|build|safeguard' 5 ratios --benchmark_enable_random_interleaving=true
 measure 'feature|solve' 3 runs --benchmark_enable_random_interleaving=true
 measure growth 3 growth

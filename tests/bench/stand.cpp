@@ -10,7 +10,7 @@
 namespace sunfleck::bench {
 namespace {
 
-// As square a field as the number of plants allows.
+// Returns a field as square as the number of plants allows.
 MaizeStand field(int plants) {
   MaizeStand stand;
   stand.per_row = static_cast<int>(std::sqrt(static_cast<double>(plants)));

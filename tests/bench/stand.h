@@ -1,5 +1,5 @@
 #pragma once
-// The canopies that are measured: generated maize at 60 x 60 cm, lit by the paper's sun, with its optics.
+// The measured canopies: generated maize at 60 x 60 cm, lit by the paper's sun, with its optics.
 
 #include "support/models.h"
 
@@ -7,7 +7,7 @@
 
 namespace sunfleck::bench {
 
-// Does the plot repeat without end?
+// Selects whether the plot repeats without end.
 enum class Plots { endless, single };
 
 struct Stand {
@@ -20,12 +20,12 @@ struct Stand {
   test::Prepared prepared;
 };
 
-// Made once and kept; the last one of more than `large` triangles alone.
+// Returns a stand, which is made once and kept; of the stands with more than `large` triangles only the last one is kept.
 [[nodiscard]] const Stand& stand_of(int plants, Plots plots = Plots::endless);
 
 inline constexpr std::size_t large = 1'000'000;
 
-// The paper's sparse plot.
+// Number of plants in the paper's sparse plot.
 inline constexpr int paper_plants = 12;
 
 }  // namespace sunfleck::bench

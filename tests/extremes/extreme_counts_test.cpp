@@ -1,4 +1,4 @@
-// Counts beyond 32 bits, and integers near their ends.
+// Tests counts beyond 32 bits, and integers near the ends of their ranges.
 #include "base/error.h"
 #include "base/random.h"
 #include "extremes/tracers.h"
@@ -29,8 +29,8 @@ Mesh quarter() {
   return maker.mesh();
 }
 
-// Counts rays without sending them: so many of every 2^20 on the first element, the others on the first cell of the soil.
-// Tracers may be anything that counts every ray once (transport/tracer.h), so a run of billions of rays takes no time.
+// Counts rays without sending them: a given number out of every 2^20 on the first element, the others on the first cell of the
+// soil. A tracer may be anything that counts every ray once (transport/tracer.h), so a run of billions of rays takes no time.
 class CountingTracer final : public Tracer {
  public:
   CountingTracer(const CounterLayout& layout, std::uint64_t on_element, std::uint64_t spread)
@@ -55,7 +55,7 @@ class CountingTracer final : public Tracer {
   std::uint64_t on_element_, spread_;
 };
 
-// 32 replicates of the largest grid.
+// Counts 32 replicates of the largest grid.
 TEST(ExtremeCounts, EightBillionRaysInARun) {
   const RadiationModel model = black_model(quarter(), unit_plot, sun_at(60.0, 33.0));
   const Prepared prepared(model);
@@ -74,7 +74,7 @@ TEST(ExtremeCounts, EightBillionRaysInARun) {
   EXPECT_NEAR(result.direct.grid_m, 0x1p-16 / std::sqrt(2.0), 1e-12);
 }
 
-// A bound that no run reaches: it ends, and says so, while the ledgers still hold what came in.
+// No run reaches this bound: the run ends, and says so, while the ledgers can still hold the incident flux.
 TEST(ExtremeCounts, ARunHasNoMoreReplicatesThanItsLedgersHold) {
   const RadiationModel model = black_model(quarter(), unit_plot, sun_at(60.0, 33.0));
   const Prepared prepared(model);
@@ -94,7 +94,7 @@ TEST(ExtremeCounts, ARunHasNoMoreReplicatesThanItsLedgersHold) {
 
 class ExtremeCounters : public EveryTracer {};
 
-// One replicate never has more rays than a counter holds; and counting begins wherever the counters stand.
+// One replicate never has more rays than a counter can hold; counting starts from the counters' present values.
 TEST_F(ExtremeCounters, CountUpToTheirLastNumber) {
   static_assert(max_grid_rays < (std::uint64_t{1} << 32U));
   MeshMaker roof;
@@ -117,7 +117,7 @@ TEST_F(ExtremeCounters, CountUpToTheirLastNumber) {
   }
 }
 
-// The largest grids in every shape: the last rays lie in the last cells, on the rectangle, and do not all fall together.
+// The largest grids in every shape: the last rays lie in the last cells, on the rectangle, and do not all coincide.
 TEST(ExtremeCounts, LastRaysOfTheLargestGrids) {
   for (const double ratio : {1.0, 3.0, 1e3, 0x1p20, 1e-3, 0x1p-20}) {
     const BeamGrid grid = endless_beam_grid({ratio, 1.0}, 1.0, {0.0, 1.0, 0.0}, static_cast<double>(max_grid_rays));
@@ -146,7 +146,7 @@ TEST(ExtremeCounts, LastRaysOfTheLargestGrids) {
   }
 }
 
-// The last of a sample's rays is one that exists, though its place may round up to the number of rays.
+// The last ray of a sample is one that exists, though its place may round up to the number of rays.
 TEST(ExtremeCounts, SampledRaysExist) {
   constexpr double nearly_one = 1.0 - 0x1p-53;
   for (const std::uint64_t rays : {std::uint64_t{4}, std::uint64_t{1} << 20U, max_grid_rays}) {
@@ -158,7 +158,7 @@ TEST(ExtremeCounts, SampledRaysExist) {
   }
 }
 
-// Ray numbers to the end of 32 bits, and replicates beyond: streams of their own, each evenly spread.
+// Ray numbers up to the end of 32 bits, and replicates beyond, have separate streams, each evenly spread.
 TEST(ExtremeCounts, RandomNumbersOfFarReplicatesAndRays) {
   std::set<std::uint64_t> keys;
   const std::array<std::uint64_t, 5> starts{0, (std::uint64_t{1} << 32U) - 500, std::uint64_t{1} << 40U,
@@ -180,7 +180,7 @@ TEST(ExtremeCounts, RandomNumbersOfFarReplicatesAndRays) {
   expect_flat(cells, "rays before 2^32");
 }
 
-// Whatever the light's sizes, a replicate's quanta are about 2^46 and never above 2^47.
+// Whatever the size of the light, a replicate's quanta are about 2^46 and never above 2^47.
 TEST(ExtremeQuanta, StayNearTheirNumber) {
   RadiationModel model = black_model(quarter(), unit_plot, sun_at(60.0, 33.0));
   model.sky = SkyModel{};
@@ -191,7 +191,7 @@ TEST(ExtremeQuanta, StayNearTheirNumber) {
       const double incident = static_cast<double>(quanta.per_ray) * static_cast<double>(rays) + static_cast<double>(quanta.sky);
       EXPECT_LE(incident, 0x1p47 * (1.0 + 1e-9)) << power;
       EXPECT_GE(incident, 0x1p45) << power;
-      // What a beam loses that is left out.
+      // The second term of the tolerance is what a beam loses by rounding to quanta.
       EXPECT_NEAR(incident * quanta.w_m2_per_quantum / (1.0 + model.bands[0].diffuse_w_m2), 1.0,
                   1e-12 + static_cast<double>(rays) * 0x1p-47);
     }
@@ -220,7 +220,7 @@ TEST(ExtremeQuanta, SplitToTheLastOneUpToTheEndOf63Bits) {
   }
 }
 
-// Light shut in between mirrors lands again and again. Sums of it that would overflow fail the run.
+// Light enclosed between mirrors lands again and again. Sums that would overflow fail the run.
 TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
   RadiationModel model = scattering_model(quarter(), unit_plot, sun_at(60.0, 33.0), std::array{usual_nir});
   const Prepared prepared(model);
@@ -229,7 +229,7 @@ TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
   const std::vector<std::uint32_t> none(prepared.layout.words());
   const DirectSums sums = tally.sum(none);
   IndirectSums indirect(model, prepared.layout, surfaces);
-  indirect.surface_landed[0] = indirect.side_landed[0] = std::int64_t{20000} << 46U;  // most_rounds times all there is
+  indirect.surface_landed[0] = indirect.side_landed[0] = std::int64_t{20000} << 46U;  // most_rounds times the whole flux
   int added = 0;
   try {
     for (; added < 100; ++added) tally.add(none, sums, {}, &indirect);
@@ -238,7 +238,7 @@ TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
     EXPECT_EQ(error.kind(), ErrorKind::failure);
     EXPECT_NE(std::string(error.what()).find("band NIR: its light landed too often"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("); "), std::string::npos);
-    EXPECT_EQ(added, 3);  // 2^60.3 each, 2^62 in all
+    EXPECT_EQ(added, 3);  // 2^60.3 each, 2^62 in total
   }
 }
 

@@ -1,5 +1,5 @@
-// Light at the far ends: none, faint and bright beside each other, all of it scattered or all absorbed; and scenes of a
-// micrometre or ten kilometres that scatter.
+// Tests extreme light: none, faint and bright bands side by side, all of it scattered or all absorbed; and scattering scenes of
+// a micrometre or of ten kilometres.
 #include "extremes/tracers.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
@@ -21,7 +21,7 @@ Mesh leaves() {
   return random_leaves(60, 0.02, unit_plot, 1.0, 7);
 }
 
-// Bands that differ in their light alone.
+// Sets bands that differ only in their light.
 void set_lights(RadiationModel& model, std::span<const Waveband> lights, const FaceOptics& face, double soil) {
   model.bands.assign(lights.begin(), lights.end());
   for (SurfaceOptics& optics : model.optics) {
@@ -32,7 +32,7 @@ void set_lights(RadiationModel& model, std::span<const Waveband> lights, const F
   model.sky = SkyModel{.kind = SkyKind::overcast};
 }
 
-// A beam from 1e-12 to 1e12 W m-2 in twenty bands, and sky light from 1e12 down to 1e-12.
+// Returns a beam from 1e-12 to 1e12 W m-2 in twenty bands, and sky light from 1e12 down to 1e-12.
 std::vector<Waveband> crossing_lights() {
   constexpr int count = 20;
   std::vector<Waveband> lights;
@@ -43,10 +43,11 @@ std::vector<Waveband> crossing_lights() {
   return lights;
 }
 
-// What the ledger leaves out of a beam that is too faint for its integers: 2^-47 of the incident flux for each ray.
+// The ledger omits this share of a beam that is too faint for its integers: 2^-47 of the incident flux for each ray.
 constexpr double left_out = 4e4 * 0x1p-47;
 
-// With black surfaces all bands see the same rays: what is absorbed is the beam's share of the beam and the sky's of the sky.
+// With black surfaces all bands see the same rays: each band absorbs the beam's share of its beam and the sky's share of its
+// sky light.
 TEST_F(ExtremeLight, BeamAndSkyOfAnySizeInTwentyBands) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
     RadiationModel model = black_model(leaves(), plot, paper_sun());
@@ -75,7 +76,7 @@ TEST_F(ExtremeLight, BeamAndSkyOfAnySizeInTwentyBands) {
   }
 }
 
-// The same with leaves that scatter: the ledgers close, and reported shares stay shares.
+// With leaves that scatter, too, the ledgers close and reported shares stay shares.
 TEST_F(ExtremeLight, ScatteredLightOfAnySizeInTwentyBands) {
   RadiationModel model = black_model(leaves(), unit_plot, paper_sun());
   const std::vector<Waveband> lights = crossing_lights();
@@ -94,7 +95,7 @@ TEST_F(ExtremeLight, ScatteredLightOfAnySizeInTwentyBands) {
   }
 }
 
-// Light below 1e-290 W is none; between, every figure is in proportion.
+// Light below 1e-290 W counts as none; above, every figure is in proportion.
 TEST_F(ExtremeLight, NextToNothingIsInProportionOrNothing) {
   RadiationModel model = black_model(leaves(), unit_plot, paper_sun());
   const std::vector<Waveband> lights{
@@ -109,7 +110,8 @@ TEST_F(ExtremeLight, NextToNothingIsInProportionOrNothing) {
   }
 }
 
-// No beam from a sun on or below the horizon: with a sky the run is the one without a sun, without it every flux is zero.
+// A sun on or below the horizon gives no beam: with a sky the run equals the one without a sun, without a sky every flux is
+// zero.
 TEST_F(ExtremeLight, SunOnOrBelowTheHorizon) {
   RadiationModel model = scattering_model(leaves(), unit_plot, paper_sun(), std::array{paper_par});
   const SolveSettings settings = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8});
@@ -128,7 +130,7 @@ TEST_F(ExtremeLight, SunOnOrBelowTheHorizon) {
   }
 }
 
-// White and transparent leaves over white soil under sun and sky: nothing is absorbed, everything comes back out.
+// White and transparent leaves stand over white soil under sun and sky: nothing is absorbed, everything comes back out.
 TEST_F(ExtremeLight, NothingIsAbsorbedWhereNothingAbsorbs) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
     RadiationModel model = black_model(leaves(), plot, paper_sun());
@@ -166,7 +168,8 @@ RadiationModel scattering_stand(double scale) {
   return model;
 }
 
-// A micrometre, eight kilometres: by powers of two nothing is rounded otherwise, and the same seed gives the same ledgers.
+// Scaling to a micrometre or eight kilometres by powers of two does not change any rounding, so the same seed gives the same
+// ledgers.
 TEST_F(ExtremeLight, SizeOfTheSceneDoesNotMatterToTheLastQuantum) {
   const RadiationModel metre = scattering_stand(1.0);
   const RadiationResult expected = run(metre, fixed_scatter(metre, {.rays = 4e4, .packets = 2000, .replicates = 8}));
@@ -182,7 +185,7 @@ TEST_F(ExtremeLight, SizeOfTheSceneDoesNotMatterToTheLastQuantum) {
   }
 }
 
-// One plate over the whole plot, on soil: what reflects is known (validation.md B2) however large the plot.
+// One plate covers the whole plot, over soil: the reflected flux is known (validation.md B2), however large the plot.
 TEST_F(ExtremeLight, OnePlateOverPlotsOfAnySize) {
   for (const double size_m : {1e-6, 0.01, 1000.0, 1e4}) {
     for (const double elevation : {0.1, 53.0}) {
@@ -197,7 +200,7 @@ TEST_F(ExtremeLight, OnePlateOverPlotsOfAnySize) {
   }
 }
 
-// One triangle over a plot of a kilometre: it takes its area, and what it and the soil send back is known.
+// One triangle lies over a plot of a kilometre: it intercepts its area, and the flux that it and the soil reflect is known.
 TEST_F(ExtremeLight, OneTriangleInAKilometre) {
   MeshMaker maker;
   maker.triangle({256.0, 8.0, 256.0}, {256.0, 8.0, 768.0}, {768.0, 8.0, 256.0});
@@ -209,7 +212,7 @@ TEST_F(ExtremeLight, OneTriangleInAKilometre) {
   }
 }
 
-// A thousand leaves of 4 m in a plot of a kilometre, and as many of 4 mm in one of a metre.
+// A thousand leaves of 4 m stand in a plot of a kilometre, and as many of 4 mm in one of a metre.
 TEST_F(ExtremeLight, ManyLeavesInAKilometre) {
   for (const double size_m : {1024.0, 0.0078125}) {
     const double leaf_m = size_m / 256.0;
@@ -225,7 +228,7 @@ TEST_F(ExtremeLight, ManyLeavesInAKilometre) {
       RadiationModel model = black_model(maker.mesh(), {size_m, size_m, true}, sun_at(elevation, 33.0));
       model.soil->patch_m = size_m / 32.0;
       const RadiationResult result = run(model, fixed_work(model, 2e5, 16));
-      // Corners lie on a grid of 2^-23 of the plot, leaves measure 2^-8 of it.
+      // Corners lie on a grid of 2^-23 of the plot; leaves measure 2^-8 of it.
       expect_agrees(result.bands[0].absorbed_vegetation, 1024.0 / 65536.0, 16, 3e-4, 4, "small leaves");
     }
   }

@@ -1,5 +1,5 @@
-// Rays where arithmetic has no room: along edges, through corners, in the planes of boxes, past needles, through thousands of
-// periods. Coordinates are multiples of powers of two, so that the rays are exactly there.
+// Tests rays where arithmetic has no leeway: along edges, through corners, in the planes of boxes, past needles, through
+// thousands of periods. Coordinates are multiples of powers of two, so the rays are exactly there.
 #include "extremes/tracers.h"
 #include "shared/beam.h"
 #include "support/comparison.h"
@@ -17,7 +17,7 @@ class ExtremeRays : public EveryTracer {};
 constexpr Plot unit_plot{1.0, 1.0, true};
 constexpr Plot unit_stand{1.0, 1.0, false};
 
-// A square of 1 m in cells x cells squares, perpendicular to an axis at `place`.
+// Returns a square of 1 m in cells x cells squares, perpendicular to an axis at `place`.
 Mesh gridded_square(int axis, int cells, double place) {
   MeshMaker maker;
   const double step = 1.0 / cells;
@@ -44,7 +44,7 @@ bool on_element(const shared::Landing& landing) {
   return landing.surface < shared::landed_on_ground;
 }
 
-// At every corner, edge and middle of the cells, from both sides: nothing slips through.
+// Aims at every corner, edge and middle of the cells, from both sides: nothing slips through.
 TEST_F(ExtremeRays, MeetTheGridTheyAreAlignedWith) {
   constexpr int cells = 16;
   constexpr int places = 2 * cells + 1;
@@ -66,9 +66,10 @@ TEST_F(ExtremeRays, MeetTheGridTheyAreAlignedWith) {
   }
 }
 
-// The same for soil made of triangles in an endless plot: also on the borders that the period ends with.
+// The same holds for soil made of triangles in an endless plot, even on the borders where the period ends.
 TEST_F(ExtremeRays, ZenithSunOverGriddedSoil) {
-  for (const int cells : {16, 10}) {  // 10: corners are rounded to the plot's grid, alike for neighbours
+  // With 10 cells, corners are rounded to the plot's grid, in the same way for neighbours.
+  for (const int cells : {16, 10}) {
     const RadiationModel model = black_model(gridded_square(1, cells, 0.0), unit_plot, sun_at(90, 0));
     std::vector<shared::Packet> packets;
     const int places = 2 * cells + 1;
@@ -84,9 +85,9 @@ TEST_F(ExtremeRays, ZenithSunOverGriddedSoil) {
   }
 }
 
-// A roof with its ridge along x, and a wall beyond it. A ray that starts on the roof and runs exactly along the ridge, an eave
-// or a diagonal lies in triangles that cannot stop it. It lands on the wall, or, from the diagonal, on the corner of the other
-// slope, which it meets at the ridge's end.
+// A roof has its ridge along x, and a wall stands beyond it. A ray that starts on the roof and runs exactly along the ridge, an
+// eave or a diagonal lies in triangles that cannot stop it. It lands on the wall, or, from the diagonal, on the corner of the
+// other slope, which it meets at the ridge's end.
 TEST_F(ExtremeRays, LeaveAlongAnEdge) {
   MeshMaker maker;
   maker.organ("leaf", 1, 1);
@@ -100,19 +101,19 @@ TEST_F(ExtremeRays, LeaveAlongAnEdge) {
     for (const std::uint32_t element : {0U, 1U, 2U, 3U}) {
       packets.push_back({{0.25F, 0.75F, 0.5F}, element, {1.0F, 0.0F, 0.0F}, 0});       // the ridge
       packets.push_back({{0.25F, 0.5F, 0.25F}, element, {1.0F, 0.0F, 0.0F}, 0});       // an eave
-      packets.push_back({{0.25F, 0.5F, 0.75F}, element, {0.5F, -0.0F, 0.0F}, 0});      // the other
+      packets.push_back({{0.25F, 0.5F, 0.75F}, element, {0.5F, -0.0F, 0.0F}, 0});      // the other eave
       packets.push_back({{0.125F, 0.5F, 0.25F}, element, {0.375F, 0.25F, 0.25F}, 0});  // diagonals, from their first corner
       packets.push_back({{0.125F, 0.5F, 0.75F}, element, {0.375F, 0.25F, -0.25F}, 0});
     }
     const std::vector<shared::Landing> landings = follow(model, packets);
     for (std::size_t k = 0; k < landings.size(); ++k) {
-      const std::uint32_t landed_on = k % 5 < 3 ? 2 : (k % 5 == 3 ? 1 : 0);  // pair of triangles
+      const std::uint32_t landed_on = k % 5 < 3 ? 2 : (k % 5 == 3 ? 1 : 0);  // number of a pair of triangles
       EXPECT_EQ(landings[k].surface / 4, landed_on) << "packet " << k;
     }
   }
 }
 
-// Level needles and slivers side by side, each with its own exact width: they shade their areas.
+// Level needles and slivers lie side by side, each with its exact width: they shade their areas.
 TEST_F(ExtremeRays, NeedlesShadeTheirArea) {
   constexpr int count = 256;
   for (const double width_m : {0x1p-10, 0x1p-14}) {
@@ -130,8 +131,8 @@ TEST_F(ExtremeRays, NeedlesShadeTheirArea) {
   }
 }
 
-// A ray pays for each period with one rounding of its height, less than half a unit in its last place. It does not drift
-// sideways: it enters at the border exactly.
+// For each period a ray's height is rounded once, by less than half a unit in its last place. The ray does not drift sideways:
+// it enters exactly at the border.
 TEST(ExtremeWrap, AHundredThousandPeriodsCostAHundredThousandRoundings) {
   const shared::vec2 period(0.015625F, 0.015625F);
   const shared::vec2 overlap(period.x * 0x1p-19F, period.y * 0x1p-19F);
@@ -150,16 +151,17 @@ TEST(ExtremeWrap, AHundredThousandPeriodsCostAHundredThousandRoundings) {
         if (ray.origin.y < 0.5F) break;
       }
       const double exact_y = top_y + t * double{ray.direction.y};
-      constexpr double half_unit = 0x1p-23;  // of numbers from 2 to 4; each product is rounded far more finely
+      constexpr double half_unit = 0x1p-23;  // for numbers from 2 to 4; each product is rounded far more finely
       EXPECT_LE(std::abs(ray.origin.y - exact_y), crossings * half_unit) << crossings;
       EXPECT_GT(crossings, 10'000U);
     }
   }
 }
 
-// An upright strip across the sun's way in a plot of 1 cm below a level one that covers a tenth of it: rays start 0.2 m up and
-// cross 11,000 periods. The strip takes height / (period * tan elevation) of what passes the level one. The heights at which
-// rays pass it are rounded to 2^-26 m, a part of its height, and the sun's elevation is rounded with them (see README.md).
+// An upright strip stands across the sun's way in a plot of 1 cm, below a level strip that covers a tenth of it: rays start 0.2
+// m up and cross 11,000 periods. The upright strip takes height / (period * tan elevation) of the light that passes the level
+// one. The heights at which rays pass it are rounded to 2^-26 m, a part of its height, and the sun's elevation is rounded with
+// them (see README.md).
 TEST_F(ExtremeRays, StripAfterTenThousandPeriods) {
   constexpr double period_m = 0.01;
   for (const double elevation : {0.1, 1.0}) {
@@ -182,7 +184,8 @@ TEST_F(ExtremeRays, StripAfterTenThousandPeriods) {
   }
 }
 
-// The guard on periods counts what it ends: a sun this low over an empty plot of a hair's width needs more than a million.
+// The limit on periods counts the rays that it ends: a sun this low over an empty plot of a hair's width needs more than a
+// million periods.
 TEST_F(ExtremeRays, ARayWithoutEndIsCountedAsLost) {
   MeshMaker maker;
   maker.level(4e-4, 5e-4, 4e-4, 5e-4, 1.0);

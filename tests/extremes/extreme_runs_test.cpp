@@ -1,4 +1,4 @@
-// Whole runs over scenes that hold many extremes at once are the same on the CPU path and on the device, number by number.
+// Tests that whole runs over scenes with many extremes at once give the same numbers on the CPU path and on the device.
 #include "extremes/tracers.h"
 #include "support/leaf_scenes.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 class ExtremeRuns : public EveryTracer {};
 
-// Needles, leaves without area, the same leaf twice, leaves that overlap in one plane, one larger than the plot.
+// Returns needles, leaves without area, the same leaf twice, leaves that overlap in one plane, and one larger than the plot.
 Mesh odd_leaves(double size_m) {
   MeshMaker maker;
   const auto at = [&](double x, double y, double z) { return glm::dvec3(x, y, z) * size_m; };

@@ -1,4 +1,4 @@
-// Scenes at the far ends, as a user runs them: known numbers in the files, or one clear line.
+// Tests extreme scenes as a user runs them: they give known numbers in the files, or one clear line.
 #include "regression/program.h"
 #include "support/table.h"
 
@@ -9,7 +9,7 @@
 namespace sunfleck::regression {
 namespace {
 
-// A level square of half the plot's width; everything else with it.
+// Returns a scene with a level square of half the plot's width; everything else scales with it.
 std::string scene(double size_m, const std::string& sun, const std::string& bands, const std::string& rest) {
   return fmt::format(
       "[plot]\nsize = [{0}, {0}]\n{1}\n{2}\n[soil]\nreflectance = 0.0\npatch = {3}\n[optics.leaf]\nreflectance = 0.0\n"
@@ -25,7 +25,7 @@ class ExtremeScenes : public ProgramTest {
   void SetUp() override {
     folder_.write("square.obj", "v 0.25 0.5 0.25\nv 0.25 0.5 0.75\nv 0.75 0.5 0.75\nv 0.75 0.5 0.25\nf 1 2 3 4\n");
   }
-  // Runs it, and draws a picture of the stored result.
+  // Runs the scene, and draws a picture of the stored result.
   nlohmann::json run_and_draw(const std::string& text) const {
     folder_.write("scene.toml", text);
     const Outcome ran =
@@ -87,7 +87,7 @@ TEST_F(ExtremeScenes, BeyondTheEndsIsRefused) {
   expect_refused(scene(1.0, "[sun]\nelevation = 90.001\nazimuth = 0.0", one_band, ""), {}, "elevation");
   expect_refused(scene(1.0, high_sun, one_band, "at = [[2e7, 0.0, 0.0]]"), {}, "at");
   std::string wide = scene(1.0, high_sun, one_band, "");
-  expect_refused(wide.replace(wide.find("scale = 1"), 9, "scale = 1e6"), {}, "plot.size");  // over half a million periods
+  expect_refused(wide.replace(wide.find("scale = 1"), 9, "scale = 1e6"), {}, "plot.size");  // needs over half a million periods
   std::string fine = scene(1.0, high_sun, one_band, "");
   expect_refused(fine.replace(fine.find("patch = 0.05"), 12, "patch = 1e-6"), {}, "patch");
   expect_refused(scene(1.0, high_sun, one_band, ""), {"--grid", "1e-9"}, "--grid");

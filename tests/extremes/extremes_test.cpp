@@ -1,4 +1,4 @@
-// The far ends of what a scene may be, each with an exact answer.
+// Tests the extremes that a scene may contain, each with an exact answer.
 #include "support/comparison.h"
 #include "support/models.h"
 
@@ -15,7 +15,7 @@ constexpr int replicates = 32;
 constexpr std::array elevations_deg = {90.0, 89.9999, 45.0, 1.0, 0.1};
 constexpr std::array azimuths_deg = {0.0, 90.0, 180.0, 270.0};
 
-// Calls work(sun) for every such sun.
+// Calls work(sun) for each of these suns.
 template <class Work>
 void under_every_sun(const Work& work) {
   for (const double elevation : elevations_deg) {
@@ -26,7 +26,7 @@ void under_every_sun(const Work& work) {
   }
 }
 
-// Nothing lands but on vegetation, not one ray.
+// Expects every single ray to land on vegetation.
 void expect_all_on_vegetation(const RadiationResult& result) {
   EXPECT_GT(result.bands[0].ledger.incident, 0);
   EXPECT_EQ(result.bands[0].ledger.absorbed_vegetation, result.bands[0].ledger.incident);
@@ -51,7 +51,7 @@ TEST(Extremes, LevelPlateUnderAnySun) {
   });
 }
 
-// An isolated plate over a plot under the same suns.
+// An isolated plate lies over a plot under the same suns.
 TEST(Extremes, IsolatedLevelPlateUnderAnySun) {
   const Mesh mesh = level_plate(0.3, 0.7, 0.4, 0.7, 0.01);
   under_every_sun([&](const SunPosition& sun) {
@@ -68,7 +68,7 @@ TEST(Extremes, LeafLargerThanThePlot) {
   });
 }
 
-// Longer than the plot, but narrower: its copies lie in one plane, one over the other.
+// The leaf is longer than the plot but narrower: its copies lie in one plane, one over the other.
 TEST(Extremes, LeafLongerThanThePlot) {
   under_every_sun([](const SunPosition& sun) {
     const RadiationModel model = black_model(level_plate(-0.8, 1.9, 0.25, 0.55, 0.5), {}, sun);
@@ -87,12 +87,12 @@ TEST(Extremes, LeafAcrossTheCornerOfThePlot) {
   }
 }
 
-// A mesh lying in y = 0 wins over the soil plane, wherever a ray passes into the next period.
+// A mesh lying in y = 0 takes precedence over the soil plane, wherever a ray passes into the next period.
 TEST(Extremes, MeshInTheGroundWinsOverTheSoil) {
   under_every_sun([](const SunPosition& sun) {
     const RadiationModel full = black_model(level_plate(0.0, 1.0, 0.0, 1.0, 0.0), {}, sun);
     expect_all_on_vegetation(simulate(full, fixed_work(full, 5e4, 8)));
-    MeshMaker with_plate;  // lets rays start higher than the ground
+    MeshMaker with_plate;  // makes rays start higher than the ground
     with_plate.organ("leaf", 1, 1);
     with_plate.level(0.0, 1.0, 0.0, 1.0, 0.0);
     with_plate.organ("leaf", 1, 2);
@@ -154,7 +154,7 @@ TEST(Extremes, OfEqualTrianglesTheFirstIsLit) {
   });
 }
 
-// Coplanar triangles of different shape: whichever wins, both together shade what one of them does.
+// Either of two coplanar triangles with different shapes may be hit: together they shade what the larger one shades.
 TEST(Extremes, CoplanarTrianglesShadeTheirUnion) {
   MeshMaker maker;
   maker.level(0.3, 0.7, 0.4, 0.7, 0.9);
@@ -173,7 +173,7 @@ RadiationModel scaled_leaves(double scale, const glm::dvec3& shift_m) {
   return model;
 }
 
-// The same seed sends the same rays: only rounding of corners may move a few of them.
+// The same seed sends the same rays: only the rounding of corners may move a few of them.
 void expect_same_shares(const RadiationModel& model, const RadiationModel& other) {
   const RadiationResult a = simulate(model, fixed_work(model, 5e5, 8));
   const RadiationResult b = simulate(other, fixed_work(other, 5e5, 8));
@@ -203,7 +203,7 @@ TEST(Extremes, MeshAKilometreUp) {
   }
 }
 
-// Isolated, a kilometre from the plot's corner: what lands on it is its own area.
+// The mesh is isolated, a kilometre from the plot's corner: it receives the light of its own area.
 TEST(Extremes, IsolatedMeshAKilometreAway) {
   const RadiationModel model =
       black_model(level_plate(1000.0, 1100.0, 1000.0, 1080.0, 3.0), {100.0, 100.0, false}, paper_sun());

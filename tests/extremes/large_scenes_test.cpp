@@ -1,4 +1,5 @@
-// Ten million triangles: the memory is said before, the run needs no more, the numbers are right, and limits are named.
+// Tests ten million triangles: the program forecasts the memory, the run needs no more, the numbers are right, and messages
+// name the limits.
 #include "regression/program.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@
 namespace sunfleck::regression {
 namespace {
 
-// Level triangles, each half of its own cell of a grid of 1000 x 100 over 1 m x 0.1 m.
+// Returns level triangles, each half of its own cell of a grid of 1000 x 100 over 1 m x 0.1 m.
 std::string level_triangles() {
   constexpr std::uint32_t count = 100'000;
   std::string stl(80, ' ');
@@ -42,7 +43,7 @@ class LargeScenes : public ProgramTest {
                   "file = \"level.stl\"\noptics = \"leaf\"\nat = [" +
                       at + "]\n");
   }
-  // The largest of all children so far, bytes.
+  // Returns the peak memory of the largest child process so far, bytes.
   static double peak_bytes() {
     rusage usage{};
     EXPECT_EQ(::getrusage(RUSAGE_CHILDREN, &usage), 0);
@@ -68,7 +69,7 @@ TEST_F(LargeScenes, TenMillionTriangles) {
   }
 }
 
-// Where there is not that much memory, one line says so.
+// Where there is less memory than needed, one line says so.
 TEST_F(LargeScenes, TooLittleMemoryIsSaid) {
   const rlim_t before = [] {
     rlimit limit{};

@@ -1,4 +1,4 @@
-// More than 2^32 rays, each of them traced.
+// Traces more than 2^32 rays, each of them in full.
 #include "light/beam_grid.h"
 #include "support/comparison.h"
 #include "support/models.h"
@@ -22,7 +22,7 @@ TEST(ManyRays, MoreThanTwoToTheThirtySecond) {
   std::uint64_t landed = result.elements[0].upper;
   for (const std::uint64_t cell : result.soil_cells) landed += cell;
   EXPECT_EQ(landed, result.direct.rays);
-  // An edge may lie half a step of the rays' 24 bits from where it should.
+  // An edge may be displaced by half a step of the rays' 24 bits.
   const Estimate got = result.bands[0].absorbed_vegetation;
   EXPECT_NEAR(got.value, 0.28125, 0x1p-23 + table_quantile(1, replicates) * standard_error(got, replicates));
   EXPECT_LT(standard_error(got, replicates), 1e-7);

@@ -1,6 +1,6 @@
 #pragma once
-// Runs and packets on every path that there is: tree and test-everything on the CPU, both kinds of tree on the device. All must
-// agree bit by bit.
+// Runs simulations and packets on every path: the tree and the test of every element on the CPU, both kinds of tree on the
+// device. All must agree bit by bit.
 
 #include "support/device.h"
 #include "support/models.h"
@@ -17,7 +17,7 @@ namespace sunfleck::test {
 
 class EveryTracer : public DeviceTest {
  protected:
-  // Where the packets land.
+  // Returns where the packets land.
   [[nodiscard]] std::vector<shared::Landing> follow(const RadiationModel& model,
                                                     const std::vector<shared::Packet>& packets) const {
     const Prepared prepared(model);
@@ -34,7 +34,7 @@ class EveryTracer : public DeviceTest {
     return expected;
   }
 
-  // What a run finds, ledgers closed and no ray lost.
+  // Returns the result of a run whose ledgers are closed and which lost no ray.
   RadiationResult run(const RadiationModel& model, const SolveSettings& settings) const {
     const Prepared prepared(model);
     RadiationResult result = test::simulate(model, prepared, settings);

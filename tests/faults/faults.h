@@ -1,5 +1,5 @@
 #pragma once
-// Runs of the program with something failing around it.
+// Runs the program while something around it fails.
 
 #include "regression/program.h"
 #include "support/table.h"
@@ -17,7 +17,7 @@ using regression::content;
 using regression::Outcome;
 using regression::operator+;
 
-// Every kind of file comes out of it: two leaves that scatter, sun and sky, a facula map and a sensor.
+// Contains two leaves that scatter, sun and sky, a facula map and a sensor, so that every kind of file is written.
 inline const std::string small_scene =
     "[plot]\nsize = [1.0, 1.0]\n"
     "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
@@ -39,7 +39,7 @@ inline const std::string day_scene =
 
 inline const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
 
-// The arguments with another value behind an option they have.
+// Returns the arguments with another value for an option that they contain.
 inline Arguments with(Arguments arguments, const std::string& option, const std::string& value) {
   *std::next(std::find(arguments.begin(), arguments.end(), option)) = value;
   return arguments;
@@ -53,7 +53,7 @@ class FaultTest : public regression::ProgramTest {
     folder_.write("leaves.obj", leaves);
   }
 
-  // Little work on the CPU path.
+  // Asks for little work on the CPU path.
   const Arguments quick_{"--device", "cpu", "--grid", "0.03"};
   const Arguments run_ = Arguments{"run",        "scene.toml", "-o",    "out",      "--export",
                                    "csv,nc,vtp", "--size",     "64x64", "--images", "rank_direct,hue_total"} +
@@ -61,7 +61,7 @@ class FaultTest : public regression::ProgramTest {
   const Arguments day_ =
       Arguments{"day", "day.toml", "-o", "out", "--from", "10:00", "--to", "13:00", "--images", "none"} + quick_;
 
-  // All files of a folder and below.
+  // Returns all files of a folder and its subfolders, with their contents.
   [[nodiscard]] std::map<std::string, std::string> files(const std::string& of = "out") const {
     std::map<std::string, std::string> found;
     if (!std::filesystem::exists(folder_ / of)) return found;
@@ -73,8 +73,8 @@ class FaultTest : public regression::ProgramTest {
     return found;
   }
 
-  // Every file that is there is as in an undisturbed run, and the summary tells that the run is not complete; steps and what an
-  // undisturbed run has not are left out.
+  // Expects every file to be as in an undisturbed run, and the summary to say that the run is not complete; ignores steps and
+  // files that an undisturbed run does not have.
   void expect_whole(const std::map<std::string, std::string>& undisturbed) const {
     for (const auto& [name, bytes] : files()) {
       EXPECT_FALSE(name.ends_with(".tmp")) << name << " is left";
@@ -85,15 +85,15 @@ class FaultTest : public regression::ProgramTest {
     }
   }
 
-  // The same after a kill, which may leave files aside, and may have come between the last file and the program's end: a
-  // summary that tells of a complete run then has all files of one beside it.
+  // Expects the same after a kill, which may leave temporary files, and may have come between the last file and the program's
+  // end: if a summary says that the run is complete, all files of a complete run must be beside it.
   void expect_whole_after_kill(const std::map<std::string, std::string>& undisturbed) const {
     expect_files_whole(undisturbed);
     if (!exists_in_out("summary.json") || !tells_complete()) return;
     for (const auto& [name, bytes] : undisturbed) EXPECT_TRUE(exists_in_out(name)) << name;
   }
 
-  // A failure as a user meets it: one line with place, reason and cure. What was computed may stand on standard output.
+  // Expects the failure that a user sees: one line with place, reason and remedy. Computed results may be on standard output.
   static void expect_one_line(const Outcome& outcome, const std::string& names, int status = 1) {
     EXPECT_EQ(outcome.status, status) << outcome.err;
     const std::size_t begin = outcome.err.find("sunfleck: ");

@@ -1,4 +1,4 @@
-// Vulkan calls that fail: no memory on the device, and a device that is lost, at any call of its kind.
+// Tests Vulkan calls that fail: no memory on the device, and a device that is lost, at any call of its kind.
 
 #include "faults/faults.h"
 
@@ -22,7 +22,7 @@ class Device : public FaultTest {
     GTEST_SKIP() << "no software Vulkan device on this machine";
   }
 
-  // From the `from`th call of this function on.
+  // Lets the `from`th and all later calls of this function fail.
   void let_fail(const std::string& call, unsigned from, int result) {
     const std::string fault = call + " " + std::to_string(from) + " " + std::to_string(result);
     const std::string log = (folder_ / "calls.txt").string();
@@ -34,7 +34,7 @@ class Device : public FaultTest {
     };
   }
 
-  // How often an undisturbed run calls each function.
+  // Returns how often an undisturbed run calls each function.
   [[nodiscard]] std::map<std::string, unsigned> calls(const Arguments& arguments) {
     let_fail("none", 1, 0);
     EXPECT_EQ(run(arguments).status, 0);
@@ -47,7 +47,7 @@ class Device : public FaultTest {
     return counts;
   }
 
-  // The first few, then fewer and fewer, and the last.
+  // Returns the first few numbers, then fewer and fewer, and the last.
   static std::vector<unsigned> some_of(unsigned count) {
     std::vector<unsigned> numbers;
     for (unsigned n = 1; n < count; n = n < 3 ? n + 1 : n * 2) numbers.push_back(n);
@@ -55,7 +55,7 @@ class Device : public FaultTest {
     return numbers;
   }
 
-  // Neither a picture, nor a plot.
+  // Draws neither pictures nor plots.
   const Arguments traced_{"run",    "scene.toml", "-o",       "out", "--device", "lavapipe",
                           "--grid", "0.1",        "--passes", "8",   "--images", "none"};
 

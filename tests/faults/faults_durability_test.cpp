@@ -1,4 +1,5 @@
-// What a power cut must not take: every file is on the disk before it gets its name, and its name before the next one is begun.
+// Tests what a power cut must not destroy: every file is on the disk before it gets its name, and its name before the next file
+// is begun.
 
 #include "faults/faults.h"
 
@@ -11,7 +12,7 @@ class Durability : public FaultTest {
  protected:
   using Journal = std::vector<std::string>;
 
-  // Notes what the program does with the files of the folder `out`.
+  // Records what the program does with the files of the folder `out`.
   void keep_journal(std::map<std::string, std::string> more = {}) {
     std::filesystem::remove(journal_);
     more["SUNFLECK_FAULT_FOLDER"] = (folder_ / "out").string();
@@ -29,14 +30,14 @@ class Durability : public FaultTest {
     keep_journal({{"SUNFLECK_FAULT_FSYNC", name}, {"SUNFLECK_FAULT_ERRNO", std::to_string(code)}});
   }
 
-  // The name of the folder that `name` lies in, as the journal has it.
+  // Returns the name of the folder that contains `name`, as in the journal.
   static std::string parent(const std::string& name) {
     const std::string path = std::filesystem::path(name).parent_path().string();
     return path.empty() ? "." : path;
   }
 
-  // Each time that `name` got its place: after all of its bytes were written and waited for, and before anything else was
-  // renamed its folder was waited for. Returns how often that was.
+  // Checks each renaming of a file to `name`: all of its bytes must have been written and synced before, and its folder must be
+  // synced before anything else is renamed. Returns the number of renamings.
   static int times_made_durable(const Journal& journal, const std::string& name) {
     int times = 0;
     for (std::size_t i = 0; i < journal.size(); ++i) {
@@ -69,7 +70,7 @@ class Durability : public FaultTest {
     EXPECT_GE(found, 4);
   }
 
-  // Ctrl-C as soon as `now`, of what the program has said so far, holds.
+  // Sends SIGINT as soon as `now` holds for the program's output so far.
   template <class Condition>
   static Watch stop_once(Condition now) {
     return [now, stopped = false](pid_t child, const std::string& err) mutable {
@@ -79,7 +80,7 @@ class Durability : public FaultTest {
     };
   }
 
-  // Many short replicates, after each of which the state may be kept: enough of them to be stopped amidst.
+  // Asks for many short replicates, so that the run can be stopped between them; the state may be written after each.
   const Arguments endless_{"run",      "scene.toml", "-o",      "out",  "--device", "cpu",
                            "--passes", "65536",      "--error", "0.05", "--images", "none"};
 
@@ -174,7 +175,7 @@ TEST_F(Durability, OfAFolderThatFails) {
   expect_one_line(run(run_), "out/summary.json: cannot be written (Input/output error); check the disk");
 }
 
-// Some network file systems refuse to be waited for; their files are written all the same.
+// Some network file systems do not support fsync; their files are written nevertheless.
 TEST_F(Durability, ThatAFileSystemDoesNotKnowIsNoFailure) {
   for (const int code : {EINVAL, ENOTSUP}) {
     for (const char* name : {".", "organs.csv"}) {

@@ -1,4 +1,4 @@
-// Disks that fill up, folders and files that must not be written, output that goes nowhere.
+// Tests disks that fill up, folders and files that must not be written, and output that cannot be delivered.
 
 #include "faults/faults.h"
 
@@ -19,7 +19,7 @@ class Files : public FaultTest {
     for (const std::string& mounted : mounted_) ::umount2(mounted.c_str(), MNT_DETACH);
   }
 
-  // False where this user may not mount.
+  // Returns false where this user may not mount.
   bool mount_small_disk(const std::string& name, const char* options) {
     std::filesystem::create_directories(folder_ / name);
     const std::string path = (folder_ / name).string();
@@ -28,7 +28,7 @@ class Files : public FaultTest {
     return true;
   }
 
-  // Root may write everything; without this capability it heeds permissions.
+  // Makes root respect permissions by dropping the capability to ignore them.
   void heed_permissions() {
     before_program_ = [] { ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE); };
   }
@@ -57,7 +57,7 @@ TEST_F(Files, AFullDiskKeepsWhatFits) {
     expect_one_line(outcome, "No space left on device");
     EXPECT_NE(outcome.err.find("out/"), std::string::npos) << outcome.err;
     expect_whole(whole);
-    // Before any ray, or with the balance said.
+    // The run fails before any ray, or after it has printed the balance.
     EXPECT_EQ(outcome.out.find("absorbed by vegetation") != std::string::npos, bytes >= first) << outcome.out;
     std::filesystem::remove_all(folder_ / "out");
   }
@@ -167,7 +167,7 @@ TEST_F(Files, AWriteProtectedFileStays) {
     std::filesystem::remove_all(folder_ / "out");
     std::filesystem::create_directories(folder_ / "out");
   }
-  // In the folder of an earlier run it is found before anything of that goes.
+  // In the folder of an earlier run the fault is found before any of that run's files is removed.
   EXPECT_EQ(run(run_).status, 0);
   const auto earlier = files();
   ::chmod((folder_ / "out" / "organs.csv").c_str(), 0444);
@@ -221,7 +221,7 @@ TEST_F(Output, AReaderThatWantsNoMoreIsNoFailure) {
   before_program_ = [] {
     int ends[2];
     if (::pipe(ends) != 0) return;
-    ::close(ends[0]);  // as after `| head`
+    ::close(ends[0]);  // the reader is gone, as after `| head`
     ::dup2(ends[1], STDOUT_FILENO);
     ::dup2(ends[1], STDERR_FILENO);
   };

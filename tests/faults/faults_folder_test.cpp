@@ -1,4 +1,4 @@
-// Two runs into one folder.
+// Tests two runs into one folder.
 
 #include "faults/faults.h"
 
@@ -10,20 +10,20 @@ namespace {
 
 class Folder : public FaultTest {
  protected:
-  // A run that has its folder and goes on until it is told to stop.
+  // Starts a run that keeps its folder and continues until it is stopped.
   const Arguments long_run_{"run",  "scene.toml", "-o",   "out",       "--device", "cpu", "--direct-error",
                             "1e-7", "--images",   "none", "--threads", "1"};
   const Arguments long_day_{"day",   "day.toml",       "-o",   "out",      "--device", "cpu",       "--from", "10:00", "--to",
                             "12:00", "--direct-error", "1e-7", "--images", "none",     "--threads", "1"};
 
-  // Runs `first`; as soon as it works in the folder, `second`, which has to be refused; then ends the first by `signal`.
+  // Runs `first`; as soon as it works in the folder, runs `second`, which has to be refused; then ends the first by `signal`.
   void expect_one_at_a_time(const Arguments& first, const Arguments& second, int signal, const std::string& sign) {
     may_be_killed_ = signal == SIGKILL;
     bool tried = false;
     const auto watch = [&](pid_t child, const std::string&) {
       if (tried || !std::filesystem::exists(folder_ / sign)) return;
       tried = true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // what it begins with is there
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // by now the first run's initial files are there
       const auto before = files();
       const Outcome refused = run_beside(second);
       expect_one_line(refused, "out (another run is writing into this folder)");
@@ -38,7 +38,7 @@ class Folder : public FaultTest {
   }
 
  private:
-  // With its output in other files than the first run's.
+  // Runs the program with its output in other files than the first run's.
   [[nodiscard]] Outcome run_beside(const Arguments& arguments) {
     const std::string out = (folder_ / "second.txt").string();
     before_program_ = [out] {

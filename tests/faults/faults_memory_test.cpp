@@ -1,4 +1,4 @@
-// The machine's own memory runs out.
+// Tests a machine that runs out of memory.
 
 #include "faults/faults.h"
 
@@ -15,7 +15,8 @@ class Memory : public FaultTest {
   }
 };
 
-// The CPU path, which has no driver's compiler in the process: that ends the program itself when it gets no memory.
+// Uses the CPU path, which has no driver's compiler in the process: that compiler ends the program itself when it gets no
+// memory.
 TEST_F(Memory, ThatIsShortEndsInOneLine) {
   const Arguments large{"run",    "large.toml", "-o",       "out", "--device", "cpu",         "--threads", "2",
                         "--grid", "0.02",       "--passes", "8",   "--images", "rank_direct", "--export",  "csv,nc,vtp,glb,ply",
@@ -32,7 +33,7 @@ TEST_F(Memory, ThatIsShortEndsInOneLine) {
     std::filesystem::remove_all(folder_ / "out");
     give(megabytes);
     const Outcome outcome = run(large);
-    if (outcome.status == 127) continue;  // not even its libraries fit
+    if (outcome.status == 127) continue;  // not even its libraries fit into memory
     if (outcome.status == 0) {
       ++finished;
       continue;

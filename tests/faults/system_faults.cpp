@@ -1,10 +1,10 @@
-// Preloaded before the program (LD_PRELOAD): a disk that fills up or breaks, and a clock that jumps.
-//   SUNFLECK_FAULT_FOLDER=/a/folder   the faults of the disk are about files in it and below
-//   SUNFLECK_FAULT_BYTES=1000         these take so many bytes in all, then there is no space
+// Preloaded before the program (LD_PRELOAD): simulates a disk that fills up or breaks, and a clock that jumps.
+//   SUNFLECK_FAULT_FOLDER=/a/folder   restricts the faults of the disk to files in this folder and below
+//   SUNFLECK_FAULT_BYTES=1000         these files take this many bytes in total, then there is no space
 //   SUNFLECK_FAULT_JOURNAL=/a/file    gets a line for each write, fsync and rename, in their order: `write NAME`, `fsync NAME`,
-//                                     `rename NAME NAME`, names relative to the folder
-//   SUNFLECK_FAULT_FSYNC=NAME         fsync of files whose relative name begins so fails, with SUNFLECK_FAULT_ERRNO
-//   SUNFLECK_FAULT_CLOCK=1            the time of day jumps by years, to and fro
+//                                     `rename NAME NAME`, with names relative to the folder
+//   SUNFLECK_FAULT_FSYNC=NAME         fsync fails with SUNFLECK_FAULT_ERRNO for files whose relative name begins with NAME
+//   SUNFLECK_FAULT_CLOCK=1            the time of day jumps to and fro by years
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -33,7 +33,7 @@ long long bytes_at_start() {
   return text != nullptr ? std::atoll(text) : -1;
 }
 
-// The path relative to the folder, "." for the folder itself; none for what lies elsewhere.
+// Returns the path relative to the folder, "." for the folder itself, or nothing for a path outside.
 std::optional<std::string> name_in_folder(const std::string& path) {
   static const char* const folder = std::getenv("SUNFLECK_FAULT_FOLDER");
   if (folder == nullptr || path.rfind(folder, 0) != 0) return std::nullopt;
@@ -59,7 +59,7 @@ bool fails_to_sync(const std::string& name) {
   return failing != nullptr && name.rfind(failing, 0) == 0;
 }
 
-// How many of the bytes the disk still takes.
+// Returns how many of the bytes the disk still takes.
 std::size_t granted(int file, std::size_t bytes) {
   static std::atomic<long long> left{bytes_at_start()};
   if (left < 0 || bytes == 0 || !name_in_folder(file)) return bytes;

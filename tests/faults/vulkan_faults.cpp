@@ -1,8 +1,8 @@
 // A Vulkan layer that lets one call fail (VK_LAYER_PATH, VK_INSTANCE_LAYERS=VK_LAYER_SUNFLECK_faults).
-//   SUNFLECK_FAULT_CALL="vkQueueSubmit 7 -4"   the seventh call of this function returns VkResult -4, and so do all later ones
-//   SUNFLECK_FAULT_LOG=/a/file                 how often each function was called, written at the end
-// A failing call does nothing, except that vkWaitForFences waits: memory that a device still uses must not be freed, and a
-// device that is lost uses none.
+//   SUNFLECK_FAULT_CALL="vkQueueSubmit 7 -4"   the seventh and all later calls of this function return VkResult -4
+//   SUNFLECK_FAULT_LOG=/a/file                 the number of calls of each function, written at the end
+// A failing call does nothing, except that vkWaitForFences waits: memory that a device still uses must not be freed, and a lost
+// device uses none.
 
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -165,7 +165,7 @@ PFN_vkVoidFunction replacement(std::size_t number) {
   }
 }
 
-// The link to what comes after this layer, none if the loader gave none; the next layer shall find its own.
+// Returns the link to the layer that follows, null if the loader gave none; advances it so that the next layer finds its own.
 template <class Link, class Info>
 auto* take_link(const Info* info, VkStructureType type) {
   auto* link = static_cast<Link*>(const_cast<void*>(info->pNext));

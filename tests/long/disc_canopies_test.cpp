@@ -1,4 +1,4 @@
-// Homogeneous canopies of the sizes of leaf in B11 of the validation table, minutes each.
+// Tests homogeneous canopies with the leaf sizes in B11 of the validation table; each takes minutes.
 #include "support/disc_canopies.h"
 
 namespace sunfleck::test {
@@ -22,7 +22,7 @@ TEST(DiscCanopies, SmallSphericalLeaves) {
   expect_row(got[1], {0.39992, 0.43435, 0.25259}, "spherical NIR, r 0.02");
 }
 
-// The diffuse columns of B9 at leaf area index 3, extrapolated to small leaves.
+// Tests the diffuse columns of B9 at leaf area index 3, extrapolated to small leaves.
 TEST(DiscCanopies, SphericalLeavesUnderAUniformSky) {
   const DiscCanopy large{.radius_m = 0.1, .count = 382, .horizontal = false, .corners = 8};
   const DiscCanopy half{.radius_m = 0.05, .count = 1528, .horizontal = false, .corners = 8};

@@ -1,5 +1,5 @@
-// Stands of spherical crowns from the radiation transfer model intercomparison (RAMI): C2 and C4 of the validation table.
-// Millions of triangles, a minute or two each.
+// Tests stands of spherical crowns from the radiation transfer model intercomparison (RAMI): C2 and C4 of the validation table.
+// They have millions of triangles and take a minute or two each.
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 
@@ -18,12 +18,12 @@ glm::dvec3 in_sphere(Random& random, double radius_m) {
   return any_direction(random) * (radius_m * std::cbrt(random.uniform()));
 }
 
-// Leaves of all orientations, evenly in the sphere.
+// A crown with leaves of all orientations, evenly distributed in the sphere.
 struct Crown {
   double radius_m;
   int leaves;
   double leaf_m2;
-  int corners;  // of the leaf's polygon
+  int corners;  // corners of the leaf's polygon
 };
 void add_crown(MeshMaker& maker, const Crown& crown, const glm::dvec3& centre_m, Random& random) {
   for (int leaf = 0; leaf < crown.leaves; ++leaf) {
@@ -59,8 +59,8 @@ void expect_near(const Estimate& got, double expected, double tolerance, const c
   EXPECT_NEAR(got.value, expected, tolerance) << what;
 }
 
-// HET01 discrete, NIR, sun at 20 degrees from the zenith. The disc of radius 0.1 m is a square of its area here, and the
-// leaves are drawn anew, which costs up to 1.2 % of what is reflected and 0.004 of the other fluxes (C2).
+// HET01 discrete, NIR, sun at 20 degrees from the zenith. Here the disc of radius 0.1 m is a square of equal area, and the
+// leaves are drawn anew, which changes the reflected flux by up to 1.2 % and the other fluxes by up to 0.004 (C2).
 TEST(Rami, FloatingSpheres) {
   const std::array<glm::dvec3, 15> centres_enu_m = {{{-24.8302, 11.6110, 15.6210},
                                                      {-38.3380, -9.06342, 17.6094},
@@ -89,7 +89,7 @@ TEST(Rami, FloatingSpheres) {
   expect_near(result.layers[0].down[0], 0.72326, 0.004, "HET01 on soil");
 }
 
-// Crowns of 5 m radius that do not touch, centres 7 to 11 m high, at random in a plot of `size_m`.
+// Returns the centres of crowns of 5 m radius that do not touch, 7 to 11 m high, at random in a plot of `size_m`.
 std::vector<glm::dvec3> crown_centres(double size_m, int count, Random& random) {
   std::vector<glm::dvec3> centres_m;
   while (centres_m.size() < static_cast<std::size_t>(count)) {
@@ -106,11 +106,11 @@ std::vector<glm::dvec3> crown_centres(double size_m, int count, Random& random) 
 }
 
 // RAMI4PILPS open forest canopy, visible, leaf area index 1.50 over medium soil, sun at 27.46 degrees from the zenith: the mean
-// of stands whose crowns stand elsewhere. A leaf is a triangle of 0.06 m2, a fortieth of the crown across.
+// of stands with other crown positions. A leaf is a triangle of 0.06 m2, a fortieth of the crown across.
 TEST(Rami, OpenForestCanopy) {
   constexpr int stands = 3;
   constexpr double size_m = 200.0;
-  constexpr int crowns = 153;  // cover 0.30041
+  constexpr int crowns = 153;  // a crown cover of 0.30041
   const Crown crown{5.0, static_cast<int>(5.0 * std::numbers::pi * 25.0 / 0.06), 0.06, 3};
   ReplicateMean reflected, leaves, on_soil;
   for (int k = 1; k <= stands; ++k) {

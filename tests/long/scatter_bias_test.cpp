@@ -1,5 +1,5 @@
-// Few packets give a noisy answer, not a wrong one: ten thousand replicates of 64 and of 1024 packets, with few layers and
-// many.
+// Tests that few packets give a noisy answer, not a wrong one: ten thousand replicates of 64 and of 1024 packets, with few
+// layers and with many.
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 

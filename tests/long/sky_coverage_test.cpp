@@ -1,4 +1,4 @@
-// Are the reported errors of sky light true?
+// Tests whether the reported errors of sky light are true.
 #include "support/coverage.h"
 
 namespace sunfleck::test {

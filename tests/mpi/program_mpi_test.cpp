@@ -1,4 +1,4 @@
-// The program as the processes of an MPI job: any number of them gives the same bytes as one, also after one was killed.
+// Tests the program as the processes of an MPI job: any number of them gives the same bytes as one, even after one was killed.
 
 #include "regression/program.h"
 
@@ -14,7 +14,7 @@ using regression::Outcome;
 using regression::operator+;
 namespace fs = std::filesystem;
 
-// Two bands that scatter, sun and sky, a facula map and a sensor.
+// Contains two bands that scatter, sun and sky, a facula map and a sensor.
 const std::string scene =
     "[plot]\nsize = [1.0, 1.0]\n"
     "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
@@ -60,7 +60,7 @@ class Mpi : public regression::ProgramTest {
     return arguments + Arguments{"-o", out};
   }
 
-  // What has to be the same bytes.
+  // Returns the files whose bytes must be the same.
   [[nodiscard]] Files tables(const std::string& of) const {
     Files found;
     for (const auto& entry : fs::directory_iterator(folder_ / of)) {
@@ -69,7 +69,7 @@ class Mpi : public regression::ProgramTest {
     }
     return found;
   }
-  // Of a run by the plain program.
+  // Returns the tables of a run without MPI.
   [[nodiscard]] Files plain(const Arguments& arguments) const {
     const Outcome outcome = run(alone(into("plain", arguments)));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -84,7 +84,7 @@ class Mpi : public regression::ProgramTest {
     EXPECT_FALSE(exists("run_state.bin", of));
   }
 
-  // The process of a job that runs on this machine; 0 if it is not there.
+  // Returns the process of a job's rank on this machine; 0 if there is none.
   [[nodiscard]] static pid_t process_of(pid_t launcher, int rank) {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       const std::string number = entry.path().filename().string();
@@ -97,7 +97,7 @@ class Mpi : public regression::ProgramTest {
     return 0;
   }
 
-  // Sends the signal once, when the run has kept its state: to a rank, or to the launcher (-1).
+  // Sends the signal once, when the run has stored its state: to a rank, or to the launcher (-1).
   Watch signal_when_kept(int signal, int rank) {
     return [this, signal, rank](pid_t launcher, const std::string&) {
       if (sent_to_ != 0 || !exists("run_state.bin")) return;
@@ -106,7 +106,7 @@ class Mpi : public regression::ProgramTest {
     };
   }
 
-  // Little work, in many replicates: some seconds by one process.
+  // Asks for little work in many replicates: it takes one process some seconds.
   const Arguments small_{"run", "scene.toml", "--device", "cpu", "--images", "none", "--export", "csv", "--error", "0.02"};
   const Arguments long_{"run",      "scene.toml", "--device", "cpu", "--images", "none",
                         "--export", "csv",        "--passes", "800", "--error",  "0.1"};
@@ -178,10 +178,10 @@ TEST_F(Mpi, EndsCleanlyWhenOneRankIsToldTo) {
   EXPECT_EQ(ended.status, 130) << ended.err;
   EXPECT_NE(ended.err.find("interrupted after "), std::string::npos) << ended.err;
   EXPECT_EQ(summary()["complete"], false);
-  EXPECT_EQ(tables("out").size(), 5U);  // a run that is stopped does not ask its sensors
+  EXPECT_EQ(tables("out").size(), 5U);  // a stopped run does not trace its sensors
 }
 
-// The launcher leaves its processes a second, and not one of them to itself.
+// The launcher gives its processes a second; none of them may outlive it.
 TEST_F(Mpi, LeavesNothingBehindButAStateAfterCtrlC) {
   pid_t worker = 0;
   const auto signal = signal_when_kept(SIGINT, -1);
@@ -192,7 +192,7 @@ TEST_F(Mpi, LeavesNothingBehindButAStateAfterCtrlC) {
   ASSERT_NE(sent_to_, 0) << ended.err;
   EXPECT_NE(ended.status, 0);
   EXPECT_TRUE(exists("run_state.bin"));
-  // Whoever adopted it may not have buried it yet.
+  // The process that adopted the worker may not have collected it yet.
   for (int wait = 0; is_at_work(worker) && wait < 1000; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_FALSE(is_at_work(worker));
 }
@@ -204,7 +204,7 @@ TEST_F(Mpi, SaysWhatIsWrongOnce) {
     return count;
   };
   const std::map<std::string, std::pair<Arguments, int>> cases{
-      {"--bogus (", {{"run", "scene.toml", "--bogus"}, 2}},  // before MPI is started, and after
+      {"--bogus (", {{"run", "scene.toml", "--bogus"}, 2}},  // fails before MPI is started, the next case after that
       {"no such device", {{"run", "scene.toml", "-o", "out", "--device", "no such device"}, 3}}};
   for (const auto& [names, failing] : cases) {
     const Outcome outcome = run(by(3, failing.first));
@@ -225,7 +225,7 @@ TEST_F(Mpi, LeavesOtherCommandsToTheFirstRank) {
   EXPECT_TRUE(nlohmann::json::accept(info.out)) << info.out;
 }
 
-// Runs that have nothing to do with each other, one on each rank.
+// Starts independent runs, one on each rank.
 TEST_F(Mpi, IsNotUsedWhereItIsSwitchedOff) {
   folder_.write("other.toml", scene + "scale = 0.5\n");
   const std::string task =

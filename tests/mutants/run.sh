@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the program with one deliberate mistake at a time, in a folder of its own, and expects `sunfleck validate` to find it on
-# the CPU path and on software Vulkan: tests/mutants/run.sh [MUTANT ...]. Without names: every *.patch of this folder.
+# Builds the program with one deliberate mistake at a time, in a separate folder, and expects `sunfleck validate` to find it on
+# the CPU path and on software Vulkan: tests/mutants/run.sh [MUTANT ...]. Without names it takes every *.patch of this folder.
 # SUNFLECK_REQUIRE_DEVICE=1 makes the lack of software Vulkan an error.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
@@ -20,7 +20,7 @@ launcher=()
 if command -v ccache > /dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 cmake -S "$work/source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_TESTS=OFF "${launcher[@]}" > /dev/null
 
-# Prints what failed. 0: the mistake was found; 1: it was not.
+# Prints the cases that failed. Returns 0 if the mistake was found, 1 if not.
 found_on() {
   local device="$1" status=0
   "$work/build/sunfleck" validate --quiet --device "$device" -o "$work/result" > "$work/failed.txt" 2> "$work/errors.txt" ||

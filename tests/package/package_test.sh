@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# package_test.sh BUILD CPACK: makes the Debian package of a build, installs it below a scratch root with a dpkg database of its own,
-# runs what was installed, removes it, and looks whether anything is left. The machine's own packages are not touched.
+# package_test.sh BUILD CPACK: makes the Debian package of a build, installs it below a scratch root with a separate dpkg
+# database, runs the installed program, removes it, and checks that nothing is left. The machine's own packages are not touched.
 set -euo pipefail
 build=$1
 cpack=$2
@@ -15,7 +15,7 @@ trap 'rm -rf "$scratch"' EXIT
 root=$scratch/root
 mkdir -p "$root" "$scratch/dpkg/updates" "$scratch/dpkg/info"
 touch "$scratch/dpkg/status" "$scratch/dpkg/available"
-# What it depends on is looked up in the machine's own database instead.
+# The dependencies are looked up in the machine's own database instead.
 own_dpkg() { dpkg --admindir="$scratch/dpkg" --instdir="$root" --force-depends --log=/dev/null "$@"; }
 
 echo "== make =="
@@ -25,7 +25,7 @@ dpkg-deb --info "$package"
 
 echo "== dependencies =="
 depends=$(dpkg-deb --field "$package" Depends)
-# By name, or as something that another package provides.
+# Lists installed packages by name, and what they provide.
 there=$(dpkg-query -W -f '${db:Status-Status} ${Package} ${Provides}\n' | sed -n 's/^installed //p' | sed 's/([^)]*)//g' | tr -s ', ' '\n')
 for needed in $(echo "$depends" | tr ',' '\n' | sed 's/|.*//; s/(.*//'); do
   grep -qxF "$needed" <<< "$there" || fail "depends on $needed, which is not installed"

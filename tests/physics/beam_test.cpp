@@ -1,5 +1,5 @@
-// Beams with exact answers: the cases A1 to A5 of the validation table, and checkerboards. Coordinates of the cases: x east,
-// y north, z up.
+// Tests beams with exact answers: the cases A1 to A5 of the validation table, and checkerboards. The cases use the coordinates
+// x east, y north, z up.
 #include "support/comparison.h"
 #include "support/models.h"
 
@@ -32,14 +32,14 @@ void add_plate(MeshMaker& maker, double x, double y, double size_x, double size_
              from_enu(x + size_x / 2, y + size_y / 2, z), from_enu(x - size_x / 2, y + size_y / 2, z));
 }
 
-// A1. One triangle, no occluders, in an isolated scene. It hangs 0.95 m lower than in the table, which changes nothing but the
-// share of the rays that meet it.
+// A1. One triangle, no occluders, in an isolated scene. It is 0.95 m lower than in the table, which changes only the share of
+// rays that meet it.
 struct TriangleRow {
   double elevation_deg, azimuth_deg;
   bool upper;
   double irradiance;
   double power_m2;
-  double rays;  // the sun sees a sliver in the third row
+  double rays;  // in the third row the sun sees only a sliver
 };
 constexpr std::array triangle_rows = {TriangleRow{90.0, 0.0, true, 0.83481207, 9.500000e-4, 1e6},
                                       TriangleRow{53.0176, 120.569, true, 0.42046146, 4.784770127e-4, 1e6},
@@ -92,7 +92,7 @@ std::vector<Answer> plate_answers(std::uint64_t seed) {
   add_plate(level, 0.5, 0.5, 0.4, 0.3, 0.8);
   const RadiationModel model = black_model(level.mesh(), {}, paper_sun());
   const RadiationResult result = simulate(model, fixed_work(model, 4e5, replicates, seed));
-  // Half the sides of 0.3 x 0.2 m, along the level line of the plate and along its steepest slope.
+  // Half the sides of 0.3 x 0.2 m, along the plate's level line and along its steepest slope.
   const double inclination = radians(50.0);
   const double angle = radians(20.0);
   const glm::dvec3 along = 0.15 * from_enu(-std::sin(angle), std::cos(angle), 0.0);
@@ -112,7 +112,7 @@ TEST(Beam, PlateShadesPeriodicSoil) {
   expect_all(plate_answers(1));
 }
 
-// A4. Plate over plate, partial overlap, wrapped around the plot's border.
+// A4. Plate over plate with partial overlap, wrapped around the plot's border.
 RadiationModel two_plates() {
   MeshMaker maker;
   maker.organ("leaf", 1, 2);
@@ -143,15 +143,16 @@ TEST(Beam, ProfileShowsWhatPassesEachHeight) {
   std::vector<Answer> answers;
   for (std::size_t k = 0; k <= 8; ++k) {
     EXPECT_NEAR(result.layers[k].height_m, 0.1 * static_cast<double>(k), 1e-6);
-    if (k == 4) continue;  // the lower plate lies on this border, in the layer that float rounding puts it
+    // The lower plate lies on this border; float rounding decides which layer it falls into.
+    if (k == 4) continue;
     answers.push_back(
         {"A4 through height 0." + std::to_string(k), result.layers[k].sunfleck_ratio, k > 4 ? 0.84 : 0.76948351, 2e-4});
   }
   expect_all(answers);
 }
 
-// A5. Venetian blind: one strip of width 0.8 m, its middle 0.5 m above the ground, one period of 1 m across. Endless along y
-// because it spans the plot there, or reaches beyond it on both sides.
+// A5. Venetian blind: one strip of width 0.8 m, its middle 0.5 m above the ground, with a period of 1 m across. It is endless
+// along y because it spans the plot there, or reaches beyond it on both sides.
 struct BlindRow {
   double tilt_deg, elevation_deg, azimuth_deg;
   double transmittance;
@@ -171,7 +172,7 @@ RadiationModel blind(const BlindRow& row, double from_y, double to_y) {
 std::vector<Answer> blind_answers(std::uint64_t seed) {
   std::vector<Answer> answers;
   for (const BlindRow& row : blind_rows) {
-    // 0.59994 is 1 - 0.8 |cos 1 - sin 1 cot 2| rounded; the others have all their digits.
+    // The value 0.59994 is 1 - 0.8 |cos 1 - sin 1 cot 2|, rounded; the others have all their digits.
     const double cot = 1.0 / std::tan(radians(row.elevation_deg));
     const double ahead = row.azimuth_deg == 90.0 ? cot : -cot;
     const double projected = std::abs(std::cos(radians(row.tilt_deg)) - std::sin(radians(row.tilt_deg)) * ahead);
@@ -197,7 +198,7 @@ TEST(Beam, FullyClosedBlindLetsNothingThrough) {
   EXPECT_EQ(simulate(model, fixed_work(model, 1e6, replicates)).bands[0].ledger.absorbed_soil, 0);
 }
 
-// The reported errors, judged by the whole table with seeds of its own.
+// Judges the reported errors by the whole table, with separate seeds.
 TEST(Beam, ErrorsOfTheWholeTableArePlausible) {
   ZScores scores(replicates);
   for (std::uint64_t seed = 11; seed < 15; ++seed) {
@@ -208,7 +209,7 @@ TEST(Beam, ErrorsOfTheWholeTableArePlausible) {
   scores.expect_plausible();
 }
 
-// Squares of every second field of a board of `fields` x `fields` over a square plot.
+// Adds the squares of every second field of a board of `fields` x `fields` over a square plot.
 void add_checkerboard(MeshMaker& maker, int fields, double plot_m, double y_m) {
   const double field_m = plot_m / fields;
   for (int x = 0; x < fields; ++x) {
@@ -216,9 +217,9 @@ void add_checkerboard(MeshMaker& maker, int fields, double plot_m, double y_m) {
   }
 }
 
-// A board is +1 and -1 in turn, half the period on it changes its sign; a board with twice as many fields repeats there. So
-// the product of boards of doubled frequency is 0 on average, however they are shifted: from any direction their shadows are
-// independent.
+// A board alternates between +1 and -1, and a shift by half its period changes the sign; a board with twice as many fields
+// repeats after that shift. So the product of boards of doubled frequency is 0 on average, however they are shifted: from any
+// direction their shadows are independent.
 TEST(Beam, CheckerboardsHalveTheBeamFromAnyDirection) {
   MeshMaker maker;
   for (int layer = 1; layer <= 3; ++layer) {

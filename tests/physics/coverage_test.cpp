@@ -1,4 +1,5 @@
-// Are the reported errors true? Seeds 1 to 400 on a small scene whose answer is known (G2 of the validation table).
+// Tests whether the reported errors are true, with seeds 1 to 400 on a small scene whose answer is known (G2 of the validation
+// table).
 #include "support/comparison.h"
 #include "support/models.h"
 
@@ -11,13 +12,13 @@ namespace sunfleck::test {
 namespace {
 
 constexpr int seeds = 400;
-// Of 400 intervals that cover with probability 0.95, fewer or more do once in a thousand times.
+// Bounds that the number of covering intervals, out of 400 with probability 0.95 each, misses once in a thousand times.
 constexpr int least_covered = 366;
 constexpr int most_covered = 394;
 
 const SunPosition sun = sun_at(60.0, 75.0);
 
-// Four tilted leaves whose shadows do not overlap, an organ each.
+// Returns four tilted leaves whose shadows do not overlap, one organ each.
 RadiationModel tilted_leaves() {
   MeshMaker maker;
   int rank = 1;
@@ -29,7 +30,7 @@ RadiationModel tilted_leaves() {
   return black_model(maker.mesh(), {}, sun);
 }
 
-// Of a leaf in full sun: the area of its shadow on level ground.
+// Returns the area that a leaf in full sun shades on level ground.
 double shadow_m2(const Canopy& canopy, std::uint32_t organ) {
   double sum = 0.0;
   const glm::dvec3 to_sun = direction_to_sun(sun);
@@ -114,7 +115,7 @@ TEST(Coverage, SixteenReplicates) {
   expect_covered("fixed work", [](const RadiationModel& model) { return fixed_work(model, 16000.0, 16); });
 }
 
-// Jittered cells beat plain random rays (slope -0.5): on shadow edges the theory is -0.75 (G3).
+// Jittered cells beat plain random rays (slope -0.5): for shadow edges theory gives -0.75 (G3).
 TEST(Coverage, ErrorFallsFasterThanRandom) {
   const RadiationModel model = tilted_leaves();
   const Prepared prepared(model);

@@ -1,5 +1,5 @@
-// Exchange between surfaces that see each other (B2 and B3 of the validation table), and a blind whose strips shade their own
-// copies in other periods.
+// Tests the exchange between surfaces that see each other (B2 and B3 of the validation table), and a blind whose strips shade
+// their own copies in other periods.
 #include "support/scattering.h"
 
 #include <fmt/format.h>
@@ -15,17 +15,17 @@ namespace {
 constexpr int replicates = 32;
 constexpr double pi = std::numbers::pi;
 
-// A horizontal rectangle facing down.
+// Adds a horizontal rectangle facing down.
 void ceiling(MeshMaker& maker, double x0, double x1, double z0, double z1, double y) {
   maker.quad({x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1});
 }
 
-// Two surfaces whose upper faces see each other, an organ each.
+// Two surfaces whose upper faces see each other, one organ each.
 struct Pair {
   const char* what;
   Mesh mesh;
   std::array<double, 2> area_m2;
-  double factor;  // from the first to the second
+  double factor;  // view factor from the first to the second
 };
 
 Mesh facing_squares(double gap_m) {
@@ -46,8 +46,8 @@ Mesh floor_and_wall(double height_m) {
   return maker.mesh();
 }
 
-// Polygons of the discs' area. Of equal area they differ from discs by about 1.2e-3 of the radius at the rim, which changes the
-// factor in second order only: 1e-6.
+// Returns polygons with the discs' areas. With equal area they differ from discs by about 1.2e-3 of the radius at the rim,
+// which changes the view factor only in second order: 1e-6.
 Mesh facing_discs(double first_radius_m, double second_radius_m) {
   constexpr int corners = 64;
   MeshMaker maker;
@@ -58,7 +58,7 @@ Mesh facing_discs(double first_radius_m, double second_radius_m) {
   return maker.mesh();
 }
 
-// Share of what one surface of the pair emits that lands on the other.
+// Returns the share of the light emitted by one surface of the pair that lands on the other.
 Estimate view_factor(const Pair& pair, std::size_t from, std::uint64_t seed) {
   RadiationModel model = dark_model(pair.mesh, {1.0, 1.0, false});
   model.optics.at(from).emission_w_m2 = {3.0};
@@ -100,7 +100,7 @@ TEST(Exchange, ViewFactors) {
   scores.expect_plausible();
 }
 
-// Full-cover plates are infinite ones. Where every packet goes is certain, so nothing is left to chance.
+// Plates that cover the plot are infinite plates. The destination of every packet is certain, so nothing is left to chance.
 TEST(Exchange, TwoInfinitePlates) {
   struct Row {
     double lamp, other;        // reflectances
@@ -128,7 +128,7 @@ TEST(Exchange, TwoInfinitePlates) {
   }
 }
 
-// Strips along Z without end, leaning, every half metre.
+// Returns leaning strips, endless along Z, every half metre.
 RadiationModel blind(int strips) {
   const double pitch_m = 0.5;
   MeshMaker maker;
@@ -143,7 +143,7 @@ RadiationModel blind(int strips) {
   return model;
 }
 
-// Leaves a packet's own element out in every period, its copies too: the mistake that the blind shows.
+// Ignores a packet's own element in every period, including its copies: the mistake that the blind exposes.
 class ForgetfulTracer final : public Tracer {
  public:
   ForgetfulTracer(const RadiationModel& model, const Bvh& bvh) : honest_(bvh, tracer_scene(model)) {
@@ -170,11 +170,11 @@ class ForgetfulTracer final : public Tracer {
 
  private:
   CpuTracer honest_;
-  std::vector<Bvh> without_;        // [element], all references but its own
+  std::vector<Bvh> without_;        // [element], all references except its own
   std::vector<CpuTracer> tracers_;  // [element]
 };
 
-// A strip meets itself in the next period as it meets another one there.
+// A strip meets itself in the next period just as it would meet another strip there.
 TEST(Exchange, StripShadesItsOwnCopies) {
   const RadiationModel one = blind(1);
   const RadiationModel two = blind(2);

@@ -1,5 +1,5 @@
-// Scenes given leaf by leaf, whose light independent programs have followed: scene S1 of the validation table (B12) and a whole
-// maize stand, in PAR and NIR.
+// Tests scenes given leaf by leaf, whose light was also computed by independent programs: scene S1 of the validation table
+// (B12) and a whole maize stand, in PAR and NIR.
 #include "io/mesh_reader.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
@@ -15,10 +15,10 @@ constexpr int replicates = 32;
 
 struct Reference {
   double value;
-  double error;  // of the reference itself
+  double error;  // error of the reference itself
 };
 
-// Three standard errors of the difference, asking for `largest` of our own.
+// Expects agreement within three standard errors of the difference, and our own error to be at most `largest`.
 void expect_within(const Estimate& got, const Reference& reference, double largest, const std::string& what) {
   const double own = standard_error(got, replicates);
   const double error = std::hypot(own, reference.error);
@@ -83,7 +83,7 @@ TEST(ExplicitScene, TotalsAndLeavesUnderThePaperSun) {
   EXPECT_EQ(result.lost_rays, 0U);
 }
 
-// Leaves, stems and soil of the stand as kinds 0, 1 and 2 of optics.
+// Assigns the optics 0, 1 and 2 to the leaves, stems and soil of the stand.
 RadiationModel maize_stand() {
   Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

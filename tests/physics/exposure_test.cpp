@@ -1,5 +1,5 @@
-// What is sunlit, what is not, and what is neither: leaves that the beam cannot hit have no share, and a share on which all
-// rays agree has the interval that their number allows.
+// Tests which shares are sunlit, which are not, and which are undefined: leaves that the beam cannot hit have no share, and a
+// share on which all rays agree has the interval that their number allows.
 #include "support/comparison.h"
 #include "support/models.h"
 
@@ -12,7 +12,7 @@ constexpr int replicates = 16;
 const Plot endless{1.0, 1.0, true};
 const Plot isolated{1.0, 1.0, false};
 
-// 95 %: the upper limit of a Poisson mean with nothing seen.
+// Upper 95 % limit of a Poisson mean when no event was seen.
 constexpr double unseen = 3.6888794541139363;
 
 RadiationResult run(const RadiationModel& model, double rays = 160'000.0) {
@@ -24,7 +24,7 @@ void expect_none(const Estimate& estimate) {
   EXPECT_TRUE(std::isnan(estimate.half_width)) << estimate.half_width;
 }
 
-// A level leaf of 0.16 m2, and one that stands in the plane of a beam from the east.
+// Returns a level leaf of 0.16 m2, and one that stands in the plane of a beam from the east.
 RadiationModel edge_on_model(const Plot& plot) {
   MeshMaker maker;
   maker.organ("leaf", 1, 1);
@@ -41,7 +41,8 @@ TEST(EdgeOnLeaf, HasNoSunlitShareAndIsLeftOutOfTheTotals) {
     expect_none(result.organs[1].sunlit_fraction);
     expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 2, "all leaves");
     EXPECT_NEAR(result.leaf_area_index, 0.16 + 0.24, 1e-6);
-    expect_none(result.layers[5].sunlit_leaf_fraction);  // of 20 up to 0.8 m: the standing leaf alone
+    // This one of the 20 layers up to 0.8 m holds only the standing leaf.
+    expect_none(result.layers[5].sunlit_leaf_fraction);
   }
 }
 
@@ -74,7 +75,7 @@ TEST(BuriedLeaf, HasNoSunlitShare) {
   }
 }
 
-// Below the plane of an isolated plot's soil, but beside its rectangle: the beam comes down past the soil's edge.
+// The leaf lies below the plane of an isolated plot's soil but beside its rectangle: the beam comes down past the soil's edge.
 TEST(BuriedLeaf, IsLitBesideThePlot) {
   MeshMaker maker;
   maker.level(1.1, 1.3, 0.4, 0.6, -0.05);
@@ -93,8 +94,8 @@ TEST(ShareWithoutABeam, IsNone) {
   expect_none(result.ground_sunfleck_ratio);
 }
 
-// A leaf in full shade below a plate that fills the plot: no ray meets leaf or soil, and as many as would have tell how sure
-// that is.
+// A leaf in full shade below a plate that fills the plot: no ray meets leaf or soil. The number of rays that would have met
+// them determines how certain that is.
 class FullShade : public ::testing::Test {
  protected:
   static RadiationModel model() {
@@ -122,7 +123,7 @@ TEST_F(FullShade, HasTheIntervalThatTheRaysAllow) {
   }
   EXPECT_EQ(result.bands[0].absorbed_soil.value, 0.0);
   EXPECT_NEAR(result.bands[0].absorbed_soil.half_width, unseen / rays, 1e-6 * unseen / rays);
-  // All rays on the plate: its share may be as much below 1.
+  // All rays land on the plate: its share may fall short of 1 by the same amount.
   EXPECT_EQ(result.bands[0].absorbed_vegetation.value, 1.0);
   EXPECT_NEAR(result.bands[0].absorbed_vegetation.half_width, unseen / rays, 1e-6 * unseen / rays);
 }
@@ -135,20 +136,20 @@ TEST_F(FullShade, IsCertainWhereNothingCouldBeOtherwise) {
   EXPECT_EQ(result.ground_sunfleck_ratio.value, 1.0);
   EXPECT_EQ(result.ground_sunfleck_ratio.half_width, 0.0);
   EXPECT_EQ(result.bands[0].absorbed_vegetation.half_width, 0.0);
-  EXPECT_EQ(result.bands[0].reflected.half_width, 0.0);  // black soil
+  EXPECT_EQ(result.bands[0].reflected.half_width, 0.0);  // because the soil is black
   const RadiationResult below = run(model(), 16'000.0);
   EXPECT_EQ(below.layers.back().sunfleck_ratio.value, 1.0);
   EXPECT_EQ(below.layers.back().sunfleck_ratio.half_width, 0.0);
 }
 
-// So few rays that any share would agree with none on the leaf.
+// Uses so few rays that any share is compatible with none of them landing on the leaf.
 TEST_F(FullShade, IsUnknownWhereTooFewRaysCouldTell) {
-  const RadiationResult result = run(model(), 64.0);  // 2.6 on the leaf in full sun
+  const RadiationResult result = run(model(), 64.0);  // 2.6 rays would land on the leaf in full sun
   expect_none(result.organs[1].sunlit_fraction);
 }
 
-// The interval has to hold where a share is small but not 0: of a leaf in shade but for a slit, the rays of most runs miss the
-// slit. Over 400 seeds the true share lies in at least as many intervals as 95 % ask, within the scatter of 400 draws.
+// The interval has to hold where a share is small but not 0: on a leaf in shade except for a slit, the rays of most runs miss
+// the slit. Over 400 seeds at least 95 % of the intervals contain the true share, within the scatter of 400 draws.
 TEST(AlmostFullShade, IntervalsCover) {
   constexpr double slit = 0.004;
   MeshMaker maker;

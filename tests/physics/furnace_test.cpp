@@ -1,4 +1,4 @@
-// Cavities whose light is known exactly (B4 to B6 of the validation table), and how the error falls with the packets.
+// Tests cavities whose light is known exactly (B4 to B6 of the validation table), and how the error falls with the packets.
 #include "support/scattering.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr int replicates = 32;
 constexpr double pi = std::numbers::pi;
 
-// A rectangle facing along u x v, cut into n x n cells.
+// Adds a rectangle facing along u x v, cut into n x n cells.
 void wall(MeshMaker& maker, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int n) {
   maker.organ(fmt::format("wall{}", maker.mesh().organs.size()));
   for (int i = 0; i < n; ++i) {
@@ -28,7 +28,7 @@ void wall(MeshMaker& maker, const glm::dvec3& corner, const glm::dvec3& u, const
   }
 }
 
-// A closed box of 1 x 0.6 x 0.8 m whose upper faces look inwards.
+// Returns a closed box of 1 x 0.6 x 0.8 m whose upper faces look inwards.
 MeshMaker box(int n) {
   const glm::dvec3 x(1.0, 0.0, 0.0);
   const glm::dvec3 y(0.0, 0.6, 0.0);
@@ -46,7 +46,7 @@ MeshMaker box(int n) {
 const Plot box_plot{1.0, 0.8, false};
 constexpr std::size_t walls = 6;
 
-// Leaves in the box, none through a wall.
+// Returns the box with leaves, none of which cuts through a wall.
 Mesh furnished_box(int n) {
   MeshMaker maker = box(n);
   maker.organ("leaf");
@@ -72,7 +72,8 @@ RadiationModel furnace(const Mesh& mesh) {
   return model;
 }
 
-// Of what leaves a point within the offset of a wall (2^-17 of the extent, 8 um) some may slip out beside it.
+// Largest share that may escape: light that leaves a point within the offset of a wall (2^-17 of the extent, 8 um) can slip out
+// beside it.
 constexpr double escaping = 1e-5;
 
 TEST(Furnace, EveryWallSeesTheSame) {
@@ -105,7 +106,7 @@ TEST(Furnace, EveryWallSeesTheSame) {
   }
 }
 
-// Both sides of a leaf with rho + tau = 1 see what the walls see.
+// Both sides of a leaf with rho + tau = 1 see the same light as the walls.
 TEST(Furnace, BothSidesOfALeafSeeWhatTheWallsSee) {
   const RadiationModel model = furnace(furnished_box(1));
   std::vector<std::uint32_t> group_of(model.canopy.size());
@@ -127,8 +128,8 @@ TEST(Furnace, BothSidesOfALeafSeeWhatTheWallsSee) {
   scores.expect_plausible();
 }
 
-// A sphere of radius 1 about (1, 1, 1) from an icosahedron, each triangle cut in four `times` times; faces look inwards, an
-// organ for each of the twenty.
+// Returns a sphere of radius 1 about (1, 1, 1), made from an icosahedron whose triangles are cut in four `times` times. The
+// faces look inwards; each of the twenty original faces is an organ.
 Mesh icosphere(int times) {
   using Corners = std::array<glm::dvec3, 3>;
   const double golden = 0.5 * (1.0 + std::sqrt(5.0));
@@ -164,7 +165,7 @@ Mesh icosphere(int times) {
   return maker.mesh();
 }
 
-// One of the twenty faces glows: from the first landing on the light is even, on that face as well.
+// One of the twenty faces emits: after the first landing the light is even, on that face as well.
 TEST(Furnace, IntegratingSphere) {
   constexpr std::array walls_reflect = {0.5, 0.8};
   RadiationModel model = dark_model(icosphere(5), {2.0, 2.0, false}, walls_reflect.size());
@@ -197,12 +198,12 @@ TEST(Furnace, IntegratingSphere) {
   std::printf("largest deviation of a face: %.5f\n", largest);
 }
 
-// Half a sphere of radius 0.5, open upwards, in rings of trapezoids; the upper faces look inwards.
+// Returns half a sphere of radius 0.5, open upwards, in rings of trapezoids; the upper faces look inwards.
 Mesh bowl(int around, int rings) {
   MeshMaker maker;
   maker.organ("bowl");
   const auto at = [&](int ring, int k) {
-    const double polar = 0.5 * pi * ring / rings;  // from the bottom
+    const double polar = 0.5 * pi * ring / rings;  // angle from the bottom
     const double angle = 2.0 * pi * (k % around) / around;
     return glm::dvec3(0.5 + 0.5 * std::sin(polar) * std::cos(angle), 0.6 - 0.5 * std::cos(polar),
                       0.5 + 0.5 * std::sin(polar) * std::sin(angle));
@@ -216,9 +217,9 @@ Mesh bowl(int around, int rings) {
   return maker.mesh();
 }
 
-// The outside of the bowl and the ground are black, so all that is reflected comes out of the opening. In a cavity of plane
-// facets a facet does not see itself: the share of light that stays is 1 - opening / inner area (reciprocity), not quite a
-// half.
+// The outside of the bowl and the ground are black, so all reflected light comes out of the opening. In a cavity of plane
+// facets a facet does not see itself: the share of light that stays is 1 - opening / inner area (reciprocity), slightly less
+// than a half.
 TEST(Furnace, HemisphericalBowl) {
   constexpr std::array inside = {0.2, 0.5, 0.8};
   constexpr int around = 128;
@@ -249,7 +250,7 @@ TEST(Furnace, HemisphericalBowl) {
   }
 }
 
-// Root-mean-square error of the light on the walls and leaf sides of a furnace, against the packets traced.
+// Compares the root-mean-square error of the light on the walls and leaf sides of a furnace with the number of packets traced.
 TEST(Furnace, ErrorFallsWithTheRootOfThePackets) {
   RadiationModel model = dark_model(furnished_box(1), box_plot);
   for (std::size_t o = 0; o < model.optics.size(); ++o) {
@@ -266,7 +267,7 @@ TEST(Furnace, ErrorFallsWithTheRootOfThePackets) {
     int sides = 0;
     for (int seed = 0; seed < seeds; ++seed) {
       SolveSettings settings = fixed_packets(model, first, 1, 4000 + static_cast<std::uint64_t>(seed));
-      settings.accuracy.indirect = 0.05;  // unshot below 5e-5: fewer rounds of the least size
+      settings.accuracy.indirect = 0.05;  // leaves less than 5e-5 unshot: fewer rounds of minimum size
       const RadiationResult result = simulate(model, prepared, settings);
       expect_sound(model, result);
       traced += static_cast<double>(result.indirect.packets) / seeds;

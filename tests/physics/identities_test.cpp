@@ -1,5 +1,5 @@
-// What must hold in every scene (A8 and B14 of the validation table): the beam's energy, the ledger, and that neither a shift,
-// a turn, a larger plot nor a finer mesh changes a result.
+// Tests what must hold in every scene (A8 and B14 of the validation table): the beam's flux and the ledger add up, and no
+// shift, turn, larger plot or finer mesh changes a result.
 #include "base/error.h"
 #include "support/comparison.h"
 #include "support/models.h"
@@ -19,7 +19,7 @@ Mesh stand() {
   return random_leaves(60, 0.02, plot, 1.0, 7);
 }
 
-// Sunlit areas, seen along the beam, and the sunlit soil fill the plot.
+// The sunlit areas, seen along the beam, and the sunlit soil fill the plot.
 TEST(Identities, SunlitAreasFillThePlot) {
   for (const double elevation : {90.0, 53.0176, 15.0}) {
     const RadiationModel model = black_model(stand(), plot, sun_at(elevation, 120.569));
@@ -27,7 +27,8 @@ TEST(Identities, SunlitAreasFillThePlot) {
     const glm::dvec3 to_sun = direction_to_sun(*model.sun);
     double filled_m2 = result.bands[0].absorbed_soil.value * plot.area_m2();
     double landed_m2 = 0.0;
-    for (std::size_t e = 0; e < model.canopy.size(); ++e) {  // each leaf is flat, so both its triangles have its normal
+    // Each leaf is flat, so both of its triangles have its normal.
+    for (std::size_t e = 0; e < model.canopy.size(); ++e) {
       const ElementResult& element = result.elements[e];
       landed_m2 += static_cast<double>(element.upper + element.lower) * result.ground_per_ray_m2;
       if (e % 2 == 1) continue;
@@ -42,7 +43,7 @@ TEST(Identities, SunlitAreasFillThePlot) {
   }
 }
 
-// Bands of every kind: black, leaf-like, all reflected, all transmitted, both together, and nothing coming in.
+// Adds bands of every kind: black, leaf-like, all reflected, all transmitted, both together, and without incoming light.
 void add_bands(RadiationModel& model) {
   const std::vector<FaceOptics> faces = {{0.0, 0.0}, {0.12, 0.06}, {1.0, 0.0}, {0.0, 1.0}, {0.45, 0.55}, {0.3, 0.3}};
   const std::vector<double> direct_w_m2 = {1.0, 350.0, 1e-12, 1e12, 450.0, 0.0};
@@ -64,7 +65,7 @@ void expect_closed(const RadiationModel& model, const RadiationResult& result) {
     if (model.plot.periodic) {
       EXPECT_NEAR(band.incident, model.bands[b].direct_w_m2, 1e-7 * model.bands[b].direct_w_m2) << band.name;
     }
-    // Soil lets nothing through; only beside an isolated plot scattered light goes past it.
+    // Soil transmits nothing; scattered light passes it only beside an isolated plot.
     if (model.soil && model.plot.periodic) {
       EXPECT_EQ(ledger.transmitted, 0) << band.name;
     }
@@ -89,7 +90,7 @@ TEST(Identities, LedgerClosesInEveryBand) {
   }
 }
 
-// What lands is absorbed in that share: the organs' direct and indirect light times 0.82 is what the canopy absorbs.
+// The canopy absorbs the share of the landing light given by the absorptance: 0.82 times the organs' direct and indirect light.
 TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
   RadiationModel model = black_model(stand(), plot, paper_sun());
   add_bands(model);
@@ -101,8 +102,8 @@ TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
   EXPECT_NEAR(result.bands[1].absorbed_vegetation.value, 0.82 * landed, 1e-9 * 350.0);
 }
 
-// An isolated stand takes the beam that first meets it or the plot's ground: a plate whose shadow falls partly beside the
-// plot (A3's, x east: the plot ends where the shadow of 0.4 m width still reaches 0.2187 m further west).
+// An isolated stand takes the beam that first meets the stand or the plot's ground: here a plate whose shadow falls partly
+// beside the plot (A3's plate, x east: the plot ends where the shadow of 0.4 m width still reaches 0.2187 m further west).
 TEST(Identities, IsolatedStandTakesWhatMeetsItOrItsPlot) {
   MeshMaker maker;
   const auto corner = [](double x, double y) { return from_enu(x - 1.0, y - 1.0, 0.8); };

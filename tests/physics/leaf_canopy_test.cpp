@@ -1,5 +1,5 @@
-// A homogeneous canopy of horizontal leaves that reflect and transmit: B8 of the validation table, at the leaf size of B11;
-// and leaves of all orientations under the sky.
+// Tests a homogeneous canopy of horizontal leaves that reflect and transmit (B8 of the validation table, at the leaf size of
+// B11), and leaves of all orientations under the sky.
 #include "support/disc_canopies.h"
 
 namespace sunfleck::test {
@@ -11,7 +11,8 @@ TEST(LeafCanopy, HorizontalLeavesInParAndNir) {
   expect_row(got[1], {0.49005, 0.3157, 0.2574}, "horizontal NIR");
 }
 
-// The diffuse columns of B9 at leaf area index 0.5: uniform sky, leaves of all orientations, extrapolated to small leaves.
+// Tests the diffuse columns of B9 at leaf area index 0.5: uniform sky, leaves of all orientations, extrapolated to small
+// leaves.
 TEST(LeafCanopy, SphericalLeavesUnderAUniformSky) {
   const DiscCanopy large{.radius_m = 0.1, .count = 64, .horizontal = false, .corners = 8};
   const DiscCanopy half{.radius_m = 0.05, .count = 255, .horizontal = false, .corners = 8};

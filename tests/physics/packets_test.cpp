@@ -1,4 +1,4 @@
-// How waiting flux becomes packets, and what becomes of a packet's quanta where it lands.
+// Tests how waiting flux becomes packets, and how a packet's quanta are split where it lands.
 #include "support/chi_square.h"
 #include "support/scattering.h"
 #include "transport/candidates.h"
@@ -13,7 +13,7 @@
 namespace sunfleck::test {
 namespace {
 
-// Places with quanta of very different size in three bands, the last nearly empty, at levels from -1 (soil) on.
+// Returns places with quanta of very different sizes in three bands, the last nearly empty, at levels from -1 (soil) upwards.
 Candidates scattered_candidates(std::size_t count, std::uint32_t levels, std::uint32_t seed) {
   Random random(seed);
   Candidates candidates(3);
@@ -25,7 +25,7 @@ Candidates scattered_candidates(std::size_t count, std::uint32_t levels, std::ui
   return candidates;
 }
 
-// The solver's expectation: so many packets, by the mean of the bands' shares.
+// Returns the solver's expectation: `packets` packets in total, shared out by the mean of the bands' shares.
 std::vector<double> expectation(const Candidates& candidates, double packets) {
   std::vector<double> expected(candidates.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -46,8 +46,8 @@ TEST(Packets, APlaceWithoutFluxIsNoCandidate) {
   EXPECT_EQ(candidates.total(1), 0);
 }
 
-// By side first: with both sides of one landing next to each other every draw would take the same side where a landing's
-// expectation is one packet (rho + tau = 1). Then in leaf order, the ground last.
+// Places are sorted by side first: if both sides of one landing were neighbours, every draw would take the same side wherever a
+// landing's expectation is one packet (rho + tau = 1). Then they are in leaf order, the ground last.
 TEST(Packets, PlacesAreDrawnBySideAndOrder) {
   Candidates candidates(1);
   const std::array<std::int64_t, 1> some = {1};
@@ -68,7 +68,7 @@ TEST(Packets, PlacesAreDrawnBySideAndOrder) {
   EXPECT_EQ(added, (std::vector<int>{2, 4, 6, 0, 9, 8, 3, 5, 7, 1}));
 }
 
-// Packets carry all that waits of a band, or nothing.
+// Packets carry all of a band's waiting flux, or none of it.
 void expect_books_closed(const Candidates& candidates, const Draw& draw) {
   ASSERT_EQ(draw.kept.size(), 3U);
   std::array<std::int64_t, 3> carried{};
@@ -107,7 +107,7 @@ TEST(Packets, DrawingKeepsTotalsAndExpectations) {
   }
 }
 
-// A band that no drawn packet carries stays whole where it is.
+// A band that no drawn packet carries stays where it is, whole.
 TEST(Packets, BandThatIsNotDrawnIsKept) {
   Candidates candidates(2);
   candidates.add({0, 0, 0.0F, 0.0F, -1}, std::array<std::int64_t, 2>{1000, 0});
@@ -124,7 +124,7 @@ TEST(Packets, BandThatIsNotDrawnIsKept) {
   EXPECT_NEAR(kept, 0.75 * draws, 4.0 * std::sqrt(draws * 0.75 * 0.25));
 }
 
-// Places in clusters, each at its level, and the share of each place's flux that reaches some spot.
+// Places in clusters, each at its level, and the share of each place's flux that reaches a certain spot.
 struct Scattered {
   Candidates candidates{3};
   std::vector<double> landing;
@@ -148,7 +148,8 @@ Scattered clustered_places(std::uint32_t levels) {
   return scattered;
 }
 
-// Share of a band's flux that lands there with one draw; what no packet carries lands as it should, in later rounds.
+// Returns the share of a band's flux that lands on the spot with one draw; flux that no packet carries counts with its exact
+// share, since it lands in later rounds.
 double landed_share(const Scattered& places, const Draw& draw, std::size_t band) {
   double landed = 0.0;
   for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
@@ -160,8 +161,8 @@ double landed_share(const Scattered& places, const Draw& draw, std::size_t band)
   return landed / static_cast<double>(places.candidates.total(band));
 }
 
-// Scaling to what waits is a ratio estimate: the mean of ten thousand draws equals the exact sum within its own error. A round
-// has 256 packets at least.
+// Scaling to the waiting flux is a ratio estimate: the mean of ten thousand draws equals the exact sum within its own error. A
+// round has at least 256 packets.
 TEST(Packets, DrawingIsUnbiased) {
   constexpr int draws = 10000;
   for (const std::uint32_t levels : {1U, 20U}) {
@@ -221,8 +222,8 @@ TEST(Packets, QuantaSplitIntoPartsThatAddUp) {
   }
 }
 
-// One packet from each of many beginnings, so that they are independent. The cosine's square is even over [0, 1), the angle
-// about the normal even over a turn, and both together.
+// Sends one packet from each of many starts, so that they are independent. The cosine's square is even over [0, 1), the angle
+// about the normal is even over a turn, and so are both together.
 TEST(Packets, DirectionsAreCosineDistributedAboutTheSide) {
   const std::vector<glm::dvec3> normals = {{0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {0.6, 0.0, -0.8}, inclined(1.1, 2.2)};
   for (const glm::dvec3& normal : normals) {
@@ -276,7 +277,8 @@ TEST(Packets, LampsGlowEvenly) {
     const glm::dvec3 at = glm::dvec3(packet.origin) - a;
     const double b = cells * glm::dot(glm::cross(at, ac), unit_normal(canopy.corners[0])) / twice_m2;
     const double c = cells * glm::dot(glm::cross(ab, at), unit_normal(canopy.corners[0])) / twice_m2;
-    // Congruent triangles: row and column of the parallelogram's cell, folded where the cell lies across its diagonal.
+    // Numbers congruent triangles by row and column of the parallelogram's cell, folded where the cell lies across its
+    // diagonal.
     const int i = std::clamp(static_cast<int>(b), 0, cells - 1);
     const int j = std::clamp(static_cast<int>(c), 0, cells - 1);
     ASSERT_LE(b + c, cells * (1.0 + 1e-5));
@@ -288,7 +290,8 @@ TEST(Packets, LampsGlowEvenly) {
   expect_flat(bins, "places on the lamp");
 }
 
-// A leaf across the plot's corner: the start lies in the plot, and the image tells which copy of the leaf it lies on.
+// The leaf lies across the plot's corner: the start lies in the plot, and the image names the copy of the leaf on which it
+// lies.
 TEST(Packets, StartsAreWrappedIntoThePlot) {
   MeshMaker maker;
   maker.quad({-0.4, 0.3, -0.7}, {-0.4, 0.7, 0.5}, {0.5, 0.9, 0.5}, {0.5, 0.5, -0.7});
@@ -317,7 +320,7 @@ TEST(Packets, StartsAreWrappedIntoThePlot) {
     const auto dx = static_cast<std::int16_t>(packet.image & 0xffffU);
     const auto dz = static_cast<std::int16_t>(packet.image >> 16U);
     wrapped += packet.image != 0 ? 1 : 0;
-    // The copy's plane lies the offset behind the start.
+    // The copy's plane lies behind the start by the offset.
     const Triangle copy = reference_corners(canopy, {packet.element, dx, dz});
     const double side = candidates.place(k).surface % 2 == 0 ? 1.0 : -1.0;
     const double height_m = glm::dot(glm::dvec3(packet.origin) - glm::dvec3(copy[0]), unit_normal(corners)) * side;
@@ -332,7 +335,7 @@ TEST(Packets, StartsAreWrappedIntoThePlot) {
   EXPECT_GT(wrapped, 500);
 }
 
-// From the ground packets rise.
+// Packets from the ground rise.
 TEST(Packets, GroundSendsLightUp) {
   const Canopy canopy = black_model(Mesh{}, {1.0, 1.0, true}, paper_sun()).canopy;
   Candidates candidates(1);

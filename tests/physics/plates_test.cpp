@@ -1,5 +1,5 @@
-// Full-cover plates over soil (B7 of the validation table), surfaces that absorb nothing, many bands, and the bias of few
-// packets.
+// Tests plates that cover the plot over soil (B7 of the validation table), surfaces that absorb nothing, many bands, and the
+// bias caused by few packets.
 #include "base/error.h"
 #include "support/scattering.h"
 
@@ -18,14 +18,14 @@ const Plot plot{1.0, 1.0, true};
 enum class Facing { up, down };
 
 struct PlateOptics {
-  FaceOptics top, bottom;  // of light from above, from below
+  FaceOptics top, bottom;  // for light from above and from below
   double soil;
 };
 constexpr PlateOptics par{{0.12, 0.06}, {0.12, 0.06}, 0.15};
 constexpr PlateOptics nir{{0.45, 0.45}, {0.45, 0.45}, 0.20};
 constexpr PlateOptics two_faced{{0.30, 0.10}, {0.05, 0.55}, 0.40};
 
-// Plates of the plot's size, the top one first, an organ each.
+// Returns plates of the plot's size, the top one first, one organ each.
 RadiationModel plates(int count, const std::vector<PlateOptics>& bands, Facing facing = Facing::up) {
   MeshMaker maker;
   for (int k = 0; k < count; ++k) {
@@ -49,7 +49,8 @@ RadiationModel plates(int count, const std::vector<PlateOptics>& bands, Facing f
   return model;
 }
 
-// The plates' own equations: light down on plate k, and up on it from below, by substitution until nothing changes.
+// Solves the plates' own equations for the light down on plate k and up on it from below, by substitution until nothing
+// changes.
 struct Exact {
   std::vector<double> down, up;  // [plate]
   double reflected = 0.0, on_soil = 0.0;
@@ -86,7 +87,7 @@ TEST(Plates, EquationsGiveTheTable) {
 
 constexpr double ask = 1e-4;
 
-// Fluxes with the errors that the run reports.
+// Compares fluxes within the errors that the run reports.
 TEST(Plates, FluxesOfOneAndTwoPlates) {
   const std::vector<PlateOptics> bands = {par, nir, two_faced};
   constexpr std::size_t comparisons = 21;
@@ -107,8 +108,8 @@ TEST(Plates, FluxesOfOneAndTwoPlates) {
   }
 }
 
-// Sixty-four small runs. What is left to chance is how many packets leave each side, so most fluxes of a run say the same: one
-// of a plate and soil, three of two plates and soil count as independent.
+// Makes sixty-four small runs. Only the number of packets that leave each side is random, so most fluxes of a run carry the
+// same information: one flux of a plate and soil, and three of two plates and soil, count as independent.
 TEST(Plates, ReportedErrorsAreTrue) {
   const std::vector<PlateOptics> bands = {par, nir};
   ZScores scores(replicates);
@@ -129,7 +130,7 @@ TEST(Plates, ReportedErrorsAreTrue) {
   scores.expect_plausible();
 }
 
-// D_k and U_k; the plates' other face up changes nothing.
+// Compares D_k and U_k; turning the plates' other face up changes nothing.
 TEST(Plates, LightOnBothSides) {
   const std::vector<PlateOptics> bands = {par, nir, two_faced};
   for (const Facing facing : {Facing::up, Facing::down}) {
@@ -150,7 +151,7 @@ TEST(Plates, LightOnBothSides) {
   }
 }
 
-// The scaling of each round's packets to the unshot flux is a ratio estimate: what that costs with few packets.
+// Scaling each round's packets to the unshot flux is a ratio estimate: this test bounds its bias with few packets.
 TEST(Plates, FewPacketsAreUnbiased) {
   constexpr int many = 10000;
   const std::vector<PlateOptics> bands = {par, {{0.2, 0.05}, {0.1, 0.3}, 0.1}};
@@ -172,7 +173,7 @@ TEST(Plates, FewPacketsAreUnbiased) {
   }
 }
 
-// Leaves with rho + tau = 1 over white soil: everything comes back out.
+// The leaves have rho + tau = 1 and stand over white soil: everything comes back out.
 TEST(Plates, NothingIsAbsorbedWhereNothingAbsorbs) {
   RadiationModel model = black_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, paper_sun());
   const std::vector<FaceOptics> faces = {{0.5, 0.5}, {0.7, 0.3}, {1.0, 0.0}, {0.0, 1.0}, {0.1, 0.9}};

@@ -1,4 +1,5 @@
-// How a run tells how far it has come: pilots as such, then one measure that never goes back and reaches 1 at the end alone.
+// Tests how a run reports its progress: pilots are reported as pilots, then one measure never decreases and reaches 1 only at
+// the end.
 #include "support/models.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 
 const Plot plot{1.0, 1.0, true};
 
-// Leaves that scatter, under beam and sky; the bounds differ in how hard they are to reach.
+// Returns leaves that scatter, under beam and sky; the bounds of the tests differ in how hard they are to reach.
 RadiationModel leafy_model() {
   RadiationModel model = black_model(random_leaves(60, 0.01, plot, 1.0, 7), plot, paper_sun());
   for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = {{0.45, 0.45}};
@@ -68,7 +69,7 @@ TEST(Progress, OfARunToItsBoundsNeverGoesBack) {
   }
 }
 
-// What the pilots chose is far too little where the run begins with work of another scene: many more replicates follow.
+// The run begins with the work that pilots chose for another scene, which is far too little: many more replicates follow.
 TEST(Progress, OfARunThatTakesFarLongerThanPlannedNeverGoesBack) {
   SolveSettings settings;
   settings.accuracy.direct = 0.004;
@@ -101,7 +102,7 @@ TEST(Progress, OfARunThatRaysWillStopEndsThere) {
   EXPECT_LE(told.news.back().fraction, 1.0);
 }
 
-// Whose error is told: the pass that lags, and in the result the figure that was judged.
+// The progress names the pass that lags, with its error; the result names the figure that was judged.
 TEST(Progress, NamesThePassThatLagsAndTheFigure) {
   RadiationModel model = leafy_model();
   SolveSettings settings;

@@ -1,5 +1,5 @@
-// Leaves placed at random: what the beam passes on average over many scenes, and how much that scatters (A6 and A7 of the
-// validation table).
+// Tests leaves placed at random: the mean share of the beam that passes over many scenes, and how much it scatters (A6 and A7
+// of the validation table).
 #include "support/comparison.h"
 #include "support/models.h"
 
@@ -24,7 +24,8 @@ double spherical(Random& random) {
   return std::acos(random.uniform());
 }
 
-// Density 2/pi (1 + sign cos 2 theta), theta in 0..pi/2: planophile with sign 1, erectophile with -1. Drawn by rejection.
+// Draws by rejection from the density 2/pi (1 + sign cos 2 theta), theta in 0..pi/2: planophile with sign 1, erectophile with
+// -1.
 Inclination de_wit(double sign) {
   return [=](Random& random) {
     while (true) {
@@ -34,7 +35,7 @@ Inclination de_wit(double sign) {
   };
 }
 
-// Knuth 1969, The Art of Computer Programming 2, 3.4.1: exponential waiting times.
+// Draws by exponential waiting times (Knuth 1969, The Art of Computer Programming 2, 3.4.1).
 int poisson(Random& random, double mean) {
   int count = -1;
   for (double sum = 0.0; sum < mean; ++count) sum -= std::log(1.0 - random.uniform());
@@ -48,7 +49,7 @@ struct Leaves {
   double height_m;
 };
 
-// `count` leaves over a plot of 1 m2.
+// Returns `count` leaves over a plot of 1 m2.
 Mesh scattered(const Leaves& leaves, int count, Random& random) {
   MeshMaker maker;
   for (int leaf = 0; leaf < count; ++leaf) {
@@ -62,7 +63,7 @@ Mesh scattered(const Leaves& leaves, int count, Random& random) {
 }
 
 struct Scatter {
-  ReplicateMean passed;        // share of the beam that reaches the soil, a value a scene
+  ReplicateMean passed;        // share of the beam that reaches the soil, one value per scene
   ReplicateMean sunlit_index;  // sunlit leaf area per ground area
   ReplicateMean noise;         // squared standard error within a scene
 };
@@ -82,7 +83,7 @@ Scatter simulate_scenes(const Leaves& leaves, const std::function<int(Random&)>&
   return scatter;
 }
 
-// A6. With the number of leaves drawn from Poisson's distribution, exp(-K L) is the exact expectation.
+// A6. If the number of leaves is drawn from Poisson's distribution, exp(-K L) is the exact expectation.
 struct Extinction {
   const char* what;
   Inclination inclination;
@@ -113,7 +114,7 @@ TEST(RandomLeaves, BeerNilsonExtinctionOfEveryLeafAngleDistribution) {
   }
 }
 
-// T_0 and sunlit leaf area index at the paper sun as the table has them.
+// Compares T_0 and the sunlit leaf area index at the paper sun with the table.
 TEST(RandomLeaves, PassedAndSunlitByLeafAreaIndex) {
   struct Row {
     const char* what;
@@ -128,7 +129,8 @@ TEST(RandomLeaves, PassedAndSunlitByLeafAreaIndex) {
   constexpr int scenes = 100;
   std::uint32_t seed = 100001;
   for (const Row& row : rows) {
-    // Tall, so that it matters little how far leaves of different inclination reach up and down from their middle.
+    // The canopy is tall, so that it matters little how far leaves of different inclination extend above and below their
+    // centres.
     const Leaves leaves{leaf_m2, 4, row.inclination, 5.0};
     const auto count = [&](Random& random) { return poisson(random, row.index / leaf_m2); };
     const Scatter got = simulate_scenes(leaves, count, scenes, 4096, seed);
@@ -138,15 +140,15 @@ TEST(RandomLeaves, PassedAndSunlitByLeafAreaIndex) {
   }
 }
 
-// A7. A fixed number of leaves: expectation and spread are exact for that number.
+// A7. With a fixed number of leaves, expectation and spread are exact for that number.
 TEST(RandomLeaves, FiniteNumberOfDiscs) {
   struct Row {
     const char* what;
     Inclination inclination;
     int count;
     double passed;
-    double spread;        // of one scene; 0 where the table has none
-    double sunlit_share;  // of the leaf area
+    double spread;        // spread of one scene; 0 where the table has none
+    double sunlit_share;  // sunlit share of the leaf area
   };
   const std::array rows = {Row{"127 horizontal discs", fixed(0.0), 127, 0.367367, 0.01727, 0.634247},
                            Row{"382 horizontal discs", fixed(0.0), 382, 0.049190, 0.00899, 0.316913},

@@ -1,4 +1,5 @@
-// Horizontal receivers: maps of what comes down through a plane, in books that agree with the profile's to the last quantum.
+// Tests horizontal receivers: maps of the light that comes down through a plane, which agree with the profile to the last
+// quantum.
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 #include "transport/beam_block.h"
@@ -22,7 +23,7 @@ std::int64_t sum_band(const PlaneResult& plane, std::size_t bands, std::size_t b
   return total;
 }
 
-// Leaves of every orientation, most of them across the edge of some layer.
+// Returns leaves of every orientation, most of which cross the edge of a layer.
 RadiationModel leafy(const Plot& plot, bool sky) {
   RadiationModel model = paper_model(random_leaves(60, 0.04, plot, 1.0, 7), plot, paper_sun());
   model.layers = 10;
@@ -32,7 +33,7 @@ RadiationModel leafy(const Plot& plot, bool sky) {
   return model;
 }
 
-// Planes at the edges of the layers.
+// Adds planes at the edges of the layers.
 void add_edges(RadiationModel& model, const std::vector<int>& edges) {
   const double height_m = make_counter_layout(model).layers.height_m;
   for (const int edge : edges) model.planes.push_back({height_m * edge / model.layers, 9, 14});
@@ -62,7 +63,7 @@ TEST(Receivers, AgreeWithTheProfileToTheLastQuantum) {
   }
 }
 
-// What comes down to the ground is what black soil absorbs, quantum for quantum.
+// The light that comes down to the ground is what black soil absorbs, quantum for quantum.
 TEST(Receivers, GroundPlaneTakesWhatBlackSoilAbsorbs) {
   for (const bool sky : {false, true}) {
     RadiationModel model = leafy({1.0, 1.5, true}, sky);
@@ -81,7 +82,7 @@ TEST(Receivers, GroundPlaneTakesWhatBlackSoilAbsorbs) {
   }
 }
 
-// Above black soil, what passes a plane down is what is absorbed below, and what passed it up besides: with black leaves below.
+// The soil and the leaves below the plane are black, so all light that passes the plane downwards is absorbed below it.
 TEST(Receivers, PlaneTakesWhatIsAbsorbedBelow) {
   MeshMaker maker;
   maker.organ("upper", 1, 1);
@@ -114,7 +115,7 @@ TEST(Receivers, EmptyPlotIsInFullSunEverywhere) {
   }
 }
 
-// Beside and above an isolated stand a plane sees the whole sun and sky, though much of that light meets nothing afterwards.
+// Beside and above an isolated stand a plane sees the whole sun and sky, although much of that light meets nothing afterwards.
 TEST(Receivers, IsolatedPlanesSeeLightThatMeetsNothing) {
   MeshMaker maker;
   maker.level(0.9, 1.1, 0.9, 1.1, 0.2);
@@ -131,7 +132,7 @@ TEST(Receivers, IsolatedPlanesSeeLightThatMeetsNothing) {
   }
 }
 
-// A square's shadow lies where the sun throws it: towards (cos az, sin az) / tan el from the square, in X and Z.
+// A square's shadow lies towards (cos az, sin az) / tan el from the square, in X and Z.
 TEST(Receivers, ShadowLiesWhereTheSunThrowsIt) {
   const SunPosition sun = sun_at(40.0, 150.0);
   for (const bool periodic : {true, false}) {
@@ -147,14 +148,15 @@ TEST(Receivers, ShadowLiesWhereTheSunThrowsIt) {
     for (int z = 0; z < 100; ++z) {
       for (int x = 0; x < 100; ++x) {
         const glm::dvec2 lo = glm::dvec2(x, z) * 0.02 - moved;
-        // The cell's place on the square's level, one cell's margin either way.
+        // Locates the cell on the square's level, with a margin of one cell on either side.
         const auto part = [&](double at, double from, double to) {
           double best = -1e9;
           for (int image = -2; image <= 2; ++image) {
             const double shifted = at + (periodic ? 2.0 * image : 0.0);
             best = std::max(best, std::min(shifted + 0.02 - from, to - shifted));
           }
-          return best;  // over 0.04: wholly inside with margin; below -0.02: wholly outside
+          // Above 0.04 the cell lies wholly inside with margin, below -0.02 wholly outside.
+          return best;
         };
         const double inside = std::min(part(lo.x, 0.8, 1.2), part(lo.y, 0.6, 1.0));
         const std::size_t cell = static_cast<std::size_t>(x) + 100 * static_cast<std::size_t>(z);
@@ -171,7 +173,7 @@ TEST(Receivers, ShadowLiesWhereTheSunThrowsIt) {
   }
 }
 
-// A mound of soil under the plane's height, or above it, shades no plane.
+// A mound of soil, below the plane's height or above it, shades no plane.
 TEST(Receivers, SoilElementsShadeNoPlane) {
   MeshMaker maker;
   maker.organ("soil", 0, 0);
@@ -204,7 +206,7 @@ TEST(Receivers, RaysCountedOneByOneFillTheSameCounters) {
   }
 }
 
-// The map's mean agrees with the same map turned by a finer one: cells are shares of the same plane.
+// The map's mean agrees with that of the same map in finer cells: cells are shares of the same plane.
 TEST(Receivers, FinerCellsHoldTheSameFlux) {
   RadiationModel coarse = leafy({1.0, 1.5, true}, true);
   coarse.planes = {{0.5, 3, 2}};

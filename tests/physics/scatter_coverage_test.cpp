@@ -1,4 +1,4 @@
-// Are the reported errors of scattered light true?
+// Tests whether the reported errors of scattered light are true.
 #include "support/coverage.h"
 
 namespace sunfleck::test {

@@ -1,5 +1,5 @@
-// What must hold in every scene whose leaves reflect and transmit (B14 of the validation table), and that a run gives the same
-// numbers whatever the number of threads.
+// Tests what must hold in every scene whose leaves reflect and transmit (B14 of the validation table), and that a run gives the
+// same numbers with any number of threads.
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
@@ -41,7 +41,7 @@ const RadiationResult& usual_run() {
   return result;
 }
 
-// (i), with bands that end after one landing, after some, and never.
+// B14 (i), with bands that end after one landing, after several, and never.
 TEST(ScatterIdentities, LedgerClosesInIntegers) {
   const std::array bands = {paper_par,
                             usual_nir,
@@ -71,7 +71,7 @@ TEST(ScatterIdentities, LedgerClosesInIntegers) {
   }
 }
 
-// (ii)
+// B14 (ii).
 TEST(ScatterIdentities, SoilAbsorbsItsShareOfWhatLandsOnIt) {
   const RadiationModel model = leafy_model();
   const RadiationResult& result = usual_run();
@@ -84,7 +84,7 @@ TEST(ScatterIdentities, SoilAbsorbsItsShareOfWhatLandsOnIt) {
   }
 }
 
-// (iv): the packets are the same, so the results are too, but for the rounding to quanta.
+// B14 (iv): the packets are the same, so the results agree except for the rounding to quanta.
 TEST(ScatterIdentities, ThousandTimesTheLightGivesThousandTimesTheFlux) {
   const RadiationModel model = leafy_model();
   RadiationModel bright = model;
@@ -115,7 +115,7 @@ void expect_same_fluxes(const RadiationResult& b, const char* what) {
   }
 }
 
-// (v)
+// B14 (v).
 TEST(ScatterIdentities, ShiftChangesNothing) {
   expect_same_fluxes(run(placed_model(plot, paper_sun(), {{{0.37, 0.0, 1.21}, 0.0}}), 2), "shifted");
 }
@@ -148,7 +148,7 @@ Mesh cut_in_four(const Mesh& whole) {
   return cut;
 }
 
-// (vii), with a leaf's own flux beside the aggregates: where on a leaf the light lands must not be forgotten.
+// B14 (vii), with a leaf's own flux beside the aggregates: the place on a leaf where the light lands must be kept.
 TEST(ScatterIdentities, TrianglesCutInFourChangeNothing) {
   const RadiationResult& whole = usual_run();
   const RadiationResult cut = run(paper_model(cut_in_four(cut_in_four(stand())), plot, paper_sun()), 4);
@@ -158,7 +158,7 @@ TEST(ScatterIdentities, TrianglesCutInFourChangeNothing) {
   }
 }
 
-// (viii)
+// B14 (viii).
 TEST(ScatterIdentities, PlotOfFourCopiesChangesNothing) {
   const double x_m = plot.size_x_m;
   const double z_m = plot.size_z_m;
@@ -166,7 +166,7 @@ TEST(ScatterIdentities, PlotOfFourCopiesChangesNothing) {
   expect_same_fluxes(run(placed_model({2 * x_m, 2 * z_m, true}, paper_sun(), copies), 5), "four copies");
 }
 
-// (ix)
+// B14 (ix).
 TEST(ScatterIdentities, BlackScenesEndAtTheFirstLanding) {
   const RadiationModel model = scattering_model(stand(), plot, paper_sun(), std::array{BandOptics{"black", 0.0, 0.0, 0.0}});
   const RadiationResult result = run(model);
@@ -176,8 +176,8 @@ TEST(ScatterIdentities, BlackScenesEndAtTheFirstLanding) {
   EXPECT_NEAR(result.bands[0].absorbed_vegetation.value, 1.0 - result.ground_sunfleck_ratio.value, 1e-9);
 }
 
-// What goes down through a plane less what goes up is what is absorbed below it, or still unshot there. The leaves reach
-// through several layers each.
+// The flux down through a plane minus the flux up is absorbed below the plane, or still unshot there. Each leaf reaches through
+// several layers.
 TEST(ScatterIdentities, NetFluxThroughEveryPlaneIsAbsorbedBelowIt) {
   for (const int layers : {1, 5, 20, 100}) {
     RadiationModel model = leafy_model();
@@ -224,7 +224,7 @@ TEST(ScatterIdentities, SameNumbersWithOneAndTwoThreads) {
   }
 }
 
-// Replicates in the making side by side know nothing of each other, whether the work is fixed or sought.
+// Replicates that are traced at the same time are independent of each other, whether the work is fixed or determined by pilots.
 TEST(ScatterIdentities, SameNumbersHoweverManyReplicatesAtOnce) {
   const RadiationModel model = leafy_model();
   const Prepared prepared(model);
@@ -242,7 +242,7 @@ TEST(ScatterIdentities, SameNumbersHoweverManyReplicatesAtOnce) {
   }
 }
 
-// A run that is stopped keeps the replicates that were whole in their order; those in the making are given up.
+// A stopped run keeps the replicates that were complete, in their order; those being traced are discarded.
 TEST(ScatterIdentities, StoppedBetweenReplicatesKeepsTheFirstOnes) {
   const RadiationModel model = leafy_model();
   const Prepared prepared(model);
@@ -257,7 +257,7 @@ TEST(ScatterIdentities, StoppedBetweenReplicatesKeepsTheFirstOnes) {
   const RadiationResult stopped = solve(model, prepared.layout, tracer, settings, monitor);
   EXPECT_EQ(stopped.stop, StopReason::interrupted);
   ASSERT_GE(stopped.direct.replicates, 4U);
-  ASSERT_LE(stopped.direct.replicates, 7U);  // three more may have been whole by then
+  ASSERT_LE(stopped.direct.replicates, 7U);  // three more may have been complete by then
   SolveSettings fewer = settings;
   fewer.grid_m = *settings.grid_m * std::sqrt(12.0 / static_cast<double>(stopped.direct.replicates));
   fewer.passes = static_cast<int>(stopped.direct.replicates);

@@ -1,4 +1,4 @@
-// Sensors against light followed forwards: planes of a canopy, and leaves (validation.md B14 vi).
+// Compares sensors with light followed forwards: on planes of a canopy, and on leaves (validation.md B14 vi).
 #include "support/leaf_scenes.h"
 #include "support/scattering.h"
 #include "transport/sensors.h"
@@ -15,7 +15,7 @@ namespace {
 const Plot plot{1.0, 1.0, true};
 const glm::dvec3 up{0, 1, 0}, down{0, -1, 0};
 
-// Random leaves under sun and a clear sky, in PAR and NIR.
+// Returns random leaves under sun and a clear sky, in PAR and NIR.
 RadiationModel leaves_in_the_open() {
   RadiationModel model = paper_model(random_leaves(80, 0.03, plot, 1.0, 11), plot, paper_sun());
   model.sky = SkyModel{SkyKind::general, 12, 0.0, 0.0, {}};
@@ -24,9 +24,9 @@ RadiationModel leaves_in_the_open() {
   return model;
 }
 
-// Means over all points of the model's sensors, by band; their spread is the error.
+// Means over all points of the model's sensors, by band; their spread gives the error.
 struct Readings {
-  ReplicateMean direct, sky, indirect;  // indirect: sky and scattered
+  ReplicateMean direct, sky, indirect;  // indirect: sky and scattered light
 };
 std::vector<Readings> read(const RadiationModel& model, const Prepared& prepared, std::uint64_t seed) {
   CpuTracer tracer(prepared.bvh, tracer_scene(model));
@@ -62,9 +62,11 @@ TEST(SensorsForward, ReadTheProfile) {
   for (std::size_t layer = 0; layer < 4; ++layer) {
     const LayerResult& plane = forward.layers[layer];
     for (const glm::dvec3& normal : {up, down}) {
-      if (layer == 0 && normal.y < 0.0) continue;  // on the soil each point would see one point of it
+      // Just above the soil each point would see a single point of it.
+      if (layer == 0 && normal.y < 0.0) continue;
       Sensor grid{"", {}, SensorResponse::cosine, normal};
-      for (int i = 0; i < across * across; ++i) {  // one in each cell
+      // Puts one point in each cell.
+      for (int i = 0; i < across * across; ++i) {
         const double x = random.uniform(), z = random.uniform();
         const int column = i % across, row = i / across;
         grid.points_m.emplace_back((column + x) / across, plane.height_m, (row + z) / across);
@@ -83,7 +85,7 @@ TEST(SensorsForward, ReadTheProfile) {
   }
 }
 
-// Both triangles of a leaf, seen by so many points each, evenly spread.
+// Puts sensors on both triangles of a leaf, with `count` evenly spread points each.
 std::vector<Sensor> sensors_on(const Canopy& canopy, std::size_t leaf, std::size_t side, int count, Random& random) {
   std::vector<Sensor> sensors;
   for (std::size_t e = 0; e < canopy.size(); ++e) {

@@ -1,4 +1,4 @@
-// Sensors: rays followed backwards must read what closed forms say.
+// Tests sensors: rays followed backwards must give the values of closed forms.
 #include "transport/sensors.h"
 
 #include "support/leaf_scenes.h"
@@ -29,7 +29,7 @@ Sensor sphere(const glm::dvec3& point_m) {
   return {"", {point_m}, SensorResponse::spherical, up};
 }
 
-// The only reading of each sensor.
+// Returns the only reading of each sensor.
 std::vector<SensorResult> read(const RadiationModel& model, const SensorSettings& settings, CpuWalk walk = CpuWalk::tree) {
   const Prepared prepared(model);
   CpuTracer tracer(prepared.bvh, tracer_scene(model), walk);
@@ -55,8 +55,8 @@ void expect_exactly(const Estimate& got, double expected, const char* what) {
   EXPECT_NEAR(got.half_width, 0.0, 1e-12) << what;
 }
 
-// The same of sampled light about which all rays agree: as sure as their number allows, `largest` of one of them in a
-// replicate.
+// Expects the same of sampled light on which all rays agree: the half-width is as small as their number allows, if one ray adds
+// at most `largest` to a replicate.
 void expect_agreed(const Estimate& got, double expected, double largest, const char* what) {
   EXPECT_NEAR(got.value, expected, 1e-12 * (1.0 + expected)) << what;
   EXPECT_GT(got.half_width, 0.0) << what;
@@ -130,7 +130,7 @@ TEST(Sensors, UprightOnesReadTheTableOfSkies) {  // validation.md E1 to E4
     for (std::size_t side = 0; side < 4; ++side) {
       const double error = standard_error(got[side].sky[0], replicates);
       EXPECT_LE(error, 3e-4);
-      // The sky's cells and the table's last digit: 1e-4.
+      // Tolerates 1e-4 for the sky's cells and the table's last digit.
       EXPECT_NEAR(got[side].sky[0].value, row.north_east_south_west[side],
                   table_quantile(4 * table.size(), replicates) * error + 1e-4)
           << row.sky.cie_type << ' ' << side;
@@ -138,7 +138,7 @@ TEST(Sensors, UprightOnesReadTheTableOfSkies) {  // validation.md E1 to E4
   }
 }
 
-// Radiance from below is rho E / pi everywhere.
+// The radiance from below is rho E / pi everywhere.
 TEST(Sensors, SunlitSoilShinesBack) {
   RadiationModel model = bare_ground(0.3);
   give_sky(model, 0.5);
@@ -161,13 +161,14 @@ TEST(Sensors, BareSoilPlaneEndsAtAnIsolatedPlot) {
   model = black_model(MeshMaker().mesh(), model.plot, paper_sun());
   model.soil->reflectance = {0.4};
   model.sensors = {cosine_sensor({0.5, 0.25, 0.5}, down)};
-  // View factor from a point to a rectangle with a corner below it (Siegel & Howell), four times; a side is twice the height.
+  // Four times the view factor from a point to a rectangle with a corner below it (Siegel & Howell); a side is twice the
+  // height.
   const double x = 2.0, root = std::sqrt(1.0 + x * x);
   const double factor = 4.0 / (2.0 * std::numbers::pi) * 2.0 * (x / root * std::atan(x / root));
   expect_agrees(read(model, settings_of(4096))[0].scattered[0], 0.4 * factor, replicates, 1e-3, 1, "ground seen");
 }
 
-// A plate of two different faces over soil: light goes to and fro below it.
+// A plate with two different faces lies over soil: light goes to and fro below it.
 TEST(Sensors, AboveAndBelowAPlate) {
   struct Case {
     FaceOptics top, bottom;
@@ -247,7 +248,7 @@ TEST(Sensors, ListedLightsAreExact) {
   expect_exactly(got[2].sky[0], 6.0 * 0.6 / 0.8, "upright");
   expect_exactly(got[3].sky[0], 2.0 + 6.0 / 0.8, "sphere");
   model.soil->reflectance = {0.5};
-  model.sensors = {cosine_sensor({0.95, 0.001, 0.05}, down)};  // the shadows are far
+  model.sensors = {cosine_sensor({0.95, 0.001, 0.05}, down)};  // the shadows are far away
   expect_agrees(read(model, settings_of(4096))[0].scattered[0], 4.0, replicates, 2e-2, 1, "soil under listed lights");
 }
 

@@ -1,5 +1,5 @@
-// Light from the sky: what single faces see of it, what canopies keep of it (B12 and E of the validation table), and the
-// identities that hold with it.
+// Tests light from the sky: the light that single faces receive, the light that canopies absorb (B12 and E of the validation
+// table), and the identities that hold with it.
 #include "io/mesh_reader.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr int replicates = 32;
 
 struct Reference {
-  double value, error;  // error: of the reference itself
+  double value, error;  // error: that of the reference itself
 };
 
 void expect_within(const Estimate& got, const Reference& reference, double largest, const std::string& what) {
@@ -62,11 +62,11 @@ TEST(SkyLight, ExplicitSceneUnderUniformAndOvercastSkies) {
   }
 }
 
-// A vertical black square above black soil, alone, sees half of each sky's vertical irradiance tables (E1 to E4).
+// A vertical black square above black soil, alone, receives half of each sky's vertical irradiance tables (E1 to E4).
 struct VerticalCase {
   const char* what;
   SkyModel sky;
-  std::array<double, 4> toward;  // north, east, south, west, relative to the horizontal
+  std::array<double, 4> toward;  // vertical irradiance towards north, east, south, west, relative to the horizontal
 };
 
 TEST(SkyLight, VerticalSquareSeesTheTables) {
@@ -83,7 +83,8 @@ TEST(SkyLight, VerticalSquareSeesTheTables) {
                                          {0.39093, 0.47206, 0.44760, 0.37611}}};
   const std::array normals = {glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)};
   for (const VerticalCase& each : cases) {
-    for (const std::size_t pair : {0U, 1U}) {  // a square that faces north and south, one that faces east and west
+    // One square faces north and south, the other east and west.
+    for (const std::size_t pair : {0U, 1U}) {
       MeshMaker maker;
       maker.polygon({0.05, 0.08, 0.05}, normals[pair], 0.01, 4);
       const Plot plot{0.1, 0.1, false};
@@ -99,7 +100,7 @@ TEST(SkyLight, VerticalSquareSeesTheTables) {
           faces[side] += result.side_sky_w_m2(2 * e + side, element_m2, 0) * element_m2;
         }
       }
-      // Both faces together have an error of their own; each face's is at most about that.
+      // Only both faces together have an error of their own; the error of each face is at most about as large.
       const double error = standard_error(result.organs[0].indirect[0], replicates);
       EXPECT_LE(error, 0.0015) << each.what;
       for (std::size_t side = 0; side < 2; ++side) {
@@ -112,7 +113,8 @@ TEST(SkyLight, VerticalSquareSeesTheTables) {
   }
 }
 
-// What the leaves, the stems and the soil of a whole stand take of the overcast sky, against a reference of 46 directions.
+// Compares the light that leaves, stems and soil of a whole stand absorb from the overcast sky with a reference of 46
+// directions.
 TEST(SkyLight, StandUnderTheOvercastSky) {
   Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
   std::vector<std::uint32_t> kind_of;
@@ -149,7 +151,7 @@ TEST(SkyLight, ALampListIsABeamFromEachDirection) {
   }
 }
 
-// B14 (iii): sun and sky together give what they give apart.
+// B14 (iii): sun and sky together give the sum of what each gives alone.
 TEST(SkyLight, SunAndSkyAddUp) {
   const Plot plot{1.0, 1.5, true};
   const RadiationModel sun = paper_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, paper_sun());
@@ -179,7 +181,7 @@ TEST(SkyLight, SunAndSkyAddUp) {
   }
 }
 
-// B14 (i) and (ix): the ledger closes in every kind of scene, and black surfaces send nothing back.
+// B14 (i) and (ix): the ledger closes in every kind of scene, and black surfaces reflect nothing.
 TEST(SkyLight, LedgerClosesInIntegers) {
   const std::array bands = {paper_par, usual_nir, BandOptics{"white", 0.6, 0.4, 1.0}, BandOptics{"black", 0.0, 0.0, 0.0}};
   for (const bool periodic : {true, false}) {
@@ -214,7 +216,7 @@ TEST(SkyLight, LedgerClosesInIntegers) {
   }
 }
 
-// A canopy under a level roof without gaps sees no sky.
+// A canopy under a level roof without gaps receives no sky light.
 TEST(SkyLight, NothingPassesAFullRoof) {
   MeshMaker maker;
   maker.organ("leaf", 1, 1);

@@ -1,4 +1,5 @@
-// A whole maize stand against an independent Monte Carlo program: leaves, stems and soil black, periodic 3 x 3 m.
+// Compares a whole maize stand with an independent Monte Carlo program: leaves, stems and soil are black, the plot is periodic,
+// 3 x 3 m.
 #include "io/mesh_reader.h"
 #include "support/comparison.h"
 #include "support/models.h"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr int replicates = 32;
 
-// One organ each of leaves, stems and soil, so that their shares come with an error.
+// Makes the leaves, the stems and the soil one organ each, so that their shares come with an error.
 Mesh stand_by_kind() {
   Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
   std::vector<std::uint32_t> kind_of;
@@ -24,7 +25,7 @@ Mesh stand_by_kind() {
 
 struct Reference {
   double share;
-  double error;  // of the reference itself
+  double error;  // error of the reference itself
 };
 struct StandCase {
   SunPosition sun;
@@ -47,7 +48,7 @@ void expect_shares(const StandCase& stand) {
     got.half_width = std::hypot(got.half_width, t_quantile(0.95, replicates) * reference.error);
     expect_agrees(got, reference.share, replicates, stand.tolerance / 2.0, 6, names[organ]);
   }
-  // The soil's triangles lie in y = 0 and win over the soil plane.
+  // The soil's triangles lie in y = 0 and take precedence over the soil plane.
   EXPECT_EQ(result.bands[0].absorbed_vegetation.value + result.bands[0].absorbed_soil.value, result.bands[0].incident);
   EXPECT_NEAR(result.bands[0].absorbed_soil.value, share_of_beam(model, result, 2).value, 1e-9);
 }

@@ -1,4 +1,4 @@
-"""Scenes that the tests share, as files and as Python has them."""
+"""Provides the scenes that the tests share, as files and as Python objects."""
 
 import os
 import pathlib
@@ -70,7 +70,7 @@ def files_of(folder):
 
 
 def body(text):
-    """A table without its `#` lines."""
+    """Returns a table without its `#` lines."""
     return "\n".join(line for line in text.splitlines() if not line.startswith("#"))
 
 

@@ -1,4 +1,4 @@
-"""CARIBU's vocabulary: known answers, and the numbers of sunfleck.run."""
+"""Tests CARIBU's vocabulary against known answers and the numbers of sunfleck.run."""
 
 import math
 
@@ -15,7 +15,7 @@ SQUARE = (0, 0, 1, 1)
 
 
 def within(values, expected, error):
-    """Within three half-widths of the asked relative error."""
+    """Returns whether values are within three half-widths of the requested relative error."""
     return values == pytest.approx(expected, rel=3 * error, abs=3 * error)
 
 
@@ -59,12 +59,12 @@ def test_units_change_nothing_but_areas(unit, metres):
 
 
 def test_infinite_canopy_over_soil():
-    """A plate that fills the pattern, over soil: two parallel planes, whose exchange is a geometric series."""
+    """A plate that fills the pattern lies over soil: two parallel planes, whose exchange is a geometric series."""
     plate = {"plate": [[(0, 0, 1), (1, 0, 1), (0, 1, 1)], [(1, 0, 1), (1, 1, 1), (0, 1, 1)]]}
     reflectance, transmittance, soil = 0.4, 0.3, 0.35
     scene = CaribuScene(plate, light=[(200.0, (0.3, -0.2, -1.0))], pattern=SQUARE, opt={"nir": (reflectance, transmittance)}, soil_reflectance=soil)
     _, aggregated = scene.run(direct=False, infinite=True, error=0.002, simplify=True)
-    between = 200.0 * transmittance / (1.0 - soil * reflectance)  # what comes down below the plate
+    between = 200.0 * transmittance / (1.0 - soil * reflectance)  # light that comes down below the plate
     absorbed = (1.0 - reflectance - transmittance) * (200.0 + soil * between)
     assert within(aggregated["Eabs"]["plate"], absorbed, 0.002)
     assert within(aggregated["Ei_sup"]["plate"], 200.0, 0.002)
@@ -74,7 +74,7 @@ def test_infinite_canopy_over_soil():
 
 
 def checkerboards(heights=(15, 10, 5), side=20, cells=8):
-    """Layers of which each lets half of what reaches it through: squares of a board, those of one colour."""
+    """Each layer lets half of the light through that reaches it: it consists of a board's squares of one colour."""
     step = side / cells
     layers = {}
     for height in heights:
@@ -92,7 +92,7 @@ def checkerboards(heights=(15, 10, 5), side=20, cells=8):
 
 
 def test_lists_of_lights():
-    """A full layer receives what the lights shed, whatever their directions; the layer below nothing."""
+    """A full layer receives all light, whatever its directions; the layer below receives nothing."""
     full = {"top": [[(0, 0, 2), (4, 0, 2), (0, 4, 2)], [(4, 0, 2), (4, 4, 2), (0, 4, 2)]], "below": [[(0, 0, 1), (1, 0, 1), (0, 1, 1)]]}
     lights = [(5.0, (0, 0, -1)), (2.0, (1, 1, -1)), (0.0, (0, 1, -1)), (3.0, (-2, 1, -0.5))]
     _, aggregated = CaribuScene(full, light=lights, pattern=(0, 0, 4, 4), opt={"par": (0.1,)}).run(infinite=True, error=0.005, simplify=True)
@@ -101,8 +101,8 @@ def test_lists_of_lights():
 
 
 def test_light_comes_from_where_it_comes():
-    """Facing west: lit by light that travels east, on the side it faces."""
-    wall = {"wall": [[(0.5, 0.2, 0.2), (0.5, 0.2, 0.8), (0.5, 0.8, 0.2)]]}  # counter-clockwise seen from the west
+    """A wall that faces west is lit by light that travels east, on the side it faces."""
+    wall = {"wall": [[(0.5, 0.2, 0.2), (0.5, 0.2, 0.8), (0.5, 0.8, 0.2)]]}  # counter-clockwise when seen from the west
     for x, lit in ((1.0, "Ei_sup"), (-1.0, "Ei_inf")):
         _, aggregated = CaribuScene(wall, light=[(1.0, (x, 0.0, -1.0))], pattern=SQUARE).run(error=0.005, simplify=True)
         assert within(aggregated[lit]["wall"], 1.0, 0.005), "of a sun of 45 degrees: as much as a level plane"

@@ -1,4 +1,4 @@
-"""Bad input is a ValueError of one line: where, what, why, and what to do."""
+"""Tests that bad input gives a ValueError of one line: where, what, why, and what to do."""
 
 import datetime
 import re

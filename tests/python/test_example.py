@@ -1,4 +1,4 @@
-"""The worked example, and the Python of docs/python.md as printed there."""
+"""Tests the worked example, and the Python code of docs/python.md as printed there."""
 
 import os
 import re

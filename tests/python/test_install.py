@@ -1,4 +1,4 @@
-"""The module where users install it: by pip into a virtual environment, and by CMake below a prefix."""
+"""Tests the module where users install it: with pip in a virtual environment, and with CMake below a prefix."""
 
 import os
 import pathlib
@@ -26,7 +26,7 @@ def run(arguments, **environment):
 
 
 def check(python, place, **environment):
-    """It is the module of that place, and computes what the build's own computes."""
+    """Checks that the module comes from that place, and computes the same as the build's own module."""
     file, table = run([python, "-B", "-c", CODE, os.path.dirname(__file__)], **environment).split("\n", 1)
     assert pathlib.Path(file).is_relative_to(place)
     assert table == sunfleck.run(with_arrays(), **WORK).table("organs.csv")
@@ -34,7 +34,7 @@ def check(python, place, **environment):
 
 def test_pip(tmp_path):
     run([sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv"])
-    # From a copy: pip leaves what it builds beside the sources. The compiled part is this build's.
+    # Installs from a copy, because pip leaves its build files beside the sources. The compiled part is that of this build.
     source = tmp_path / "source"
     source.mkdir()
     for name in ("CMakeLists.txt", "README.md", "pyproject.toml", "setup.py"):

@@ -1,4 +1,4 @@
-"""Sun and sky without a canopy."""
+"""Tests sun and sky without a canopy."""
 
 import datetime
 import json
@@ -41,7 +41,7 @@ def test_bad_times_and_places(arguments):
 
 
 def level_irradiance(sky, step=0.5):
-    """The integral of radiance times the sine of elevation."""
+    """Returns the integral of radiance times the sine of elevation."""
     elevation = np.arange(step / 2, 90, step)
     azimuth = np.arange(step / 2, 360, step)
     radiance = sky.radiance(elevation[:, None], azimuth[None, :])
@@ -53,7 +53,7 @@ def level_irradiance(sky, step=0.5):
 def test_skies_shed_one_watt(model):
     more = {"cie": {"type": 7}, "perez": {"dni": 500.0, "dhi": 200.0}}.get(model, {})
     sky = sunfleck.sky(model, sun={"elevation": 40.0, "azimuth": 120.0}, **more)
-    # Midpoints of half a degree beside cells of half and one degree.
+    # The tolerance covers midpoints of half a degree against cells of half and one degree.
     assert level_irradiance(sky) == pytest.approx(1.0, abs=2e-3)
     assert sky.radiance(-5.0, 0.0) == 0.0
     assert sky.lights == []
@@ -66,7 +66,7 @@ def test_uniform_sky():
     ways = sky.draw(20000, seed=3)
     assert ways.shape == (20000, 3)
     assert np.allclose(np.linalg.norm(ways, axis=1), 1.0)
-    # The mean sine of elevation, weighted by the cosine law, is 2/3; strata in zenith angle leave far less than 1/sqrt(n).
+    # The mean sine of elevation, weighted by the cosine law, is 2/3; strata in zenith angle leave an error far below 1/sqrt(n).
     assert ways[:, 1].mean() == pytest.approx(2.0 / 3.0, abs=1e-4)
     assert np.array_equal(ways, sky.draw(20000, seed=3)) and not np.array_equal(ways, sky.draw(20000, seed=4))
 

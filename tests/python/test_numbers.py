@@ -1,4 +1,4 @@
-"""The module gives the numbers of the program, bit for bit."""
+"""Tests that the module gives the numbers of the program, bit for bit."""
 
 import netCDF4
 import numpy as np

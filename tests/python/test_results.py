@@ -1,4 +1,4 @@
-"""Arrays: views of what the result owns; xarray; folders; memory."""
+"""Tests arrays, which are views of the result's memory, xarray, folders, and memory use."""
 
 import gc
 import os
@@ -100,7 +100,7 @@ def test_calls_leak_nothing(device, calls, scene):
     settled = memory_kib()
     for number in range(calls - calls // 4):
         call(number)
-    # A leak of 8 KiB a call would be seen in 750 calls; what the allocator keeps for itself is less.
+    # A leak of 8 KiB per call would show in 750 calls; the allocator keeps less for itself.
     assert memory_kib() - settled < 4096
     assert len(os.listdir("/proc/self/fd")) <= descriptors
 

@@ -1,5 +1,5 @@
-// The exports as programs that we did not write read them: VTK, meshio, netCDF4 and xarray, assimp. The scripts in read_back/
-// print what they found as JSON.
+// Tests that programs written by others read the exports: VTK, meshio, netCDF4 and xarray, assimp. The scripts in read_back/
+// print their findings as JSON.
 
 #include "io/export_formats.h"
 #include "io/file.h"
@@ -26,7 +26,7 @@ using nlohmann::json;
 using test::awkward_name;
 using test::awkward_record;
 
-// What a program says on standard output; it has to end with 0.
+// Returns what a program prints to standard output; its exit status must be 0.
 std::string output_of(const std::string& command) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), [](std::FILE*) { return 0; });
   std::string text;
@@ -36,7 +36,7 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-// Of a result whose error bars have been asked for.
+// A result whose error bars were requested.
 struct Simulated {
   RadiationModel model = test::maize_on_soil();
   RadiationResult result;
@@ -94,7 +94,7 @@ std::vector<std::string> column_names(bool sky, const std::vector<std::string>& 
   return names;
 }
 
-// What every format has to hold of the simulated plant. `relative`: of the sums.
+// Checks what every format must contain of the simulated plant. `relative`: tolerance of the sums.
 void expect_simulated(const json& found) {
   constexpr double relative = 1e-6;
   const Simulated& all = simulated();
@@ -135,7 +135,7 @@ void expect_record(const json& found) {
   EXPECT_EQ(found["title"], clean_text(awkward_name));
 }
 
-// Two triangles about 2 km up, their organ and optics called as no file likes it.
+// Checks two triangles about 2 km up, whose organ and optics have names that are difficult for every format.
 void expect_two_triangles(const json& found) {
   EXPECT_EQ(found["triangles"], 2);
   EXPECT_EQ(found["columns"], json(column_names(true, {"A", "B-2"})));
@@ -214,7 +214,7 @@ TEST_F(ExportReadBack, GltfInVtk) {
   expect_two_triangles(read(ExportKind::glb));
 }
 
-// assimp drops attributes of other names than its own; it judges the rest.
+// assimp drops attributes with names other than its own; this test checks the rest.
 TEST_F(ExportReadBack, GltfInAssimp) {
   write(ExportKind::glb, simulated().model, simulated().result);
   const std::string file = (folder_ / "canopy.glb").string();
@@ -239,7 +239,7 @@ TEST_F(ExportReadBack, GltfIsAMeshWithExtras) {
   EXPECT_EQ(mesh.triangles.size(), simulated().model.canopy.size());
   EXPECT_EQ(mesh.organs, simulated().model.canopy.organs);
   const std::string bytes = read_file(folder_ / "canopy.glb");
-  constexpr std::size_t header = 20;  // of the file, and of its first chunk
+  constexpr std::size_t header = 20;  // length of the headers of the file and of its first chunk
   const json document = json::parse(bytes.substr(header, bytes.find("BIN") - 4 - header), nullptr, false);
   ASSERT_FALSE(document.is_discarded());
   const json& extras = document["nodes"][0]["extras"];
@@ -257,7 +257,7 @@ TEST_F(ExportReadBack, GltfIsAMeshWithExtras) {
   EXPECT_EQ(read_mesh(folder_ / "canopy.glb", {}).organs.at(1).name, clean_text(awkward_name));
 }
 
-// A second and a second file later: no format may keep the time.
+// Writes each file again more than a second later: no format may contain the time.
 TEST_F(ExportReadBack, TheSameBytesTwice) {
   std::vector<std::string> first;
   for (const ExportKind kind : export_kinds) {
@@ -271,7 +271,7 @@ TEST_F(ExportReadBack, TheSameBytesTwice) {
   }
 }
 
-// A scene without triangles is no error.
+// A scene without triangles is not an error.
 TEST_F(ExportReadBack, AnEmptyCanopy) {
   RadiationModel model = test::two_triangles();
   model.canopy = {};

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the built program as a user does: in a folder of its own, with its output in files, and reads what it left there.
+// Runs the built program as a user does, in a separate folder and with its output in files, and reads the files that it wrote.
 
 #include "support/temp_folder.h"
 
@@ -29,7 +29,7 @@ struct Outcome {
   int status = -1;
   std::string out, err;
   double seconds = 0.0;
-  double peak_mib = 0.0;  // of resident memory
+  double peak_mib = 0.0;  // peak of resident memory
 };
 
 inline std::string content(const std::filesystem::path& file) {
@@ -46,7 +46,7 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
   return left;
 }
 
-// The tests of one program in one folder.
+// Runs the tests of one program in one folder.
 class ProgramTest : public ::testing::Test {
  protected:
   using Watch = std::function<void(pid_t, const std::string& err)>;
@@ -78,7 +78,7 @@ class ProgramTest : public ::testing::Test {
             static_cast<double>(usage.ru_maxrss) / 1024.0};
   }
 
-  // `run SCENE ... -o out`, which has to end with `status`.
+  // Runs `run SCENE ... -o out` and expects exit status `status`.
   Outcome simulate(const std::filesystem::path& scene, const Arguments& more, int status = 0, const std::string& to = "out",
                    const Watch& watch = {}) const {
     Outcome outcome = run(Arguments{"run", scene.string(), "-o", to} + more, watch);
@@ -97,11 +97,12 @@ class ProgramTest : public ::testing::Test {
   }
 
   TempFolder folder_;
-  std::function<void()> before_program_;  // in the new process
+  std::function<void()> before_program_;  // called in the new process
   bool may_be_killed_ = false;
 
  private:
-  // For what hangs: what ends at all does so in time also with lines counted or under a sanitizer, beside another build.
+  // Limits runs that hang: a run that ends at all ends within this time, even with line counters or under a sanitizer, beside
+  // another build.
   static constexpr double longest_run_s = 600.0;
 
   [[noreturn]] void become_program(const Arguments& arguments, const std::filesystem::path& out,
@@ -121,8 +122,8 @@ class ProgramTest : public ::testing::Test {
   }
 };
 
-// An error as a user meets it: one line that names the place (`names`), the fault in brackets and the cure; nothing on
-// standard output.
+// Expects the error that a user sees: one line that names the place (`names`), the fault in brackets and the remedy; standard
+// output must be empty.
 inline void expect_one_error(const Outcome& outcome, int status, const std::string& names) {
   EXPECT_EQ(outcome.status, status) << outcome.err;
   EXPECT_EQ(outcome.out, "");

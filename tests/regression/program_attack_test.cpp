@@ -1,4 +1,4 @@
-// Broken scenes and meshes: each is one line on standard error that names the place, before any work.
+// Tests broken scenes and meshes: each gives one line on standard error that names the place, before any work starts.
 
 #include "regression/program.h"
 
@@ -22,7 +22,7 @@ std::string mesh(const std::string& name) {
 
 struct Attack {
   std::string scene;
-  std::string names;  // what the message has to name
+  std::string names;  // text that the message must contain
   std::string file;   // a further file of the scene
   std::string bytes;
 };
@@ -177,7 +177,7 @@ TEST_F(Attacks, WhatIsNoFileEndsAtOnce) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
-// A name in an older encoding is no reason to refuse a scene, nor to write tables and a summary that nobody can read.
+// A name in an older encoding is no reason to reject a scene, but must not make the tables and the summary unreadable.
 TEST_F(Attacks, NamesThatAreNotUtf8) {
   folder_.write("st\xe4nd.toml", head + mesh("good.obj"));
   folder_.write("good.obj", good_obj);

@@ -1,4 +1,4 @@
-// Stands in CARIBU's files, run without a scene, and what `convert` makes of them.
+// Tests stands in CARIBU's files, run without a scene, and the scenes that `convert` makes of them.
 
 #include "regression/program.h"
 #include "support/caribu_files.h"
@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// Two species, a stem, soil, and labels in no order.
+// Contains two species, a stem, soil, and labels in no particular order.
 const std::string stand_can =
     "p 1 200012001007 3 10 20 150 120 20 150 10 130 150\n"
     "p 1 100007003042 3 30 20 50 120 30 60 30 130 60\n"
@@ -47,9 +47,10 @@ std::string without_comments(const std::string& text) {
   return rows;
 }
 
-// 1/2, 1/4, 1/8, and 1/8 on the soil, whatever the direction: under one sun, the zenith, and several directions.
+// The layers take 1/2, 1/4 and 1/8, and the soil 1/8, whatever the direction: under one sun, the zenith, and several
+// directions.
 TEST_F(CaribuProgram, TheFiltersCoverHalfEach) {
-  // Sixteen values, each within its own 95 % interval with the chance that all are with 95 %: 1.49 half-widths.
+  // All sixteen values lie within 1.49 half-widths of their 95 % intervals with a probability of 95 %.
   constexpr double half_widths = 1.49;
   static_cast<void>(folder_.write("low.light", "3 -0.9 -0.1 -0.2\n"));
   static_cast<void>(folder_.write("zenith.light", "1 0 0 -1\n"));
@@ -88,7 +89,7 @@ TEST_F(CaribuProgram, ItsTableHasTheFilesLabels) {
     EXPECT_EQ(table.number(row, "index"), static_cast<double>(row % 5));
   }
   EXPECT_NEAR(table.number(0, "area"), 0.5 * 1.1 * 1.1, 1e-6) << "m2, of a file in centimetres";
-  // The highest leaf, level, stands in the full sun; its lower face sees scattered light alone.
+  // The highest leaf is level and in the full sun; its lower face receives only scattered light.
   EXPECT_NEAR(table.number(0, "Ei_sup"), 350.0, 0.05 * 350.0);
   EXPECT_LT(table.number(0, "Ei_inf"), 0.5 * 350.0);
   EXPECT_NEAR(table.number(0, "Eabs"), 0.15 * table.number(0, "Ei"), 1e-6 * 350.0) << "species 2 absorbs 0.15 on both faces";
@@ -96,7 +97,7 @@ TEST_F(CaribuProgram, ItsTableHasTheFilesLabels) {
   EXPECT_EQ(summary()["plot_area_m2"], 6.0);
 }
 
-// Soil elements of the mesh have a row; the ground that the scene lays has none.
+// Soil elements of the mesh have a row; the ground added by the scene has none.
 TEST_F(CaribuProgram, ItsSoilHasARowAmongTheOrgans) {
   simulate("stand.can", stand_ + quick_);
   const Table organs(file("organs.csv"));
@@ -118,7 +119,7 @@ TEST_F(CaribuProgram, ItsSoilHasARowAmongTheOrgans) {
   EXPECT_EQ(soil_rows, 1);
   const double plot_m2 = summary()["plot_area_m2"];
   const double all_soil_w = summary()["bands"][0]["absorbed_soil"].get<double>() * plot_m2;
-  constexpr double rounding = 1e-6;  // of quanta, in the summary
+  constexpr double rounding = 1e-6;  // rounding of the quanta in the summary
   EXPECT_NEAR(vegetation_w, summary()["bands"][0]["absorbed_vegetation"].get<double>() * plot_m2, rounding * 350.0 * plot_m2);
   EXPECT_GT(soil_w, 0.3 * all_soil_w) << "half of the plot";
   EXPECT_LT(soil_w, 0.7 * all_soil_w);
@@ -142,7 +143,7 @@ TEST_F(CaribuProgram, TheWrittenSceneGivesTheSameTables) {
   }
 }
 
-// A scene takes along what it needs, and runs without the files it was made of.
+// A converted scene includes everything it needs, and runs without the files it was made from.
 TEST_F(CaribuProgram, AWrittenSceneStandsByItself) {
   std::filesystem::create_directories(folder_ / "from/below");
   std::filesystem::create_directory(folder_ / "to");
@@ -227,7 +228,7 @@ TEST_F(Convert, MeshesAmongEachOther) {
                       name + "\"\n" + (named ? "" : "optics = \"leaf\"\n"));
     const json info = json::parse(run({"info", "scene.toml", "--json"}).out);
     EXPECT_EQ(info["triangles"], 5);
-    // Leaves of half of 1.1 x 1.1 and twice half of |(0.9, 0.1, 0.1) x (0, 1.1, 0.1)| m2, the stem's 0.1 and the soil's 3.
+    // Leaves of half of 1.1 x 1.1 and twice half of |(0.9, 0.1, 0.1) x (0, 1.1, 0.1)| m2, a stem of 0.1 m2 and soil of 3 m2.
     EXPECT_NEAR(info["area_m2"], 0.605 + std::sqrt(0.9982) + 0.1 + 3.0, 1e-5);
     if (!named) continue;
     EXPECT_EQ(info["organs"], 4);
@@ -249,7 +250,7 @@ TEST_F(Convert, TheWholeCanopyOfAScene) {
   const Outcome made = run({"convert", scene, "squares.obj"});
   EXPECT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(made.out.rfind("squares.obj: 4 triangles, ", 0), 0U) << made.out;
-  // A scene of a .can that is placed twice: labels survive, plants are numbered on.
+  // A scene that places a .can twice keeps the labels and continues the numbering of plants.
   folder_.write("twice.toml",
                 "[plot]\nsize = [300, 400]\n[[band]]\nname = \"PAR\"\n[optics.leaf]\nreflectance = 0.1\n"
                 "[optics.leaf2]\nreflectance = 0.1\n[optics.stem]\nreflectance = 0.1\n[soil]\nreflectance = 0.1\n"

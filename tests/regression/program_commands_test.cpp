@@ -1,4 +1,4 @@
-// The commands beside `run`.
+// Tests the commands other than `run`.
 
 #include "regression/program.h"
 
@@ -24,7 +24,7 @@ TEST_F(Commands, MaizeGivesAMeshThatAScenesFileCanName) {
     const json read = json::parse(run({"info", "read.toml", "--json"}).out);
     EXPECT_EQ(read["triangles"], made["triangles"]);
     EXPECT_EQ(read["organs"], made["organs"]);
-    // The file holds single precision: 2^-24 of a coordinate, or 1e-5 of the area of triangles a centimetre wide.
+    // The file contains single precision: 2^-24 of a coordinate, or 1e-5 of the area of triangles a centimetre wide.
     EXPECT_NEAR(read["area_m2"], made["area_m2"], 1e-5 * made["area_m2"].get<double>());
   }
 }

@@ -1,4 +1,4 @@
-// The same scene and seed give the same bytes, whoever computes them.
+// Tests that the same scene and seed give the same bytes on every device and with any number of threads.
 
 #include "regression/program.h"
 

@@ -1,4 +1,4 @@
-// The memory of a run: bounded by --memory, and foretold by info.
+// Tests the memory of a run: --memory limits it, and `info` forecasts it.
 #include "regression/program.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ using nlohmann::json;
 
 class Memory : public ProgramTest {
  protected:
-  // A stand of a thousand triangles under an overcast sky.
+  // Prepares a stand of a thousand triangles under an overcast sky.
   void SetUp() override {
     std::mt19937 engine(1);
     const auto uniform = [&] { return static_cast<double>(engine()) / 4294967296.0; };
@@ -51,7 +51,7 @@ optics = "leaf"
 )");
   }
 
-  // Eight replicates, large ones: their number is fixed, so that the test takes a few seconds.
+  // Eight large replicates: their number is fixed, so that the test takes a few seconds.
   const Arguments tight_{"--device", "cpu", "--threads", "2", "--images", "none", "--passes", "8", "--indirect-error", "3e-4"};
 };
 
@@ -65,7 +65,8 @@ TEST_F(Memory, OfReplicatesStaysBelowTheBound) {
   EXPECT_NEAR(summary()["indirect"]["first_round_packets"].get<double>() / packets, 0.5, 0.1);
 }
 
-// Memory that holds several comfortable replicates changes nothing: runs repeat on machines with more memory and less.
+// As long as memory holds several replicates comfortably, its size changes no result: runs can be repeated on machines with
+// more memory and with less.
 TEST_F(Memory, DoesNotDecideAboutResultsWhereThereIsEnough) {
   const Arguments work{"--device", "cpu", "--images", "none", "--error", "0.02"};
   simulate("stand.toml", work + Arguments{"--memory", "1GB"});

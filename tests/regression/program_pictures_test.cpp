@@ -1,4 +1,4 @@
-// Pictures as a user gets them: `run --images`, `render` from a folder and from a scene, PNG and EXR.
+// Tests pictures as a user gets them: `run --images`, `render` from a folder and from a scene, PNG and EXR.
 
 #include "regression/program.h"
 #include "support/table.h"
@@ -19,7 +19,8 @@ namespace {
 using Rgb = std::array<double, 3>;
 using Pixel = std::array<unsigned char, 3>;
 
-// A level plate and one that rises towards the south, black in the band, coloured for the eye; nothing below them.
+// A level plate and one that rises towards the south; they are black in the band but coloured for the eye, with nothing below
+// them.
 constexpr const char* plates_scene = R"(title = "Two plates"
 [plot]
 size     = [2.0, 1.0]
@@ -43,7 +44,7 @@ constexpr const char* plates_obj =
     "v 0 0.5 0\nv 0 0.5 1\nv 1 0.5 1\nv 1 0.5 0\nv 1.1 0.2 0\nv 1.1 0.2 1\nv 1.9 1 1\nv 1.9 1 0\n"
     "usemtl level\nf 1 2 3 4\nusemtl slope\nf 5 6 7 8\n";
 
-// The same over bright soil, without end.
+// The same plates over bright soil, in an endless plot.
 constexpr const char* bright_scene = R"(title = "Two plates over soil"
 [plot]
 size = [2.0, 1.0]
@@ -97,8 +98,8 @@ unsigned char srgb(double linear) {
   return static_cast<unsigned char>(std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
 }
 
-// The manual's formulas (src/view/tone_map.h), worked out from the table of triangles. Only upper faces are lit; each triangle
-// is more than 0.5 % of all area, so that L995 is the largest luminance.
+// Computes the manual's formulas (src/view/tone_map.h) from the table of triangles. Only upper faces are lit; each triangle is
+// more than 0.5 % of the total area, so L995 is the largest luminance.
 TEST_F(Pictures, OfHueMappingHaveColoursWorkedOutByHand) {
   simulate("plates.toml", quick + Arguments{"--samples", "1", "--view", "top", "--images", "hue_direct", "--export", "csv"});
   const Table triangles(file("triangles.csv"));
@@ -149,7 +150,7 @@ TEST_F(Pictures, FromAFolderAreThoseOfTheRun) {
   EXPECT_EQ(content(folder_ / "again.png"), file("rank-interval_total.png"));
 }
 
-// The line below a chart tells how many rays, packets and rays from the sky it took.
+// The line below a chart states its numbers of rays, packets and rays from the sky.
 TEST_F(Pictures, OfSkyLightFromAFolderAreThoseOfTheRun) {
   std::string sky_scene = bright_scene;
   for (const char* beam : {"direct = 100.0\n", "direct = 80.0\n"}) {
@@ -225,7 +226,7 @@ TEST_F(Pictures, AsExrHoldTheValuesThemselves) {
     }
     ASSERT_LT(element, 4U);
     const double expected = triangles.number(element, "PAR_direct_upper");
-    if (std::abs(value - expected) < 1e-6 * expected) ++whole[element];  // else a pixel on an edge
+    if (std::abs(value - expected) < 1e-6 * expected) ++whole[element];  // otherwise the pixel lies on an edge
   }
   for (const int count : whole) EXPECT_GT(count, 1000);
   FreeEXRImage(&image);

@@ -1,5 +1,5 @@
-// The main scene against its reviewed tables in reference/. SUNFLECK_UPDATE_REFERENCES=1 rewrites them; review the change and
-// explain it in the commit.
+// Compares the main scene with its reviewed tables in reference/. SUNFLECK_UPDATE_REFERENCES=1 rewrites them; review the change
+// and explain it in the commit.
 
 #include "regression/program.h"
 #include "support/table.h"
@@ -9,8 +9,8 @@
 namespace sunfleck::regression {
 namespace {
 
-// On one kind of machine the bytes are the same. Elsewhere a sine may differ in its last place, which may turn the ninth
-// digit of a cell: at most 1e-8 of it.
+// On one kind of machine the bytes are the same. Elsewhere a sine may differ in its last place, which may change the ninth
+// digit of a cell, by at most 1e-8 of its value.
 constexpr double tolerance = 1e-8;
 
 class Reference : public ProgramTest, public ::testing::WithParamInterface<std::string> {};

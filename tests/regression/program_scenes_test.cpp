@@ -1,4 +1,4 @@
-// Every scene of scenes/, run quickly: do the files say what the manual promises, and do they agree with each other?
+// Runs every scene of scenes/ quickly, and tests whether the files contain what the manual promises and agree with each other.
 
 #include "regression/program.h"
 #include "support/table.h"
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// Cells hold nine significant digits, so a sum of products of two cells is off by 1e-8 of its terms at most.
+// Cells hold nine significant digits, so a sum of products of two cells is off by at most 1e-8 of its terms.
 constexpr double table_rounding = 1e-8;
 
 constexpr int width = 160;
@@ -30,7 +30,7 @@ void expect_keys(const json& object, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
 }
 
-// The number that follows a big-endian four-byte place of a PNG's header.
+// Returns the big-endian four-byte number at a place of a PNG's header.
 int big_endian(const std::string& bytes, std::size_t at) {
   int value = 0;
   for (std::size_t i = at; i < at + 4; ++i) value = value * 256 + static_cast<unsigned char>(bytes.at(i));
@@ -153,7 +153,7 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
   EXPECT_EQ(big_endian(picture, 20), height);
 }
 
-// Maps and sensors, where the scene has them.
+// Checks the maps and sensors of scenes that have them.
 TEST_P(Scenes, ShowWhatTheirReceiversSaw) {
   const json& planes = summary_["planes"];
   EXPECT_EQ(planes.empty(), text_.find("[[plane]]") == std::string::npos);
@@ -212,7 +212,8 @@ TEST_P(Scenes, AgreeWithThemselves) {
         EXPECT_NEAR(direct, incident * (1.0 - on_ground), table_rounding * incident);
         EXPECT_GE(profile.number(0, band + "_down"), incident * on_ground * (1.0 - table_rounding));
       }
-      // What goes down through a plane and does not come up again is absorbed below it, or leaves there, or is unshot.
+      // The flux that goes down through a plane and does not come up again is absorbed below it, leaves the stand there, or is
+      // unshot.
       double below = double{balance["absorbed_soil"]} + double{balance["transmitted"]};
       for (std::size_t k = 0; k < profile.size(); ++k) {
         const double net = profile.number(k, band + "_down") - profile.number(k, band + "_up");
@@ -228,7 +229,7 @@ TEST_P(Scenes, AgreeWithThemselves) {
     }
     const double ratio = summary_["sun"].is_null() ? 1.0 : profile.number(k, "sunfleck_ratio");
     EXPECT_TRUE(ratio >= 0.0 && ratio <= 1.0) << k;
-    // Under an endless canopy no light enters from the side; beside a stand alone it does.
+    // Under an endless canopy no light enters from the side; beside an isolated stand it does.
     if (periodic() && k > 0 && !summary_["sun"].is_null()) {
       EXPECT_GE(ratio, profile.number(k - 1, "sunfleck_ratio")) << k;
     }

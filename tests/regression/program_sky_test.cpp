@@ -1,5 +1,5 @@
-// The sky through the program itself: an upright black square over black soil, alone, sees what the tables of the sky models
-// say (E1 to E4 of the validation table).
+// Tests the sky through the program itself: an upright black square over black soil, alone, receives what the tables of the sky
+// models state (E1 to E4 of the validation table).
 #include "regression/program.h"
 #include "support/table.h"
 
@@ -18,7 +18,8 @@ class ProgramSky : public ProgramTest {
     folder_.write("east.obj", "v 0.1 0.03 0.05\nv 0 0.03 0.05\nv 0 0.13 0.05\nv 0.1 0.13 0.05\nf 1 2 3\nf 1 3 4\n");
   }
 
-  // Sky irradiance on both faces relative to the horizontal: the face the square is named after, then the one behind.
+  // Returns the sky irradiance on both faces relative to the horizontal: first on the face after which the square is named,
+  // then on the face behind.
   [[nodiscard]] std::array<double, 2> faces(const std::string& square, const std::string& sky) const {
     folder_.write("scene.toml",
                   "[plot]\nsize = [0.1, 0.1]\nperiodic = false\n[sun]\nelevation = 53.0176\nazimuth = 120.569\n"
@@ -60,7 +61,7 @@ TEST_F(ProgramSky, AnUprightSquareSeesTheTables) {
     const std::array east_west = faces("east.obj", row.sky);
     const std::array got = {north_south[0], east_west[0], north_south[1], east_west[1]};
     for (std::size_t k = 0; k < got.size(); ++k) {
-      // The bound holds for both faces together; one of them may be off by half as much again, relative to itself.
+      // The bound holds for both faces together; the relative error of one face may be half as large again.
       std::printf("%-32.32s face %zu expected %.5f got %.5f\n", row.sky, k, row.toward[k], got[k]);
       EXPECT_NEAR(got[k], row.toward[k], (0.003 + 1.5 * bound) * row.toward[k]) << row.sky << " face " << k;
     }

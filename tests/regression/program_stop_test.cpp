@@ -1,4 +1,4 @@
-// The line at the end of a stopped run: which pass fell short, of which bound, and whose error that is.
+// Tests the line at the end of a stopped run: it names the pass that fell short, its bound, and the figure with that error.
 #include "regression/program.h"
 
 namespace sunfleck::regression {

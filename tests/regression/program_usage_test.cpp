@@ -1,4 +1,4 @@
-// Bad usage: each is one line on standard error, before any work.
+// Tests bad usage: each mistake gives one line on standard error, before any work starts.
 
 #include "regression/program.h"
 
@@ -6,13 +6,13 @@ namespace sunfleck::regression {
 namespace {
 
 struct Mistake {
-  Arguments more;     // after `run SCENE`
-  std::string names;  // what the message has to name
+  Arguments more;     // appended to `run SCENE`
+  std::string names;  // text that the message must contain
 };
 
 class Usage : public ProgramTest {
  protected:
-  // `arguments` begin with a command that takes -o.
+  // Expects an error; `arguments` begin with a command that takes -o.
   void expect_refused(Arguments arguments, const std::string& names, int status = 2) const {
     arguments.insert(arguments.begin() + 1, {"-o", "out"});
     SCOPED_TRACE(::testing::PrintToString(arguments));

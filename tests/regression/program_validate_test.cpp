@@ -1,4 +1,4 @@
-// sunfleck validate: cases that are quick, on the CPU path and on software Vulkan, and what is wrong to ask for.
+// Tests sunfleck validate: quick cases, on the CPU path and on software Vulkan, and requests that are refused.
 
 #include "regression/program.h"
 
@@ -14,14 +14,14 @@ class Validate : public ProgramTest {
   }
 };
 
-// The rows of the Markdown table, as text.
+// Returns the rows of the Markdown table, as text.
 std::vector<std::string> markdown_rows(const std::string& text) {
   std::vector<std::string> rows;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind("| ", 0) == 0) rows.push_back(line);
   }
-  rows.erase(rows.begin(), rows.begin() + 2);  // columns and their rule
+  rows.erase(rows.begin(), rows.begin() + 2);  // removes the names of the columns and the rule below them
   return rows;
 }
 
@@ -46,7 +46,7 @@ TEST_F(Validate, OnTheCpuPath) {
   }
 }
 
-// The same numbers to the last bit.
+// Software Vulkan gives the same numbers to the last bit.
 TEST_F(Validate, OnSoftwareVulkanAsOnTheCpuPath) {
   const Arguments some{"validate", "--cases", "view", "--cases", "over soil", "--json"};
   const Outcome device = run(some + Arguments{"--device", "lavapipe", "-o", "device"});

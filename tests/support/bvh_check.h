@@ -1,6 +1,6 @@
 #pragma once
-// What tests of the tree share: canopies by hand, a check of everything that bvh.h promises of a tree, and a plain walk in
-// double precision.
+// Functions shared by the tests of the tree: hand-made canopies, a check of everything that bvh.h promises of a tree, and a
+// plain walk in double precision.
 
 #include "bvh/bvh.h"
 
@@ -21,7 +21,7 @@ namespace sunfleck::testing_bvh {
 
 using Random = std::mt19937;
 
-// libstdc++'s distributions are avoided: these numbers are the same everywhere.
+// Returns a number in [0, 1) without the distributions of the standard library, whose numbers differ between implementations.
 inline double uniform(Random& random) {
   return static_cast<double>(random()) / 4294967296.0;
 }
@@ -81,7 +81,7 @@ struct DoubleBox {
   }
 };
 
-// The child's box in exact arithmetic; doubles hold every coordinate.
+// Returns the child's box in exact arithmetic; doubles hold every coordinate.
 inline DoubleBox exact_child_box(const BvhNode& node, std::size_t k) {
   DoubleBox box;
   const std::array lo = {node.lo_x[k], node.lo_y[k], node.lo_z[k]};
@@ -190,7 +190,7 @@ inline bool meets(const Line& line, const DoubleBox& box, double t_min) {
   return enter <= leave;
 }
 
-// Moeller & Trumbore 1997, edges included.
+// Tests a ray against a triangle, edges included (Moeller & Trumbore 1997).
 inline bool hits(const Line& ray, const BvhTriangle& triangle) {
   const glm::dvec3 ab = corner(triangle.b) - corner(triangle.a);
   const glm::dvec3 ac = corner(triangle.c) - corner(triangle.a);

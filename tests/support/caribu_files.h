@@ -1,5 +1,5 @@
 #pragma once
-// Files in CARIBU's formats, made from their rules.
+// Writes files in CARIBU's formats, built from the rules of these formats.
 
 #include <sstream>
 #include <string>
@@ -10,10 +10,10 @@ inline const std::string grey_opt =
     "# reflect and transmit\nn 2\ns d 0.15\n# first\ne d 0.1 d 0.12 0.06 d 0.2 0.05\ne d 0.3  d 0.4 0.45  d 0.4 0.45\n";
 inline const std::string black_opt = "n 1\ns d 0\ne d 0  d 0 0  d 0 0\n";
 
-// Three checkerboards at z = 15, 10 and 5 over 20 x 20, of squares 10, 5 and 2.5 wide, as leaves 1, 2 and 3: 192 triangles.
-// A square wave and its copies of double frequency have no frequency in common (1, 3, 5, ... and 2, 6, 10, ...), so however
-// the direction of the light shifts one layer's shadow against the next, it covers half of what is left: the layers intercept
-// 1/2, 1/4 and 1/8 of any beam, and 1/8 comes through.
+// Returns three checkerboards at z = 15, 10 and 5 over 20 x 20, with squares 10, 5 and 2.5 wide, as leaves 1, 2 and 3: 192
+// triangles. A square wave and its copies of double frequency have no frequency in common (1, 3, 5, ... and 2, 6, 10, ...), so
+// whichever direction the light shifts one layer's shadow against the next, each layer covers half of the remaining area: the
+// layers intercept 1/2, 1/4 and 1/8 of any beam, and 1/8 comes through.
 inline std::string filter_can() {
   constexpr int cells = 8;
   constexpr double width = 2.5;

@@ -1,5 +1,5 @@
 #pragma once
-// Is a histogram as flat as chance makes it?
+// Tests whether a histogram is as flat as chance allows.
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 namespace sunfleck::test {
 
-// Pearson's chi-square of equally likely bins lies between the quantiles that chance misses once in ten thousand times on
-// either side.
+// Expects Pearson's chi-square of equally likely bins to lie between the quantiles that chance misses once in ten thousand
+// times on either side.
 inline void expect_flat(const std::vector<std::uint64_t>& bins, const char* what) {
   const double total = static_cast<double>(std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}));
   const double expected = total / static_cast<double>(bins.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Comparing an estimate with its known value.
+// Compares estimates with their known values.
 
 #include "transport/statistics.h"
 
@@ -10,26 +10,27 @@
 
 namespace sunfleck::test {
 
-// Standard error behind a half-width of the default confidence 0.95.
+// Returns the standard error behind a half-width of the default confidence, 0.95.
 inline double standard_error(const Estimate& estimate, std::size_t replicates) {
   return estimate.half_width / t_quantile(0.95, replicates);
 }
 
-// Student's t for `count` comparisons that together fail by chance once in a thousand times (Sidak).
+// Returns Student's t for `count` comparisons that together fail by chance once in a thousand times (Sidak).
 inline double table_quantile(std::size_t count, std::size_t replicates) {
   const double each = std::pow(1.0 - 0.001, 1.0 / static_cast<double>(count));
   return t_quantile(each, replicates);
 }
 
-// The mean of independent runs as an estimate like those of a result.
+// Returns the mean of independent runs in the form of a result's estimates.
 inline Estimate estimate_of(const ReplicateMean& mean) {
   return mean.estimate(t_quantile(0.95, mean.count()));
 }
 
-// What remains of a value where the arithmetic itself is single precision.
+// Relative error of values computed in single precision.
 inline constexpr double rounding = 1e-6;
 
-// Within the estimate's own error, and with an error small enough to be a test; an entry without error equals to 1e-6.
+// Expects a value within the estimate's own error, and an error small enough to make this a test. An entry without an error
+// must be equal to 1e-6.
 inline void expect_agrees(const Estimate& got, double expected, std::size_t replicates, double largest_standard_error,
                           std::size_t comparisons, const char* what) {
   const double error = standard_error(got, replicates);
@@ -40,19 +41,19 @@ inline void expect_agrees(const Estimate& got, double expected, std::size_t repl
       << what << ": got " << got.value << " +- " << error << ", expected " << expected;
 }
 
-// Two estimates of one value from independent runs with as many replicates each.
+// Expects two estimates of one value to agree; they come from independent runs with `replicates` replicates each.
 inline void expect_same(const Estimate& a, const Estimate& b, std::size_t replicates, double largest_standard_error,
                         std::size_t comparisons, const char* what) {
   const Estimate difference{a.value - b.value, std::hypot(a.half_width, b.half_width)};
   expect_agrees(difference, 0.0, replicates, largest_standard_error, comparisons, what);
 }
 
-// Judges the reported errors by a whole table of independent comparisons: z must scatter as Student's t does.
+// Judges the reported errors by a whole table of independent comparisons: z must be distributed as Student's t.
 class ZScores {
  public:
   explicit ZScores(std::size_t replicates) : replicates_(replicates) {}
 
-  // An entry without error only has to be equal.
+  // Adds a comparison. An entry without an error only has to be equal.
   void add(const Estimate& got, double expected, const char* what) {
     const double error = standard_error(got, replicates_);
     if (error == 0.0) {
@@ -65,7 +66,7 @@ class ZScores {
     ++count_;
   }
 
-  // The mean within its own error at 0.1 %, the root mean square within 25 % of Student's.
+  // Expects the mean within its own error at 0.1 %, and the root mean square within 25 % of that of Student's t.
   void expect_plausible() const {
     const auto n = static_cast<double>(count_);
     const double degrees = static_cast<double>(replicates_) - 1.0;
@@ -73,7 +74,8 @@ class ZScores {
     const double mean = sum_ / n;
     const double rms = std::sqrt(squares_ / n);
     std::printf("z of %zu comparisons: mean %+.3f, rms %.3f (Student's %.3f)\n", count_, mean, rms, spread);
-    constexpr double two_sided_quantile = 3.2905267314919;  // of the standard normal: 0.1 % lie beyond it on the two sides
+    // Quantile of the standard normal distribution: 0.1 % lie beyond it on the two sides together.
+    constexpr double two_sided_quantile = 3.2905267314919;
     EXPECT_LE(std::abs(mean), two_sided_quantile * spread / std::sqrt(n));
     EXPECT_GE(rms, 0.75 * spread);
     EXPECT_LE(rms, 1.25 * spread);

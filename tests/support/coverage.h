@@ -1,6 +1,6 @@
 #pragma once
-// Are the reported errors of scattered light true? Seeds 1 to 400 of a small scene, each run to its bounds like a user's
-// (G2 of the validation table).
+// Tests whether the reported errors of scattered light are true: runs seeds 1 to 400 of a small scene, each to its bounds like
+// a user's run (G2 of the validation table).
 
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
@@ -10,7 +10,7 @@
 namespace sunfleck::test {
 
 inline constexpr int coverage_seeds = 400;
-// Binomial with probability 0.95: outside of these bounds once in a thousand times.
+// Bounds that a binomial count with probability 0.95 misses once in a thousand times.
 inline constexpr int least_covered = 366;
 inline constexpr int most_covered = 394;
 
@@ -18,10 +18,10 @@ struct Covered {
   std::string what;
   double truth;
   int times = 0;
-  int by_sampling = 0;  // by the half-width without the unshot flux in it
+  int by_sampling = 0;  // covered by the half-width without its share for unshot flux
 };
 
-// Absorbed by leaves, by soil, and reflected, band by band.
+// Returns the flux absorbed by leaves, absorbed by soil, and reflected, band by band.
 inline std::vector<Estimate> fluxes_of(const RadiationResult& result) {
   std::vector<Estimate> fluxes;
   for (const BandResult& band : result.bands) {
@@ -30,8 +30,9 @@ inline std::vector<Estimate> fluxes_of(const RadiationResult& result) {
   return fluxes;
 }
 
-// `long_run` sizes the run that stands for the truth. Half-widths hold the unshot flux as well, so that where it is not small
-// beside the sampling error they cover more often than asked: up to `most_with_unshot` times.
+// Expects the intervals of many short runs to cover the truth, which a long run of size `long_run` determines. Half-widths
+// include the unshot flux, so where that is not small compared with the sampling error they cover more often than requested: up
+// to `most_with_unshot` times.
 inline void expect_coverage(const RadiationModel& model, const ScatterWork& long_run, const Accuracy& accuracy,
                             int most_with_unshot = most_covered) {
   const Prepared prepared(model);

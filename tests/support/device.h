@@ -1,7 +1,7 @@
 #pragma once
-// A Vulkan device for tests. Where there is none they are skipped and say so, or fail if SUNFLECK_REQUIRE_DEVICE=1 is set.
-// SUNFLECK_TEST_DEVICE chooses one by a part of its name; otherwise it is the software device, and hardware in its absence.
-// SUNFLECK_THOROUGH_VALIDATION=1 adds the checks of Validation::thorough.
+// Provides a Vulkan device for tests. Without a device they are skipped and say so, or fail if SUNFLECK_REQUIRE_DEVICE=1 is
+// set. SUNFLECK_TEST_DEVICE chooses a device by a part of its name; by default it is the software device, or hardware if there
+// is none. SUNFLECK_THOROUGH_VALIDATION=1 adds the checks of Validation::thorough.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "gpu/context.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-// The validation layer (1.3.239) leaks and is unloaded before the report, so that its leaks cannot be told by their origin.
+// The validation layer (1.3.239) leaks and is unloaded before the report, so its leaks cannot be recognised by their origin.
 extern "C" [[gnu::used]] inline const char* __asan_default_options() {
   return "detect_leaks=0";
 }
@@ -20,7 +20,7 @@ extern "C" [[gnu::used]] inline const char* __asan_default_options() {
 
 namespace sunfleck {
 
-// With validation wherever the layer is installed; a message of it fails the test that caused it.
+// Runs with validation wherever the layer is installed; a validation message fails the test that caused it.
 class DeviceTest : public testing::Test {
  protected:
   void SetUp() override {

@@ -1,6 +1,6 @@
 #pragma once
-// Homogeneous canopies of small flat leaves as in B11 of the validation table, where an explicit-disc ray tracer gave the
-// answer; many random scenes, scene noise removed by regression.
+// Homogeneous canopies of small flat leaves as in B11 of the validation table, where an explicit-disc ray tracer provides the
+// reference. Averages over many random scenes and removes the scene noise by regression.
 
 #include "support/leaf_scenes.h"
 
@@ -16,26 +16,26 @@ namespace sunfleck::test {
 
 enum class CanopyLight { paper_sun, uniform_sky };
 
-// `count` regular polygons of equal area over 2 x 2 m, their centres
-// evenly between a disc's radius and 2 m above the ground.
+// A canopy of `count` regular polygons of equal area over 2 x 2 m, whose centres are distributed evenly between a disc's radius
+// and 2 m above the ground.
 struct DiscCanopy {
-  double radius_m;  // of the disc of a leaf's area
+  double radius_m;  // radius of the disc with a leaf's area
   int count;
-  bool horizontal;  // else all orientations alike
+  bool horizontal;  // otherwise all orientations are equally likely
   int corners = 12;
 
   [[nodiscard]] double leaf_m2() const { return std::numbers::pi * radius_m * radius_m; }
-  // E[T_0] under the paper sun, exact for that number of leaves (A7).
+  // Returns E[T_0] under the paper sun, exact for this number of leaves (A7).
   [[nodiscard]] double expected_beam_on_soil() const {
     const double shadow_m2 = leaf_m2() * (horizontal ? 1.0 : 0.5 / std::cos(radians(36.9824)));
     return std::pow(1.0 - shadow_m2 / 4.0, count);
   }
-  // The same under a uniform sky, leaves of all orientations: averaged over directions by the middle rule.
+  // Returns the same under a uniform sky for leaves of all orientations, averaged over directions by the midpoint rule.
   [[nodiscard]] double expected_sky_on_soil() const {
     constexpr int steps = 100000;
     double sum = 0.0;
     for (int k = 0; k < steps; ++k) {
-      const double sine = std::sqrt((k + 0.5) / steps);  // of elevation, its square even over [0, 1)
+      const double sine = std::sqrt((k + 0.5) / steps);  // sine of the elevation; its square is even over [0, 1)
       sum += std::pow(std::max(0.0, 1.0 - 0.5 * leaf_m2() / sine / 4.0), count);
     }
     return sum / steps;
@@ -56,7 +56,7 @@ inline Mesh disc_leaves(const DiscCanopy& canopy, std::uint32_t seed) {
   return maker.mesh();
 }
 
-// The mean of y where x has its known mean: x as a control variate, the slope fitted.
+// Estimates the mean of y, using x with its known mean as a control variate; the slope is fitted.
 class Regression {
  public:
   explicit Regression(double mean_x) : mean_x_(mean_x) {}
@@ -65,7 +65,7 @@ class Regression {
     y_.push_back(y);
   }
   struct Fit {
-    double value, error;  // and its standard error
+    double value, error;  // the value and its standard error
   };
   [[nodiscard]] Fit fit() const {
     const auto n = static_cast<double>(x_.size());
@@ -93,7 +93,8 @@ class Regression {
   std::vector<double> x_, y_;
 };
 
-// Per band reflected, on soil, absorbed by leaves: over many random scenes, freed of the scenes' own share of beam on soil.
+// Fluxes of each band: reflected, on soil, and absorbed by leaves, over many random scenes. The regression removes the
+// influence of each scene's own share of beam on soil.
 struct CanopyFluxes {
   Regression::Fit reflected, on_soil, leaves;
 };
@@ -120,7 +121,8 @@ inline std::vector<CanopyFluxes> disc_canopy_fluxes(const DiscCanopy& canopy, in
   return fluxes;
 }
 
-// Two leaf sizes, the second half the first, extrapolated to none: the effect of finite leaves is nearly linear (B11).
+// Extrapolates from two leaf sizes, the second half the first, to leaves of no size: the effect of finite leaves is nearly
+// linear (B11).
 inline CanopyFluxes without_leaf_size(const CanopyFluxes& large, const CanopyFluxes& half) {
   const auto flux = [](const Regression::Fit& a, const Regression::Fit& b) {
     return Regression::Fit{2.0 * b.value - a.value, std::hypot(a.error, 2.0 * b.error)};
@@ -132,7 +134,7 @@ struct CanopyRow {
   double reflected, on_soil, leaves;
 };
 
-// The rule of B11: 1 % on what is reflected, 0.002 on the rest, and errors small enough to tell.
+// Checks a row by the rule of B11: 1 % on reflected flux, 0.002 on the rest, and errors small enough to make this a test.
 inline void expect_row(const CanopyFluxes& got, const CanopyRow& expected, const char* what) {
   const auto expect_flux = [&](const Regression::Fit& flux, double value, double tolerance, const char* name) {
     std::printf("%-24s %-10s expected %.5f got %.5f(%.1e), off by %+.5f of %.5f\n", what, name, value, flux.value, flux.error,

@@ -1,5 +1,5 @@
 #pragma once
-// Embree, the outside judge and the measure of speed, over the same triangles as our tree.
+// Runs Embree, the independent reference for hits and speed, on the same triangles as our tree.
 
 #include "bvh/bvh.h"
 
@@ -10,7 +10,7 @@
 
 namespace sunfleck::test {
 
-// Gives the scene the references of one period, in the order of the tree's leaves; it is not committed yet.
+// Attaches the references of one period to the scene, in the order of the tree's leaves; the caller commits the scene.
 inline void attach_references(RTCDevice device, RTCScene scene, const Bvh& bvh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the exports write: two triangles with results chosen by hand, and a simulated maize plant on soil.
+// Models that the tests of the exports write: two triangles with results chosen by hand, and a simulated maize plant on soil.
 
 #include "canopy/maize.h"
 #include "io/exports.h"
@@ -13,10 +13,10 @@ namespace sunfleck::test {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-// Characters that end a string, a line, a tag, a number or a field somewhere, and a byte that is no UTF-8.
+// Contains characters that end a string, a line, a tag, a number or a field in some format, and a byte that is not UTF-8.
 inline const std::string awkward_name = "a \"tip\", <dry> & 'x'\n\x01#;\\\xff\xc3\xa9";
 
-// Two triangles of two organs, far from zero; A is black, B scatters. Both have sky light.
+// Returns two triangles of two organs, far from the origin; A is black, B scatters. Both receive sky light.
 inline RadiationModel two_triangles() {
   RadiationModel model;
   model.plot = {2.0, 3.0, true};
@@ -35,7 +35,7 @@ inline RadiationModel two_triangles() {
   return model;
 }
 
-// On the first triangle 20 and 4 landings of 0.01 m2 of level ground, and in B quanta of 0.01 W.
+// The first triangle has 20 and 4 landings of 0.01 m2 of level ground; in B a quantum is 0.01 W.
 inline RadiationResult two_triangles_result() {
   RadiationResult result;
   result.bands = {{"A", {}, 100.0, 0.0, {60.0, 1.0}, {30.0, 2.0}, {0.0, 0.0}, {10.0, no_value}},
@@ -61,7 +61,7 @@ inline RunRecord awkward_record() {
   return record;
 }
 
-// A maize plant that scatters in two bands, over soil of two triangles; periodic, without a soil plane.
+// Returns a maize plant that scatters in two bands, over soil of two triangles; periodic, without a soil plane.
 inline RadiationModel maize_on_soil() {
   MaizeStand stand;
   stand.rows = 1;
@@ -86,7 +86,7 @@ inline RadiationModel maize_on_soil() {
   return model;
 }
 
-// Grey, darker with every triangle.
+// Returns greys, darker with every triangle.
 inline std::vector<ElementColour> grey_colours(std::size_t count) {
   std::vector<ElementColour> colours;
   for (std::size_t e = 0; e < count; ++e) {

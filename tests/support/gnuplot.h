@@ -1,6 +1,6 @@
 #pragma once
-// Tests that draw with the real gnuplot, and look at what it drew. Without the program they are skipped and say so, or fail if
-// SUNFLECK_REQUIRE_DEVICE=1 is set.
+// Support for tests that draw with the real gnuplot and examine the pictures. Without the program they are skipped and say so,
+// or fail if SUNFLECK_REQUIRE_DEVICE=1 is set.
 
 #include "io/gnuplot.h"
 #include "support/temp_folder.h"
@@ -27,7 +27,7 @@ struct Picture {
   std::vector<Pixel> pixels;
 
   [[nodiscard]] Pixel at(int x, int y) const { return pixels.at(static_cast<std::size_t>(y) * width + x); }
-  // Pixels of that colour, each channel within `tolerance`.
+  // Counts the pixels of this colour, each channel within `tolerance`.
   [[nodiscard]] std::size_t count(const Pixel& colour, int tolerance = 0) const {
     return static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), [&](const Pixel& pixel) {
       return std::abs(pixel[0] - colour[0]) <= tolerance && std::abs(pixel[1] - colour[1]) <= tolerance &&
@@ -63,7 +63,7 @@ class GnuplotTest : public testing::Test {
     GTEST_SKIP() << *warning;
   }
 
-  // Draws twice, expects the same bytes, and reads them.
+  // Draws twice, expects identical bytes, and reads the picture.
   [[nodiscard]] Picture draw(const std::string& script) const {
     const std::filesystem::path first = folder_ / "first.png", second = folder_ / "second.png";
     EXPECT_EQ(draw_plot(script, first).value_or(""), "");

@@ -1,5 +1,5 @@
 #pragma once
-// Canopies whose leaves reflect and transmit, and the settings that test them.
+// Canopies whose leaves reflect and transmit, and settings for testing them.
 
 #include "support/models.h"
 
@@ -13,7 +13,7 @@
 
 namespace sunfleck::test {
 
-// Leaves alike on both faces, over Lambertian soil.
+// Leaves with equal faces, over Lambertian soil.
 struct BandOptics {
   std::string name;
   double reflectance, transmittance, soil_reflectance;
@@ -21,7 +21,7 @@ struct BandOptics {
 inline const BandOptics paper_par{"PAR", 0.12, 0.06, 0.15};
 inline const BandOptics usual_nir{"NIR", 0.45, 0.45, 0.20};
 
-// Every surface of a black_model becomes such a leaf; each band has 1 W m-2 on the horizontal.
+// Gives every surface of a black_model these optics; each band has 1 W m-2 on the horizontal.
 inline RadiationModel scattering_model(RadiationModel model, std::span<const BandOptics> bands) {
   model.bands.clear();
   std::vector<FaceOptics> faces;
@@ -59,7 +59,7 @@ inline SolveSettings fixed_scatter(const RadiationModel& model, const ScatterWor
   return settings;
 }
 
-// All light that lands on the soil plane (W m-2 of ground), from the map of its cells.
+// Returns all light that lands on the soil plane (W m-2 of ground), from the map of its cells.
 inline double soil_irradiance_w_m2(const RadiationModel& model, const RadiationResult& result, std::size_t band) {
   double sum_w = 0.0;
   for (const std::uint64_t landings : result.soil_cells) {
@@ -71,7 +71,7 @@ inline double soil_irradiance_w_m2(const RadiationModel& model, const RadiationR
   return sum_w / model.plot.area_m2();
 }
 
-// Exchanges the beam for as much sky light.
+// Replaces the beam by the same amount of sky light.
 inline void shine_from_sky(RadiationModel& model, const SkyModel& sky) {
   for (Waveband& band : model.bands) {
     band.diffuse_w_m2 = band.direct_w_m2;
@@ -80,7 +80,7 @@ inline void shine_from_sky(RadiationModel& model, const SkyModel& sky) {
   model.sky = sky;
 }
 
-// The sky's unscattered light on the soil plane (W m-2 of ground).
+// Returns the sky's unscattered light on the soil plane (W m-2 of ground).
 inline double sky_on_soil_w_m2(const RadiationModel& model, const RadiationResult& result, std::size_t band) {
   double sum_w = 0.0;
   for (std::size_t k = band; k < result.cell_sky.size(); k += model.bands.size()) {
@@ -89,7 +89,7 @@ inline double sky_on_soil_w_m2(const RadiationModel& model, const RadiationResul
   return sum_w / model.plot.area_m2();
 }
 
-// Scene S1 of the validation table (B12): 300 square leaves of 0.1 m, an organ each, over 1 m2.
+// Scene S1 of the validation table (B12): 300 square leaves of 0.1 m, one organ each, over 1 m2.
 struct ExplicitLeaf {
   glm::dvec3 centre_m, normal;  // x east, y north, z up
 };
@@ -99,7 +99,7 @@ struct ExplicitScene {
 };
 inline ExplicitScene explicit_scene() {
   std::uint64_t state = 20020808;
-  const auto unit = [&] {  // SplitMix64
+  const auto unit = [&] {  // the generator SplitMix64
     std::uint64_t z = state += 0x9e3779b97f4a7c15;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
     z = (z ^ (z >> 27)) * 0x94d049bb133111eb;

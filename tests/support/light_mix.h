@@ -1,5 +1,5 @@
 #pragma once
-// A small scene with a little of everything that replicates count: sun, sky, two bands, soil, leaves that scatter, receivers.
+// A small scene with a little of everything that replicates count: sun, sky, two bands, soil, scattering leaves, receivers.
 
 #include "support/scattering.h"
 
@@ -17,7 +17,7 @@ inline RadiationModel light_mix() {
   return model;
 }
 
-// Some 16 quick replicates, or more.
+// Returns settings that need about 16 quick replicates or more.
 inline SolveSettings to_a_wide_bound() {
   SolveSettings settings;
   settings.accuracy.direct = 0.02;

@@ -1,5 +1,5 @@
 #pragma once
-// A small scene for what is behind the window: a leaf over soil, two bands, sun and sky.
+// A small scene for testing the simulation behind the window: a leaf over soil, two bands, sun and sky.
 
 #include "app/options.h"
 #include "io/scene_reader.h"
@@ -62,7 +62,7 @@ inline std::filesystem::path write_live_scene(const TempFolder& folder) {
   return folder.write("leaves.toml", live_scene_text);
 }
 
-// A simulation on the CPU path, as the window has it.
+// A simulation on the CPU path, set up as in the window.
 struct LiveScene {
   explicit LiveScene(const std::filesystem::path& file)
       : scene(read_scene(file)), simulation(scene, DeviceRequest{"cpu", 0, 0}, EngineUse::drawn_meanwhile) {
@@ -71,7 +71,7 @@ struct LiveScene {
     options.quiet = true;
   }
   RunOptions options;
-  const Scene scene;  // as it was read
+  const Scene scene;  // the scene as it was read
   Simulation simulation;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The two maize stands that the tests look at, and sums over their triangles.
+// The two maize stands used by the tests, and sums over their triangles.
 
 #include "canopy/maize.h"
 
@@ -27,7 +27,7 @@ inline double plot_area_m2(const MaizeStand& stand) {
   return plot_size_m(stand).x * plot_size_m(stand).y;
 }
 
-// Normal of the upper face, as long as the triangle's area.
+// Returns the normal of the upper face; its length is the triangle's area.
 inline glm::dvec3 area_vector(const Mesh& mesh, std::size_t triangle) {
   const glm::uvec3& corner = mesh.triangles[triangle];
   const glm::dvec3& a = mesh.vertices[corner.x];

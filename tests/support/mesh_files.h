@@ -1,5 +1,5 @@
 #pragma once
-// One square of two triangles, (0,0,0) (1,0,0) (1,1,0) and (0,0,0) (1,1,0) (0,1,0), as a file of each format.
+// One square of two triangles, (0,0,0) (1,0,0) (1,1,0) and (0,0,0) (1,1,0) (0,1,0), as a file in each format.
 
 #include <zlib.h>
 
@@ -37,7 +37,7 @@ inline std::string stl_text_square() {
          "ENDFACET\nendsolid\n";
 }
 
-// Its comment begins with `solid`, as that of many binary files does.
+// Returns a binary file whose comment begins with `solid`, as in many binary files.
 inline std::string stl_binary_square() {
   std::string bytes = "solid but binary";
   bytes.resize(80, ' ');
@@ -60,7 +60,7 @@ inline std::string ply_text_square() {
 
 enum class ByteOrder { little, big };
 
-// The whole square as one quadrangle, coordinates of three types.
+// Returns the whole square as one quadrangle, with coordinates of three types.
 inline std::string ply_binary_square(ByteOrder order) {
   const bool big = order == ByteOrder::big;
   std::string bytes = std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
@@ -111,7 +111,7 @@ inline std::string glb(const nlohmann::json& document, const std::string& binary
   return bytes;
 }
 
-// Positions (48 bytes), then the six indices of the square as 16-bit numbers.
+// Returns the positions (48 bytes), then the six indices of the square as 16-bit numbers.
 inline std::string gltf_binary() {
   std::string binary;
   for (const std::array<float, 3>& corner : square_corners)

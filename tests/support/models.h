@@ -1,5 +1,5 @@
 #pragma once
-// Small scenes made in the tests, and one call that simulates them on the CPU path.
+// Small scenes built by the tests, and one call that simulates them on the CPU path.
 
 #include "bvh/bvh.h"
 #include "tracers/cpu_tracer.h"
@@ -26,17 +26,17 @@ inline SunPosition sun_at(double elevation_deg, double azimuth_deg) {
   return {radians(elevation_deg), radians(azimuth_deg)};
 }
 
-// The paper's instant (validation D2).
+// Returns the sun at the paper's instant (validation D2).
 inline SunPosition paper_sun() {
   return sun_at(53.0176, 120.569);
 }
 
-// validation.md's axes (x east, y north, z up) to the scene's (X south, Y up, Z west).
+// Converts validation.md's axes (x east, y north, z up) to the scene's (X south, Y up, Z west).
 inline glm::dvec3 from_enu(double x, double y, double z) {
   return {-y, z, -x};
 }
 
-// Collects triangles; each call of organ() begins the next organ, which takes the triangles that follow.
+// Collects triangles. Each call of organ() begins a new organ, to which the following triangles belong.
 class MeshMaker {
  public:
   void organ(const std::string& name, int plant = 1, int rank = 0) {
@@ -55,9 +55,9 @@ class MeshMaker {
     triangle(a, b, c);
     triangle(a, c, d);
   }
-  // A horizontal rectangle facing up, X from x0 to x1, Z from z0 to z1.
+  // Adds a horizontal rectangle facing up, X from x0 to x1, Z from z0 to z1.
   void level(double x0, double x1, double z0, double z1, double y) { quad({x0, y, z0}, {x0, y, z1}, {x1, y, z1}, {x1, y, z0}); }
-  // A regular polygon of that area, counter-clockwise about the normal, cut into a fan.
+  // Adds a regular polygon of this area, counter-clockwise about the normal, cut into a fan.
   void polygon(const glm::dvec3& centre, const glm::dvec3& normal, double area_m2, int corners, double spin_rad = 0.0) {
     const double step = 2.0 * std::numbers::pi / corners;
     const double radius_m = std::sqrt(2.0 * area_m2 / (corners * std::sin(step)));
@@ -75,7 +75,7 @@ class MeshMaker {
   Mesh mesh_;
 };
 
-// Numbers that are the same with every standard library.
+// Draws numbers that are the same with every standard library.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -86,13 +86,13 @@ class Random {
   std::mt19937 engine_;
 };
 
-// Unit vector of that inclination from the vertical, its horizontal part towards that angle from X to Z.
+// Returns the unit vector with this inclination from the vertical, whose horizontal part points at this angle from X towards Z.
 inline glm::dvec3 inclined(double inclination_rad, double angle_rad) {
   return {std::sin(inclination_rad) * std::cos(angle_rad), std::cos(inclination_rad),
           std::sin(inclination_rad) * std::sin(angle_rad)};
 }
 
-// Square leaves of random place and spherical orientation in a box on the plot; an organ each, their ranks from 1.
+// Returns square leaves of random place and spherical orientation in a box on the plot, one organ each, with ranks from 1.
 inline Mesh random_leaves(int count, double area_m2, const Plot& plot, double height_m, std::uint32_t seed) {
   Random random(seed);
   MeshMaker maker;
@@ -108,7 +108,7 @@ inline Mesh random_leaves(int count, double area_m2, const Plot& plot, double he
   return maker.mesh();
 }
 
-// One band "PAR" of 1 W m-2 on the horizontal; every surface black, soil included.
+// Returns a model with one band "PAR" of 1 W m-2 on the horizontal; every surface is black, including the soil.
 inline RadiationModel black_model(const Mesh& mesh, const Plot& plot, const SunPosition& sun) {
   RadiationModel model;
   model.plot = plot;
@@ -137,7 +137,7 @@ inline CpuTracer::Scene tracer_scene(const RadiationModel& model) {
   return {model.plot.periodic, model.soil.has_value()};
 }
 
-// `total_rays` in `replicates` replicates.
+// Returns settings for `total_rays` rays in `replicates` replicates.
 inline SolveSettings fixed_work(const RadiationModel& model, double total_rays, int replicates = 32, std::uint64_t seed = 1) {
   SolveSettings settings;
   settings.grid_m = std::sqrt(model.plot.area_m2() / total_rays);
@@ -156,7 +156,7 @@ inline RadiationResult simulate(const RadiationModel& model, const SolveSettings
   return simulate(model, Prepared(model), settings, walk);
 }
 
-// Share of the plot's beam that lands on an organ.
+// Returns the share of the plot's beam that lands on an organ.
 inline Estimate share_of_beam(const RadiationModel& model, const RadiationResult& result, std::size_t organ) {
   const OrganResult& got = result.organs.at(organ);
   return got.direct.at(0).scaled(got.area_m2 / model.plot.area_m2() / model.bands.at(0).direct_w_m2);

@@ -1,5 +1,5 @@
 #pragma once
-// Every number of a result but times of the clock, bit by bit: two runs are the same if these are.
+// Returns every number of a result except clock times, bit by bit: two runs are identical if these numbers are.
 
 #include "transport/result.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-// Scenes that scatter or glow, what their results keep in every case, and estimates of what a result gives without an error.
+// Scenes that scatter or emit light, checks that hold for every result, and estimates of values for which a result has no
+// error.
 
 #include "support/comparison.h"
 #include "support/models.h"
@@ -11,7 +12,7 @@
 
 namespace sunfleck::test {
 
-// So many bands of 1 W m-2 on the horizontal, every surface black in all of them.
+// Sets `count` bands of 1 W m-2 on the horizontal; every surface is black in all of them.
 inline void set_bands(RadiationModel& model, std::size_t count) {
   model.bands.clear();
   for (std::size_t b = 0; b < count; ++b) model.bands.push_back({"band" + std::to_string(b), 1.0, 0.0});
@@ -19,7 +20,7 @@ inline void set_bands(RadiationModel& model, std::size_t count) {
   if (model.soil) model.soil->reflectance.assign(count, 0.0);
 }
 
-// No sun and no soil: light comes from lamps only.
+// Returns a model without sun and soil: only lamps emit light.
 inline RadiationModel dark_model(const Mesh& mesh, const Plot& plot, std::size_t bands = 1) {
   RadiationModel model = black_model(mesh, plot, paper_sun());
   model.sun.reset();
@@ -28,12 +29,13 @@ inline RadiationModel dark_model(const Mesh& mesh, const Plot& plot, std::size_t
   return model;
 }
 
-// Both faces alike.
+// Sets both faces to the same optics.
 inline void set_faces(RadiationModel& model, std::size_t optics, const std::vector<FaceOptics>& faces) {
   model.optics.at(optics).upper = model.optics.at(optics).lower = faces;
 }
 
-// So many beam rays and first packets in each replicate; the unshot flux, below 1e-9 of the incident, does not matter.
+// Returns settings with this many beam rays and first packets in each replicate; the unshot flux, below 1e-9 of the incident,
+// does not matter.
 inline SolveSettings fixed_packets(const RadiationModel& model, double packets, int replicates = 32, std::uint64_t seed = 1) {
   SolveSettings settings = fixed_work(model, packets * replicates, replicates, seed);
   settings.packets = packets;
@@ -41,7 +43,7 @@ inline SolveSettings fixed_packets(const RadiationModel& model, double packets, 
   return settings;
 }
 
-// What holds in every scene. Without a beam the incident flux is what the lamps emit.
+// Checks what holds in every scene. Without a beam the incident flux is the flux that the lamps emit.
 inline void expect_sound(const RadiationModel& model, const RadiationResult& result) {
   EXPECT_EQ(result.lost_rays, 0U);
   for (std::size_t b = 0; b < result.bands.size(); ++b) {
@@ -62,17 +64,18 @@ inline RadiationResult simulate_soundly(const RadiationModel& model, const Solve
   return result;
 }
 
-// The flux that an organ absorbs, per ground area of the plot.
+// Returns the flux that an organ absorbs, per ground area of the plot.
 inline Estimate absorbed_by_organ(const RadiationModel& model, const RadiationResult& result, std::size_t organ,
                                   std::size_t band) {
   const OrganResult& got = result.organs.at(organ);
   return got.absorbed.at(band).scaled(got.area_m2 / model.plot.area_m2());
 }
 
-// All light on the two sides of groups of elements and on the soil plane, with errors from independent runs of one replicate.
+// Estimates all light on the two sides of groups of elements and on the soil plane, with errors from independent runs of one
+// replicate.
 class SideIrradiance {
  public:
-  // group_of: [element], from 0 on without gaps.
+  // `group_of`, [element], numbers the groups from 0 without gaps.
   SideIrradiance(const RadiationModel& model, std::vector<std::uint32_t> group_of, double packets, int runs,
                  std::uint64_t first_seed)
       : model_(model), group_of_(std::move(group_of)), bands_(model.bands.size()), soil_(bands_) {
@@ -90,11 +93,11 @@ class SideIrradiance {
     }
   }
 
-  // W m-2 of the group's one-sided area; side 0 is the upper one.
+  // Returns W m-2 of the group's one-sided area; side 0 is the upper one.
   [[nodiscard]] Estimate of(std::size_t group, std::size_t side, std::size_t band) const {
     return estimate_of(sides_.at((group * 2 + side) * bands_ + band));
   }
-  // W m-2 of ground.
+  // Returns W m-2 of ground.
   [[nodiscard]] Estimate of_soil(std::size_t band) const { return estimate_of(soil_.at(band)); }
 
  private:

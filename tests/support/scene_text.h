@@ -1,5 +1,5 @@
 #pragma once
-// A scene file with everything in it, a folder for it, and what every refusal of it must look like.
+// A scene file that contains everything, a folder for it, and a check of every error message about it.
 
 #include "base/error.h"
 #include "io/scene_reader.h"
@@ -15,7 +15,7 @@
 
 namespace sunfleck {
 
-// Every table and nearly every key of a scene file.
+// Contains every table and nearly every key of a scene file.
 inline const std::string good_scene = R"(title = "A test stand"
 
 [plot]
@@ -86,7 +86,7 @@ usemtl leaf
 f 4 5 6
 )";
 
-// Sky, weather and receivers, with every key of theirs that goes together.
+// Contains sky, weather and receivers, with all of their keys that can be combined.
 inline const std::string lit_scene = R"([plot]
 size = [2.0, 3]
 
@@ -144,7 +144,7 @@ inline void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-// A folder of its own for each test, with plates.obj and station.csv in it.
+// Creates a separate folder for each test, with plates.obj and station.csv in it.
 class SceneFolder : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -168,7 +168,8 @@ class SceneFolder : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-// The message of the one permitted kind of failure; none if the text is a scene. Anything else fails the test.
+// Returns the message of the only permitted kind of failure, or nothing if the text is a valid scene. Anything else fails the
+// test.
 inline std::optional<std::string> message_of(const std::function<void()>& work) {
   try {
     work();

@@ -1,5 +1,5 @@
 #pragma once
-// Skies to test, and integrals over them.
+// Skies for tests, and integrals over them.
 
 #include "light/sky.h"
 
@@ -26,7 +26,7 @@ inline glm::dvec3 to_sky(double zenith_rad, double azimuth_rad) {
 
 inline const std::array<glm::dvec3, 4> north_east_south_west{glm::dvec3(-1, 0, 0), {0, 0, -1}, {1, 0, 0}, {0, 0, 1}};
 
-// The integral of f over the hemisphere's solid angle: Gauss and Legendre's three by two points in each cell.
+// Integrates f over the hemisphere's solid angle, with Gauss-Legendre's three by two points in each cell.
 template <class Function>
 auto integral(const Function& f) {
   using Value = decltype(f(glm::dvec3()));

@@ -1,5 +1,5 @@
 #pragma once
-// A result table as scripts read it.
+// Reads a result table as a script would.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 namespace sunfleck::regression {
 
-// The cells of one line; a quoted one keeps its commas, a doubled quote in it is one.
+// Splits a line into its cells; a quoted cell keeps its commas, and a doubled quote in it stands for one.
 inline std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -59,7 +59,7 @@ class Table {
     static const std::string missing = "no such column";
     return found == columns_.end() ? missing : rows_.at(row).at(static_cast<std::size_t>(found - columns_.begin()));
   }
-  // NaN for an empty cell; text that is no number fails the test.
+  // Returns the number, or NaN for an empty cell; text that is not a number fails the test.
   [[nodiscard]] double number(std::size_t row, const std::string& column) const {
     const std::string& text = cell(row, column);
     if (text.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,5 @@
 #pragma once
-// A folder of its own for each test, removed at its end.
+// Creates a separate folder for each test and removes it when the test ends.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 #pragma once
-// What this program uses of oneTBB, on std::thread: for the thread sanitizer, which knows nothing of what a library without its
-// instrumentation does to order memory. Each call starts its own threads and joins them; in between nothing orders their work,
-// so that every access that only oneTBB's scheduling would have made safe is reported.
+// Implements the parts of oneTBB that this program uses, on std::thread, for the thread sanitizer: the sanitizer does not see
+// how a library without its instrumentation orders memory. Each call starts its own threads and joins them; in between nothing
+// orders their work, so that every access that only oneTBB's scheduling would have made safe is reported.
 
 #include <algorithm>
 #include <atomic>
@@ -46,12 +46,12 @@ class global_control {
 
 namespace info {
 inline int default_concurrency() {
-  return 4;  // more than there may be cores
+  return 4;  // possibly more than there are cores
 }
 }  // namespace info
 
-// Each thread's pieces are dealt beforehand, in turn: were they taken by whoever comes first, a short loop would be over before
-// the second thread has started, and nothing would have been tested.
+// Deals each thread's pieces beforehand, in turn: if each piece went to the first free thread, a short loop would be over
+// before the second thread has started, and nothing would be tested.
 template <class Value, class Body>
 void parallel_for(const blocked_range<Value>& range, const Body& body) {
   const std::size_t allowed = global_control::active_value(global_control::max_allowed_parallelism);

@@ -8,8 +8,8 @@
 namespace sunfleck {
 namespace {
 
-// By hand: means 0.5 and 0.4; deviations of measured -0.3, -0.1, 0.1, 0.3 (squares 0.2), of simulated -0.2, -0.2, 0.1, 0.3
-// (squares 0.18); products 0.06 + 0.02 + 0.01 + 0.09 = 0.18; differences -0.0, -0.2, -0.1, -0.1 (squares 0.06).
+// Computed by hand: means 0.5 and 0.4; deviations of measured -0.3, -0.1, 0.1, 0.3 (squares 0.2), of simulated -0.2, -0.2, 0.1,
+// 0.3 (squares 0.18); products 0.06 + 0.02 + 0.01 + 0.09 = 0.18; differences -0.0, -0.2, -0.1, -0.1 (squares 0.06).
 TEST(AgreementFigures, AreThoseComputedByHand) {
   const std::vector<double> measured{0.2, 0.4, 0.6, 0.8};
   const std::vector<double> simulated{0.2, 0.2, 0.5, 0.7};

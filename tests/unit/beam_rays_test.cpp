@@ -15,7 +15,7 @@ namespace {
 using testing_bvh::Random;
 using testing_bvh::uniform;
 
-// Cells of 1 m x 1 m, so that a ray's place is its cell's number and its jitter.
+// Returns cells of 1 m x 1 m, so that a ray's place is its cell's number plus its jitter.
 BeamBlock unit_cells(uint columns, uint rows) {
   BeamBlock beam{};
   beam.edge_u = {static_cast<float>(columns), 0, 0};
@@ -38,7 +38,7 @@ TEST(BeamOrigin, TakesEveryCellOnce) {
       const uvec4 words = random_words(beam.key, ray, 0);
       const double column = static_cast<double>(origin.x) - static_cast<double>(unit_interval(words.x));
       const double row = static_cast<double>(origin.z) - static_cast<double>(unit_interval(words.y));
-      const double tolerance = std::max(columns, rows) * 0x1p-22;  // four roundings of the place
+      const double tolerance = std::max(columns, rows) * 0x1p-22;  // the place is rounded four times
       EXPECT_NEAR(column, std::round(column), tolerance);
       EXPECT_NEAR(row, std::round(row), tolerance);
       ++taken.at(static_cast<std::size_t>(std::lround(column) + std::lround(row) * static_cast<long>(columns)));
@@ -76,7 +76,7 @@ TEST(BeamOrigin, IsSpreadEvenlyWithinTheCells) {
 constexpr vec2 period(2.0F, 3.0F);
 constexpr vec2 overlap(0x1p-10F, 0x1p-9F);
 
-// To the reciprocal's two units in the last place and two roundings; zero exactly, and so are borders.
+// Expects agreement to the reciprocal's two units in the last place and two roundings; zero is exact, and so are borders.
 void expect_close(float got, float expected) {
   EXPECT_NEAR(got, expected, 0x1p-21F * std::abs(expected));
 }
@@ -143,7 +143,7 @@ TEST(NextCrossing, OfARayOnTheBorderItLeavesIsAtOnce) {
   expect_close(next_crossing(make_ray({0, 9, 1}, {-0.0F, -1, 0.5F}), period, overlap).t, 0.0F);
 }
 
-// Unwrapped, the ray is where a straight line is; each crossing rounds three times, by less than 2^-23 of what it adds to.
+// Without wrapping, the ray stays where a straight line is; each crossing rounds three times, by less than 2^-23 of the sum.
 TEST(NextCrossing, KeepsTheRayOnItsLine) {
   Random random(1);
   for (int k = 0; k < 200; ++k) {
@@ -223,7 +223,7 @@ TEST(LayerOf, HoldsWhatIsOutsideInTheOutermostLayers) {
   EXPECT_EQ(layer_of(std::nextafter(0.25F, 0.0F), 0.0F, 4.0F, 20), 0U);
   EXPECT_EQ(layer_of(5.0F, 0.0F, 4.0F, 20), 19U);
   EXPECT_EQ(layer_of(1e30F, 0.0F, 4.0F, 20), 19U);
-  EXPECT_EQ(layer_of(7.0F, 3.0F, 0.0F, 20), 0U);  // a canopy without height
+  EXPECT_EQ(layer_of(7.0F, 3.0F, 0.0F, 20), 0U);  // the canopy has no height
   EXPECT_EQ(layer_of(-0.5F, -1.0F, 4.0F, 20), 2U);
 }
 

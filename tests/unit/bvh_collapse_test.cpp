@@ -51,7 +51,7 @@ TEST(BinaryTree, IsNoHigherThanAsked) {
   }();
   BinaryTree free = unordered(shrinking);
   detail::build_binary_tree(free);
-  EXPECT_GT(height(free, {0, 0, 1000}), 14);  // so that the limits below bite
+  EXPECT_GT(height(free, {0, 0, 1000}), 14);  // so that the limits below take effect
   for (const int limit : {10, 11, 14}) {
     BinaryTree tree = unordered(shrinking);
     detail::build_binary_tree(tree, limit);
@@ -65,11 +65,11 @@ TEST(BinaryTree, HalvesAMillionIdenticalTriangles) {
   const Triangle leaf{glm::vec3(0.0F), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1)};
   const Bvh bvh = build_bvh(isolated(std::vector<Triangle>(1000000, leaf)), 0.0F);
   EXPECT_EQ(bvh.triangles.size(), 1000000U);
-  EXPECT_LE(bvh.depth, 20);  // ceil(log2 1e6) binary levels, a node a level at worst
+  EXPECT_LE(bvh.depth, 20);  // ceil(log2 1e6) binary levels; at worst each level becomes a level of nodes
 }
 
-// A chain of 80 nodes with eight triangles hanging from each. The chain's boxes are made so small that opening one never
-// pays, while opening what hangs from it does: the plan puts one link of the chain into a level, 80 levels in all.
+// Builds a chain of 80 nodes, each with a subtree of eight triangles. The chain's boxes are so small that opening a chain node
+// never pays, while opening its subtree does: the plan puts one link of the chain into each level, 80 levels in all.
 TEST(Collapse, StaysWithinTheDepthWhateverThePlan) {
   constexpr std::uint32_t links = 80;
   const Canopy canopy = isolated(scattered(8 * links + 1, 1.0, 0.5, 7));
@@ -104,7 +104,7 @@ double half_area(const BinaryTree& tree, const Subtree& s) {
   return DoubleBox{corner(lo), corner(hi)}.half_area();
 }
 
-// The usual collapse: the child with the largest area is opened until there are eight; up to three triangles make a leaf.
+// Performs the usual collapse: opens the child with the largest area until there are eight; up to three triangles make a leaf.
 void collapse_greedily(const BinaryTree& tree, const Subtree& s, Greedy& greedy) {
   std::vector<Subtree> children{left_of(tree, s), right_of(tree, s)};
   const auto opened_area = [&](const Subtree& c) { return c.count <= 3 ? -1.0 : half_area(tree, c); };
@@ -137,7 +137,7 @@ TEST(Collapse, IsNoDearerThanGreedy) {
     const Bvh bvh = detail::collapse(tree, canopy, one_each(canopy));
     const Inspector inspector(canopy, bvh, 0.0);
     const double cost = inspector.area_of_nodes() + 0.3 * inspector.area_of_triangles();
-    EXPECT_LE(cost, greedy.cost * (1.0 + 1e-5));  // areas are summed in single precision by the plan
+    EXPECT_LE(cost, greedy.cost * (1.0 + 1e-5));  // the plan sums areas in single precision
     EXPECT_LT(bvh.nodes.size(), greedy.nodes);
     RecordProperty("cost_over_greedy_" + std::to_string(size), std::to_string(cost / greedy.cost));
     RecordProperty("nodes_over_greedy_" + std::to_string(size),
@@ -156,8 +156,8 @@ TEST(Collapse, PutsTheLowCornerIntoSlotSeven) {
   for (std::uint32_t k = 0; k < 8; ++k) EXPECT_EQ(bvh.triangles[bvh.nodes[0].meta[k] & 31U].element, k);
 }
 
-// Descending (k XOR octant) against the true order of the children's middles along the ray, over all pairs of
-// children. Random order is right in half of the pairs; assigning slots exactly reaches 0.754 here.
+// Compares the order of descending (k XOR octant) with the true order of the children's middles along the ray, over all pairs
+// of children. A random order is right for half of the pairs; assigning slots exactly reaches 0.754 here.
 TEST(Collapse, OrdersChildrenRoughlyFrontToBack) {
   const Bvh bvh = build_bvh(isolated(scattered(20000, 1.0, 0.02, 9)), 1e-6F);
   Random random(10);
@@ -192,8 +192,8 @@ TEST(Statistics, OfOneTriangleAreOneVisitAndOneTest) {
 }
 
 // The cost is the mean over straight lines, uniform in place and direction (Crofton), that meet the root's box. Children's
-// boxes, rounded outwards, may stick out of their parent's by a grid step of 1/255: at most 2 % of area a level, and 1 % in
-// the mean is allowed for what that adds to the cost but not to the visits.
+// boxes, rounded outwards, may stick out of their parent's by a grid step of 1/255: at most 2 % of the area per level. The
+// tolerance allows 1 % in the mean for what this adds to the cost but not to the visits.
 TEST(Statistics, AreWhatUniformLinesMeet) {
   const Bvh bvh = build_bvh(isolated(scattered(2000, 1.0, 0.1, 11)), 1e-6F);
   DoubleBox root;

@@ -16,7 +16,7 @@ Canopy periodic(std::vector<Triangle> corners) {
   return canopy;
 }
 
-// Box lo_x..hi_x, 0..1, lo_z..hi_z.
+// Returns a triangle with the box lo_x..hi_x, 0..1, lo_z..hi_z.
 Triangle spanning(float lo_x, float hi_x, float lo_z, float hi_z) {
   return {glm::vec3{lo_x, 0, lo_z}, glm::vec3{hi_x, 0, lo_z}, glm::vec3{lo_x, 1, hi_z}};
 }
@@ -45,8 +45,8 @@ TEST(References, RepeatWhatCrossesTheBorder) {
 }
 
 TEST(References, CoverThePlotWithALeafLargerThanIt) {
-  // x: 3 periods long, -2..4, so that copies -2..2 touch the closed plot 0..2; z: -3..7, so copies -1..1 overlap it and
-  // none ends on its border.
+  // Along x it is 3 periods long, -2..4, so copies -2..2 touch the closed plot 0..2; along z it spans -3..7, so copies -1..1
+  // overlap the plot and none ends on its border.
   const Images all = images(periodic({spanning(-2.0F, 4.0F, -3.0F, 7.0F)}));
   EXPECT_EQ(all.size(), 15U);
   EXPECT_EQ(all.front(), Image(0, 0));

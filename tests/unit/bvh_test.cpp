@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_bvh;
 
-// Rays at the triangles themselves: at their middles and corners, along the axes and askew. Returns the hits found.
+// Traces rays towards the triangles' middles and corners, along the axes and askew. Returns the number of hits found.
 std::size_t expect_no_hit_lost(const Bvh& bvh, std::size_t rays, double size_m) {
   Random random(5);
   std::size_t found = 0;

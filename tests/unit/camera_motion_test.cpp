@@ -139,7 +139,7 @@ TEST(Fisheye, StaysUprightAndMovesOverTheGround) {
   EXPECT_EQ(hand.camera.forward, before.forward);
   EXPECT_EQ(hand.camera.position_m, before.position_m);
   pan(hand, {0.5, 0.0}, 0.0);
-  expect_near(hand.camera.position_m, before.position_m + glm::dvec3(0, 0, -0.5), 1e-12);  // east
+  expect_near(hand.camera.position_m, before.position_m + glm::dvec3(0, 0, -0.5), 1e-12);  // moves east
   fly(hand, {0, 0.3, 0});
   EXPECT_NEAR(hand.camera.position_m.y, 0.4, 1e-12);
 }

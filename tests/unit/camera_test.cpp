@@ -12,8 +12,8 @@
 namespace sunfleck {
 namespace {
 
-// Some ten operations in double precision on numbers of order one: 10 x 2^-53 is 1e-15; three digits are left for the
-// differences of coordinates that are larger than the result.
+// Covers about ten operations in double precision on numbers of order one: 10 x 2^-53 is 1e-15. The other three digits allow
+// for differences of coordinates that are larger than the result.
 constexpr double tolerance = 1e-12;
 
 void expect_near(glm::dvec3 a, glm::dvec3 b) {
@@ -45,7 +45,7 @@ TEST(LookAt, PutsThePointLookedAtInTheMiddle) {
 TEST(LookAt, TakesXAsUpWhenItLooksDownOrUp) {
   const Camera down = look_at({1.0, 5.0, 1.0}, {1.0, 0.0, 1.0}, 0.7, 1.0);
   expect_near(down.up, {1.0, 0.0, 0.0});
-  expect_near(down.right, {0.0, 0.0, 1.0});  // west is right of south seen from above
+  expect_near(down.right, {0.0, 0.0, 1.0});  // seen from above, west is right of south
   const Camera up = look_at({1.0, 0.0, 1.0}, {1.0, 5.0, 1.0}, 0.7, 1.0);
   expect_near(up.up, {1.0, 0.0, 0.0});
   expect_near(up.right, {0.0, 0.0, -1.0});
@@ -144,7 +144,7 @@ TEST(ThreeQuarterView, StandsSouthWestAndAbove) {
   }
 }
 
-// No closer position would do: in one of the two directions of the picture, points touch both sides of the window.
+// No closer position would do: in one of the picture's two directions, points touch both sides of the window.
 TEST(ThreeQuarterView, IsAsCloseAsTheMarginAllows) {
   const Box box = boxes.front();
   Camera camera = three_quarter_view(box.lo_m, box.hi_m, 4.0 / 3.0);

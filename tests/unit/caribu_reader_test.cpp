@@ -1,4 +1,4 @@
-// CARIBU's optical properties and domains.
+// Tests the readers of CARIBU's optical properties and domains.
 
 #include "io/caribu_reader.h"
 
@@ -35,7 +35,8 @@ TEST(CaribuReader, Optics) {
   EXPECT_EQ(first.lower.reflectance, 0.2);
   EXPECT_EQ(first.lower.transmittance, 0.05);
   EXPECT_EQ(optics.species[1].lower.transmittance, 0.45);
-  // Tabs, other line ends, comments behind numbers and in another encoding, any order of the lines but the species'.
+  // Contains tabs, other line ends, comments behind numbers and in another encoding; the lines are in any order except for that
+  // of the species.
   const CaribuOptics other = read_opt(folder.write("b.opt",
                                                    "# esp\xe8"
                                                    "ce\r\n\te d .5 d 1 0 d 0 1# all\r\n\r\n s  d 1e-1\r\nn 1"));

@@ -1,4 +1,4 @@
-// A set of CARIBU's files as a scene.
+// Tests the conversion of a set of CARIBU files to a scene.
 
 #include "io/caribu_scene.h"
 
@@ -15,7 +15,7 @@
 namespace sunfleck {
 namespace {
 
-// A leaf of species 1 and one of species 2, a stem, and a soil polygon.
+// Contains a leaf of species 1, a leaf of species 2, a stem, and a soil polygon.
 const std::string stand_can =
     "p 1 100007003001 3 1 2 0.5 2 2 0.5 1 3 0.5\n"
     "p 1 200012001000 3 1 2 1.5 2 2 1.5 1 3 1.5\n"
@@ -85,8 +85,8 @@ TEST_F(CaribuScenes, HoldWhatTheFilesSay) {
     EXPECT_EQ(optics.lower[0].transmittance, (std::vector{0.05, 0.45, 0.0, 0.0})[e]);
   }
   EXPECT_EQ(model.canopy.labels, (std::vector<std::uint64_t>{100007003001, 200012001000, 100007000000, 0}));
-  // (1, 2) lies 3 m west of the domain's east border x = 4, and 5 m south of its north border y = 7. Corners are kept to 2^-23
-  // of the period, rounded up to a power of two.
+  // The point (1, 2) lies 3 m west of the domain's east border x = 4, and 5 m south of its north border y = 7. Corners are
+  // accurate to 2^-23 of the period, rounded up to a power of two.
   const Triangle& leaf = model.canopy.corners[0];
   EXPECT_NEAR(leaf[0].x, 5.0, 1e-6);
   EXPECT_NEAR(leaf[0].y, 0.5, 1e-6);
@@ -137,7 +137,7 @@ TEST_F(CaribuScenes, WithoutADomainTheStandIsAlone) {
   EXPECT_NEAR(box.lo.z, 0.0, 1e-8);
   EXPECT_NEAR(box.hi.z, 0.04, 1e-8);
   EXPECT_NEAR(box.hi.y, 0.015, 1e-8);
-  // One leaf seen edge-on has no width of its own.
+  // A single leaf seen edge-on has no width.
   of.scale = 1.0;
   of.canopy = folder_.write("edge.can", "p 1 100001001000 3 0 0 0 0 1 0 0 0 1\n");
   names_.canopy = "edge.can";

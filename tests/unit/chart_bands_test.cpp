@@ -1,4 +1,4 @@
-// Charts painted band by band, in every projection, with copies of the plot.
+// Tests charts painted band by band, in every projection, with copies of the plot.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ const Plot plot{1.8, 2.4, true};
 constexpr double height_m = 2.2;
 const std::vector<Colour> colours = {{0.1, 0.4, 0.1}, {0.6, 0.5, 0.2}, {0.3, 0.2, 0.1}};
 
-// Surfaces and depths at random, about as far as the plot is, in blobs of 8 x 8 pixels.
+// Returns random surfaces and depths, about as far away as the plot, in blobs of 8 x 8 pixels.
 SurfaceImage noise(const Camera& camera, int width, int height, int samples) {
   std::mt19937 random(7);
   const std::size_t count = static_cast<std::size_t>(width) * height * samples;
@@ -75,7 +75,7 @@ TEST(ChartCanvas, PaintsTheSameHoweverTheRowsAreCut) {
 }
 
 TEST(ChartCanvas, DimsNeighboursHalfwayToTheBackground) {
-  const Camera camera = look_at({0.0, 50.0, 0.0}, {0.0, 100.0, 1.0}, 0.5, 1.0);  // sees no lines
+  const Camera camera = look_at({0.0, 50.0, 0.0}, {0.0, 100.0, 1.0}, 0.5, 1.0);  // no lines are in view
   constexpr int size = 10;
   SurfaceImage seen{size, size, 1, std::vector<std::uint32_t>(100, SurfaceImage::nothing), std::vector<float>(100, 1.0F),
                     {},   0};
@@ -91,7 +91,7 @@ TEST(ChartCanvas, DimsNeighboursHalfwayToTheBackground) {
     for (std::size_t c = 0; c < 3; ++c) {
       Colour half{};
       half[c] = 0.5 * (colours[1][c] + background[c]);
-      EXPECT_NEAR(dimmed.pixels[i][c], to_srgb(half)[c], 1.0);  // the background is rounded here, there it is not
+      EXPECT_NEAR(dimmed.pixels[i][c], to_srgb(half)[c], 1.0);  // the background is rounded in one image and not in the other
     }
   }
 }
@@ -114,7 +114,7 @@ TEST(ChartCanvas, DrawsTheHorizonOfAFisheyeInsteadOfAxes) {
   const Camera camera = fisheye_view({0.9, 0.1, 1.2}, 4.0 / 3.0);
   const Image image = draw_chart(empty_scene(1600, 1200), colours, camera, plot, height_m, {});
   EXPECT_EQ(std::count_if(image.pixels.begin(), image.pixels.end(), is_coloured), 0);
-  const double radius = camera.circle_radius + 0.5 * 0.0022;  // in heights; the line lies on the circle's outer side
+  const double radius = camera.circle_radius + 0.5 * 0.0022;  // in picture heights; the line lies on the circle's outer side
   for (const double angle : {0.1, 0.9, 2.2, 3.0, 4.4, 5.5}) {
     const glm::dvec2 out(std::cos(angle) / camera.aspect, std::sin(angle));
     EXPECT_LT(pixel_at(image, camera.circle_centre + radius * out)[0], 130);
@@ -141,7 +141,7 @@ TEST(ChartCanvas, DrawsAxesInOrthographicPictures) {
 
 TEST(ChartCanvas, HidesLinesInOrthographicPicturesByDepth) {
   const Camera camera = all_cameras(4.0 / 3.0)[1];
-  const auto point = project(camera, {0.9, 0.0, 2.4});  // on the border
+  const auto point = project(camera, {0.9, 0.0, 2.4});  // lies on the border
   SurfaceImage seen = empty_scene(1600, 1200);
   seen.surface.assign(seen.surface.size(), 1);
   seen.depth_m.assign(seen.depth_m.size(), static_cast<float>(point->depth_m - 0.5));

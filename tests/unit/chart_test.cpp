@@ -29,7 +29,7 @@ Camera quarter_view() {
   return three_quarter_view({0.0, 0.0, 0.0}, {plot.size_x_m, height_m, plot.size_z_m}, 4.0 / 3.0);
 }
 
-// Sees nothing of the plot, so that a chart consists of surfaces alone.
+// Returns a view that shows nothing of the plot, so that a chart consists of surfaces alone.
 Camera averted_view() {
   return look_at({0.0, 50.0, 0.0}, {0.0, 100.0, 1.0}, 0.5, 4.0 / 3.0);
 }
@@ -38,7 +38,7 @@ Pixel at(const Image& image, int x, int y) {
   return image.pixels[static_cast<std::size_t>(y) * image.width + x];
 }
 
-// The pixel that shows a point.
+// Returns the pixel that shows a point.
 Pixel at(const Image& image, const Camera& camera, glm::dvec3 point_m) {
   const auto projection = project(camera, point_m);
   return at(image, static_cast<int>(projection->at.x * image.width), static_cast<int>(projection->at.y * image.height));
@@ -81,7 +81,7 @@ TEST(DrawChart, ShowsSurfacesInExactlyTheirColours) {
         ASSERT_EQ(at(image, x, y), to_srgb(leaf_colours[1]));
       } else {
         ASSERT_TRUE(pale(at(image, x, y)));
-        ASSERT_EQ(at(image, x, y), at(image, 0, y));  // the background changes from top to bottom only
+        ASSERT_EQ(at(image, x, y), at(image, 0, y));  // the background changes only from top to bottom
       }
     }
   }
@@ -102,7 +102,7 @@ TEST(DrawChart, DrawsTheAxesInRedGreenAndBlue) {
   EXPECT_TRUE(mostly(at(image, camera, {0.5 * plot.size_x_m, 0.0, 0.0}), 0));
   EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.5 * height_m, 0.0}), 1));
   EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.0, 0.5 * plot.size_z_m}), 2));
-  // Beyond the plot, where the arrow heads are.
+  // This point lies beyond the plot, where the arrow heads are.
   EXPECT_TRUE(mostly(at(image, camera, {1.04 * plot.size_x_m, 0.0, 0.0}), 0));
   EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.0, 1.04 * plot.size_z_m}), 2));
 }
@@ -147,7 +147,7 @@ TEST(DrawChart, HidesTheShareOfALineThatSamplesSeeHidden) {
   Colour half = leaf_colours[1];  // the other half is black
   for (double& channel : half) channel *= 0.5;
   const Pixel got = at(bare_chart(seen), camera, point_m);
-  // The leaf's colour is rounded to 1/255 before the line is mixed in, and once more after it.
+  // The leaf's colour is rounded to 1/255 before the line is mixed in, and once more afterwards.
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(std::abs(got[i] - to_srgb(half)[i]), 1);
 }
 
@@ -188,7 +188,7 @@ TEST(DrawChart, PrintsTheLegendInExactlyTheClassColours) {
   }
 }
 
-// Pixels changed by text, as a box [left, right) x [top, bottom).
+// Returns the box of the pixels changed by text, [left, right) x [top, bottom).
 std::array<int, 4> changed_box(const Image& a, const Image& b) {
   std::array<int, 4> box = {a.width, 0, a.height, 0};
   for (int y = 0; y < a.height; ++y) {
@@ -208,11 +208,11 @@ TEST(DrawChart, KeepsTextOfAnyLengthWithinTheMargins) {
       const Image plain = draw_chart(seen, leaf_colours, averted_view(), plot, height_m, {});
       const Image written = draw_chart(seen, leaf_colours, averted_view(), plot, height_m, text);
       const auto [left, right, top, bottom] = changed_box(plain, written);
-      const double margin = 0.035 * height - 2.5;  // for bearings and rounding to whole pixels
+      const double margin = 0.035 * height - 2.5;  // allows for bearings and rounding to whole pixels
       EXPECT_GE(left, margin);
       EXPECT_LE(right, width - margin);
       EXPECT_GE(top, margin);
-      EXPECT_LE(bottom, height - margin + 0.0175 * 0.24 * height);  // the footer's descenders
+      EXPECT_LE(bottom, height - margin + 0.0175 * 0.24 * height);  // allows for the footer's descenders
       for (std::string* line : {&text.title, &text.subtitle, &text.legend_title, &text.footer}) *line += std::string(200, 'W');
     }
   }
@@ -226,7 +226,7 @@ TEST(DrawChart, CopesWithTinyPictures) {
 }
 
 TEST(DrawChart, DrawsWhatLiesBeforeACameraWithinTheScene) {
-  const Camera camera = look_at({0.9, 0.4, 1.2}, {0.0, 0.3, 0.3}, 0.9, 4.0 / 3.0);  // parts of all lines are behind it
+  const Camera camera = look_at({0.9, 0.4, 1.2}, {0.0, 0.3, 0.3}, 0.9, 4.0 / 3.0);  // parts of all lines are behind the camera
   const Image image = bare_chart(empty_scene(full_width, full_height), camera);
   EXPECT_TRUE(mostly(at(image, camera, {0.2, 0.0, 0.0}), 0));
   EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.3, 0.0}), 1));

@@ -47,7 +47,7 @@ TEST(CoarseMesh, KeepsTheShareTheOrgansAndTheirAreas) {
   EXPECT_EQ(coarse.optics_of.size(), coarse.size());
   const auto kept = static_cast<double>(coarse.size()) / static_cast<double>(fine.size());
   EXPECT_NEAR(kept, 0.25, 0.05);
-  // A quarter of the triangles are twice as long: on a surface of curvature k the chord of length l lies off by k l^2 / 8, and
+  // A quarter as many triangles are twice as long: on a surface of curvature k a chord of length l deviates by k l^2 / 8, and
   // the area by a few percent of the blade's undulation.
   const std::vector<double> before = organ_areas_m2(fine), after = organ_areas_m2(coarse);
   for (std::size_t o = 0; o < before.size(); ++o) EXPECT_NEAR(after[o], before[o], 0.1 * before[o]) << fine.organs[o].name;
@@ -60,7 +60,7 @@ TEST(CoarseMesh, MovesNoCorner) {
 }
 
 TEST(CoarseMesh, UpperFacesStayUp) {
-  // A level sheet of 2 x 8 x 8 triangles that face up.
+  // Builds a level sheet of 2 x 8 x 8 triangles that face up.
   Mesh sheet;
   sheet.organs.push_back({1, "leaf", 1});
   sheet.optics_names.emplace_back("leaf");

@@ -27,7 +27,7 @@ std::vector<double> ones(std::size_t count) {
   return std::vector<double>(count, 1.0);
 }
 
-// CIE 15:2004, section 8.2.1, with the D65 white of IEC 61966-2-1.
+// Converts by CIE 15:2004, section 8.2.1, with the D65 white of IEC 61966-2-1.
 Colour lab(const Colour& linear) {
   const auto [r, g, b] = linear;
   const Colour relative = {(0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505, 0.2126 * r + 0.7152 * g + 0.0722 * b,
@@ -69,7 +69,7 @@ TEST(EqualIntervalRanks, DividesZeroToTheLargestValue) {
   EXPECT_FALSE(scale.open);
 }
 
-// 1, 2, ... 10000 with weight 1 and half as many zeros: the quantile 0.999 of those above zero is 9990.
+// With 1, 2, ... 10000 of weight 1 and half as many zeros, the quantile 0.999 of the values above zero is 9990.
 TEST(Ranks, EndWhereAThousandthOfTheLitWeightIsBrighter) {
   std::vector<double> values(15000, 0.0);
   std::iota(values.begin() + 5000, values.end(), 1.0);
@@ -115,7 +115,7 @@ TEST(MapScale, EndsBelowTheBrightestSlivers) {
   EXPECT_EQ(map_colour(dark, 0.0), viridis(0.0));
 }
 
-// The published table of 256 colours, at its ends and where five even steps would fall.
+// Compares with the published table of 256 colours, at its ends and where five even steps would fall.
 TEST(Viridis, IsThePublishedMap) {
   const std::vector<std::pair<double, std::array<int, 3>>> places = {
       {0.0, {68, 1, 84}}, {0.25, {59, 82, 139}}, {0.5, {33, 145, 140}}, {0.75, {93, 200, 99}}, {1.0, {253, 231, 37}}};
@@ -143,7 +143,7 @@ TEST(EqualIntervalRanks, WithoutLightIsAllDarkestShade) {
   }
 }
 
-// A boundary falls within the item in which the wanted share is reached, on its nearer side: half an item at each end.
+// A boundary falls within the item in which the requested share is reached, on its nearer side: half an item at each end.
 TEST(EqualCountRanks, GivesEachClassItsShareToWithinOneItem) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> weight(0.1, 1.0);
@@ -245,7 +245,7 @@ TEST(RankColour, GrowsLighterFromShadeToSun) {
   for (int rank = 1; rank < 5; ++rank) EXPECT_GE(lab(rank_colour(rank))[0] - lab(rank_colour(rank - 1))[0], 12.9);
 }
 
-// Rows of the matrices for a severity of 1: Machado, Oliveira and Fernandes 2009, doi 10.1109/TVCG.2009.113, table 1.
+// Rows of the matrices for severity 1: Machado, Oliveira and Fernandes 2009, doi 10.1109/TVCG.2009.113, table 1.
 TEST(RankColour, IsToldApartWithoutColourVision) {
   using Matrix = std::array<Colour, 3>;
   const std::array<Matrix, 4> visions = {
@@ -277,7 +277,7 @@ TEST(Srgb, RoundTripsEveryValue) {
 }
 
 TEST(Srgb, FollowsTheStandard) {
-  // 1.055 x 0.5^(1/2.4) - 0.055 = 0.735357, and 12.92 x 0.002 = 0.02584: 187.5 and 6.6 of 255.
+  // 1.055 x 0.5^(1/2.4) - 0.055 = 0.735357 and 12.92 x 0.002 = 0.02584, which are 187.5 and 6.6 of 255.
   EXPECT_EQ(to_srgb({0.5, 0.002, 1.0}), (std::array<std::uint8_t, 3>{188, 7, 255}));
   EXPECT_EQ(to_srgb({-1.0, 2.0, 0.0}), (std::array<std::uint8_t, 3>{0, 255, 0}));
 }

@@ -1,4 +1,5 @@
-// Triangles that lie exactly on others: found whatever their winding, kept in the tables, out of the light's way.
+// Tests triangles that lie exactly on others: they are found whatever their winding, listed in the tables, and ignored by
+// light.
 #include "bvh/bvh.h"
 #include "support/models.h"
 
@@ -32,7 +33,7 @@ TEST(Copies, OfTrianglesWithoutAreaAreNone) {
   EXPECT_TRUE(find_copies({}).empty());
 }
 
-// A leaf a period away is the same leaf, once it is wrapped into the plot.
+// A leaf that is one period away is the same leaf once it is wrapped into the plot.
 TEST(Copies, AreFoundAcrossThePeriod) {
   MeshMaker maker;
   maker.level(0.25, 0.5, 0.25, 0.5, 1.0);

@@ -15,7 +15,8 @@ namespace {
 
 using namespace test;
 
-// Ten layers of 0.1 m: a leaf in one of them, one across three, one from the ground to the top, and one below the ground.
+// Returns ten layers of 0.1 m with a leaf in one of them, one across three, one from the ground to the top, and one below the
+// ground.
 RadiationModel layered_model() {
   MeshMaker maker;
   maker.triangle({0.1, 0.55, 0.1}, {0.1, 0.55, 0.2}, {0.2, 0.56, 0.1});
@@ -53,7 +54,7 @@ TEST(CounterLayout, OfAnEmptyOrFlatScene) {
   EXPECT_EQ(flat.first_bin, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
-// The words that a tracer can reach by an element's counter and the layers the element reaches into are its bins, no more.
+// The words that a tracer can reach from an element's counter and its layers are exactly the element's bins.
 TEST(NumberCounters, LeadsToTheElementsBins) {
   const RadiationModel model = layered_model();
   const Prepared prepared(model);
@@ -86,7 +87,7 @@ TEST(AddAreaByLayer, SplitsARightTriangleInOddParts) {
     EXPECT_NEAR(areas[layer], (7.0 - 2.0 * static_cast<double>(layer)) / 16.0, 1e-12);
 }
 
-// The part of a polygon on one side of a height: Sutherland & Hodgman 1974.
+// Returns the part of a polygon on one side of a height (Sutherland & Hodgman 1974).
 std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, double y, bool above) {
   std::vector<glm::dvec3> kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -111,7 +112,7 @@ TEST(AddAreaByLayer, AgreesWithCuttingPolygons) {
   const Layers layers = layers_of(7, 2.0);
   for (int k = 0; k < 2'000; ++k) {
     Triangle corners{testing_bvh::point(random, 1.5), testing_bvh::point(random, 1.5), testing_bvh::point(random, 1.5)};
-    for (glm::vec3& corner : corners) corner.y += 1.0F;  // -0.5..2.5: beyond the layers on both sides
+    for (glm::vec3& corner : corners) corner.y += 1.0F;  // spans -0.5..2.5, beyond the layers on both sides
     if (k % 5 == 0) corners[1].y = corners[0].y;
     if (k % 10 == 0) corners[2].y = corners[0].y;
     std::vector<double> areas(7);

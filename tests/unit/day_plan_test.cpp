@@ -56,7 +56,7 @@ TEST_F(DayPlanTest, DatesFollowTheCalendar) {
 }
 
 TEST_F(DayPlanTest, DateIsTheScenesOwnLocalOne) {
-  // 2002-08-07 21:30 UTC
+  // The scene's moment is 2002-08-07 21:30 UTC.
   const DayPlan plan = plan_day(hours("10:00", "11:00", 60), scene_at("2002-08-08T05:30:00+08:00"));
   EXPECT_EQ(plan.course.dates, std::vector<std::string>{"2002-08-08"});
 }
@@ -73,13 +73,13 @@ TEST_F(DayPlanTest, DaylightIsRoundedOutwards) {
     for (const UtcTime& time : {steps.front().start, end}) {
       EXPECT_LT(sun_position(time, place).elevation_rad, 0.0);
     }
-    // A step further in, the upper limb is up.
+    // One step further in, the upper limb is up.
     EXPECT_GT(sun_position(steps[1].start, place).elevation_rad, rise_set_elevation_rad);
     EXPECT_GT(sun_position(steps.back().start, place).elevation_rad, rise_set_elevation_rad);
   }
 }
 
-// Of a clock 12 hours off, the sun's light lies at both ends of the date.
+// On a clock that is 12 hours off, the daylight lies at both ends of the date.
 TEST_F(DayPlanTest, DaylightPastMidnightTakesTheWholeDate) {
   for (const char* offset : {"+13:00", "-11:00"}) {
     const DayPlan plan = plan_day(hours("", "", 60), scene_at(std::string("2002-08-08T10:10:00") + offset));

@@ -15,7 +15,7 @@ using regression::Table;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Two triangles of 0.5 and 4.5 m2, each an organ; photons are asked for in band A.
+// Returns two triangles of 0.5 and 4.5 m2, each an organ; photons are requested for band A.
 RadiationModel small_model(bool periodic = true) {
   RadiationModel model;
   model.plot = {2.0, 3.0, periodic};
@@ -28,7 +28,7 @@ RadiationModel small_model(bool periodic = true) {
   return model;
 }
 
-// Two steps of one date, one of the next.
+// Returns two steps of one date and one of the next.
 DayCourse three_steps() {
   DayCourse course;
   course.offset_minutes = -210;
@@ -73,7 +73,7 @@ TEST(DayTables, RandomErrorsAddAsSquaresAndUnshotFluxAsItIs) {
   EXPECT_NEAR(band.absorbed_soil.half_width, std::hypot(2.0 * 1800.0, 12.0 * 600.0) + 2400.0, 1e-8);
   EXPECT_EQ(dates[1].bands[0].reflected.value, 1250.0 * 0.6);
   EXPECT_EQ(dates[1].bands[0].reflected.half_width, 3000.0);
-  // Unshot flux by its share of what was absorbed: 1 / 75 and 1 / 150.
+  // Unshot flux counts by its share of the absorbed flux: 1 / 75 and 1 / 150.
   const double first = 3.0 - 100.0 / 75.0, second = 13.0 - 200.0 / 150.0;
   EXPECT_NEAR(dates[0].organ_absorbed[0].half_width, std::hypot(1800.0 * first, 600.0 * second) + 2400.0 * 100.0 / 75.0, 1e-8);
 }
@@ -110,8 +110,8 @@ TEST(DayTables, OrgansHaveSumsOfEachDate) {
   EXPECT_EQ(table.number(0, "A_error"), 0.03);
   EXPECT_EQ(table.number(0, "B_error"), 0.015);
   EXPECT_EQ(table.number(1, "A_absorbed_mj_m2"), 0.0);
-  EXPECT_EQ(table.cell(1, "A_error"), "");  // nothing to be relative to
-  EXPECT_EQ(table.cell(1, "B_error"), "");  // not known of one step
+  EXPECT_EQ(table.cell(1, "A_error"), "");  // there is no value to be relative to
+  EXPECT_EQ(table.cell(1, "B_error"), "");  // the error of one step is unknown
   EXPECT_EQ(table.cell(3, "date"), "2003-01-01");
 }
 

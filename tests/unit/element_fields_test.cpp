@@ -41,10 +41,10 @@ TEST(ElementFields, ValuesByHand) {
   EXPECT_NEAR(fields.centroid_m[0][1], 11.0, 1e-12);
   EXPECT_NEAR(fields.centroid_m[1][1], 2003.1, 1e-9);
   EXPECT_NEAR(fields.centroid_m[2][1], 31.0, 1e-12);
-  // 20 and 4 landings, each for 0.01 m2 of level ground, on 0.5 m2 of a beam of 200 W m-2.
+  // 20 and 4 landings, each of 0.01 m2 of level ground, hit 0.5 m2 from a beam of 200 W m-2.
   EXPECT_NEAR(values(fields, 1, LightColumn::direct_upper)[0], 80.0, 1e-9);
   EXPECT_NEAR(values(fields, 1, LightColumn::direct_lower)[0], 16.0, 1e-9);
-  // 100 and 300 quanta of 0.01 W on 0.5 m2, 50 of them from the sky.
+  // 100 and 300 quanta of 0.01 W land on 0.5 m2, 50 of them from the sky.
   EXPECT_NEAR(values(fields, 1, LightColumn::indirect_upper)[0], 2.0, 1e-9);
   EXPECT_NEAR(values(fields, 1, LightColumn::indirect_lower)[0], 6.0, 1e-9);
   EXPECT_NEAR(values(fields, 1, LightColumn::sky_upper)[0], 1.0, 1e-9);
@@ -99,7 +99,7 @@ TEST(Exports, CleanTextIsOneLineOfUtf8) {
   EXPECT_EQ(clean_text("plain"), "plain");
   EXPECT_EQ(clean_text("a\nb\x01"), "a?b?");
   EXPECT_EQ(clean_text("\xc3\xa9"), "\xc3\xa9");
-  EXPECT_EQ(clean_text("\xff\xc3\xa9"), "???");  // not UTF-8, so no byte's meaning is known
+  EXPECT_EQ(clean_text("\xff\xc3\xa9"), "???");  // not UTF-8, so the meaning of the bytes is unknown
 }
 
 TEST(Exports, TheRecordNamesNoDeviceAndNoTime) {

@@ -8,7 +8,7 @@
 namespace sunfleck::shared {
 namespace {
 
-// Distance from 1 / x in units of the last place of the nearest float.
+// Returns the distance from 1 / x in units in the last place of the nearest float.
 double units_off(float reciprocal, float x) {
   const double exact = 1.0 / static_cast<double>(x);
   const double unit = std::ldexp(1.0, std::ilogb(static_cast<float>(exact)) - 23);

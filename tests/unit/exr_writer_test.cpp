@@ -21,12 +21,13 @@ ExrImage pattern(int width, int height) {
   for (int i = 0; i < width * height; ++i) {
     values.push_back(1000.0F * std::sin(0.1F * static_cast<float>(i)));
     coverage.push_back(static_cast<float>(i % 5) / 4.0F);
-    elements.push_back(i % 3 == 0 ? 0xffffffffU : 16777217U + static_cast<std::uint32_t>(i));  // beyond a float's whole numbers
+    // too large for a float to hold exactly
+    elements.push_back(i % 3 == 0 ? 0xffffffffU : 16777217U + static_cast<std::uint32_t>(i));
   }
   return {width, height, {{"Y", values}, {"A", coverage}, {"element", elements}}, "Y: W m-2; ⁻²"};
 }
 
-// What another reader makes of a file; its channels in the order of their names.
+// Reads a file with an independent reader; its channels are in the order of their names.
 class ReadBack {
  public:
   explicit ReadBack(const std::string& bytes) {

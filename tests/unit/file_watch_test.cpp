@@ -1,4 +1,4 @@
-// Which changes of files a window takes notice of.
+// Tests which changes of files the window notices.
 
 #include "viewer/file_watch.h"
 
@@ -25,7 +25,7 @@ class Watching : public ::testing::Test {
     watch_.add(files_.list());
   }
 
-  // Other content, written `later_s` after what is there: as a clock of the file system would tell, however coarse.
+  // Writes other content, dated `later_s` after the present one, so that even a coarse file system clock shows the change.
   void change(const std::string& name, int later_s = 1) const {
     const auto before = fs::last_write_time(folder_ / name);
     write(folder_ / name, "two\n");
@@ -76,7 +76,7 @@ TEST_F(Watching, CountsFromWhenAFileWasRead) {
   EXPECT_TRUE(watch_.has_changed()) << "it was changed while the scene was being read";
 }
 
-// What a scene lacks or has broken makes it fail; the window goes on with the last good one, and waits.
+// A missing or broken file makes a scene fail; the window continues with the last good scene and waits.
 TEST_F(Watching, WaitsForWhatAFailedSceneLacked) {
   SourceFiles failed;
   failed.note(folder_ / "scene.toml");
@@ -89,7 +89,7 @@ TEST_F(Watching, WaitsForWhatAFailedSceneLacked) {
   EXPECT_TRUE(watch_.has_changed()) << "those of the last good one are watched too";
 }
 
-// A file that was away when the scene was read anew may come back as it was: the scene has failed for want of it.
+// A file that was missing when the scene was read again may come back unchanged: the scene failed because it was missing.
 TEST_F(Watching, ReadsAgainWhatFailedForAFileThatWasAway) {
   fs::rename(folder_ / "stand.obj", folder_ / "stand.obj~");
   SourceFiles failed;

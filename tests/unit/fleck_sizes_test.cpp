@@ -8,8 +8,8 @@
 namespace sunfleck {
 namespace {
 
-// A plane of cells from a drawing: a line for each row of cells along X; '#' all ten rays reach it, '+' five, '-' four,
-// '.' none, '?' no ray crosses.
+// Builds a plane of cells from a drawing, with one line for each row of cells along X. All ten rays reach '#', five reach '+',
+// four '-', and none '.'; no ray crosses '?'.
 PlaneResult plane_of(const std::vector<std::string>& lines) {
   PlaneResult plane;
   plane.cells_x = static_cast<std::uint32_t>(lines.front().size());
@@ -23,7 +23,7 @@ PlaneResult plane_of(const std::vector<std::string>& lines) {
   return plane;
 }
 
-// Cells of one square centimetre.
+// Returns a plot whose cells measure one square centimetre.
 Plot plot_of(const PlaneResult& plane, bool periodic) {
   return {0.01 * plane.cells_x, 0.01 * plane.cells_z, periodic};
 }
@@ -70,7 +70,7 @@ TEST(FleckSizes, OfAPlaneAllInSunOrAllInShade) {
 }
 
 TEST(FleckSizes, AreSortedIntoClasses) {
-  // flecks of 1, 1, 2, 4 and 5 cm2 in a plane of 40 cm2
+  // The flecks measure 1, 1, 2, 4 and 5 cm2 in a plane of 40 cm2.
   const PlaneResult plane = plane_of({"#.#.##..", "........", "####....", "........", "#####..."});
   const FleckSizes sizes = fleck_sizes(plane, plot_of(plane, false));
   ASSERT_EQ(sizes.areas_m2.size(), 5U);

@@ -17,7 +17,7 @@ TEST(Completion, GrowsWithTheWorkWhereTheExpectationStays) {
 TEST(Completion, NeverGoesBackHoweverTheExpectationChanges) {
   Completion completion;
   double last = 0.0;
-  // What pilots and checks have shown: first too little, then far more, then less again.
+  // Expectations of the pilots and checks: first too low, then far higher, then lower again.
   const double expected[] = {16, 16, 12, 12, 24, 40, 200, 180, 190, 60, 60, 30, 30, 30, 28};
   for (std::size_t done = 1; done <= std::size(expected); ++done) {
     const double fraction = completion.update(static_cast<double>(done), expected[done - 1]);
@@ -28,7 +28,7 @@ TEST(Completion, NeverGoesBackHoweverTheExpectationChanges) {
   EXPECT_EQ(completion.update(28, 28), 1.0);
 }
 
-// An expectation that keeps moving away still leaves room: the measure does not stand near its end.
+// An expectation that keeps moving away still leaves room: the progress does not stay near its end.
 TEST(Completion, LeavesRoomForWorkThatWasNotForeseen) {
   Completion completion;
   double at_12 = 0.0;
@@ -39,7 +39,7 @@ TEST(Completion, LeavesRoomForWorkThatWasNotForeseen) {
 
 TEST(ReplicatesNeeded, FollowTheSquareOfTheError) {
   EXPECT_EQ(replicates_needed(0.01, 0.02, 0.95, 16, 65536), 16U);
-  // Four times, less what Student's quantile falls meanwhile.
+  // Four times as many, reduced by the fall of Student's quantile meanwhile.
   const std::size_t needed = replicates_needed(0.02, 0.01, 0.95, 16, 65536);
   const double quantiles = t_quantile(0.95, needed) / t_quantile(0.95, 16);
   EXPECT_NEAR(static_cast<double>(needed), 64.0 * quantiles * quantiles, 1.0);

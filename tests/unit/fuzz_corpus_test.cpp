@@ -1,4 +1,4 @@
-// The fuzzers' corpus, replayed: what once ended a fuzzer, and the smallest files that between them reach what it reached.
+// Replays the fuzzers' corpus: inputs that once stopped a fuzzer, and the smallest files that together reach the same code.
 
 #include "base/log.h"
 #include "fuzz/targets.h"

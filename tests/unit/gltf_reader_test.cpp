@@ -1,4 +1,4 @@
-// glTF and GLB: what mesh_reader.h promises of them beyond the other formats.
+// Tests what mesh_reader.h promises for glTF and GLB beyond the other formats.
 
 #include "base/error.h"
 #include "base/log.h"
@@ -33,7 +33,8 @@ glm::dvec3 normal(const Mesh& mesh, std::size_t triangle) {
   return glm::normalize(glm::cross(corner(mesh, triangle, 1) - a, corner(mesh, triangle, 2) - a));
 }
 
-// Positions and transforms pass through sums of products of numbers near 1 in double precision.
+// Tolerates the rounding of positions and transforms, which pass through sums of products of numbers near 1 in double
+// precision.
 void expect_near(const glm::dvec3& got, const glm::dvec3& expected) {
   EXPECT_LT(glm::distance(got, expected), 1e-14) << got.x << " " << got.y << " " << got.z;
 }
@@ -51,8 +52,8 @@ TEST(GltfReader, TransformsFollowTheNodeTree) {
   expect_near(corner(mesh, 0, 2), {10, 3, -2});
   expect_near(normal(mesh, 0), {1, 0, 0});
 
-  document["nodes"][0]["scale"] = {1.0, 1.0, 0.5};                                     // scale comes before rotation
-  document["nodes"][1]["matrix"] = {0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1};  // +X to +Z
+  document["nodes"][0]["scale"] = {1.0, 1.0, 0.5};                                     // scaling comes before rotation
+  document["nodes"][1]["matrix"] = {0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1};  // turns +X to +Z
   expect_near(corner(read_glb(document), 0, 1), {10.5, 0, 0});
 }
 

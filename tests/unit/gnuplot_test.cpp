@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A shell script in gnuplot's place.
+// Puts a shell script in gnuplot's place.
 class Impostor : public testing::Test {
  protected:
   [[nodiscard]] std::string warning(const std::string& body, double limit_s = 20.0) const {
@@ -54,7 +54,7 @@ TEST_F(Impostor, ThatHangsIsKilledWithAllItStarted) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   const pid_t sleeper = std::atoi(test::file_bytes(pid_file).c_str());
   ASSERT_GT(sleeper, 1);
-  // Soon it is gone, or a zombie that init has yet to collect.
+  // The process soon disappears, or is a zombie that init has yet to collect.
   std::string state;
   for (const auto until = begin + std::chrono::seconds(20); std::chrono::steady_clock::now() < until;) {
     state = test::file_bytes("/proc/" + std::to_string(sleeper) + "/stat");
@@ -104,7 +104,7 @@ TEST_F(Gnuplot_, AFolderThatIsNotThereIsAnError) {
   EXPECT_THROW(static_cast<void>(draw_plot("set terminal pngcairo\nplot x\n", folder_ / "none" / "a.png")), Error);
 }
 
-// Draws a title that a user could have written, with every text of a script in its place.
+// Draws a title that a user could have written, inserted at every place of a script that takes text.
 test::Picture with_title(const test::GnuplotTest&, const std::string& title, const TempFolder& folder) {
   PlotScript script(500, 300);
   script.place({60.0, 60.0, 400.0, 150.0});

@@ -1,10 +1,10 @@
-// What gpu_test.cpp asks of a device, one mode a test.
+// The shader of gpu_test.cpp, with one mode per test.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint mode = 0u;    // 0 add, 1 fetch, 2 write past the end
-layout(constant_id = 1) const uint factor = 1u;  // of what is added
+layout(constant_id = 0) const uint mode = 0u;    // 0 adds, 1 fetches, 2 writes past the end
+layout(constant_id = 1) const uint factor = 1u;  // multiplies the numbers that are added
 
 layout(push_constant, scalar) uniform Push {
   uint count;

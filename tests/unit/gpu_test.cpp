@@ -54,7 +54,7 @@ std::vector<std::uint32_t> noise(std::size_t count) {
   return words;
 }
 
-// The one line and the kind of the error that `call` must throw.
+// Expects `call` to throw an error with this one line and kind.
 template <class Call>
 std::string device_error(Call call) {
   try {
@@ -131,7 +131,8 @@ TEST_F(GpuTest, SpecialisationConstantsReachTheShader) {
 }
 
 TEST_F(GpuTest, TexelFetchesKeepEveryBit) {
-  // As floats: zeros, denormals, infinities, quiet and signalling NaNs of both signs, the largest and smallest numbers.
+  // Read as floats, these are zeros, denormals, infinities, quiet and signalling NaNs of both signs, and the largest and
+  // smallest numbers.
   std::vector<std::uint32_t> words = {0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007FFFFF, 0x807FFFFF,
                                       0x00400000, 0x7F800000, 0xFF800000, 0x7F800001, 0xFF800001, 0x7FBFFFFF,
                                       0x7FC00000, 0xFFC00000, 0x7FFFFFFF, 0xFFFFFFFF, 0x00800000, 0x7F7FFFFF};
@@ -247,7 +248,8 @@ TEST_F(GpuTest, ThoroughValidationSeesWritesPastTheEnd) {
   EXPECT_FALSE(own.validation_messages().empty());
 }
 
-// The loader reads the variable whenever an instance is made, so a list of drivers that names none is a machine without Vulkan.
+// The loader reads the variable whenever an instance is created, so a driver list without entries acts like a machine without
+// Vulkan.
 TEST(GpuWithoutDriver, IsAnEmptyListAndADeviceError) {
   const char* variables[] = {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"};
   std::vector<std::pair<const char*, std::string>> before;

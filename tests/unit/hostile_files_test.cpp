@@ -1,4 +1,4 @@
-// Files that promise more than they hold, lead elsewhere or are no files at all, for every reader of users' files.
+// Tests every reader of users' files on files that claim more than they contain, point elsewhere or are not regular files.
 
 #include "io/caribu_reader.h"
 #include "io/file.h"
@@ -89,7 +89,7 @@ TEST(HostileFiles, WhatIsNoFileIsRefusedByEveryReader) {
   }
 }
 
-// A file with a hole of 100 TB takes no space on the disk; memory for it must not even be asked for.
+// A file with a hole of 100 TB takes no space on the disk; no memory may be requested for it.
 TEST(HostileFiles, HugeFilesAreRefusedBeforeTheyAreRead) {
   const TempFolder folder;
   for (const Reader& reader : all_readers()) {
@@ -102,7 +102,7 @@ TEST(HostileFiles, HugeFilesAreRefusedBeforeTheyAreRead) {
   }
 }
 
-// Windows' line ends and byte order mark change nothing.
+// Windows line ends and a byte order mark change nothing.
 TEST(HostileFiles, MarksAndLineEndsOfOtherSystems) {
   const TempFolder folder;
   for (const Reader& reader : readers_of_text()) {
@@ -178,7 +178,7 @@ TEST(HostileFiles, ChainsOfNodesMayBeLong) {
   expect_refusal([&] { read_any_mesh(folder.write("a.glb", glb(document, gltf_binary()))); }, "reached twice");
 }
 
-// Buffers beside the file, by links too; elsewhere for those who ask for it.
+// Buffers must lie in the file's folder, also when reached through links, unless the caller permits other places.
 TEST(HostileFiles, BuffersStayInTheirFolder) {
   const TempFolder folder;
   fs::create_directories(folder / "scene/below");
@@ -228,7 +228,7 @@ TEST(HostileFiles, NamesAreTextOnOneLine) {
     EXPECT_TRUE(is_utf8(good));
 }
 
-// In linear time: comparing two million names with one another would take hours.
+// The check takes linear time: comparing two million names with one another would take hours.
 TEST(HostileFiles, ATableHasAThousandColumnsAtMost) {
   const TempFolder folder;
   std::string header = "height_m,sunfleck_ratio";
@@ -236,7 +236,7 @@ TEST(HostileFiles, ATableHasAThousandColumnsAtMost) {
   expect_refusal([&] { static_cast<void>(read_measured(folder.write("a.csv", header + "\n"))); }, "columns");
 }
 
-// Lists within lists would overflow the stack of a parser that goes by recursion, 0x81 being a list of one in CBOR.
+// Nested lists would overflow the stack of a recursive parser; 0x81 is a list of one in CBOR.
 TEST(HostileFiles, DeepStoresAreRefused) {
   const TempFolder folder;
   const std::string deep(10'000'000, '\x81');

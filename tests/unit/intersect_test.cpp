@@ -24,7 +24,7 @@ glm::dvec3 at_weights(const Triangle& corners, double b, double c) {
   return a + b * (glm::dvec3(corners[1]) - a) + c * (glm::dvec3(corners[2]) - a);
 }
 
-// All directions of a cube's faces, edges and corners.
+// Returns the directions to all faces, edges and corners of a cube.
 std::vector<glm::vec3> lattice_directions() {
   std::vector<glm::vec3> directions;
   for (int k = 0; k < 27; ++k) {
@@ -40,10 +40,11 @@ TEST(MakeRay, ShearsAlongTheLargestComponent) {
   EXPECT_EQ(make_ray({}, {1, 1, 1}).axis, 2U);
   const Ray ray = make_ray({1, 2, 3}, {0, -4, 1});
   EXPECT_EQ(ray.inverse, vec3(0x1p60F, exact_reciprocal(-4.0F), exact_reciprocal(1.0F)));
-  EXPECT_EQ(ray.shear, vec3(exact_reciprocal(-4.0F), 0.0F, exact_reciprocal(-4.0F)));  // z and x over y: cyclic after y
+  // z and x over y: the axes cyclic after y
+  EXPECT_EQ(ray.shear, vec3(exact_reciprocal(-4.0F), 0.0F, exact_reciprocal(-4.0F)));
 }
 
-// A ray against the upper face's normal meets the upper face; the other way round the lower one.
+// A ray against the upper face's normal meets the upper face, and a reversed ray the lower one.
 TEST(MeetTriangle, TellsTheFaceForEveryDirection) {
   Random random(1);
   for (const glm::vec3& lattice : lattice_directions()) {
@@ -74,7 +75,8 @@ TEST(MeetTriangle, GivesPlaceAndDistance) {
     const glm::vec3 direction = glm::vec3(at_weights(corners, b, c)) - origin;
     const glm::dvec3 cross = glm::cross(glm::dvec3(corners[1] - corners[0]), glm::dvec3(corners[2] - corners[0]));
     const double cosine = std::abs(glm::dot(glm::normalize(cross), glm::normalize(glm::dvec3(direction))));
-    const double smallest_height = glm::length(cross) / 4.0;  // twice the area over no more than the longest possible edge
+    // Twice the area, divided by an upper bound of the longest edge.
+    const double smallest_height = glm::length(cross) / 4.0;
     const double tolerance = 8.0 * 0x1p-20 / (cosine * smallest_height);
     if (tolerance > 0.01 || std::min({b, c, 1.0 - b - c}) == 0.0) continue;
     const TriangleHit hit = meet(make_ray(origin, direction), corners);
@@ -94,7 +96,7 @@ TEST(MeetTriangle, MeetsNothingBehindOrEdgeOnOrWithoutArea) {
   const Triangle level{vec3(0, 1, 0), vec3(0, 1, 1), vec3(1, 1, 0)};
   EXPECT_TRUE(meet(make_ray({0.25F, 2, 0.25F}, {0, -1, 0}), level).met);
   EXPECT_FALSE(meet(make_ray({0.25F, 2, 0.25F}, {0, 1, 0}), level).met);
-  EXPECT_FALSE(meet(make_ray({0.25F, 1, 0.25F}, {0, -1, 0}), level).met);  // starts in its plane
+  EXPECT_FALSE(meet(make_ray({0.25F, 1, 0.25F}, {0, -1, 0}), level).met);  // starts in the triangle's plane
   EXPECT_FALSE(meet(make_ray({-1, 1, 0.25F}, {1, 0, 0}), level).met);
   EXPECT_FALSE(meet(make_ray({-1, 1, -1}, {1, 0, 1}), level).met);
   EXPECT_FALSE(meet(make_ray({0, 2, 0}, {0, -1, 0}), {vec3(0, 1, 0), vec3(0, 1, 0), vec3(1, 1, 0)}).met);
@@ -117,7 +119,7 @@ TEST(MeetTriangle, IncludesItsEdges) {
   }
 }
 
-// The quadrilateral a b c d, cut along a c, with its corners in any order of numbering.
+// Counts the hits of the quadrilateral a b c d, cut along a c, with its corners numbered in any order.
 int met_of_quad(const Ray& ray, const std::array<glm::vec3, 4>& quad, int order) {
   const Triangle first{quad[0], quad[1], quad[2]};
   const Triangle second{quad[0], quad[2], quad[3]};
@@ -131,7 +133,7 @@ int met_of_quad(const Ray& ray, const std::array<glm::vec3, 4>& quad, int order)
   return (meet(ray, one).met ? 1 : 0) + (meet(ray, other).met ? 1 : 0);
 }
 
-// The cross product of two vectors as seen along the direction; its sign tells on which side the second lies.
+// Returns the cross product of two vectors as seen along the direction; its sign tells on which side the second lies.
 double seen_cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& direction) {
   return glm::dot(glm::cross(a, b), glm::normalize(direction));
 }
@@ -145,7 +147,7 @@ TEST(MeetTriangle, LetsNoRayThroughACommonEdge) {
     const glm::vec3 target = quad[0] + static_cast<float>(uniform(random, 0.1, 0.9)) * along;
     const glm::vec3 origin = point(random, 3.0);
     const glm::vec3 direction = target - origin;
-    // b and d have to be on either side of the edge as the ray sees it, well clear of it.
+    // The corners b and d have to be on opposite sides of the edge as the ray sees it, well clear of it.
     const double b = seen_cross(along, quad[1] - quad[0], direction);
     const double d = seen_cross(along, quad[3] - quad[0], direction);
     if (b * d > 0.0 || std::min(std::abs(b), std::abs(d)) < 0.01 || glm::length(direction) < 0.1) continue;
@@ -155,7 +157,7 @@ TEST(MeetTriangle, LetsNoRayThroughACommonEdge) {
   EXPECT_GT(rays, 50'000);
 }
 
-// A fan of triangles all round a corner that rays aim at: lattice points, where products vanish, and others.
+// A fan of triangles surrounds a corner at which rays aim: lattice points, where products vanish, and others.
 TEST(MeetTriangle, LetsNoRayThroughACommonCorner) {
   Random random(4);
   for (int k = 0; k < 50'000; ++k) {

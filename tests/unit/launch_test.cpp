@@ -50,7 +50,7 @@ TEST(LaunchTest, TakesNothingElseForMpi) {
   EXPECT_TRUE(launch({{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}, {"SUNFLECK_MPI", "on"}}));
 }
 
-// This test is linked with the part of a program that was built without MPI.
+// Links this test with the code of a program that was built without MPI.
 class NoJobTest : public ::testing::Test {
  protected:
   NoJobTest() {

@@ -66,7 +66,7 @@ Image white() {
   return {400, 400, std::vector<Pixel>(160'000, Pixel{255, 255, 255})};
 }
 
-// Blue from 0 to 1 in the lower half, then red from 0 to 1.
+// The bar is blue from 0 to 1 in the lower half, then red from 0 to 1.
 const ColourBar bar = {0.0, 400.0, {{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}}};
 
 TEST(DrawLegend, PaintsTheBarFromItsFirstColourUpToItsLast) {
@@ -83,7 +83,7 @@ TEST(DrawLegend, PaintsTheBarFromItsFirstColourUpToItsLast) {
     const double rest = 2.0 * share;
     return to_srgb(rest <= 1.0 ? Colour{0.0, 0.0, rest} : Colour{rest - 1.0, 0.0, 2.0 - rest});
   };
-  for (int row = top + 2; row < top + height - 2; ++row) {  // within the outline
+  for (int row = top + 2; row < top + height - 2; ++row) {  // stays within the outline
     EXPECT_EQ(at(row), colour((top + height - row - 0.5) / height)) << row;
   }
 }
@@ -92,7 +92,7 @@ TEST(DrawLegend, HasATickAtEachRoundNumber) {
   Image image = white();
   const Typeface face;
   draw_legend(image, face, {"", bar, {}}, room, type_px);
-  // Without title the bar begins 0.9 em below the panel's edge; ticks are right of it.
+  // Without a title the bar begins 0.9 em below the panel's edge; the ticks are right of it.
   const double width = type_px * (1.8 + 1.9 + 0.7 + face.width_px("400", 1.0));
   const double end_x = std::round(390.0 - width + type_px * 0.9) + type_px * 1.9;
   const auto column = static_cast<std::size_t>(end_x) + 2;
@@ -120,7 +120,7 @@ TEST(DrawLegend, HasEntriesAboveTheBar) {
     ++count;
   }
   EXPECT_LT(last_row, 10 + type_px * (0.9 + 1.65));
-  EXPECT_GT(count, 500);  // of 38 x 21 pixels, its outline included
+  EXPECT_GT(count, 500);  // of 38 x 21 pixels, outline included
 }
 
 TEST(DrawLegend, KeepsToItsRoom) {

@@ -1,4 +1,4 @@
-// CARIBU's lists of light directions.
+// Tests the reader of CARIBU's lists of light directions.
 
 #include "io/light_reader.h"
 
@@ -29,7 +29,8 @@ std::string refusal(const std::filesystem::path& file) {
 
 TEST(LightReader, TurnsTheAxesAndTheDirection) {
   const TempFolder folder;
-  // From the zenith; from the east (travelling west, 45 degrees); from the north; any length.
+  // The lights come from the zenith, from the east (travelling west, 45 degrees) and from the north, with vectors of any
+  // length.
   const auto lights = read_lights(folder.write("x.light", "# a comment\n1 0 0 -1\r\n\n 0.5 -1 0 -1\t# east\n2e-1 0 -30 -40"));
   ASSERT_EQ(lights.size(), 3U);
   const double half = std::sqrt(0.5);

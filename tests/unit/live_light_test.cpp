@@ -16,7 +16,7 @@ namespace {
 
 constexpr double patience_s = 120.0;
 
-// Waits until it holds; false after a long time.
+// Waits until the condition holds; returns false after a long time.
 template <class Condition>
 bool wait_for(const Condition& condition) {
   const auto start = std::chrono::steady_clock::now();
@@ -40,7 +40,7 @@ RadiationResult result_of(const LiveLight& light) {
   return copy;
 }
 
-// What `run` would find for the model as it is.
+// Returns what `run` would compute for the model as it is.
 RadiationResult run_of(const test::LiveScene& live, const RadiationModel& model) {
   CpuTracer tracer(live.simulation.tracing().tree.bvh, {model.plot.periodic, model.soil.has_value()});
   return solve(model, live.simulation.layout(), tracer, solve_settings(live.options, live.scene), {});
@@ -78,7 +78,7 @@ TEST(LiveLight, AnotherSunBeginsAnew) {
   LiveLight light(live.simulation, live.options, [] {});
   LightWish wish = wish_of(live.scene);
   std::uint64_t number = 0;
-  for (const double hour : {8.0, 11.5, 14.0}) {  // without waiting for the one before
+  for (const double hour : {8.0, 11.5, 14.0}) {  // without waiting for the previous one
     wish.sun.hour = hour;
     number = light.ask(wish);
   }
@@ -148,7 +148,8 @@ TEST(LiveLight, SavesWhatRunWrites) {
   EXPECT_FALSE(light.news().saved->done);
 }
 
-// The half-width of a side belongs to what falls on it: on a leaf that absorbs all, the two together are what is absorbed.
+// The half-width of a side belongs to the light that falls on it: on a leaf that absorbs everything, both sides together give
+// the absorbed flux.
 TEST(LiveLight, KnowsTheErrorOfEachSide) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
@@ -167,14 +168,14 @@ TEST(LiveLight, KnowsTheErrorOfEachSide) {
     for (std::size_t b = 0; b < 2; ++b) {
       const double lit = result.side_error[2 * e * 2 + b];
       const double dark = result.side_error[(2 * e + 1) * 2 + b];
-      EXPECT_TRUE(std::isnan(dark));  // the sun stands above these leaves
+      EXPECT_TRUE(std::isnan(dark));  // the sun is above these leaves
       EXPECT_NEAR(lit, result.element_error[b * elements + e], 1e-9 * lit);
       EXPECT_GT(lit, 0.0);
     }
   }
 }
 
-// To be watched changes nothing of the end.
+// Watching a run does not change its result.
 TEST(Monitor, IsHandedWhatIsKnownAfterEachReplicate) {
   const TempFolder folder;
   const test::LiveScene live(test::write_live_scene(folder));
@@ -228,7 +229,8 @@ TEST(LightWish, ByTheClockIsTheSunOfThatMoment) {
   EXPECT_EQ(model.bands[0].diffuse_w_m2, 60.0);
 }
 
-// Irradiance that the scene gives across the beam follows the sun to any angle, also from where it was below the horizon.
+// Irradiance that the scene states perpendicular to the beam follows the sun to any angle, even if the sun started below the
+// horizon.
 TEST(LightWish, IrradianceFollowsTheSun) {
   const TempFolder folder;
   folder.write("leaves.obj", test::live_mesh_text);
@@ -248,7 +250,7 @@ TEST(LightWish, IrradianceFollowsTheSun) {
   }
   wish.sun.by_clock = true;
   wish.sun.hour = 12.0;
-  wish.sun.latitude_deg = 10.0;  // at the place that is set, not at the scene's
+  wish.sun.latitude_deg = 10.0;  // at the place that was set, not at the scene's
   grant(wish, scene, model);
   EXPECT_NEAR(model.bands[0].direct_w_m2, 800.0 * std::sin(model.sun->elevation_rad), 1e-9);
   wish.sun.shines = false;

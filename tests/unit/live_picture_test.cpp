@@ -21,7 +21,7 @@ bool wait_for(const Condition& condition) {
   return true;
 }
 
-// Light that is done, and a picture of it.
+// Provides finished light and a picture of it.
 class LivePictures : public testing::Test {
  protected:
   LivePictures() : live_(test::write_live_scene(folder_)), light_(live_.simulation, live_.options, [] {}) {

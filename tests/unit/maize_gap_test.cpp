@@ -1,4 +1,4 @@
-// Light gaps of the maize stands, counted by a rasteriser that shares nothing with the tracers.
+// Counts the light gaps of the maize stands with a rasteriser that shares no code with the tracers.
 
 #include "canopy/maize_plant.h"
 #include "support/maize_stands.h"
@@ -20,8 +20,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Share of the ground of the endless stand that a beam from `to_sun` reaches: the mesh is projected along the beam onto a
-// grid of points that wraps at the plot's edges.
+// Returns the share of the ground of the endless stand that a beam from `to_sun` reaches: projects the mesh along the beam onto
+// a grid of points that wraps at the plot's edges.
 double gap_fraction(const Mesh& mesh, const glm::dvec2& size_m, const glm::dvec3& to_sun) {
   constexpr double spacing_m = 0.005;
   const int columns = static_cast<int>(std::lround(size_m.x / spacing_m));
@@ -52,7 +52,7 @@ double gap_fraction(const Mesh& mesh, const glm::dvec2& size_m, const glm::dvec3
 
 struct GapAtZenith {
   double gap_fraction;  // mean over azimuths
-  double path;          // G L / cos(zenith) for randomly placed leaves of the same orientations
+  double path;          // G L / cos(zenith) for randomly placed leaves with the same orientations
 };
 
 GapAtZenith gap_at_zenith(const Mesh& mesh, const glm::dvec2& size_m, double zenith_rad) {
@@ -70,7 +70,7 @@ GapAtZenith gap_at_zenith(const Mesh& mesh, const glm::dvec2& size_m, double zen
   return mean;
 }
 
-// Least squares through the origin of -ln P0 = clumping * G L / cos(zenith), zenith angles 0 to 60 degrees.
+// Fits -ln P0 = clumping * G L / cos(zenith) by least squares through the origin, for zenith angles 0 to 60 degrees.
 double clumping_index(const MaizeStand& stand) {
   const Mesh leaves = leaves_of(make_maize(stand));
   double sum_xy = 0.0;
@@ -84,7 +84,8 @@ double clumping_index(const MaizeStand& stand) {
 }
 
 TEST(MaizeGaps, GapFractionOfAPlateIsExact) {
-  Mesh plate;  // 0.4 x 0.3 m, 0.8 m above a plot of 1 x 1 m: no sun can lengthen the shadow of a level plate
+  // A plate of 0.4 x 0.3 m, 0.8 m above a plot of 1 x 1 m: no sun can lengthen the shadow of a level plate.
+  Mesh plate;
   plate.vertices = {{0.3, 0.8, 0.35}, {0.7, 0.8, 0.35}, {0.7, 0.8, 0.65}, {0.3, 0.8, 0.65}};
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
   const double one_line_of_points = 0.005 * (0.4 + 0.3);

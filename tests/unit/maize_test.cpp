@@ -75,7 +75,7 @@ TEST(Blade, TwoThirdsOfTheBendingAreReachedAtTheBendPosition) {
   const MaizeDetail detail{.blade_step_m = 0.001, .strips_per_half = 1};
   Mesh mesh;
   add_blade(mesh, blade, detail, {});
-  const std::size_t midrib = 3 * 700 + 1;  // three vertices a row
+  const std::size_t midrib = 3 * 700 + 1;  // each row has three vertices
   const glm::dvec3 along = glm::normalize(mesh.vertices[midrib + 3] - mesh.vertices[midrib - 3]);
   EXPECT_NEAR(std::acos(along.y), blade.insertion_rad + 2.0 / 3.0 * blade.bending_rad, 1e-4);
 }
@@ -163,7 +163,7 @@ TEST(MaizePlant, LargestLeafStandsNearTheEarAndIsOfMaizeSize) {
 TEST(MaizePlant, LeavesStandInTwoOppositeRanksAndGrowSteeperUpwards) {
   for (const MaizePlant& plant : some_plants()) {
     for (std::size_t i = 1; i < plant.leaves.size(); ++i) {
-      // Each may deviate from the plant's plane by up to 30 degrees.
+      // Each leaf may deviate from the plant's plane by up to 30 degrees.
       EXPECT_LT(glm::dot(plant.leaves[i].blade.outward, plant.leaves[i - 1].blade.outward), std::cos(120.0 * degree));
     }
     const Blade& lowest = plant.leaves.front().blade;
@@ -256,7 +256,7 @@ TEST_P(Maize, LeavesShowTheirUpperFaceToTheSky) {
   const Mesh leaves = leaves_of(make_maize(GetParam()));
   double up_m2 = 0.0;
   for (std::size_t t = 0; t < leaves.triangles.size(); ++t) up_m2 += area_vector(leaves, t).y;
-  EXPECT_GT(up_m2, 0.5 * total_area(leaves));  // a sphere's upper half has a mean of 0.5
+  EXPECT_GT(up_m2, 0.5 * total_area(leaves));  // the mean over a sphere's upper half is 0.5
 }
 
 TEST_P(Maize, EachStemStandsInTheMiddleOfItsCell) {

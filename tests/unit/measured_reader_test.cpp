@@ -14,7 +14,7 @@ class Measured : public testing::Test {
  protected:
   [[nodiscard]] MeasuredProfile read(const std::string& text) const { return read_measured(folder_.write("field.csv", text)); }
 
-  // The message without the folder's path.
+  // Returns the message without the folder's path.
   [[nodiscard]] std::string message(const std::string& text) const {
     try {
       static_cast<void>(read(text));
@@ -95,7 +95,7 @@ TEST_F(Measured, RefusesFilesThatAreNoTable) {
   EXPECT_LT(message(std::string(1'000'000, 'x')).size(), 200U) << "a long cell is cut";
 }
 
-// Every cut of a good file is read or refused, and never anything else.
+// Every cut of a good file is either read or rejected.
 TEST_F(Measured, SurvivesBeingCutAndGarbled) {
   const std::string good = "# x\nheight_m,sunfleck_ratio\n0,0.18\n0.5,0.25\n";
   for (std::size_t length = 0; length < good.size(); ++length) static_cast<void>(message(good.substr(0, length)));

@@ -1,4 +1,4 @@
-// The mesh readers under attack: broken files end in one Error that names the place, never in a crash or a guess.
+// Attacks the mesh readers: broken files end in one Error that names the place, never in a crash or a guess.
 
 #include "base/error.h"
 #include "io/file.h"
@@ -17,7 +17,7 @@
 namespace sunfleck {
 namespace {
 
-// The message of the input error that reading must end in.
+// Returns the message of the input error with which reading must fail.
 std::string refusal(const std::filesystem::path& file, const MeshImport& import) {
   try {
     static_cast<void>(read_mesh(file, import));
@@ -43,7 +43,7 @@ struct Broken {
   const char* words;  // part of the message
 };
 
-// `text` with the first `from` replaced.
+// Returns `text` with the first `from` replaced.
 std::string swapped(std::string text, std::string_view from, std::string_view to) {
   return text.replace(text.find(from), from.size(), to);
 }
@@ -201,7 +201,7 @@ TEST(MeshAttack, InflatingStopsAtTheLimit) {
   EXPECT_THROW(static_cast<void>(inflate_gzip(source, 9'999'999)), Error);
 }
 
-// Every format's good file, cut at every length: it is read or refused. What is read has its indices in range.
+// Cuts every format's good file at every length: it is either read or rejected. What is read has its indices in range.
 TEST(MeshAttack, CutAtEveryLength) {
   const TempFolder folder;
   std::vector<std::pair<std::string, std::string>> files{{"a.obj", obj_square()},
@@ -231,7 +231,7 @@ TEST(MeshAttack, CutAtEveryLength) {
   }
 }
 
-// The same with one byte changed at every place, to three values.
+// Does the same with one byte changed at every place, to three values.
 TEST(MeshAttack, OneByteChangedEverywhere) {
   const TempFolder folder;
   for (const auto& [name, good] : {std::pair<std::string, std::string>{"a.glb", glb(gltf_document(), gltf_binary())},

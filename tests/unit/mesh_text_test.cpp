@@ -1,4 +1,4 @@
-// Meshes written as OBJ, PLY and .can, and read back.
+// Tests meshes that are written as OBJ, PLY and .can, and read back.
 
 #include "io/mesh_text.h"
 
@@ -26,7 +26,8 @@ Corners corners_of(const Mesh& mesh) {
   return corners;
 }
 
-// 200 triangles over 100 shared vertices with digits that only double precision holds; optics that labels know.
+// Returns 200 triangles over 100 shared vertices, with digits that only double precision holds and optics that labels can
+// express.
 Mesh random_mesh() {
   std::mt19937 random(20261122);
   const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
@@ -105,7 +106,7 @@ TEST(MeshText, ACanKnowsLeavesAndStems) {
   EXPECT_TRUE(optics_lost_in_can(mesh).empty());
   mesh.optics_names = {"soil2", "leaf", "leaf10", "green", "stem"};
   EXPECT_EQ(optics_lost_in_can(mesh), (std::vector<std::string>{"soil2", "leaf10", "green"}));
-  // A sheath that has a leaf's optics is a leaf there; what is neither becomes a stem.
+  // In the file a sheath with a leaf's optics becomes a leaf; an organ that is neither becomes a stem.
   mesh.organs.assign(5, {1, "sheath", 0});
   mesh.optics_names = {"soil", "leaf", "leaf2", "green", "stem"};
   const TempFolder folder;

@@ -18,7 +18,7 @@
 namespace sunfleck {
 namespace {
 
-// A triangle by its content, whatever its place and numbering in the mesh.
+// Identifies a triangle by its content, whatever its place and numbering in the mesh.
 using Key = std::tuple<std::uint32_t, std::string, int, std::string, std::array<float, 9>>;
 
 std::vector<Key> keys(const Mesh& mesh) {
@@ -35,7 +35,7 @@ std::vector<Key> keys(const Mesh& mesh) {
   return all;
 }
 
-// 300 triangles over 200 shared vertices, organs and optics mixed at random.
+// Returns 300 triangles over 200 shared vertices, with organs and optics mixed at random.
 Mesh random_mesh() {
   std::mt19937 random(20240611);
   const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };

@@ -42,7 +42,7 @@ TEST_F(MomentLightTest, IsTheScenesOwnAtItsMoment) {
 TEST_F(MomentLightTest, FollowsSunAndWeather) {
   const Scene scene = read(plot + moment + perez + clear + par + "[[band]]\nname = \"B\"\ndirect_normal = 100\ndiffuse = 5\n");
   double last_w_m2 = 0.0;
-  for (const int hour : {22, 23}) {  // 6 and 7 o'clock there
+  for (const int hour : {22, 23}) {  // 6 and 7 o'clock local time
     const UtcTime time{2002, 8, 7, hour};
     const MomentLight light = light_at(scene, time);
     EXPECT_EQ(light.sun.elevation_rad, sun_position(time, scene.moment->place).elevation_rad);

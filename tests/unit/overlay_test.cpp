@@ -17,7 +17,7 @@ Pixel at(const Image& image, int x, int y) {
   return image.pixels[static_cast<std::size_t>(y) * image.width + x];
 }
 
-// Light of `red` over white in the given share.
+// Returns light of `red` over white in the given share.
 Pixel mixed(double share) {
   Colour colour = from_srgb(red);
   for (double& channel : colour) channel = 1.0 + share * (channel - 1.0);

@@ -50,7 +50,7 @@ TEST(PacketOrder, LeavesABeamAsItIs) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
-// Directions along an axis and those of any length are no matter.
+// Directions along an axis, and of any length, do no harm.
 TEST(PacketOrder, TakesAnyDirection) {
   std::vector<shared::Packet> packets(4);
   packets[0].direction = {0.0F, -1.0F, 0.0F};

@@ -46,7 +46,7 @@ TEST(PlaneWriter, ACellARow) {
   EXPECT_EQ(table.cell(2, "sunfleck"), "0.5");
   EXPECT_EQ(table.cell(4, "sunfleck"), "0");
   EXPECT_EQ(table.cell(5, "sunfleck"), "") << "no ray crosses it";
-  // 10 rays, each for 0.05 m2 of 100 W m-2, on 0.5 m2; 10 quanta of 0.5 W
+  // 10 rays, each of 0.05 m2 of 100 W m-2, and 10 quanta of 0.5 W cross 0.5 m2.
   EXPECT_NEAR(table.number(0, "PAR_direct"), 100.0, 1e-6);
   EXPECT_NEAR(table.number(0, "PAR_total"), 110.0, 1e-6);
   EXPECT_NEAR(table.number(0, "NIR_total"), 200.0, 1e-6);

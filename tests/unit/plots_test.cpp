@@ -70,13 +70,13 @@ TEST_F(Plots, ProfilesOfAnythingASimulationGives) {
   }
 }
 
-// Where a plane's first map is drawn: the bounds of its shaded cells.
+// Finds where a plane's first map is drawn: the bounds of its shaded cells.
 struct Map {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
 Map first_map(const test::Picture& picture) {
-  constexpr test::Picture::Pixel dark{0x44, 0x01, 0x54};  // the lower end of viridis: a cell in the shade
+  constexpr test::Picture::Pixel dark{0x44, 0x01, 0x54};  // the lower end of viridis, which a cell in the shade has
   Map map{picture.width, picture.height, 0, 0};
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < 760; ++x) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Planes at 0, 1 and 2 m: 0.2, 0.6 and 1 of them in the sun.
+// Returns planes at 0, 1 and 2 m, of which 0.2, 0.6 and 1 are in the sun.
 RadiationModel model_of_two_bands() {
   RadiationModel model;
   model.bands = {{"PAR", 100.0, 0.0}, {"NIR_1", 200.0, 0.0}};

@@ -11,8 +11,8 @@
 namespace sunfleck {
 namespace {
 
-// Some twenty operations in double precision on numbers of order ten: 20 x 10 x 2^-53 is 2e-14; two digits are left for the
-// differences of coordinates that are larger than the result.
+// Covers about twenty operations in double precision on numbers of order ten: 20 x 10 x 2^-53 is 2e-14. The other two digits
+// allow for differences of coordinates that are larger than the result.
 constexpr double tolerance = 1e-11;
 constexpr double quarter_turn = 0.5 * std::numbers::pi;
 
@@ -63,7 +63,7 @@ TEST(Projection, OfAPointOnARayIsWhereTheRayBegan) {
 
 TEST(Projection, GivesAPixelItsSize) {
   for (const Camera& camera : cameras(4.0 / 3.0)) {
-    constexpr int height = 100'000;  // so many that the picture is flat from one to the next
+    constexpr int height = 100'000;  // so large that the picture is flat between neighbouring pixels
     const glm::dvec2 here = camera.circle_centre;
     const auto at_depth = [&](glm::dvec2 at) {
       const glm::dvec3 direction = ray_direction(camera, at);
@@ -81,7 +81,7 @@ TEST(TopView, HasNorthUpAndEastRight) {
   const glm::dvec2 north = place(camera, middle - glm::dvec3(0.5, 0.0, 0.0)) - at;
   const glm::dvec2 east = place(camera, middle - glm::dvec3(0.0, 0.0, 0.5)) - at;
   EXPECT_NEAR(north.x, 0.0, tolerance);
-  EXPECT_NEAR(north.y, -0.25 / camera.half_height_m, tolerance);  // 0.5 m of a picture 2 half heights high
+  EXPECT_NEAR(north.y, -0.25 / camera.half_height_m, tolerance);  // 0.5 m in a picture 2 half heights high
   EXPECT_NEAR(east.x, 0.25 / camera.half_height_m, tolerance);
   EXPECT_NEAR(east.y, 0.0, tolerance);
   EXPECT_NEAR(glm::distance(place(camera, middle + glm::dvec3(0.0, 1.0, 0.0)), at), 0.0, tolerance);
@@ -96,7 +96,7 @@ TEST(SideView, ShowsTheRowsSideBySideWithEastRight) {
   const glm::dvec2 above = place(camera, middle + glm::dvec3(0.0, 0.5, 0.0)) - at;
   EXPECT_NEAR(east.x, 0.25 / camera.half_height_m, tolerance);
   EXPECT_NEAR(above.y, -0.25 / camera.half_height_m, tolerance);
-  EXPECT_LT(project(camera, {1.8, 1.0, 1.2})->depth_m, project(camera, {0.0, 1.0, 1.2})->depth_m);  // from the south
+  EXPECT_LT(project(camera, {1.8, 1.0, 1.2})->depth_m, project(camera, {0.0, 1.0, 1.2})->depth_m);  // seen from the south
 }
 
 TEST(OrthographicViews, ShowTheWholeBoxAndItsAxesWithAMargin) {
@@ -124,7 +124,7 @@ TEST(OrthographicViews, ShowTheWholeBoxAndItsAxesWithAMargin) {
   }
 }
 
-// The point of the hemisphere at that zenith angle and azimuth (clockwise from north), 2 m away.
+// Returns the point of the hemisphere at this zenith angle and azimuth (clockwise from north), 2 m away.
 glm::dvec3 on_hemisphere(const Camera& camera, double zenith_rad, double azimuth_rad) {
   const glm::dvec3 direction(-std::sin(zenith_rad) * std::cos(azimuth_rad), std::cos(zenith_rad),
                              -std::sin(zenith_rad) * std::sin(azimuth_rad));
@@ -137,7 +137,7 @@ TEST(Fisheye, IsEquidistantWithNorthUpAndEastLeft) {
     EXPECT_LT(glm::distance(place(camera, {0.9, 7.0, 1.2}), camera.circle_centre), tolerance);
     for (const double share : {0.25, 0.5, 0.999999999999}) {
       const double zenith_rad = share * quarter_turn;
-      const double out = share * camera.circle_radius;  // in heights of the picture
+      const double out = share * camera.circle_radius;  // in picture heights
       const glm::dvec2 across(out / aspect, 0.0);
       const glm::dvec2 down(0.0, out);
       const glm::dvec2 centre = camera.circle_centre;

@@ -11,7 +11,7 @@
 namespace sunfleck::shared {
 namespace {
 
-// The paper's listing again, in whole numbers modulo 2^32.
+// Repeats the paper's listing in whole numbers modulo 2^32.
 std::array<std::uint64_t, 4> pcg4d(std::array<std::uint64_t, 4> v) {
   constexpr std::uint64_t modulus = std::uint64_t{1} << 32U;
   const auto mix = [&v] {
@@ -46,7 +46,7 @@ TEST(UnitInterval, ReachesZeroAndNeverOne) {
   EXPECT_EQ(unit_interval(0xffffffffU), 1.0F - 0x1p-24F);
 }
 
-// Rays of one replicate, the same ray of many replicates, and the same ray in many dimensions.
+// Draws rays of one replicate, the same ray of many replicates, and the same ray in many dimensions.
 TEST(RandomWords, AreSpreadEvenly) {
   constexpr uint count = 1U << 20U;
   const auto words = [](int way, uint k) {
@@ -69,7 +69,7 @@ TEST(RandomWords, AreSpreadEvenly) {
   }
 }
 
-// Neighbouring rays know nothing of each other: the standard error of a correlation of n pairs is 1 / sqrt(n).
+// Neighbouring rays are independent: the standard error of a correlation of n pairs is 1 / sqrt(n).
 TEST(RandomWords, OfNeighboursAreUncorrelated) {
   constexpr uint count = 1U << 20U;
   double sum = 0.0;

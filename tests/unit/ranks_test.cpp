@@ -1,4 +1,4 @@
-// Ranks that are threads of one process: the same letters as between the processes of a job, without MPI.
+// Runs ranks as threads of one process: they exchange the same letters as the processes of a job, without MPI.
 
 #include "base/error.h"
 #include "cluster/rank_helpers.h"
@@ -65,7 +65,7 @@ class RanksTest : public ::testing::Test {
   using Make =
       std::function<std::optional<Replicate>(ReplicateMaker&, const ReplicateOrder&, const Tally&, const StopQuestion&)>;
 
-  // Rank `rank` works as told; `make` may do it in another way.
+  // Starts a worker with this rank; `make` may replace its way of making replicates.
   void start(int rank, const Make& make, const StopQuestion& interrupted = {}) {
     threads_.emplace_back([this, rank, make, interrupted] {
       LocalMailbox mailbox(post_, rank);
@@ -95,7 +95,7 @@ class RanksTest : public ::testing::Test {
   RadiationResult solve_with_helpers(const Monitor& monitor = {}) {
     return solve(model_, prepared_.layout, tracer_, settings_, monitor, helpers_.get());
   }
-  // So many replicates that only a signal ends it, and no pilots.
+  // Asks for so many replicates that only a signal ends the run, and for no pilots.
   void make_endless() {
     settings_.passes = 60000;
     settings_.grid_m = 1e-3;
@@ -157,12 +157,12 @@ TEST_F(RanksTest, MayBeSlowAndOutOfTurn) {
   EXPECT_TRUE(test::all_numbers(solve_with_helpers()) == alone);
 }
 
-// What was begun beyond the run's end is not waited for.
+// Replicates begun beyond the run's end are not waited for.
 TEST_F(RanksTest, DropWhatIsNotNeeded) {
   const std::size_t needed = solve_alone().direct.replicates;
   start_all([needed](ReplicateMaker& maker, const ReplicateOrder& order, const Tally& tally,
                      const StopQuestion& stop) -> std::optional<Replicate> {
-    if (order.number < most_replicates && order.number >= needed) {  // none of a pilot
+    if (order.number < most_replicates && order.number >= needed) {  // excludes the pilot's replicates
       while (!stop()) std::this_thread::sleep_for(1ms);
       return std::nullopt;
     }

@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// Every length that is too short, and one byte too many.
+// Tries every length that is too short, and one byte too many.
 template <class Unpack>
 void expect_whole_only(const Bytes& good, const Unpack& unpack) {
   EXPECT_NO_THROW(unpack(good));
@@ -62,7 +62,7 @@ TEST(Words, OfEndlessLengthTakeNoMemory) {
 
 class Replicates : public ::testing::Test {
  protected:
-  // As made for the scene.
+  // Makes a replicate just as for the scene.
   [[nodiscard]] Replicate make(const ReplicateOrder& order) {
     const Tally tally = maker_.tally(maker_.incidence(order.beam_rays), ElementErrors::skip);
     return *maker_.make(order, tally, [] { return false; });
@@ -77,7 +77,7 @@ class Replicates : public ::testing::Test {
   ReplicateMaker maker_{model_, prepared_.layout, tracer_};
 };
 
-// Packed again they give the same bytes, which hold all there is.
+// Packed again, they give the same bytes, which contain the whole replicate.
 TEST_F(Replicates, ArriveAsTheyWereMade) {
   for (const double packets : {0.0, 1000.0}) {
     const Replicate made = make(order(packets));

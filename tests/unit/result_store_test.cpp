@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// Three triangles of two organs over four cells of soil, two bands, a beam and a sky.
+// Returns three triangles of two organs over four cells of soil, with two bands, a beam and a sky.
 Scene small_scene() {
   Scene scene;
   scene.title = "A \"small\" scene, 60 × 60 cm";
@@ -75,7 +75,7 @@ class ResultStore : public ::testing::Test {
   [[nodiscard]] std::optional<std::string> refusal(const std::string& bytes) const {
     return message_of([&] { static_cast<void>(parse_result_store(bytes, file_)); });
   }
-  // The file with one thing changed.
+  // Returns the file with one change.
   [[nodiscard]] std::string changed(const std::function<void(json&)>& change) const {
     json store = json::from_cbor(bytes_);
     change(store);
@@ -172,7 +172,7 @@ TEST_F(ResultStore, CutShortIsRefusedAtEveryLength) {
   EXPECT_FALSE(refusal(bytes_));
 }
 
-// A changed byte may be harmless, or a number that nobody can tell from another; nothing worse.
+// A changed byte may be harmless, or give another valid number; nothing worse may happen.
 TEST_F(ResultStore, WithAnyByteChangedIsReadOrRefused) {
   for (const char change : {'\x01', '\x80', '\xff'}) {
     for (std::size_t at = 0; at < bytes_.size(); ++at) {
@@ -196,7 +196,7 @@ TEST_F(ResultStore, WithNumbersThatCannotBeDrawnIsRefused) {
       [](json& s) { s["model"]["plot"]["size_x_m"] = 0.0; },
       [](json& s) { s["model"]["plot"]["size_x_m"] = "wide"; },
       [](json& s) { s["model"]["plot"]["size_z_m"] = std::numeric_limits<double>::quiet_NaN(); },
-      [](json& s) { s["model"]["plot"]["size_z_m"] = 5.0; },  // another number of cells
+      [](json& s) { s["model"]["plot"]["size_z_m"] = 5.0; },  // implies another number of cells
       [](json& s) { s["model"]["soil"]["patch_m"] = 1e-300; },
       [](json& s) { s["model"]["bands"] = json::array(); },
       [](json& s) { s["model"]["layers"] = 0; },

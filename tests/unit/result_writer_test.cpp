@@ -16,7 +16,7 @@ using regression::Table;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Two triangles of two organs, two bands: A is black, B scatters.
+// Returns two triangles of two organs and two bands: A is black, B scatters.
 RadiationModel small_model() {
   RadiationModel model;
   model.plot = {2.0, 3.0, true};
@@ -113,11 +113,11 @@ TEST(ResultWriter, TrianglesStandInTheScenesFrame) {
   EXPECT_EQ(table.number(1, "x"), 11.0);
   EXPECT_EQ(table.number(1, "y"), 23.0);
   EXPECT_EQ(table.number(1, "z"), 31.0);
-  // 20 and 4 landings, each for 0.01 m2 of level ground, on 0.5 m2.
+  // 20 and 4 landings, each of 0.01 m2 of level ground, hit 0.5 m2.
   EXPECT_NEAR(table.number(0, "A_direct_upper"), 40.0, 1e-6);
   EXPECT_NEAR(table.number(0, "A_direct_lower"), 8.0, 1e-6);
   EXPECT_NEAR(table.number(0, "A_absorbed"), 48.0, 1e-6);
-  // 100 and 300 quanta of 0.01 W on 0.5 m2.
+  // 100 and 300 quanta of 0.01 W land on 0.5 m2.
   EXPECT_NEAR(table.number(0, "B_indirect_upper"), 2.0, 1e-6);
   EXPECT_NEAR(table.number(0, "B_indirect_lower"), 6.0, 1e-6);
   EXPECT_EQ(table.cell(0, "A_indirect_upper"), "0");

@@ -39,7 +39,7 @@ SolveState blank_of(const SolveState& state) {
 
 class RunStoreTest : public ::testing::Test {
  protected:
-  // The message with which a state is refused; empty if it is not.
+  // Returns the message that rejects the state, or an empty text if it is accepted.
   [[nodiscard]] std::string refusal(const ordered_json& now = settings) const {
     try {
       static_cast<void>(RunStore(folder_.path(), now).read(blank_));
@@ -98,7 +98,7 @@ TEST_F(RunStoreTest, ReadsNoStateThatIsDamaged) {
   EXPECT_EQ(refusal(), "");
 }
 
-// With a sum that is right: another map than this program writes.
+// The checksum is right, but this program writes other maps.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   store_.write(state_);
   const json good = *unsealed("SUNRUNS1", bytes());
@@ -123,7 +123,7 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   expect_refused(json(1));
 }
 
-// Ten million times what the file holds is neither reserved nor read.
+// Ten million times the file's content is neither reserved nor read.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherSize) {
   store_.write(state_);
   SolveState other = blank_;

@@ -10,7 +10,7 @@
 namespace sunfleck {
 namespace {
 
-// A file's end, a key or a value gone wrong: a scene or one line, nothing else.
+// Damages a file's end, a key or a value: reading must give a scene or one error line.
 class SceneUnderAttack : public SceneFolder {
  protected:
   void attack(const std::string& text) {
@@ -86,7 +86,7 @@ const std::vector<std::string> values = {"-1",
 
 class SceneLinesUnderAttack : public SceneUnderAttack {
  protected:
-  // Every line removed, doubled, and its value replaced; returns how many lines have one.
+  // Removes and doubles every line, and replaces its value; returns how many lines have a value.
   int attack_lines(const std::string& scene) {
     const std::vector<std::string> lines = lines_of(scene);
     int keys = 0;

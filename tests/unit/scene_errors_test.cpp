@@ -12,14 +12,14 @@
 namespace sunfleck {
 namespace {
 
-// A change to the good scene that breaks it. `mark` lies in the line that the message must name.
+// A change that breaks the good scene. The message must name the line that contains `mark`.
 struct Breakage {
   const char* name;
   std::string from;
   std::string to;
   std::string mark;
   std::string key;
-  std::string hint;  // from the reason or the cure
+  std::string hint;  // part of the reason or of the advice
 };
 
 void PrintTo(const Breakage& breakage, std::ostream* out) {
@@ -213,7 +213,7 @@ TEST_F(BrokenSceneFile, RefusesWhatIsNoScene) {
   const std::vector<std::string> texts = {"",
                                           " \n\n",
                                           "# only a comment\n",
-                                          {'\xff', '\xfe', '[', '\0', 'p', '\0'},  // as UTF-16 begins
+                                          {'\xff', '\xfe', '[', '\0', 'p', '\0'},  // the beginning of a UTF-16 text
                                           std::string(1000, '\0'),
                                           "title = \"\xc3\"\n",
                                           "# \xff\n",
@@ -234,7 +234,7 @@ TEST_F(BrokenSceneFile, RefusesAMesh) {
       << *message;
 }
 
-// Nesting beyond any sense must neither overflow the stack in the parser nor when its tree is freed.
+// Excessive nesting must overflow the stack neither in the parser nor when its tree is freed.
 TEST_F(BrokenSceneFile, DeepNestingIsRefused) {
   constexpr int depth = 200000;
   const auto repeated = [](const std::string& piece) {
@@ -259,7 +259,7 @@ TEST_F(BrokenSceneFile, DeepNestingIsRefused) {
     expect_three_parts(*message);
     EXPECT_LT(message->size(), 1000U);
   }
-  // Dots in texts and comments are no nesting.
+  // Dots in texts and comments are not nesting.
   EXPECT_FALSE(
       message_of([&] { static_cast<void>(read("title = \"....................\" # ....................\n" + bare_scene)); }));
 }

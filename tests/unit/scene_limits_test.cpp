@@ -1,4 +1,4 @@
-// A small scene file may ask for much: each limit is met before memory is taken or time is spent.
+// A small scene file may ask for a great deal: each limit must act before memory or time is spent.
 
 #include "support/scene_text.h"
 
@@ -64,7 +64,7 @@ TEST_F(SceneLimits, CoefficientsOfAllOpticsAndBands) {
   expect_refused(text, "more than 4000000 in all");
 }
 
-// Their names are told apart in no more than n log n steps: 50,000 of them in a moment.
+// Telling the names apart takes no more than n log n steps: 50,000 of them take a moment.
 TEST_F(SceneLimits, ManySensorsAreNamedQuickly) {
   std::string text = bare_scene;
   for (int i = 0; i < 50'000; ++i) text += fmt::format("[[sensor]]\nname = \"s{}\"\nfrom = [0, 0, 0]\n", i);
@@ -78,7 +78,7 @@ TEST_F(SceneLimits, PlantsOfAllGenerators) {
   expect_refused(bare_scene + leaf_ + stand + stand, "gives 12000 plants");
 }
 
-// Twenty thousand copies of a mesh are a hundred kilobytes of text, and many more triangles than any machine holds.
+// Twenty thousand copies of a mesh take a hundred kilobytes of text, and make more triangles than any machine holds.
 TEST_F(SceneLimits, CopiesFitIntoMemory) {
   std::string obj = "usemtl leaf\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 40'000; ++i) obj += "f 1 2 3\n";
@@ -105,7 +105,7 @@ TEST_F(SceneLimits, NegativeZeroIsZero) {
   EXPECT_EQ(scene.model.bands.at(0).direct_w_m2, 0.0);
 }
 
-// What toml++ 3.3 must not see: letters beyond ASCII where it looks for blanks. Texts, quoted keys and comments have them.
+// toml++ 3.3 must not see letters beyond ASCII where it looks for blanks. Texts, quoted keys and comments may contain them.
 TEST_F(SceneLimits, LettersBeyondAscii) {
   EXPECT_EQ(read("title = \"Bl\xc3\xa4tter \xf0\x9f\x8c\xbd\" # \xc3\xa4\n" + bare_scene).title,
             "Bl\xc3\xa4tter \xf0\x9f\x8c\xbd");

@@ -74,13 +74,13 @@ TEST_F(SceneReader, GivesEverySurfaceItsOptics) {
   EXPECT_EQ(leaf.rgb, glm::dvec3(0.05, 0.1, 0.04));
 }
 
-// Scaled first, then turned clockwise seen from above, then moved.
+// A copy is scaled first, then turned clockwise as seen from above, then moved.
 TEST_F(SceneReader, PlacesEveryCopy) {
   const Scene scene = read(good_scene);
   ASSERT_EQ(scene.model.canopy.size(), 4U);
   const glm::vec3 first = scene.model.canopy.corners[0][1];
   EXPECT_EQ(first, glm::vec3(0.5F, 0.5F, 1.5F));
-  // By 90 degrees X (south) turns to Z (west) and Z to -X.
+  // Turning by 90 degrees takes X (south) to Z (west) and Z to -X.
   const glm::vec3 turned_z = scene.model.canopy.corners[2][1];
   EXPECT_NEAR(turned_z.x, 1.0, 1e-6);
   EXPECT_NEAR(turned_z.y, 0.75, 1e-6);
@@ -196,7 +196,7 @@ TEST_F(SceneReader, DigestFollowsTextAndMeshes) {
   EXPECT_NE(read(good_scene + "# more\n").digest, first);
   write(folder_ / "plates.obj", plates_obj + "# more\n");
   EXPECT_NE(read(good_scene).digest, first);
-  // FNV-1a of the text alone, a reference value computed with the published recurrence.
+  // FNV-1a of the text alone: a reference value computed with the published recurrence.
   std::uint64_t state = 14695981039346656037ULL;
   for (const char c : bare_scene) state = (state ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   EXPECT_EQ(std::stoull(read(bare_scene).digest, nullptr, 16), state);
@@ -233,11 +233,11 @@ TEST_F(SceneReader, WarnsOfGeometryOutsideAnIsolatedPlot) {
   const std::string moved = replaced(good_scene, "[[0.5, 0.0, 1.0], [1.5, 0.25, 2.0]]", "[[-3.0, 0.5, 8.0]]");
   const Scene scene = read(replaced(moved, "[0, 90.0]", "0"));
   ASSERT_EQ(scene.warnings.size(), 1U);
-  // The plates reach over 0..0.5 along X and Z; the plot's middle is (1, 1.5).
+  // The plates cover 0..0.5 along X and Z; the plot's middle is (1, 1.5).
   EXPECT_NE(scene.warnings[0].find("at = [[0.75, 0.5, 1.25]]"), std::string::npos) << scene.warnings[0];
   EXPECT_NE(scene.warnings[0].find("X -3..-2.5"), std::string::npos) << scene.warnings[0];
   EXPECT_TRUE(read(replaced(replaced(moved, "[0, 90.0]", "0"), "periodic = false", "periodic = true")).warnings.empty());
-  // Larger than the plot, and about its middle: nothing to say of its place.
+  // The mesh is larger than the plot and about centred on it: its place gives no reason for a warning.
   const std::string large = replaced(replaced(good_scene, "scale   = 0.5", "scale = 100"), "[0, 90.0]", "0");
   const Scene wide = read(replaced(large, "[[0.5, 0.0, 1.0], [1.5, 0.25, 2.0]]", "[[-49.0, 0.0, -48.5]]"));
   ASSERT_EQ(wide.warnings.size(), 1U);
@@ -282,7 +282,7 @@ TEST_F(SceneReader, LargePlotGetsCoarserDefaultPatches) {
   EXPECT_NE(scene.warnings[0].find("soil.patch"), std::string::npos) << scene.warnings[0];
 }
 
-// The sum of decimal fractions may exceed 1 by rounding.
+// Rounding may make the sum of decimal fractions exceed 1.
 TEST_F(SceneReader, ReflectanceAndTransmittanceMayAddUpToOne) {
   const Scene scene = read(bare_scene +
                            "[optics.leaf]\nreflectance = 0.1\ntransmittance = 0.9\n[optics.b]\nreflectance = 0.7000000000001\n"

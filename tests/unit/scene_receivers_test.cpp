@@ -1,4 +1,4 @@
-// [[plane]] and [[sensor]].
+// Tests [[plane]] and [[sensor]].
 
 #include "io/scene_reader.h"
 #include "support/scene_text.h"
@@ -52,7 +52,7 @@ TEST_F(SceneReceivers, ReadsEveryKey) {
             glm::dvec3(0.0, 1.0, 0.0));
 }
 
-// Large and long plots: the cells grow so that there are at most a million.
+// In large and long plots the default cells grow so that there are at most a million.
 TEST_F(SceneReceivers, CellsOfTheirOwnAreCapped) {
   for (const auto& [size, x, z] :
        {std::tuple{"[0.001, 0.001]", 1, 1}, std::tuple{"[1, 2]", 100, 200}, std::tuple{"[1000, 1000]", 1000, 1000},

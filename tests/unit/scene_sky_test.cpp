@@ -1,4 +1,4 @@
-// [sky], [weather] and what bands take from them.
+// Tests [sky], [weather] and the light that bands take from them.
 
 #include "io/moment_light.h"
 #include "io/scene_reader.h"
@@ -106,7 +106,7 @@ TEST_F(SceneSky, SomeSkiesNeedASun) {
   expect_refused(head + "model = \"cie-clear\"\n", "model", "sky.model", "add [sun]");
   expect_refused(head + "model = \"perez\"\ndni = 1\ndhi = 9\n", "model", "sky.model", "add [sun]");
   EXPECT_TRUE(read(head + "model = \"cie-overcast\"\n").model.sky);
-  // A sun below the horizon is one.
+  // A sun below the horizon still counts as a sun.
   EXPECT_TRUE(read(plot + "[sun]\nelevation = -3\nazimuth = 0\n" + par + "[sky]\nmodel = \"cie-clear\"\n").model.sky);
 }
 
@@ -124,7 +124,7 @@ TEST_F(SceneSky, BandsTakeTheirDiffuseLightFromIt) {
 
 TEST_F(SceneSky, WeatherIsSplitAndShared) {
   const std::string ghi = plot + moment + uniform + "[weather]\nghi = 800\n";
-  // The E5 example: 310.19 and 89.82 W m-2, half of the split global irradiance.
+  // In the E5 example: 310.19 and 89.82 W m-2, half of the split global irradiance.
   const Scene scene = read(ghi + par);
   EXPECT_NEAR(scene.model.bands[0].direct_w_m2, 310.19, 0.01);
   EXPECT_NEAR(scene.model.bands[0].diffuse_w_m2, 89.82, 0.01);
@@ -177,7 +177,7 @@ TEST_F(SceneSky, WeatherComesFromItsFile) {
   ASSERT_EQ(year.warnings.size(), 1U);
   EXPECT_NE(year.warnings[0].find("holds month 8 of 1999, not of 2002"), std::string::npos) << year.warnings[0];
   const Scene far = read(replaced(replaced(head, "station.csv", "year.epw"), "116.28", "10"));
-  ASSERT_EQ(far.warnings.size(), 3U);  // night there, too
+  ASSERT_EQ(far.warnings.size(), 3U);  // it is also night there
   EXPECT_NE(far.warnings[1].find("km from the place in [sun]"), std::string::npos) << far.warnings[1];
 }
 

@@ -1,4 +1,4 @@
-// The files that a scene is read from: its list of them, and the digest that follows from it.
+// Tests a scene's list of the files that it was read from, and the digest made from them.
 
 #include "simulate/scene_source.h"
 #include "support/caribu_files.h"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Weather, a list of lights, a mesh of text and one whose numbers lie in a third file.
+// Refers to weather, a list of lights, a text mesh, and a mesh whose numbers lie in a third file.
 const std::string text_of_all =
     "[plot]\nsize = [4.0, 4.0]\n"
     "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.02\nlongitude = 116.28\n"
@@ -63,14 +63,14 @@ class SceneSources : public ::testing::Test {
     return load_scene({folder_ / canopy, files});
   }
 
-  // The names in the folder of the files that a scene was read from, once each.
+  // Returns the names, within the folder, of the files that a scene was read from, each once.
   [[nodiscard]] std::set<std::string> names(const std::vector<SourceFile>& files) const {
     std::set<std::string> names;
     for (const SourceFile& file : files) names.insert(fs::relative(file.path, folder_.path()).generic_string());
     return names;
   }
 
-  // The digest has to be another one with other bytes in the file, and the same again with the same.
+  // Expects another digest if the file has other bytes, and the first digest again with the first bytes.
   void expect_covered(const std::string& name, const std::string& bytes, const std::function<Scene()>& read) const {
     SCOPED_TRACE(name);
     const std::string before = read().digest;
@@ -102,7 +102,7 @@ TEST_F(SceneSources, AreAllInTheDigest) {
   expect_covered("first.obj", replaced(obj_square(), "v 1 1 0", "v 1 1 0.5"), of_scene);
   expect_covered("stand.gltf", gltf_beside("parts/../parts/stand.bin"), of_scene);
   std::string buffer = gltf_binary();
-  buffer[3] = '\x3f';  // 0.5 in the first coordinate's place
+  buffer[3] = '\x3f';  // makes the first coordinate 0.5
   expect_covered("parts/stand.bin", buffer, of_scene);
 
   const auto of_stand = [this] { return stand(); };

@@ -1,4 +1,4 @@
-// Scenes that are at hand as text, with meshes at hand as triangles.
+// Tests scenes given as text in memory, with meshes given as triangles.
 
 #include "support/scene_text.h"
 

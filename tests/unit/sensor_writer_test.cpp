@@ -1,4 +1,4 @@
-// sensors.csv.
+// Tests sensors.csv.
 
 #include "io/sensor_writer.h"
 

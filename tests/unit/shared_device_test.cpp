@@ -1,4 +1,4 @@
-// One device in turns, how long each lasts, and beams that are remembered.
+// Tests taking turns on one device, how long each turn lasts, and remembered beams.
 #include "tracers/shared_device.h"
 #include "tracers/cpu_tracer.h"
 #include "tracers/dispatch_budget.h"
@@ -44,7 +44,7 @@ TEST(DispatchBudget, GrowsStepByStepAndLearnsNothingFromRemainders) {
   EXPECT_EQ(small.rays(), 1000U);
 }
 
-// Who draws comes in between two dispatches of who traces, and nobody is in at the same time as another.
+// A thread that draws gets its turn between two dispatches of one that traces, and never do two have the device at once.
 TEST(DeviceTurn, LetsDrawingsInBetweenDispatches) {
   DeviceTurn turn;
   std::atomic<int> inside = 0;
@@ -82,7 +82,7 @@ struct Stand {
   }
   [[nodiscard]] std::vector<std::uint32_t> trace(Tracer& tracer, std::uint64_t replicate, const SunPosition& sun) {
     model.sun = sun;
-    std::vector<std::uint32_t> counters(layout.words(), 3);  // landings are added
+    std::vector<std::uint32_t> counters(layout.words(), 3);  // landings are added to the present counts
     EXPECT_EQ(tracer.count_beam(make_beam_block(model, layout, 5000, 1, replicate), counters, {}), TraceOutcome::finished);
     return counters;
   }

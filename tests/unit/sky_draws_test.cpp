@@ -1,4 +1,4 @@
-// Directions drawn from a sky against what it says of its radiance.
+// Compares directions drawn from a sky with its radiance.
 
 #include "base/error.h"
 #include "support/skies.h"
@@ -16,13 +16,14 @@
 namespace sunfleck::test {
 namespace {
 
-// Where a draw came from, by the areas of the square degrees and their radiance.
+// Locates a draw by the areas of the square degrees and their radiance.
 struct Square {
   double u, v;
 };
 
 template <class Share>
-Square inverse(const Sky& sky, const glm::dvec3& d, const Share& below) {  // below: share of a uniform sky under a zenith angle
+// `below` returns the share of a uniform sky under a zenith angle.
+Square inverse(const Sky& sky, const glm::dvec3& d, const Share& below) {
   const auto radiance = [&](int row, int column) {
     return sky.radiance(to_sky((row + 0.5) * row_height, (column + 0.5) * column_width));
   };
@@ -59,7 +60,7 @@ TEST(Sky, DrawsGoThereAndBack) {
         EXPECT_GE(by_radiance.y, least_sky_sine);
         const Square back = inverse(sky, by_irradiance, [](double zenith) { return std::pow(std::sin(zenith), 2); });
         EXPECT_NEAR(back.u, u, 1e-10);
-        if (u > 0.0) {  // at the zenith itself there is no azimuth
+        if (u > 0.0) {  // the zenith itself has no azimuth
           EXPECT_NEAR(back.v, v, 1e-9);
         }
         const Square plain = inverse(sky, by_radiance, [](double zenith) { return 1.0 - std::cos(zenith); });
@@ -68,7 +69,7 @@ TEST(Sky, DrawsGoThereAndBack) {
   }
 }
 
-// Pearson's chi-square of drawn directions in patches of 10 by 30 degrees whose expectation the radiance gives.
+// Returns Pearson's chi-square of drawn directions in patches of 10 by 30 degrees; the radiance gives the expectations.
 template <class Draw, class Density>
 void expect_distributed(const Draw& draw, const Density& density) {
   constexpr int patches = 9 * 12, draws = 200'000;
@@ -144,7 +145,7 @@ TEST(Sky, ListsOfDirectionsKeepTheirWeights) {
   model.lights = {{2.0, to_sky(0.0, 0.0)}, {0.0, to_sky(0.3, 0.0)}, {6.0, to_sky(60.0 * degree, 1.0)}};
   const Sky sky(model, {});
   ASSERT_TRUE(sky.is_list());
-  ASSERT_EQ(sky.lights().size(), 2U);  // one without weight is no light
+  ASSERT_EQ(sky.lights().size(), 2U);  // a light without weight is ignored
   EXPECT_DOUBLE_EQ(sky.lights()[0].weight, 0.25);
   EXPECT_DOUBLE_EQ(sky.lights()[1].weight, 0.75);
   EXPECT_NEAR(sky.spherical_irradiance(), 0.25 + 0.75 / 0.5, 1e-12);
@@ -155,7 +156,7 @@ TEST(Sky, ListsOfDirectionsKeepTheirWeights) {
     by_radiance += sky.draw_by_radiance((i + 0.5) / draws, 0.5).y > 0.9 ? 1 : 0;
   }
   EXPECT_EQ(by_irradiance, draws / 4);
-  EXPECT_EQ(by_radiance, draws / 7);  // 0.25 of 1.75
+  EXPECT_EQ(by_radiance, draws / 7);  // a share of 0.25 in 1.75
 }
 
 TEST(Sky, AListWithoutWeightIsRefused) {

@@ -1,4 +1,4 @@
-// The sky's models against E1 to E4 of the validation table.
+// Compares the sky's models with E1 to E4 of the validation table.
 
 #include "support/skies.h"
 
@@ -23,7 +23,8 @@ TEST(Sky, EverySkyGivesOneOnTheHorizontal) {
   }
 }
 
-TEST(Sky, UniformSkyOnTiltedPlanes) {  // E1; the plane's own horizon cuts cells, hence not 1e-9
+// E1. The plane's own horizon cuts through cells, hence the tolerance is larger than 1e-9.
+TEST(Sky, UniformSkyOnTiltedPlanes) {
   const Sky sky({SkyKind::uniform, 1, 0, 0, {}}, {});
   EXPECT_NEAR(sky.radiance({0, 1, 0}), 1.0 / pi, 1e-12);
   EXPECT_NEAR(sky.spherical_irradiance(), 2.0, 1e-12);
@@ -42,7 +43,7 @@ TEST(Sky, OvercastSkyOnTiltedPlanes) {  // E2
 
 struct TableRow {
   int type;
-  double horizontal_by_zenith;  // at the paper's sun
+  double horizontal_by_zenith;  // under the paper's sun
   std::array<double, 4> vertical;
   double low_horizontal_by_zenith;  // sun 30 degrees high
 };
@@ -71,7 +72,7 @@ TEST(Sky, StandardTypesGiveTheTable) {  // E3
     EXPECT_NEAR(irradiance(Sky(general(12), low_sun), north_east_south_west[side]), low_clear[side], 6e-5);
 }
 
-// The standard's formula, written down once more.
+// Computes the standard's formula independently.
 double standard_luminance(int type, const SunPosition& sun, const glm::dvec3& d) {
   struct Group {
     double a, b;
@@ -82,7 +83,7 @@ double standard_luminance(int type, const SunPosition& sun, const glm::dvec3& d)
   };
   constexpr std::array<Indicatrix, 6> indicatrices{
       {{0, -1, 0}, {2, -1.5, 0.15}, {5, -2.5, 0.3}, {10, -3, 0.45}, {16, -3, 0.3}, {24, -2.8, 0.15}}};
-  // Roman and arabic group of each type.
+  // Roman and Arabic group of each type.
   constexpr std::array<std::array<std::size_t, 2>, 15> groups{
       {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}, {2, 2}, {2, 3}, {3, 1}, {3, 2}, {3, 3}, {4, 3}, {4, 4}, {5, 4}, {5, 5}}};
   const auto [gradation, indicatrix] = groups[static_cast<std::size_t>(type - 1)];

@@ -1,4 +1,5 @@
-// A run that is stopped after any of its replicates and goes on from its state ends as if it had not been.
+// Tests that a run that is stopped after any of its replicates and resumed from its state gives the same result as an
+// uninterrupted run.
 
 #include "transport/solve_state.h"
 
@@ -14,20 +15,20 @@ namespace {
 
 class SolveStateTest : public ::testing::Test {
  protected:
-  // The result of a run from the beginning, or from a state.
+  // Returns the result of a run from the beginning, or from a state.
   RadiationResult solve_from(const SolveState* state, const Monitor& monitor = {}) {
     settings_.go_on_from = state;
     return solve(model_, prepared_.layout, tracer_, settings_, monitor);
   }
 
-  // What a run leaves that is interrupted once so many replicates are done.
+  // Returns the state of a run that was interrupted after this many replicates.
   SolveState stopped_after(std::size_t replicates, const SolveState* from = nullptr) {
     SolveState last;
     Monitor monitor;
     monitor.interrupted = [&] { return last.replicates() >= replicates; };
     monitor.wants_state = [] { return true; };
     monitor.receive_state = [&](const SolveState& state) { last = state; };
-    settings_.replicates_at_once = 1;  // others that are finished would be added
+    settings_.replicates_at_once = 1;  // otherwise others that are finished would be added
     EXPECT_EQ(solve_from(from, monitor).stop, StopReason::interrupted);
     settings_.replicates_at_once = 2;
     EXPECT_EQ(last.replicates(), replicates);
@@ -46,7 +47,7 @@ TEST_F(SolveStateTest, GoesOnToABoundAsIfNeverStopped) {
   ASSERT_EQ(whole.stop, StopReason::bound_reached);
   ASSERT_GE(whole.direct.replicates, 16U);
   SolveState state = stopped_after(2);
-  for (const std::size_t replicates : {5, 12, 13, 15}) {  // 12: a check of the bounds
+  for (const std::size_t replicates : {5, 12, 13, 15}) {  // the bounds are checked after 12
     state = stopped_after(replicates, &state);
     EXPECT_EQ(state.next_check, replicates < 12 ? 12U : 16U);
     const RadiationResult resumed = solve_from(&state);
@@ -87,7 +88,7 @@ TEST_F(SolveStateTest, GoesOnWithoutPacketsAndReceivers) {
   EXPECT_TRUE(test::all_numbers(solve(model_, prepared.layout, tracer, settings_, {})) == test::all_numbers(whole));
 }
 
-// A limit of rays counts those that were sent before.
+// A limit on rays includes those sent before.
 TEST_F(SolveStateTest, KeepsToItsLimitOfRays) {
   const RadiationResult unlimited = solve_from(nullptr);
   settings_.max_rays = unlimited.direct.rays + unlimited.indirect.packets + unlimited.indirect.sky_rays;
@@ -110,7 +111,7 @@ TEST_F(SolveStateTest, IsHandedOverWhenAskedForAndNotOfPilots) {
     EXPECT_EQ(state.replicates(), 5U * static_cast<std::size_t>(states));
   };
   const RadiationResult result = solve_from(nullptr, monitor);
-  EXPECT_EQ(static_cast<std::size_t>(questions), result.direct.replicates - 1);  // not once it is done
+  EXPECT_EQ(static_cast<std::size_t>(questions), result.direct.replicates - 1);  // not asked again once the run is done
   EXPECT_EQ(states, questions / 5);
 }
 

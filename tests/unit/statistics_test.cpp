@@ -28,7 +28,7 @@ TEST(TQuantile, IsUnknownBelowTwoReplicates) {
   EXPECT_TRUE(std::isnan(t_quantile(0.95, 1)));
 }
 
-// Garwood's upper limits for no event: 2.996 at 90 %, 3.689 at 95 %, 5.298 at 99 %.
+// Garwood's upper limits when no event was seen: 2.996 at 90 %, 3.689 at 95 %, 5.298 at 99 %.
 TEST(UnseenEvents, AreThoseOfTheTables) {
   EXPECT_NEAR(unseen_events(0.90), 2.996, 5e-4);
   EXPECT_NEAR(unseen_events(0.95), 3.689, 5e-4);
@@ -55,10 +55,10 @@ TEST(ReplicateMean, IsUnknownBelowTwoReplicates) {
   EXPECT_TRUE(std::isnan(mean.standard_error()));
   mean.add(5.0);
   EXPECT_EQ(mean.mean(), 4.0);
-  EXPECT_EQ(mean.standard_error(), 1.0);  // deviation sqrt(2), over sqrt(2)
+  EXPECT_EQ(mean.standard_error(), 1.0);  // the deviation sqrt(2) over sqrt(2)
 }
 
-// Also far from zero, where the difference of sums of squares would lose every digit.
+// This must hold far from zero too, where the difference of sums of squares would lose every digit.
 TEST(ReplicateMean, AgreesWithTwoPasses) {
   for (const double offset : {0.0, 1e9}) {
     testing_bvh::Random random(1);

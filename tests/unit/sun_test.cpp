@@ -30,7 +30,7 @@ double great_circle_deg(const SunPosition& sun, double elevation_deg, double azi
 
 const Place field = place_deg(40.02, 116.28);  // the paper's maize field in Beijing
 
-// Reda and Andreas (2004), worked example. The SPA claims 0.0003 degrees.
+// Worked example of Reda and Andreas (2004). The SPA claims 0.0003 degrees.
 TEST(sun_position, matches_the_spa_worked_example) {
   const Place golden = place_deg(39.742476, -105.1786, 1830.14);
   const SunPosition sun = sun_position({2003, 10, 17, 19, 30, 30.0}, golden, 67.0);
@@ -44,7 +44,7 @@ TEST(sun_position, matches_the_spa_worked_example) {
   EXPECT_NEAR(next.azimuth_rad / degree, 194.311132, 0.0003);
 }
 
-// SPA figures to three decimals: 0.0003 of the SPA and half a unit of the last digit each way.
+// SPA figures to three decimals: the tolerance is 0.0003 of the SPA plus half a unit of the last digit.
 TEST(sun_position, matches_the_spa_over_the_papers_day) {
   const struct {
     int hour_cst;
@@ -76,7 +76,7 @@ TEST(sun_position, matches_the_spa_elsewhere) {
             0.0005);
 }
 
-// A second of UT1 turns the earth by 15"; of terrestrial time alone it moves the sun by 0.04".
+// A second of UT1 turns the earth by 15"; a second of terrestrial time alone moves the sun by 0.04".
 TEST(sun_position, hardly_depends_on_delta_t) {
   const UtcTime time{2002, 8, 8, 2, 10, 0.0};
   const SunPosition without = sun_position(time, field, 0.0), with = sun_position(time, field, 64.2);
@@ -91,8 +91,8 @@ TEST(sun_position, works_from_1900_to_2100) {
   EXPECT_NEAR(default_delta_t_s({1971, 12, 31}), default_delta_t_s({1972, 1, 1}), 0.3);
   EXPECT_DOUBLE_EQ(default_delta_t_s({2002, 8, 8}), 32.0 + 32.184);
   EXPECT_DOUBLE_EQ(default_delta_t_s({2100, 12, 31}), 37.0 + 32.184);
-  // Seen from the pole at the June solstice the sun stands as high as the mean obliquity of the date (Capitaine et al. 2003,
-  // first two terms). It changes 0.001 degrees within six hours, nutation adds 0.0026, parallax 0.0024.
+  // Seen from the pole at the June solstice, the sun's elevation is the mean obliquity of the date (Capitaine et al. 2003,
+  // first two terms). It changes by 0.001 degrees within six hours; nutation adds 0.0026, parallax 0.0024.
   for (int year = 1900; year <= 2100; ++year) {
     double highest_deg = 0.0;
     for (int hour = 0; hour < 72; hour += 6) {
@@ -163,8 +163,8 @@ TEST(plus_seconds, crosses_days_months_and_years) {
   EXPECT_NEAR(seconds_between({2004, 2, 28, 12}, plus_seconds({2004, 2, 28, 12}, 200000.5)), 200000.5, 1e-4);
 }
 
-// The NREL SPA calculator's figures; clock times of the given offset. The calculator reports the events of a UTC date: the
-// sunset it lists under 2 August 2015 happens at 02:13:58 UTC, which is the evening of 1 August in Golden.
+// Figures of the NREL SPA calculator, as clock times with the given offset. The calculator reports the events of a UTC date:
+// the sunset it lists under 2 August 2015 happens at 02:13:58 UTC, which is the evening of 1 August in Golden.
 TEST(sun_events, match_the_spa_calculator) {
   const Place golden = place_deg(39.742476, -105.1786), south = place_deg(-35.0, 0.0), ohio = place_deg(40.0, -80.0);
   const auto at = [](int hour, int minute, int second) { return hour * 3600.0 + minute * 60.0 + second; };
@@ -194,7 +194,7 @@ TEST(sun_events, match_the_spa_calculator) {
       EXPECT_NEAR(clock_s(*events.sunset), *row.set_s, 5.0);
     }
   }
-  // That sunset belongs to the 1st: a day later the sun is at -0.8333 degrees a good minute earlier.
+  // That sunset belongs to the 1st: a day later the sun is at -0.8333 degrees over a minute earlier.
   const SunPosition a_day_later = sun_position({2015, 8, 3, 2, 13, 58.0}, golden);
   EXPECT_LT(a_day_later.elevation_rad, rise_set_elevation_rad - 0.15 * degree);
 }
@@ -212,7 +212,7 @@ TEST(sun_events, know_polar_day_and_night) {
 TEST(sun_events, belong_together_whatever_the_clock) {
   const SunEvents local = sun_events({2002, 8, 8, 480}, field);
   ASSERT_TRUE(local.sunrise && local.sunset);
-  EXPECT_EQ(local.sunrise->day, 7);  // 05:19 in Beijing is the evening before in Greenwich
+  EXPECT_EQ(local.sunrise->day, 7);  // 05:19 in Beijing is still the previous evening in Greenwich
   EXPECT_EQ(local.sunset->day, 8);
   EXPECT_NEAR(sun_position(*local.sunrise, field).elevation_rad, rise_set_elevation_rad, 1e-5);
   EXPECT_NEAR(sun_position(*local.sunset, field).elevation_rad, rise_set_elevation_rad, 1e-5);

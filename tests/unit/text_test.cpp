@@ -25,7 +25,7 @@ Image drawn(std::string_view line, glm::dvec2 baseline_px = {20.0, 50.0}) {
   return image;
 }
 
-// Darkness summed over the picture: 1 for a black pixel.
+// Returns the darkness summed over the picture: 1 for a black pixel.
 double ink(const Image& image) {
   double sum = 0.0;
   for (const auto& pixel : image.pixels) sum += (255 - pixel[0]) / 255.0;
@@ -35,7 +35,7 @@ double ink(const Image& image) {
 TEST(Typeface, DrawsWithinTheLineItMeasuresAndNowhereElse) {
   const std::string line = "Hxy(qg)W m⁻² ÅÉ";
   const Image image = drawn(line);
-  // Bearings of single letters may stick out by a tenth of the size; accented capitals reach 0.95 of it up.
+  // Bearings of single letters may stick out by a tenth of the size; accented capitals rise to 0.95 of it.
   const double left = 20.0 - 0.1 * size_px, right = 20.0 + Typeface().width_px(line, size_px) + 0.1 * size_px;
   const double top = 50.0 - 0.95 * size_px - 1.0, bottom = 50.0 + Typeface::descent * size_px + 1.0;
   for (int y = 0; y < image.height; ++y) {
@@ -58,7 +58,7 @@ TEST(Typeface, StandsOnItsBaselineAsHighAsACapital) {
     }
   }
   EXPECT_EQ(bottom, 50);
-  EXPECT_NEAR(50 - top, Typeface::cap_height * size_px, 1.0);  // whole pixels
+  EXPECT_NEAR(50 - top, Typeface::cap_height * size_px, 1.0);  // rounded to whole pixels
 }
 
 TEST(Typeface, LaysDownTheInkOfItsLetters) {
@@ -88,7 +88,7 @@ TEST(Typeface, SetsDigitsInColumns) {
 }
 
 TEST(Typeface, HasTheSignsOfUnits) {
-  const Image missing = drawn("\uE123");  // private use: no glyph of its own
+  const Image missing = drawn("\uE123");  // a private-use character, which has no glyph
   EXPECT_GT(ink(missing), 0.0);
   for (const std::string_view sign : {"⁻", "²", "¹", "·", "°", "–", "—", "−", "×", "µ", "α", "≤", "±"}) {
     EXPECT_GT(ink(drawn(sign)), 0.0) << sign;
@@ -106,7 +106,7 @@ TEST(Typeface, ReadsUtf8AndReplacesWhatIsNone) {
     EXPECT_NEAR(std::remainder(width, replaced), 0.0, 1e-9);
     EXPECT_EQ(drawn(std::string(broken) + "A").pixels == drawn("A").pixels, false);
   }
-  // A broken start does not swallow the letter after it.
+  // A broken start does not swallow the letter that follows it.
   EXPECT_EQ(face.width_px("\xe2|", 24.0), face.width_px("\uFFFD|", 24.0));
   EXPECT_EQ(drawn("\U0001D7D8").pixels == drawn("\uE123").pixels, false);  // four bytes: double-struck zero
 }

@@ -11,10 +11,11 @@ namespace {
 const Colour grey = {0.5, 0.5, 0.5};
 const Colour green = {0.1, 0.5, 0.0};
 
-// By hand. Two lit grey surfaces of equal area, 100 and 400 W m-2: their log-mean is sqrt(100 * 400) = 200, whatever lies in
-// the dark. Ratios 0.5 and 2, luminances 0.25 and 1. All but 0.5 % of the area is no brighter than 1: Lwhite = 1.25, Lwhite^2 =
-// 1.5625. Eq. 4: 1 * (1 + 1 / 1.5625) / 2 = 0.82, and 0.25 * (1 + 0.25 / 1.5625) / 1.25 = 0.232.
-// As sRGB 1.055 * 0.82^(1/2.4) - 0.055 = 0.91628, or 233.7 of 255, and 1.055 * 0.232^(1/2.4) - 0.055 = 0.51898, or 132.3.
+// Computed by hand. Two lit grey surfaces of equal area have 100 and 400 W m-2: their log-mean is sqrt(100 * 400) = 200,
+// whatever lies in the dark. The ratios are 0.5 and 2, the luminances 0.25 and 1. All but 0.5 % of the area is no brighter than
+// 1: Lwhite = 1.25, Lwhite^2 = 1.5625. Eq. 4 gives 1 * (1 + 1 / 1.5625) / 2 = 0.82 and 0.25 * (1 + 0.25 / 1.5625) / 1.25 =
+// 0.232. As sRGB these are 1.055 * 0.82^(1/2.4) - 0.055 = 0.91628, or 233.7 of 255, and 1.055 * 0.232^(1/2.4) - 0.055 =
+// 0.51898, or 132.3.
 TEST(ToneMap, OfTwoGreySurfacesIsAsByHand) {
   const ToneMap map =
       make_tone_map(std::vector<double>{100.0, 400.0, 0.0}, std::vector<double>{1.0, 1.0, 5.0}, std::vector<Colour>(3, grey));

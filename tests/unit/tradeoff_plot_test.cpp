@@ -17,7 +17,7 @@ constexpr test::Picture::Pixel blue{0x00, 0x72, 0xB2}, vermilion{0xD5, 0x5E, 0x0
 
 using TradeoffPlot = test::GnuplotTest;
 
-// A setting with two runs whose errors are these, by quantity.
+// Returns a setting with two runs that have these errors, by quantity.
 TradeoffRung rung(Ladder ladder, double value, double seconds, std::uint64_t rays, std::array<double, 4> errors) {
   TradeoffRung made{ladder, value, {}, errors};
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -28,7 +28,7 @@ TradeoffRung rung(Ladder ladder, double value, double seconds, std::uint64_t ray
   return made;
 }
 
-// Figures like those of a maize plot.
+// Returns figures like those of a maize plot.
 TradeoffReport maize_report() {
   TradeoffReport report;
   report.record.title = "Maize, sparse planting, 60 x 60 cm, 2002-08-08 10:10";

@@ -18,7 +18,7 @@ std::size_t number(Quantity quantity) {
   return static_cast<std::size_t>(quantity);
 }
 
-// Two parts around the organs' values 10 and 40, and a third value that is not judged.
+// Returns two parts around the organs' values 10 and 40, and a third value that is not judged.
 TradeoffReference organ_reference(double spread) {
   TradeoffReference reference;
   for (const double sign : {-1.0, 1.0}) {
@@ -34,7 +34,7 @@ TradeoffReference organ_reference(double spread) {
 
 TEST(TradeoffError, IsTheRootMeanSquareOfRelativeErrors) {
   const TradeoffReference reference = organ_reference(0.0);
-  // Off by 3 % and 4 %; half-widths of 5 % and 2 %: the first alone is covered.
+  // The values are off by 3 % and 4 %, with half-widths of 5 % and 2 %: only the first is covered.
   const QuantityValues run{{10.3, 38.4, 5.0}, {0.5, 0.8, 9.0}};
   const QuantityError error = reference.error(Quantity::organ, run, 0.95, 8);
   EXPECT_NEAR(error.true_error, std::sqrt((9.0 + 16.0) / 2.0) / 100.0, 1e-12);
@@ -55,11 +55,12 @@ TEST(TradeoffError, ValuesWithoutIntervalsAreNeitherReportedNorCovered) {
 }
 
 TEST(TradeoffError, TheReferencesOwnErrorIsKnownAndWidensIntervals) {
-  // Two parts at 9 and 11: the mean's standard error is 1, a tenth of the value; the other organ's is 0.
+  // With two parts at 9 and 11 the mean's standard error is 1, a tenth of the value; that of the other organ is 0.
   const TradeoffReference reference = organ_reference(1.0);
   EXPECT_NEAR(reference.own_error(Quantity::organ), 0.1 / std::sqrt(2.0), 1e-12);
   EXPECT_TRUE(std::isnan(reference.own_error(Quantity::canopy)));
-  // Student's t for 8 replicates at 95 % is 2.365: 2.3 away is covered though the half-width is nearly 0, 2.4 is not.
+  // Student's t for 8 replicates at 95 % is 2.365: a value 2.3 away is covered though the half-width is nearly 0, one 2.4 away
+  // is not.
   EXPECT_EQ(reference.error(Quantity::organ, {{12.3, 40.0, 0.0}, {1e-6, 0.1, none}}, 0.95, 8).covered, 1.0);
   EXPECT_EQ(reference.error(Quantity::organ, {{12.4, 40.0, 0.0}, {1e-6, 0.1, none}}, 0.95, 8).covered, 0.5);
 }
@@ -69,7 +70,7 @@ TEST(TradeoffError, OtherNumbersOfValuesHaveNone) {
 }
 
 TEST(TradeoffError, TypicalErrorLeavesTheReferencesOut) {
-  // Squares 9 and 41, mean 25; without 9: 16.
+  // The squares are 9 and 41, with mean 25; without 9 it is 16.
   EXPECT_NEAR(typical_error({3.0, std::sqrt(41.0)}, 3.0), 4.0, 1e-12);
   EXPECT_NEAR(typical_error({3.0, 4.0}, none), std::sqrt(12.5), 1e-12);
   EXPECT_TRUE(std::isnan(typical_error({3.0, 4.0}, 3.0))) << "most of it would be the reference's";
@@ -87,7 +88,8 @@ TEST(TradeoffFit, PowerLawGoesThroughItsPoints) {
 }
 
 TEST(TradeoffFit, StandardErrorIsThatOfLeastSquares) {
-  // Logarithms x = 0, 1, 2; y = 0, 0, 3: slope 1.5, residuals 0.5, -1, 0.5; variance 1.5 / 1, of the slope 1.5 / 2.
+  // Logarithms x = 0, 1, 2 and y = 0, 0, 3 give slope 1.5, residuals 0.5, -1, 0.5, variance 1.5 / 1, and variance 1.5 / 2 of
+  // the slope.
   const double e = std::exp(1.0);
   const auto law = fit_power_law(std::vector<WorkAndError>{{1.0, 1.0}, {e, 1.0}, {e * e, e * e * e}});
   ASSERT_TRUE(law);
@@ -101,7 +103,7 @@ TEST(TradeoffFit, NeedsTwoPoints) {
   EXPECT_FALSE(fit_power_law(std::vector<WorkAndError>{{2.0, 1.0}, {2.0, 3.0}}));
 }
 
-// A rung of the ladder of bounds whose runs have these organ errors.
+// Returns a rung of the ladder of bounds whose runs have these organ errors.
 TradeoffRung bound_rung(double bound, double seconds, const std::vector<double>& errors) {
   TradeoffRung rung{Ladder::bounds, bound, {}};
   for (const double error : errors) {
@@ -114,7 +116,7 @@ TradeoffRung bound_rung(double bound, double seconds, const std::vector<double>&
 }
 
 TEST(Recommendation, InterpolatesBetweenRungs) {
-  // Error = bound, seconds = 1e-4 / bound^2, no spread.
+  // The error equals the bound, the seconds are 1e-4 / bound^2, without spread.
   const std::vector<TradeoffRung> rungs{bound_rung(0.04, 0.0625, {0.04, 0.04}), bound_rung(0.02, 0.25, {0.02, 0.02}),
                                         bound_rung(0.01, 1.0, {0.01, 0.01})};
   const auto found = recommend(rungs, 0.015, Quantity::organ);
@@ -127,7 +129,7 @@ TEST(Recommendation, InterpolatesBetweenRungs) {
 }
 
 TEST(Recommendation, KeepsAMarginForTheWorstSeed) {
-  // Root mean square 0.05, the worst run 1.4 times that: an error of 0.07 is met by the very rung.
+  // The root mean square is 0.05 and the worst run 1.4 times that: this very rung meets an error of 0.07.
   const std::vector<TradeoffRung> rungs{bound_rung(0.2, 0.25, {0.02, 0.14}), bound_rung(0.1, 1.0, {0.01, 0.07})};
   const auto found = recommend(rungs, 0.0701, Quantity::organ);
   ASSERT_TRUE(found);
@@ -149,7 +151,7 @@ TEST(Recommendation, GoesBeyondTheFinestRungAndSaysSo) {
   EXPECT_TRUE(found->extrapolated);
   EXPECT_NEAR(found->bound, 0.01, 1e-12);
   EXPECT_NEAR(found->seconds, 16.0, 1e-9);
-  // Where the error hardly fell with the bound, the bound still follows the error at least by its square.
+  // Even where the error hardly fell with the bound, the bound follows the error at least by its square.
   const std::vector<TradeoffRung> flat{bound_rung(0.04, 1.0, {0.021}), bound_rung(0.02, 4.0, {0.02})};
   EXPECT_NEAR(recommend(flat, 0.01, Quantity::organ)->bound, 0.005, 1e-12);
 }

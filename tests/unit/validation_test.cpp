@@ -1,4 +1,4 @@
-// When a known answer passes, the closed forms behind the answers, and the tables they are written as.
+// Tests when a known answer passes, the closed forms behind the answers, and the tables that report them.
 #include "app/validate_report.h"
 #include "base/error.h"
 #include "transport/statistics.h"
@@ -27,7 +27,7 @@ KnownAnswer estimate(double got, double expected, double standard_error) {
 }
 
 TEST(Verdict, IsStudentsForTheWholeTable) {
-  // One comparison at 0.1 %: Student's t with 31 degrees of freedom, two-sided.
+  // One comparison at 0.1 %: two-sided quantile of Student's t with 31 degrees of freedom.
   EXPECT_NEAR(table_quantile(1, 32), 3.633, 0.001);
   const double each = 1.0 - std::pow(0.999, 1.0 / 100.0);
   EXPECT_NEAR(table_quantile(100, 32), t_quantile(1.0 - each, 32), 1e-9);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t none = SurfaceImage::nothing;
 
-// Two rows of two pixels of four samples.
+// Returns two rows of two pixels with four samples each.
 SurfaceImage four_pixels() {
   return {2, 2, 4, {none, none, none, none, 0, 1, none, 1, 2, 2, 0, 0, 1, 1, 1, 1}, std::vector<float>(16, 1.0F), {}, 0};
 }

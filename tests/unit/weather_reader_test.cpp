@@ -23,7 +23,7 @@ const std::string good_csv =
 
 constexpr int days_in[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
 
-// GHI is 0 at night and the hour's number times 10 from 7 to 18, month + day added.
+// Returns a file whose GHI is 0 at night, and from 7 to 18 the hour's number times 10 plus month + day.
 std::string epw(bool leap = false) {
   std::string text =
       "LOCATION,Beijing,Beijing,CHN,CSWD,545110,39.80,116.47,8.0,31.3\nDESIGN CONDITIONS,0\nTYPICAL/EXTREME PERIODS,0\n"
@@ -78,7 +78,7 @@ TEST(StationReader, ReadsPartsInAnyOrderAmongOtherColumns) {
   EXPECT_NEAR(file.weather.intervals[0].length_s, 600.0, 1e-6);
 }
 
-// As R's write.csv writes it.
+// The cells are as R's write.csv writes them.
 TEST(StationReader, ReadsQuotedCells) {
   const TempFolder folder;
   const WeatherFile file = read_weather(
@@ -99,7 +99,7 @@ TEST(StationReader, KnowsTheFormsOfATime) {
   EXPECT_NEAR(seconds_between({2024, 3, 1, 0, 0, 59.25}, file.weather.intervals[0].start), 0.0, 1e-6);
 }
 
-// Lengths may vary, but a step above the most common one is a gap.
+// Lengths may vary, but a step longer than the most common one is a gap.
 TEST(StationReader, LengthsAreStepsAndLongerOnesAreGaps) {
   const TempFolder folder;
   std::string text = "time,ghi\n";
@@ -125,7 +125,7 @@ TEST(EpwReader, HoursEndAtTheirNumberInLocalTime) {
   ASSERT_EQ(file.weather.intervals.size(), 8760U);
   ASSERT_TRUE(file.years);
   EXPECT_EQ((*file.years)[7], 1998);
-  // 10:10 in local time lies in hour 11.
+  // 10:10 local time lies in hour 11.
   const WeatherInterval& hour = interval_at(file.weather, {2002, 8, 8, 2, 10});
   EXPECT_EQ(hour.ghi_w_m2, 110.0 + 8.0 + 8.0);
   EXPECT_EQ(hour.dni_w_m2, 220.0);
@@ -268,7 +268,7 @@ TEST(WeatherAttack, WhatIsNoFile) {
   EXPECT_NE(message->find("67108865 bytes"), std::string::npos) << *message;
 }
 
-// Any end, any byte: weather or one line.
+// Cuts the file anywhere and changes any byte: reading must give weather or one error line.
 TEST(WeatherAttack, CutAndChangedFiles) {
   const TempFolder folder;
   int refusals = 0;

@@ -24,7 +24,7 @@ TEST(Weather, DayOfYear) {
   EXPECT_EQ(day_of_year({1900, 3, 1}), 60);
 }
 
-// The relation worked out by hand; five digits are given.
+// The relation worked out by hand, given with five digits.
 TEST(Weather, SpittersKnownShares) {
   EXPECT_NEAR(extraterrestrial_normal_w_m2(1370.0, paper_day) * std::sin(paper_sun.elevation_rad), 1065.536, 5e-4);
   EXPECT_NEAR(spitters_diffuse_share(800.0, paper_sun, paper_day), 0.22454, 5e-6);
@@ -47,7 +47,7 @@ TEST(Weather, ErbsKnownShares) {
   EXPECT_NEAR(share(0.9), 0.165, 1e-12);
 }
 
-// Reference values for sea level, Linke turbidity 3, 1364 W m-2 outside the atmosphere; seven digits are given.
+// Reference values for sea level, Linke turbidity 3 and 1364 W m-2 outside the atmosphere, given with seven digits.
 TEST(Weather, IneichenKnownClearSkies) {
   struct Case {
     double apparent_zenith_deg, air_mass, ghi, dni, dhi;
@@ -63,12 +63,12 @@ TEST(Weather, IneichenKnownClearSkies) {
   }
 }
 
-// The air masses of the cases above were made for a station where the pressure is 0.91975 of that at sea level.
+// The air masses of the cases above were computed for a station whose pressure is 0.91975 of that at sea level.
 TEST(Weather, AirMassOfKastenAndYoung) {
   EXPECT_NEAR(0.91975021 * relative_air_mass((90.0 - 46.0467599) * degree), 1.32355476, 2e-8);
   EXPECT_NEAR(0.91975021 * relative_air_mass((90.0 - 72.41687122) * degree), 3.01614096, 4e-8);
   EXPECT_NEAR(relative_air_mass((90.0 - 36.9824) * degree), 1.25085, 5e-6);
-  EXPECT_NEAR(relative_air_mass(0.0), 37.92, 0.01);  // on the horizon, their table
+  EXPECT_NEAR(relative_air_mass(0.0), 37.92, 0.01);  // on the horizon, from their table
   EXPECT_NEAR(standard_pressure_hpa(0.0), 1013.25, 1e-9);
   EXPECT_NEAR(standard_pressure_hpa(1000.0), 898.75, 0.01);  // ISO 2533
   EXPECT_NEAR(standard_pressure_hpa(5000.0), 540.20, 0.02);
@@ -103,7 +103,7 @@ TEST(Weather, ClearSkyFallsWithTurbidityAndRisesWithAltitude) {
             clear_sky({3.0, 0.0}, paper_sun, paper_day).direct_normal_w_m2);
 }
 
-// Any irradiance, any sun: no part is negative, both add up, and the beam is no stronger than outside the atmosphere.
+// For any irradiance and any sun: no part is negative, both add up, and the beam is no stronger than outside the atmosphere.
 TEST(Weather, SplitsAddUpAndAreNeverNegative) {
   for (const SplitRule rule : {SplitRule::spitters, SplitRule::erbs}) {
     for (const double elevation_deg : {-10.0, 0.0, 1e-9, 0.01, 0.5, 2.0, 10.0, 30.0, 60.0, 89.99, 90.0}) {
@@ -196,7 +196,7 @@ TEST(Weather, PartsGoBeforeTheWhole) {
   EXPECT_EQ(got.diffuse_w_m2, 120.0);
 }
 
-// Half a day of local time and the turn of the year: hour i of the year carries the number i.
+// Covers half a day of local time and the turn of the year: hour i of the year carries the number i.
 TEST(Weather, ATypicalYearHoldsInEveryYear) {
   Weather weather;
   weather.source = Weather::Source::intervals;
@@ -213,7 +213,7 @@ TEST(Weather, ATypicalYearHoldsInEveryYear) {
   EXPECT_EQ(hour({2024, 8, 8, 2, 10}), (paper_day - 1) * 24 + 10);
   EXPECT_EQ(hour({2024, 12, 31, 15, 59, 59.0}), 8759);
   EXPECT_NE(refusal(weather, {2024, 2, 29, 3}).find("no 29 February"), std::string::npos);
-  EXPECT_EQ(hour({2024, 2, 29, 16}), 59 * 24);  // already 1 March there
+  EXPECT_EQ(hour({2024, 2, 29, 16}), 59 * 24);  // already 1 March local time
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-"""A display of its own with a window manager, input as from a hand, and what is to be seen on it."""
+"""Provides a separate display with a window manager, input as from a hand, and pictures of the display."""
 
 import os
 import struct
@@ -9,7 +9,7 @@ import zlib
 import numpy
 
 WIDTH, HEIGHT = 1100, 900
-# "fixed" is the font that every X server has.
+# The font "fixed" is on every X server.
 TWM_SETTINGS = """NoTitle
 RandomPlacement
 BorderWidth 0
@@ -48,14 +48,14 @@ class Screen:
             process.wait()
 
     def do(self, *words):
-        """One xdotool command, such as do("key", "h"); returns what it prints."""
+        """Runs one xdotool command, such as do("key", "h"); returns what it prints."""
         return subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, capture_output=True,
                               text=True, timeout=60).stdout.strip()
 
     def drag(self, start, end, button=1, steps=8):
         self.do("mousemove", *map(int, start))
         self.do("mousedown", button)
-        time.sleep(0.4)  # for a frame to see it go down here, and below to see where it ends before it goes up
+        time.sleep(0.4)  # lets a frame see the button go down; the sleep below lets it see the end before the button goes up
         for k in range(1, steps + 1):
             self.do("mousemove", *(int(a + (b - a) * k / steps) for a, b in zip(start, end)))
             time.sleep(0.03)
@@ -63,7 +63,7 @@ class Screen:
         self.do("mouseup", button)
 
     def still_shot(self):
-        """A shot once two in a row are alike."""
+        """Returns a shot as soon as two in a row are alike."""
         last = self.shot()
         for _ in range(100):
             time.sleep(0.25)
@@ -74,10 +74,11 @@ class Screen:
         return now
 
     def shot(self):
-        """The screen as an array of rows, columns, red-green-blue."""
+        """Returns the screen as an array of rows, columns, red-green-blue."""
         with open(os.path.join(self.folder, "Xvfb_screen0"), "rb") as file:
             data = file.read()
-        head = struct.unpack(">25I", data[:100])  # XWDFile.h: sizes of the head and the colour map come first and 20th
+        # XWDFile.h: the size of the header is the first number, the size of the colour map the 20th
+        head = struct.unpack(">25I", data[:100])
         start = head[0] + 12 * head[19]
         rows = numpy.frombuffer(data, numpy.uint8, head[12] * head[5], start).reshape(head[5], head[12] // 4, 4)
         return rows[:, :head[4], 2::-1].copy()
@@ -95,7 +96,7 @@ def write_png(file, pixels):
 
 
 def read_png(file):
-    """8-bit red-green-blue without interlacing, which is what the program writes."""
+    """Reads 8-bit red-green-blue without interlacing, the format that the program writes."""
     with open(file, "rb") as stream:
         data = stream.read()
     place, body = 8, b""
@@ -116,7 +117,7 @@ def read_png(file):
 
 
 def unfiltered(kind, row, above):
-    """One row by the PNG specification, section 9.2."""
+    """Reverses the filter of one row by the PNG specification, section 9.2."""
     if kind == 0:
         return row
     if kind == 2:

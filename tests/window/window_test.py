@@ -1,7 +1,7 @@
-"""The window as a user drives it: python3 window_test.py PROGRAM OUT [unittest's arguments]
+"""Tests the window as a user drives it: python3 window_test.py PROGRAM OUT [unittest's arguments]
 
-Starts `sunfleck view` on a display of its own, with software Vulkan, moves a real mouse over it and looks at the screen. Screen
-shots stay in OUT. Exit status 77 where the display's programs are missing.
+Starts `sunfleck view` on a separate display, with software Vulkan, moves a real mouse over it and looks at the screen. Screen
+shots stay in OUT. Exits with status 77 where the display's programs are missing.
 """
 
 import json
@@ -47,12 +47,12 @@ file = "leaves.obj"
 optics = "leaf"
 up = "y"
 """
-# The same leaf for a set of CARIBU's files, one polygon a line.
+# The same leaf as a .can file of CARIBU, one polygon per line.
 CAN = """p 1 100001001001 3  0.3 0.3 0.4  0.7 0.3 0.4  0.3 0.7 0.4
 p 1 100001001001 3  0.7 0.3 0.4  0.7 0.7 0.4  0.3 0.7 0.4
 """
 OPT = "n 1\ns d 0.15\ne d 0.1 d 0.12 0.06 d 0.12 0.06\n"
-# A leaf of plant 1 in the plot's middle, one of plant 2 above its north-eastern corner.
+# A leaf of plant 1 in the plot's middle, and a leaf of plant 2 above its north-eastern corner.
 MESH = """o plant1_leaf4
 v 0.35 0.4 0.35
 v 0.35 0.4 0.65
@@ -71,7 +71,7 @@ f 5 7 8
 
 
 class Window:
-    """The program, and the events that it tells."""
+    """The program, and the events that it reports."""
 
     def __init__(self, screen, folder, *arguments, scene="leaves.toml"):
         self.screen = screen
@@ -108,7 +108,7 @@ class Window:
         self.events.append(event)
 
     def wait_for(self, name, **fields):
-        """The next event of that name with these values."""
+        """Waits for the next event of that name with these values, and returns it."""
         end = time.monotonic() + PATIENCE_S
         while time.monotonic() < end:
             try:
@@ -124,7 +124,7 @@ class Window:
         raise AssertionError(f"no {name} {fields} within {PATIENCE_S:.0f} s; last: {self.events[-3:]}")
 
     def listen_for(self, seconds):
-        """All events of the next seconds."""
+        """Returns all events of the next seconds."""
         end = time.monotonic() + seconds
         heard = []
         while time.monotonic() < end:
@@ -139,13 +139,13 @@ class Window:
         return heard
 
     def last_restart(self, because):
-        """The number of the last wish that a drag has led to, which have all been told by then."""
+        """Returns the number of the last wish caused by a drag; by then all of them have been reported."""
         wish = self.wait_for("restarted", because=because)["wish"]
         marks = [event for event in self.peek() if event["event"] == "restarted"]
         return marks[-1]["wish"] if marks else wish
 
     def peek(self):
-        """What is told within a moment, left to be waited for."""
+        """Returns the events of a short moment, and leaves them in the queue to be waited for."""
         time.sleep(0.5)
         heard = []
         while not self.lines.empty():
@@ -155,7 +155,7 @@ class Window:
         return [event for event in heard if event is not None]
 
     def place(self, control, share=0.5):
-        """The middle of a control, or a place along it. Waits until it is drawn."""
+        """Returns the middle of a control, or a place along it. Waits until it is drawn."""
         while control not in self.controls:
             self.wait_for("controls")
         left, top, right, bottom = self.controls[control]
@@ -166,7 +166,7 @@ class Window:
         return left + x * width, top + y * height
 
     def picture(self):
-        """What the screen shows of the picture, the pointer away from it."""
+        """Returns the picture as the screen shows it, with the pointer moved away."""
         self.screen.do("mousemove", WIDTH - 1, HEIGHT - 1)
         left, top, width, height = map(int, self.stage)
         return self.screen.still_shot()[top:top + height, left:left + width]
@@ -230,7 +230,7 @@ class WindowTest(unittest.TestCase):
         write_png(os.path.join(OUT, name + ".png"), self.screen.shot())
 
     def wait_until_changed(self, before):
-        """Until a third of the screen is different."""
+        """Waits until a third of the screen has changed."""
         end = time.monotonic() + PATIENCE_S
         while numpy.mean(numpy.any(before != self.screen.shot(), axis=2)) < 0.3:
             self.assertLess(time.monotonic(), end, "the screen stays as it is")
@@ -267,7 +267,7 @@ class WindowTest(unittest.TestCase):
         if not any(event["event"] == "picture" for event in heard):
             heard.append(window.wait_for("picture"))
         self.screen.do("mousemove", *map(int, window.in_picture(0.5, 0.5)))
-        self.screen.do("click", 4)  # the wheel
+        self.screen.do("click", 4)  # turns the wheel
         heard.append(window.wait_for("picture"))
         heard += window.listen_for(1.0)
         self.assertNotIn("restarted", [event["event"] for event in heard])
@@ -281,14 +281,14 @@ class WindowTest(unittest.TestCase):
 
     def test_picking_names_the_organ(self):
         window = self.open("--view", "top")
-        # The middle of the plot is the middle of leaf 4; the picture's margins keep it off the window's middle.
+        # The middle of the plot is the middle of leaf 4; the picture's margins shift it from the window's middle.
         seen = window.picture().astype(int)
         for organ, plant, rank, corner in (("leaf", 1, 4, (0.5, 0.5)), ("leaf", 2, 7, (0.15, 0.15))):
             self.screen.do("mousemove", *map(int, self.plot_to_screen(window, seen, corner)))
             self.screen.do("click", 1)
             event = window.wait_for("picked")
             self.assertEqual((event["organ"], event["plant"], event["rank"]), (organ, plant, rank))
-            # Half of the square, lit by nothing but the beam and the light of the soil.
+            # Half of the square, lit only by the beam and the light from the soil.
             self.assertAlmostEqual(event["area_m2"], 0.045 if plant == 1 else 0.02, places=6)
             self.assertAlmostEqual(event["upper"]["direct"] / 350.0, 1.0, delta=0.02)
             self.assertEqual(event["lower"]["direct"], 0.0)
@@ -299,8 +299,8 @@ class WindowTest(unittest.TestCase):
         self.expect_clean_end(window)
 
     def plot_to_screen(self, window, seen, place):
-        """Where a place of the square plot (X, Z in metres) is in a picture from above: north is up and east right, the plot's
-        western and southern border are black, its eastern one is the red axis."""
+        """Finds a place of the square plot (X, Z in metres) in a picture from above: north is up and east right, the plot's western
+        and southern borders are black, its eastern border is the red axis."""
         black = numpy.all(seen < 100, axis=2)
         red = (seen[:, :, 0] > 150) & (seen[:, :, 1] < 80) & (seen[:, :, 2] < 80)
         west, east, south = black.mean(axis=0).argmax(), red.mean(axis=0).argmax(), black.mean(axis=1).argmax()
@@ -365,7 +365,7 @@ class WindowTest(unittest.TestCase):
         window.wait_for("picture", wish=1)
         self.keep_shot("mesh_changed")
         self.assertGreater(numpy.mean(numpy.any(before != window.picture(), axis=2)), 0.005)
-        # A mesh that is broken is told; when it is away for a moment, that is waited for.
+        # A broken mesh is reported; if the mesh is missing for a moment, the window waits for it.
         self.write("leaves.obj", "f 1 2 3\n")
         self.assertIn("leaves.obj", window.wait_for("problem")["text"])
         os.remove(os.path.join(self.folder, "leaves.obj"))

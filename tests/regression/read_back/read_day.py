@@ -1,4 +1,4 @@
-"""Reads day.nc with xarray, times decoded."""
+"""Reads day.nc with xarray and decodes its times."""
 
 import numpy
 import xarray

@@ -1,4 +1,4 @@
-"""Reads canopy.ply with meshio: the values of a triangle stand at its three vertices."""
+"""Reads canopy.ply with meshio: the values of a triangle are stored at its three vertices."""
 
 import meshio
 import numpy
