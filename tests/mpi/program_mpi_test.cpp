@@ -193,7 +193,7 @@ TEST_F(Mpi, LeavesNothingBehindButAStateAfterCtrlC) {
   EXPECT_NE(ended.status, 0);
   EXPECT_TRUE(exists("run_state.bin"));
   // Whoever adopted it may not have buried it yet.
-  for (int wait = 0; is_at_work(worker) && wait < 1000; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int wait = 0; is_at_work(worker) && wait < 60000; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_FALSE(is_at_work(worker));
 }
 
