@@ -14,7 +14,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double patience_s = 120.0;
+constexpr double patience_s = 600.0;
 
 // Waits until it holds; false after a long time.
 template <class Condition>
