@@ -58,12 +58,18 @@ std::optional<std::string> name_in_folder(int file) {
   return length > 0 ? name_in_folder(std::string(target, static_cast<std::size_t>(length))) : std::nullopt;
 }
 
-// The signals of SUNFLECK_FAULT_SIGNALS. Programs that the program starts are left alone.
+// Programs that the program starts, or that start it, get no signals and have their clock.
+bool is_program() {
+  static const bool is = std::string(::program_invocation_short_name) == "sunfleck";
+  return is;
+}
+
+// The signals of SUNFLECK_FAULT_SIGNALS.
 class Signals {
  public:
   Signals() {
     const char* text = std::getenv("SUNFLECK_FAULT_SIGNALS");
-    if (text == nullptr || std::string(::program_invocation_short_name) != "sunfleck") return;
+    if (text == nullptr || !is_program()) return;
     std::istringstream list(text);
     for (std::string entry; std::getline(list, entry, ',');) {
       const std::size_t at = entry.find('@');
@@ -162,7 +168,7 @@ long jump_s() {
 void stride(timespec& now) {
   static const char* const text = std::getenv("SUNFLECK_FAULT_STRIDE");
   signals().meet_clock();
-  if (text == nullptr) return;
+  if (text == nullptr || !is_program()) return;
   static const double each_s = std::atof(text);
   static std::atomic<long long> readings{0};
   constexpr double begin_s = 1000.0;
