@@ -12,7 +12,6 @@
 //                                     reading of the steady clock; `#7` is the seventh line of the journal. 0 is no signal
 
 #include <dlfcn.h>
-#include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/time.h>
