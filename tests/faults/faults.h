@@ -1,7 +1,7 @@
 #pragma once
 // Runs the program while something around it fails.
 
-#include "regression/program.h"
+#include "regression/preload.h"
 #include "support/table.h"
 
 #include <sys/resource.h>
@@ -15,6 +15,7 @@ namespace sunfleck::faults {
 using regression::Arguments;
 using regression::content;
 using regression::Outcome;
+using regression::signal_at;
 using regression::operator+;
 
 // Contains two leaves that scatter, sun and sky, a facula map and a sensor, so that every kind of file is written.
@@ -45,7 +46,7 @@ inline Arguments with(Arguments arguments, const std::string& option, const std:
   return arguments;
 }
 
-class FaultTest : public regression::ProgramTest {
+class FaultTest : public regression::PreloadTest {
  protected:
   FaultTest() {
     folder_.write("scene.toml", small_scene);
@@ -103,13 +104,6 @@ class FaultTest : public regression::ProgramTest {
     EXPECT_NE(line.find(names), std::string::npos) << line << "does not name " << names;
     EXPECT_TRUE(line.find(" (") < line.find("); ")) << line;
     EXPECT_EQ(line.find("bug in the program"), std::string::npos) << line;
-  }
-
-  void preload(const std::map<std::string, std::string>& variables) {
-    before_program_ = [variables] {
-      ::setenv("LD_PRELOAD", SUNFLECK_SYSTEM_FAULTS, 1);
-      for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
-    };
   }
 
   void fill_disk_after(std::size_t bytes) {

@@ -5,6 +5,8 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include <sstream>
+
 namespace sunfleck::faults {
 namespace {
 
@@ -21,15 +23,20 @@ class Folder : public FaultTest {
     may_be_killed_ = signal == SIGKILL;
     bool tried = false;
     const auto watch = [&](pid_t child, const std::string&) {
-      if (tried || !std::filesystem::exists(folder_ / sign)) return;
+      if (tried || !std::filesystem::exists(folder_ / sign) || !holds_a_lock(child)) return;
       tried = true;
+<<<<<<< HEAD
       std::this_thread::sleep_for(std::chrono::milliseconds(100));  // by now the first run's initial files are there
+=======
+      ASSERT_TRUE(halt(child));
+>>>>>>> i14-tests
       const auto before = files();
       const Outcome refused = run_beside(second);
       expect_one_line(refused, "out (another run is writing into this folder)");
       EXPECT_EQ(refused.out, "");
       EXPECT_TRUE(files() == before) << "the second run changed something";
       ::kill(child, signal);
+      ::kill(child, SIGCONT);
     };
     const Outcome outcome = run(first, watch);
     EXPECT_TRUE(tried) << outcome.err;
@@ -38,7 +45,30 @@ class Folder : public FaultTest {
   }
 
  private:
+<<<<<<< HEAD
   // Runs the program with its output in other files than the first run's.
+=======
+  // Returns whether the process holds a lock: files of an earlier run may be in the folder before that.
+  static bool holds_a_lock(pid_t process) {
+    std::istringstream locks(content("/proc/locks"));
+    std::string number, kind, mode, access;
+    for (std::string line; std::getline(locks, line);) {
+      pid_t holder = 0;
+      if (std::istringstream(line) >> number >> kind >> mode >> access >> holder && holder == process) return true;
+    }
+    return false;
+  }
+
+  // Stops the process until SIGCONT, so that it changes no file meanwhile; and returns false if it has ended instead.
+  static bool halt(pid_t process) {
+    ::kill(process, SIGSTOP);
+    siginfo_t state{};
+    return ::waitid(P_PID, static_cast<id_t>(process), &state, WSTOPPED | WEXITED | WNOWAIT) == 0 &&
+           state.si_code == CLD_STOPPED;
+  }
+
+  // Runs the program with its output in other files than the first run's.
+>>>>>>> i14-tests
   [[nodiscard]] Outcome run_beside(const Arguments& arguments) {
     const std::string out = (folder_ / "second.txt").string();
     before_program_ = [out] {

@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
-# Builds the fuzzers of users' files and runs each of them on the kept corpus, two at a time:
+# Builds the fuzzers of users' files, unpacks the kept corpus (tests/fuzz/corpus/TARGET.tar.xz) and runs each fuzzer on it, two at
+# a time:
 #   tests/fuzz/run.sh [SECONDS] [TARGET...]     600 seconds and all targets by default
-# Prints executions and findings; exit 1 if there is any finding. Needs Debian's clang and libclang-rt-14-dev.
+# Prints executions and findings; exit 1 if there is any finding. Needs Debian's clang, libclang-rt-14-dev and xz-utils.
 # What the fuzzers found new lies in build/fuzz/corpus, what ended them in build/fuzz/findings. To keep them:
-#   tests/fuzz/run.sh --merge      makes the kept corpus the smallest files that reach as much as all of these
+#   tests/fuzz/run.sh --merge [TARGET...]       packs the smallest files that reach as much as the kept and the new ones
+# Equal files make equal archives.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 build=build/fuzz
-kept=tests/fuzz/corpus
+packed=tests/fuzz/corpus
+kept=$build/tests/fuzz/corpus  # unpacked by the build
 all=$(sed -n 's/^set(SUNFLECK_FUZZ_TARGETS \(.*\))$/\1/p' tests/fuzz/CMakeLists.txt)
 
 merge=no
@@ -23,15 +26,21 @@ targets=${*:-$all}
 
 CC=clang CXX=clang++ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_FUZZ=ON > /dev/null
 # shellcheck disable=SC2046,SC2086
-cmake --build "$build" --target $(printf 'fuzz_%s ' $targets)
+cmake --build "$build" --target fuzz_corpus $(printf 'fuzz_%s ' $targets)
+
+# pack FOLDER ARCHIVE
+pack() {
+  tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=u=rwX,go=rX -cf - -C "$1" . | xz -9e -T1 > "$2"
+}
 
 merge_one() {
   local target=$1 smallest
   smallest=$(mktemp -d)
   mkdir -p "$build/corpus/$target"
   "$build/tests/fuzz/fuzz_$target" -merge=1 -use_counters=0 "$smallest" "$kept/$target" "$build/corpus/$target" 2> /dev/null
-  find "$kept/$target" -type f -delete
-  cp "$smallest"/* "$kept/$target/"
+  pack "$smallest" "$packed/$target.tar.xz"
+  printf '%-14s %5s files before, %5s after\n' "$target" "$(find "$kept/$target" -type f | wc -l)" \
+    "$(find "$smallest" -type f | wc -l)"
   rm -r "$smallest"
 }
 

@@ -1,6 +1,6 @@
 // `day` through the program: its tables, and that a day which was cut short goes on as if nothing had been.
 
-#include "regression/program.h"
+#include "regression/preload.h"
 #include "support/table.h"
 
 #include <algorithm>
@@ -59,20 +59,20 @@ const std::array<const char*, 2> bands{"PAR", "NIR"};
 const std::array<const char*, 4> terms{"incident", "absorbed_vegetation", "absorbed_soil", "reflected"};
 const std::array<const char*, 3> tables{"day.csv", "organs_day.csv", "day.nc"};
 
-class Day : public ProgramTest {
+class Day : public PreloadTest {
  protected:
   void SetUp() override {
     folder_.write("leaves.obj", leaves);
     scene_ = folder_.write("scene.toml", scene_text).string();
   }
 
-  [[nodiscard]] Outcome day(const Arguments& more, const std::string& to = "out", const Watch& watch = {}) const {
+  [[nodiscard]] Outcome day(const Arguments& more, const std::string& to = "out") const {
     const bool drawn = std::find(more.begin(), more.end(), "--images") != more.end();
     const Arguments images = drawn ? Arguments{} : Arguments{"--images", "none"};
-    return run(Arguments{"day", scene_, "-o", to, "--device", "cpu"} + images + more, watch);
+    return run(Arguments{"day", scene_, "-o", to, "--device", "cpu"} + images + more);
   }
-  void expect_day(const Arguments& more, int status = 0, const std::string& to = "out", const Watch& watch = {}) const {
-    const Outcome outcome = day(more, to, watch);
+  void expect_day(const Arguments& more, int status = 0, const std::string& to = "out") const {
+    const Outcome outcome = day(more, to);
     EXPECT_EQ(outcome.status, status) << outcome.err;
   }
   void expect_same_tables(const std::string& left, const std::string& right) const {
@@ -89,33 +89,19 @@ class Day : public ProgramTest {
     }
     return count;
   }
-  // Ctrl-C once so many steps are done.
-  [[nodiscard]] Watch interrupt_after(std::size_t steps) const {
-    return [this, steps, sent = false](pid_t child, const std::string&) mutable {
-      if (!sent && finished_steps() >= steps) sent = ::kill(child, SIGINT) == 0;
-    };
+  // A day that gets Ctrl-C as the `steps`-th step is kept: the next one is being simulated then.
+  void interrupt_evening(int steps) {
+    preload_signals(signal_at(SIGINT, "rename steps/step_", steps));
+    expect_day(evening_, 130);
+    preload_nothing();
   }
-  // Starts a day and kills it so long after so many steps are done, or lets it end if it is faster.
-  void kill_day(const Arguments& more, std::size_t steps, std::chrono::milliseconds later) const {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      const Arguments all = Arguments{"sunfleck", "day", scene_, "-o", "out", "--device", "cpu", "--quiet"} + more;
-      std::vector<char*> argv;
-      for (const std::string& argument : all) argv.push_back(const_cast<char*>(argument.c_str()));
-      argv.push_back(nullptr);
-      if (::chdir(folder_.path().c_str()) == 0) ::execv(SUNFLECK_PROGRAM, argv.data());
-      ::_exit(126);
-    }
-    int state = 0;
-    pid_t ended = 0;
-    while (ended == 0 && finished_steps() < steps) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      ended = ::waitpid(child, &state, WNOHANG);
-    }
-    if (ended != 0) return;
-    std::this_thread::sleep_for(later);
-    ::kill(child, SIGKILL);
-    ::waitpid(child, &state, 0);
+  // A day that is killed at these events, with or without what it had kept.
+  void kill_day(const Arguments& more, const std::string& signals) {
+    preload_signals(signals);
+    may_be_killed_ = true;
+    expect_day(more, -1);
+    may_be_killed_ = false;
+    preload_nothing();
   }
   [[nodiscard]] json read_fields() const {
     const std::string command = "'" SUNFLECK_PYTHON "' -B '" SUNFLECK_SOURCE_DIR "/tests/regression/read_back/read_day.py' '" +
@@ -235,11 +221,13 @@ TEST_F(Day, FieldsAreReadByXarray) {
 
 TEST_F(Day, GoesOnWhereItWasKilled) {
   expect_day({}, 0, "whole");
-  // Moments that no step knows of: after some step, and some milliseconds more.
-  kill_day({}, 1, std::chrono::milliseconds(7));
-  kill_day({"--resume"}, 4, std::chrono::milliseconds(43));
-  kill_day({"--resume"}, 9, std::chrono::milliseconds(19));
-  EXPECT_GE(finished_steps(), 9U);
+  // As a step gets its name, before a step is written, and while the next one is simulated.
+  kill_day({}, signal_at(SIGKILL, "rename steps/step_", 2));
+  EXPECT_EQ(finished_steps(), 1U);
+  kill_day({"--resume"}, signal_at(0, "rename steps/step_", 3) + "," + signal_at(SIGKILL, "write steps/step_"));
+  EXPECT_EQ(finished_steps(), 4U);
+  kill_day({"--resume"}, signal_at(0, "rename steps/step_", 5) + "," + signal_at(SIGKILL, "clock", 5));
+  EXPECT_GE(finished_steps(), 8U);
   expect_day({"--resume"});
   expect_same_tables("whole", "out");
   EXPECT_EQ(finished_steps(), 0U);
@@ -247,7 +235,7 @@ TEST_F(Day, GoesOnWhereItWasKilled) {
 
 TEST_F(Day, KeepsFinishedStepsAtCtrlC) {
   expect_day(evening_, 0, "whole");
-  expect_day(evening_, 130, "out", interrupt_after(2));
+  interrupt_evening(2);
   EXPECT_EQ(summary()["complete"], false);
   EXPECT_GE(finished_steps(), 2U);
   const Table part(file("day.csv"));
@@ -260,7 +248,7 @@ TEST_F(Day, KeepsFinishedStepsAtCtrlC) {
 
 TEST_F(Day, ComputesDamagedStepsAgain) {
   expect_day(evening_, 0, "whole");
-  expect_day(evening_, 130, "out", interrupt_after(3));
+  interrupt_evening(3);
   const std::filesystem::path steps = folder_ / "out" / "steps";
   std::string bytes = content(steps / "step_00001.bin");
   bytes[bytes.size() / 2] ^= 1;
@@ -275,7 +263,7 @@ TEST_F(Day, ComputesDamagedStepsAgain) {
 }
 
 TEST_F(Day, ResumesWithTheSameSettingsOnly) {
-  expect_day(evening_, 130, "out", interrupt_after(1));
+  interrupt_evening(1);
   for (const auto& [names, more] : std::initializer_list<std::pair<std::string, Arguments>>{
            {"seed was 1, now 2", {"--seed", "2"}},
            {"indirect_error was 0.02, now 0.03", {"--indirect-error", "0.03"}},
@@ -302,10 +290,10 @@ TEST_F(Day, ResumesWithTheSameSettingsOnly) {
 
 TEST_F(Day, LimitsLeaveItIncomplete) {
   expect_day(evening_, 0, "whole");
-  expect_day(evening_ + Arguments{"--max-seconds", "1e-3"}, 1);
+  expect_day(evening_ + Arguments{"--max-seconds", "1e-9"}, 1);
   EXPECT_EQ(Table(file("day.csv")).size(), 0U);
   EXPECT_EQ(summary()["complete"], false);
-  expect_day(evening_ + Arguments{"--resume", "--max-seconds", "1e4"});
+  expect_day(evening_ + Arguments{"--resume", "--max-seconds", "1e9"});
   expect_same_tables("whole", "out");
   const Arguments few_rays = Arguments{"--max-rays", "150000", "--error", "0.0005"} + evening_;
   expect_day(few_rays, 1);

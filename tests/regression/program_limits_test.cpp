@@ -1,6 +1,6 @@
 // Fixed work, limits, interruption, and what is said where.
 
-#include "regression/program.h"
+#include "regression/preload.h"
 #include "support/table.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ using nlohmann::json;
 
 const Arguments on_cpu{"--device", "cpu", "--images", "none"};
 
-class Limits : public ProgramTest {
+class Limits : public PreloadTest {
  protected:
   // Whole files of an incomplete run, every number in them finite or empty.
   void expect_kept() const {
@@ -24,18 +24,6 @@ class Limits : public ProgramTest {
         for (const std::string& column : table.columns())
           if (column != "organ") static_cast<void>(table.number(row, column));
     }
-  }
-  // Sends the signal once the device is named and some rays are on their way.
-  static Watch send_after_start(int signal) {
-    return
-        [signal, sent = false, start = std::chrono::steady_clock::time_point()](pid_t child, const std::string& err) mutable {
-          const auto now = std::chrono::steady_clock::now();
-          if (err.find("device: ") == std::string::npos) {
-            start = now;
-          } else if (!sent && now - start > std::chrono::milliseconds(700)) {
-            sent = ::kill(child, signal) == 0;
-          }
-        };
   }
   const std::filesystem::path maize_ = scene_file("maize_sparse.toml");
   const std::filesystem::path squares_ = scene_file("two_squares.toml");
@@ -83,13 +71,15 @@ TEST_F(Limits, RaysStopTheRun) {
   expect_kept();
 }
 
+// By a clock of which 100 readings are a second, so that it always has run out after as much work.
 TEST_F(Limits, SecondsStopTheRun) {
-  constexpr double limit_s = 1.5;
-  const Outcome outcome = simulate(maize_, on_cpu + Arguments{"--direct-error", "1e-7", "--max-seconds", "1.5"}, 1);
-  EXPECT_LT(summary()["direct"]["seconds"].get<double>(), limit_s + 1.0);
-  EXPECT_LT(outcome.seconds, limit_s + 4.0);  // loading, tree and tables on a busy machine
+  preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
+  const Outcome outcome = simulate(maize_, on_cpu + Arguments{"--direct-error", "1e-7", "--max-seconds", "6"}, 1);
+  const double spent_s = summary()["direct"]["seconds"].get<double>() + summary()["indirect"]["seconds"].get<double>();
+  EXPECT_GE(spent_s, 6.0);
+  EXPECT_LT(spent_s, 7.0);
   EXPECT_GE(summary()["direct"]["replicates"], 2);
-  EXPECT_NE(outcome.err.find("--max-seconds 1.5"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("--max-seconds 6"), std::string::npos) << outcome.err;
   expect_kept();
 }
 
@@ -100,22 +90,24 @@ TEST_F(Limits, NoTimeAtAllIsSaid) {
   expect_kept();
 }
 
+// Before the first ray, among the pilots and among the replicates of the run, which would not end by itself.
 TEST_F(Limits, SignalsEndTheRunCleanly) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const Outcome outcome =
-        simulate(maize_, {"--device", "cpu", "--direct-error", "1e-7"}, 130, "out", send_after_start(signal));
-    EXPECT_LT(outcome.seconds, 15.0);
-    EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
-    expect_kept();
-    EXPECT_FALSE(exists("rank_direct.png"));
+    for (const int reading : {1, 30, 300}) {
+      SCOPED_TRACE(reading);
+      preload_signals("0@rename summary.json," + signal_at(signal, "clock", reading), {{"SUNFLECK_FAULT_STRIDE", "0.01"}});
+      const Outcome outcome = simulate(maize_, {"--device", "cpu", "--direct-error", "0.05", "--passes", "60000"}, 130);
+      EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+      EXPECT_EQ(summary()["direct"]["replicates"] > 0, reading > 1) << summary()["direct"];
+      expect_kept();
+      EXPECT_FALSE(exists("rank_direct.png"));
+    }
   }
 }
 
 TEST_F(Limits, ASignalWhilePicturesAreDrawnKeepsTheTables) {
-  const Watch watch = [this, sent = false](pid_t child, const std::string&) mutable {
-    if (!sent && exists("organs.csv")) sent = ::kill(child, SIGINT) == 0;
-  };
-  simulate(maize_, {"--device", "cpu", "--grid", "0.01", "--size", "2048x2048", "--samples", "16"}, 130, "out", watch);
+  preload_signals(signal_at(SIGINT, "rename organs.csv"));
+  simulate(maize_, {"--device", "cpu", "--grid", "0.01"}, 130);
   EXPECT_FALSE(exists("rank_direct.png"));
   EXPECT_EQ(summary()["stopped"], "interrupted");
   EXPECT_EQ(summary()["direct"]["replicates"], 16);

@@ -1,6 +1,6 @@
 // Runs that were stopped or killed, and go on.
 
-#include "regression/program.h"
+#include "regression/preload.h"
 
 #include <algorithm>
 #include <map>
@@ -12,6 +12,7 @@ using regression::Arguments;
 using regression::content;
 using regression::expect_one_error;
 using regression::Outcome;
+using regression::signal_at;
 using regression::operator+;
 
 // Two bands that scatter, sun and sky, a facula map and a sensor.
@@ -29,7 +30,7 @@ const std::string scene =
 
 const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
 
-class Resume : public regression::ProgramTest {
+class Resume : public regression::PreloadTest {
  protected:
   Resume() {
     folder_.write("scene.toml", scene);
@@ -51,22 +52,16 @@ class Resume : public regression::ProgramTest {
     for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name;
   }
 
-  // One signal, once it has kept its state and some milliseconds more have passed.
-  [[nodiscard]] Watch signal_when_kept(int signal, int more_ms) const {
-    using Clock = std::chrono::steady_clock;
-    return [this, signal, more_ms, kept = Clock::time_point(), sent = false](pid_t child, const std::string&) mutable {
-      if (kept == Clock::time_point() && exists("run_state.bin")) kept = Clock::now();
-      if (sent || kept == Clock::time_point() || Clock::now() - kept < std::chrono::milliseconds(more_ms)) return;
-      sent = true;
-      ::kill(child, signal);
-    };
+  // The signal as a state gets its name for the `count`-th time. A clock that counts makes that every few replicates.
+  void send_as_state_is_kept(int signal, int count) {
+    preload_signals(signal_at(signal, "rename run_state.bin", count), {{"SUNFLECK_FAULT_STRIDE", "0.01"}});
   }
 
-  Outcome go(const Arguments& more, int status = 0, const std::string& to = "out", const Watch& watch = {}) const {
-    return simulate("scene.toml", work_ + more, status, to, watch);
+  Outcome go(const Arguments& more, int status = 0, const std::string& to = "out") const {
+    return simulate("scene.toml", work_ + more, status, to);
   }
 
-  // Some seconds in many replicates.
+  // Many replicates.
   const Arguments work_{"--device", "cpu", "--images", "none", "--export", "csv", "--passes", "800", "--error", "0.1"};
 };
 
@@ -74,12 +69,21 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   EXPECT_NE(go({}, 0, "whole").err.find("device: "), std::string::npos);
   EXPECT_FALSE(exists("run_state.bin", "whole"));
   may_be_killed_ = true;
-  go({}, -1, "out", signal_when_kept(SIGKILL, 3));
+  send_as_state_is_kept(SIGKILL, 2);
+  go({}, -1);
   EXPECT_EQ(summary()["complete"], false);
-  go({"--resume"}, -1, "out", signal_when_kept(SIGKILL, 300));
+  send_as_state_is_kept(SIGKILL, 7);
+  go({"--resume"}, -1);
   may_be_killed_ = false;
+<<<<<<< HEAD
   const Outcome stopped = go({"--resume"}, 130, "out", signal_when_kept(SIGINT, 200));
   EXPECT_NE(stopped.err.find("--resume continues the run"), std::string::npos) << stopped.err;
+=======
+  send_as_state_is_kept(SIGINT, 5);
+  const Outcome stopped = go({"--resume"}, 130);
+  preload_nothing();
+  EXPECT_NE(stopped.err.find("--resume goes on"), std::string::npos) << stopped.err;
+>>>>>>> i14-tests
   const auto replicates = summary()["direct"]["replicates"].get<int>();
   EXPECT_GT(replicates, 2);
   // Not one replicate is lost at Ctrl-C.
@@ -93,12 +97,15 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   expect_same_tables("whole", "out");
 }
 
+// With --resume from the start, so that no work is sized by the clock. Six seconds are 600 readings of this clock.
 TEST_F(Resume, GoesOnAfterALimitOfTime) {
   go({}, 0, "whole");
-  const Outcome stopped = go({"--max-seconds", "0.3"}, 1);
-  EXPECT_NE(stopped.err.find("--max-seconds 0.3"), std::string::npos);
+  preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
+  const Outcome stopped = go({"--resume", "--max-seconds", "6"}, 1);
+  preload_nothing();
+  EXPECT_NE(stopped.err.find("--max-seconds 6"), std::string::npos) << stopped.err;
   EXPECT_TRUE(exists("run_state.bin"));
-  go({"--resume", "--max-seconds", "100"});
+  EXPECT_NE(go({"--resume", "--max-seconds", "1e9"}).err.find("going on after "), std::string::npos);
   expect_same_tables("whole", "out");
 }
 
@@ -110,7 +117,9 @@ TEST_F(Resume, BeginsAnewWhereNothingIsKept) {
 }
 
 TEST_F(Resume, GoesOnWithTheSameSettingsOnly) {
-  go({}, 130, "out", signal_when_kept(SIGINT, 0));
+  send_as_state_is_kept(SIGINT, 1);
+  go({}, 130);
+  preload_nothing();
   const auto before = tables("out");
   const std::string state = file("run_state.bin");
   const Arguments again = Arguments{"run", "scene.toml", "-o", "out", "--resume"} + work_;

@@ -1,6 +1,6 @@
 // sunfleck tradeoff: its table, what it says, its slopes, and how it ends.
 
-#include "regression/program.h"
+#include "regression/preload.h"
 #include "support/table.h"
 
 #include <cmath>
@@ -42,14 +42,14 @@ f 1 2 3
 f 1 3 4
 )";
 
-class Tradeoff : public ProgramTest {
+class Tradeoff : public PreloadTest {
  protected:
   void SetUp() override {
     std::ofstream(folder_ / "leaf.toml") << leaf_scene;
     std::ofstream(folder_ / "leaf.obj") << leaf_mesh;
   }
-  Outcome tradeoff(const Arguments& more, int status = 0, const Watch& watch = {}) const {
-    Outcome outcome = run(Arguments{"tradeoff", "leaf.toml", "-o", "out", "--device", "cpu"} + more, watch);
+  Outcome tradeoff(const Arguments& more, int status = 0) const {
+    Outcome outcome = run(Arguments{"tradeoff", "leaf.toml", "-o", "out", "--device", "cpu"} + more);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     return outcome;
   }
@@ -129,17 +129,22 @@ TEST_F(Tradeoff, CoarserMeshesAreJudgedByAllButTriangles) {
 }
 
 TEST_F(Tradeoff, StopsInTimeAndKeepsWhatIsDone) {
-  const Outcome outcome = tradeoff({"--seeds", "100", "--max-seconds", "0.5"}, 1);
-  EXPECT_NE(outcome.err.find("stopped after --max-seconds 0.5"), std::string::npos) << outcome.err;
+  const Outcome none = tradeoff({"--seeds", "100", "--max-seconds", "1e-9"}, 1);
+  EXPECT_NE(none.err.find("stopped after --max-seconds 1e-09 after 0 settings"), std::string::npos) << none.err;
   EXPECT_NE(file("tradeoff.csv").find("# incomplete"), std::string::npos);
   EXPECT_NE(file("tradeoff.csv").find("\nsetting,seed,"), std::string::npos);
+  EXPECT_EQ(Table(file("tradeoff.csv")).size(), 0U);
+  // By a clock of which 100 readings are a second: after the reference, before the last of the settings.
+  preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
+  const Outcome some = tradeoff({"--rays", "2000", "--seeds", "100", "--max-seconds", "60"}, 1);
+  EXPECT_NE(some.err.find("stopped after --max-seconds 60 after "), std::string::npos) << some.err;
+  EXPECT_NE(file("tradeoff.csv").find("# incomplete"), std::string::npos);
+  EXPECT_GT(Table(file("tradeoff.csv")).size(), 0U);
 }
 
 TEST_F(Tradeoff, StopsAtCtrlC) {
-  bool sent = false;
-  const Outcome outcome = tradeoff({"--seeds", "100"}, 130, [&sent](pid_t child, const std::string& err) {
-    if (!sent && err.find("reference: ") != std::string::npos) sent = ::kill(child, SIGINT) == 0;
-  });
+  preload_signals(signal_at(SIGINT, "clock", 100));
+  const Outcome outcome = tradeoff({"--seeds", "100"}, 130);
   EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
   EXPECT_NE(file("tradeoff.csv").find("# incomplete"), std::string::npos);
 }

@@ -19,7 +19,7 @@ class Corpus : public ::testing::TestWithParam<Target> {};
 
 TEST_P(Corpus, IsReadOrRefused) {
   start_log(Verbosity::quiet);
-  const std::filesystem::path folder = std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+  const std::filesystem::path folder = std::filesystem::path(SUNFLECK_FUZZ_CORPUS) / GetParam().name;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());

@@ -14,7 +14,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double patience_s = 120.0;
+constexpr double patience_s = 600.0;
 
 // Waits until the condition holds; returns false after a long time.
 template <class Condition>

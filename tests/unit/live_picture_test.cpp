@@ -15,7 +15,7 @@ template <class Condition>
 bool wait_for(const Condition& condition) {
   const auto start = std::chrono::steady_clock::now();
   while (!condition()) {
-    if (std::chrono::steady_clock::now() - start > std::chrono::minutes(2)) return false;
+    if (std::chrono::steady_clock::now() - start > std::chrono::minutes(10)) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return true;

@@ -120,12 +120,14 @@ TEST_F(SceneLinesUnderAttack, EveryLineOfLightAndReceivers) {
 
 TEST_F(SceneUnderAttack, EveryNumberReplaced) {
   const std::string digits = "0123456789";
+  int numbers = 0;
   for (const std::string& scene : {good_scene, lit_scene}) {
     for (std::size_t at = 0; at < scene.size();) {
       if (digits.find(scene[at]) == std::string::npos) {
         ++at;
         continue;
       }
+      ++numbers;
       const std::size_t end = scene.find_first_not_of(digits + ".", at);
       for (const char* number : {"-7", "1e300", "nan", "inf", "\"7\"", "true", "99999999999999999999"}) {
         attack(scene.substr(0, at) + number + scene.substr(end));
@@ -133,6 +135,8 @@ TEST_F(SceneUnderAttack, EveryNumberReplaced) {
       at = end;
     }
   }
+  EXPECT_GT(numbers, 60);
+  EXPECT_GT(refusals_, 6 * numbers) << "of seven a number";
 }
 
 TEST_F(SceneUnderAttack, BytesChangedAtRandom) {

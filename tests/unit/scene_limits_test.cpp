@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <ctime>
 
 namespace sunfleck {
 namespace {
@@ -64,13 +64,23 @@ TEST_F(SceneLimits, CoefficientsOfAllOpticsAndBands) {
   expect_refused(text, "more than 4000000 in all");
 }
 
+<<<<<<< HEAD
 // Telling the names apart takes no more than n log n steps: 50,000 of them take a moment.
+=======
+// Their names are told apart in n log n steps: eight times as many take about nine times as long, and not 64 times. Counted is the
+// processor's time, which other programs do not lengthen.
+>>>>>>> i14-tests
 TEST_F(SceneLimits, ManySensorsAreNamedQuickly) {
-  std::string text = bare_scene;
-  for (int i = 0; i < 50'000; ++i) text += fmt::format("[[sensor]]\nname = \"s{}\"\nfrom = [0, 0, 0]\n", i);
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(read(text).model.sensors.size(), 50'000U);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  const auto spent_on = [this](int count) {
+    std::string text = bare_scene;
+    for (int i = 0; i < count; ++i) text += fmt::format("[[sensor]]\nname = \"s{}\"\nfrom = [0, 0, 0]\n", i);
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(read(text).model.sensors.size(), static_cast<std::size_t>(count));
+    return static_cast<double>(std::clock() - begin);
+  };
+  constexpr int all = 100'000;
+  const double few = spent_on(all / 8);
+  EXPECT_LT(spent_on(all), 25.0 * few);
 }
 
 TEST_F(SceneLimits, PlantsOfAllGenerators) {

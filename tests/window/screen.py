@@ -50,7 +50,7 @@ class Screen:
     def do(self, *words):
         """Runs one xdotool command, such as do("key", "h"); returns what it prints."""
         return subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, capture_output=True,
-                              text=True, timeout=60).stdout.strip()
+                              text=True, timeout=600).stdout.strip()
 
     def drag(self, start, end, button=1, steps=8):
         self.do("mousemove", *map(int, start))

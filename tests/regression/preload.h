@@ -1,0 +1,40 @@
+#pragma once
+// Runs of the program with the library of tests/faults/system_faults.cpp before it: what happens to them depends on what they do,
+// never on how fast the machine is.
+
+#include "regression/program.h"
+
+#include <map>
+
+namespace sunfleck::regression {
+
+// An entry of SUNFLECK_FAULT_SIGNALS: the signal at the `count`-th such event.
+inline std::string signal_at(int signal, const std::string& event, int count = 1) {
+  std::string list;
+  for (int k = 1; k < count; ++k) list += "0@" + event + ",";
+  return list + std::to_string(signal) + "@" + event;
+}
+
+class PreloadTest : public ProgramTest {
+ protected:
+  using Variables = std::map<std::string, std::string>;
+
+  void preload(const Variables& variables) {
+    before_program_ = [variables] {
+      ::setenv("LD_PRELOAD", SUNFLECK_SYSTEM_FAULTS, 1);
+      for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
+    };
+  }
+
+  // Until preload is called again.
+  void preload_nothing() { before_program_ = {}; }
+
+  // Signals at events in the folder `out`.
+  void preload_signals(const std::string& signals, Variables more = {}) {
+    more["SUNFLECK_FAULT_FOLDER"] = (folder_ / "out").string();
+    more["SUNFLECK_FAULT_SIGNALS"] = signals;
+    preload(more);
+  }
+};
+
+}  // namespace sunfleck::regression
