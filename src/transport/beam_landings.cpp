@@ -26,8 +26,7 @@ std::uint32_t counter_word(const RadiationModel& model, const CounterLayout& lay
 
 // In an isolated stand without soil what leaves downwards fell through the plot, or passed beside it.
 bool fell_through_plot(const shared::BeamBlock& beam, const shared::Packet& ray) {
-  const shared::Ray way = shared::make_ray(ray.origin, ray.direction);
-  return shared::in_plot(beam.ground, shared::ground_point(way, shared::meet_ground(way, beam.ground).t));
+  return shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), beam.ground);
 }
 
 }  // namespace

@@ -44,8 +44,7 @@ bool IndirectPass::let_sky_in(Round& round, const StopQuestion& stop) const {
 // A ray of an isolated stand that met neither an element nor the plot's ground: its flux counts only where it passed receivers.
 bool IndirectPass::fell_beside_plot(const shared::Landing& landing, const shared::Packet& ray) const {
   if (model_.plot.periodic || landing.surface != shared::left_downwards) return false;
-  const shared::Ray way = shared::make_ray(ray.origin, ray.direction);
-  return !shared::in_plot(scene_.ground, shared::ground_point(way, shared::meet_ground(way, scene_.ground).t));
+  return !shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), scene_.ground);
 }
 
 // A systematic sample of the beam's rays, traced again for the points where they landed. Without a packet's worth of rays
