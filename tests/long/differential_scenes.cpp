@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -247,19 +248,27 @@ RadiationModel low_sun(Random& random, int scene) {
   return painted_model(maker.mesh(), plot, sun_at(2.0, random.uniform(0.0, 360.0)), random);
 }
 
-// Leaves up to two and a half times as wide as the plot, never level: their copies would lie in one plane.
-RadiationModel large_leaves(Random& random, int scene) {
+// Strips up to twice as long as the plot is wide, over a leaf that is larger than all of it; never level: their copies would
+// lie in one plane.
+RadiationModel large_leaves(Random& random, int /*scene*/) {
   const Plot plot{random.uniform(0.4, 0.6), random.uniform(0.4, 0.6), true};
   MeshMaker maker;
-  for (int leaf = 1; leaf <= 3 + scene; ++leaf) {
-    maker.organ("leaf", 1, leaf);
-    const double tilt = random.uniform(0.2, 0.7);
-    const glm::dvec3 normal = inclined(tilt, random.uniform(0.2, 1.3));
-    const double side_m = random.uniform(0.7, 1.3);
-    const double y_m = random.uniform(0.7, 1.2);
-    maker.polygon({0.2, y_m, 0.2}, normal, side_m * side_m, 4, random.uniform(0.0, 1.0));
+  for (int strip = 1; strip <= 6; ++strip) {
+    maker.organ("leaf", 1, strip);
+    const double half_length_m = random.uniform(0.35, 0.5);
+    const double half_width_m = random.uniform(0.02, 0.05);
+    const double tilt = random.uniform(0.3, 0.7);
+    const glm::dvec3 along = inclined(0.5 * std::numbers::pi - tilt, random.uniform(0.2, 1.3));
+    const glm::dvec3 across = glm::normalize(glm::cross(along, random_normal(random)));
+    const glm::dvec3 centre_m{random.uniform(0.0, plot.size_x_m), random.uniform(0.9, 1.2), random.uniform(0.0, plot.size_z_m)};
+    const glm::dvec3 far_m = half_length_m * along;
+    const glm::dvec3 side_m = half_width_m * across;
+    maker.quad(centre_m - far_m - side_m, centre_m + far_m - side_m, centre_m + far_m + side_m, centre_m - far_m + side_m);
   }
-  add_leaves(maker, random, {8, 0.02, above(plot, 0.1, 0.5), "leaf", 10});
+  maker.organ("leaf_large", 1, 7);
+  const double tilt = random.uniform(0.1, 0.3);
+  const glm::dvec3 normal = inclined(tilt, random.uniform(0.2, 1.3));
+  maker.polygon({0.2, 0.3, 0.2}, normal, random.uniform(0.4, 0.6), 4, 0.5);
   return painted_model(maker.mesh(), plot, random_sun(random), random);
 }
 
