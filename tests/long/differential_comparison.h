@@ -32,6 +32,7 @@ class Comparison {
     Stated program;
     double traced = 0.0;
   };
+  void expect_none_beyond(double limit) const;
   void expect_exact_ones(std::size_t count) const;
 
   std::size_t replicates_;

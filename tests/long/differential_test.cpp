@@ -12,10 +12,21 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
 namespace sunfleck::test::differential {
+
+// Writes a kind as GoogleTest shows it.
+inline void PrintTo(const SceneKind& kind, std::ostream* out) {
+  *out << kind.scenes << " scenes";
+}
+
 namespace {
 
-constexpr int runs = 3;  // of the program on each scene, with different seeds
+constexpr int runs = 5;  // of the program on each scene, with different seeds
 constexpr int replicates = 64;
 
 RadiationResult run(const RadiationModel& model, const Prepared& prepared, std::uint64_t seed) {
