@@ -42,7 +42,7 @@ void count_ground(Ray ray, float t) {
 
 void follow_in_isolated_stand(Ray ray, uint number) {
   Ground ground = meet_ground(ray, beam.ground);
-  bool over_plot = in_plot(beam.ground, ground_point(ray, ground.t));
+  bool over_plot = falls_on_plot(ray, beam.ground);
   uint steps = 0u;
   NearestHit hit = nearest_hit(ray, over_plot ? ground.limit : 1e30, steps);
   if (steps >= steps_in_one_dispatch) {

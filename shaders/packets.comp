@@ -46,7 +46,7 @@ void reach_ground(Walk walk, Ray ray, float t) {
 void follow_in_isolated_stand(Ray ray, Walk walk) {
   bool down = ray.inverse.y < 0.0;
   Ground ground = meet_ground(ray, scene.ground);
-  bool over_plot = down && in_plot(scene.ground, ground_point(ray, ground.t));
+  bool over_plot = down && falls_on_plot(ray, scene.ground);
   uint steps = 0u;
   NearestHit hit = nearest_hit(ray, over_plot ? ground.limit : 1e30, walk.element, walk.image, steps);
   if (steps >= steps_in_one_dispatch) {

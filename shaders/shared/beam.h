@@ -108,6 +108,14 @@ INLINE bool in_plot(GroundMap map, vec2 at) {
   return at.x >= map.plot_lo.x && at.x <= map.plot_hi.x && at.y >= map.plot_lo.y && at.y <= map.plot_hi.y;
 }
 
+// Returns whether a ray that travels downwards meets the plot's rectangle of ground. A ray lands on elements down to `depth`
+// below the ground, and a packet starts as much again before its element; a ray that starts lower meets no ground.
+INLINE bool falls_on_plot(Ray ray, GroundMap map) {
+  EXACT float lowest_start = map.y - 2.0f * map.depth;
+  if (ray.origin.y < lowest_start) return false;
+  return in_plot(map, ground_point(ray, meet_ground(ray, map).t));
+}
+
 // Returns the number of the cell of the soil's map, x fastest. Points just outside count in the outermost cells.
 INLINE uint soil_cell(GroundMap map, vec2 at) {
   EXACT float column = (held_within(at.x, map.plot_lo.x, map.plot_hi.x) - map.plot_lo.x) * map.cells_per_metre.x;

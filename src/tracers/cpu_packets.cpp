@@ -24,7 +24,7 @@ shared::Landing CpuTracer::follow_in_isolated_stand(const shared::PacketBlock& s
                                                     OwnElement own) const {
   const bool down = ray.inverse.y < 0.0F;
   const shared::Ground ground = shared::meet_ground(ray, scene.ground);
-  const bool over_plot = down && shared::in_plot(scene.ground, shared::ground_point(ray, ground.t));
+  const bool over_plot = down && shared::falls_on_plot(ray, scene.ground);
   const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F, own);
   if (hit.found) return landing_of(hit);
   if (over_plot) return ground_landing(ray, ground.t, scene_.has_soil);

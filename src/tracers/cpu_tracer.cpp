@@ -61,7 +61,7 @@ void CpuTracer::count_ground(const shared::BeamBlock& beam, const shared::Ray& r
 void CpuTracer::follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray,
                                          std::span<std::uint32_t> counters) const {
   const shared::Ground ground = shared::meet_ground(ray, beam.ground);
-  const bool over_plot = shared::in_plot(beam.ground, shared::ground_point(ray, ground.t));
+  const bool over_plot = shared::falls_on_plot(ray, beam.ground);
   const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F);
   if (hit.found) {
     count_element(beam, hit, counters);

@@ -27,8 +27,7 @@ std::uint32_t counter_word(const RadiationModel& model, const CounterLayout& lay
 // Returns true if a ray that left downwards fell through the plot, false if it passed beside it. Only isolated stands
 // without soil need the distinction.
 bool fell_through_plot(const shared::BeamBlock& beam, const shared::Packet& ray) {
-  const shared::Ray way = shared::make_ray(ray.origin, ray.direction);
-  return shared::in_plot(beam.ground, shared::ground_point(way, shared::meet_ground(way, beam.ground).t));
+  return shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), beam.ground);
 }
 
 }  // namespace

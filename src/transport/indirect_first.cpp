@@ -46,8 +46,7 @@ bool IndirectPass::let_sky_in(Round& round, const StopQuestion& stop) const {
 // receivers that it passed.
 bool IndirectPass::fell_beside_plot(const shared::Landing& landing, const shared::Packet& ray) const {
   if (model_.plot.periodic || landing.surface != shared::left_downwards) return false;
-  const shared::Ray way = shared::make_ray(ray.origin, ray.direction);
-  return !shared::in_plot(scene_.ground, shared::ground_point(way, shared::meet_ground(way, scene_.ground).t));
+  return !shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), scene_.ground);
 }
 
 // Traces a systematic sample of the beam rays again to find the points where they landed. If there are no more rays than

@@ -79,7 +79,7 @@ INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput give
   result.ground_t = ground.t;
   result.ground_limit = ground.limit;
   result.ground_at = ground_point(ray, ground.t);
-  result.in_plot = in_plot(beam.ground, result.ground_at) ? 1u : 0u;
+  result.in_plot = (in_plot(beam.ground, result.ground_at) ? 1u : 0u) + (falls_on_plot(ray, beam.ground) ? 2u : 0u);
   result.cell = soil_cell(beam.ground, result.ground_at);
   result.landing = landing_y(given.a.y, given.b.y, given.c.y, hit.weight_b, hit.weight_c);
   result.layer = layer_of(given.origin.y, beam.layer_base_y, beam.layers_per_metre, beam.layers);

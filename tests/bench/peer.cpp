@@ -28,7 +28,7 @@ Leg leg_of(const shared::PacketBlock& scene, bool endless, const shared::Ray& ra
   const bool down = ray.inverse.y < 0.0F;
   if (!endless) {
     const shared::Ground ground = shared::meet_ground(ray, scene.ground);
-    const bool over_plot = down && shared::in_plot(scene.ground, shared::ground_point(ray, ground.t));
+    const bool over_plot = down && shared::falls_on_plot(ray, scene.ground);
     return {over_plot ? ground.limit : 1e30F, true, {}};
   }
   const shared::Ground end = down ? shared::meet_ground(ray, scene.ground) : shared::meet_top(ray, scene.top_y);

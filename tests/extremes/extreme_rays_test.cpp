@@ -3,6 +3,7 @@
 #include "extremes/tracers.h"
 #include "shared/beam.h"
 #include "support/comparison.h"
+#include "support/leaf_scenes.h"
 #include "transport/beam_block.h"
 
 #include <fmt/format.h>
@@ -113,7 +114,46 @@ TEST_F(ExtremeRays, LeaveAlongAnEdge) {
   }
 }
 
-// Level needles and slivers lie side by side, each with its exact width: they shade their areas.
+// An upright leaf reaches through the ground, and a level one lies below. The ground stops light from above, also what starts as
+// far below it as a packet does from a leaf that lies in it; what starts lower meets the level leaf or leaves downwards.
+TEST_F(ExtremeRays, BelowAnIsolatedPlotMeetNoGround) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.quad({0.5, -0.5, 0.25}, {0.5, -0.5, 0.75}, {0.5, 0.5, 0.75}, {0.5, 0.5, 0.25});
+  maker.organ("leaf", 1, 2);
+  maker.level(0.0, 0.25, 0.0, 1.0, -0.375);
+  const glm::vec3 down{0.0F, -1.0F, 0.0F};
+  const glm::vec3 towards_level{-1.0F, -0.75F, 0.0F};
+  const RadiationModel model = black_model(maker.mesh(), unit_stand, sun_at(45, 90));
+  const shared::GroundMap ground = make_packet_block(model, Prepared(model).layout).ground;
+  const std::vector<shared::Landing> landings =
+      follow(model, {ray({0.75F, 0.25F, 0.5F}, down), ray({0.75F, ground.y - ground.depth, 0.5F}, down),
+                     ray({0.75F, ground.y - 4.0F * ground.depth, 0.5F}, down), ray({0.75F, -0.25F, 0.5F}, down),
+                     ray({0.49F, -0.125F, 0.5F}, towards_level), ray({0.75F, -0.25F, 0.5F}, -down)});
+  EXPECT_EQ(landings[0].surface, shared::landed_on_ground);
+  EXPECT_EQ(landings[1].surface, shared::landed_on_ground);
+  EXPECT_EQ(landings[2].surface, shared::left_downwards);
+  EXPECT_EQ(landings[3].surface, shared::left_downwards);
+  EXPECT_EQ(landings[4].surface / 4, 1U);
+  EXPECT_EQ(landings[5].surface, shared::left_upwards);
+}
+
+// A leaf below an isolated plot, lit from beside it: none of what it scatters comes to the soil, and what it sends downwards is
+// transmitted.
+TEST_F(ExtremeRays, ALeafBelowAnIsolatedPlotLightsNoSoil) {
+  MeshMaker maker;
+  maker.quad({0.25, -0.875, 0.875}, {0.75, -0.875, 0.875}, {0.75, -0.25, 0.875}, {0.25, -0.25, 0.875});
+  const RadiationModel model = scattering_model(maker.mesh(), unit_stand, sun_at(45, 270), std::array{usual_nir});
+  const RadiationResult result = run(model, fixed_scatter(model, {.rays = 8e4, .packets = 2000, .replicates = 8}));
+  const FluxLedger& ledger = result.bands[0].ledger;
+  EXPECT_GT(ledger.absorbed_vegetation, 0);
+  EXPECT_GT(ledger.transmitted, 0);
+  std::int64_t on_soil = 0;
+  for (const std::int64_t quanta : result.cell_indirect) on_soil += quanta;
+  EXPECT_EQ(on_soil, 0);
+}
+
+// Level needles and slivers side by side, each with its own exact width: they shade their areas.
 TEST_F(ExtremeRays, NeedlesShadeTheirArea) {
   constexpr int count = 256;
   for (const double width_m : {0x1p-10, 0x1p-14}) {

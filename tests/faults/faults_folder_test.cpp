@@ -25,11 +25,7 @@ class Folder : public FaultTest {
     const auto watch = [&](pid_t child, const std::string&) {
       if (tried || !std::filesystem::exists(folder_ / sign) || !holds_a_lock(child)) return;
       tried = true;
-<<<<<<< HEAD
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // by now the first run's initial files are there
-=======
       ASSERT_TRUE(halt(child));
->>>>>>> i14-tests
       const auto before = files();
       const Outcome refused = run_beside(second);
       expect_one_line(refused, "out (another run is writing into this folder)");
@@ -45,9 +41,6 @@ class Folder : public FaultTest {
   }
 
  private:
-<<<<<<< HEAD
-  // Runs the program with its output in other files than the first run's.
-=======
   // Returns whether the process holds a lock: files of an earlier run may be in the folder before that.
   static bool holds_a_lock(pid_t process) {
     std::istringstream locks(content("/proc/locks"));
@@ -68,7 +61,6 @@ class Folder : public FaultTest {
   }
 
   // Runs the program with its output in other files than the first run's.
->>>>>>> i14-tests
   [[nodiscard]] Outcome run_beside(const Arguments& arguments) {
     const std::string out = (folder_ / "second.txt").string();
     before_program_ = [out] {

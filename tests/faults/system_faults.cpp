@@ -1,12 +1,3 @@
-<<<<<<< HEAD
-// Preloaded before the program (LD_PRELOAD): simulates a disk that fills up or breaks, and a clock that jumps.
-//   SUNFLECK_FAULT_FOLDER=/a/folder   restricts the faults of the disk to files in this folder and below
-//   SUNFLECK_FAULT_BYTES=1000         these files take this many bytes in total, then there is no space
-//   SUNFLECK_FAULT_JOURNAL=/a/file    gets a line for each write, fsync and rename, in their order: `write NAME`, `fsync NAME`,
-//                                     `rename NAME NAME`, with names relative to the folder
-//   SUNFLECK_FAULT_FSYNC=NAME         fsync fails with SUNFLECK_FAULT_ERRNO for files whose relative name begins with NAME
-//   SUNFLECK_FAULT_CLOCK=1            the time of day jumps to and fro by years
-=======
 // Preloaded before the program (LD_PRELOAD): simulates a disk that fills up or breaks, and clocks that jump or that count their
 // readings, and sends signals that come at the same point of the work however fast the machine is.
 //   SUNFLECK_FAULT_FOLDER=/a/folder   restricts the faults of the disk to files in this folder and below
@@ -19,7 +10,6 @@
 //   SUNFLECK_FAULT_SIGNALS=0@rename a,2@clock    sends these signals to the program one after the other, each at the first event
 //                                     after the last signal whose text begins this way. Events are the lines of the journal, and `clock` for a
 //                                     reading of the steady clock; `#7` is the seventh line of the journal. 0 is no signal
->>>>>>> i14-tests
 
 #include <dlfcn.h>
 #include <fcntl.h>

@@ -100,12 +100,6 @@ class Mpi : public regression::PreloadTest {
     return 0;
   }
 
-<<<<<<< HEAD
-  // Sends the signal once, when the run has stored its state: to a rank, or to the launcher (-1).
-  Watch signal_when_kept(int signal, int rank) {
-    return [this, signal, rank](pid_t launcher, const std::string&) {
-      if (sent_to_ != 0 || !exists("run_state.bin")) return;
-=======
   // Runs the long run by two processes into `out`, and sends the signal once a state is kept: to a rank, or to the launcher (-1).
   // The first rank, which keeps the states, halts itself when the second state gets its name, timed by a clock that counts, and
   // continues afterwards. Until then `watch` is called.
@@ -122,7 +116,6 @@ class Mpi : public regression::PreloadTest {
       if (watch) watch(launcher);
       const pid_t keeper = process_of(launcher, 0);
       if (keeper == 0 || !is_in_state(keeper, 'T')) return;
->>>>>>> i14-tests
       sent_to_ = rank < 0 ? launcher : process_of(launcher, rank);
       if (sent_to_ != 0) ::kill(sent_to_, signal);
       ::kill(keeper, SIGCONT);
@@ -131,11 +124,7 @@ class Mpi : public regression::PreloadTest {
     return outcome;
   }
 
-<<<<<<< HEAD
-  // Asks for little work in many replicates: it takes one process some seconds.
-=======
   // Asks for little work in many replicates.
->>>>>>> i14-tests
   const Arguments small_{"run", "scene.toml", "--device", "cpu", "--images", "none", "--export", "csv", "--error", "0.02"};
   const Arguments long_{"run",      "scene.toml", "--device", "cpu", "--images", "none",
                         "--export", "csv",        "--passes", "800", "--error",  "0.1"};
@@ -222,13 +211,8 @@ TEST_F(Mpi, LeavesNothingBehindButAStateAfterCtrlC) {
   ASSERT_NE(sent_to_, 0) << ended.err;
   EXPECT_NE(ended.status, 0);
   EXPECT_TRUE(exists("run_state.bin"));
-<<<<<<< HEAD
-  // The process that adopted the worker may not have collected it yet.
-  for (int wait = 0; is_at_work(worker) && wait < 1000; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-=======
   // Whoever adopted it may not have buried it yet.
   for (int wait = 0; is_at_work(worker) && wait < 60000; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
->>>>>>> i14-tests
   EXPECT_FALSE(is_at_work(worker));
 }
 

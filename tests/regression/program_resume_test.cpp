@@ -75,15 +75,10 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   send_as_state_is_kept(SIGKILL, 7);
   go({"--resume"}, -1);
   may_be_killed_ = false;
-<<<<<<< HEAD
-  const Outcome stopped = go({"--resume"}, 130, "out", signal_when_kept(SIGINT, 200));
-  EXPECT_NE(stopped.err.find("--resume continues the run"), std::string::npos) << stopped.err;
-=======
   send_as_state_is_kept(SIGINT, 5);
   const Outcome stopped = go({"--resume"}, 130);
   preload_nothing();
-  EXPECT_NE(stopped.err.find("--resume goes on"), std::string::npos) << stopped.err;
->>>>>>> i14-tests
+  EXPECT_NE(stopped.err.find("--resume continues the run"), std::string::npos) << stopped.err;
   const auto replicates = summary()["direct"]["replicates"].get<int>();
   EXPECT_GT(replicates, 2);
   // Not one replicate is lost at Ctrl-C.

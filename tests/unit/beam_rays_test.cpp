@@ -197,6 +197,16 @@ TEST(InPlot, IncludesTheBorder) {
   for (const vec2 at : {vec2(-1.01F, 3), vec2(3.01F, 3), vec2(0, 1.99F), vec2(0, 4.01F)}) EXPECT_FALSE(in_plot(map, at));
 }
 
+// Down to twice the depth below the ground, which is what landings and the starts of packets need.
+TEST(FallsOnPlot, OfRaysThatStartAboveTheGroundAlone) {
+  const GroundMap map = unit_ground();
+  const auto falls = [&](float y, float x) { return falls_on_plot(make_ray({x, y, 3}, {0.5F, -1, 0}), map); };
+  for (const float y : {2.0F, -0.5F, -0.75F, -1.0F}) EXPECT_TRUE(falls(y, 0)) << y;
+  for (const float y : {-1.01F, -2.0F}) EXPECT_FALSE(falls(y, 0)) << y;
+  EXPECT_FALSE(falls(1.5F, 2.5F));  // meets the ground beside the plot
+  EXPECT_TRUE(falls(-0.5F, 2.5F));
+}
+
 TEST(SoilCell, NumbersEveryCellFromItsMiddle) {
   const GroundMap map = unit_ground();
   for (uint z = 0; z < map.cells_z; ++z) {

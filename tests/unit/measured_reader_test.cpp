@@ -95,11 +95,7 @@ TEST_F(Measured, RefusesFilesThatAreNoTable) {
   EXPECT_LT(message(std::string(1'000'000, 'x')).size(), 200U) << "a long cell is cut";
 }
 
-<<<<<<< HEAD
-// Every cut of a good file is either read or rejected.
-=======
 // Every cut of a good file, and every byte of it changed, is read or refused in one line of three parts, and never anything else.
->>>>>>> i14-tests
 TEST_F(Measured, SurvivesBeingCutAndGarbled) {
   const std::string good = "# x\nheight_m,sunfleck_ratio\n0,0.18\n0.5,0.25\n";
   int read = 0;

@@ -64,12 +64,8 @@ TEST_F(SceneLimits, CoefficientsOfAllOpticsAndBands) {
   expect_refused(text, "more than 4000000 in all");
 }
 
-<<<<<<< HEAD
-// Telling the names apart takes no more than n log n steps: 50,000 of them take a moment.
-=======
-// Their names are told apart in n log n steps: eight times as many take about nine times as long, and not 64 times. Counted is the
-// processor's time, which other programs do not lengthen.
->>>>>>> i14-tests
+// Their names are told apart in n log n steps: eight times as many take about nine times as long, and not 64 times. The test
+// measures processor time, which other programs do not lengthen.
 TEST_F(SceneLimits, ManySensorsAreNamedQuickly) {
   const auto spent_on = [this](int count) {
     std::string text = bare_scene;

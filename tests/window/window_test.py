@@ -123,38 +123,6 @@ class Window:
                 return event
         raise AssertionError(f"no {name} {fields} within {PATIENCE_S:.0f} s; last: {self.events[-3:]}")
 
-<<<<<<< HEAD
-    def listen_for(self, seconds):
-        """Returns all events of the next seconds."""
-        end = time.monotonic() + seconds
-        heard = []
-        while time.monotonic() < end:
-            try:
-                event = self.lines.get(timeout=0.05)
-            except queue.Empty:
-                continue
-            if event is None:
-                raise AssertionError("the program ended")
-            self.take(event)
-            heard.append(event)
-        return heard
-
-    def last_restart(self, because):
-        """Returns the number of the last wish caused by a drag; by then all of them have been reported."""
-        wish = self.wait_for("restarted", because=because)["wish"]
-        marks = [event for event in self.peek() if event["event"] == "restarted"]
-        return marks[-1]["wish"] if marks else wish
-
-    def peek(self):
-        """Returns the events of a short moment, and leaves them in the queue to be waited for."""
-        time.sleep(0.5)
-        heard = []
-        while not self.lines.empty():
-            heard.append(self.lines.get())
-        for event in heard:
-            self.lines.put(event)
-        return [event for event in heard if event is not None]
-=======
     def heard_or_awaited(self, name, **fields):
         """The last event told so far of that name with these values, or the next one."""
         for event in reversed(self.events):
@@ -173,7 +141,6 @@ class Window:
         for _ in range(2):
             self.key("p")
             self.wait_for("saved")
->>>>>>> i14-tests
 
     def place(self, control, share=0.5):
         """Returns the middle of a control, or a place along it. Waits until it is drawn."""
@@ -296,16 +263,8 @@ class WindowTest(unittest.TestCase):
         self.wait_until_picture(window, lambda after: changed_share(before, after) > 0.05)
         orbited = window.picture()
         self.screen.do("mousemove", *map(int, window.in_picture(0.5, 0.5)))
-<<<<<<< HEAD
-        self.screen.do("click", 4)  # turns the wheel
-        heard.append(window.wait_for("picture"))
-        heard += window.listen_for(1.0)
-        self.assertNotIn("restarted", [event["event"] for event in heard])
-        after = window.picture()
-=======
         self.screen.do("click", 4)  # the wheel
         self.wait_until_picture(window, lambda after: changed_share(orbited, after) > 0.01)
->>>>>>> i14-tests
         self.keep_shot("orbited")
         window.wait_until_input_is_taken()
         self.assertNotIn("restarted", [event["event"] for event in window.events])

@@ -1,0 +1,93 @@
+#pragma once
+// Where the independent tracer's light comes from: sun, sky and lamps. Flux in W, for each waveband.
+
+#include "long/differential_world.h"
+#include "transport/model.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace sunfleck::test::differential {
+
+// Random numbers of one batch.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : engine_(seed) {}
+  double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
+  // A number below `count`.
+  std::size_t below(std::size_t count) {
+    return std::min(count - 1, static_cast<std::size_t>(unit() * static_cast<double>(count)));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// Returns a cosine-distributed direction about a unit normal, and one of any direction.
+[[nodiscard]] glm::dvec3 cosine_direction(const glm::dvec3& normal, Dice& dice);
+[[nodiscard]] glm::dvec3 any_direction(Dice& dice);
+
+struct Ray {
+  glm::dvec3 origin_m{0.0}, direction{0.0};
+};
+
+// Light that starts at a point: flux by band.
+struct Emitted {
+  Ray ray;
+  std::size_t element = 0;
+  std::vector<double> flux_w;
+};
+
+class Light {
+ public:
+  Light(const RadiationModel& model, const World& world);
+
+  [[nodiscard]] bool has_beam() const { return beam_; }
+  [[nodiscard]] bool has_sky() const { return sky_.has_value(); }
+  [[nodiscard]] bool has_lamps() const { return !lamps_.empty(); }
+  [[nodiscard]] const glm::dvec3& to_sun() const { return to_sun_; }
+
+  // Level ground that all rays of the beam together light, m2, and the same for the sky.
+  [[nodiscard]] double beam_ground_m2() const { return beam_ground_m2_; }
+  [[nodiscard]] double sky_ground_m2() const { return sky_ground_m2_; }
+
+  // Returns rays, one in each of cells * cells equal cells of the plane that the light comes through; each carries an equal part
+  // of the flux.
+  [[nodiscard]] std::vector<Ray> beam_rays(std::size_t cells, Dice& dice) const;
+  [[nodiscard]] std::vector<Ray> sky_rays(std::size_t cells, Dice& dice) const;
+  // Returns light of one of the lamps, as if `count` such were all of it.
+  [[nodiscard]] Emitted emitted(std::size_t count, Dice& dice) const;
+
+  // Radiance of the sky for a horizontal irradiance of 1; 0 for a sky of single lights.
+  [[nodiscard]] double radiance(const glm::dvec3& to_sky) const;
+  [[nodiscard]] const std::vector<SkyLight>& sky_lights() const;
+
+ private:
+  [[nodiscard]] Ray through_square(const glm::dvec3& to_light, double u, double v) const;
+  [[nodiscard]] Ray ray_from(const glm::dvec3& to_light, double u, double v) const;
+  [[nodiscard]] glm::dvec3 sky_direction(Dice& dice) const;
+  void measure_sky();
+  void find_lamps();
+
+  const RadiationModel& model_;
+  const World& world_;
+  bool beam_ = false;
+  glm::dvec3 to_sun_{0.0, 1.0, 0.0};
+  std::optional<Sky> sky_;
+  double largest_radiance_ = 0.0;
+  double beam_ground_m2_ = 0.0, sky_ground_m2_ = 0.0;
+  glm::dvec3 centre_m_{0.0};
+  double half_side_m_ = 0.0;  // of the square before an isolated stand
+  struct Lamp {
+    std::size_t element = 0;
+    double share = 0.0;  // of all lamps' flux, the mean over the bands
+    double up_to = 0.0;  // the shares of this and all earlier ones
+    double area_m2 = 0.0;
+  };
+  std::vector<Lamp> lamps_;
+};
+
+}  // namespace sunfleck::test::differential

@@ -1,0 +1,54 @@
+#pragma once
+// Paths of the independent tracer: forwards from the light, and backwards from a sensor.
+
+#include "long/differential_light.h"
+#include "long/differential_tally.h"
+#include "long/differential_world.h"
+#include "transport/model.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sunfleck::test::differential {
+
+class Paths {
+ public:
+  Paths(const RadiationModel& model, const World& world, const Light& light) : model_(model), world_(world), light_(light) {}
+
+  // Follows one batch of light to its end; cells * cells rays of the beam, of the sky and of the lamps.
+  void follow_light(std::size_t cells, Dice& dice, Tally& tally) const;
+
+  // What a sensor reads, W m-2: [band].
+  struct Reading {
+    std::vector<double> direct, sky, scattered;
+  };
+  // `paths` of them; the sun, and a sky of single lights, are looked at without chance.
+  [[nodiscard]] Reading read(const Sensor& sensor, std::size_t paths, Dice& dice) const;
+
+ private:
+  // Light that leaves a landing.
+  struct Leaving {
+    Ray ray;
+    bool any = false;  // false: all is absorbed
+  };
+  [[nodiscard]] Leaving scatter(const Landing& landing, std::vector<double>& weights, const std::vector<double>& scale,
+                                Dice& dice) const;
+  void follow(Ray ray, Height from, std::vector<double> flux_w, Carried carried, Dice& dice, Tally& tally,
+              const Landing* first) const;
+  [[nodiscard]] bool is_free(const glm::dvec3& from_m, const glm::dvec3& to_light) const;
+  // Irradiance of a side by the sun and by single lights of the sky, and by the sun alone: [band].
+  [[nodiscard]] std::vector<double> lights_on(const glm::dvec3& start_m, const glm::dvec3& normal) const;
+  void look_back(Ray ray, double weight, Dice& dice, Reading& reading) const;
+  // Moves a path backwards through a landing: to one of its sides, from where the light came.
+  struct Arrived {
+    glm::dvec3 start_m{0.0}, normal{0.0};
+    bool any = false;
+  };
+  [[nodiscard]] Arrived arrive(const Landing& landing, std::vector<double>& weights, Dice& dice) const;
+
+  const RadiationModel& model_;
+  const World& world_;
+  const Light& light_;
+};
+
+}  // namespace sunfleck::test::differential

@@ -1,0 +1,22 @@
+#pragma once
+// Random scenes of many kinds, small enough to be traced twice in seconds. Their seeds are fixed.
+
+#include "support/models.h"
+
+#include <span>
+
+namespace sunfleck::test::differential {
+
+struct SceneKind {
+  const char* name;
+  int scenes;  // of this kind
+  RadiationModel (*make)(Random& random, int scene);
+};
+
+// Returns all kinds.
+[[nodiscard]] std::span<const SceneKind> scene_kinds();
+
+// Returns scene number `scene` of a kind, from 0 on.
+[[nodiscard]] RadiationModel make_scene(const SceneKind& kind, int scene);
+
+}  // namespace sunfleck::test::differential

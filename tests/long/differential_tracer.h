@@ -1,0 +1,26 @@
+#pragma once
+// The independent tracer: paths followed from the light to their ends, and from sensors backwards, with weights in double
+// precision and Russian roulette. It shares no code with the program but the description of the scene.
+
+#include "long/differential_figures.h"
+#include "transport/model.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sunfleck::test::differential {
+
+struct TracerWork {
+  std::size_t batches = 64;
+  std::size_t cells = 96;  // along each side of the grid that the beam starts on, and the sky: cells * cells rays a batch
+  std::size_t sensor_paths = 512;
+  std::uint64_t seed = 1;
+};
+
+// Returns the value of each figure and its standard error, from the spread between batches. It does not depend on the number of
+// threads.
+[[nodiscard]] std::vector<Stated> trace_figures(const RadiationModel& model, const std::vector<Figure>& figures,
+                                                const TracerWork& work);
+
+}  // namespace sunfleck::test::differential
