@@ -165,7 +165,7 @@ TEST_F(Durability, OfAStateThatFailsIsSaidAndTheRunGoesOn) {
   const std::string warning = "out/run_state.bin: cannot be written (No space left on device); free some space";
   const Outcome outcome = run(endless_, stop_once([&](const std::string& err) { return err.find(warning) != err.npos; }));
   EXPECT_EQ(outcome.status, 130) << outcome.err;
-  EXPECT_NE(outcome.err.find("the run goes on"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the run continues"), std::string::npos) << outcome.err;
   EXPECT_FALSE(exists("run_state.bin"));
   EXPECT_TRUE(exists("organs.csv"));
 }

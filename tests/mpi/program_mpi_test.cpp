@@ -188,7 +188,7 @@ TEST_F(Mpi, GoesOnAfterAnyRankWasKilled) {
     const Arguments again = into("out", long_) + Arguments{"--resume"};
     const Outcome resumed = run(rank == 0 ? by(3, again) : alone(again));
     EXPECT_EQ(resumed.status, 0) << resumed.err;
-    EXPECT_NE(resumed.err.find("going on after "), std::string::npos) << resumed.err;
+    EXPECT_NE(resumed.err.find("resuming after "), std::string::npos) << resumed.err;
     expect_same(expected, "out");
   }
 }

@@ -83,7 +83,7 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   EXPECT_GT(replicates, 2);
   // Not one replicate is lost at Ctrl-C.
   const Outcome last = go({"--resume"});
-  EXPECT_NE(last.err.find("going on after " + std::to_string(replicates) + " replicates"), std::string::npos) << last.err;
+  EXPECT_NE(last.err.find("resuming after " + std::to_string(replicates) + " replicates"), std::string::npos) << last.err;
   EXPECT_EQ(summary()["complete"], true);
   EXPECT_FALSE(exists("run_state.bin"));
   expect_same_tables("whole", "out");
@@ -100,14 +100,14 @@ TEST_F(Resume, GoesOnAfterALimitOfTime) {
   preload_nothing();
   EXPECT_NE(stopped.err.find("--max-seconds 6"), std::string::npos) << stopped.err;
   EXPECT_TRUE(exists("run_state.bin"));
-  EXPECT_NE(go({"--resume", "--max-seconds", "1e9"}).err.find("going on after "), std::string::npos);
+  EXPECT_NE(go({"--resume", "--max-seconds", "1e9"}).err.find("resuming after "), std::string::npos);
   expect_same_tables("whole", "out");
 }
 
 TEST_F(Resume, BeginsAnewWhereNothingIsKept) {
   const Outcome outcome =
       simulate("scene.toml", Arguments{"--device", "cpu", "--images", "none", "--passes", "8", "--error", "0.1", "--resume"});
-  EXPECT_NE(outcome.err.find("out: nothing to go on from, the run begins anew"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("out: nothing to resume, the run starts from the beginning"), std::string::npos) << outcome.err;
   EXPECT_EQ(summary()["complete"], true);
 }
 
