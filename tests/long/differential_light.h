@@ -66,8 +66,14 @@ class Light {
   [[nodiscard]] const std::vector<SkyLight>& sky_lights() const;
 
  private:
-  [[nodiscard]] Ray through_square(const glm::dvec3& to_light, double u, double v) const;
-  [[nodiscard]] Ray ray_from(const glm::dvec3& to_light, double u, double v) const;
+  // A rectangle across the way of light that is wide enough for an isolated stand.
+  struct Window {
+    glm::dvec3 centre_m{0.0}, half_u_m{0.0}, half_v_m{0.0};
+    [[nodiscard]] double area_m2() const;
+  };
+  [[nodiscard]] Window window_to(const glm::dvec3& to_light) const;
+  [[nodiscard]] Window any_window(const glm::dvec3& to_light) const;
+  [[nodiscard]] Ray ray_from(const glm::dvec3& to_light, const Window& window, double u, double v) const;
   [[nodiscard]] glm::dvec3 sky_direction(Dice& dice) const;
   void measure_sky();
   void find_lamps();
@@ -79,8 +85,8 @@ class Light {
   std::optional<Sky> sky_;
   double largest_radiance_ = 0.0;
   double beam_ground_m2_ = 0.0, sky_ground_m2_ = 0.0;
-  glm::dvec3 centre_m_{0.0};
-  double half_side_m_ = 0.0;  // of the square before an isolated stand
+  glm::dvec3 lo_m_{0.0}, hi_m_{0.0};  // of an isolated stand, its plot and its planes
+  Window beam_window_;
   struct Lamp {
     std::size_t element = 0;
     double share = 0.0;  // of all lamps' flux, the mean over the bands
