@@ -86,14 +86,11 @@ void Light::measure_sky() {
 
 void Light::find_lamps() {
   std::vector<double> total_w(model_.bands.size());
-  const auto is_copy = [&](std::size_t e) {
-    return std::any_of(model_.canopy.copies.begin(), model_.canopy.copies.end(), [&](const Copy& c) { return c.element == e; });
-  };
   const auto emission_of = [&](std::size_t e) -> const std::vector<double>& {
     return model_.optics[model_.canopy.optics_of[e]].emission_w_m2;
   };
   for (std::size_t e = 0; e < model_.canopy.size(); ++e) {
-    if (emission_of(e).empty() || is_copy(e)) continue;
+    if (emission_of(e).empty() || world_.is_copy(e)) continue;
     lamps_.push_back({e, 0.0, 0.0, area_m2(model_.canopy.corners[e])});
     for (std::size_t b = 0; b < total_w.size(); ++b) total_w[b] += lamps_.back().area_m2 * emission_of(e)[b];
   }
