@@ -25,6 +25,14 @@ struct Frame {
   glm::dvec3 u, v;
 };
 
+// Returns a point of the unit square in cell k of cells * cells.
+glm::dvec2 jittered(std::size_t k, std::size_t cells, Dice& dice) {
+  const std::size_t column = k % cells;
+  const std::size_t row = k / cells;
+  const double u = static_cast<double>(column) + dice.unit();
+  return glm::dvec2(u, static_cast<double>(row) + dice.unit()) / static_cast<double>(cells);
+}
+
 }  // namespace
 
 glm::dvec3 cosine_direction(const glm::dvec3& normal, Dice& dice) {
@@ -134,9 +142,8 @@ Ray Light::ray_from(const glm::dvec3& to_light, const Window& window, double u, 
 std::vector<Ray> Light::beam_rays(std::size_t cells, Dice& dice) const {
   std::vector<Ray> rays;
   for (std::size_t k = 0; k < cells * cells; ++k) {
-    const double u = (static_cast<double>(k % cells) + dice.unit()) / static_cast<double>(cells);
-    rays.push_back(
-        ray_from(to_sun_, beam_window_, u, (static_cast<double>(k / cells) + dice.unit()) / static_cast<double>(cells)));
+    const glm::dvec2 at = jittered(k, cells, dice);
+    rays.push_back(ray_from(to_sun_, beam_window_, at.x, at.y));
   }
   return rays;
 }
@@ -166,10 +173,9 @@ glm::dvec3 Light::sky_direction(Dice& dice) const {
 std::vector<Ray> Light::sky_rays(std::size_t cells, Dice& dice) const {
   std::vector<Ray> rays;
   for (std::size_t k = 0; k < cells * cells; ++k) {
-    const double u = (static_cast<double>(k % cells) + dice.unit()) / static_cast<double>(cells);
-    const double v = (static_cast<double>(k / cells) + dice.unit()) / static_cast<double>(cells);
+    const glm::dvec2 at = jittered(k, cells, dice);
     const glm::dvec3 to_sky = sky_direction(dice);
-    rays.push_back(ray_from(to_sky, any_window(to_sky), u, v));
+    rays.push_back(ray_from(to_sky, any_window(to_sky), at.x, at.y));
   }
   return rays;
 }
