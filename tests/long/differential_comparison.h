@@ -1,5 +1,5 @@
 #pragma once
-// Two lists of figures with their errors, compared one by one and as a whole.
+// Compares figures with their errors, one by one and as a whole.
 
 #include "long/differential_figures.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The figures that are compared, and how the program states them.
+// Lists the figures that are compared, and reads how the program states them.
 
 #include "transport/model.h"
 #include "transport/result.h"
@@ -46,7 +46,7 @@ struct Figure {
 
 [[nodiscard]] std::string name_of(const RadiationModel& model, const Figure& figure);
 
-// A value and its standard error; NaN: none is stated.
+// Holds a value and its standard error; NaN where none is stated.
 struct Stated {
   double value = 0.0;
   double error = 0.0;

@@ -16,6 +16,7 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 
 // Two unit vectors that stand upright on a third and on each other.
 struct Frame {
+  Frame(const glm::dvec3& first, const glm::dvec3& second) : u(first), v(second) {}
   explicit Frame(const glm::dvec3& along) {
     const glm::dvec3 other = std::abs(along.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     u = glm::normalize(glm::cross(along, other));
@@ -23,6 +24,14 @@ struct Frame {
   }
   glm::dvec3 u, v;
 };
+
+// Returns a point of the unit square in cell k of cells * cells.
+glm::dvec2 jittered(std::size_t k, std::size_t cells, Dice& dice) {
+  const std::size_t column = k % cells;
+  const std::size_t row = k / cells;
+  const double u = static_cast<double>(column) + dice.unit();
+  return glm::dvec2(u, static_cast<double>(row) + dice.unit()) / static_cast<double>(cells);
+}
 
 }  // namespace
 
@@ -45,17 +54,15 @@ Light::Light(const RadiationModel& model, const World& world) : model_(model), w
   const bool any_direct =
       std::any_of(model.bands.begin(), model.bands.end(), [](const Waveband& b) { return b.direct_w_m2 > 0; });
   beam_ = model.sun && model.sun->elevation_rad > 0.0 && any_direct;
-  // Planes above the canopy belong to what an isolated stand's light has to pass.
-  glm::dvec3 hi_m = world.hi_m();
-  for (const PlaneReceiver& plane : model.planes) hi_m.y = std::max(hi_m.y, plane.height_m);
-  centre_m_ = 0.5 * (world.lo_m() + hi_m);
-  half_side_m_ = 0.501 * glm::length(hi_m - world.lo_m());
+  lo_m_ = world.lo_m();
+  hi_m_ = world.hi_m();
+  for (const PlaneReceiver& plane : model.planes) hi_m_.y = std::max(hi_m_.y, plane.height_m);
   const double plot_m2 = model.canopy.period_m.x * model.canopy.period_m.y;
-  const double square_m2 = 4.0 * half_side_m_ * half_side_m_;
   if (beam_) {
     to_sun_ = {-std::cos(model.sun->elevation_rad) * std::cos(model.sun->azimuth_rad), std::sin(model.sun->elevation_rad),
                -std::cos(model.sun->elevation_rad) * std::sin(model.sun->azimuth_rad)};
-    beam_ground_m2_ = model.plot.periodic ? plot_m2 : square_m2 / to_sun_.y;
+    beam_window_ = window_to(to_sun_);
+    beam_ground_m2_ = model.plot.periodic ? plot_m2 : beam_window_.area_m2() / to_sun_.y;
   }
   if (model.sky) {
     sky_.emplace(*model.sky, model.sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0}));
@@ -64,7 +71,7 @@ Light::Light(const RadiationModel& model, const World& world) : model_(model), w
   find_lamps();
 }
 
-// The largest radiance, and how much level ground the rays through the square stand for: the integral of radiance over the sky
+// The largest radiance, and how much level ground the rays through a window stand for: the integral of radiance over the sky
 // times its area. Radiance is constant in cells that are even in zenith angle and azimuth.
 void Light::measure_sky() {
   double plain = 0.0;
@@ -82,19 +89,16 @@ void Light::measure_sky() {
     }
   }
   sky_ground_m2_ =
-      model_.plot.periodic ? model_.canopy.period_m.x * model_.canopy.period_m.y : plain * 4.0 * half_side_m_ * half_side_m_;
+      model_.plot.periodic ? model_.canopy.period_m.x * model_.canopy.period_m.y : plain * any_window(to_sun_).area_m2();
 }
 
 void Light::find_lamps() {
   std::vector<double> total_w(model_.bands.size());
-  const auto is_copy = [&](std::size_t e) {
-    return std::any_of(model_.canopy.copies.begin(), model_.canopy.copies.end(), [&](const Copy& c) { return c.element == e; });
-  };
   const auto emission_of = [&](std::size_t e) -> const std::vector<double>& {
     return model_.optics[model_.canopy.optics_of[e]].emission_w_m2;
   };
   for (std::size_t e = 0; e < model_.canopy.size(); ++e) {
-    if (emission_of(e).empty() || is_copy(e)) continue;
+    if (emission_of(e).empty() || world_.is_copy(e)) continue;
     lamps_.push_back({e, 0.0, 0.0, area_m2(model_.canopy.corners[e])});
     for (std::size_t b = 0; b < total_w.size(); ++b) total_w[b] += lamps_.back().area_m2 * emission_of(e)[b];
   }
@@ -107,22 +111,39 @@ void Light::find_lamps() {
   }
 }
 
-Ray Light::through_square(const glm::dvec3& to_light, double u, double v) const {
-  const Frame frame(to_light);
-  const glm::dvec3 at_m = centre_m_ + half_side_m_ * ((2.0 * u - 1.0) * frame.u + (2.0 * v - 1.0) * frame.v);
-  return {at_m + 2.0 * half_side_m_ * to_light, -to_light};
+double Light::Window::area_m2() const {
+  return 4.0 * glm::length(half_u_m) * glm::length(half_v_m);
 }
 
-Ray Light::ray_from(const glm::dvec3& to_light, double u, double v) const {
-  if (!model_.plot.periodic) return through_square(to_light, u, v);
-  return {{u * model_.canopy.period_m.x, world_.top_y_m(), v * model_.canopy.period_m.y}, -to_light};
+// The shadow of the stand's box, one edge level. Not for light from the zenith.
+Light::Window Light::window_to(const glm::dvec3& to_light) const {
+  const glm::dvec3 level = glm::normalize(glm::dvec3(to_light.z, 0.0, -to_light.x));
+  const Frame frame{glm::cross(level, to_light), level};
+  glm::dvec2 half_m(0.0);
+  const glm::dvec3 size_m = 0.5 * (hi_m_ - lo_m_);
+  for (int axis = 0; axis < 3; ++axis) half_m += size_m[axis] * glm::dvec2(std::abs(frame.u[axis]), std::abs(frame.v[axis]));
+  half_m *= 1.001;
+  return {0.5 * (lo_m_ + hi_m_), half_m.x * frame.u, half_m.y * frame.v};
+}
+
+// A square that is as large for light from everywhere.
+Light::Window Light::any_window(const glm::dvec3& to_light) const {
+  const Frame frame(to_light);
+  const double half_m = 0.501 * glm::length(hi_m_ - lo_m_);
+  return {0.5 * (lo_m_ + hi_m_), half_m * frame.u, half_m * frame.v};
+}
+
+Ray Light::ray_from(const glm::dvec3& to_light, const Window& window, double u, double v) const {
+  if (model_.plot.periodic) return {{u * model_.canopy.period_m.x, world_.top_y_m(), v * model_.canopy.period_m.y}, -to_light};
+  const glm::dvec3 at_m = window.centre_m + (2.0 * u - 1.0) * window.half_u_m + (2.0 * v - 1.0) * window.half_v_m;
+  return {at_m + glm::length(hi_m_ - lo_m_) * to_light, -to_light};
 }
 
 std::vector<Ray> Light::beam_rays(std::size_t cells, Dice& dice) const {
   std::vector<Ray> rays;
   for (std::size_t k = 0; k < cells * cells; ++k) {
-    const double u = (static_cast<double>(k % cells) + dice.unit()) / static_cast<double>(cells);
-    rays.push_back(ray_from(to_sun_, u, (static_cast<double>(k / cells) + dice.unit()) / static_cast<double>(cells)));
+    const glm::dvec2 at = jittered(k, cells, dice);
+    rays.push_back(ray_from(to_sun_, beam_window_, at.x, at.y));
   }
   return rays;
 }
@@ -152,9 +173,9 @@ glm::dvec3 Light::sky_direction(Dice& dice) const {
 std::vector<Ray> Light::sky_rays(std::size_t cells, Dice& dice) const {
   std::vector<Ray> rays;
   for (std::size_t k = 0; k < cells * cells; ++k) {
-    const double u = (static_cast<double>(k % cells) + dice.unit()) / static_cast<double>(cells);
-    const double v = (static_cast<double>(k / cells) + dice.unit()) / static_cast<double>(cells);
-    rays.push_back(ray_from(sky_direction(dice), u, v));
+    const glm::dvec2 at = jittered(k, cells, dice);
+    const glm::dvec3 to_sky = sky_direction(dice);
+    rays.push_back(ray_from(to_sky, any_window(to_sky), at.x, at.y));
   }
   return rays;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Where the independent tracer's light comes from: sun, sky and lamps. Flux in W, for each waveband.
+// Sends the independent tracer's light: from sun, sky and lamps. Flux is in W, for each waveband.
 
 #include "long/differential_world.h"
 #include "transport/model.h"
@@ -12,15 +12,11 @@
 
 namespace sunfleck::test::differential {
 
-// Random numbers of one batch.
+// Draws the random numbers of one batch.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
   double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
-  // A number below `count`.
-  std::size_t below(std::size_t count) {
-    return std::min(count - 1, static_cast<std::size_t>(unit() * static_cast<double>(count)));
-  }
 
  private:
   std::mt19937_64 engine_;
@@ -34,7 +30,7 @@ struct Ray {
   glm::dvec3 origin_m{0.0}, direction{0.0};
 };
 
-// Light that starts at a point: flux by band.
+// Holds light that starts at a point: flux by band.
 struct Emitted {
   Ray ray;
   std::size_t element = 0;
@@ -50,24 +46,30 @@ class Light {
   [[nodiscard]] bool has_lamps() const { return !lamps_.empty(); }
   [[nodiscard]] const glm::dvec3& to_sun() const { return to_sun_; }
 
-  // Level ground that all rays of the beam together light, m2, and the same for the sky.
+  // Return the level ground that all rays together stand for, m2: of the beam, and of the sky.
   [[nodiscard]] double beam_ground_m2() const { return beam_ground_m2_; }
   [[nodiscard]] double sky_ground_m2() const { return sky_ground_m2_; }
 
-  // Returns rays, one in each of cells * cells equal cells of the plane that the light comes through; each carries an equal part
+  // Return rays, one in each of cells * cells equal cells of the plane that the light comes through; each carries an equal part
   // of the flux.
   [[nodiscard]] std::vector<Ray> beam_rays(std::size_t cells, Dice& dice) const;
   [[nodiscard]] std::vector<Ray> sky_rays(std::size_t cells, Dice& dice) const;
   // Returns light of one of the lamps, as if `count` such were all of it.
   [[nodiscard]] Emitted emitted(std::size_t count, Dice& dice) const;
 
-  // Radiance of the sky for a horizontal irradiance of 1; 0 for a sky of single lights.
+  // Returns the radiance of the sky for a horizontal irradiance of 1; 0 for a sky of single lights.
   [[nodiscard]] double radiance(const glm::dvec3& to_sky) const;
   [[nodiscard]] const std::vector<SkyLight>& sky_lights() const;
 
  private:
-  [[nodiscard]] Ray through_square(const glm::dvec3& to_light, double u, double v) const;
-  [[nodiscard]] Ray ray_from(const glm::dvec3& to_light, double u, double v) const;
+  // Stands across the way of light, wide enough for an isolated stand.
+  struct Window {
+    glm::dvec3 centre_m{0.0}, half_u_m{0.0}, half_v_m{0.0};
+    [[nodiscard]] double area_m2() const;
+  };
+  [[nodiscard]] Window window_to(const glm::dvec3& to_light) const;
+  [[nodiscard]] Window any_window(const glm::dvec3& to_light) const;
+  [[nodiscard]] Ray ray_from(const glm::dvec3& to_light, const Window& window, double u, double v) const;
   [[nodiscard]] glm::dvec3 sky_direction(Dice& dice) const;
   void measure_sky();
   void find_lamps();
@@ -79,8 +81,8 @@ class Light {
   std::optional<Sky> sky_;
   double largest_radiance_ = 0.0;
   double beam_ground_m2_ = 0.0, sky_ground_m2_ = 0.0;
-  glm::dvec3 centre_m_{0.0};
-  double half_side_m_ = 0.0;  // of the square before an isolated stand
+  glm::dvec3 lo_m_{0.0}, hi_m_{0.0};  // of an isolated stand, its plot and its planes
+  Window beam_window_;
   struct Lamp {
     std::size_t element = 0;
     double share = 0.0;  // of all lamps' flux, the mean over the bands

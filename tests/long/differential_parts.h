@@ -1,5 +1,5 @@
 #pragma once
-// The parts that random scenes are made of: plots, suns, leaves, plants, rooms, optics, receivers.
+// Makes the parts of random scenes: plots, suns, leaves, plants, rooms, optics, receivers.
 
 #include "support/models.h"
 
@@ -13,7 +13,7 @@ namespace sunfleck::test::differential {
 [[nodiscard]] SunPosition random_sun(Random& random);
 [[nodiscard]] glm::dvec3 random_normal(Random& random);
 
-// A box of space in which leaves have their centres.
+// Bounds the centres of leaves.
 struct Space {
   glm::dvec3 lo_m{0.0}, hi_m{0.0};
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Paths of the independent tracer: forwards from the light, and backwards from a sensor.
+// Follows the independent tracer's paths: forwards from the light, and backwards from a sensor.
 
 #include "long/differential_light.h"
 #include "long/differential_tally.h"
@@ -18,15 +18,15 @@ class Paths {
   // Follows one batch of light to its end; cells * cells rays of the beam, of the sky and of the lamps.
   void follow_light(std::size_t cells, Dice& dice, Tally& tally) const;
 
-  // What a sensor reads, W m-2: [band].
+  // Holds the light that a sensor reads, W m-2: [band].
   struct Reading {
     std::vector<double> direct, sky, scattered;
   };
-  // `paths` of them; the sun, and a sky of single lights, are looked at without chance.
+  // Reads a sensor by so many paths; the sun, and a sky of single lights, are looked at without chance.
   [[nodiscard]] Reading read(const Sensor& sensor, std::size_t paths, Dice& dice) const;
 
  private:
-  // Light that leaves a landing.
+  // Tells how light leaves a landing.
   struct Leaving {
     Ray ray;
     bool any = false;  // false: all is absorbed
@@ -36,10 +36,10 @@ class Paths {
   void follow(Ray ray, Height from, std::vector<double> flux_w, Carried carried, Dice& dice, Tally& tally,
               const Landing* first) const;
   [[nodiscard]] bool is_free(const glm::dvec3& from_m, const glm::dvec3& to_light) const;
-  // Irradiance of a side by the sun and by single lights of the sky, and by the sun alone: [band].
+  // Returns the irradiance of a side by the sun and by single lights of the sky: [band].
   [[nodiscard]] std::vector<double> lights_on(const glm::dvec3& start_m, const glm::dvec3& normal) const;
   void look_back(Ray ray, double weight, Dice& dice, Reading& reading) const;
-  // Moves a path backwards through a landing: to one of its sides, from where the light came.
+  // Moves a path backwards through a landing, to the side that the light came from.
   struct Arrived {
     glm::dvec3 start_m{0.0}, normal{0.0};
     bool any = false;

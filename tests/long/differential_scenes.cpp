@@ -228,15 +228,17 @@ RadiationModel edge_on(Random& random, int /*scene*/) {
   return painted_model(maker.mesh(), plot, sun, random);
 }
 
-// Leaves that reach through the ground, in one scene of an endless plot; the isolated ones are lit from beside as well.
+// Leaves that reach through the ground or lie below it, in one scene of an endless plot; the isolated ones are lit from beside as
+// well, by a sun that is not high.
 RadiationModel through_ground(Random& random, int scene) {
   const Plot plot = random_plot(random, scene == 0);
   MeshMaker maker;
-  Leaves leaves{14, 0.1, above(plot, -0.1, 0.15)};
+  Leaves leaves{14, 0.1, above(plot, plot.periodic ? -0.1 : -0.4, 0.1)};
   leaves.space.lo_m.x -= plot.periodic ? 0.0 : 0.1;
   add_leaves(maker, random, leaves);
   add_leaves(maker, random, {6, 0.08, above(plot, 0.3, 0.8), "leaf", 14});
-  RadiationModel model = painted_model(maker.mesh(), plot, random_sun(random), random);
+  const double elevation_deg = random.uniform(20.0, 35.0);
+  RadiationModel model = painted_model(maker.mesh(), plot, sun_at(elevation_deg, random.uniform(0.0, 360.0)), random);
   if (scene == 2) add_sky(model, {}, 0.7);
   return model;
 }

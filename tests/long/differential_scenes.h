@@ -1,5 +1,5 @@
 #pragma once
-// Random scenes of many kinds, small enough to be traced twice in seconds. Their seeds are fixed.
+// Makes random scenes of many kinds, small enough to be traced twice in seconds. Their seeds are fixed.
 
 #include "support/models.h"
 

@@ -12,7 +12,7 @@ namespace {
 // The guide: a leaf whose plane is this close to the beam has no sunlit share.
 constexpr double edge_on = 1e-5;
 
-// The area of a triangle's part below a height, by clipping.
+// Returns the area of a triangle's part below a height, by clipping.
 double area_below_m2(const Triangle& corners, double y_m) {
   std::vector<glm::dvec3> part;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -63,11 +63,10 @@ void Survey::find_roles(const RadiationModel& model) {
 void Survey::find_facing(const RadiationModel& model, const World& world, const Light& light) {
   for (std::size_t e = 0; e < lit_per_ground_.size(); ++e) {
     const double cosine = std::abs(glm::dot(world.normal(e), light.to_sun()));
-    if (cosine > edge_on && !is_under_soil(model, model.canopy.corners[e], light.to_sun())) {
+    if (cosine > edge_on && !world.is_copy(e) && !is_under_soil(model, model.canopy.corners[e], light.to_sun())) {
       lit_per_ground_[e] = light.to_sun().y / cosine;
     }
   }
-  for (const Copy& copy : model.canopy.copies) lit_per_ground_[copy.element] = 0.0;
 }
 
 void Survey::measure(const RadiationModel& model) {

@@ -107,11 +107,11 @@ void Tally::land_on_element(const Landing& landing, std::span<const double> flux
 }
 
 void Tally::pass_profile(const Height& from, const Height& to, std::span<const double> flux_w) {
-  const auto first = static_cast<std::size_t>(std::min(from.row, to.row) + 1);
-  const auto last = static_cast<std::size_t>(std::max(from.row, to.row) + 1);
   std::vector<double>& passed_w = from.row > to.row ? row_down_w_ : row_up_w_;
-  for (std::size_t edge = first; edge < last; ++edge) {
-    for (std::size_t b = 0; b < bands_; ++b) passed_w[edge * bands_ + b] += flux_w[b];
+  for (int row = std::min(from.row, to.row); row < std::max(from.row, to.row); ++row) {
+    const int upper_edge = row + 1;
+    const std::size_t edge = static_cast<std::size_t>(upper_edge) * bands_;
+    for (std::size_t b = 0; b < bands_; ++b) passed_w[edge + b] += flux_w[b];
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What one batch of the independent tracer adds up, in double precision, and the figures that follow from it.
+// Adds up one batch of the independent tracer in double precision, and gives the figures that follow.
 
 #include "long/differential_figures.h"
 #include "long/differential_light.h"
@@ -12,7 +12,7 @@
 
 namespace sunfleck::test::differential {
 
-// What follows from the scene alone: roles and areas of elements, rows of the profile.
+// Knows all that follows from the scene alone: roles and areas of elements, rows of the profile.
 class Survey {
  public:
   Survey(const RadiationModel& model, const World& world, const Light& light);
@@ -21,10 +21,10 @@ class Survey {
   [[nodiscard]] bool is_foliage(std::size_t element) const { return foliage_[element]; }
   [[nodiscard]] bool has_beam() const { return has_beam_; }
 
-  // Area of a leaf that a square metre of the beam's level ground lights; 0 if the beam cannot hit it.
+  // Returns the area of a leaf that a square metre of the beam's level ground lights; 0 if the beam cannot hit it.
   [[nodiscard]] double lit_per_ground(std::size_t element) const { return lit_per_ground_[element]; }
 
-  // The row of the profile that holds a height.
+  // Returns the row of the profile that holds a height.
   [[nodiscard]] std::size_t row_at(double y_m) const;
 
   [[nodiscard]] const std::vector<double>& element_m2() const { return element_m2_; }
@@ -45,14 +45,14 @@ class Survey {
   std::vector<double> organ_m2_, organ_facing_m2_, row_facing_m2_;
 };
 
-// Where a straight way begins or ends, for the planes that it passes: soil and all that lies below count as lowest of all.
+// Tells where a straight way begins or ends, for the planes that it passes: soil and all that lies below count as lowest.
 struct Height {
   static constexpr double lowest = -std::numeric_limits<double>::infinity();
   double y_m = lowest;
   int row = -1;  // of the profile; the number of rows above all
 };
 
-// What light is on a straight way: the sun's beam, the sky's as it comes in, or what lamps and surfaces sent.
+// Tells which light is on a straight way: the sun's beam, the sky's as it comes in, or light that lamps and surfaces sent.
 enum class Carried { beam, sky, sent };
 
 class Tally {
@@ -62,8 +62,8 @@ class Tally {
   // Adds a ray of the beam that stands for so much level ground, for the shares in direct sun.
   void add_sunlight(const Ray& ray, const Landing& landing, double ground_m2);
 
-  // Adds flux by band on its way and where it lands. What first comes in and passes beside an isolated plot counts for planes
-  // alone.
+  // Adds flux by band on its way and where it lands. Light that first comes in and passes beside an isolated plot counts for
+  // planes alone.
   void add(const Ray& ray, const Height& from, const Landing& landing, std::span<const double> flux_w, Carried carried);
 
   [[nodiscard]] Height height_of(const Landing& landing) const;

@@ -1,4 +1,4 @@
-// The program against an independent tracer, on random scenes of many kinds: every total, organ, element, side, row of the
+// The program agrees with an independent tracer on random scenes of many kinds, in every total, organ, element, side, row of the
 // profile, plane and sensor. Embree finds the triangles of one period; wrap, sampling, scattering and tallies are the tracer's
 // own, in double precision.
 

@@ -1,6 +1,6 @@
 #pragma once
-// The independent tracer: paths followed from the light to their ends, and from sensors backwards, with weights in double
-// precision and Russian roulette. It shares no code with the program but the description of the scene.
+// The independent tracer follows paths from the light to their ends, and from sensors backwards, with weights in double
+// precision and Russian roulette. It shares no code with the program but the description of scene and sky.
 
 #include "long/differential_figures.h"
 #include "transport/model.h"

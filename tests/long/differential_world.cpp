@@ -36,7 +36,8 @@ World::World(const RadiationModel& model) : model_(model), device_(rtcNewDevice(
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const glm::dvec3 a(elements[e][0]);
     normals_.push_back(glm::normalize(glm::cross(glm::dvec3(elements[e][1]) - a, glm::dvec3(elements[e][2]) - a)));
-    if (first_of.try_emplace(sorted_corners(elements[e]), e).second) element_of_.push_back(e);
+    is_copy_.push_back(!first_of.try_emplace(sorted_corners(elements[e]), e).second);
+    if (!is_copy_[e]) element_of_.push_back(e);
     for (const glm::vec3& corner : elements[e]) {
       elements_lo_m_ = glm::min(elements_lo_m_, glm::dvec3(corner));
       elements_hi_m_ = glm::max(elements_hi_m_, glm::dvec3(corner));

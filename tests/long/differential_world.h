@@ -1,6 +1,6 @@
 #pragma once
-// A scene as the independent tracer sees it: one period's triangles in Embree, and a walk of its own through the copies of an
-// endless plot, cell by cell, with positions in double precision.
+// Holds a scene as the independent tracer sees it: one period's triangles are in Embree, and a walk of its own leads through the
+// copies of an endless plot, cell by cell, with positions in double precision.
 
 #include "transport/model.h"
 
@@ -14,7 +14,7 @@
 
 namespace sunfleck::test::differential {
 
-// Where a ray ends.
+// Tells where a ray ends.
 struct Landing {
   enum class On { element, soil_plane, sky, below, nowhere };
   On on = On::nowhere;      // nowhere: it crossed too many cells
@@ -45,6 +45,8 @@ class World {
   [[nodiscard]] double ground_y_m() const { return ground_y_m_; }
   [[nodiscard]] double top_y_m() const { return hi_m_.y + 0.01; }
   [[nodiscard]] const glm::dvec3& normal(std::size_t element) const { return normals_[element]; }
+  // Returns whether an element lies exactly on an earlier one: then it takes no light and gives none off.
+  [[nodiscard]] bool is_copy(std::size_t element) const { return is_copy_[element]; }
 
  private:
   struct Meeting {
@@ -63,6 +65,7 @@ class World {
   RTCDevice device_;
   RTCScene scene_;
   std::vector<std::size_t> element_of_;  // [primitive]: copies of earlier triangles are left out
+  std::vector<bool> is_copy_;            // [element]
   std::vector<glm::dvec3> normals_;      // [element], of the upper face
   glm::dvec3 lo_m_{0.0}, hi_m_{0.0};
   glm::dvec3 elements_lo_m_{0.0}, elements_hi_m_{0.0};

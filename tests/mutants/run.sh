@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Builds the program with one deliberate mistake at a time, in a separate folder, and expects `sunfleck validate` to find it on
-# the CPU path and on software Vulkan: tests/mutants/run.sh [MUTANT ...]. Without names it takes every *.patch of this folder.
+# Builds the program with one deliberate mistake at a time, in a separate folder, and expects it to be found:
+# tests/mutants/run.sh [MUTANT ...]. Without names it takes every *.patch of this folder. The first line of a patch may say what finds it, such
+# as "found by: validate differential": `sunfleck validate` on the CPU path and on software Vulkan (which is what a patch
+# without that line asks for), and the differential test of tests/long, which compares the CPU path with an independent tracer.
 # SUNFLECK_REQUIRE_DEVICE=1 makes the lack of software Vulkan an error.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
@@ -14,11 +16,12 @@ fi
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/source"
-cp -a "$root/CMakeLists.txt" "$root/cmake" "$root/src" "$root/shaders" "$work/source"
+cp -a "$root/CMakeLists.txt" "$root/cmake" "$root/src" "$root/shaders" "$root/tests" "$work/source"
 export CCACHE_BASEDIR="$work"
 launcher=()
 if command -v ccache > /dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-cmake -S "$work/source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_TESTS=OFF "${launcher[@]}" > /dev/null
+cmake -S "$work/source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_PYTHON_MODULE=OFF \
+  "${launcher[@]}" > /dev/null
 
 # Prints the cases that failed. Returns 0 if the mistake was found, 1 if not.
 found_on() {
@@ -38,12 +41,46 @@ found_on() {
   sed 's/^/    /' "$work/failed.txt"
 }
 
+# The same for the differential test.
+found_by_differential() {
+  if "$work/build/tests/long/differential_test" > "$work/failed.txt" 2>&1; then
+    echo "  differential: NOT FOUND"
+    return 1
+  fi
+  if ! grep -q 'rms z' "$work/failed.txt"; then
+    echo "  differential: the test did not run"
+    cat "$work/failed.txt"
+    return 1
+  fi
+  echo "  differential: found, $(grep -c '^\[  FAILED  \].*ms)$' "$work/failed.txt") kinds fail:"
+  grep 'rms z' "$work/failed.txt" | sed 's/^/    /'
+}
+
+build() {
+  cmake --build "$work/build" --target "$1" > "$work/build.txt" 2>&1 || { cat "$work/build.txt"; exit 1; }
+}
+
 missed=0
 for mutant in "${mutants[@]}"; do
   echo "== $mutant =="
   patch --quiet --fuzz=0 -p1 -d "$work/source" < "$here/$mutant.patch"
-  cmake --build "$work/build" --target sunfleck > "$work/build.txt" 2>&1 || { cat "$work/build.txt"; exit 1; }
-  for device in cpu lavapipe; do found_on "$device" || missed=$((missed + 1)); done
+  finders="$(sed -n '1s/^found by: //p' "$here/$mutant.patch")"
+  for finder in ${finders:-validate}; do
+    case "$finder" in
+      validate)
+        build sunfleck
+        for device in cpu lavapipe; do found_on "$device" || missed=$((missed + 1)); done
+        ;;
+      differential)
+        build differential_test
+        found_by_differential || missed=$((missed + 1))
+        ;;
+      *)
+        echo "  nothing is called $finder"
+        missed=$((missed + 1))
+        ;;
+    esac
+  done
   patch --quiet --reverse --fuzz=0 -p1 -d "$work/source" < "$here/$mutant.patch"
 done
 [ "$missed" -eq 0 ] || { echo "$missed mistakes not found"; exit 1; }

@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "base/error.h"
+#include "base/version.h"
 
 #include <gtest/gtest.h>
 
