@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds the program with one deliberate mistake at a time, in a separate folder, and expects it to be found:
-# tests/mutants/run.sh [MUTANT ...]. Without names it takes every *.patch of this folder. The first line of a patch may say what finds it, such
-# as "found by: validate differential": `sunfleck validate` on the CPU path and on software Vulkan (which is what a patch
-# without that line asks for), and the differential test of tests/long, which compares the CPU path with an independent tracer.
+# tests/mutants/run.sh [MUTANT ...]. Without names it takes every *.patch of this folder. The first line of a patch may say what
+# finds it, such as "found by: validate differential": `sunfleck validate` on the CPU path and on software Vulkan, which is what a
+# patch without that line asks for, and the differential test of tests/long, which compares the CPU path with an independent tracer.
 # SUNFLECK_REQUIRE_DEVICE=1 makes the lack of software Vulkan an error.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
