@@ -20,9 +20,4 @@ struct LightEvents {
 [[nodiscard]] LightEvents make_light_events(const RadiationModel& model, const std::vector<BandQuanta>& quanta,
                                             const Incidence& incidence);
 
-// Returns the largest absorptance of the two faces of each set of optics. [optics * bands + band]
-[[nodiscard]] std::vector<double> largest_absorptances(const RadiationModel& model);
-// Returns the absorptance of the soil plane. [band]; 0 without soil
-[[nodiscard]] std::vector<double> soil_absorptances(const RadiationModel& model);
-
 }  // namespace sunfleck

@@ -1,7 +1,5 @@
 #include "transport/sensor_paths.h"
 
-#include "transport/indirect.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -4,11 +4,12 @@
 #include "light/beam_grid.h"
 #include "transport/darkness.h"
 #include "transport/foresight.h"
+#include "transport/judged_error.h"
 #include "transport/packet_memory.h"
-#include "transport/replicate.h"
 #include "transport/replicate_helpers.h"
+#include "transport/replicate_maker.h"
 #include "transport/replicate_queue.h"
-#include "transport/tally.h"
+#include "transport/run_sums.h"
 
 #include <algorithm>
 #include <chrono>
@@ -47,6 +48,19 @@ double steady_clock_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// Replicates with the same work.
+struct Series {
+  Series(const ReplicateMaker& maker, const Incidence& incidence, ElementErrors element_errors)
+      : conversion(maker.conversion(incidence)), sums(conversion, element_errors), grid_rays(incidence.rays) {}
+
+  // Returns the number of rays and packets.
+  [[nodiscard]] std::uint64_t traced() const { return sums.replicates * grid_rays + sums.packets + sums.sky_rays; }
+
+  Conversion conversion;
+  RunSums sums;             // refers to the conversion, so that a series cannot be copied or moved
+  std::uint64_t grid_rays;  // of each replicate
+};
+
 class Solver {
  public:
   Solver(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
@@ -59,7 +73,7 @@ class Solver {
         queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
 
   RadiationResult run() {
-    if (settings_.go_on_from != nullptr) return go_on(*settings_.go_on_from, asked_replicates());
+    if (settings_.resume_from != nullptr) return go_on(*settings_.resume_from, asked_replicates());
     if (settings_.begin_with && !fixed()) return begin_as_told(*settings_.begin_with);
     const std::optional<Work> work = work_of_run();
     if (!work) return finish(stop_);
@@ -119,10 +133,9 @@ class Solver {
     Incidence incidence = maker_.incidence(work.rays);
     incidence.packets = work.packets;
     incidence.sky_rays = sky_rays(work);
-    grid_rays_ = incidence.rays;
-    tally_ = std::make_unique<Tally>(maker_.tally(incidence, settings_.element_errors));
-    queue_.begin({work.rays, grid_rays_, work.packets, sky_rays(work), settings_.accuracy.indirect, settings_.seed, stream},
-                 *tally_, replicates_at_once());
+    series_ = std::make_unique<Series>(maker_, incidence, settings_.element_errors);
+    queue_.begin({work.rays, incidence.rays, work.packets, sky_rays(work), settings_.accuracy.indirect, settings_.seed, stream},
+                 series_->conversion, replicates_at_once());
   }
 
   // A fixed grid sets the number of sky rays too.
@@ -138,8 +151,8 @@ class Solver {
     const std::optional<Replicate> replicate =
         queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
     if (!replicate) return false;
-    tally_->add(replicate->counters, replicate->sums, replicate->passed, replicate->packets ? &*replicate->packets : nullptr);
-    traced_ += grid_rays_;
+    series_->sums.add(*replicate);
+    traced_ += series_->grid_rays;
     if (replicate->packets) {
       traced_ += replicate->packets->packets + replicate->packets->sky_rays;
       memory_.learn(ray_counts(work_), *replicate->packets);
@@ -153,14 +166,8 @@ class Solver {
   // Hands the result so far to the monitor.
   void hand_over() {
     if (!monitor_.wants_result || !monitor_.wants_result()) return;
-    const bool use_fallback = fallback_ && work_of(*tally_, grid_rays_) < work_of(*fallback_, fallback_rays_);
-    monitor_.receive_result(use_fallback ? result_of(*fallback_, fallback_rays_, StopReason::interrupted)
-                                         : result_of(*tally_, grid_rays_, StopReason::interrupted));
-  }
-
-  // Returns the number of rays and packets.
-  [[nodiscard]] static std::uint64_t work_of(const Tally& tally, std::uint64_t grid_rays) {
-    return tally.replicates() * grid_rays + tally.packets() + tally.sky_rays();
+    const bool use_fallback = fallback_ && series_->traced() < fallback_->traced();
+    monitor_.receive_result(result_of_series(use_fallback ? *fallback_ : *series_, StopReason::interrupted));
   }
 
   // Without an indirect pass the host has almost nothing to do meanwhile, and saving memory is better.
@@ -195,16 +202,16 @@ class Solver {
   }
 
   // The two errors are empty for a pass without any light in the scene.
-  [[nodiscard]] std::optional<JudgedError> direct_error(const Tally& tally) const {
+  [[nodiscard]] std::optional<JudgedError> direct_error(const RunSums& sums) const {
     if (!model_.has_beam()) return std::nullopt;
-    return tally.direct_error(settings_.accuracy);
+    return sunfleck::direct_error(sums, settings_.accuracy);
   }
-  [[nodiscard]] std::optional<JudgedError> indirect_error(const Tally& tally) const {
+  [[nodiscard]] std::optional<JudgedError> indirect_error(const RunSums& sums) const {
     if (!has_indirect()) return std::nullopt;
-    return tally.indirect_error(settings_.accuracy);
+    return sunfleck::indirect_error(sums, settings_.accuracy);
   }
-  [[nodiscard]] double direct_error() const { return direct_error(*tally_).value_or(JudgedError{}).relative; }
-  [[nodiscard]] double indirect_error() const { return indirect_error(*tally_).value_or(JudgedError{}).relative; }
+  [[nodiscard]] double direct_error() const { return direct_error(series_->sums).value_or(JudgedError{}).relative; }
+  [[nodiscard]] double indirect_error() const { return indirect_error(series_->sums).value_or(JudgedError{}).relative; }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
@@ -225,7 +232,7 @@ class Solver {
     progress.pass = direct_lags ? Progress::Pass::direct : Progress::Pass::indirect;
     progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
     if (!std::isnan(direct + indirect)) progress.relative_error = direct_lags ? direct : indirect;
-    const auto done = static_cast<double>(tally_->replicates());
+    const auto done = static_cast<double>(series_->sums.replicates);
     const double each_s = (seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
     const double left = std::min(static_cast<double>(expected) - done, affordable_replicates(each_s));
     progress.fraction = completion_.update(done, done + left);
@@ -237,9 +244,9 @@ class Solver {
   [[nodiscard]] double affordable_replicates(double seconds_each) const {
     double most = std::numeric_limits<double>::infinity();
     if (settings_.max_seconds) most = std::max(0.0, *settings_.max_seconds - seconds()) / std::max(seconds_each, 1e-9);
-    if (settings_.max_rays && tally_->replicates() > 0) {
-      const auto traced = static_cast<double>(work_of(*tally_, grid_rays_));
-      const double each = std::max(1.0, traced / static_cast<double>(tally_->replicates()));
+    if (settings_.max_rays && series_->sums.replicates > 0) {
+      const auto traced = static_cast<double>(series_->traced());
+      const double each = std::max(1.0, traced / static_cast<double>(series_->sums.replicates));
       most = std::min(most, std::floor(std::max(0.0, static_cast<double>(*settings_.max_rays) - traced) / each));
     }
     return most;
@@ -248,7 +255,7 @@ class Solver {
   // Returns the number of replicates after which a run to its bounds is expected to end: at the second good check in a
   // row.
   [[nodiscard]] std::size_t expected_replicates() const {
-    const std::size_t done = tally_->replicates();
+    const std::size_t done = series_->sums.replicates;
     std::size_t needed = planned_replicates;
     if (done >= 2) {
       const auto needs = [&](double error, double bound) {
@@ -274,7 +281,7 @@ class Solver {
   // Returns the work with which planned_replicates would just have reached the bounds, as far as this run shows.
   [[nodiscard]] Work next_work() const {
     Work next = work_;
-    const std::size_t done = tally_->replicates();
+    const std::size_t done = series_->sums.replicates;
     if (done < 2) return next;
     const double fewer = std::sqrt(static_cast<double>(done) / planned_replicates) *
                          t_quantile(settings_.accuracy.confidence, planned_replicates) /
@@ -351,7 +358,7 @@ class Solver {
     while (true) {
       const double before = seconds();
       begin(pilot, pilot_stream);
-      while (tally_->replicates() < pilot_replicates) {
+      while (series_->sums.replicates < pilot_replicates) {
         if (!add_replicate(pilot_replicates, pilot_replicates)) {
           keep_fallback();
           return std::nullopt;
@@ -377,18 +384,17 @@ class Solver {
   }
 
   void keep_fallback() {
-    if (tally_ && tally_->replicates() >= 2) {
-      fallback_ = std::move(tally_);
-      fallback_rays_ = grid_rays_;
+    if (series_ && series_->sums.replicates >= 2) {
+      fallback_ = std::move(series_);
     }
-    tally_.reset();
+    series_.reset();
   }
 
   RadiationResult go_on(const SolveState& state, int replicates) {
     begin(state.work, state.replicates());
-    ENSURE(tally_->restore(state.sums), ==, true);
-    begun_with_ = tally_->replicates();
-    traced_ = work_of(*tally_, grid_rays_);
+    ENSURE(restore(series_->sums, state.sums), ==, true);
+    begun_with_ = series_->sums.replicates;
+    traced_ = series_->traced();
     next_check_ = state.next_check;
     good_checks_ = state.good_checks;
     return fixed() ? run_fixed(replicates) : run_to_bound();
@@ -396,7 +402,7 @@ class Solver {
 
   RadiationResult run_fixed(int replicates) {
     const auto all = static_cast<std::size_t>(replicates);
-    while (tally_->replicates() < all) {
+    while (series_->sums.replicates < all) {
       if (spent() || !add_replicate(all, all)) return finish(stop_);
       report(all);
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
@@ -410,10 +416,10 @@ class Solver {
       const std::size_t certain = good_checks_ == 0 ? check_after(next_check_) : next_check_;
       if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
       report(expected_replicates());
-      if (tally_->replicates() >= next_check_) {
+      if (series_->sums.replicates >= next_check_) {
         good_checks_ = bounds_hold() ? good_checks_ + 1 : 0;
         if (good_checks_ == 2) return finish(StopReason::bound_reached);
-        if (tally_->replicates() >= most_replicates) return finish(StopReason::replicates_spent);
+        if (series_->sums.replicates >= most_replicates) return finish(StopReason::replicates_spent);
         next_check_ = check_after(next_check_);
       }
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
@@ -425,16 +431,16 @@ class Solver {
   }
 
   void keep_state() const {
-    if (!monitor_.receive_state || tally_->replicates() < 2 || fitted_to_time_) return;
-    monitor_.receive_state({work_, next_check_, good_checks_, tally_->sums()});
+    if (!monitor_.receive_state || series_->sums.replicates < 2 || fitted_to_time_) return;
+    monitor_.receive_state({work_, next_check_, good_checks_, plain_sums(series_->sums)});
   }
 
   // Returns true if the next replicate would need more rays than are left.
   bool spent() {
     if (!settings_.max_rays) return false;
-    const std::size_t done = tally_->replicates();
-    const std::uint64_t run = work_of(*tally_, grid_rays_);
-    const std::uint64_t next = done > 0 ? run / done : grid_rays_;
+    const std::size_t done = series_->sums.replicates;
+    const std::uint64_t run = series_->traced();
+    const std::uint64_t next = done > 0 ? run / done : series_->grid_rays;
     if (run + next <= *settings_.max_rays) return false;
     stop_ = StopReason::rays_spent;
     return true;
@@ -443,25 +449,24 @@ class Solver {
   RadiationResult finish(StopReason reason) {
     queue_.end();
     const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
-    if (stopped && tally_) keep_state();
-    const bool use_fallback = fallback_ && (!tally_ || tally_->replicates() < 2);
+    if (stopped && series_) keep_state();
+    const bool use_fallback = fallback_ && (!series_ || series_->sums.replicates < 2);
     if (use_fallback) {
-      tally_ = std::move(fallback_);
-      grid_rays_ = fallback_rays_;
-    } else if (!tally_) {
+      series_ = std::move(fallback_);
+    } else if (!series_) {
       begin({first_pilot_rays, first_pilot_packets});
     }
-    RadiationResult result = result_of(*tally_, grid_rays_, reason);
+    RadiationResult result = result_of_series(*series_, reason);
     result.work = work_;
     result.next_work = next_work();
     return result;
   }
 
-  [[nodiscard]] RadiationResult result_of(const Tally& tally, std::uint64_t grid_rays, StopReason reason) const {
-    RadiationResult result = tally.result(settings_.accuracy.confidence);
+  [[nodiscard]] RadiationResult result_of_series(const Series& series, StopReason reason) const {
+    RadiationResult result = result_of(series.sums, settings_.accuracy.confidence);
     result.stop = reason;
-    result.direct.replicates = tally.replicates();
-    result.direct.rays = tally.replicates() * grid_rays;
+    result.direct.replicates = series.sums.replicates;
+    result.direct.rays = series.sums.replicates * series.grid_rays;
     if (result.direct.rays > 0) {
       result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
     }
@@ -470,8 +475,8 @@ class Solver {
       summary.relative_error = error->relative;
       summary.judged = error->figure;
     };
-    tell(direct_error(tally), result.direct);
-    tell(indirect_error(tally), result.indirect);
+    tell(direct_error(series.sums), result.direct);
+    tell(indirect_error(series.sums), result.indirect);
     if (!model_.has_beam()) result.direct.relative_error = 0.0;
     // Replicates overlap, so the elapsed time is divided in proportion to the time spent in each pass.
     const double busy_s = direct_s_ + indirect_s_;
@@ -490,13 +495,11 @@ class Solver {
   ReplicateMaker maker_;
   PacketMemory memory_;
   double start_s_ = clock_s();
-  std::unique_ptr<Tally> tally_, fallback_;
+  std::unique_ptr<Series> series_, fallback_;
   std::mutex stop_mutex_;
   StopReason stop_ = StopReason::interrupted;
   Work work_;
   bool fitted_to_time_ = false;  // the work was limited by max_seconds
-  std::uint64_t grid_rays_ = 0;  // actual number of rays on the grid
-  std::uint64_t fallback_rays_ = 0;
   std::uint64_t traced_ = 0;
   std::size_t next_check_ = first_check, good_checks_ = 0;
   std::size_t begun_with_ = 0;  // replicates that an earlier process made

@@ -19,6 +19,8 @@ struct Surfaces {
 
   std::vector<Surface> of;               // [surface]
   std::vector<std::uint32_t> number_of;  // [element], index into `of`
+
+  [[nodiscard]] const Surface& at(std::size_t element) const { return of[number_of[element]]; }
 };
 
 // Returns true if anything that light can meet reflects, transmits or emits in some band, so that light travels on after its

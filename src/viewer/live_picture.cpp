@@ -62,7 +62,7 @@ PickedElement::Face face_of(const Scene& scene, const RadiationResult& result, s
   const RadiationModel& model = scene.model;
   const std::size_t element = side / 2;
   const double area = area_m2(model.canopy.corners[element]);
-  const ElementResult& landed = result.elements[element];
+  const BeamLandings& landed = result.elements[element];
   PickedElement::Face face;
   face.direct_w_m2 = result.irradiance_w_m2(side % 2 == 0 ? landed.upper : landed.lower, area, model.bands[band].direct_w_m2);
   face.sky_w_m2 = result.side_sky_w_m2(side, area, band);

@@ -17,7 +17,7 @@ class SolveStateTest : public ::testing::Test {
  protected:
   // Returns the result of a run from the beginning, or from a state.
   RadiationResult solve_from(const SolveState* state, const Monitor& monitor = {}) {
-    settings_.go_on_from = state;
+    settings_.resume_from = state;
     return solve(model_, prepared_.layout, tracer_, settings_, monitor);
   }
 
@@ -84,7 +84,7 @@ TEST_F(SolveStateTest, GoesOnWithoutPacketsAndReceivers) {
   const RadiationResult stopped = solve(model_, prepared.layout, tracer, settings_, monitor);
   ASSERT_EQ(stopped.stop, StopReason::interrupted);
   const RadiationResult whole = solve(model_, prepared.layout, tracer, settings_, {});
-  settings_.go_on_from = &state;
+  settings_.resume_from = &state;
   EXPECT_TRUE(test::all_numbers(solve(model_, prepared.layout, tracer, settings_, {})) == test::all_numbers(whole));
 }
 
