@@ -45,11 +45,10 @@ struct RunRecord {
 [[nodiscard]] std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 
 // Return the tables as text. Numbers have nine significant digits. A cell is empty if there is no value: intervals from too few
-// replicates or hits, and shares of a missing beam. organs.csv has one row per organ of the canopy, in its order, including
-// soil elements of a mesh (organ soil; plant 0 in a .can). The ground of [soil] is not an organ and has no row; absorbed_soil
-// in the summary covers both.
+// replicates or hits, and shares of a missing beam. io/result_tables.h and io/element_fields.h describe rows and columns.
 [[nodiscard]] std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
+[[nodiscard]] std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const ElementFields& fields);
 

@@ -10,7 +10,6 @@
 #include "io/plots.h"
 #include "io/result_store.h"
 #include "io/run_store.h"
-#include "io/sensor_writer.h"
 #include "io/step_store.h"
 #include "pictures/colouring.h"
 #include "pictures/fields.h"
