@@ -198,7 +198,7 @@ TEST_F(CaribuProgram, MistakesAreOneLine) {
   refused({"--light", "sun.light"}, "--light (", scene);
   refused({"--domain", "plot.8"}, "--domain (", scene);
   refused({"--scale", "0.01"}, "--scale (", scene);
-  refused({"--optics", "black.opt", "--light", "sun.light"}, "black.opt has 1");
+  refused({"--optics", "black.opt", "--light", "sun.light"}, "black.opt has only 1");
   refused({"--optics", "par.opt,par.opt", "--light", "sun.light"}, "there is already a band named PAR");
   refused({"--optics", "none.opt", "--light", "sun.light"}, "none.opt");
   refused({"--optics", "par.opt", "--light", "none.light"}, "none.light");

@@ -162,7 +162,7 @@ TEST_F(CaribuScenes, RefuseWhatDoesNotFit) {
   CaribuSet of = set();
   of.bands[1].file = folder_ / "one.opt";
   EXPECT_NE(refusal(of).find("stand.can: leaf2 (it belongs to species 2, but "), std::string::npos) << refusal(of);
-  EXPECT_NE(refusal(of).find("one.opt has 1)"), std::string::npos) << refusal(of);
+  EXPECT_NE(refusal(of).find("one.opt has only 1)"), std::string::npos) << refusal(of);
   of = set();
   of.bands[1].name = "PAR";
   EXPECT_NE(refusal(of).find("nir.opt (there is already a band named PAR); "), std::string::npos) << refusal(of);
