@@ -18,7 +18,7 @@ double unshot_share(const RadiationResult& result, std::size_t band) {
 
 // All light on a side, W m-2.
 double side_w_m2(const RadiationModel& model, const RadiationResult& result, std::size_t side, std::size_t band) {
-  const ElementResult& element = result.elements[side / 2];
+  const BeamLandings& element = result.elements[side / 2];
   const double area = area_m2(model.canopy.corners[side / 2]);
   const double beam_w_m2 = model.has_beam() ? model.bands[band].direct_w_m2 : 0.0;
   return result.irradiance_w_m2(side % 2 == 0 ? element.upper : element.lower, area, beam_w_m2) +
