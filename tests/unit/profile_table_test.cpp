@@ -76,7 +76,7 @@ TEST_F(Profile, OfAnotherKindIsRefused) {
             "profile.csv:1: no column sunfleck_ratio (it is required); use a file as written by this program");
   EXPECT_EQ(message("# x\nheight_m,sunfleck_ratio,sunfleck_ratio_error,PAR_absorbed\n0,1,0,1\n1,1,0,1\n"),
             "profile.csv:2: no column PAR_absorbed_error (it is required); use a file as written by this program");
-  EXPECT_EQ(message(head + "0,1,0,1,1\n").substr(0, 22), "profile.csv:2: one row");
+  EXPECT_EQ(message(head + "0,1,0,1,1\n").substr(0, 27), "profile.csv:2: only one row");
   EXPECT_EQ(message(head + "1,1,0,1,1\n1,1,0,,\n"),
             "profile.csv:3: height_m = 1 (heights must ascend from the ground); use a file as written by this program");
   EXPECT_EQ(message(head + ",1,0,1,1\n1,1,0,,\n").substr(0, 32), "profile.csv:2: height_m is empty");

@@ -189,7 +189,7 @@ TEST_F(ResultStore, WithAnyByteChangedIsReadOrRefused) {
 }
 
 TEST_F(ResultStore, OfAnotherKindOrVersionIsNamed) {
-  EXPECT_NE(refusal(changed([](json& s) { s["format"] = "other"; }))->find("another kind"), std::string::npos);
+  EXPECT_NE(refusal(changed([](json& s) { s["format"] = "other"; }))->find("a different kind"), std::string::npos);
   EXPECT_NE(refusal(changed([](json& s) { s["version"] = 2; }))->find("version 2"), std::string::npos);
   EXPECT_NE(refusal("no CBOR at all")->find("damaged"), std::string::npos);
   EXPECT_TRUE(refusal(std::string(1 << 20, '\x81'))) << "a million lists within each other";

@@ -100,7 +100,7 @@ TEST_F(SceneReceivers, RefusesWhatIsNoSensor) {
   expect_refused(line + "points = 2.0\n", "points", "sensor.points", "whole number");
   expect_refused(line + "points = 100001\n", "points", "sensor.points", "2..100000");
   expect_refused(head + "response = \"flat\"\n", "response", "sensor.response", "one of cosine, spherical");
-  expect_refused(head + "normal = [0, 0, 0]\n", "normal", "sensor.normal", "no direction");
+  expect_refused(head + "normal = [0, 0, 0]\n", "normal", "sensor.normal", "zero length");
   expect_refused(head + "response = \"spherical\"\nnormal = [0, 1, 0]\n", "normal", "sensor.normal", "remove it");
   expect_refused(head + "[[sensor]]\nname = \"a\"\nfrom = [0, 2, 0]\n", "name = \"a\"\nfrom = [0, 2", "sensor.name",
                  "a different name");
