@@ -10,6 +10,7 @@ folder = ''
 do for [i = strlen(ARG0):1:-1] { if (folder eq '' && ARG0[i:i] eq '/') { folder = ARG0[1:i] } }
 load folder . 'style.gp'
 load folder . 'table.gp'
+if (!exists("title")) title = table_title
 
 # The beam: the sunlit share of each cell times the irradiance of the beam. The landings in the table fluctuate with the number
 # of rays that happened to cross each cell, which would show as grain in full sun.
@@ -21,9 +22,8 @@ total(x) = column(kt) - column(kd) + direct(x)
 # excess is noise: four standard deviations above the mean.
 place = remarks[strstrt(remarks, 'horizontal plane at ') + 20:*]
 cells_x = number(past(', ', place)); cells_z = number(past(' x ', place))
-stats table using 1:2 name 'EDGE' nooutput
-size_x = EDGE_max_x * cells_x / (cells_x - 0.5); size_z = EDGE_max_y * cells_z / (cells_z - 0.5)
-stats table using (total(0)) name 'TOTAL' nooutput
+stats table using (last_x = $1, last_z = $2, total(0)) name 'TOTAL' nooutput
+size_x = last_x * cells_x / (cells_x - 0.5); size_z = last_z * cells_z / (cells_z - 0.5)
 bright = TOTAL_mean + 4 * TOTAL_stddev
 bright = bright > TOTAL_max ? TOTAL_max : bright
 bright = positive(beam > bright ? beam : bright, 1)

@@ -1,7 +1,8 @@
 # profile.png: light against height, for one result or several, with field data.
 #   gnuplot profile.gp > profile.png
 # reads profile.csv in the current folder. The program sets these variables before it loads this file:
-if (!exists("tables")) array tables[1] = ['profile.csv']  # the program's own result, then those to compare it with
+if (!exists("tables")) array tables[1] = ['profile.csv']  # the program's own result, then those to compare it with;
+# the array `titles` names them, by default as they do themselves
 if (!exists("band")) band = 'PAR'
 if (!exists("measured")) measured = ''    # name of the field data; then $measured is a table of sunfleck ratio and height
 if (!exists("agreement")) agreement = ''  # how well the first result agrees with them
@@ -24,7 +25,7 @@ row(k) = layer(column(1), valid(k) ? column(k) : NaN, half_width(k + 1))
 do for [i = 1:n] {
   table = tables[i]
   load folder . 'table.gp'
-  name[i] = cut(title, 84)
+  name[i] = cut(exists("titles") ? titles[i] : table_title, 84)
   ratio[i] = column_of('sunfleck_ratio')
   absorbed[i] = column_of(band . '_absorbed')
   its_confidence = number(past('confidence ', after('seed ')))

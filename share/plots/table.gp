@@ -1,15 +1,15 @@
-# Reads what stands above the numbers of the file `table`: `title`, `header` (the column names) and `remarks` (all lines).
+# Reads what stands above the numbers of the file `table`: `table_title`, `header` (the column names) and `remarks` (all lines).
 # Texts of a table are only data here: gnuplot never runs them.
 set datafile separator "\001"
 set datafile commentschars ''
 unset datafile columnheaders
-title = ''; header = ''; remarks = "\n"
-stats table every ::0::24 using (title = title eq '' ? strcol(1) : title, \
+table_title = ''; header = ''; remarks = "\n"
+stats table every ::0::24 using (table_title = table_title eq '' ? strcol(1) : table_title, \
   header = header eq '' && strcol(1)[1:1] ne '#' ? strcol(1) : header, \
   remarks = remarks . (header eq '' && $0 > 0 ? strcol(1) . "\n" : ''), 0) nooutput
 # An error that stops all scripts, which `exit` in a file that is loaded does not.
 if (header eq '') { print no_table_with_column_names }
-title = strlen(title) > 2 ? title[3:*] : ''
+table_title = strlen(table_title) > 2 ? table_title[3:*] : ''
 set datafile separator ','
 set datafile commentschars '#'
 set datafile columnheaders

@@ -11,6 +11,7 @@ folder = ''
 do for [i = strlen(ARG0):1:-1] { if (folder eq '' && ARG0[i:i] eq '/') { folder = ARG0[1:i] } }
 load folder . 'style.gp'
 load folder . 'table.gp'
+if (!exists("title")) title = table_title
 
 array quantity[4] = ['canopy', 'layer', 'organ', 'triangle']
 array kind[3] = ['grid', 'packets', 'error']

@@ -68,9 +68,10 @@ class FolderSink final : public DaySink {
   std::future<void> writing_;  // writes the last step
 };
 
-void draw_day(const fs::path& folder, const std::string& band) {
+void draw_day(const fs::path& folder, const std::string& title, const std::string& band) {
   PlotVariables variables;
   variables.set_file("table", folder / day_file);
+  variables.set_text("title", title);
   variables.set_text("band", band);
   if (const std::optional<std::string> problem = draw_table("day.gp", variables, folder / plot_file)) warn(*problem);
 }
@@ -109,7 +110,7 @@ UnwrittenFiles write_tables(const DayJob& job, const RunRecord& record, const Ra
   const std::vector<std::string>& images = job.options.run.images;
   if (std::find(images.begin(), images.end(), "none") != images.end()) return unwritten;
   const std::size_t band = picture_band(model, job.options.run.pictures.band);
-  unwritten.attempt(plot_file, [&] { draw_day(job.folder, model.bands[band].name); });
+  unwritten.attempt(plot_file, [&] { draw_day(job.folder, record.title, model.bands[band].name); });
   return unwritten;
 }
 

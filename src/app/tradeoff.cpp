@@ -54,6 +54,7 @@ void prepare(const fs::path& folder, FolderLock& lock, const TradeoffReport& rep
 PlotVariables plot_variables(const TradeoffReport& report, const fs::path& folder) {
   PlotVariables variables;
   variables.set_file("table", folder / table_file);
+  variables.set_text("title", report.record.title);
   if (report.marked_grid_m) variables.set("grid", *report.marked_grid_m);
   if (!report.recommendation) return variables;
   variables.set("asked", report.recommendation->asked_error);

@@ -58,11 +58,16 @@ void PlotVariables::set(std::string_view name, double number) {
 }
 
 void PlotVariables::set_text(std::string_view name, std::string_view text) {
-  commands_ += fmt::format("{} = {}\n", name, gnuplot_text(text));
+  commands_ += fmt::format("{} = {}\n", name, gnuplot_text(printable(text)));
+}
+
+void PlotVariables::set_texts(std::string_view name, std::span<const std::string> texts) {
+  commands_ += fmt::format("array {}[{}]\n", name, texts.size());
+  for (std::size_t i = 0; i < texts.size(); ++i) set_text(fmt::format("{}[{}]", name, i + 1), texts[i]);
 }
 
 void PlotVariables::set_file(std::string_view name, const fs::path& file) {
-  set_text(name, fs::absolute(file).string());
+  commands_ += fmt::format("{} = {}\n", name, gnuplot_text(fs::absolute(file).string()));
 }
 
 void PlotVariables::set_files(std::string_view name, std::span<const fs::path> files) {

@@ -20,8 +20,10 @@ namespace sunfleck {
 class PlotVariables {
  public:
   void set(std::string_view name, double number);
+  // Sets a text; control characters and broken UTF-8 are replaced as in messages.
   void set_text(std::string_view name, std::string_view text);
   void set_file(std::string_view name, const std::filesystem::path& file);
+  void set_texts(std::string_view name, std::span<const std::string> texts);
   void set_files(std::string_view name, std::span<const std::filesystem::path> files);
   // Sets the data block `$name`, a comma-separated table with a line of column names.
   void set_table(std::string_view name, std::string_view columns, std::span<const std::vector<double>> rows);

@@ -126,12 +126,15 @@ class Plots {
   bool given_up_ = false;
 };
 
-PlotVariables profile_variables(const std::filesystem::path& folder, const ResultRequest& request, const std::string& band,
-                                const ProfileOverlays& overlays, const std::string& agreement) {
+PlotVariables profile_variables(const std::filesystem::path& folder, const ResultRequest& request, const std::string& title,
+                                const std::string& band, const ProfileOverlays& overlays, const std::string& agreement) {
   std::vector<std::filesystem::path> tables{folder / profile_file};
   for (const std::filesystem::path& other : request.compare) tables.push_back(other / profile_file);
+  std::vector<std::string> titles{title};
+  for (const ProfileTable& other : overlays.results) titles.push_back(other.title);
   PlotVariables variables;
   variables.set_files("tables", tables);
+  variables.set_texts("titles", titles);
   variables.set_text("band", band);
   if (!overlays.measured) return variables;
   std::vector<std::vector<double>> points;
@@ -142,11 +145,12 @@ PlotVariables profile_variables(const std::filesystem::path& folder, const Resul
   return variables;
 }
 
-PlotVariables plane_variables(const std::filesystem::path& folder, const RadiationModel& model, const std::string& stem,
-                              const Waveband& band) {
+PlotVariables plane_variables(const std::filesystem::path& folder, const std::string& title, const RadiationModel& model,
+                              const std::string& stem, const Waveband& band) {
   PlotVariables variables;
   variables.set_file("table", folder / (stem + ".csv"));
   if (model.has_beam()) variables.set_file("flecks", folder / (stem + "_flecks.csv"));
+  variables.set_text("title", title);
   variables.set_text("band", band.name);
   variables.set("beam", band.direct_w_m2);
   return variables;
@@ -167,11 +171,11 @@ void write_plots(const std::filesystem::path& folder, const ResultRequest& reque
   }
   Plots plots(folder, unwritten);
   if (asks_for(request, "all") || asks_for(request, "profile"))
-    plots.draw("profile.gp", profile_variables(folder, request, band.name, overlays, figures), profile_plot_file);
+    plots.draw("profile.gp", profile_variables(folder, request, record.title, band.name, overlays, figures), profile_plot_file);
   if (!asks_for(request, "all") && !asks_for(request, "planes")) return;
   for (std::size_t plane = 0; plane < result.planes.size() && !interrupted(); ++plane) {
     const std::string stem = plane_stem(result.planes[plane].height_m);
-    plots.draw("plane.gp", plane_variables(folder, model, stem, band), stem + ".png");
+    plots.draw("plane.gp", plane_variables(folder, record.title, model, stem, band), stem + ".png");
   }
 }
 

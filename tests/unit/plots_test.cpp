@@ -74,6 +74,7 @@ class Plots : public test::GnuplotTest {
     variables.set_file("table", folder_.write("plane.csv", plane_csv(titled(title), model, result, 0)));
     if (!result.planes[0].reached.empty())
       variables.set_file("flecks", folder_.write("flecks.csv", plane_flecks_csv(titled(title), model, result, 0)));
+    variables.set_text("title", title);
     variables.set_text("band", model.bands[band].name);
     variables.set("beam", model.bands[band].direct_w_m2);
     return draw("plane.gp", variables);
@@ -88,6 +89,7 @@ class Plots : public test::GnuplotTest {
     course.steps = steps;
     PlotVariables variables;
     variables.set_file("table", folder_.write("day.csv", day_csv(titled(title), model, course, lights)));
+    variables.set_text("title", title);
     variables.set_text("band", "PAR");
     return draw("day.gp", variables);
   }
@@ -160,7 +162,10 @@ class HostileTexts : public Plots {
     const fs::path table = folder / "profile.csv";
     fs::copy_file(profile(text, layers(0.2)), table, fs::copy_options::overwrite_existing);
     const fs::path file = folder / "profile.png";
-    EXPECT_EQ(draw_table("profile.gp", profiles({table, table}, text, text, {{0.2, 0.0}}), file).value_or(""), "") << text;
+    PlotVariables variables = profiles({table, table}, text, text, {{0.2, 0.0}});
+    EXPECT_EQ(draw_table("profile.gp", variables, file).value_or(""), "") << text;
+    variables.set_texts("titles", std::vector<std::string>{text, text});
+    EXPECT_EQ(draw_table("profile.gp", variables, file).value_or(""), "") << text;
     return test::read_picture(file).width;
   }
 };
@@ -219,6 +224,19 @@ TEST_F(Plots, ALongTitleIsCut) {
   };
   EXPECT_EQ(with(std::string(85, 'i')), with(std::string(200, 'i')));
   EXPECT_NE(with(std::string(83, 'i')), with(std::string(84, 'i')));
+}
+
+TEST_F(Plots, ATitleIsDrawnAsItStands) {
+  const fs::path table = profile("A stand", layers(0.2));
+  const auto with = [&](const std::string& title) {
+    PlotVariables variables = profiles({table});
+    variables.set_texts("titles", std::vector<std::string>{title});
+    return draw("profile.gp", variables).pixels;
+  };
+  EXPECT_EQ(with("A stand"), draw("profile.gp", profiles({table})).pixels) << "the title of the table";
+  EXPECT_NE(with("a \\n b"), with("a  b")) << "a backslash is a character like others";
+  EXPECT_NE(with("a \"q\" b"), with("a ")) << "a quote ends nothing";
+  EXPECT_NE(with("x_1"), with("x1"));
 }
 
 TEST(GnuplotText, IsAConstantWithoutSpecialCharacters) {
