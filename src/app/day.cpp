@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
+#include "base/units.h"
 #include "io/day_netcdf.h"
 #include "io/day_plot.h"
 #include "io/day_summary.h"
@@ -23,7 +24,6 @@
 #include <future>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 namespace sunfleck {
 namespace {
@@ -55,7 +55,6 @@ class FolderSink final : public DaySink {
 
  private:
   void report(std::size_t i, const StoredStep& step) const {
-    constexpr double degree = std::numbers::pi / 180.0;
     const DayStep& when = course_.steps[i];
     std::string line = fmt::format("step {} of {}: {}, sun {:.1f} deg, {:.2f} s", i + 1, course_.steps.size(),
                                    local_time_text(when.start, course_.offset_minutes).substr(0, 16),
