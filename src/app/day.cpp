@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
+#include "base/units.h"
 #include "io/day_netcdf.h"
 #include "io/day_summary.h"
 #include "io/day_tables.h"
@@ -21,7 +22,6 @@
 #include <algorithm>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 namespace sunfleck {
 namespace {
@@ -53,7 +53,6 @@ class FolderSink final : public DaySink {
 
  private:
   void report(std::size_t i, const StoredStep& step) const {
-    constexpr double degree = std::numbers::pi / 180.0;
     const DayStep& when = course_.steps[i];
     std::string line = fmt::format("step {} of {}: {}, sun {:.1f} deg, {:.2f} s", i + 1, course_.steps.size(),
                                    local_time_text(when.start, course_.offset_minutes).substr(0, 16),

@@ -1,17 +1,16 @@
 #include "gpu/context.h"
 
+#include "base/text.h"
 #include "gpu/handles.h"
 #include "gpu/instance.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <exception>
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -86,11 +85,6 @@ std::vector<vk::raii::PhysicalDevice> enumerate(const vk::raii::Instance& instan
   } catch (const vk::SystemError&) {
     return {};
   }
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 bool fits(const DeviceWish& wish, const DeviceDescription& description, std::size_t index) {

@@ -1,16 +1,13 @@
 #include "io/day_tables.h"
 
+#include "base/units.h"
 #include "io/result_tables.h"
 #include "io/table_text.h"
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 namespace sunfleck {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 std::vector<double> organ_areas_m2(const Canopy& canopy) {
   std::vector<double> areas(canopy.organs.size());

@@ -2,6 +2,7 @@
 
 #include "io/judged_figure.h"
 #include "io/result_tables.h"
+#include "io/summary_parts.h"
 #include "io/table_text.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <set>
 
 namespace sunfleck {
 namespace {
@@ -18,15 +18,6 @@ using nlohmann::ordered_json;
 
 double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
-}
-
-ordered_json number_or_null(double value) {
-  return std::isnan(value) ? ordered_json(nullptr) : ordered_json(value);
-}
-
-template <class T>
-ordered_json value_or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
 ordered_json band_json(const BandResult& band) {
@@ -112,14 +103,6 @@ ordered_json settings_json(const RunRecord& record) {
 ordered_json judged_json(const std::optional<JudgedFigure>& judged, const RadiationModel& model) {
   if (!judged) return nullptr;
   return figure_name(*judged, model);
-}
-
-std::size_t plant_count(const Canopy& canopy) {
-  std::set<std::uint32_t> plants;
-  for (const Organ& organ : canopy.organs) {
-    if (organ.plant > 0) plants.insert(organ.plant);
-  }
-  return plants.size();
 }
 
 const char* stop_name(StopReason stop) {

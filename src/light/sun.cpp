@@ -9,13 +9,13 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/units.h"
+#include "light/years.h"
 
 namespace sunfleck {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double seconds_per_day = 86400.0;
-constexpr int first_year = 1900, last_year = 2100;  // the range to which eraEpv00 was fitted
 
 // A Julian date in two parts, as ERFA expects it: midnight, and the fraction of the day.
 struct JulianDate {

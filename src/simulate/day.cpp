@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
+#include "io/summary_parts.h"
 #include "simulate/ranks.h"
 
 #include <algorithm>
@@ -26,11 +27,6 @@ constexpr double share_of_next_packets = 0.4;
 // replicates instead of about 20.
 constexpr int judged_replicates = 12;
 constexpr double most_bounds = 2.5;
-
-template <class T>
-ordered_json value_or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
 
 class DayRun {
  public:

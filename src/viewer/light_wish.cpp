@@ -1,19 +1,17 @@
 #include "viewer/light_wish.h"
 
 #include "base/error.h"
+#include "base/units.h"
 #include "io/digest.h"
 #include "io/moment_light.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace sunfleck {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr int clear_type = 12;
 
 SunWish sun_wish(const Scene& scene) {
