@@ -5,8 +5,8 @@ set -euo pipefail
 source_folder="$1" build="$2"
 rm -rf "$build"
 cmake -S "$source_folder" -B "$build" -G Ninja -DSUNFLECK_TESTS=OFF -DSUNFLECK_VIEWER=OFF -DSUNFLECK_PYTHON_MODULE=OFF \
-  -DCMAKE_DISABLE_FIND_PACKAGE_glfw3=ON -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON -DCMAKE_DISABLE_FIND_PACKAGE_Python=ON > /dev/null
-cmake --build "$build" --target sunfleck_viewer > /dev/null
+  > /dev/null
+cmake --build "$build" --target src/viewer/CMakeFiles/sunfleck_viewer.dir/no_view.cpp.o > /dev/null
 if grep -iE 'glfw|imgui|pybind11' "$build/build.ninja"; then
   echo "build.ninja names a library of the window or of Python" >&2
   exit 1
