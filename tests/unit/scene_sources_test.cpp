@@ -135,7 +135,8 @@ TEST_F(SceneSources, MayLieAnywhere) {
 TEST_F(SceneSources, OfASceneThatFailsAreListedToo) {
   const auto tried = [this](const std::string& names_of) {
     SourceFiles files;
-    EXPECT_TRUE(message_of([&] { static_cast<void>(load_scene({folder_ / "scene.toml"}, ScenePurpose::moment, &files)); })) << names_of;
+    EXPECT_TRUE(message_of([&] { static_cast<void>(load_scene({folder_ / "scene.toml"}, ScenePurpose::moment, &files)); }))
+        << names_of;
     return files.list();
   };
   write(folder_ / "first.obj", "f 1 2 3\n");
