@@ -74,9 +74,9 @@ class DayWriter {
     for (const Column& column : triangles_table(places).columns) {
       if (!column.is_in(in_netcdf) || column.name == "optics") continue;
       file_.add(column, {triangle_});
-      if (column.categories.empty()) continue;
+      if (!column.categories) continue;
       std::vector<std::string> names;
-      for (const std::string& name : column.categories) names.push_back(clean_text(name));
+      for (const std::string& name : *column.categories) names.push_back(clean_text(name));
       file_.names(column.name + "_name", file_.dimension(column.name + "_kind", names.size()), names,
                   fmt::format("name of each value of {}", column.name));
     }

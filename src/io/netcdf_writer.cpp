@@ -40,7 +40,7 @@ class ResultsWriter {
     std::vector<std::int32_t> flags;
     std::string meanings;
     std::vector<std::string> cleaned;
-    for (const std::string& name : column.categories) {
+    for (const std::string& name : *column.categories) {
       if (!flags.empty()) meanings += ' ';
       meanings += flag_word(name);
       flags.push_back(static_cast<std::int32_t>(flags.size()));
@@ -79,7 +79,7 @@ class ResultsWriter {
       if (!column.is_in(in_netcdf)) continue;
       if (is_light(column)) {
         add_light(column);
-      } else if (!column.categories.empty()) {
+      } else if (column.categories) {
         add_flags(column);
       } else {
         file_.add(column, {triangle_});

@@ -39,10 +39,10 @@ struct Column {
   // The axes of the table along which the values vary, the last fastest; no list: all axes, an empty list: one value for all
   // rows.
   std::optional<std::vector<std::size_t>> axes = {};
-  std::span<const std::string> categories = {};  // names of what the numbers 0, 1, ... stand for; empty for plain numbers
-  std::string error_column = {};                 // name of the column of its half-widths; empty if there is none
-  ColumnValues values = RowNumbers{};            // NaN where there is no value
-  std::shared_ptr<const void> owner = {};        // keeps the values alive; null if the maker of the table does
+  std::optional<std::span<const std::string>> categories = {};  // names of the values 0, 1, ...; none for plain numbers
+  std::string error_column = {};                                // name of the column of its half-widths; empty if there is none
+  ColumnValues values = RowNumbers{};                           // NaN where there is no value
+  std::shared_ptr<const void> owner = {};                       // keeps the values alive; null if the maker of the table does
 
   [[nodiscard]] bool is_in(Outputs output) const { return (outputs & output) != 0; }
 };

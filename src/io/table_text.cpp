@@ -21,10 +21,10 @@ struct AppendCell {
   void operator()(std::span<const double> numbers) const { append_value(row, numbers[i]); }
   void operator()(std::span<const std::string> texts) const { row += csv_field(texts[i]); }
   void operator()(const auto& numbers) const {
-    if (column.categories.empty()) {
+    if (!column.categories) {
       fmt::format_to(std::back_inserter(row), "{}", numbers[i]);
     } else {
-      row += csv_field(column.categories[static_cast<std::size_t>(numbers[i])]);
+      row += csv_field((*column.categories)[static_cast<std::size_t>(numbers[i])]);
     }
   }
 };

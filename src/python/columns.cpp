@@ -58,13 +58,13 @@ py::dict columns_of(const Table& table, const py::handle& holder, py::dict first
   std::vector<const Column*> unnamed;  // columns whose categories have not been added
   const auto add_names = [&] {
     for (const Column* column : std::exchange(unnamed, {}))
-      first[(column->name + "_name").c_str()] = list_of(column->categories);
+      first[(column->name + "_name").c_str()] = list_of(*column->categories);
   };
   for (const Column& column : table.columns) {
     if (!column.is_in(in_arrays)) continue;
-    if (column.categories.empty()) add_names();
+    if (!column.categories) add_names();
     first[column.name.c_str()] = std::visit(MakeObject{table, column, holder}, column.values);
-    if (!column.categories.empty()) unnamed.push_back(&column);
+    if (column.categories) unnamed.push_back(&column);
   }
   add_names();
   return first;
