@@ -253,8 +253,10 @@ TEST(Plates, OneLostPacketFailsTheRun) {
   const RadiationModel model = plates(2, {par, nir});
   const Prepared prepared(model);
   LosingTracer tracer(model, prepared.bvh);
+  SolveSettings settings = fixed_packets(model, 1024, 8);
+  settings.replicates_at_once = 1;  // the tracer counts replicates, one after the other
   try {
-    (void)solve(model, prepared.layout, tracer, fixed_packets(model, 1024, 8), {});
+    (void)solve(model, prepared.layout, tracer, settings, {});
     ADD_FAILURE() << "a packet was lost unnoticed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::failure) << error.what();
