@@ -1,5 +1,5 @@
 #pragma once
-// What the tables of a result hold: a function per table, a line per column. A new column is added here and nowhere else.
+// The contents of the result tables: one function per table, one line per column. A new column is added here and nowhere else.
 
 #include "io/table.h"
 #include "transport/model.h"
