@@ -1,4 +1,4 @@
-# Fails if a file of src/ includes what its layer must not know.
+# Fails if a file of src/ includes a header that its layer must not know.
 #   cmake -D ROOT=<project> -P cmake/check_layers.cmake
 cmake_minimum_required(VERSION 3.25)
 

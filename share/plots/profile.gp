@@ -2,7 +2,7 @@
 #   gnuplot profile.gp > profile.png
 # reads profile.csv in the current folder. The program sets these variables before it loads this file:
 if (!exists("tables")) array tables[1] = ['profile.csv']  # the program's own result, then those to compare it with;
-# the array `titles` names them, by default as they do themselves
+# the array `titles` names them; by default they keep their own titles
 if (!exists("band")) band = 'PAR'
 if (!exists("measured")) measured = ''    # name of the field data; then $measured is a table of sunfleck ratio and height
 if (!exists("agreement")) agreement = ''  # how well the first result agrees with them

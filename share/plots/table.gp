@@ -1,4 +1,4 @@
-# Reads what stands above the numbers of the file `table`: `table_title`, `header` (the column names) and `remarks` (all lines).
+# Reads the head of the file `table`, above its numbers: `table_title`, `header` (the column names) and `remarks` (all lines).
 # Texts of a table are only data here: gnuplot never runs them.
 set datafile separator "\001"
 set datafile commentschars ''

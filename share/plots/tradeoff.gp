@@ -85,7 +85,7 @@ do for [q = 1:4] {
 }
 set style line 9 linecolor rgb '#000000' linewidth 1 dashtype 2
 set style line 10 linecolor rgb '#000000' linewidth 1.4 pointtype 6 pointsize 2.6
-# The name of a setting, beside its highest point.
+# Names a setting next to its highest point.
 centimetres(m) = m < 0.01 ? sprintf('%.3g mm', 1000 * m) : sprintf('%.3g cm', 100 * m)
 name(kind, value) = kind eq 'grid' ? centimetres(value) : kind eq 'mesh' ? sprintf('mesh %.3g', value) : kind eq 'error' ? sprintf('%.3g', value) \
   : value >= 1024 ? sprintf('%.0f k', value / 1024) : sprintf('%.0f', value)
@@ -121,7 +121,7 @@ do for [p = 1:3] {
     }
   }
   unset print
-  # The slopes, beside the ends of their curves from the lowest to the highest, each at least a line above the one before.
+  # Places the slopes next to the ends of their curves, from the lowest to the highest, each at least a line above the previous one.
   line = p < 3 ? (highest * 25 / lowest) ** (25 / 555.0) : 1
   do for [q = 1:4] { end_time[q] = NaN; end_error[q] = NaN }
   do for [i = 1:n] {

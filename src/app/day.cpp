@@ -94,7 +94,7 @@ struct DayJob {
   const fs::path& folder;
   const DayPlan& plan;
   StepStore& store;
-  // Everything on which the bytes depend.
+  // Returns everything on which the bytes depend.
   const ordered_json& settings;
 };
 

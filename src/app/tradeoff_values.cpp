@@ -10,7 +10,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The same limits by which a run's bounds are judged (Tally).
+// These limits equal those by which the errors of a run are judged (Tally).
 constexpr double least_judged_share = 0.01;
 constexpr double least_judged_organ = 0.1;
 

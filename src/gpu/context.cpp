@@ -139,7 +139,7 @@ int preference(const FoundDevice& found) {
   return unusable + 4;
 }
 
-// Returns the index of the best device that fits the wish.
+// Returns the index of the best device that fits the request.
 std::size_t choose(const DeviceWish& wish, const std::vector<FoundDevice>& all) {
   std::vector<std::optional<int>> preferences(all.size());
   std::string names;

@@ -43,7 +43,7 @@ struct LightLabel {
   const char* meaning;
 };
 
-// In the order of the enumerators.
+// The names are in the order of the enumerators.
 constexpr LightLabel light_labels[] = {
     {"direct_upper", "irradiance of the upper face by the sun's beam"},
     {"direct_lower", "irradiance of the lower face by the sun's beam"},

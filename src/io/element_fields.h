@@ -62,8 +62,7 @@ struct ElementFields {
   return column.unit == light_units;
 }
 
-// Returns a corner of an element in the scene's frame. Single precision holds it exactly if the canopy has no origin of its
-// own.
+// Returns a corner of an element in the scene's frame. Single precision holds it exactly if the canopy has no separate origin.
 [[nodiscard]] glm::dvec3 corner_m(const Canopy& canopy, std::size_t element, std::size_t corner);
 [[nodiscard]] bool corners_fit_float(const Canopy& canopy);
 

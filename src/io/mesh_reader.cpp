@@ -216,7 +216,7 @@ std::optional<double> parse_number(std::string_view word) {
   double value = 0.0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-  // from_chars leaves the value unchanged both on underflow and on overflow; strtod tells them apart.
+  // from_chars leaves the value unchanged both on underflow and on overflow; strtod distinguishes them.
   if (code == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
   if (code == std::errc::invalid_argument || !std::isfinite(value)) return std::nullopt;
   return value;

@@ -82,7 +82,7 @@ void NetcdfFile::check(int status, std::string_view what) {
   if (status == NC_NOERR) return;
   const int reason = errno;
   if (!std::exchange(broken_, true)) leave_before_libraries();
-  // Below netCDF, HDF5 reports only that a write failed; errno still holds the reason.
+  // HDF5, below netCDF, reports only that a write failed; errno still holds the reason.
   const bool of_disk = status == NC_EHDFERR && on_disk_ && reason_of_disk(reason);
   throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : nc_strerror(status),
                 of_disk ? write_cure(reason) : cure_);

@@ -28,7 +28,7 @@ fs::path installed_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   Dl_info object{};
-  // The name of a program is as it was called, perhaps relative; that of a module is absolute.
+  // A program's name is the one it was called by, perhaps relative; a module's name is absolute.
   if (::dladdr(reinterpret_cast<const void*>(&plot_folder), &object) != 0 && object.dli_fname != nullptr) {
     const fs::path file = object.dli_fname;
     if (file.is_absolute() && !fs::equivalent(file, program, error)) return file.parent_path() / "plots";
@@ -40,7 +40,7 @@ fs::path installed_folder() {
 
 std::string gnuplot_text(std::string_view text) {
   std::string constant = "\"";
-  bool octal = false;  // the last one is an octal number, which gnuplot lets reach as far as there are digits
+  bool octal = false;  // the last one is an octal number, which extends in gnuplot as far as digits follow
   for (const char c : text) {
     if (c == '\0') continue;
     octal = !is_harmless(c) || (octal && c >= '0' && c <= '9');

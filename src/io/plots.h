@@ -12,8 +12,8 @@
 
 namespace sunfleck {
 
-// Returns a gnuplot string constant for any text, in which gnuplot finds nothing to run: all but letters, digits and a few
-// signs are written as octal numbers. NUL bytes are left out, since a gnuplot string ends there.
+// Returns a gnuplot string constant for any text, in which gnuplot finds nothing to execute: everything but letters, digits and
+// a few signs is written as octal numbers. NUL bytes are left out, since a gnuplot string ends there.
 [[nodiscard]] std::string gnuplot_text(std::string_view text);
 
 // The variables of a script, as gnuplot commands.

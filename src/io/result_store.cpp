@@ -18,7 +18,7 @@ using nlohmann::json;
 constexpr const char* store_format = "sunfleck pictures";
 constexpr int store_version = 1;
 
-// Largest coordinate of a scene: a mesh of up to 1e7 m, turned and placed as far from zero.
+// Largest coordinate of a scene, such as a mesh of up to 1e7 m, turned and placed as far from zero.
 constexpr double farthest_m = 1e8;
 constexpr double most_patches = 64e6;
 constexpr std::size_t deepest = 6;  // nesting depth of lists and maps; a valid file has four levels

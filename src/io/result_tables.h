@@ -1,5 +1,5 @@
 #pragma once
-// What the tables of a result hold: a function per table, a line per column. A new column is added here and nowhere else.
+// The contents of the result tables: one function per table, one line per column. A new column is added here and nowhere else.
 
 #include "io/table.h"
 #include "transport/model.h"
@@ -23,7 +23,8 @@ void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t
 // The energy balance in results.nc and xarray: one row per band.
 [[nodiscard]] Table balance_table(const RadiationResult& result);
 
-// sensors.csv: one row per point, in the order of the scene, of all sensors or of one. The result must have readings of all sensors of the model.
+// sensors.csv: one row per point, in the order of the scene, of all sensors or of one. The result must have readings of all
+// sensors of the model.
 [[nodiscard]] Table sensors_table(const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] Table sensor_table(const RadiationModel& model, const RadiationResult& result, std::size_t sensor);
 

@@ -25,7 +25,7 @@ struct RunRecord {
   std::string scene_digest;
   std::uint64_t seed = 1;
   bool complete = true;                  // false if it was stopped before its work was done
-  bool pictures_interrupted = false;     // whether Ctrl-C stopped it while its pictures were drawn
+  bool pictures_interrupted = false;     // true if Ctrl-C stopped it while its pictures were drawn
   std::vector<std::string> not_written;  // files that could not be written
   Accuracy accuracy;
   std::optional<double> grid_m;  // this and the next four: user settings that fix or limit the work

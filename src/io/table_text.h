@@ -12,7 +12,7 @@ namespace sunfleck {
 // Returns the `#` lines: title, content, seed and confidence, units.
 [[nodiscard]] std::string table_head(const RunRecord& record, std::string_view content, std::string_view units);
 
-// Appends a comma and nine significant digits; the cell stays empty for NaN.
+// Appends a comma and the number with nine significant digits; leaves the cell empty for NaN.
 void append_number(std::string& row, double value);
 
 // Returns a table as CSV below its `#` lines. Numbers have nine significant digits.

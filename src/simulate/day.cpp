@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 
 // next_work sizes replicates so that sixteen of them reach 0.7 of the bounds and a run rarely fails its checks: half of its
 // work is spare. With fewer packets in each replicate, a step makes as many replicates as it needs, and the spare work is only
-// that between two checks. Rays cost little beside packets, and a beam that lags behind would cost all packets of more
+// that between two checks. Rays cost little compared with packets, and a beam that lags behind would cost all packets of more
 // replicates.
 constexpr double share_of_next_packets = 0.4;
 // The sun may have moved to where much more work is needed, for example when the first beams reach the ground. If the error is

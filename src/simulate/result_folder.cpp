@@ -108,7 +108,7 @@ void write_tables(const std::filesystem::path& folder, const RunRecord& record, 
   }
 }
 
-// Draws plots until gnuplot fails; reports that failure and then tries no other plot.
+// Draws plots until gnuplot fails; reports that failure and tries no further plots.
 class Plots {
  public:
   Plots(const std::filesystem::path& folder, UnwrittenFiles& unwritten) : folder_(folder), unwritten_(unwritten) {}

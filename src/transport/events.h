@@ -1,6 +1,6 @@
 #pragma once
 // The light of a single ray or packet. Where all replicates agree (no ray met a surface, or every ray did), their spread is
-// zero and gives no interval; the interval then follows from how much a few more or fewer events would have changed.
+// zero and gives no interval; the interval then follows from how much a few more or fewer events would have changed the figure.
 
 #include "transport/band_quanta.h"
 #include "transport/model.h"

@@ -16,7 +16,7 @@ constexpr double least_packets = 256;
 // The stop rule leaves this part of the bound unshot, relative to flux taken as at least 1 % of the incident flux.
 constexpr double unshot_part_of_bound = 0.1;
 constexpr double least_judged_share = 0.01;
-// Ends passes that would never end by themselves, as in a closed box of perfect mirrors.
+// Ends passes that would never end on their own, as in a closed box of perfect mirrors.
 constexpr std::uint64_t most_rounds = 20000;
 // First stream of random numbers, apart from those of the beam.
 constexpr std::uint64_t indirect_stream = std::uint64_t{1} << 48U;

@@ -1,6 +1,6 @@
 #pragma once
-// Horizontal receivers: which of them a ray passes, and in which cell. They stop no ray, and soil never shades them: flux
-// that lands on soil has passed every plane between its start and y = 0.
+// Horizontal receivers: which of them a ray passes, and in which cell. They do not stop any ray, and soil never shades them:
+// flux that lands on soil has passed every plane between its start and y = 0.
 
 #include "transport/counters.h"
 #include "transport/model.h"

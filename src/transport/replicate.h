@@ -53,8 +53,7 @@ struct Replicate {
   double indirect_s = 0.0;
 };
 
-// The description of one replicate. Replicates with the same seed and number are identical, whatever else is made beside
-// them.
+// Describes one replicate. Replicates with the same seed and number are identical, whatever else is made at the same time.
 struct ReplicateOrder {
   double beam_rays = 0.0;       // approximate number
   std::uint64_t grid_rays = 0;  // actual number of rays on the grid

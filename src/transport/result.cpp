@@ -14,7 +14,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Half-widths of a share from here on mean that nothing is known but that it lies between 0 and 1.
+// A half-width of a share from here on means that nothing is known except that the share lies between 0 and 1.
 constexpr double unknown_share = 1.0 - 1e-9;
 
 // Confidence intervals of single elements stay empty below this many landings (validation G2: a normal interval on fewer
@@ -147,7 +147,7 @@ class ResultMaker {
     return parts;
   }
 
-  // Returns the same for all foliage.
+  // Returns the same for all foliage together.
   [[nodiscard]] std::vector<FacingArea> agreed_foliage() const {
     std::vector<FacingArea> parts;
     for (std::size_t e = 0; sums_.sunlit.squares() == 0.0 && e < sums_.elements.size(); ++e) {

@@ -27,7 +27,7 @@ double steady_clock_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Replicates with the same work.
+// Holds replicates with the same work.
 struct Series {
   Series(const ReplicateMaker& maker, const Incidence& incidence, ElementErrors element_errors)
       : conversion(maker.conversion(incidence)), sums(conversion, element_errors), grid_rays(incidence.rays) {}
@@ -171,7 +171,7 @@ class Solver {
     monitor_.report({.stage = Progress::Stage::pilot, .rays = traced_});
   }
 
-  // `expected` is the number of replicates of the whole run, as far as is known now.
+  // `expected` is the number of replicates of the whole run, as far as it is known.
   void report(std::size_t expected) {
     if (!monitor_.report) return;
     const double direct = direct_error();

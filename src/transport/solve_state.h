@@ -19,7 +19,7 @@ inline constexpr std::size_t first_check = 12;
 // Largest number of packets in the first round of a replicate; on most machines memory limits it further.
 inline constexpr double most_first_packets = 0x1p24;
 
-// All sums of a run as plain numbers, in an order of their own; the first integer is the number of replicates.
+// All sums of a run as plain numbers, in a fixed order; the first integer is the number of replicates.
 struct PlainSums {
   std::vector<std::int64_t> integers;
   std::vector<double> reals;

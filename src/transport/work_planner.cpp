@@ -52,7 +52,7 @@ std::optional<Work> WorkPlanner::choose(const RunPilots& run_pilots) {
   return work;
 }
 
-// Returns the work of a replicate such that the replicates asked for reach the bounds: pilots of the direct pass alone
+// Returns the work of a replicate such that the planned number of replicates reaches the bounds: pilots of the direct pass alone
 // determine the rays, then pilots with half those rays determine the packets. Returns nothing if stopped.
 std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
   double most = static_cast<double>(max_grid_rays);

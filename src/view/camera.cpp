@@ -15,7 +15,7 @@ namespace sunfleck {
 namespace {
 
 // The part of the picture that the scene may fill, measured from the middle; half the picture is `half_height` high, as a
-// tangent or a length. Free strips remain for the titles at the top, the footer at the bottom, an axis' letter at the left and
+// tangent or a length. The free strips hold the titles at the top, the footer at the bottom, an axis' letter at the left and
 // the legend at the right. The type size, and so the width of letter and legend, scales with the picture's height.
 struct Window {
   double left, right, bottom, top;

@@ -96,7 +96,7 @@ SkyWish in_use(const SkyWish& sky) {
 }
 
 // Keeps the scene's own moment exactly, so that an untouched window shows what `run` computes. A sun that does not shine still
-// defines the time.
+// determines the time.
 void grant_light(const LightWish& wish, const Scene& scene, RadiationModel& model) {
   const LightWish own = wish_of(scene);
   model.sun = scene.model.sun;

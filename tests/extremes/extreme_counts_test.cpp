@@ -74,7 +74,7 @@ TEST(ExtremeCounts, EightBillionRaysInARun) {
   EXPECT_NEAR(result.direct.grid_m, 0x1p-16 / std::sqrt(2.0), 1e-12);
 }
 
-// No run reaches this bound: the run ends, and says so, while the ledgers can still hold the incident flux.
+// No run reaches this bound: the run ends, and reports it, while the ledgers can still hold the incident flux.
 TEST(ExtremeCounts, ARunHasNoMoreReplicatesThanItsLedgersHold) {
   const RadiationModel model = black_model(quarter(), unit_plot, sun_at(60.0, 33.0));
   const Prepared prepared(model);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Configures the program without its window and its Python module, as on a machine without GLFW, Dear ImGui and pybind11, and
-# builds what stands in for the window: no_viewer_test.sh SOURCE_FOLDER BUILD_FOLDER
+# builds the replacement for the window: no_viewer_test.sh SOURCE_FOLDER BUILD_FOLDER
 set -euo pipefail
 source_folder="$1" build="$2"
 rm -rf "$build"

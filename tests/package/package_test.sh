@@ -48,7 +48,7 @@ program=$root/usr/bin/sunfleck
 "$program" run "$root/usr/share/sunfleck/scenes/two_squares.toml" -o "$scratch/results" --device cpu --grid 0.05 --images profile --quiet
 if command -v gnuplot > /dev/null; then
   [ -s "$scratch/results/profile.png" ] || fail "no profile.png"
-  # It is the installed script that draws, not the one of the source tree.
+  # The installed script draws, not the one of the source tree.
   echo "print no_such_variable" > "$root/usr/share/sunfleck/plots/profile.gp"
   "$program" run "$root/usr/share/sunfleck/scenes/two_squares.toml" -o "$scratch/results" --device cpu --grid 0.05 --images profile --quiet 2> "$scratch/warning"
   grep -q no_such_variable "$scratch/warning" || fail "the installed profile.gp is not used"

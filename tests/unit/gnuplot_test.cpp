@@ -49,7 +49,7 @@ TEST_F(Impostor, ThatMayNotBeRun) {
             "gnuplot failed: profile.png is left out (Permission denied)");
 }
 
-// Everything it started holds a pipe open, which ends with the last of them.
+// All processes that it started hold the pipe open until the last of them ends.
 TEST_F(Impostor, ThatHangsIsKilledWithAllItStarted) {
   const fs::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -28,7 +28,7 @@ class SolveStateTest : public ::testing::Test {
     monitor.interrupted = [&] { return last.replicates() >= replicates; };
     monitor.wants_state = [] { return true; };
     monitor.receive_state = [&](const SolveState& state) { last = state; };
-    settings_.replicates_at_once = 1;  // otherwise others that are finished would be added
+    settings_.replicates_at_once = 1;  // otherwise other finished replicates would be added
     EXPECT_EQ(solve_from(from, monitor).stop, StopReason::interrupted);
     settings_.replicates_at_once = 2;
     EXPECT_EQ(last.replicates(), replicates);
@@ -111,7 +111,7 @@ TEST_F(SolveStateTest, IsHandedOverWhenAskedForAndNotOfPilots) {
     EXPECT_EQ(state.replicates(), 5U * static_cast<std::size_t>(states));
   };
   const RadiationResult result = solve_from(nullptr, monitor);
-  EXPECT_EQ(static_cast<std::size_t>(questions), result.direct.replicates - 1);  // not asked again once the run is done
+  EXPECT_EQ(static_cast<std::size_t>(questions), result.direct.replicates - 1);  // not called again once the run is done
   EXPECT_EQ(states, questions / 5);
 }
 

@@ -103,7 +103,7 @@ TEST(Table, SharesAreAtMostOneAndErrorsNeedAValue) {
   EXPECT_TRUE(std::isnan(relative_half_width({0.0, 0.5})));
 }
 
-// Whoever reads a column must find out what it is, so every column of numbers has a unit and every column a meaning.
+// Readers of a column must be able to find out what it is, so every column of numbers has a unit and every column a meaning.
 TEST(Table, TheColumnsOfAResultAreDescribed) {
   RadiationModel model;
   model.bands = {{"PAR", 100.0, 0.0, 4.57}};
