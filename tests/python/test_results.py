@@ -122,7 +122,11 @@ def test_simulations_leak_nothing():
 
     for _ in range(20):
         assert once()
-    settled = memory_kib()
-    for _ in range(60):
-        assert once()
-    assert memory_kib() - settled < 4096
+    # A leak grows in every round; the memory that the allocator keeps for another thread grows in one.
+    growth_kib = []
+    for _ in range(3):
+        before = memory_kib()
+        for _ in range(30):
+            assert once()
+        growth_kib.append(memory_kib() - before)
+    assert min(growth_kib) < 1024, growth_kib
