@@ -29,6 +29,9 @@ class CMakeBuild(build_ext):
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(module, target)
+        # The scripts of its plots, beside it; in the source tree it finds them in share.
+        if not self.inplace:
+            shutil.copytree(ROOT / "share" / "plots", target.parent / "plots", dirs_exist_ok=True)
 
     def _built(self) -> pathlib.Path:
         folder = pathlib.Path(self.build_temp).resolve()

@@ -51,7 +51,7 @@ cmake --build --preset asan --target $built
 echo "== unit and physics tests under the thread sanitizer =="
 [ -f build/tsan/build.ninja ] || cmake --preset tsan
 cmake --build --preset tsan
-# Runs without Vulkan, because the sanitizer does not see what a driver's threads do. The file lists what it is told to ignore.
+# Runs without Vulkan, because the sanitizer does not see what a driver's threads do. The file lists the reports that it ignores.
 VK_ICD_FILENAMES=/none SUNFLECK_REQUIRE_DEVICE=0 TSAN_OPTIONS="suppressions=$PWD/tests/threads/suppressions.txt" \
   "${run_tests[@]}" --test-dir build/tsan -L '^(unit|physics)$' -LE long
 

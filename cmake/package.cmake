@@ -1,5 +1,6 @@
 # Makes a Debian package of the installed files: cpack -G DEB in the build folder, or the target `package`.
 install(DIRECTORY scenes/ DESTINATION share/sunfleck/scenes)
+install(DIRECTORY share/plots/ DESTINATION share/sunfleck/plots)
 install(FILES README.md CHANGELOG.md DESTINATION share/doc/sunfleck)
 install(DIRECTORY docs/ DESTINATION share/doc/sunfleck/docs)
 install(FILES LICENSE DESTINATION share/doc/sunfleck RENAME copyright)

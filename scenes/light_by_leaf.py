@@ -7,7 +7,7 @@ Run it as it stands, or cell by cell (`# %%`) in an editor that knows notebooks:
 It draws PAR through the canopy at three times of a day, and what the leaves of each rank absorb.
 """
 
-# %% What is needed: sunfleck, numpy, matplotlib
+# %% Requirements: sunfleck, numpy, matplotlib
 import pathlib
 import sys
 
@@ -39,7 +39,7 @@ for clock in ("06:30", "08:30", "12:00"):
     balance = results[clock].bands["PAR"]
     print(f"{clock}  sun {elevation:4.1f} deg  PAR {balance['incident']:6.1f} W m-2, absorbed by leaves {balance['absorbed_vegetation']:6.1f}")
 
-# %% Mean over plants of what the leaves of a rank absorb, per leaf area
+# %% Flux absorbed by the leaves of each rank, per leaf area, averaged over plants
 def by_rank(result):
     organs = result.organs
     leaf = np.array([name == "leaf" for name in organs["organ"]])

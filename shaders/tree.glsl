@@ -1,5 +1,5 @@
-// Access to the tree. TREE_IN_STORAGE selects storage buffers instead of texel buffers. Measurements show that texel buffers
-// are the faster ones on lavapipe; devices whose texel buffers are too small use storage buffers.
+// Reads the tree. TREE_IN_STORAGE selects storage buffers instead of texel buffers. Texel buffers were measured to be faster on
+// lavapipe; devices whose texel buffers are too small use storage buffers.
 #ifdef TREE_IN_STORAGE
 layout(set = 0, binding = 0, scalar) readonly buffer Nodes { uvec4 node_words[]; };
 layout(set = 0, binding = 1, scalar) readonly buffer Triangles { uvec4 triangle_words[]; };

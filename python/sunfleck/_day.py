@@ -55,6 +55,10 @@ class DayResult:
         are 0 at night."""
         return self._core.triangles()
 
+    def describe(self, table: str) -> dict[str, tuple[str, str]]:
+        """Returns the unit and the meaning of each column of day.csv or organs_day.csv."""
+        return {name: (unit, meaning) for name, (unit, meaning, _) in self._core.describe(table).items()}
+
     def table(self, name: str) -> str:
         """Returns the text of day.csv or organs_day.csv, byte for byte as the program writes it."""
         return self._core.table(name)

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     import xarray
 
 _EXPORTS = ("csv", "nc", "vtp", "glb", "ply", "caribu")
-_UNITS = {"area_m2": "m2", "x": "m", "y": "m", "z": "m"}
 
 
 class Result:
@@ -95,6 +94,11 @@ class Result:
         """The corners of the triangles, m, shape (triangles, 3 corners, 3 axes), as traced: wrapped into the plot."""
         return self._outcome.corners()
 
+    def describe(self, table: str) -> dict[str, tuple[str, str]]:
+        """Returns the unit and the meaning of each column of profile.csv, organs.csv, triangles.csv or sensors.csv:
+        result.describe("organs.csv")["area_m2"] is ("m2", "one-sided area")."""
+        return {name: (unit, meaning) for name, (unit, meaning, _) in self._outcome.describe(table).items()}
+
     def table(self, name: str) -> str:
         """Returns the text of profile.csv, organs.csv, triangles.csv or sensors.csv, byte for byte as the program writes it."""
         return self._outcome.table(name)
@@ -117,24 +121,22 @@ class Result:
         balance by `band`. Maps and sensors are in the lists `planes` and `sensors` instead. Needs xarray."""
         import xarray
 
-        columns = dict(self.triangles)
-        names = {kind: columns.pop(f"{kind}_name") for kind in ("organ", "optics")}
+        def variables(table: str, dimension: str, columns: dict[str, Any]) -> dict[str, Any]:
+            described = self._outcome.describe(table).items()
+            return {name: (dimension, columns[name], {"units": unit}) for name, (unit, _, stored) in described if stored}
+
         data = xarray.Dataset(attrs={"title": self.summary["scene"], "seed": self.summary["seed"]})
-        for name, values in columns.items():
-            data[name] = ("triangle", values, {"units": _units(name)})
-        for kind, words in names.items():
+        data = data.assign(variables("triangles.csv", "triangle", self.triangles))
+        for kind in ("organ", "optics"):
+            words = self.triangles[f"{kind}_name"]
             data[kind].attrs.update(flag_values=np.arange(len(words)), flag_meanings=" ".join(words))
         data = data.set_coords(["plant", "rank", "organ", "optics", "x", "y", "z"])
-        for name, values in self.profile.items():
-            if name.endswith(("_down", "_up", "_down_error", "_up_error")) or name.startswith("sunfleck_ratio"):
-                data[name] = ("plane_height", values, {"units": "1" if name.startswith("sunfleck") else "W m-2"})
-        data = data.assign_coords(plane_height=("plane_height", self.profile["height_m"], {"units": "m"}))
-        data = data.assign_coords(band=list(self.bands))
-        for term in ("incident", "absorbed_vegetation", "absorbed_soil", "reflected", "transmitted", "unshot"):
-            data[term] = ("band", [band[term] for band in self.bands.values()], {"units": "W m-2"})
-        for term in ("absorbed_vegetation", "absorbed_soil", "reflected", "transmitted"):
-            errors = [np.nan if band["error"][term] is None else band["error"][term] for band in self.bands.values()]
-            data[f"{term}_error"] = ("band", errors, {"units": "W m-2"})
+        profile = variables("profile.csv", "plane_height", self.profile)
+        height = profile.pop("height_m")
+        data = data.assign(profile).assign_coords(plane_height=height, band=list(self.bands))
+        balance = variables("balance", "band", self._outcome.balance())
+        for name in sorted(balance, key=lambda name: name.endswith("_error")):
+            data[name] = balance[name]
         return data.assign(
             plot_area_m2=((), self.summary["plot_area_m2"], {"units": "m2"}),
             leaf_area_index=((), self.summary["leaf_area_index"], {"units": "1"}),
@@ -145,8 +147,3 @@ class Result:
         state = "complete" if self.complete else summary["stopped"]
         return f"<sunfleck.Result of {summary['scene']!r}: {summary['triangles']} triangles, {', '.join(self.bands)}, {state}>"
 
-
-def _units(name: str) -> str:
-    if name in ("plant", "rank", "organ", "optics"):
-        return "1"
-    return _UNITS.get(name, "W m-2")

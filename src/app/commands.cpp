@@ -48,7 +48,7 @@ int run(const RunOptions& asked) {
   Checkpoint checkpoint(folder, options.exports, scene, settings);
   const auto found = options.resume ? checkpoint.find(scene.model) : Checkpoint::Found::nothing;
   if (found == Checkpoint::Found::finished) return tell_finished(folder, options, "run");
-  settings.go_on_from = checkpoint.state();
+  settings.resume_from = checkpoint.state();
   const double load_s = watch.lap();
 
   Simulation simulation(std::move(scene), options);

@@ -4,12 +4,12 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
+#include "base/units.h"
 #include "io/day_netcdf.h"
-#include "io/day_plot.h"
 #include "io/day_summary.h"
 #include "io/day_tables.h"
 #include "io/file.h"
-#include "io/gnuplot.h"
+#include "io/plots.h"
 #include "io/step_store.h"
 #include "simulate/day.h"
 #include "simulate/interrupt.h"
@@ -21,9 +21,7 @@
 
 #include <algorithm>
 #include <future>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 namespace sunfleck {
 namespace {
@@ -55,7 +53,6 @@ class FolderSink final : public DaySink {
 
  private:
   void report(std::size_t i, const StoredStep& step) const {
-    constexpr double degree = std::numbers::pi / 180.0;
     const DayStep& when = course_.steps[i];
     std::string line = fmt::format("step {} of {}: {}, sun {:.1f} deg, {:.2f} s", i + 1, course_.steps.size(),
                                    local_time_text(when.start, course_.offset_minutes).substr(0, 16),
@@ -70,27 +67,12 @@ class FolderSink final : public DaySink {
   std::future<void> writing_;  // writes the last step
 };
 
-void draw_day(const fs::path& folder, const RunRecord& record, const RadiationModel& model, const DayCourse& course,
-              const SimulatedDay& day, std::size_t band) {
-  DayPlot plot;
-  plot.title = record.title;
-  plot.band = model.bands[band].name;
-  plot.confidence = record.accuracy.confidence;
-  for (std::size_t i = 0; i < day.lights.size(); ++i) {
-    const DayStep& step = course.steps[i];
-    const StepBand& light = day.lights[i].bands[band];
-    DayPlotRow row;
-    row.start_s = local_clock_s(local_time_text(step.start, course.offset_minutes)).value();
-    row.step_s = step.length_s;
-    row.incident = light.incident;
-    row.absorbed_vegetation = light.absorbed_vegetation;
-    row.absorbed_soil = light.absorbed_soil;
-    row.reflected = light.reflected;
-    row.sunlit_leaf_fraction =
-        step.night() ? Estimate{std::numeric_limits<double>::quiet_NaN()} : day.lights[i].sunlit_leaf_fraction;
-    plot.rows.push_back(row);
-  }
-  if (const std::optional<std::string> problem = draw_plot(day_plot(plot), folder / plot_file)) warn(*problem);
+void draw_day(const fs::path& folder, const std::string& title, const std::string& band) {
+  PlotVariables variables;
+  variables.set_file("table", folder / day_file);
+  variables.set_text("title", title);
+  variables.set_text("band", band);
+  if (const std::optional<std::string> problem = draw_table("day.gp", variables, folder / plot_file)) warn(*problem);
 }
 
 void write_fields(const fs::path& folder, const RunRecord& record, const RadiationModel& model, const DayCourse& course,
@@ -112,7 +94,7 @@ struct DayJob {
   const fs::path& folder;
   const DayPlan& plan;
   StepStore& store;
-  // Everything on which the bytes depend.
+  // Returns everything on which the bytes depend.
   const ordered_json& settings;
 };
 
@@ -126,8 +108,8 @@ UnwrittenFiles write_tables(const DayJob& job, const RunRecord& record, const Ra
   unwritten.attempt(fields_file, [&] { write_fields(job.folder, record, model, course, day, job.store); });
   const std::vector<std::string>& images = job.options.run.images;
   if (std::find(images.begin(), images.end(), "none") != images.end()) return unwritten;
-  unwritten.attempt(
-      plot_file, [&] { draw_day(job.folder, record, model, course, day, picture_band(model, job.options.run.pictures.band)); });
+  const std::size_t band = picture_band(model, job.options.run.pictures.band);
+  unwritten.attempt(plot_file, [&] { draw_day(job.folder, record.title, model.bands[band].name); });
   return unwritten;
 }
 

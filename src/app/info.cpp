@@ -3,6 +3,7 @@
 #include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/units.h"
 #include "gpu/context.h"
 #include "io/file.h"
 #include "light/sun_events.h"
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <utility>
 
 namespace sunfleck {
@@ -54,7 +54,6 @@ LocalDate local_date(const SunMoment& moment) {
 
 ordered_json sun_json(const Scene& scene) {
   if (!scene.model.sun) return nullptr;
-  constexpr double degree = std::numbers::pi / 180.0;
   ordered_json sun = {{"elevation_deg", scene.model.sun->elevation_rad / degree},
                       {"azimuth_deg", scene.model.sun->azimuth_rad / degree},
                       {"sunrise", nullptr},

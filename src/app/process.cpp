@@ -20,7 +20,7 @@
 namespace sunfleck {
 namespace {
 
-// Uses neither a buffer nor an exception, since memory and standard error may both be gone.
+// Uses neither a buffer nor an exception, since both memory and standard error may be gone.
 int fail_with(const char* message, const char* after = "") {
   std::fputs("sunfleck: ", stderr);
   std::fputs(message, stderr);
@@ -45,7 +45,7 @@ void prepare_process() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
-    // Opened in the wrong direction, so that use is an error, as with a closed stream.
+    // A closed descriptor is opened in the wrong direction, so that using it is an error, as with a closed stream.
     if (::fcntl(number, F_GETFD) < 0) static_cast<void>(::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY));
   }
 }

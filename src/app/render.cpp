@@ -27,7 +27,7 @@ bool is_exr(const fs::path& file) {
   return file.extension() == ".exr";
 }
 
-// Returns the picture's file, checked before any work.
+// Returns the picture's file, which is checked before any work starts.
 fs::path picture_file(const RenderOptions& options, bool finished_run) {
   fs::path file = options.file;
   const fs::path name = stem_of(options.picture) + ".png";
@@ -74,7 +74,7 @@ Source read_source(const RenderOptions& options, bool finished_run) {
   return {std::move(stored.scene), std::move(stored.result)};
 }
 
-// Returns false if stopped.
+// Draws the picture. Returns false if stopped.
 bool write_picture(const Drawing& drawing, const RenderOptions& options, const fs::path& file) {
   if (!is_exr(file)) {
     return draw_charts(drawing, options.run.pictures, std::span(&options.picture, 1), interrupted,

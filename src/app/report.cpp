@@ -1,11 +1,11 @@
 #include "app/report.h"
 
+#include "base/units.h"
 #include "io/table_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace sunfleck {
 namespace {
@@ -18,7 +18,6 @@ std::string with_error(const Estimate& estimate) {
 }  // namespace
 
 std::string balance_report(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  constexpr double degree = std::numbers::pi / 180.0;
   std::string text = fmt::format("{}\n", record.title);
   text += fmt::format("  {} triangles, {} organs, leaf area index {:.3f}\n", model.canopy.size(), model.canopy.organs.size(),
                       result.leaf_area_index);

@@ -38,8 +38,8 @@ void start_at_terminal(const RunOptions& options);
 
 [[nodiscard]] int exit_status(StopReason stop);
 
-// Says in one line why a run ended early and which figures of which pass fell short of their bounds, followed by `cure`; says
-// nothing if a run did all its work.
+// Reports in one line why a run ended early and which figures of which pass fell short of their bounds, followed by `cure`;
+// prints nothing if a run did all its work.
 void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view cure = "");
 
 // Returns the part of that line about a pass: "direct error 0.0037 of 0.001 (beam on vegetation)". Empty for a pass that
@@ -47,7 +47,7 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
 [[nodiscard]] std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
                                     const std::optional<JudgedFigure>& judged, const RadiationModel& model);
 
-// Says that the `work` in the folder, a run or a day, is finished, or prints its summary if --json requests it. Returns the
+// Reports that the `work` in the folder, a run or a day, is finished, or prints its summary if --json requests it. Returns the
 // exit status.
 [[nodiscard]] int tell_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work);
 

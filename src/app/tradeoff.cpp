@@ -8,8 +8,8 @@
 #include "base/log.h"
 #include "io/file.h"
 #include "io/folder_lock.h"
-#include "io/gnuplot.h"
-#include "io/tradeoff_plot.h"
+#include "io/plots.h"
+#include "io/tradeoff_table.h"
 #include "simulate/interrupt.h"
 #include "simulate/scene_source.h"
 #include "simulate/simulation.h"
@@ -49,6 +49,18 @@ void prepare(const fs::path& folder, FolderLock& lock, const TradeoffReport& rep
   write_file(folder / table_file, tradeoff_csv(report));
   std::error_code error;
   fs::remove(folder / plot_file, error);
+}
+
+PlotVariables plot_variables(const TradeoffReport& report, const fs::path& folder) {
+  PlotVariables variables;
+  variables.set_file("table", folder / table_file);
+  variables.set_text("title", report.record.title);
+  if (report.marked_grid_m) variables.set("grid", *report.marked_grid_m);
+  if (!report.recommendation) return variables;
+  variables.set("asked", report.recommendation->asked_error);
+  variables.set("seconds", report.recommendation->seconds);
+  variables.set("expected", report.recommendation->expected);
+  return variables;
 }
 
 std::string slopes_line(const TradeoffReport& report, Ladder ladder, std::string_view light) {
@@ -116,7 +128,7 @@ int tradeoff(const TradeoffOptions& options) {
   report.total_seconds = total.lap();
   write_file(folder / table_file, tradeoff_csv(report));
   if (!report.rungs.empty()) {
-    if (const auto problem = draw_plot(tradeoff_plot(report), folder / plot_file)) warn(*problem);
+    if (const auto problem = draw_table("tradeoff.gp", plot_variables(report, folder), folder / plot_file)) warn(*problem);
   }
   say_what_lacks(options, report);
   if (options.run.json) {

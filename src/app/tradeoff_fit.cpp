@@ -9,8 +9,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Limits beyond the finest setting: the error falls at least this fast with the bound and no faster, whatever a few settings
-// suggest; the time grows at most with the square of the bound's inverse, as packets do.
+// Limits beyond the finest setting: the error falls as a power of the bound between these two, whatever a few settings suggest;
+// the time grows at most with the square of the bound's inverse, as packets do.
 constexpr double least_error_slope = 0.5, most_error_slope = 1.0;
 constexpr double most_time_slope = 2.0;
 

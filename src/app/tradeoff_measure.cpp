@@ -20,10 +20,9 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The bounds that are measured: starting here they are halved, at least `least_bounds` times, until one meets the required
-// error, but not where runs would need more than this share of the reference's rays or packets. Halving the bound takes four
-// times the packets (errors fall with the square root of their number) and, since their errors fall faster, fewer than four
-// times the rays.
+// The measured bounds start here and are halved at least `least_bounds` times, until one meets the required error, but not
+// where runs would need more than this share of the reference's rays or packets. Halving the bound takes four times the packets
+// (errors fall with the square root of their number) and, since their errors fall faster, fewer than four times the rays.
 constexpr double widest_bound = 0.02;
 constexpr std::size_t least_bounds = 3, most_bounds = 10;
 constexpr double growth_per_bound = 4.0;
@@ -51,7 +50,7 @@ class Measurement {
     for (const double packets : plan_.packets) foreseen_ += options.seeds * 2.0 * tradeoff_replicates * packets;
   }
 
-  // Returns false if stopped before all was measured.
+  // Runs all measurements. Returns false if stopped before the end.
   bool run() {
     if (!measure_references()) return false;
     for (std::size_t k = 0; k < plan_.grids_m.size(); ++k) {
@@ -87,7 +86,7 @@ class Measurement {
     [[nodiscard]] std::uint64_t rays() const { return result.direct.rays + result.indirect.sky_rays + result.indirect.packets; }
   };
 
-  // Returns none if stopped.
+  // Runs one simulation. Returns none if stopped.
   std::optional<Simulated> simulate(Simulation& simulation, SolveSettings settings, std::uint64_t seed) {
     if (stop()) return {};
     settings.seed = seed;

@@ -32,7 +32,7 @@ struct TradeoffPlan {
 // finest: cheap settings are repeated more often, because all settings weigh equally in the fitted slope.
 [[nodiscard]] int seeds_factor(std::size_t before_last);
 
-// Return the settings of a run of a series, and of one part of the reference.
+// Return the settings of a run in a series, and of one part of the reference.
 [[nodiscard]] SolveSettings grid_settings(SolveSettings settings, double grid_m);
 [[nodiscard]] SolveSettings packet_settings(SolveSettings settings, const RadiationModel& model, double packets);
 [[nodiscard]] SolveSettings reference_settings(SolveSettings settings, const TradeoffPlan& plan);

@@ -1,5 +1,7 @@
 #include "app/tradeoff_values.h"
 
+#include "io/irradiance.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -8,7 +10,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The same limits by which a run's bounds are judged (Tally).
+// These limits equal those by which the errors of a run are judged (Tally).
 constexpr double least_judged_share = 0.01;
 constexpr double least_judged_organ = 0.1;
 
@@ -48,15 +50,11 @@ DirectAbsorbed direct_absorbed(const RadiationModel& model, const RadiationResul
 void add_absorbed_triangles(const RadiationModel& model, const RadiationResult& result, QuantityValues& values) {
   const std::size_t elements = model.canopy.size();
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const double beam_w_m2 = model.has_beam() ? model.bands[b].direct_w_m2 : 0.0;
     for (std::size_t e = 0; e < elements; ++e) {
       const double element_m2 = area_m2(model.canopy.corners[e]);
-      const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
-      const double upper = result.irradiance_w_m2(result.elements[e].upper, element_m2, beam_w_m2) +
-                           result.side_indirect_w_m2(2 * e, element_m2, b);
-      const double lower = result.irradiance_w_m2(result.elements[e].lower, element_m2, beam_w_m2) +
-                           result.side_indirect_w_m2(2 * e + 1, element_m2, b);
-      add(values, {upper * optics.upper[b].absorptance() + lower * optics.lower[b].absorptance(),
+      const double upper = side_irradiance(model, result, 2 * e, element_m2, b).total_w_m2();
+      const double lower = side_irradiance(model, result, 2 * e + 1, element_m2, b).total_w_m2();
+      add(values, {absorbed_w_m2(model.optics[model.canopy.optics_of[e]], upper, lower, b),
                    result.element_error.empty() ? none : result.element_error[b * elements + e]});
     }
   }

@@ -63,7 +63,7 @@ void write_tables(const std::filesystem::path& folder, const ValidationRecord& r
   write_file(folder / "validate.json", validation_json(record, answers));
 }
 
-// Prints the table on standard output while it grows.
+// Prints the table on standard output, row by row, as it grows.
 class TablePrinter {
  public:
   explicit TablePrinter(const ValidateOptions& options) : all_(!options.quiet && !options.json), failures_(!options.json) {
@@ -108,7 +108,7 @@ int validate(const ValidateOptions& options) {
   lock.make_folder();
   ValidationRecord record{version(), commit(), device_of(context.get()), false};
   watch_for_interrupts();
-  // Written once before the work, so that an unwritable folder is noticed at once.
+  // The files are written once before the work, so that an unwritable folder is noticed at once.
   write_tables(folder, record, {});
   say(device_line(record.device));
 

@@ -1,9 +1,10 @@
 #include "app/validate_report.h"
 
+#include "io/summary_parts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace sunfleck {
@@ -35,11 +36,6 @@ std::string remark(const JudgedAnswer& judged) {
     return fmt::format("standard error above {:.1e}: too wide to be a test", answer.largest_error);
   }
   return {};
-}
-
-nlohmann::ordered_json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return value;
 }
 
 std::string escaped(std::string text) {
@@ -108,11 +104,11 @@ std::string validation_json(const ValidationRecord& record, std::span<const Judg
     nlohmann::ordered_json row;
     row["case"] = answer.name;
     const bool has_answer = answer.trouble.empty();
-    row["expected"] = has_answer ? number(answer.expected) : nullptr;
-    row["got"] = has_answer ? number(answer.got) : nullptr;
-    row["standard_error"] = has_answer ? number(answer.standard_error) : nullptr;
+    row["expected"] = has_answer ? number_or_null(answer.expected) : nullptr;
+    row["got"] = has_answer ? number_or_null(answer.got) : nullptr;
+    row["standard_error"] = has_answer ? number_or_null(answer.standard_error) : nullptr;
     const auto z = answer.z();
-    row["z"] = z ? number(*z) : nullptr;
+    row["z"] = z ? number_or_null(*z) : nullptr;
     row["verdict"] = cells_of(judged).verdict;
     row["tolerance"] = answer.tolerance;
     if (const std::string more = remark(judged); !more.empty()) row["remark"] = more;

@@ -1,6 +1,6 @@
 #pragma once
-// Checks against programming errors. EXPECT stands before the work of a function, ENSURE after it; both are always on and
-// stay outside hot loops. DCHECK is for hot loops and vanishes in release builds. User input is never checked with these.
+// Checks against programming errors. EXPECT comes before the work of a function, ENSURE after it; both are always on and stay
+// outside hot loops. DCHECK is for hot loops and vanishes in release builds. User input is never checked with these.
 
 #include <fmt/format.h>
 

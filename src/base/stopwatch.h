@@ -15,7 +15,7 @@ class Stopwatch {
     return seconds;
   }
 
-  // Returns the seconds since the start or the last lap, and goes on measuring them.
+  // Returns the seconds since the start or the last lap, and continues to measure.
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
   }

@@ -42,7 +42,7 @@ DoubleBox bounds_of(std::span<const PlacedMesh> parts) {
 }
 
 // Returns the local origin on one axis. A stand that lies several times its own size from zero would lose digits in single
-// precision, so it gets an origin of its own on that axis.
+// precision, so it gets a separate origin on that axis.
 double local_origin_m(const DoubleBox& box, int axis) {
   const glm::dvec3 size_m = box.hi - box.lo;
   const double largest_m = std::max({size_m.x, size_m.y, size_m.z});

@@ -38,7 +38,7 @@ struct Placement {
   double heading_rad = 0.0;
 };
 
-// A mesh and its placements; every placement is a copy with plants of its own.
+// A mesh and its placements; every placement is a copy with its own plants.
 struct PlacedMesh {
   Mesh mesh;
   std::vector<Placement> placements;

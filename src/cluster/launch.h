@@ -22,7 +22,7 @@ using Environment = std::function<const char*(const char*)>;
 // (PMIX_RANK; with Slurm also SLURM_STEP_NUM_TASKS). Slurm's variables alone say nothing about MPI.
 [[nodiscard]] std::optional<Launch> launch_by_mpi(const Environment& environment);
 
-// Returns the same for the environment of this process.
+// Does the same for the environment of this process.
 [[nodiscard]] std::optional<Launch> launch_by_mpi();
 
 // Returns true for a rank other than 0: rank 0 prints its messages as well.

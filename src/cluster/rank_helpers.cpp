@@ -14,9 +14,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Time between two signs of life to the other ranks.
+// Time between two signs of life sent to the other ranks.
 constexpr auto alive_pause = 10s;
-// Silence counted per step, at most: a process that was stopped for a while (by a debugger, or in a suspended job) finds the
+// Limits the silence counted per step: a process that was stopped for a while (by a debugger, or in a suspended job) finds the
 // letters of the others when it resumes.
 constexpr auto longest_step = 1s;
 
@@ -98,7 +98,7 @@ bool RankHelpers::wait_until_gone() {
     bool heard = false;
     try {
       heard = hear().has_value();
-    } catch (const Error&) {  // the reason is known already
+    } catch (const Error&) {  // the reason is already known
       heard = true;
     }
     if (!heard) pause.take();

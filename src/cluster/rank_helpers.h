@@ -26,7 +26,7 @@ class RankHelpers final : public ReplicateHelpers {
   // Sets the stage (the step of a day, and so its light) of the orders from here on.
   void set_stage(std::uint64_t stage) { stage_ = stage; }
 
-  // Returns true if one of the ranks was told to stop (Ctrl-C, SIGTERM). Any thread may call it.
+  // Returns true if one of the ranks received a request to stop (Ctrl-C, SIGTERM). Any thread may call it.
   [[nodiscard]] bool interrupted() const { return interrupted_; }
 
   [[nodiscard]] std::size_t slots() const override;
@@ -38,7 +38,7 @@ class RankHelpers final : public ReplicateHelpers {
   // Dismisses all ranks: no more orders will follow.
   void release();
 
-  // Waits until all ranks have ended. Returns false if one is lost, since waiting for it would be in vain.
+  // Waits until all ranks have ended. Returns false if one is lost, because waiting for it would never end.
   [[nodiscard]] bool wait_until_gone();
 
  private:

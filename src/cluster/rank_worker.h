@@ -21,7 +21,7 @@ struct RankService {
   std::function<void(std::uint64_t stage)> set_stage;
   // Makes a replicate, as ReplicateMaker::make; called by several threads at the same time.
   std::function<std::optional<Replicate>(const ReplicateOrder&, const StopQuestion&)> make;
-  // Returns true if this process was asked to stop; rank 0 is told and decides.
+  // Returns true if this process received a request to stop; it is reported to rank 0, which decides.
   StopQuestion interrupted;
   // Rank 0 is lost if nothing was heard from it for this long while this rank was listening. Rank 0 does not listen while
   // it adds up replicates, nor between the steps of a day.
@@ -32,7 +32,7 @@ struct RankService {
 // Throws what the mailbox throws.
 [[nodiscard]] bool serve(Mailbox& mailbox, const RankService& service);
 
-// Reports to rank 0 that this rank could not begin, and waits until rank 0 ends it; otherwise like serve.
+// Reports to rank 0 that this rank could not begin, and waits until rank 0 ends it; behaves like serve in all other respects.
 [[nodiscard]] bool report_failure(Mailbox& mailbox, const std::string& host, int kind, const std::string& text);
 
 }  // namespace sunfleck

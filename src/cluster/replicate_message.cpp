@@ -46,7 +46,7 @@ class Reader {
     static_assert(std::is_trivially_copyable_v<T>);
     copy(&value, sizeof value);
   }
-  // Reads an array that must be as long as `values` is.
+  // Reads an array that must be as long as `values`.
   template <class T>
   void array(std::vector<T>& values) {
     if (count() != values.size()) refuse();

@@ -69,7 +69,7 @@ void ComputePipeline::create_pipeline(const Specialisation& constants) {
   handles_->pipeline = device.createComputePipeline(nullptr, {{}, stage, *handles_->layout});
 }
 
-// Binds the buffers for every run. A handle alone does not tell whether a buffer is still the one that was bound, since a new
+// Binds the buffers for every run. A handle alone does not show whether a buffer is still the one that was bound, since a new
 // buffer may get the handle of a destroyed one.
 void ComputePipeline::bind(std::span<const GpuBuffer* const> buffers) {
   EXPECT(buffers.size(), ==, code_.bindings.size());

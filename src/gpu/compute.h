@@ -22,7 +22,7 @@ struct ShaderCode {
   std::uint32_t group_size = 64;    // threads per group, <= 128
 };
 
-// Specialisation constants 0..n-1, 32 bits each.
+// Values of the specialisation constants 0..n-1, 32 bits each.
 using Specialisation = std::vector<std::uint32_t>;
 
 class ComputePipeline {

@@ -1,17 +1,16 @@
 #include "gpu/context.h"
 
+#include "base/text.h"
 #include "gpu/handles.h"
 #include "gpu/instance.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <exception>
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -88,11 +87,6 @@ std::vector<vk::raii::PhysicalDevice> enumerate(const vk::raii::Instance& instan
   }
 }
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool fits(const DeviceWish& wish, const DeviceDescription& description, std::size_t index) {
   switch (wish.kind) {
     case DeviceWish::Kind::any:
@@ -145,7 +139,7 @@ int preference(const FoundDevice& found) {
   return unusable + 4;
 }
 
-// Returns the index of the best device that fits the wish.
+// Returns the index of the best device that fits the request.
 std::size_t choose(const DeviceWish& wish, const std::vector<FoundDevice>& all) {
   std::vector<std::optional<int>> preferences(all.size());
   std::string names;

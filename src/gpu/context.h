@@ -57,9 +57,10 @@ void set_software_threads(int threads);
 // Owns instance, device, one compute queue, one command buffer and the staging memory. Only one thread may use it at a time.
 class GpuContext {
  public:
-  // Throws Error (device) if no device fits the wish, or if the one that fits lacks a requirement; the message names the limit.
-  // Throws Error (failure) if memory runs out or the device is lost meanwhile. Unless validation is off, every warning or error
-  // of the validation layer is kept in validation_messages(); if the layer is not installed, that is an Error (device) too.
+  // Throws Error (device) if no device fits the request, or if the one that fits lacks a requirement; the message names the
+  // limit. Throws Error (failure) if memory runs out or the device is lost meanwhile. Unless validation is off, every warning
+  // or error of the validation layer is kept in validation_messages(); if the layer is not installed, that is an Error (device)
+  // too.
   GpuContext(const DeviceWish& wish, Validation validation);
   ~GpuContext();
   GpuContext(const GpuContext&) = delete;

@@ -28,10 +28,10 @@ struct CaribuSet {
   std::filesystem::path light;
   std::optional<std::filesystem::path> domain;
   double scale = 1.0;          // metres per unit of the canopy and the domain, > 0
-  bool allow_outside = false;  // whether the buffers of a glTF file may lie outside its folder
+  bool allow_outside = false;  // true if the buffers of a glTF file may lie outside its folder
 };
 
-// Names by which the text refers to these two files, relative to the text's future location.
+// The names by which the text refers to these two files, relative to the text's future location.
 struct CaribuNames {
   std::string canopy, light;
 };

@@ -9,13 +9,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <numbers>
 
 namespace sunfleck {
 namespace {
-
-constexpr int whole_file = -1;
 
 class DayWriter {
  public:
@@ -28,7 +25,7 @@ class DayWriter {
         triangle_(file_.dimension("triangle", day.model.canopy.size())) {}
 
   void write() {
-    define_record();
+    add_record(file_, "day", day_.record, day_.model);
     add_times();
     add_triangles();
     define_light();
@@ -45,33 +42,6 @@ class DayWriter {
   }
 
  private:
-  void define_record() {
-    const RunRecord& record = day_.record;
-    file_.attribute(whole_file, "Conventions", "CF-1.8");
-    file_.attribute(whole_file, "source", fmt::format("sunfleck {}", clean_text(record.version)));
-    file_.attribute(whole_file, "history", fmt::format("sunfleck day {}", clean_text(record.scene_file)));
-    for (const RecordEntry& entry : record_entries(record, day_.model)) file_.attribute(whole_file, entry.key, entry.value);
-  }
-
-  template <class T>
-  int describe(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning) {
-    const int number = file_.variable<T>(name, dimensions);
-    file_.attribute(number, "long_name", meaning);
-    if (!units.empty()) file_.attribute(number, "units", units);
-    return number;
-  }
-  template <class T>
-  int add(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning,
-          const std::vector<T>& values) {
-    const int number = describe<T>(name, dimensions, units, meaning);
-    file_.put(number, std::span<const T>(values));
-    return number;
-  }
-  template <class T>
-  void add(const PlaceColumn& column, const std::vector<T>& values) {
-    add(column.name, {triangle_}, column.units, column.meaning, values);
-  }
-
   void add_times() {
     constexpr double per_degree = 180.0 / std::numbers::pi;
     const UtcTime origin{day_.course.steps.front().start.year, 1, 1};
@@ -86,7 +56,7 @@ class DayWriter {
       local.push_back(local_time_text(step.start, day_.course.offset_minutes));
     }
     const std::string units = fmt::format("seconds since {:04}-01-01 00:00:00", origin.year);
-    const int time = describe<double>("time", {time_}, units, "start of the step, UTC; its light is that of the middle");
+    const int time = file_.variable<double>("time", {time_}, units, "start of the step, UTC; its light is that of the middle");
     file_.attribute(time, "standard_name", "time");
     file_.attribute(time, "axis", "T");
     file_.attribute(time, "calendar", "proleptic_gregorian");
@@ -94,35 +64,29 @@ class DayWriter {
     file_.put(time, std::span<const double>(starts));
     const int time_bounds = file_.variable<double>("time_bounds", {time_, end_});
     file_.put(time_bounds, std::span<const double>(bounds));
-    add("elevation_deg", {time_}, "degree", "elevation of the sun at the middle of the step", elevations);
-    add("azimuth_deg", {time_}, "degree", "azimuth of the sun at the middle of the step, clockwise from north", azimuths);
+    file_.add("elevation_deg", {time_}, "degree", "elevation of the sun at the middle of the step", elevations);
+    file_.add("azimuth_deg", {time_}, "degree", "azimuth of the sun at the middle of the step, clockwise from north", azimuths);
     file_.names("local_time", time_, local, "start of the step, local time with its offset");
   }
 
   void add_triangles() {
     const ElementFields places = make_element_places(day_.model.canopy);
-    std::vector<std::int64_t> numbers;
-    for (std::size_t e = 0; e < places.size(); ++e) numbers.push_back(static_cast<std::int64_t>(e));
-    add(triangle_column, numbers);
-    add(plant_column, std::vector<std::int64_t>(places.plant.begin(), places.plant.end()));
-    add(rank_column, places.rank);
-    std::vector<std::string> organs;
-    for (const std::string& name : places.organ_names) organs.push_back(clean_text(name));
-    add(organ_column, places.organ);
-    file_.names("organ_name", file_.dimension("organ_kind", organs.size()), organs, "name of each value of organ");
-    add(area_column, places.area_m2);
-    constexpr std::array axes = {"x", "y", "z"};
-    constexpr std::array directions = {"towards the south", "up", "towards the west"};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      add(axes[axis], {triangle_}, "m", fmt::format("centroid, {}", directions[axis]), places.centroid_m[axis]);
+    for (const Column& column : triangles_table(places).columns) {
+      if (!column.is_in(in_netcdf) || column.name == "optics") continue;
+      file_.add(column, {triangle_});
+      if (!column.categories) continue;
+      std::vector<std::string> names;
+      for (const std::string& name : *column.categories) names.push_back(clean_text(name));
+      file_.names(column.name + "_name", file_.dimension(column.name + "_kind", names.size()), names,
+                  fmt::format("name of each value of {}", column.name));
     }
   }
 
   void define_light() {
     for (const Waveband& band : day_.model.bands) {
       for (const LightColumn column : columns_) {
-        const int number =
-            describe<float>(fmt::format("{}_{}", band.name, ending(column)), {time_, triangle_}, light_units, meaning(column));
+        const int number = file_.variable<float>(fmt::format("{}_{}", band.name, ending(column)), {time_, triangle_},
+                                                 light_units, meaning(column));
         file_.attribute(number, "coordinates", "x y z");
         if (column == LightColumn::absorbed) file_.attribute(number, "ancillary_variables", band.name + "_error");
         file_.store_by_row(number, day_.model.canopy.size());

@@ -1,12 +1,12 @@
 #include "io/day_summary.h"
 
+#include "io/summary_parts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 namespace sunfleck {
@@ -22,15 +22,6 @@ constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 5> terms = {
      {"absorbed_soil", &StepBand::absorbed_soil},
      {"reflected", &StepBand::reflected},
      {"transmitted", &StepBand::transmitted}}};
-
-ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-template <class T>
-ordered_json value_or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
 
 ordered_json date_json(const DaySummary& day, const std::string& name, const DateSums& date) {
   ordered_json bands = ordered_json::array();
@@ -51,14 +42,6 @@ ordered_json date_json(const DaySummary& day, const std::string& name, const Dat
     bands.push_back(std::move(band));
   }
   return {{"date", name}, {"steps", date.steps}, {"bands", bands}};
-}
-
-std::size_t plant_count(const Canopy& canopy) {
-  std::set<std::uint32_t> plants;
-  for (const Organ& organ : canopy.organs) {
-    if (organ.plant > 0) plants.insert(organ.plant);
-  }
-  return plants.size();
 }
 
 double leaf_area_index(const RadiationModel& model) {

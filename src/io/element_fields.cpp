@@ -1,65 +1,63 @@
 #include "io/element_fields.h"
 
 #include "base/check.h"
+#include "io/irradiance.h"
 
 #include <fmt/format.h>
 
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace sunfleck {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Collects the columns of one band, value by value.
-class BandColumns {
- public:
-  BandColumns(const RadiationModel& model, const RadiationResult& result, const ElementFields& fields, std::size_t band)
-      : model_(model), result_(result), fields_(fields), band_(band) {}
+double value_of(LightColumn column, const Irradiance& upper, const Irradiance& lower, double absorbed_w_m2, double error_w_m2) {
+  switch (column) {
+    case LightColumn::direct_upper:
+      return upper.direct_w_m2;
+    case LightColumn::direct_lower:
+      return lower.direct_w_m2;
+    case LightColumn::sky_upper:
+      return upper.sky_w_m2;
+    case LightColumn::sky_lower:
+      return lower.sky_w_m2;
+    case LightColumn::indirect_upper:
+      return upper.indirect_w_m2;
+    case LightColumn::indirect_lower:
+      return lower.indirect_w_m2;
+    case LightColumn::total:
+      return upper.total_w_m2() + lower.total_w_m2();
+    case LightColumn::absorbed:
+      return absorbed_w_m2;
+    case LightColumn::error:
+      return error_w_m2;
+  }
+  return none;
+}
 
-  [[nodiscard]] double value(LightColumn column, std::size_t e) const {
-    switch (column) {
-      case LightColumn::direct_upper:
-        return direct(result_.elements[e].upper, e);
-      case LightColumn::direct_lower:
-        return direct(result_.elements[e].lower, e);
-      case LightColumn::sky_upper:
-        return result_.side_sky_w_m2(2 * e, fields_.area_m2[e], band_);
-      case LightColumn::sky_lower:
-        return result_.side_sky_w_m2(2 * e + 1, fields_.area_m2[e], band_);
-      case LightColumn::indirect_upper:
-        return result_.side_indirect_w_m2(2 * e, fields_.area_m2[e], band_);
-      case LightColumn::indirect_lower:
-        return result_.side_indirect_w_m2(2 * e + 1, fields_.area_m2[e], band_);
-      case LightColumn::total:
-        return upper(e) + lower(e);
-      case LightColumn::absorbed: {
-        const SurfaceOptics& optics = model_.optics[model_.canopy.optics_of[e]];
-        return upper(e) * optics.upper[band_].absorptance() + lower(e) * optics.lower[band_].absorptance();
-      }
-      case LightColumn::error:
-        return result_.element_error.empty() ? none : result_.element_error[band_ * fields_.size() + e];
-    }
-    return none;
-  }
-
- private:
-  [[nodiscard]] double direct(std::uint64_t landings, std::size_t e) const {
-    return result_.irradiance_w_m2(landings, fields_.area_m2[e], model_.bands[band_].direct_w_m2);
-  }
-  [[nodiscard]] double upper(std::size_t e) const {
-    return value(LightColumn::direct_upper, e) + value(LightColumn::indirect_upper, e);
-  }
-  [[nodiscard]] double lower(std::size_t e) const {
-    return value(LightColumn::direct_lower, e) + value(LightColumn::indirect_lower, e);
-  }
-
-  const RadiationModel& model_;
-  const RadiationResult& result_;
-  const ElementFields& fields_;
-  std::size_t band_;
+struct LightLabel {
+  const char* ending;
+  const char* meaning;
 };
+
+// The names are in the order of the enumerators.
+constexpr LightLabel light_labels[] = {
+    {"direct_upper", "irradiance of the upper face by the sun's beam"},
+    {"direct_lower", "irradiance of the lower face by the sun's beam"},
+    {"sky_upper", "irradiance of the upper face by sky light at its first hit, a part of indirect"},
+    {"sky_lower", "irradiance of the lower face by sky light at its first hit, a part of indirect"},
+    {"indirect_upper", "irradiance of the upper face by all light but the sun's beam at its first hit"},
+    {"indirect_lower", "irradiance of the lower face by all light but the sun's beam at its first hit"},
+    {"total", "irradiance of both faces together by all light"},
+    {"absorbed", "flux absorbed by both faces per one-sided area"},
+    {"error", "half-width of the confidence interval of absorbed"}};
+
+const LightLabel& label_of(LightColumn column) {
+  return light_labels[static_cast<std::size_t>(column)];
+}
 
 std::vector<LightColumn> columns_of(const RadiationResult& result) {
   std::vector<LightColumn> columns = {LightColumn::direct_upper, LightColumn::direct_lower};
@@ -72,51 +70,11 @@ std::vector<LightColumn> columns_of(const RadiationResult& result) {
 }  // namespace
 
 const char* ending(LightColumn column) {
-  switch (column) {
-    case LightColumn::direct_upper:
-      return "direct_upper";
-    case LightColumn::direct_lower:
-      return "direct_lower";
-    case LightColumn::sky_upper:
-      return "sky_upper";
-    case LightColumn::sky_lower:
-      return "sky_lower";
-    case LightColumn::indirect_upper:
-      return "indirect_upper";
-    case LightColumn::indirect_lower:
-      return "indirect_lower";
-    case LightColumn::total:
-      return "total";
-    case LightColumn::absorbed:
-      return "absorbed";
-    case LightColumn::error:
-      return "error";
-  }
-  return "";
+  return label_of(column).ending;
 }
 
 const char* meaning(LightColumn column) {
-  switch (column) {
-    case LightColumn::direct_upper:
-      return "irradiance of the upper face by the sun's beam";
-    case LightColumn::direct_lower:
-      return "irradiance of the lower face by the sun's beam";
-    case LightColumn::sky_upper:
-      return "irradiance of the upper face by sky light at its first hit, a part of indirect";
-    case LightColumn::sky_lower:
-      return "irradiance of the lower face by sky light at its first hit, a part of indirect";
-    case LightColumn::indirect_upper:
-      return "irradiance of the upper face by all light but the sun's beam at its first hit";
-    case LightColumn::indirect_lower:
-      return "irradiance of the lower face by all light but the sun's beam at its first hit";
-    case LightColumn::total:
-      return "irradiance of both faces together by all light";
-    case LightColumn::absorbed:
-      return "flux absorbed by both faces per one-sided area";
-    case LightColumn::error:
-      return "half-width of the confidence interval of absorbed";
-  }
-  return "";
+  return label_of(column).meaning;
 }
 
 ElementFields make_element_places(const Canopy& canopy) {
@@ -149,17 +107,53 @@ ElementFields make_element_fields(const RadiationModel& model, const RadiationRe
   EXPECT(result.elements.size(), ==, model.canopy.size());
   ElementFields fields = make_element_places(model.canopy);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const BandColumns band(model, result, fields, b);
-    std::vector<LightValues> columns;
+    std::vector<LightValues>& columns = fields.light.emplace_back();
     for (const LightColumn column : columns_of(result)) {
-      LightValues field{column, fmt::format("{}_{}", model.bands[b].name, ending(column)), {}};
-      field.values.reserve(fields.size());
-      for (std::size_t e = 0; e < fields.size(); ++e) field.values.push_back(band.value(column, e));
-      columns.push_back(std::move(field));
+      columns.push_back({column, fmt::format("{}_{}", model.bands[b].name, ending(column)), {}});
+      columns.back().values.reserve(fields.size());
     }
-    fields.light.push_back(std::move(columns));
+    for (std::size_t e = 0; e < fields.size(); ++e) {
+      const Irradiance upper = side_irradiance(model, result, 2 * e, fields.area_m2[e], b);
+      const Irradiance lower = side_irradiance(model, result, 2 * e + 1, fields.area_m2[e], b);
+      const double absorbed = absorbed_w_m2(model.optics[model.canopy.optics_of[e]], upper.total_w_m2(), lower.total_w_m2(), b);
+      const double error = result.element_error.empty() ? none : result.element_error[b * fields.size() + e];
+      for (LightValues& column : columns) column.values.push_back(value_of(column.column, upper, lower, absorbed, error));
+    }
   }
   return fields;
+}
+
+Table triangles_table(const ElementFields& fields) {
+  constexpr unsigned all = in_csv | in_arrays | in_netcdf | in_meshes;
+  Table table{"Triangles, in the order of the files",
+              "area_m2: m2, one-sided; x, y, z: m, centroid after wrapping (X south, Y up, Z west); direct, sky (unscattered, "
+              "a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: half-width of "
+              "the confidence interval of absorbed, empty below 20 hits",
+              {},
+              {fields.size()},
+              {}};
+  table.columns.push_back({.name = "triangle",
+                           .unit = "1",
+                           .meaning = "number of the triangle, in the order of the files",
+                           .outputs = all & ~in_arrays,
+                           .values = RowNumbers{fields.size()}});
+  table.add_view({"plant", "1", "number of the plant, 0 for soil", all}, fields.plant);
+  table.add_view({"rank", "1", "leaf number from the ground, 0 for organs without one", all & ~in_csv}, fields.rank);
+  table.add_view({"organ", "1", "kind of organ", all, {}, fields.organ_names}, fields.organ);
+  table.add_view({"optics", "1", "optics of the surface", all & ~in_csv, {}, fields.optics_names}, fields.optics);
+  table.add_view({"area_m2", "m2", "one-sided area", all}, fields.area_m2);
+  table.add_view({"x", "m", "centroid, towards the south", all & ~in_meshes}, fields.centroid_m[0]);
+  table.add_view({"y", "m", "centroid, up", all & ~in_meshes}, fields.centroid_m[1]);
+  table.add_view({"z", "m", "centroid, towards the west", all & ~in_meshes}, fields.centroid_m[2]);
+  for (const std::vector<LightValues>& band : fields.light) {
+    for (const LightValues& light : band) {
+      Column column{light.name, light_units, meaning(light.column), all};
+      if (light.column == LightColumn::total) column.outputs &= ~in_csv;
+      if (light.column == LightColumn::absorbed) column.error_column = band.back().name;
+      table.add_view(std::move(column), light.values);
+    }
+  }
+  return table;
 }
 
 glm::dvec3 corner_m(const Canopy& canopy, std::size_t element, std::size_t corner) {

@@ -1,6 +1,7 @@
 #pragma once
 // The results of every triangle as columns, built once and written by every exporter under the same names.
 
+#include "io/table.h"
 #include "transport/model.h"
 #include "transport/result.h"
 
@@ -55,21 +56,13 @@ struct ElementFields {
 [[nodiscard]] ElementFields make_element_fields(const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] ElementFields make_element_places(const Canopy& canopy);  // leaves `light` empty
 
-// A numeric column that does not depend on the band, described for formats that store units and meanings.
-struct PlaceColumn {
-  const char* name;
-  const char* units;  // 1 for dimensionless numbers
-  const char* meaning;
-};
-constexpr PlaceColumn triangle_column{"triangle", "1", "number of the triangle, in the order of the files"};
-constexpr PlaceColumn plant_column{"plant", "1", "number of the plant, 0 for soil"};
-constexpr PlaceColumn rank_column{"rank", "1", "leaf number from the ground, 0 for organs without one"};
-constexpr PlaceColumn organ_column{"organ", "1", "kind of organ"};
-constexpr PlaceColumn optics_column{"optics", "1", "optics of the surface"};
-constexpr PlaceColumn area_column{"area_m2", "m2", "one-sided area"};
+// Returns the columns of the triangles, which are views of `fields`. The columns in_csv are those of triangles.csv.
+[[nodiscard]] Table triangles_table(const ElementFields& fields);
+[[nodiscard]] inline bool is_light(const Column& column) {
+  return column.unit == light_units;
+}
 
-// Returns a corner of an element in the scene's frame. Single precision holds it exactly if the canopy has no origin of its
-// own.
+// Returns a corner of an element in the scene's frame. Single precision holds it exactly if the canopy has no separate origin.
 [[nodiscard]] glm::dvec3 corner_m(const Canopy& canopy, std::size_t element, std::size_t corner);
 [[nodiscard]] bool corners_fit_float(const Canopy& canopy);
 

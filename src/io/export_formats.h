@@ -13,6 +13,8 @@
 
 namespace sunfleck {
 
+class NetcdfFile;
+
 struct ExportData {
   const RunRecord& record;
   const RadiationModel& model;
@@ -43,6 +45,9 @@ struct RecordEntry {
   std::string value;  // valid UTF-8, one line
 };
 [[nodiscard]] std::vector<RecordEntry> record_entries(const RunRecord& record, const RadiationModel& model);
+
+// Adds the record to a netCDF file as attributes; `command` is run or day.
+void add_record(NetcdfFile& file, std::string_view command, const RunRecord& record, const RadiationModel& model);
 
 // Returns the text as one line of valid UTF-8, which most formats require of names; replaces offending characters by '?'.
 [[nodiscard]] std::string clean_text(std::string_view text);

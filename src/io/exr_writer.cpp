@@ -19,7 +19,7 @@ struct FreeMemory {
   void operator()(unsigned char* memory) const { std::free(memory); }
 };
 
-// The plain arrays that tinyexr's header and image point to. tinyexr takes non-const pointers but changes nothing.
+// Holds the plain arrays that tinyexr's header and image point to. tinyexr takes non-const pointers but changes nothing.
 struct ExrArrays {
   std::vector<EXRChannelInfo> channels;
   std::vector<int> types;

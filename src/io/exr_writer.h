@@ -21,7 +21,7 @@ struct ExrImage {
   std::string comments;  // attribute `comments` of the file: meaning and unit of the channels
 };
 
-// Writes a single-part scan-line image with ZIP compression and 32 bits per value. Writes aside and renames. Throws Error
+// Writes a single-part scan-line image with ZIP compression and 32 bits per value: writes aside, then renames. Throws Error
 // (failure).
 void write_exr(const ExrImage& image, const std::filesystem::path& file);
 

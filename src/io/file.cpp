@@ -40,7 +40,7 @@ Handle open(const fs::path& file, const char* mode) {
 // Returns 0, or the errno that forbids replacing a file of this name; a rename alone would ignore it.
 int protection(const fs::path& file) {
   struct stat state {};
-  if (::stat(file.c_str(), &state) != 0) return 0;  // there is no file, or opening the new one will report why
+  if (::stat(file.c_str(), &state) != 0) return 0;  // there is no file, or opening the new one will report the reason
   if (S_ISDIR(state.st_mode)) return EISDIR;
   return ::access(file.c_str(), W_OK) == 0 ? 0 : errno;
 }
@@ -150,7 +150,7 @@ std::uintmax_t available_memory_bytes() {
     std::uintmax_t kib = 0;
     if (std::sscanf(line.c_str(), "MemAvailable: %ju kB", &kib) == 1) available = std::min(available, kib * 1024);
   }
-  // Memory of the control group, version 2; the limit is "max" if there is none.
+  // The control group (version 2) may allow less memory; its limit reads "max" if there is none.
   std::uintmax_t limit = 0, used = 0;
   std::ifstream limit_file("/sys/fs/cgroup/memory.max"), used_file("/sys/fs/cgroup/memory.current");
   if (limit_file >> limit && used_file >> used) available = std::min(available, limit - std::min(limit, used));

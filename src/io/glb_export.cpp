@@ -63,7 +63,7 @@ class CanopyWriter {
     using tinygltf::Value;
     Value::Object extras;
     for (const RecordEntry& entry : record_entries(data_.record, data_.model)) extras[entry.key] = Value(entry.value);
-    Value::Object units{{"_AREA_M2", Value(std::string(area_column.units))}};
+    Value::Object units{{"_AREA_M2", Value(std::string("m2"))}};
     for (std::size_t b = 0; b < data_.fields.light.size(); ++b) {
       for (const LightValues& column : data_.fields.light[b]) {
         units[attribute_of(data_.model.bands[b].name, ending(column.column))] = Value(std::string(light_units));

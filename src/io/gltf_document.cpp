@@ -24,7 +24,7 @@ using nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "glTF numbers are read as stored in memory");
 
 constexpr std::string_view write_again = "export the file again";
-// The limit for all buffers together: 2^28 positions and their indices.
+// Limits all buffers together to 2^28 positions and their indices.
 constexpr std::uint64_t most_buffer_bytes = std::uint64_t{8} << 30U;
 
 struct GlbChunks {
@@ -70,7 +70,7 @@ GlbChunks split_glb(const MeshSource& source) {
   return chunks;
 }
 
-// Sections to skip: they concern images and animation, and may be missing or broken. Buffers are read here.
+// These sections are skipped: they concern images and animation, and may be missing or broken. Buffers are read here.
 constexpr std::array<std::string_view, 6> left_out{"animations", "cameras", "images", "samplers", "skins", "textures"};
 
 // Returns the deepest nesting of lists and objects.

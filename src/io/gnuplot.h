@@ -10,7 +10,7 @@ namespace sunfleck {
 
 struct Gnuplot {
   std::string program = "gnuplot";  // searched in PATH unless it contains a slash
-  double limit_s = 60.0;            // a gnuplot process that runs longer is killed
+  double limit_s = 600.0;           // a gnuplot process that runs longer is killed
 };
 
 // Runs a script that writes one PNG to standard output, and saves that picture aside and renames it. No shell is involved, and

@@ -7,7 +7,7 @@
 
 namespace sunfleck {
 
-// Writes aside and renames. Throws Error (failure).
+// Writes the file aside and renames it. Throws Error (failure).
 void write_png(const Image& image, const std::filesystem::path& file);
 
 }  // namespace sunfleck

@@ -20,11 +20,11 @@ struct MeshSource {
   std::filesystem::path file;
   std::string_view bytes;             // not empty
   std::optional<std::string> optics;  // for triangles whose file names no material
-  bool allow_outside = false;         // whether the buffers of a glTF file may lie outside its folder
+  bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
   SourceFiles* files = nullptr;       // collects the buffers of a glTF file
 };
 
-// One reader per format. Coordinates are returned as in the file, neither turned nor scaled; a mesh may be empty.
+// There is one reader per format. Coordinates are returned as in the file, neither turned nor scaled; a mesh may be empty.
 [[nodiscard]] Mesh read_can(const MeshSource& source);
 [[nodiscard]] Mesh read_gltf(const MeshSource& source);  // also reads GLB
 [[nodiscard]] Mesh read_obj(const MeshSource& source);

@@ -2,13 +2,13 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "io/file.h"
 #include "io/mesh_formats.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -29,8 +29,7 @@ constexpr std::size_t longest_name = 200;
 constexpr std::size_t most_vertices = std::size_t{1} << 28;  // 6 GiB of positions
 
 MeshFormat format_of(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string name = lower_case(file.filename().string());
   constexpr std::pair<std::string_view, MeshFormat> endings[] = {
       {".can", MeshFormat::can}, {".can.gz", MeshFormat::can}, {".glb", MeshFormat::gltf}, {".gltf", MeshFormat::gltf},
       {".obj", MeshFormat::obj}, {".ply", MeshFormat::ply},    {".stl", MeshFormat::stl}};
@@ -217,7 +216,7 @@ std::optional<double> parse_number(std::string_view word) {
   double value = 0.0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-  // from_chars leaves the value unchanged both on underflow and on overflow; strtod tells them apart.
+  // from_chars leaves the value unchanged both on underflow and on overflow; strtod distinguishes them.
   if (code == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
   if (code == std::errc::invalid_argument || !std::isfinite(value)) return std::nullopt;
   return value;

@@ -16,7 +16,7 @@ struct MeshImport {
   std::optional<std::string> optics;  // for triangles whose file names no material
   std::optional<UpAxis> up;           // default: z for .can, otherwise y
   double scale = 1.0;                 // > 0
-  bool allow_outside = false;         // whether the buffers of a glTF file may lie outside its folder
+  bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
 };
 
 // Returns the triangles of the file in the scene's axes (a z-up file has x east, y north: X = -y, Y = z, Z = -x), scaled, with

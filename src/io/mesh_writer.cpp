@@ -2,15 +2,14 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "io/file.h"
 #include "io/gltf_parts.h"
 #include "io/mesh_text.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <map>
 #include <utility>
@@ -111,9 +110,7 @@ class GltfWriter {
 
 // Returns the ending in lower case.
 std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
+  return lower_case(file.extension().string());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "io/netcdf_file.h"
 
+#include "base/check.h"
 #include "base/error.h"
 #include "io/file.h"
 
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace sunfleck {
@@ -80,7 +82,7 @@ void NetcdfFile::check(int status, std::string_view what) {
   if (status == NC_NOERR) return;
   const int reason = errno;
   if (!std::exchange(broken_, true)) leave_before_libraries();
-  // Below netCDF, HDF5 reports only that a write failed; errno still holds the reason.
+  // HDF5, below netCDF, reports only that a write failed; errno still holds the reason.
   const bool of_disk = status == NC_EHDFERR && on_disk_ && reason_of_disk(reason);
   throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : nc_strerror(status),
                 of_disk ? write_cure(reason) : cure_);
@@ -111,6 +113,15 @@ int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimens
   return number;
 }
 
+template <class T>
+int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units,
+                         std::string_view meaning) {
+  const int number = variable<T>(name, dimensions);
+  attribute(number, "long_name", meaning);
+  if (!units.empty()) attribute(number, "units", units);
+  return number;
+}
+
 void NetcdfFile::attribute(int variable, const std::string& name, std::string_view text) {
   check(nc_put_att_text(file_, variable, name.c_str(), text.size(), text.data()), fmt::format("attribute {}", name));
 }
@@ -123,6 +134,37 @@ void NetcdfFile::attribute(int variable, const std::string& name, std::span<cons
 template <class T>
 void NetcdfFile::put(int variable, std::span<const T> values) {
   if (!values.empty()) check(put_all(file_, variable, values.data()), "its values cannot be written");
+}
+
+int NetcdfFile::variable(const Column& column, const std::vector<int>& dimensions) {
+  const auto define_as = [&]<class T>(T) { return variable<T>(column.name, dimensions, column.unit, column.meaning); };
+  if (std::holds_alternative<std::span<const double>>(column.values)) return define_as(double{});
+  if (std::holds_alternative<std::span<const std::int32_t>>(column.values)) return define_as(std::int32_t{});
+  return define_as(std::int64_t{});
+}
+
+void NetcdfFile::put(int variable, const Column& column) {
+  struct Put {
+    NetcdfFile& file;
+    int variable;
+    void operator()(std::span<const double> numbers) const { file.put(variable, numbers); }
+    void operator()(std::span<const std::int32_t> numbers) const { file.put(variable, numbers); }
+    void operator()(std::span<const std::uint32_t> numbers) const { put_wide({numbers.begin(), numbers.end()}); }
+    void operator()(const RowNumbers& numbers) const {
+      std::vector<std::int64_t> wide(numbers.count);
+      std::iota(wide.begin(), wide.end(), 0);
+      put_wide(wide);
+    }
+    void operator()(std::span<const std::string> texts) const { EXPECT(texts.size(), ==, std::size_t{0}); }
+    void put_wide(const std::vector<std::int64_t>& wide) const { file.put(variable, std::span(wide)); }
+  };
+  std::visit(Put{*this, variable}, column.values);
+}
+
+int NetcdfFile::add(const Column& column, const std::vector<int>& dimensions) {
+  const int number = variable(column, dimensions);
+  put(number, column);
+  return number;
 }
 
 void NetcdfFile::store_by_row(int variable, std::size_t row_length) {
@@ -170,6 +212,8 @@ template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::v
 template int NetcdfFile::variable<std::int64_t>(const std::string&, const std::vector<int>&);
 template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&);
 template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&);
+template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
+template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
 template void NetcdfFile::put(int, std::span<const std::int32_t>);
 template void NetcdfFile::put(int, std::span<const std::int64_t>);
 template void NetcdfFile::put(int, std::span<const float>);

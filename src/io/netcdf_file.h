@@ -2,6 +2,8 @@
 // A netCDF-4 file in memory or on disk, written by the C library. Dimensions and variables with their attributes come first,
 // then the values.
 
+#include "io/table.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -24,6 +26,12 @@ class NetcdfFile {
   int dimension(const std::string& name, std::size_t size);
   template <class T>  // std::int32_t, std::int64_t, float or double
   int variable(const std::string& name, const std::vector<int>& dimensions);
+  // Defines a variable with long_name and, unless they are empty, units.
+  template <class T>
+  int variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning);
+
+  // Defines a variable for a column of numbers; row numbers and unsigned numbers become std::int64_t.
+  int variable(const Column& column, const std::vector<int>& dimensions);
 
   // Lays out a variable of two dimensions for writing by put_row. A row is an index of the first dimension.
   void store_by_row(int variable, std::size_t row_length);
@@ -35,7 +43,18 @@ class NetcdfFile {
   // Writes all values, the last dimension fastest. The first put ends the definitions.
   template <class T>
   void put(int variable, std::span<const T> values);
+  void put(int variable, const Column& column);
   void put_row(int variable, std::size_t row, std::span<const float> values);
+
+  // Define a variable and write its values.
+  int add(const Column& column, const std::vector<int>& dimensions);
+  template <class T>
+  int add(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning,
+          const std::vector<T>& values) {
+    const int number = variable<T>(name, dimensions, units, meaning);
+    put(number, std::span<const T>(values));
+    return number;
+  }
 
   // Writes a variable of names, `name`(dimension, name_length), padded with zeros.
   void names(const std::string& name, int dimension, const std::vector<std::string>& values, std::string_view meaning);

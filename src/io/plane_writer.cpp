@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -18,23 +18,26 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string("unknown");
 }
 
-// Returns the lines before the column names.
-std::string head(const RunRecord& record, const PlaneResult& plane, const FleckSizes& sizes, const char* content,
-                 const char* units) {
-  std::string text = table_head(record,
-                                fmt::format("{} of the horizontal plane at {:.9g} m, {} x {} cells", content, plane.height_m,
-                                            plane.cells_x, plane.cells_z),
-                                units);
-  if (std::isnan(plane.sunfleck_ratio.value)) return text + "# no direct beam\n";
-  text += fmt::format("# sunfleck ratio {}, error {}; {:.9g} beam rays a cell without the canopy\n",
-                      number(plane.sunfleck_ratio.value), number(plane.sunfleck_ratio.half_width), sizes.rays_per_cell);
-  text += fmt::format("# flecks (joined cells with sunfleck >= 0.5): {}, together {:.9g} of the plane", sizes.areas_m2.size(),
-                      sizes.area_share);
-  if (!sizes.areas_m2.empty()) {
-    text += fmt::format("; median {:.9g} cm2, largest {:.9g} cm2", cm2_per_m2 * sizes.areas_m2[(sizes.areas_m2.size() - 1) / 2],
-                        cm2_per_m2 * sizes.areas_m2.back());
+// Returns a table without columns.
+Table empty_table(const PlaneResult& plane, const FleckSizes& sizes, const char* content, const char* units) {
+  Table table;
+  table.content = fmt::format("{} of the horizontal plane at {:.9g} m, {} x {} cells", content, plane.height_m, plane.cells_x,
+                              plane.cells_z);
+  table.units = units;
+  if (std::isnan(plane.sunfleck_ratio.value)) {
+    table.notes = {"no direct beam"};
+    return table;
   }
-  return text + '\n';
+  std::string flecks = fmt::format("flecks (joined cells with sunfleck >= 0.5): {}, together {:.9g} of the plane",
+                                   sizes.areas_m2.size(), sizes.area_share);
+  if (!sizes.areas_m2.empty()) {
+    flecks += fmt::format("; median {:.9g} cm2, largest {:.9g} cm2",
+                          cm2_per_m2 * sizes.areas_m2[(sizes.areas_m2.size() - 1) / 2], cm2_per_m2 * sizes.areas_m2.back());
+  }
+  table.notes = {fmt::format("sunfleck ratio {}, error {}; {:.9g} beam rays a cell without the canopy",
+                             number(plane.sunfleck_ratio.value), number(plane.sunfleck_ratio.half_width), sizes.rays_per_cell),
+                 flecks};
+  return table;
 }
 
 }  // namespace
@@ -75,47 +78,51 @@ std::vector<double> plane_sunfleck(const PlaneResult& plane) {
   return shares;
 }
 
-std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result, std::size_t plane) {
+Table plane_table(const RadiationModel& model, const RadiationResult& result, std::size_t plane) {
   EXPECT(plane, <, result.planes.size());
   const PlaneResult& from = result.planes[plane];
-  std::string text = head(record, from, fleck_sizes(from, model.plot), "Facula map",
-                          "x_m (south), z_m (west): m, centre of the cell; sunfleck: share of the cell that the direct beam "
-                          "reaches; direct, total: W m-2 downwards");
-  text += "x_m,z_m,sunfleck";
-  for (const Waveband& band : model.bands) text += fmt::format(",{0}_direct,{0}_total", band.name);
-  text += '\n';
-  std::vector<PlaneIrradiance> irradiance;
-  for (std::size_t b = 0; b < model.bands.size(); ++b) irradiance.push_back(plane_irradiance(model, result, plane, b));
-  const std::vector<double> sunfleck = plane_sunfleck(from);
-  for (std::size_t cell = 0; cell < std::size_t{from.cells_x} * from.cells_z; ++cell) {
-    const std::size_t x = cell % from.cells_x;
-    const std::size_t z = cell / from.cells_x;
-    fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g}",
-                   (static_cast<double>(x) + 0.5) / from.cells_x * model.plot.size_x_m,
-                   (static_cast<double>(z) + 0.5) / from.cells_z * model.plot.size_z_m);
-    append_number(text, sunfleck[cell]);
-    for (const PlaneIrradiance& band : irradiance) {
-      append_number(text, band.direct_w_m2[cell]);
-      append_number(text, band.total_w_m2[cell]);
-    }
-    text += '\n';
+  const std::vector<std::size_t> once, along_z{0}, along_x{1};
+  Table table = empty_table(from, fleck_sizes(from, model.plot), "Facula map",
+                            "x_m (south), z_m (west): m, centre of the cell; sunfleck: share of the cell that the direct beam "
+                            "reaches; direct, total: W m-2 downwards");
+  table.shape = {from.cells_z, from.cells_x};
+  const auto centre_m = [](std::size_t i, std::uint32_t cells, double size_m) {
+    return (static_cast<double>(i) + 0.5) / cells * size_m;
+  };
+  table.add({"height_m", "m", "height of the plane", in_arrays, once}, [&](std::size_t) { return from.height_m; });
+  table.add({"sunfleck_ratio", "1", "share of the plane that the direct beam reaches", in_arrays, once},
+            [&](std::size_t) { return from.sunfleck_ratio; });
+  table.add({"x_m", "m", "centre of the cell, towards the south", in_csv | in_arrays, along_x},
+            [&](std::size_t x) { return centre_m(x, from.cells_x, model.plot.size_x_m); });
+  table.add({"z_m", "m", "centre of the cell, towards the west", in_csv | in_arrays, along_z},
+            [&](std::size_t z) { return centre_m(z, from.cells_z, model.plot.size_z_m); });
+  table.add({"sunfleck", "1", "share of the cell that the direct beam reaches"}, plane_sunfleck(from));
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    PlaneIrradiance irradiance = plane_irradiance(model, result, plane, b);
+    table.add({model.bands[b].name + "_direct", "W m-2", "downward irradiance by the sun's beam"},
+              std::move(irradiance.direct_w_m2));
+    table.add({model.bands[b].name + "_total", "W m-2", "downward irradiance by all light"}, std::move(irradiance.total_w_m2));
   }
-  return text;
+  return table;
+}
+
+std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result, std::size_t plane) {
+  return csv_text(record, plane_table(model, result, plane));
 }
 
 std::string plane_flecks_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                              std::size_t plane) {
   EXPECT(plane, <, result.planes.size());
-  const PlaneResult& from = result.planes[plane];
-  const FleckSizes sizes = fleck_sizes(from, model.plot);
-  std::string text = head(record, from, sizes, "Sunflecks",
-                          "lower_cm2 <= area < upper_cm2: cm2; flecks: number; area_share: share of the plane's area");
-  text += "lower_cm2,upper_cm2,flecks,area_share\n";
-  for (const FleckClass& of : sizes.classes) {
-    fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g},{},{:.9g}\n", cm2_per_m2 * of.lower_m2, cm2_per_m2 * of.upper_m2,
-                   of.flecks, of.area_share);
-  }
-  return text;
+  const FleckSizes sizes = fleck_sizes(result.planes[plane], model.plot);
+  const std::vector<FleckClass>& of = sizes.classes;
+  Table table = empty_table(result.planes[plane], sizes, "Sunflecks",
+                            "lower_cm2 <= area < upper_cm2: cm2; flecks: number; area_share: share of the plane's area");
+  table.shape = {of.size()};
+  table.add({"lower_cm2", "cm2", "least area of the class"}, [&](std::size_t i) { return cm2_per_m2 * of[i].lower_m2; });
+  table.add({"upper_cm2", "cm2", "least area of the next class"}, [&](std::size_t i) { return cm2_per_m2 * of[i].upper_m2; });
+  table.add({"flecks", "1", "number of sunflecks"}, [&](std::size_t i) { return static_cast<std::uint32_t>(of[i].flecks); });
+  table.add({"area_share", "1", "share of the plane's area"}, [&](std::size_t i) { return of[i].area_share; });
+  return csv_text(record, table);
 }
 
 }  // namespace sunfleck

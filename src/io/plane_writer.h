@@ -2,6 +2,7 @@
 // Facula maps as tables: the light that comes down through a horizontal receiver, cell by cell, and the sizes of its sunflecks.
 
 #include "io/result_writer.h"
+#include "io/table.h"
 #include "transport/fleck_sizes.h"
 
 #include <cstddef>
@@ -23,12 +24,12 @@ struct PlaneIrradiance {
 // Returns the share of each cell that the direct beam reaches, [cell]; NaN for cells that no ray would cross.
 [[nodiscard]] std::vector<double> plane_sunfleck(const PlaneResult& plane);
 
-// Returns PLANE.csv: one row per cell, x fastest. x_m and z_m are the centre of the cell; sunfleck is empty for cells that no
-// ray would cross.
+// Returns the table of PLANE.csv: one row per cell, x fastest.
+[[nodiscard]] Table plane_table(const RadiationModel& model, const RadiationResult& result, std::size_t plane);
 [[nodiscard]] std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                     std::size_t plane);
 
-// Returns PLANE_flecks.csv: one row per area class.
+// Returns PLANE_flecks.csv: one row per area class of the sunflecks.
 [[nodiscard]] std::string plane_flecks_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                            std::size_t plane);
 

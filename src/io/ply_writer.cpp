@@ -8,7 +8,21 @@
 namespace sunfleck {
 namespace {
 
-std::string header_of(const ExportData& data, const char* coordinate) {
+struct TypeName {
+  const char* operator()(const RowNumbers&) const { return "uint"; }
+  const char* operator()(std::span<const std::uint32_t>) const { return "uint"; }
+  const char* operator()(std::span<const std::int32_t>) const { return "int"; }
+  const char* operator()(std::span<const double>) const { return "double"; }
+  const char* operator()(std::span<const std::string>) const { return ""; }
+};
+
+std::vector<Column> columns_of(const ElementFields& fields) {
+  std::vector<Column> columns = triangles_table(fields).columns;
+  std::erase_if(columns, [](const Column& column) { return !column.is_in(in_meshes); });
+  return columns;
+}
+
+std::string header_of(const ExportData& data, const std::vector<Column>& columns, const char* coordinate) {
   const ElementFields& fields = data.fields;
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   for (const RecordEntry& entry : record_entries(data.record, data.model)) {
@@ -21,23 +35,16 @@ std::string header_of(const ExportData& data, const char* coordinate) {
   for (std::size_t i = 0; i < fields.optics_names.size(); ++i) {
     text += fmt::format("comment optics {}: {}\n", i, clean_text(fields.optics_names[i]));
   }
-  text += fmt::format("comment x, y, z: m\ncomment {}: {}\n", area_column.name, area_column.units);
-  for (const std::vector<LightValues>& band : fields.light) {
-    for (const LightValues& column : band) {
-      text += fmt::format("comment {}: {}, {}\n", column.name, light_units, meaning(column.column));
-    }
+  text += "comment x, y, z: m\n";
+  for (const Column& column : columns) {
+    if (column.name == "area_m2") text += fmt::format("comment {}: {}\n", column.name, column.unit);
+    if (is_light(column)) text += fmt::format("comment {}: {}, {}\n", column.name, column.unit, column.meaning);
   }
   text += fmt::format("element vertex {}\n", 3 * fields.size());
   for (const char axis : {'x', 'y', 'z'}) text += fmt::format("property {} {}\n", coordinate, axis);
   if (!data.colours.empty()) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  for (const PlaceColumn& column : {triangle_column, plant_column}) text += fmt::format("property uint {}\n", column.name);
-  for (const PlaceColumn& column : {rank_column, organ_column, optics_column}) {
-    text += fmt::format("property int {}\n", column.name);
-  }
-  text += fmt::format("property double {}\n", area_column.name);
-  for (const std::vector<LightValues>& band : fields.light) {
-    for (const LightValues& column : band) text += fmt::format("property double {}\n", column.name);
-  }
+  for (const Column& column : columns)
+    text += fmt::format("property {} {}\n", std::visit(TypeName{}, column.values), column.name);
   return text + fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", fields.size());
 }
 
@@ -50,18 +57,18 @@ void append_corner(std::string& bytes, const ExportData& data, std::size_t eleme
   }
 }
 
-void append_values(std::string& bytes, const ExportData& data, std::size_t element) {
-  const ElementFields& fields = data.fields;
+struct AppendValue {
+  std::string& bytes;
+  std::size_t element;
+
+  void operator()(const RowNumbers&) const { append_bytes(bytes, static_cast<std::uint32_t>(element)); }
+  void operator()(std::span<const std::string>) const {}
+  void operator()(const auto& numbers) const { append_bytes(bytes, numbers[element]); }
+};
+
+void append_values(std::string& bytes, const ExportData& data, const std::vector<Column>& columns, std::size_t element) {
   if (!data.colours.empty()) append_bytes(bytes, data.colours[element].srgb);
-  append_bytes(bytes, static_cast<std::uint32_t>(element));
-  append_bytes(bytes, fields.plant[element]);
-  append_bytes(bytes, fields.rank[element]);
-  append_bytes(bytes, fields.organ[element]);
-  append_bytes(bytes, fields.optics[element]);
-  append_bytes(bytes, fields.area_m2[element]);
-  for (const std::vector<LightValues>& band : fields.light) {
-    for (const LightValues& column : band) append_bytes(bytes, column.values[element]);
-  }
+  for (const Column& column : columns) std::visit(AppendValue{bytes, element}, column.values);
 }
 
 }  // namespace
@@ -74,11 +81,12 @@ std::string ply_bytes(const ExportData& data) {
     throw_failure(fmt::format("canopy.ply: {} triangles", count),
                   fmt::format("its vertex numbers suffice for at most {}", most_triangles), "export vtp or nc");
   }
-  std::string bytes = header_of(data, corners_fit_float(data.model.canopy) ? "float" : "double");
+  const std::vector<Column> columns = columns_of(data.fields);
+  std::string bytes = header_of(data, columns, corners_fit_float(data.model.canopy) ? "float" : "double");
   std::string values;
   for (std::size_t e = 0; e < count; ++e) {
     values.clear();
-    append_values(values, data, e);
+    append_values(values, data, columns, e);
     for (std::size_t k = 0; k < 3; ++k) {
       append_corner(bytes, data, e, k);
       bytes += values;

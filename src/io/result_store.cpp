@@ -18,7 +18,7 @@ using nlohmann::json;
 constexpr const char* store_format = "sunfleck pictures";
 constexpr int store_version = 1;
 
-// Largest coordinate of a scene: a mesh of up to 1e7 m, turned and placed as far from zero.
+// Largest coordinate of a scene, such as a mesh of up to 1e7 m, turned and placed as far from zero.
 constexpr double farthest_m = 1e8;
 constexpr double most_patches = 64e6;
 constexpr std::size_t deepest = 6;  // nesting depth of lists and maps; a valid file has four levels
@@ -218,7 +218,7 @@ RadiationResult read_result(const json& from, const RadiationModel& model) {
   result.indirect.packets = whole<std::uint64_t>(from.at("packets"));
   if (from.contains("sky_rays")) result.indirect.sky_rays = whole<std::uint64_t>(from["sky_rays"]);
   result.indirect.relative_error = error_of(from, "indirect_error");
-  result.elements = unpack<ElementResult>(from.at("landings"), elements);
+  result.elements = unpack<BeamLandings>(from.at("landings"), elements);
   result.soil_cells = unpack<std::uint64_t>(from.at("cell_landings"), cells);
   const auto quanta = [&](const char* key, bool there, std::size_t places) {
     return unpack<std::int64_t>(from.at(key), there ? places * model.bands.size() : 0);

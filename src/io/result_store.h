@@ -28,7 +28,7 @@ struct StoredResult {
   bool complete = true;
 };
 
-// Writes aside and renames. Throws Error (failure).
+// Writes the file aside and renames it. Throws Error (failure).
 void write_result_store(const std::filesystem::path& file, const RunRecord& record, const Scene& scene,
                         const RadiationResult& result);
 

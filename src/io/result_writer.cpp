@@ -1,16 +1,15 @@
 #include "io/result_writer.h"
 
 #include "io/judged_figure.h"
+#include "io/result_tables.h"
+#include "io/summary_parts.h"
 #include "io/table_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <set>
 
 namespace sunfleck {
 namespace {
@@ -19,15 +18,6 @@ using nlohmann::ordered_json;
 
 double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
-}
-
-ordered_json number_or_null(double value) {
-  return std::isnan(value) ? ordered_json(nullptr) : ordered_json(value);
-}
-
-template <class T>
-ordered_json value_or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
 ordered_json band_json(const BandResult& band) {
@@ -113,14 +103,6 @@ ordered_json settings_json(const RunRecord& record) {
 ordered_json judged_json(const std::optional<JudgedFigure>& judged, const RadiationModel& model) {
   if (!judged) return nullptr;
   return figure_name(*judged, model);
-}
-
-std::size_t plant_count(const Canopy& canopy) {
-  std::set<std::uint32_t> plants;
-  for (const Organ& organ : canopy.organs) {
-    if (organ.plant > 0) plants.insert(organ.plant);
-  }
-  return plants.size();
 }
 
 const char* stop_name(StopReason stop) {
@@ -209,86 +191,19 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
 }
 
 std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  std::string text = table_head(
-      record, "Layers from the ground up, each with the horizontal plane at its lower edge; the last row is the top plane",
-      "height_m: m; down, up: W m-2 through the plane; absorbed: W m-2 of ground in the layer; others: shares; _error: "
-      "half-width of the confidence interval");
-  text += "height_m,leaf_area_index,sunfleck_ratio,sunfleck_ratio_error,sunlit_leaf_fraction,sunlit_leaf_fraction_error";
-  for (const Waveband& band : model.bands) {
-    text += fmt::format(",{0}_down,{0}_down_error,{0}_up,{0}_up_error,{0}_absorbed,{0}_absorbed_error", band.name);
-  }
-  text += '\n';
-  for (const LayerResult& layer : result.layers) {
-    std::string row = fmt::format("{:.9g}", layer.height_m);
-    const bool top_plane = layer.absorbed.empty();
-    append_number(row, top_plane ? std::numeric_limits<double>::quiet_NaN() : layer.leaf_area_index);
-    append_estimate(row, layer.sunfleck_ratio);
-    append_estimate(row, as_share(layer.sunlit_leaf_fraction));
-    for (std::size_t b = 0; b < model.bands.size(); ++b) {
-      append_estimate(row, layer.down[b]);
-      append_estimate(row, layer.up[b]);
-      append_estimate(row, top_plane ? Estimate{std::numeric_limits<double>::quiet_NaN()} : layer.absorbed[b]);
-    }
-    text += row + '\n';
-  }
-  return text;
+  return csv_text(record, layers_table(model, result));
 }
 
 std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  std::string text = table_head(record, "Organs, those of soil elements included; the ground of [soil] has no row",
-                                "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided "
-                                "area; _error: relative half-width of the confidence interval of absorbed; "
-                                "absorbed_umol_m2_s: the same in photons, umol m-2 s-1");
-  text += "plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error";
-  for (const Waveband& band : model.bands) {
-    text += fmt::format(",{0}_direct,{0}_indirect,{0}_absorbed,{0}_error", band.name);
-    if (band.umol_per_joule > 0.0) text += fmt::format(",{}_absorbed_umol_m2_s", band.name);
-  }
-  text += '\n';
-  for (std::size_t o = 0; o < model.canopy.organs.size(); ++o) {
-    const Organ& organ = model.canopy.organs[o];
-    const OrganResult& organ_result = result.organs[o];
-    std::string row = fmt::format("{},{},{}", organ.plant, csv_field(organ.name), organ.rank);
-    append_number(row, organ_result.area_m2);
-    append_estimate(row, as_share(organ_result.sunlit_fraction));
-    for (std::size_t b = 0; b < model.bands.size(); ++b) {
-      const Estimate& absorbed = organ_result.absorbed[b];
-      append_number(row, organ_result.direct[b].value);
-      append_number(row, organ_result.indirect[b].value);
-      append_number(row, absorbed.value);
-      append_number(row,
-                    absorbed.value > 0.0 ? absorbed.half_width / absorbed.value : std::numeric_limits<double>::quiet_NaN());
-      const double umol_per_joule = model.bands[b].umol_per_joule;
-      if (umol_per_joule > 0.0) append_number(row, absorbed.value * umol_per_joule);
-    }
-    text += row + '\n';
-  }
-  return text;
+  return csv_text(record, organs_table(model, result));
+}
+
+std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return csv_text(record, sensors_table(model, result));
 }
 
 std::string triangles_csv(const RunRecord& record, const ElementFields& fields) {
-  std::string text = table_head(record, "Triangles, in the order of the files",
-                                "area_m2: m2, one-sided; x, y, z: m, centroid after wrapping (X south, Y up, Z west); direct, "
-                                "sky (unscattered, a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, "
-                                "both faces; _error: half-width of the confidence interval of absorbed, empty below 20 hits");
-  std::vector<const LightValues*> columns;
-  for (const std::vector<LightValues>& band : fields.light) {
-    for (const LightValues& column : band) {
-      if (column.column != LightColumn::total) columns.push_back(&column);
-    }
-  }
-  text += "triangle,plant,organ,area_m2,x,y,z";
-  for (const LightValues* column : columns) text += ',' + column->name;
-  text += '\n';
-  for (std::size_t e = 0; e < fields.size(); ++e) {
-    const std::string organ = csv_field(fields.organ_names[static_cast<std::size_t>(fields.organ[e])]);
-    fmt::format_to(std::back_inserter(text), "{},{},{}", e, fields.plant[e], organ);
-    append_number(text, fields.area_m2[e]);
-    for (const std::vector<double>& axis : fields.centroid_m) append_number(text, axis[e]);
-    for (const LightValues* column : columns) append_number(text, column->values[e]);
-    text += '\n';
-  }
-  return text;
+  return csv_text(record, triangles_table(fields));
 }
 
 std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {

@@ -25,7 +25,7 @@ struct RunRecord {
   std::string scene_digest;
   std::uint64_t seed = 1;
   bool complete = true;                  // false if it was stopped before its work was done
-  bool pictures_interrupted = false;     // whether Ctrl-C stopped it while its pictures were drawn
+  bool pictures_interrupted = false;     // true if Ctrl-C stopped it while its pictures were drawn
   std::vector<std::string> not_written;  // files that could not be written
   Accuracy accuracy;
   std::optional<double> grid_m;  // this and the next four: user settings that fix or limit the work
@@ -45,11 +45,10 @@ struct RunRecord {
 [[nodiscard]] std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 
 // Return the tables as text. Numbers have nine significant digits. A cell is empty if there is no value: intervals from too few
-// replicates or hits, and shares of a missing beam. organs.csv has one row per organ of the canopy, in its order, including
-// soil elements of a mesh (organ soil; plant 0 in a .can). The ground of [soil] is not an organ and has no row; absorbed_soil
-// in the summary covers both.
+// replicates or hits, and shares of a missing beam. io/result_tables.h and io/element_fields.h describe rows and columns.
 [[nodiscard]] std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
+[[nodiscard]] std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const ElementFields& fields);
 

@@ -22,7 +22,7 @@ class RunStore {
   // differ, naming the first difference, or if the file is damaged.
   [[nodiscard]] std::optional<SolveState> read(const SolveState& blank) const;
 
-  // Writes aside and renames. Throws Error (failure).
+  // Writes the file aside and renames it. Throws Error (failure).
   void write(const SolveState& state) const;
 
   void remove() const;  // throws Error (failure)

@@ -3,12 +3,12 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "io/scene_parts.h"
+#include "light/years.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <glm/trigonometric.hpp>
 
 namespace sunfleck {
@@ -19,10 +19,6 @@ constexpr double largest_irradiance_w_m2 = 1e15;
 constexpr std::size_t most_bands = 1000;
 constexpr std::size_t longest_name = 64;
 constexpr double default_share = 0.5;  // share of PAR in solar radiation
-
-// Years (UTC) supported by sun_position.
-constexpr int first_year = 1900;
-constexpr int last_year = 2100;
 
 UtcTime to_utc(const OffsetTime& written) {
   using namespace std::chrono;

@@ -58,7 +58,7 @@ std::string centring_cure(const GeometryPart& part, const Extent& extent, const 
 void warn_of_overlap(const GeometryPart& part, const Plot& plot, std::vector<std::string>& warnings) {
   const double length_m = part.maize->per_row * part.maize->spacing_in_row_m;
   const double width_m = part.maize->rows * part.maize->spacing_between_rows_m;
-  // A stand that fills the plot may exceed its size by rounding.
+  // Rounding may make a stand that fills the plot exceed its size.
   if (length_m <= plot.size_x_m * (1.0 + 1e-9) && width_m <= plot.size_z_m * (1.0 + 1e-9)) return;
   warnings.push_back(
       fmt::format("{} makes a stand of {:.6g} x {:.6g} m, which overlaps itself when wrapped into the plot; "

@@ -242,7 +242,7 @@ void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
   const auto is_read_again = [&](const SourceFile& known) {
     return std::any_of(read.begin(), read.end(), [&](const SourceFile& file) { return file.path == known.path; });
   };
-  std::erase_if(other.files, is_read_again);  // a scene is often given new light from the same files
+  std::erase_if(other.files, is_read_again);  // a scene often gets new light from the same files
   other.files.insert(other.files.end(), read.begin(), read.end());
   other.model.canopy = std::move(scene.model.canopy);
   scene = std::move(other);

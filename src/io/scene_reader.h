@@ -54,7 +54,7 @@ struct SceneLight {
 struct Scene {
   std::string title;  // default: the stem of the file name
   std::filesystem::path file;
-  // All files it was read from, as in SourceFiles, preceded by the earlier content of `access.files`.
+  // All files that the scene was read from, as in SourceFiles, preceded by the earlier content of `access.files`.
   std::vector<SourceFile> files;
   // 16 hexadecimal digits: 64-bit FNV-1a over the text of the scene and the digests of all files it names, directly or
   // indirectly. The locations of the files do not matter.
@@ -72,7 +72,7 @@ struct Scene {
 enum class ScenePurpose { moment, day };
 
 struct SceneAccess {
-  bool allow_outside = false;  // whether files may lie outside the scene's folder
+  bool allow_outside = false;  // true if files may lie outside the scene's folder
   ScenePurpose purpose = ScenePurpose::moment;
   SourceFiles* files = nullptr;  // if set, collects every file that is tried, even if reading then fails
 };

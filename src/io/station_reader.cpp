@@ -1,7 +1,9 @@
 // Reads the CSV file of a weather station.
 
+#include "base/text.h"
 #include "io/mesh_formats.h"
 #include "io/weather_formats.h"
+#include "light/years.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +17,6 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t not_there = static_cast<std::size_t>(-1);
-constexpr int first_year = 1900, last_year = 2100;  // years for which the sun's position is known
 constexpr std::string_view time_cure = "write it as 2002-08-08T10:10:00+08:00";
 
 struct Columns {
@@ -62,8 +63,7 @@ class StationReader {
   void read_header() {
     columns_.count = cells_.size();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      std::string name(cells_[i]);
-      std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+      const std::string name = lower_case(cells_[i]);
       for (const auto& [known, column] :
            {std::pair{"time", &columns_.time}, {"ghi", &columns_.ghi}, {"dni", &columns_.dni}, {"dhi", &columns_.dhi}}) {
         if (name != known) continue;

@@ -165,7 +165,7 @@ std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& sto
                         {"indirect_error", error_json(stored.indirect_error)},
                         {"reached_bound", stored.reached_bound},
                         {"seconds", stored.seconds}};
-  // If no thread can be started, the file is written when the future is read.
+  // If no thread can be started, the file is written when the result of the future is requested.
   return std::async(std::launch::async | std::launch::deferred,
                     [file = file_of(step), bytes = sealed(step_mark, content)] { write_file(file, bytes); });
 }

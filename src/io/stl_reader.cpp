@@ -1,11 +1,12 @@
 #include "io/mesh_formats.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -36,12 +37,6 @@ bool has_facets(std::string_view bytes, std::uint32_t count) {
 
 bool is_binary_stl(std::string_view bytes) {
   return bytes.size() >= header_bytes && has_facets(bytes, declared_facets(bytes));
-}
-
-std::string lower_case(std::string_view word) {
-  std::string lower(word);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower;
 }
 
 class StlReader {

@@ -1,4 +1,4 @@
-// Compiles the implementation of a header-only library, in this file alone.
+// Compiles the implementation of a header-only library; only this file does so.
 
 // tinygltf needs this header but omits it if TINYGLTF_NO_FS is set.
 #include <fstream>

@@ -1,5 +1,6 @@
 #include "io/tradeoff_table.h"
 
+#include "io/summary_parts.h"
 #include "io/table_text.h"
 
 #include <fmt/format.h>
@@ -26,13 +27,10 @@ const char* light_name(Ladder ladder) {
   return names[static_cast<std::size_t>(ladder)];
 }
 
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json by_quantity(const std::array<double, 4>& values) {
   ordered_json json = ordered_json::object();
-  for (const Quantity quantity : quantities) json[quantity_name(quantity)] = number(values[static_cast<std::size_t>(quantity)]);
+  for (const Quantity quantity : quantities)
+    json[quantity_name(quantity)] = number_or_null(values[static_cast<std::size_t>(quantity)]);
   return json;
 }
 
@@ -67,23 +65,26 @@ std::string head(const TradeoffReport& report) {
 }
 
 ordered_json law_json(const PowerLaw& law) {
-  return {{"slope", number(law.exponent)}, {"standard_error", number(law.standard_error)}};
+  return {{"slope", number_or_null(law.exponent)}, {"standard_error", number_or_null(law.standard_error)}};
 }
 
 ordered_json recommendation_json(const Recommendation& recommendation) {
   return {{"asked_error", recommendation.asked_error},
           {"quantity", quantity_name(recommendation.quantity)},
           {"error", recommendation.bound},
-          {"seconds", number(recommendation.seconds)},
-          {"expected_error", number(recommendation.expected)},
-          {"margin", number(recommendation.margin)},
+          {"seconds", number_or_null(recommendation.seconds)},
+          {"expected_error", number_or_null(recommendation.expected)},
+          {"margin", number_or_null(recommendation.margin)},
           {"extrapolated", recommendation.extrapolated}};
 }
 
 ordered_json rung_json(const TradeoffRung& rung) {
-  return {
-      {"setting", setting_name(rung)},   {"light", light_name(rung.ladder)},        {"seeds", rung.runs.size()},
-      {"rays", number(mean_rays(rung))}, {"seconds", number(median_seconds(rung))}, {"true_error", by_quantity(rung.error)}};
+  return {{"setting", setting_name(rung)},
+          {"light", light_name(rung.ladder)},
+          {"seeds", rung.runs.size()},
+          {"rays", number_or_null(mean_rays(rung))},
+          {"seconds", number_or_null(median_seconds(rung))},
+          {"true_error", by_quantity(rung.error)}};
 }
 
 }  // namespace

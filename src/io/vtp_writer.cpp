@@ -1,3 +1,4 @@
+#include "base/check.h"
 #include "io/export_formats.h"
 
 #include <fmt/format.h>
@@ -64,13 +65,13 @@ class VtpWriter {
     add_cells();
     xml_ += "<Points>\n";
     if (corners_fit_float(data_.model.canopy)) {
-      add_array<float>({"corners", "m", ""}, 3, points<float>());
+      add_array<float>("corners", "m", 3, points<float>());
     } else {
-      add_array<double>({"corners", "m", ""}, 3, points<double>());
+      add_array<double>("corners", "m", 3, points<double>());
     }
     xml_ += "</Points>\n<Polys>\n";
-    add_array<std::int64_t>({"connectivity", "", ""}, 1, counted(3 * count, 0, 1));
-    add_array<std::int64_t>({"offsets", "", ""}, 1, counted(count, 3, 3));
+    add_array<std::int64_t>("connectivity", "", 1, counted(3 * count, 0, 1));
+    add_array<std::int64_t>("offsets", "", 1, counted(count, 3, 3));
     xml_ += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
     xml_ += appended_;
     xml_ += "\n</AppendedData>\n</VTKFile>\n";
@@ -90,35 +91,38 @@ class VtpWriter {
   }
 
   template <class T>
-  void add_array(const PlaceColumn& column, int components, std::span<const T> values) {
+  void add_array(std::string_view name, std::string_view unit, int components, std::span<const T> values) {
     xml_ += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"",
-                        type_name<T>, escaped(column.name), components, appended_.size());
-    if (*column.units == '\0') {
+                        type_name<T>, escaped(name), components, appended_.size());
+    if (unit.empty()) {
       xml_ += "/>\n";
     } else {
-      xml_ +=
-          fmt::format(">\n<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>\n</DataArray>\n",
-                      column.units);
+      xml_ += fmt::format(
+          ">\n<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>\n</DataArray>\n", unit);
     }
     append_bytes(appended_, static_cast<std::uint64_t>(values.size_bytes()));
     append_bytes(appended_, values);
   }
   template <class T>
-  void add_array(const PlaceColumn& column, int components, const std::vector<T>& values) {
-    add_array(column, components, std::span<const T>(values));
+  void add_array(std::string_view name, std::string_view unit, int components, const std::vector<T>& values) {
+    add_array(name, unit, components, std::span<const T>(values));
   }
 
+  struct AddCells {
+    VtpWriter& writer;
+    const Column& column;
+
+    void operator()(const RowNumbers& numbers) const {
+      writer.add_array(column.name, column.unit, 1, counted(numbers.count, 0, 1));
+    }
+    void operator()(std::span<const std::string> texts) const { EXPECT(texts.size(), ==, std::size_t{0}); }
+    void operator()(const auto& numbers) const { writer.add_array(column.name, column.unit, 1, numbers); }
+  };
+
   void add_cells() {
-    const ElementFields& fields = data_.fields;
     xml_ += "<CellData>\n";
-    add_array(triangle_column, 1, counted(fields.size(), 0, 1));
-    add_array(plant_column, 1, fields.plant);
-    add_array(rank_column, 1, fields.rank);
-    add_array(organ_column, 1, fields.organ);
-    add_array(optics_column, 1, fields.optics);
-    add_array(area_column, 1, fields.area_m2);
-    for (const std::vector<LightValues>& band : fields.light) {
-      for (const LightValues& column : band) add_array({column.name.c_str(), light_units, ""}, 1, column.values);
+    for (const Column& column : triangles_table(data_.fields).columns) {
+      if (column.is_in(in_meshes)) std::visit(AddCells{*this, column}, column.values);
     }
     xml_ += "</CellData>\n";
   }

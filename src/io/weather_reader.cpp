@@ -1,14 +1,12 @@
 #include "io/weather_reader.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/file.h"
 #include "io/mesh_formats.h"
 #include "io/weather_formats.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cctype>
 
 namespace sunfleck {
 
@@ -19,9 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // three years of minutes
 
 std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
+  return lower_case(file.extension().string());
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct WeatherFile {
 // missing (9999 and above) are kept as such and refused only when used.
 [[nodiscard]] WeatherFile read_weather(const std::filesystem::path& file, SourceFiles* files = nullptr);
 
-// Larger values are not an irradiance on earth but another unit (kJ, or a sum over the interval).
+// Larger values are not irradiance on earth but are in another unit (kJ, or a sum over the interval).
 inline constexpr double most_broadband_w_m2 = 3000.0;
 
 }  // namespace sunfleck

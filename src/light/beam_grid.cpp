@@ -48,7 +48,7 @@ BeamGrid isolated_beam_grid(glm::dvec3 lo_m, glm::dvec3 hi_m, glm::dvec3 to_sun,
     lo = glm::min(lo, in_beam);
     hi = glm::max(hi, in_beam);
   }
-  // Enlarged by 2^-16 of its size, so that rounding to single precision leaves nothing outside.
+  // The rectangle is enlarged by 2^-16 of its size, so that rounding to single precision leaves nothing outside.
   const double margin_m = std::ldexp(glm::length(hi - lo), -16);
   lo -= margin_m;
   hi += margin_m;

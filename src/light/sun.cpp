@@ -9,13 +9,13 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/units.h"
+#include "light/years.h"
 
 namespace sunfleck {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double seconds_per_day = 86400.0;
-constexpr int first_year = 1900, last_year = 2100;  // the range to which eraEpv00 was fitted
 
 // A Julian date in two parts, as ERFA expects it: midnight, and the fraction of the day.
 struct JulianDate {
@@ -96,7 +96,7 @@ Observed observed_sun(const UtcTime& time, const Place& place, std::optional<dou
   double heliocentric[2][3], barycentric[2][3];
   eraASTROM astrom = observe(universal, terrestrial, place, heliocentric, barycentric);
 
-  // Barycentric sun at the time when the light left it, seen from the observer, in astronomical units.
+  // Barycentric position of the sun at the time when the light left it, seen from the observer, in astronomical units.
   const double light_time_days = astrom.em * ERFA_AULT / seconds_per_day;
   double to_sun[3];
   for (int i = 0; i < 3; ++i) {

@@ -30,7 +30,8 @@ struct Search {
     return guess_s;
   }
 
-  // Finds where the height changes sign between a low and a high position, if it does. 2^-24 of half a day is 3 ms.
+  // Finds where the height changes sign between a low and a high position, if it does. The result is accurate to 2^-24 of half
+  // a day, which is 3 ms.
   [[nodiscard]] std::optional<UtcTime> crossing(double low_s, double high_s) const {
     if (height(low_s) >= 0.0 || height(high_s) < 0.0) return {};
     for (int step = 0; step < 24; ++step) {

@@ -1,11 +1,10 @@
 #include "pictures/fields.h"
 
 #include "base/check.h"
+#include "io/irradiance.h"
 #include "transport/surfaces.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace sunfleck {
 namespace {
@@ -14,19 +13,19 @@ Colour colour_of(const glm::dvec3& rgb) {
   return {rgb.r, rgb.g, rgb.b};
 }
 
-double irradiance(LightField field, double direct_w_m2, double sky_w_m2, double indirect_w_m2) {
+double shown(LightField field, const Irradiance& light) {
   switch (field) {
     case LightField::direct:
-      return direct_w_m2;
+      return light.direct_w_m2;
     case LightField::sky:
-      return sky_w_m2;
+      return light.sky_w_m2;
     case LightField::indirect:
-      return indirect_w_m2;
+      return light.indirect_w_m2;
     case LightField::scattered:
-      return std::max(0.0, indirect_w_m2 - sky_w_m2);  // the sky's part is larger only by rounding
+      return light.scattered_w_m2();
     case LightField::total:
     case LightField::absorbed:
-      return direct_w_m2 + indirect_w_m2;
+      return light.total_w_m2();
   }
   return 0.0;
 }
@@ -63,7 +62,6 @@ FieldValues field_values(const RadiationModel& model, const CounterLayout& layou
                          std::size_t band, LightField field) {
   EXPECT(result.elements.size(), ==, model.canopy.size());
   EXPECT(result.soil_cells.size(), ==, std::size_t{layout.cells()});
-  const double beam_w_m2 = model.bands[band].direct_w_m2;
   FieldValues values;
   values.w_m2.reserve(2 * model.canopy.size() + layout.cells());
   values.area_m2.reserve(values.w_m2.capacity());
@@ -73,15 +71,10 @@ FieldValues field_values(const RadiationModel& model, const CounterLayout& layou
   };
   for (std::size_t e = 0; e < model.canopy.size(); ++e) {
     const double area = area_m2(model.canopy.corners[e]);
-    const auto on_side = [&](std::size_t side, std::uint64_t landings) {
-      return irradiance(field, result.irradiance_w_m2(landings, area, beam_w_m2), result.side_sky_w_m2(side, area, band),
-                        result.side_indirect_w_m2(side, area, band));
-    };
-    const double upper = on_side(2 * e, result.elements[e].upper);
-    const double lower = on_side(2 * e + 1, result.elements[e].lower);
+    const double upper = shown(field, side_irradiance(model, result, 2 * e, area, band));
+    const double lower = shown(field, side_irradiance(model, result, 2 * e + 1, area, band));
     if (field == LightField::absorbed) {
-      const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
-      const double absorbed = upper * optics.upper[band].absorptance() + lower * optics.lower[band].absorptance();
+      const double absorbed = absorbed_w_m2(model.optics[model.canopy.optics_of[e]], upper, lower, band);
       add(absorbed, area);
       add(absorbed, area);
     } else {
@@ -91,9 +84,7 @@ FieldValues field_values(const RadiationModel& model, const CounterLayout& layou
   }
   const double cell_m2 = layout.cells() > 0 ? model.plot.area_m2() / layout.cells() : 0.0;
   for (std::size_t cell = 0; cell < layout.cells(); ++cell) {
-    const double incident =
-        irradiance(field, result.irradiance_w_m2(result.soil_cells[cell], cell_m2, beam_w_m2),
-                   result.cell_sky_w_m2(cell, cell_m2, band), result.cell_indirect_w_m2(cell, cell_m2, band));
+    const double incident = shown(field, cell_irradiance(model, result, cell, cell_m2, band));
     add(field == LightField::absorbed ? incident * (1.0 - model.soil->reflectance[band]) : incident, cell_m2);
   }
   return values;

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures that can be requested, and from where they are seen.
+// The pictures that can be requested, and the views from which they are drawn.
 
 #include <optional>
 #include <string>

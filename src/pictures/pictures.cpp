@@ -1,6 +1,7 @@
 #include "pictures/pictures.h"
 
 #include "base/error.h"
+#include "base/units.h"
 #include "io/file.h"
 #include "pictures/colouring.h"
 #include "pictures/fields.h"
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
-#include <numbers>
 #include <utility>
 
 namespace sunfleck {
@@ -24,7 +24,6 @@ namespace {
 constexpr double fisheye_height_m = 0.1;
 
 std::string subtitle_line(const RadiationModel& model, const RadiationResult& result) {
-  constexpr double degree = std::numbers::pi / 180.0;
   std::string line;
   if (model.has_beam()) {
     line = fmt::format("Sun at elevation {:.2f}°, azimuth {:.2f}°; ", model.sun->elevation_rad / degree,

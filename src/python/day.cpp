@@ -4,7 +4,7 @@
 #include "io/day_tables.h"
 #include "io/element_fields.h"
 #include "io/step_store.h"
-#include "io/table_text.h"
+#include "python/arrays.h"
 #include "python/columns.h"
 #include "python/long_work.h"
 #include "simulate/in_memory_day.h"
@@ -14,19 +14,15 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
+#include <variant>
 
 namespace sunfleck {
 namespace {
 
 namespace py = pybind11;
-
-constexpr double degree = std::numbers::pi / 180.0;
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 py::ssize_t signed_size(std::size_t size) {
   return static_cast<py::ssize_t>(size);
@@ -47,59 +43,24 @@ class Day {
     throw py::value_error(name + " (not a table of a day); use day.csv or organs_day.csv");
   }
 
-  // Returns the columns of day.csv, [step].
-  [[nodiscard]] py::dict steps() const {
-    const std::size_t rows = day_.lights.size();
-    const DayCourse& course = day_.plan.course;
-    Columns columns({signed_size(rows)});
-    py::list times;
-    for (std::size_t i = 0; i < rows; ++i) times.append(local_time_text(course.steps[i].start, course.offset_minutes));
-    columns.set("time", times);
-    columns.add_values("step_s", rows, [&](std::size_t i) { return course.steps[i].length_s; });
-    columns.add_values("elevation_deg", rows, [&](std::size_t i) { return course.steps[i].sun.elevation_rad / degree; });
-    columns.add_values("azimuth_deg", rows, [&](std::size_t i) { return course.steps[i].sun.azimuth_rad / degree; });
-    for (std::size_t b = 0; b < day_.scene.model.bands.size(); ++b) {
-      const std::string& band = day_.scene.model.bands[b].name;
-      const auto add = [&](const char* name, const auto part) {
-        columns.add_estimates(band + name, rows, [&](std::size_t i) { return day_.lights[i].bands[b].*part; });
-      };
-      add("_incident", &StepBand::incident);
-      add("_absorbed_vegetation", &StepBand::absorbed_vegetation);
-      add("_absorbed_soil", &StepBand::absorbed_soil);
-      add("_reflected", &StepBand::reflected);
-    }
-    columns.add_estimates("sunlit_leaf_fraction", rows,
-                          [&](std::size_t i) { return as_share(day_.lights[i].sunlit_leaf_fraction); });
-    return columns.take();
+  [[nodiscard]] py::dict describe(const std::string& name) const {
+    if (name == "day.csv") return descriptions_of(steps_table());
+    if (name == "organs_day.csv") return descriptions_of(organs_table());
+    throw py::value_error(name + " (not a table of a day); use day.csv or organs_day.csv");
   }
 
-  // Returns what organs absorbed, [date, organ], as the columns of organs_day.csv; dates without a step are left out.
+  // Returns the columns of day.csv, [step].
+  [[nodiscard]] py::dict steps() const { return columns_of(steps_table()); }
+
+  // Returns what organs absorbed, [date, organ], as the columns of organs_day.csv, lists first; dates without a step are left
+  // out.
   [[nodiscard]] py::dict organs() const {
-    const RadiationModel& model = day_.scene.model;
-    const std::vector<Organ>& organs = model.canopy.organs;
-    const std::size_t bands = model.bands.size();
-    const std::vector<DateSums> sums = sum_dates(model, day_.plan.course, day_.lights);
-    std::vector<std::size_t> dates;
-    for (std::size_t d = 0; d < sums.size(); ++d)
-      if (sums[d].steps > 0) dates.push_back(d);
-    Columns columns({signed_size(dates.size()), signed_size(organs.size())});
-    add_organ_names(columns, dates);
-    const std::size_t cells = dates.size() * organs.size();
-    for (std::size_t b = 0; b < bands; ++b) {
-      const auto joules = [&](std::size_t cell) -> const Estimate& {
-        return sums[dates[cell / organs.size()]].organ_absorbed[(cell % organs.size()) * bands + b];
-      };
-      const std::string& band = model.bands[b].name;
-      columns.add_values(band + "_absorbed_mj_m2", cells, [&](std::size_t cell) { return joules(cell).value * 1e-6; });
-      columns.add_values(band + "_error", cells, [&](std::size_t cell) {
-        return joules(cell).value > 0.0 ? joules(cell).half_width / joules(cell).value : no_value;
-      });
-      const double umol_per_joule = model.bands[b].umol_per_joule;
-      if (!(umol_per_joule > 0.0)) continue;
-      columns.add_values(band + "_absorbed_mol_m2", cells,
-                         [&](std::size_t cell) { return joules(cell).value * umol_per_joule * 1e-6; });
-    }
-    return columns.take();
+    Table table = organs_table();
+    const auto is_text = [](const Column& column) {
+      return std::holds_alternative<std::span<const std::string>>(column.values);
+    };
+    std::stable_partition(table.columns.begin(), table.columns.end(), is_text);
+    return columns_of(table);
   }
 
   // Returns the variables of day.nc, [step, triangle], in single precision; those of a night are zero.
@@ -107,7 +68,7 @@ class Day {
     const RadiationModel& model = day_.scene.model;
     const std::vector<LightColumn> kinds = day_columns(model);
     const std::size_t elements = model.canopy.size();
-    Columns columns({signed_size(day_.fields.size()), signed_size(elements)});
+    py::dict columns;
     for (std::size_t b = 0; b < model.bands.size(); ++b) {
       for (std::size_t k = 0; k < kinds.size(); ++k) {
         std::vector<float> values(day_.fields.size() * elements, 0.0F);
@@ -116,31 +77,16 @@ class Day {
           const auto begin = day_.fields[i].begin() + signed_size((b * kinds.size() + k) * elements);
           std::copy(begin, begin + signed_size(elements), values.begin() + signed_size(i * elements));
         }
-        columns.add(fmt::format("{}_{}", model.bands[b].name, ending(kinds[k])), std::move(values));
+        columns[fmt::format("{}_{}", model.bands[b].name, ending(kinds[k])).c_str()] =
+            array_of(std::move(values), {signed_size(day_.fields.size()), signed_size(elements)});
       }
     }
-    return columns.take();
+    return columns;
   }
 
  private:
-  void add_organ_names(Columns& columns, const std::vector<std::size_t>& dates) const {
-    const Canopy& canopy = day_.scene.model.canopy;
-    py::list date_names;
-    for (const std::size_t date : dates) date_names.append(day_.plan.course.dates[date]);
-    columns.set("date", date_names);
-    py::list names;
-    std::vector<std::uint32_t> plants;
-    std::vector<int> ranks;
-    for (const Organ& organ : canopy.organs) {
-      names.append(organ.name);
-      plants.push_back(organ.plant);
-      ranks.push_back(organ.rank);
-    }
-    columns.set("organ", names);
-    columns.set("plant", array_of(std::move(plants)));
-    columns.set("rank", array_of(std::move(ranks)));
-    columns.set("area_m2", array_of(organ_areas_m2(canopy)));
-  }
+  [[nodiscard]] Table steps_table() const { return sunfleck::steps_table(day_.scene.model, day_.plan.course, day_.lights); }
+  [[nodiscard]] Table organs_table() const { return organs_day_table(day_.scene.model, day_.plan.course, day_.lights); }
 
   InMemoryDay day_;
 };
@@ -172,6 +118,7 @@ void bind_day(py::module_& module) {
       .def_property_readonly("warnings", &Day::warnings)
       .def("summary", &Day::summary)
       .def("table", &Day::table)
+      .def("describe", &Day::describe)
       .def("steps", &Day::steps)
       .def("organs", &Day::organs)
       .def("triangles", &Day::triangles);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/units.h"
 #include "io/scene_reader.h"
 #include "light/sky.h"
 #include "light/sun.h"
@@ -9,8 +10,6 @@
 
 #include <pybind11/numpy.h>
 
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,8 +18,6 @@ namespace sunfleck {
 namespace {
 
 namespace py = pybind11;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // Converts seconds since 1970-01-01 UTC to elevation and azimuth in degrees.
 std::pair<double, double> sun_position_deg(double unix_s, double latitude_deg, double longitude_deg, double altitude_m) {

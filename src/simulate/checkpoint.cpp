@@ -7,6 +7,8 @@
 #include "io/file.h"
 #include "io/result_writer.h"
 #include "io/sealed_file.h"
+#include "io/summary_parts.h"
+#include "simulate/result_folder.h"
 
 #include <fmt/format.h>
 
@@ -20,14 +22,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr const char* summary_file = "summary.json";
 constexpr int pauses_per_write = 50;  // limits writing the state to 1/50 of the time
 constexpr std::chrono::milliseconds shortest_pause{500};
-
-template <class T>
-ordered_json value_or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
 
 // Returns everything on which the bytes of the tables depend, as in summary.json.
 ordered_json run_settings(const Scene& scene, const SolveSettings& settings) {

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
+#include "io/summary_parts.h"
 #include "simulate/ranks.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using nlohmann::ordered_json;
 
 // next_work sizes replicates so that sixteen of them reach 0.7 of the bounds and a run rarely fails its checks: half of its
 // work is spare. With fewer packets in each replicate, a step makes as many replicates as it needs, and the spare work is only
-// that between two checks. Rays cost little beside packets, and a beam that lags behind would cost all packets of more
+// that between two checks. Rays cost little compared with packets, and a beam that lags behind would cost all packets of more
 // replicates.
 constexpr double share_of_next_packets = 0.4;
 // The sun may have moved to where much more work is needed, for example when the first beams reach the ground. If the error is
@@ -26,11 +27,6 @@ constexpr double share_of_next_packets = 0.4;
 // replicates instead of about 20.
 constexpr int judged_replicates = 12;
 constexpr double most_bounds = 2.5;
-
-template <class T>
-ordered_json value_or_null(const std::optional<T>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
 
 class DayRun {
  public:

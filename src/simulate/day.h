@@ -39,7 +39,7 @@ struct SimulatedDay {
 // of making replicates smaller, so that its bytes do not depend on the clock.
 [[nodiscard]] SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads);
 
-// Returns everything that the bytes of a finished step depend on.
+// Returns everything on which the bytes of a finished step depend.
 [[nodiscard]] nlohmann::ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings,
                                                   const DayPlan& plan);
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "light/sun_events.h"
+#include "light/years.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +23,6 @@ using std::chrono::year_month_day;
 constexpr int minutes_per_hour = 60;
 constexpr int minutes_per_day = 1440;
 constexpr double seconds_per_minute = 60.0;
-// Range of years in which the sun's position is known.
-constexpr int first_year = 1900, last_year = 2100;
 
 // Returns the number made of exactly this many digits; -1 for any other text.
 int number_of(std::string_view text, std::size_t digits) {

@@ -30,7 +30,7 @@ double sum_bytes(const RadiationModel& model, const CounterLayout& layout, const
   constexpr double numbering = 3.0 * sizeof(std::uint32_t);
   const auto elements = static_cast<double>(model.canopy.size());
   const auto bands = static_cast<double>(model.bands.size());
-  double bytes = elements * numbering + tallies * (elements * sizeof(ElementResult) + layout.cells() * sizeof(std::uint64_t));
+  double bytes = elements * numbering + tallies * (elements * sizeof(BeamLandings) + layout.cells() * sizeof(std::uint64_t));
   if (scatters(model) || model.has_sky()) {
     const double places = (2.0 * elements + layout.cells()) * bands * (model.has_sky() ? 2.0 : 1.0);
     bytes += tallies * places * sizeof(std::int64_t);

@@ -5,7 +5,7 @@
 #include "base/version.h"
 #include "cluster/rank_worker.h"
 #include "simulate/interrupt.h"
-#include "transport/replicate.h"
+#include "transport/replicate_maker.h"
 
 #include <fmt/format.h>
 
@@ -29,25 +29,25 @@ class ReplicateBench {
       : maker_(simulation.model(), simulation.layout(), simulation.tracing().engine.tracer()) {}
 
   std::optional<Replicate> make(const ReplicateOrder& order, const StopQuestion& stop) {
-    const std::shared_ptr<const Tally> tally = tally_of(order);
-    return maker_.make(order, *tally, stop);
+    const std::shared_ptr<const Conversion> conversion = conversion_of(order);
+    return maker_.make(order, *conversion, stop);
   }
 
  private:
-  // Returns the tally of the last order if it fits this one, which is nearly always the case.
-  std::shared_ptr<const Tally> tally_of(const ReplicateOrder& order) {
+  // Returns the conversion of the last order if it fits this one, which is nearly always the case.
+  std::shared_ptr<const Conversion> conversion_of(const ReplicateOrder& order) {
     const std::lock_guard lock(mutex_);
-    if (!tally_ || order.beam_rays != beam_rays_) {
+    if (!conversion_ || order.beam_rays != beam_rays_) {
       beam_rays_ = order.beam_rays;
-      tally_ = std::make_shared<const Tally>(maker_.tally(maker_.incidence(beam_rays_), ElementErrors::skip));
+      conversion_ = std::make_shared<const Conversion>(maker_.conversion(maker_.incidence(beam_rays_)));
     }
-    return tally_;
+    return conversion_;
   }
 
   ReplicateMaker maker_;
   std::mutex mutex_;
   double beam_rays_ = 0.0;
-  std::shared_ptr<const Tally> tally_;
+  std::shared_ptr<const Conversion> conversion_;
 };
 
 }  // namespace

@@ -5,14 +5,11 @@
 #include "base/stopwatch.h"
 #include "io/exports.h"
 #include "io/file.h"
-#include "io/gnuplot.h"
 #include "io/image_writer.h"
-#include "io/plane_plot.h"
 #include "io/plane_writer.h"
-#include "io/profile_plot.h"
+#include "io/plots.h"
 #include "io/result_store.h"
 #include "io/run_store.h"
-#include "io/sensor_writer.h"
 #include "io/step_store.h"
 #include "pictures/colouring.h"
 #include "pictures/fields.h"
@@ -111,14 +108,14 @@ void write_tables(const std::filesystem::path& folder, const RunRecord& record, 
   }
 }
 
-// Draws plots until gnuplot fails; reports that failure and then tries no other plot.
+// Draws plots until gnuplot fails; reports that failure and tries no further plots.
 class Plots {
  public:
   Plots(const std::filesystem::path& folder, UnwrittenFiles& unwritten) : folder_(folder), unwritten_(unwritten) {}
-  void draw(const std::string& script, const std::string& file) {
+  void draw(const char* script, const PlotVariables& variables, const std::string& file) {
     if (given_up_) return;
     std::optional<std::string> problem;
-    unwritten_.attempt(file, [&] { problem = draw_plot(script, folder_ / file); });
+    unwritten_.attempt(file, [&] { problem = draw_table(script, variables, folder_ / file); });
     if (problem) warn(*problem);
     given_up_ = problem.has_value();
   }
@@ -129,24 +126,56 @@ class Plots {
   bool given_up_ = false;
 };
 
+PlotVariables profile_variables(const std::filesystem::path& folder, const ResultRequest& request, const std::string& title,
+                                const std::string& band, const ProfileOverlays& overlays, const std::string& agreement) {
+  std::vector<std::filesystem::path> tables{folder / profile_file};
+  for (const std::filesystem::path& other : request.compare) tables.push_back(other / profile_file);
+  std::vector<std::string> titles{title};
+  for (const ProfileTable& other : overlays.results) titles.push_back(other.title);
+  PlotVariables variables;
+  variables.set_files("tables", tables);
+  variables.set_texts("titles", titles);
+  variables.set_text("band", band);
+  if (!overlays.measured) return variables;
+  std::vector<std::vector<double>> points;
+  for (const MeasuredRatio& point : overlays.measured->points) points.push_back({point.sunfleck_ratio, point.height_m});
+  variables.set_text("measured", overlays.measured->name);
+  variables.set_table("measured", "sunfleck_ratio,height_m", points);
+  variables.set_text("agreement", agreement);
+  return variables;
+}
+
+PlotVariables plane_variables(const std::filesystem::path& folder, const std::string& title, const RadiationModel& model,
+                              const std::string& stem, const Waveband& band) {
+  PlotVariables variables;
+  variables.set_file("table", folder / (stem + ".csv"));
+  if (model.has_beam()) variables.set_file("flecks", folder / (stem + "_flecks.csv"));
+  variables.set_text("title", title);
+  variables.set_text("band", band.name);
+  variables.set("beam", band.direct_w_m2);
+  return variables;
+}
+
+// Draws the plots of the tables that write_tables has written.
 void write_plots(const std::filesystem::path& folder, const ResultRequest& request, const RunRecord& record,
                  const Drawing& drawing, const ProfileOverlays& overlays, UnwrittenFiles& unwritten) {
   const RadiationModel& model = drawing.scene.model;
   const RadiationResult& result = drawing.result;
-  const std::size_t band = picture_band(model, request.pictures.band);
-  const ProfileTable own = profile_table(record.title, record.accuracy.confidence, model, result);
+  const Waveband& band = model.bands[picture_band(model, request.pictures.band)];
+  std::string figures;
   if (overlays.measured && model.has_beam()) {
-    say(agreement_line(overlays.measured->name, agreement(own, *overlays.measured)));
+    const ProfileTable own = profile_table(record.title, record.accuracy.confidence, model, result);
+    const Agreement found = agreement(own, *overlays.measured);
+    say(agreement_line(overlays.measured->name, found));
+    figures = agreement_figures(found);
   }
   Plots plots(folder, unwritten);
-  if (asks_for(request, "all") || asks_for(request, "profile")) {
-    std::vector<ProfileCurve> curves{{record.title, own}};
-    for (const ProfileTable& other : overlays.results) curves.push_back({other.title, other});
-    plots.draw(profile_plot(record.title, curves, model.bands[band].name, overlays.measured), profile_plot_file);
-  }
+  if (asks_for(request, "all") || asks_for(request, "profile"))
+    plots.draw("profile.gp", profile_variables(folder, request, record.title, band.name, overlays, figures), profile_plot_file);
   if (!asks_for(request, "all") && !asks_for(request, "planes")) return;
   for (std::size_t plane = 0; plane < result.planes.size() && !interrupted(); ++plane) {
-    plots.draw(plane_plot(record.title, model, result, plane, band), plane_stem(result.planes[plane].height_m) + ".png");
+    const std::string stem = plane_stem(result.planes[plane].height_m);
+    plots.draw("plane.gp", plane_variables(folder, record.title, model, stem, band), stem + ".png");
   }
 }
 

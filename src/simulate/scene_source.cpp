@@ -68,7 +68,7 @@ Scene load_scene(const SceneRequest& request, ScenePurpose purpose, SourceFiles*
   if (files == nullptr) files = &own;
   const CaribuScene made =
       caribu_scene(set, {name_from(folder, scene).generic_string(), name_from(folder, stand.light).generic_string()}, files);
-  // The user named every file; a .can refers to no others.
+  // The user named every file; a .can refers to no other files.
   return read_scene(SceneText{scene, made.text, {}},
                     {.allow_outside = request.allow_outside || is_can_file(scene), .files = files});
 }

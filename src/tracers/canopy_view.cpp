@@ -152,7 +152,7 @@ shared::SeenSurface see_sample(const Bvh& bvh, const std::vector<shared::ViewBlo
   return kept;
 }
 
-// Common base of both viewers.
+// Base class of both viewers.
 class LookingViewer : public CanopyViewer {
  protected:
   LookingViewer(const Bvh& bvh, CanopyLook look) : bvh_(bvh) { take(std::move(look)); }
@@ -253,7 +253,7 @@ class GpuViewer final : public LookingViewer {
   }
 
  private:
-  // Keeps the buffers of an earlier look that are large enough.
+  // Reuses the buffers of an earlier look that are large enough.
   void prepare() {
     slice_ = samples_per_slice();
     blocks_ = upload_storage(context_, std::span<const shared::ViewBlock>(views()), "the cameras");

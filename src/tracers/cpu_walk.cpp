@@ -19,11 +19,11 @@
 namespace sunfleck {
 namespace {
 
-// One lane per child slot.
+// Vector with one lane per child slot.
 using UInt8 [[gnu::vector_size(32)]] = std::uint32_t;
 using Int8 [[gnu::vector_size(32)]] = std::int32_t;
 using Float8 [[gnu::vector_size(32)]] = float;
-// One lane per corner.
+// Vector with one lane per corner.
 using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 using Long2 [[gnu::vector_size(16)]] = std::int64_t;
 using Float4 [[gnu::vector_size(16)]] = float;

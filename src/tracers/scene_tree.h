@@ -15,7 +15,7 @@ struct SceneTree {
   Bvh bvh;
 };
 
-// Returns what a tracer must know of a scene beside its tree.
+// Returns what a tracer must know of a scene besides its tree.
 [[nodiscard]] CpuTracer::Scene traced_scene(const RadiationModel& model);
 
 }  // namespace sunfleck

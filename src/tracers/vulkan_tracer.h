@@ -32,7 +32,7 @@ class VulkanTracer final : public Tracer {
 
  private:
   void dispatch(const shared::BeamPush& push);
-  // Adds the counts of the device.
+  // Adds the counts of the device to the counters.
   void add_landings(std::span<std::uint32_t> counters) const;
   // Returns the number of rays that paused in the last dispatch.
   [[nodiscard]] std::uint32_t paused_count() const;

@@ -5,12 +5,12 @@ namespace sunfleck {
 
 enum class ErrorTarget { canopy, organ, triangle };
 
-// Selects the elements whose spread between replicates is recorded as well as that of bands, organs and layers; this costs
+// Selects the elements whose spread between replicates is recorded in addition to that of bands, organs and layers; this costs
 // memory and time.
 enum class ElementErrors {
   skip,
   keep,        // of the flux that each element absorbs
-  keep_sides,  // and of the flux incident on each of its sides
+  keep_sides,  // and also of the flux incident on each of its sides
 };
 
 // Relative half-widths of the confidence intervals, and the figures to which they apply.

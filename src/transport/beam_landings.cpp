@@ -1,7 +1,6 @@
 #include "transport/beam_landings.h"
 
 #include "shared/beam.h"
-#include "transport/indirect.h"
 
 #include <algorithm>
 
@@ -59,16 +58,17 @@ TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayou
       if (!left) ++counters[counter_word(model, layout, beam, landing)];
       if (left) ++counters[met ? shared::counter_transmitted : shared::counter_missed];
       if (!model.plot.periodic && met) ++counters[shared::counter_met];
-      const std::int32_t zone = planes.zone_of(landing);
+      const std::size_t zone = planes.zone_of(landing);
       if (!left && landing.surface != shared::landed_on_ground) {
         const std::size_t optics = model.canopy.optics_of[landing.surface / 2];
-        ++sums.zone_landings[(static_cast<std::size_t>(zone) * model.optics.size() + optics) * 2 + landing.surface % 2];
+        BeamLandings& in_zone = sums.zone_landings[zone * model.optics.size() + optics];
+        ++(landing.surface % 2 == 0 ? in_zone.upper : in_zone.lower);
       }
       for (std::size_t p = 0; p < planes.size(); ++p) {
         const std::size_t cell = planes.cell_at(p, sent[k].origin, sent[k].direction);
         if (cell == PlaneReceivers::no_cell) continue;
         ++sums.crossing[cell];
-        if (static_cast<std::int32_t>(p) >= zone) ++sums.reached[cell];
+        if (p >= zone) ++sums.reached[cell];
       }
     }
   }

@@ -70,6 +70,7 @@ struct Draw {
 // that its expectation is right; a part whose coefficient is 0 gets exactly 0. `u` is uniform over [0, 1).
 struct QuantaSplit {
   std::int64_t absorbed = 0, reflected = 0, transmitted = 0;
+  [[nodiscard]] std::int64_t scattered() const { return reflected + transmitted; }
 };
 [[nodiscard]] QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmittance, double u);
 

@@ -102,6 +102,15 @@ shared::GroundMap make_ground_map(const CounterLayout& layout) {
   return ground;
 }
 
+shared::PacketBlock make_packet_block(const RadiationModel& model, const CounterLayout& layout) {
+  shared::PacketBlock scene;
+  scene.period = model.canopy.period_m;
+  scene.overlap = 0.5F * border_margin_m(model.canopy);
+  scene.ground = make_ground_map(layout);
+  scene.top_y = static_cast<float>(layout.box.above_m());
+  return scene;
+}
+
 void number_counters(const CounterLayout& layout, const Canopy& canopy, Bvh& bvh) {
   for (BvhTriangle& triangle : bvh.triangles) {
     const std::uint32_t first_word = layout.first_bin_word + 2 * layout.first_bin[triangle.element];

@@ -46,6 +46,9 @@ struct CounterLayout {
 // Returns the ground in the form that tracers take.
 [[nodiscard]] shared::GroundMap make_ground_map(const CounterLayout& layout);
 
+// Returns the scene in the form that tracers take for packets.
+[[nodiscard]] shared::PacketBlock make_packet_block(const RadiationModel& model, const CounterLayout& layout);
+
 // Returns the layer that holds a height (local frame); heights outside all layers count in the nearest one.
 [[nodiscard]] std::uint32_t layer_at(const Layers& layers, float y_m);
 

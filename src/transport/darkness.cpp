@@ -2,11 +2,10 @@
 
 #include "transport/band_quanta.h"
 #include "transport/planes.h"
+#include "transport/run_sums.h"
 #include "transport/surfaces.h"
-#include "transport/tally.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -31,10 +30,13 @@ RadiationResult dark_result(const RadiationModel& model, const CounterLayout& la
   const Surfaces surfaces(model);
   std::optional<PlaneReceivers> receivers;
   if (!model.planes.empty()) receivers.emplace(model, layout, surfaces);
-  Tally tally(model, layout, surfaces, receivers ? &*receivers : nullptr, {}, settings.element_errors);
-  const std::vector<std::uint32_t> nothing(layout.words());
-  for (int k = 0; k < replicates; ++k) tally.add(nothing, tally.sum(nothing), {}, nullptr);
-  RadiationResult result = tally.result(settings.accuracy.confidence);
+  const Conversion conversion(model, layout, surfaces, receivers ? &*receivers : nullptr, {});
+  RunSums sums(conversion, settings.element_errors);
+  Replicate nothing;
+  nothing.counters.resize(layout.words());
+  nothing.direct = conversion.sum(nothing.counters);
+  for (int k = 0; k < replicates; ++k) sums.add(nothing);
+  RadiationResult result = result_of(sums, settings.accuracy.confidence);
   result.stop = StopReason::bound_reached;
   result.direct.relative_error = 0.0;
   if (!settings.grid_m && !settings.passes) result.direct.bound = settings.accuracy.direct;

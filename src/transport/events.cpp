@@ -47,20 +47,4 @@ LightEvents make_light_events(const RadiationModel& model, const std::vector<Ban
   return events;
 }
 
-std::vector<double> largest_absorptances(const RadiationModel& model) {
-  std::vector<double> largest;
-  for (const SurfaceOptics& optics : model.optics) {
-    for (std::size_t b = 0; b < model.bands.size(); ++b) {
-      largest.push_back(std::max(optics.upper[b].absorptance(), optics.lower[b].absorptance()));
-    }
-  }
-  return largest;
-}
-
-std::vector<double> soil_absorptances(const RadiationModel& model) {
-  std::vector<double> absorptances(model.bands.size());
-  for (std::size_t b = 0; model.soil && b < absorptances.size(); ++b) absorptances[b] = 1.0 - model.soil->reflectance[b];
-  return absorptances;
-}
-
 }  // namespace sunfleck

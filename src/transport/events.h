@@ -1,6 +1,6 @@
 #pragma once
 // The light of a single ray or packet. Where all replicates agree (no ray met a surface, or every ray did), their spread is
-// zero and gives no interval; the interval then follows from how much a few more or fewer events would have changed.
+// zero and gives no interval; the interval then follows from how much a few more or fewer events would have changed the figure.
 
 #include "transport/band_quanta.h"
 #include "transport/model.h"
@@ -19,10 +19,5 @@ struct LightEvents {
 };
 [[nodiscard]] LightEvents make_light_events(const RadiationModel& model, const std::vector<BandQuanta>& quanta,
                                             const Incidence& incidence);
-
-// Returns the largest absorptance of the two faces of each set of optics. [optics * bands + band]
-[[nodiscard]] std::vector<double> largest_absorptances(const RadiationModel& model);
-// Returns the absorptance of the soil plane. [band]; 0 without soil
-[[nodiscard]] std::vector<double> soil_absorptances(const RadiationModel& model);
 
 }  // namespace sunfleck

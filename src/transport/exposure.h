@@ -1,5 +1,5 @@
 #pragma once
-// Which elements the direct beam can hit, and the element area that one landing represents.
+// Decides which elements the direct beam can hit, and which element area one landing represents.
 
 #include "transport/counters.h"
 #include "transport/model.h"

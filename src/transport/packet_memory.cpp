@@ -1,5 +1,7 @@
 #include "transport/packet_memory.h"
 
+#include "transport/candidates.h"
+
 #include <algorithm>
 
 namespace sunfleck {

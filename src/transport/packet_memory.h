@@ -1,8 +1,8 @@
 #pragma once
 // Memory that the rays, packets and candidates of a replicate take while it is made.
 
-#include "transport/indirect.h"
 #include "transport/model.h"
+#include "transport/replicate.h"
 
 #include <cstddef>
 

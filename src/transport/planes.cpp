@@ -47,16 +47,16 @@ PlaneReceivers::PlaneReceivers(const RadiationModel& model, const CounterLayout&
   }
 }
 
-std::int32_t PlaneReceivers::zone_at(float y_m) const {
-  std::int32_t zone = 0;
+std::size_t PlaneReceivers::zone_at(float y_m) const {
+  std::size_t zone = 0;
   for (const Plane& plane : planes_) zone += y_m >= plane.threshold_y_m ? 1 : 0;
   return zone;
 }
 
-std::int32_t PlaneReceivers::zone_of(const shared::Landing& landing) const {
-  if (landing.surface == shared::left_upwards) return static_cast<std::int32_t>(planes_.size());
+std::size_t PlaneReceivers::zone_of(const shared::Landing& landing) const {
+  if (landing.surface == shared::left_upwards) return planes_.size();
   if (landing.surface >= shared::landed_on_ground) return 0;
-  if (surfaces_.of[surfaces_.number_of[landing.surface / 2]].soil) return 0;
+  if (surfaces_.at(landing.surface / 2).soil) return 0;
   const Triangle& corners = model_.canopy.corners[landing.surface / 2];
   return zone_at(shared::landing_y(corners[0].y, corners[1].y, corners[2].y, landing.place_a, landing.place_b));
 }
@@ -82,26 +82,10 @@ std::size_t PlaneReceivers::cell_at(std::size_t plane, const glm::vec3& point_m,
 PlaneSums::PlaneSums(const PlaneReceivers& planes, const RadiationModel& model)
     : reached(planes.cells()),
       crossing(planes.cells()),
-      zone_landings((planes.size() + 1) * model.optics.size() * 2),
+      zone_landings((planes.size() + 1) * model.optics.size()),
       down(planes.cells() * model.bands.size()),
       through_down(planes.size() * model.bands.size()),
       through_up(through_down.size()) {}
-
-void pass_receivers(const PlaneReceivers& planes, const shared::Packet& way, std::int32_t from_zone, std::int32_t to_zone,
-                    std::span<const std::int64_t> quanta, PlaneSums& sums) {
-  const std::size_t bands = quanta.size();
-  for (std::int32_t p = from_zone; p < to_zone; ++p) {
-    for (std::size_t b = 0; b < bands; ++b) sums.through_up[static_cast<std::size_t>(p) * bands + b] += quanta[b];
-  }
-  for (std::int32_t p = to_zone; p < from_zone; ++p) {
-    const auto plane = static_cast<std::size_t>(p);
-    const std::size_t cell = planes.cell_at(plane, way.origin, way.direction);
-    for (std::size_t b = 0; b < bands; ++b) {
-      sums.through_down[plane * bands + b] += quanta[b];
-      if (cell != PlaneReceivers::no_cell) sums.down[cell * bands + b] += quanta[b];
-    }
-  }
-}
 
 PlaneTally::PlaneTally(const PlaneReceivers& planes, const RadiationModel& model)
     : planes_(planes), model_(model), means_(planes.size()) {

@@ -1,6 +1,6 @@
 #pragma once
-// Horizontal receivers: which of them a ray passes, and in which cell. They stop no ray, and soil never shades them: flux
-// that lands on soil has passed every plane between its start and y = 0.
+// Horizontal receivers: which of them a ray passes, and in which cell. They do not stop any ray, and soil never shades them:
+// flux that lands on soil has passed every plane between its start and y = 0.
 
 #include "transport/counters.h"
 #include "transport/model.h"
@@ -29,9 +29,9 @@ class PlaneReceivers {
 
   // Returns the zone of a place that is not on soil (local frame). Where a plane is the edge of a layer, landings are
   // assigned to zones exactly as they are to layers.
-  [[nodiscard]] std::int32_t zone_at(float y_m) const;
+  [[nodiscard]] std::size_t zone_at(float y_m) const;
   // Returns the zone of any landing.
-  [[nodiscard]] std::int32_t zone_of(const shared::Landing& landing) const;
+  [[nodiscard]] std::size_t zone_of(const shared::Landing& landing) const;
 
   // Returns true if no element reaches above the plane, so that light comes down through it unhindered.
   [[nodiscard]] bool above_all(std::size_t plane) const { return planes_[plane].y_m >= layout_.box.hi_m.y; }
@@ -63,14 +63,10 @@ struct PlaneSums {
   PlaneSums(const PlaneReceivers& planes, const RadiationModel& model);
 
   std::vector<std::uint32_t> reached, crossing;        // [cell], beam rays, as in PlaneResult
-  std::vector<std::uint64_t> zone_landings;            // [(zone * optics + optics) * 2 + side], of beam rays
+  std::vector<BeamLandings> zone_landings;             // [zone * optics + optics]
   std::vector<std::int64_t> down;                      // [cell * bands + band], quanta of packets and sky rays
   std::vector<std::int64_t> through_down, through_up;  // [plane * bands + band], the same summed over whole planes
 };
-
-// Adds the flux that a straight path from one zone to another carries through the planes between them.
-void pass_receivers(const PlaneReceivers& planes, const shared::Packet& way, std::int32_t from_zone, std::int32_t to_zone,
-                    std::span<const std::int64_t> quanta, PlaneSums& sums);
 
 // Sums over all replicates.
 class PlaneTally {
@@ -88,7 +84,7 @@ class PlaneTally {
   [[nodiscard]] std::vector<PlaneResult> results(double quantile, double unseen_events,
                                                  std::span<const double> event_w_m2) const;
 
-  // Passes every sum to `archive`; see tally_sums.cpp.
+  // Passes every sum to `archive`; see RunSums::visit.
   template <class Self, class Archive>
   static void visit_sums(Self& self, Archive& archive) {
     for (auto& means : self.means_) {

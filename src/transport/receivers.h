@@ -1,5 +1,5 @@
 #pragma once
-// Virtual instruments that a user adds to a scene. They stop no ray.
+// Virtual instruments that a user adds to a scene. They do not stop any ray.
 
 #include <glm/vec3.hpp>
 #include <string>

@@ -11,7 +11,7 @@ namespace sunfleck {
 
 struct MadeReplicate {
   std::uint64_t number = 0;
-  Replicate replicate;  // without its `sums`
+  Replicate replicate;  // without its `direct`
 };
 
 // The interface to the workers; one thread may use it.

@@ -23,11 +23,11 @@ ReplicateQueue::~ReplicateQueue() {
   dropped_ = true;
 }
 
-void ReplicateQueue::begin(const ReplicateOrder& first, const Tally& tally, std::size_t at_once) {
+void ReplicateQueue::begin(const ReplicateOrder& first, const Conversion& conversion, std::size_t at_once) {
   end();
   at_once_ = std::max<std::size_t>(1, at_once);
   order_ = first;
-  tally_ = &tally;
+  conversion_ = &conversion;
   taken_ = 0;
   if (helpers_ != nullptr) blank_ = maker_.blank(first);
 }
@@ -82,7 +82,7 @@ void ReplicateQueue::fill(std::size_t certain, std::size_t possible) {
 void ReplicateQueue::begin_here() {
   ReplicateOrder order = order_;
   order.number += taken_ + ahead_.size();
-  const auto make = [this, order] { return maker_.make(order, *tally_, [this] { return dropped_ || stop_(); }); };
+  const auto make = [this, order] { return maker_.make(order, *conversion_, [this] { return dropped_ || stop_(); }); };
   const bool beside = at_once_ > 1 || helpers_ != nullptr;
   ahead_.emplace_back().here = std::async(beside ? std::launch::async : std::launch::deferred, make);
 }
@@ -91,7 +91,7 @@ void ReplicateQueue::collect() {
   while (std::optional<MadeReplicate> made = helpers_->take(blank_)) {
     const std::uint64_t place = made->number - order_.number - taken_;
     EXPECT(place, <, ahead_.size());
-    made->replicate.sums = tally_->sum(made->replicate.counters);
+    made->replicate.direct = conversion_->sum(made->replicate.counters);
     ahead_[place].elsewhere = std::move(made->replicate);
   }
 }

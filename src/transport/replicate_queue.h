@@ -2,8 +2,8 @@
 // Replicates in the order of their numbers, made ahead of need: several at once in this process, and by workers if there are
 // any.
 
-#include "transport/replicate.h"
 #include "transport/replicate_helpers.h"
+#include "transport/replicate_maker.h"
 
 #include <atomic>
 #include <cstddef>
@@ -22,10 +22,10 @@ class ReplicateQueue {
   ReplicateQueue(const ReplicateQueue&) = delete;
   ReplicateQueue& operator=(const ReplicateQueue&) = delete;
 
-  // Starts a series of replicates like `first`, beginning with it, and ends the series before. The tally is the one that
-  // add()s them, or another of their incidence. At most `at_once` are made at the same time in this process; if that is 1
+  // Starts a series of replicates like `first`, beginning with it, and ends the series before. `conversion` is that
+  // of their incidence. At most `at_once` are made at the same time in this process; if that is 1
   // and there are no workers, the thread that calls next() makes the replicate.
-  void begin(const ReplicateOrder& first, const Tally& tally, std::size_t at_once);
+  void begin(const ReplicateOrder& first, const Conversion& conversion, std::size_t at_once);
 
   // Returns the next replicate, or nothing if stopped, which ends the series. Starts others: in this process only among
   // the first `certain` ones of the series, which will all be needed, and by workers also among the first `possible` ones.
@@ -52,7 +52,7 @@ class ReplicateQueue {
   StopQuestion stop_;
   std::atomic<bool> dropped_ = false;
   ReplicateOrder order_;
-  const Tally* tally_ = nullptr;
+  const Conversion* conversion_ = nullptr;
   Replicate blank_;
   std::size_t taken_ = 0;
   std::deque<Making> ahead_;  // from the next one on; declared last, so that it is destroyed first

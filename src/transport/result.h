@@ -27,6 +27,12 @@ struct FluxLedger {
   [[nodiscard]] std::int64_t residual() const {
     return incident - (absorbed_vegetation + absorbed_soil + reflected + transmitted + unshot);
   }
+
+  // Returns the flux that may still be absorbed, relative to the flux absorbed.
+  [[nodiscard]] double unshot_share() const {
+    const auto absorbed = static_cast<double>(absorbed_vegetation + absorbed_soil);
+    return absorbed > 0.0 ? static_cast<double>(unshot) / absorbed : 0.0;
+  }
 };
 
 // The flux balance of one band, W m-2 of ground. The half-widths include the unshot flux, which could still end up in any of
@@ -59,10 +65,12 @@ struct LayerResult {
   std::vector<Estimate> absorbed;  // [waveband], W m-2 of ground, by elements other than soil
 };
 
-// Landings of beam rays on one element, over all replicates.
-struct ElementResult {
+// Landings of beam rays on the two sides of an element or a surface.
+struct BeamLandings {
   std::uint64_t upper = 0;
   std::uint64_t lower = 0;
+
+  [[nodiscard]] std::uint64_t both() const { return upper + lower; }
 };
 
 // The map of a horizontal receiver. Cells are numbered x fastest; the sums over the cells are the flux through the whole
@@ -122,11 +130,11 @@ enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, 
 struct RadiationResult {
   StopReason stop = StopReason::work_done;
   std::vector<BandResult> bands;
-  std::vector<OrganResult> organs;      // [organ of the canopy]
-  std::vector<LayerResult> layers;      // [layer, bottom first, + 1 for the top plane]
-  std::vector<ElementResult> elements;  // [element]
-  std::vector<double> element_error;    // [waveband * elements + element], W m-2, of absorbed flux; empty unless requested
-  std::vector<double> side_error;  // [(2 * element + side) * bands + band], W m-2, of incident flux; empty unless requested
+  std::vector<OrganResult> organs;     // [organ of the canopy]
+  std::vector<LayerResult> layers;     // [layer, bottom first, + 1 for the top plane]
+  std::vector<BeamLandings> elements;  // [element], over all replicates
+  std::vector<double> element_error;   // [waveband * elements + element], W m-2, of absorbed flux; empty unless requested
+  std::vector<double> side_error;      // [(2 * element + side) * bands + band], W m-2, of incident flux; empty unless requested
   std::vector<std::uint64_t> soil_cells;  // [cell of the soil's map], landings of beam rays
   // [(2 * element + side) * bands + band], quanta of all other light; empty without any.
   std::vector<std::int64_t> side_indirect;
@@ -175,5 +183,11 @@ struct RadiationResult {
     return static_cast<double>(quanta[place * w_per_quantum.size() + band]) * w_per_quantum[band] / area_m2;
   }
 };
+
+struct RunSums;
+
+// Returns the result of all replicates in the sums, except `stop`, `direct` and the errors, bounds and times of `indirect`.
+// Throws Error (failure) if a ledger does not close.
+[[nodiscard]] RadiationResult result_of(const RunSums& sums, double confidence);
 
 }  // namespace sunfleck

@@ -1,7 +1,5 @@
 #include "transport/sensor_paths.h"
 
-#include "transport/indirect.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,7 +10,7 @@ namespace {
 
 // Number of paths followed at a time: enough to fill a device; they take 3 MiB per band and 12 MiB for the rays.
 constexpr std::size_t most_paths = std::size_t{1} << 17U;
-// Ends paths that would never end by themselves, as in a closed box of perfect mirrors.
+// Ends paths that would never end on their own, as in a closed box of perfect mirrors.
 constexpr int most_bounces = 10'000;
 // First stream of random numbers, apart from those of beam, sky and indirect pass, whose numbers stay below 2^60.
 constexpr std::uint64_t sensor_streams = std::uint64_t{1} << 60U;

@@ -1,7 +1,6 @@
 #include "transport/sensors.h"
 
 #include "base/check.h"
-#include "transport/indirect.h"
 #include "transport/sensor_paths.h"
 #include "transport/sensor_rays.h"
 #include "transport/surfaces.h"

@@ -47,7 +47,7 @@ SkyRays::SkyRays(const RadiationModel& model, const CounterLayout& layout)
   glm::dvec3 size_m = layout.box.hi_m - layout.box.lo_m;
   size_m.y = layout.box.seen_y_m - layout.box.lo_m.y;
   centre_m_.y = layout.box.lo_m.y + 0.5 * size_m.y;
-  // Enlarged by 2^-16, so that rounding to single precision leaves nothing outside.
+  // The radius is enlarged by 2^-16, so that rounding to single precision leaves nothing outside.
   radius_m_ = 0.5 * glm::length(size_m) * (1.0 + 0x1p-16);
   ground_m2_ = periodic_ ? period_m_.x * period_m_.y : sky_.spherical_irradiance() * std::numbers::pi * radius_m_ * radius_m_;
 }

@@ -1,14 +1,14 @@
 #include "transport/solve.h"
 
 #include "base/check.h"
-#include "light/beam_grid.h"
 #include "transport/darkness.h"
 #include "transport/foresight.h"
-#include "transport/packet_memory.h"
-#include "transport/replicate.h"
+#include "transport/judged_error.h"
 #include "transport/replicate_helpers.h"
+#include "transport/replicate_maker.h"
 #include "transport/replicate_queue.h"
-#include "transport/tally.h"
+#include "transport/run_sums.h"
+#include "transport/work_planner.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,32 +20,25 @@
 namespace sunfleck {
 namespace {
 
-constexpr int pilot_replicates = 8;
-constexpr double first_pilot_rays = 16384;
-constexpr double first_pilot_packets = 4096;
-// A pilot is trusted to forecast work up to this multiple of its own; beyond it a larger pilot follows, at a few percent of
-// the cost.
-constexpr double trusted_refinement = 16;
-// Exponents by which errors fall. The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation
-// G3), and more slowly while its cells are not yet small compared with the leaves: rays^-0.6 gave the best forecasts from
-// pilots on maize. The error of packets falls with packets^-1/2.
-constexpr double ray_slope = 0.6;
-constexpr double packet_slope = 0.5;
-// Number of replicates for which the work is chosen, and the part of the bound to aim at, so that the checks rarely fail by
-// chance.
-constexpr int planned_replicates = 16;
-constexpr double aimed_part_of_bound = 0.7;
-// Sky rays per packet of the first round when the work is not fixed, and the largest number of sky rays in one replicate.
-constexpr double sky_rays_per_packet = 2.0;
-constexpr double most_sky_rays = 0x1p22;
-// A replicate whose packets take more memory than this gains nothing: more replicates do the same work.
-constexpr double comfortable_bytes = 0x1p28;
 // First number of the pilots' replicates, apart from those of the run.
 constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
 
 double steady_clock_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+// Holds replicates with the same work.
+struct Series {
+  Series(const ReplicateMaker& maker, const Incidence& incidence, ElementErrors element_errors)
+      : conversion(maker.conversion(incidence)), sums(conversion, element_errors), grid_rays(incidence.rays) {}
+
+  // Returns the number of rays and packets.
+  [[nodiscard]] std::uint64_t traced() const { return sums.replicates * grid_rays + sums.packets + sums.sky_rays; }
+
+  Conversion conversion;
+  RunSums sums;             // refers to the conversion, so that a series cannot be copied or moved
+  std::uint64_t grid_rays;  // of each replicate
+};
 
 class Solver {
  public:
@@ -55,28 +48,26 @@ class Solver {
         settings_(settings),
         monitor_(monitor),
         maker_(model, layout, tracer),
-        memory_(model),
+        planner_(model, settings, maker_),
         queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
 
   RadiationResult run() {
-    if (settings_.go_on_from != nullptr) return go_on(*settings_.go_on_from, asked_replicates());
-    if (settings_.begin_with && !fixed()) return begin_as_told(*settings_.begin_with);
-    const std::optional<Work> work = work_of_run();
+    if (settings_.resume_from != nullptr) return resume(*settings_.resume_from);
+    const bool told = settings_.begin_with && !planner_.fixed();
+    const std::optional<Work> work = told ? planner_.begin_with(*settings_.begin_with) : choose_work();
     if (!work) return finish(stop_);
     begin(*work);
-    return fixed() ? run_fixed(asked_replicates()) : run_to_bound();
+    return run_on();
   }
 
   std::optional<RunForecast> forecast() {
-    const std::optional<Work> work = work_of_run();
+    const std::optional<Work> work = choose_work();
     if (!work) return std::nullopt;
-    work_ = *work;
-    return RunForecast{*work, replicate_bytes(*work), replicates_at_once()};
+    return RunForecast{*work, planner_.replicate_bytes(*work), planner_.at_once(*work)};
   }
 
  private:
   [[nodiscard]] bool has_indirect() const { return maker_.has_indirect_pass(); }
-  [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
   [[nodiscard]] double clock_s() const { return monitor_.clock_s ? monitor_.clock_s() : steady_clock_s(); }
   [[nodiscard]] double seconds() const { return clock_s() - start_s_; }
 
@@ -94,20 +85,29 @@ class Solver {
     return false;
   }
 
-  [[nodiscard]] int asked_replicates() const {
-    return settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
+  std::optional<Work> choose_work() {
+    return planner_.choose([this](const Work& pilot) { return run_pilots(pilot); });
   }
 
-  // Returns nothing if stopped.
-  std::optional<Work> work_of_run() {
-    const int replicates = asked_replicates();
-    const bool needs_pilot = !settings_.grid_m || (has_indirect() && !settings_.packets);
-    std::optional<Work> work = needs_pilot ? choose_work(replicates) : Work{};
-    if (!work || !settings_.grid_m) return work;
-    work->rays = grid_rays_asked(replicates);
-    work->packets = settings_.packets.value_or(std::max(first_pilot_packets, work->packets));
-    return work;
+  // Makes pilots, which become the fallback, even if stopped.
+  std::optional<SeriesOutcome> run_pilots(const Work& pilot) {
+    const double before = seconds();
+    begin(pilot, pilot_stream);
+    while (series_->sums.replicates < pilot_replicates) {
+      if (!add_replicate(pilot_replicates, pilot_replicates)) {
+        keep_fallback();
+        return std::nullopt;
+      }
+      report_pilot();
+    }
+    SeriesOutcome pilots = outcome();
+    pilots.seconds_each = (seconds() - before) / pilot_replicates;
+    if (settings_.max_seconds) pilots.seconds_left = std::max(0.0, *settings_.max_seconds - seconds());
+    keep_fallback();
+    return pilots;
   }
+
+  [[nodiscard]] SeriesOutcome outcome() const { return {series_->sums.replicates, direct_error(), indirect_error()}; }
 
   // Begins a series of replicates; those of pilots have separate numbers.
   void begin(const Work& work, std::uint64_t stream = 0) {
@@ -118,18 +118,11 @@ class Solver {
     completion_ = {};
     Incidence incidence = maker_.incidence(work.rays);
     incidence.packets = work.packets;
-    incidence.sky_rays = sky_rays(work);
-    grid_rays_ = incidence.rays;
-    tally_ = std::make_unique<Tally>(maker_.tally(incidence, settings_.element_errors));
-    queue_.begin({work.rays, grid_rays_, work.packets, sky_rays(work), settings_.accuracy.indirect, settings_.seed, stream},
-                 *tally_, replicates_at_once());
-  }
-
-  // A fixed grid sets the number of sky rays too.
-  [[nodiscard]] std::size_t sky_rays(const Work& work) const {
-    if (!maker_.has_sky()) return 0;
-    const double rays = settings_.grid_m && !settings_.packets ? work.rays : sky_rays_per_packet * work.packets;
-    return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
+    incidence.sky_rays = planner_.sky_rays(work);
+    series_ = std::make_unique<Series>(maker_, incidence, settings_.element_errors);
+    queue_.begin(
+        {work.rays, incidence.rays, work.packets, incidence.sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
+        series_->conversion, planner_.at_once(work));
   }
 
   // Adds one replicate, and starts others: among the first `certain` ones or, where workers would be idle, among the first
@@ -138,11 +131,11 @@ class Solver {
     const std::optional<Replicate> replicate =
         queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
     if (!replicate) return false;
-    tally_->add(replicate->counters, replicate->sums, replicate->passed, replicate->packets ? &*replicate->packets : nullptr);
-    traced_ += grid_rays_;
+    series_->sums.add(*replicate);
+    traced_ += series_->grid_rays;
     if (replicate->packets) {
       traced_ += replicate->packets->packets + replicate->packets->sky_rays;
-      memory_.learn(ray_counts(work_), *replicate->packets);
+      planner_.learn(work_, *replicate->packets);
     }
     direct_s_ += replicate->direct_s;
     indirect_s_ += replicate->indirect_s;
@@ -153,58 +146,21 @@ class Solver {
   // Hands the result so far to the monitor.
   void hand_over() {
     if (!monitor_.wants_result || !monitor_.wants_result()) return;
-    const bool use_fallback = fallback_ && work_of(*tally_, grid_rays_) < work_of(*fallback_, fallback_rays_);
-    monitor_.receive_result(use_fallback ? result_of(*fallback_, fallback_rays_, StopReason::interrupted)
-                                         : result_of(*tally_, grid_rays_, StopReason::interrupted));
-  }
-
-  // Returns the number of rays and packets.
-  [[nodiscard]] static std::uint64_t work_of(const Tally& tally, std::uint64_t grid_rays) {
-    return tally.replicates() * grid_rays + tally.packets() + tally.sky_rays();
-  }
-
-  // Without an indirect pass the host has almost nothing to do meanwhile, and saving memory is better.
-  [[nodiscard]] std::size_t replicates_at_once() const {
-    if (settings_.max_rays || !has_indirect()) return 1;
-    const double asked = std::max(1, settings_.replicates_at_once);
-    if (!settings_.memory_bytes) return static_cast<std::size_t>(asked);
-    return static_cast<std::size_t>(std::clamp(*settings_.memory_bytes / replicate_bytes(work_), 1.0, asked));
-  }
-
-  [[nodiscard]] RayCounts ray_counts(const Work& work) const {
-    return {model_.has_beam() ? work.rays : 0.0, static_cast<double>(sky_rays(work)), work.packets};
-  }
-
-  // Returns the memory of a replicate while it is made, in bytes.
-  [[nodiscard]] double replicate_bytes(const Work& work) const {
-    return maker_.sum_bytes() + (has_indirect() ? memory_.bytes(ray_counts(work)) : 0.0);
-  }
-
-  // Returns the largest number of packets in a replicate's first round that fits the memory. It depends on the machine
-  // only if memory is too short for even a single comfortable replicate.
-  [[nodiscard]] double most_packets(Work work) const {
-    if (!settings_.memory_bytes) return most_first_packets;
-    const double most_bytes = std::min(comfortable_bytes, *settings_.memory_bytes - maker_.sum_bytes());
-    double fits = first_pilot_packets;
-    double exceeds = most_first_packets;
-    while (exceeds - fits > 1.0) {
-      work.packets = std::floor(0.5 * (fits + exceeds));
-      (memory_.bytes(ray_counts(work)) <= most_bytes ? fits : exceeds) = work.packets;
-    }
-    return fits;
+    const bool use_fallback = fallback_ && series_->traced() < fallback_->traced();
+    monitor_.receive_result(result_of_series(use_fallback ? *fallback_ : *series_, StopReason::interrupted));
   }
 
   // The two errors are empty for a pass without any light in the scene.
-  [[nodiscard]] std::optional<JudgedError> direct_error(const Tally& tally) const {
+  [[nodiscard]] std::optional<JudgedError> direct_error(const RunSums& sums) const {
     if (!model_.has_beam()) return std::nullopt;
-    return tally.direct_error(settings_.accuracy);
+    return sunfleck::direct_error(sums, settings_.accuracy);
   }
-  [[nodiscard]] std::optional<JudgedError> indirect_error(const Tally& tally) const {
+  [[nodiscard]] std::optional<JudgedError> indirect_error(const RunSums& sums) const {
     if (!has_indirect()) return std::nullopt;
-    return tally.indirect_error(settings_.accuracy);
+    return sunfleck::indirect_error(sums, settings_.accuracy);
   }
-  [[nodiscard]] double direct_error() const { return direct_error(*tally_).value_or(JudgedError{}).relative; }
-  [[nodiscard]] double indirect_error() const { return indirect_error(*tally_).value_or(JudgedError{}).relative; }
+  [[nodiscard]] double direct_error() const { return direct_error(series_->sums).value_or(JudgedError{}).relative; }
+  [[nodiscard]] double indirect_error() const { return indirect_error(series_->sums).value_or(JudgedError{}).relative; }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
@@ -215,7 +171,7 @@ class Solver {
     monitor_.report({.stage = Progress::Stage::pilot, .rays = traced_});
   }
 
-  // `expected` is the number of replicates of the whole run, as far as is known now.
+  // `expected` is the number of replicates of the whole run, as far as it is known.
   void report(std::size_t expected) {
     if (!monitor_.report) return;
     const double direct = direct_error();
@@ -225,7 +181,7 @@ class Solver {
     progress.pass = direct_lags ? Progress::Pass::direct : Progress::Pass::indirect;
     progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
     if (!std::isnan(direct + indirect)) progress.relative_error = direct_lags ? direct : indirect;
-    const auto done = static_cast<double>(tally_->replicates());
+    const auto done = static_cast<double>(series_->sums.replicates);
     const double each_s = (seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
     const double left = std::min(static_cast<double>(expected) - done, affordable_replicates(each_s));
     progress.fraction = completion_.update(done, done + left);
@@ -237,9 +193,9 @@ class Solver {
   [[nodiscard]] double affordable_replicates(double seconds_each) const {
     double most = std::numeric_limits<double>::infinity();
     if (settings_.max_seconds) most = std::max(0.0, *settings_.max_seconds - seconds()) / std::max(seconds_each, 1e-9);
-    if (settings_.max_rays && tally_->replicates() > 0) {
-      const auto traced = static_cast<double>(work_of(*tally_, grid_rays_));
-      const double each = std::max(1.0, traced / static_cast<double>(tally_->replicates()));
+    if (settings_.max_rays && series_->sums.replicates > 0) {
+      const auto traced = static_cast<double>(series_->traced());
+      const double each = std::max(1.0, traced / static_cast<double>(series_->sums.replicates));
       most = std::min(most, std::floor(std::max(0.0, static_cast<double>(*settings_.max_rays) - traced) / each));
     }
     return most;
@@ -248,7 +204,7 @@ class Solver {
   // Returns the number of replicates after which a run to its bounds is expected to end: at the second good check in a
   // row.
   [[nodiscard]] std::size_t expected_replicates() const {
-    const std::size_t done = tally_->replicates();
+    const std::size_t done = series_->sums.replicates;
     std::size_t needed = planned_replicates;
     if (done >= 2) {
       const auto needs = [&](double error, double bound) {
@@ -262,141 +218,28 @@ class Solver {
     return check_after(check);
   }
 
-  // Uses the earlier run as the pilot. Work for light that this scene has and the earlier one lacked starts as small as in
-  // pilots.
-  RadiationResult begin_as_told(Work work) {
-    if (model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
-    if (has_indirect()) work.packets = std::max(first_pilot_packets, work.packets);
-    begin(work);
-    return run_to_bound();
-  }
-
-  // Returns the work with which planned_replicates would just have reached the bounds, as far as this run shows.
-  [[nodiscard]] Work next_work() const {
-    Work next = work_;
-    const std::size_t done = tally_->replicates();
-    if (done < 2) return next;
-    const double fewer = std::sqrt(static_cast<double>(done) / planned_replicates) *
-                         t_quantile(settings_.accuracy.confidence, planned_replicates) /
-                         t_quantile(settings_.accuracy.confidence, done);
-    const auto scale = [&](double error, double bound, double slope) {
-      return std::clamp(growth(error * fewer, bound, slope), 1.0 / trusted_refinement, trusted_refinement);
-    };
-    next.rays *= scale(direct_error(), settings_.accuracy.direct, ray_slope);
-    next.packets *= scale(indirect_error(), settings_.accuracy.indirect, packet_slope);
-    next.rays = std::min(next.rays, static_cast<double>(max_grid_rays));
-    next.packets = std::min(next.packets, most_packets(next));
-    return next;
-  }
-
-  [[nodiscard]] double grid_rays_asked(int replicates) const {
-    return std::max(1.0, model_.plot.area_m2() / (*settings_.grid_m * *settings_.grid_m) / replicates);
-  }
-
-  // Returns the factor by which the work must grow for an error to fall to the part of its bound that is aimed at.
-  [[nodiscard]] static double growth(double error, double bound, double slope) {
-    return std::pow(error / (aimed_part_of_bound * bound), 1.0 / slope);
-  }
-
-  // Returns the work of a replicate such that `replicates` of them reach the bounds: pilots of the direct pass alone
-  // determine the rays, then pilots with half those rays determine the packets. Returns nothing if stopped; the last pilot
-  // is then kept as the fallback.
-  std::optional<Work> choose_work(int replicates) {
-    double most = static_cast<double>(max_grid_rays);
-    if (settings_.max_rays) most = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * pilot_replicates));
-    Work work;
-    if (settings_.grid_m) {
-      work.rays = grid_rays_asked(replicates);
-    } else if (model_.has_beam()) {
-      const auto needed = [this](double fewer) { return growth(direct_error() * fewer, settings_.accuracy.direct, ray_slope); };
-      const auto rays = grow_pilots(
-          {std::min(first_pilot_rays, most), 0.0}, &Work::rays, [&] { return most; }, needed, replicates);
-      if (!rays) return std::nullopt;
-      work.rays = rays->chosen;
-    }
-    if (!has_indirect()) return work;
-    // On a fixed grid there is at most one packet per ray, and at least as many packets as in the first pilot.
-    if (settings_.grid_m) most = std::min(most, std::max(first_pilot_packets, work.rays));
-    if (most <= first_pilot_packets) {
-      work.packets = most;
-      return work;
-    }
-    const Work pilot{std::max(std::min(first_pilot_rays, work.rays), 0.5 * work.rays), std::min(first_pilot_packets, most)};
-    const auto needed = [this](double fewer) {
-      return growth(indirect_error() * fewer, settings_.accuracy.indirect, packet_slope);
-    };
-    const auto packets = grow_pilots(
-        pilot, &Work::packets, [&] { return std::min(most, most_packets(work)); }, needed, replicates);
-    if (!packets) return std::nullopt;
-    work.packets = packets->chosen;
-    // More replicates make up for packets that do not fit the memory, and each of them then needs fewer rays.
-    const bool held_back = !fixed() && packets->chosen == most_packets(work);
-    if (held_back) work.rays *= std::pow(packets->wanted / packets->chosen, -0.5 / ray_slope);
-    if (held_back && model_.has_beam()) work.rays = std::max(first_pilot_rays, work.rays);
-    return work;
-  }
-
-  // A part of the work as the pilots request it, and as much of it as is possible.
-  struct Part {
-    double wanted = 0.0, chosen = 0.0;
-  };
-
-  // Runs pilots until one is large enough to forecast `part` of the work, which is at most `most()`. `needed` returns the
-  // factor by which the pilot's part must grow.
-  template <class Most, class Growth>
-  std::optional<Part> grow_pilots(Work pilot, double Work::*part, const Most& most, const Growth& needed, int replicates) {
-    const double fewer = std::sqrt(static_cast<double>(pilot_replicates) / replicates) *
-                         t_quantile(settings_.accuracy.confidence, static_cast<std::size_t>(replicates)) /
-                         t_quantile(settings_.accuracy.confidence, pilot_replicates);
-    while (true) {
-      const double before = seconds();
-      begin(pilot, pilot_stream);
-      while (tally_->replicates() < pilot_replicates) {
-        if (!add_replicate(pilot_replicates, pilot_replicates)) {
-          keep_fallback();
-          return std::nullopt;
-        }
-        report_pilot();
-      }
-      const double wanted = pilot.*part * std::max(0.25, needed(fewer));
-      const double possible = std::min(wanted, most());
-      const double affordable = pilot.*part * affordable_growth((seconds() - before) / pilot_replicates);
-      if (affordable < possible) fitted_to_time_ = true;
-      const double next = std::max(1.0, std::min(possible, affordable));
-      keep_fallback();
-      if (next <= trusted_refinement * pilot.*part || next < wanted) return Part{wanted, next};
-      pilot.*part *= trusted_refinement;
-    }
-  }
-
-  // With a limit on time, replicates must be small enough for pilot_replicates of them to be done in time.
-  [[nodiscard]] double affordable_growth(double seconds_per_replicate) const {
-    if (!settings_.max_seconds || !settings_.fit_to_time) return std::numeric_limits<double>::infinity();
-    const double left = std::max(0.0, *settings_.max_seconds - seconds());
-    return left / (2.0 * pilot_replicates * std::max(seconds_per_replicate, 1e-6));
-  }
-
   void keep_fallback() {
-    if (tally_ && tally_->replicates() >= 2) {
-      fallback_ = std::move(tally_);
-      fallback_rays_ = grid_rays_;
+    if (series_ && series_->sums.replicates >= 2) {
+      fallback_ = std::move(series_);
     }
-    tally_.reset();
+    series_.reset();
   }
 
-  RadiationResult go_on(const SolveState& state, int replicates) {
+  RadiationResult resume(const SolveState& state) {
     begin(state.work, state.replicates());
-    ENSURE(tally_->restore(state.sums), ==, true);
-    begun_with_ = tally_->replicates();
-    traced_ = work_of(*tally_, grid_rays_);
+    ENSURE(restore(series_->sums, state.sums), ==, true);
+    begun_with_ = series_->sums.replicates;
+    traced_ = series_->traced();
     next_check_ = state.next_check;
     good_checks_ = state.good_checks;
-    return fixed() ? run_fixed(replicates) : run_to_bound();
+    return run_on();
   }
 
-  RadiationResult run_fixed(int replicates) {
-    const auto all = static_cast<std::size_t>(replicates);
-    while (tally_->replicates() < all) {
+  RadiationResult run_on() { return planner_.fixed() ? run_fixed() : run_to_bound(); }
+
+  RadiationResult run_fixed() {
+    const auto all = static_cast<std::size_t>(planner_.asked_replicates());
+    while (series_->sums.replicates < all) {
       if (spent() || !add_replicate(all, all)) return finish(stop_);
       report(all);
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
@@ -410,10 +253,10 @@ class Solver {
       const std::size_t certain = good_checks_ == 0 ? check_after(next_check_) : next_check_;
       if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
       report(expected_replicates());
-      if (tally_->replicates() >= next_check_) {
+      if (series_->sums.replicates >= next_check_) {
         good_checks_ = bounds_hold() ? good_checks_ + 1 : 0;
         if (good_checks_ == 2) return finish(StopReason::bound_reached);
-        if (tally_->replicates() >= most_replicates) return finish(StopReason::replicates_spent);
+        if (series_->sums.replicates >= most_replicates) return finish(StopReason::replicates_spent);
         next_check_ = check_after(next_check_);
       }
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
@@ -425,16 +268,16 @@ class Solver {
   }
 
   void keep_state() const {
-    if (!monitor_.receive_state || tally_->replicates() < 2 || fitted_to_time_) return;
-    monitor_.receive_state({work_, next_check_, good_checks_, tally_->sums()});
+    if (!monitor_.receive_state || series_->sums.replicates < 2 || planner_.fitted_to_time()) return;
+    monitor_.receive_state({work_, next_check_, good_checks_, plain_sums(series_->sums)});
   }
 
   // Returns true if the next replicate would need more rays than are left.
   bool spent() {
     if (!settings_.max_rays) return false;
-    const std::size_t done = tally_->replicates();
-    const std::uint64_t run = work_of(*tally_, grid_rays_);
-    const std::uint64_t next = done > 0 ? run / done : grid_rays_;
+    const std::size_t done = series_->sums.replicates;
+    const std::uint64_t run = series_->traced();
+    const std::uint64_t next = done > 0 ? run / done : series_->grid_rays;
     if (run + next <= *settings_.max_rays) return false;
     stop_ = StopReason::rays_spent;
     return true;
@@ -443,25 +286,24 @@ class Solver {
   RadiationResult finish(StopReason reason) {
     queue_.end();
     const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
-    if (stopped && tally_) keep_state();
-    const bool use_fallback = fallback_ && (!tally_ || tally_->replicates() < 2);
+    if (stopped && series_) keep_state();
+    const bool use_fallback = fallback_ && (!series_ || series_->sums.replicates < 2);
     if (use_fallback) {
-      tally_ = std::move(fallback_);
-      grid_rays_ = fallback_rays_;
-    } else if (!tally_) {
-      begin({first_pilot_rays, first_pilot_packets});
+      series_ = std::move(fallback_);
+    } else if (!series_) {
+      begin(first_pilot);
     }
-    RadiationResult result = result_of(*tally_, grid_rays_, reason);
+    RadiationResult result = result_of_series(*series_, reason);
     result.work = work_;
-    result.next_work = next_work();
+    result.next_work = planner_.next(work_, outcome());
     return result;
   }
 
-  [[nodiscard]] RadiationResult result_of(const Tally& tally, std::uint64_t grid_rays, StopReason reason) const {
-    RadiationResult result = tally.result(settings_.accuracy.confidence);
+  [[nodiscard]] RadiationResult result_of_series(const Series& series, StopReason reason) const {
+    RadiationResult result = result_of(series.sums, settings_.accuracy.confidence);
     result.stop = reason;
-    result.direct.replicates = tally.replicates();
-    result.direct.rays = tally.replicates() * grid_rays;
+    result.direct.replicates = series.sums.replicates;
+    result.direct.rays = series.sums.replicates * series.grid_rays;
     if (result.direct.rays > 0) {
       result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
     }
@@ -470,14 +312,14 @@ class Solver {
       summary.relative_error = error->relative;
       summary.judged = error->figure;
     };
-    tell(direct_error(tally), result.direct);
-    tell(indirect_error(tally), result.indirect);
+    tell(direct_error(series.sums), result.direct);
+    tell(indirect_error(series.sums), result.indirect);
     if (!model_.has_beam()) result.direct.relative_error = 0.0;
     // Replicates overlap, so the elapsed time is divided in proportion to the time spent in each pass.
     const double busy_s = direct_s_ + indirect_s_;
     result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
     result.direct.seconds = seconds() - result.indirect.seconds;
-    if (!fixed()) {
+    if (!planner_.fixed()) {
       result.direct.bound = settings_.accuracy.direct;
       if (has_indirect()) result.indirect.bound = settings_.accuracy.indirect;
     }
@@ -488,15 +330,12 @@ class Solver {
   const SolveSettings& settings_;
   const Monitor& monitor_;
   ReplicateMaker maker_;
-  PacketMemory memory_;
+  WorkPlanner planner_;
   double start_s_ = clock_s();
-  std::unique_ptr<Tally> tally_, fallback_;
+  std::unique_ptr<Series> series_, fallback_;
   std::mutex stop_mutex_;
   StopReason stop_ = StopReason::interrupted;
   Work work_;
-  bool fitted_to_time_ = false;  // the work was limited by max_seconds
-  std::uint64_t grid_rays_ = 0;  // actual number of rays on the grid
-  std::uint64_t fallback_rays_ = 0;
   std::uint64_t traced_ = 0;
   std::size_t next_check_ = first_check, good_checks_ = 0;
   std::size_t begun_with_ = 0;  // replicates that an earlier process made

@@ -37,8 +37,8 @@ struct SolveSettings {
   ElementErrors element_errors = ElementErrors::skip;
   // Number of replicates made at the same time if there is an indirect pass and no max_rays.
   int replicates_at_once = 2;
-  std::optional<double> memory_bytes;      // limit for all replicates being made; empty: no limit
-  const SolveState* go_on_from = nullptr;  // state of an interrupted run with the same settings; null starts a new run
+  std::optional<double> memory_bytes;       // limit for all replicates being made; empty: no limit
+  const SolveState* resume_from = nullptr;  // state of an interrupted run with the same settings; null starts a new run
 };
 
 struct Progress {

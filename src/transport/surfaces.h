@@ -19,13 +19,15 @@ struct Surfaces {
 
   std::vector<Surface> of;               // [surface]
   std::vector<std::uint32_t> number_of;  // [element], index into `of`
+
+  [[nodiscard]] const Surface& at(std::size_t element) const { return of[number_of[element]]; }
 };
 
-// Returns true if anything that light can meet reflects, transmits or emits in some band, so that light travels on after its
+// Returns true if anything that light can meet reflects, transmits or emits in some band, so that light continues after its
 // first landing.
 [[nodiscard]] bool scatters(const RadiationModel& model);
 
-// Returns true if the band's light travels on after its first landing or starts on a lamp.
+// Returns true if the band's light continues after its first landing or starts on a lamp.
 [[nodiscard]] bool scatters(const RadiationModel& model, std::size_t band);
 
 }  // namespace sunfleck

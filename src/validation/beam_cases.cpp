@@ -160,7 +160,7 @@ void far_shadow(CaseBench& bench) {
                 {.largest_error = 2e-3, .tolerance = rounding});
 }
 
-// A strip that casts its shadow across the plot's corner, and the same strip in the plot's middle.
+// Builds a strip that casts its shadow across the plot's corner, and the same strip in the plot's middle.
 void across_the_corner(CaseBench& bench) {
   for (const bool at_corner : {true, false}) {
     const double middle = at_corner ? 0.0 : 0.5;

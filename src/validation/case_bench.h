@@ -1,5 +1,5 @@
 #pragma once
-// What a known-answer case works with: the device under test, and the table to which it adds its rows.
+// The tools of a known-answer case: the device under test, and the table to which it adds its rows.
 
 #include "tracers/cpu_tracer.h"
 #include "tracers/scene_tree.h"

@@ -27,7 +27,7 @@ inline constexpr double case_degree = std::numbers::pi / 180.0;
 // Returns a unit vector with that inclination from the vertical, whose horizontal part points at that angle from X towards Z.
 [[nodiscard]] glm::dvec3 inclined_normal(double inclination_rad, double angle_rad);
 
-// Collects triangles. Each call of organ() begins an organ with its own optics, to which the following triangles belong.
+// Collects triangles. Each call of organ() begins a new organ with its own optics, to which the following triangles belong.
 // Corners run counter-clockwise about the upper face's normal.
 class CaseMesh {
  public:

@@ -84,7 +84,7 @@ void furnace_cases(CaseBench& bench) {
     }
   }
   const RadiationResult result = bench.simulate(model, case_work(model, 1.0, 4096));
-  // Of the light leaving a point within the packets' offset from a wall (2^-17 of the extent), some slips out beside it.
+  // Some of the light leaving a point within the packets' offset from a wall (2^-17 of the extent) slips out past the wall.
   constexpr double slipped = 2e-5;
   double absorbed_by_leaves = 0.0;
   for (std::size_t b = 0; b < reflectances.size(); ++b) {

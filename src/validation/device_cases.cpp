@@ -82,7 +82,7 @@ std::vector<std::int64_t> integers_of(const RadiationResult& result) {
     append(std::array{ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected, ledger.transmitted,
                       ledger.unshot});
   }
-  for (const ElementResult& element : result.elements) append(std::array{element.upper, element.lower});
+  for (const BeamLandings& element : result.elements) append(std::array{element.upper, element.lower});
   append(result.soil_cells);
   append(result.side_indirect);
   append(result.cell_indirect);
@@ -177,7 +177,7 @@ void black_tallies(CaseBench& bench) {
   RadiationModel model = black_case(random_leaf_mesh(150, 0.02, plot, 1.0, 5), plot, beijing_sun());
   const RadiationResult sun = bench.simulate(model, case_work(model, 3e5, 0.0, 8));
   std::uint64_t landed = std::accumulate(sun.soil_cells.begin(), sun.soil_cells.end(), std::uint64_t{0});
-  for (const ElementResult& element : sun.elements) landed += element.upper + element.lower;
+  for (const BeamLandings& element : sun.elements) landed += element.upper + element.lower;
   bench.equal("rays of the beam less their landings", static_cast<double>(sun.direct.rays) - static_cast<double>(landed), 0.0,
               0.0);
   shine_from_sky_only(model, {.kind = SkyKind::overcast});

@@ -2,13 +2,13 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <new>
 
 namespace sunfleck {
@@ -38,11 +38,6 @@ std::size_t estimates_of_the_table() {
   std::size_t count = 0;
   for (const CaseGroup& group : groups) count += group.estimates;
   return count;
-}
-
-std::string lower(std::string text) {
-  for (char& letter : text) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return text;
 }
 
 // Returns the rows of one group; an exception it throws becomes a row.
@@ -85,7 +80,7 @@ std::vector<CaseGroup> choose_case_groups(const std::vector<std::string>& parts)
   for (const std::string& part : parts) {
     bool found = false;
     for (std::size_t k = 0; k < groups.size(); ++k) {
-      if (part.empty() || lower(groups[k].name).find(lower(part)) == std::string::npos) continue;
+      if (part.empty() || lower_case(groups[k].name).find(lower_case(part)) == std::string::npos) continue;
       chosen[k] = found = true;
     }
     if (found) continue;

@@ -28,8 +28,8 @@ struct JudgedAnswer {
   bool passed = false;
 };
 
-// Runs the groups; calls `report` with each row when its group is done. A group that fails to give its answers becomes one row
-// that says why, and the others continue. Returns false if stopped. Lets Error of kind device and lack of memory pass through.
+// Runs the groups; calls `report` with each row when its group is done. A group that fails becomes one row that gives the
+// reason, and the others continue. Returns false if stopped. Lets Error of kind device and lack of memory pass through.
 [[nodiscard]] bool run_case_groups(std::span<const CaseGroup> groups, CaseBench& bench,
                                    const std::function<void(const JudgedAnswer&)>& report);
 

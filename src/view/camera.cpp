@@ -1,6 +1,7 @@
 #include "view/camera.h"
 
 #include "base/check.h"
+#include "base/units.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,7 @@ namespace sunfleck {
 namespace {
 
 // The part of the picture that the scene may fill, measured from the middle; half the picture is `half_height` high, as a
-// tangent or a length. Free strips remain for the titles at the top, the footer at the bottom, an axis' letter at the left and
+// tangent or a length. The free strips hold the titles at the top, the footer at the bottom, an axis' letter at the left and
 // the legend at the right. The type size, and so the width of letter and legend, scales with the picture's height.
 struct Window {
   double left, right, bottom, top;
@@ -148,7 +149,6 @@ Camera look_at(glm::dvec3 position_m, glm::dvec3 look_at_m, double vertical_fov_
 }
 
 Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect) {
-  constexpr double degree = std::numbers::pi / 180.0;
   constexpr double vertical_fov_rad = 26.0 * degree;  // mild perspective, as of a telephoto lens
   constexpr double elevation_rad = 27.0 * degree;
   constexpr double from_south_rad = 38.0 * degree;  // towards the west

@@ -25,7 +25,7 @@ struct ChartText {
   std::optional<ColourBar> bar;  // below the entries of the legend
 };
 
-// What a chart shows, and its size. A fisheye's chart has the horizon's circle and N, E, S, W instead of axes and border.
+// The content of a chart, and its size. A fisheye's chart has the horizon's circle and N, E, S, W instead of axes and border.
 struct ChartFrame {
   int width = 0;
   int height = 0;

@@ -27,7 +27,7 @@ struct ColourBar {
 
 // UTF-8, one line each.
 struct Legend {
-  // e.g. "Direct PAR irradiance, W m⁻²"; the part after the last ", " is set on a line of its own
+  // e.g. "Direct PAR irradiance, W m⁻²"; the part after the last ", " is set on a separate line
   std::string title;
   std::optional<ColourBar> bar;
   std::vector<LegendEntry> entries;  // above the bar if there is one, for example for values beyond its end

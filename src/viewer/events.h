@@ -1,5 +1,5 @@
 #pragma once
-// Writes what happens in a window as lines of JSON to standard output, for logs and for programs that drive the window.
+// Writes the events of a window as lines of JSON to standard output, for logs and for programs that drive the window.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -13,7 +13,7 @@ class Events {
  public:
   explicit Events(EventLines lines) : lines_(lines) {}
 
-  // Writes {"event": NAME, ...fields} on a line of its own at once.
+  // Writes {"event": NAME, ...fields} on a separate line at once.
   void tell(const std::string& name, const nlohmann::json& fields) const;
   [[nodiscard]] bool wanted() const { return lines_ == EventLines::on; }
 

@@ -19,7 +19,7 @@ class Hands {
   // Moves state.hand according to the input since the last frame. Returns the pixel of the picture that was clicked, if any.
   [[nodiscard]] std::optional<glm::ivec2> steer(ViewerState& state, const Stage& stage, double now_s);
 
-  // Returns true if the camera is expected to move on: a button is held, or the camera moved a moment ago.
+  // Returns true if the camera is expected to keep moving: a button is held, or the camera moved a moment ago.
   [[nodiscard]] bool busy(double now_s) const;
 
  private:

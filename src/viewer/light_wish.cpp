@@ -1,19 +1,17 @@
 #include "viewer/light_wish.h"
 
 #include "base/error.h"
+#include "base/units.h"
 #include "io/digest.h"
 #include "io/moment_light.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace sunfleck {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr int clear_type = 12;
 
 SunWish sun_wish(const Scene& scene) {
@@ -98,7 +96,7 @@ SkyWish in_use(const SkyWish& sky) {
 }
 
 // Keeps the scene's own moment exactly, so that an untouched window shows what `run` computes. A sun that does not shine still
-// defines the time.
+// determines the time.
 void grant_light(const LightWish& wish, const Scene& scene, RadiationModel& model) {
   const LightWish own = wish_of(scene);
   model.sun = scene.model.sun;

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/image_writer.h"
+#include "io/irradiance.h"
 #include "view/chart.h"
 
 #include <algorithm>
@@ -62,11 +63,11 @@ PickedElement::Face face_of(const Scene& scene, const RadiationResult& result, s
   const RadiationModel& model = scene.model;
   const std::size_t element = side / 2;
   const double area = area_m2(model.canopy.corners[element]);
-  const ElementResult& landed = result.elements[element];
+  const Irradiance light = side_irradiance(model, result, side, area, band);
   PickedElement::Face face;
-  face.direct_w_m2 = result.irradiance_w_m2(side % 2 == 0 ? landed.upper : landed.lower, area, model.bands[band].direct_w_m2);
-  face.sky_w_m2 = result.side_sky_w_m2(side, area, band);
-  face.scattered_w_m2 = std::max(0.0, result.side_indirect_w_m2(side, area, band) - face.sky_w_m2);
+  face.direct_w_m2 = light.direct_w_m2;
+  face.sky_w_m2 = light.sky_w_m2;
+  face.scattered_w_m2 = light.scattered_w_m2();
   face.half_width_w_m2 = result.side_error.empty() ? std::numeric_limits<double>::quiet_NaN()
                                                    : result.side_error[side * model.bands.size() + band];
   return face;
@@ -85,8 +86,7 @@ PickedElement describe(const Scene& scene, const RadiationResult& result, std::u
   picked.area_m2 = area_m2(model.canopy.corners[element]);
   picked.upper = face_of(scene, result, 2 * std::size_t{element}, band);
   picked.lower = face_of(scene, result, 2 * std::size_t{element} + 1, band);
-  picked.absorbed_w_m2 = picked.upper.total_w_m2() * optics.upper[band].absorptance() +
-                         picked.lower.total_w_m2() * optics.lower[band].absorptance();
+  picked.absorbed_w_m2 = absorbed_w_m2(optics, picked.upper.total_w_m2(), picked.lower.total_w_m2(), band);
   picked.absorbed_half_width_w_m2 = result.element_error.empty() ? std::numeric_limits<double>::quiet_NaN()
                                                                  : result.element_error[band * model.canopy.size() + element];
   return picked;

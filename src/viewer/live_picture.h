@@ -1,5 +1,5 @@
 #pragma once
-// Draws the picture of a window in a thread of its own, coarsely while the camera moves and finely once it rests.
+// Draws the picture of a window in a separate thread, coarsely while the camera moves and finely once it rests.
 
 #include "pictures/pictures.h"
 #include "simulate/simulated_scene.h"

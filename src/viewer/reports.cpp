@@ -1,16 +1,13 @@
 #include "viewer/reports.h"
 
+#include "io/summary_parts.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace sunfleck {
 namespace {
 
 using nlohmann::json;
-
-json number_or_null(double value) {
-  return std::isnan(value) ? json() : json(value);
-}
 
 json face_fields(const PickedElement::Face& face) {
   return {{"irradiance", face.total_w_m2()},

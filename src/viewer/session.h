@@ -22,7 +22,7 @@ class Session {
           const std::function<void()>& notify);
 
   std::filesystem::path file;
-  Simulation simulation;  // its light is changed by `light` alone
+  Simulation simulation;  // only `light` changes its light
   const std::string title;
   const LightWish light_of_scene;                // initial light
   const std::vector<std::string> bands, optics;  // names

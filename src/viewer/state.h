@@ -1,5 +1,5 @@
 #pragma once
-// The state of a window: what it shows and what its user has set.
+// The state of a window: its content and the user's settings.
 
 #include "pictures/picture.h"
 #include "view/camera_motion.h"
@@ -20,7 +20,7 @@ struct ViewerState {
   // Set by the user.
   LightWish light;
   HandCamera hand;
-  // Nobody has moved the camera since the view was chosen, so it keeps fitting the window.
+  // True as long as nobody has moved the camera since the view was chosen; it then keeps fitting the window.
   bool camera_as_given = true;
   PictureOptions options;
   Picture picture;

@@ -3,12 +3,12 @@
 #include "app/terminal.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "gpu/window.h"
 #include "io/file.h"
 #include "simulate/interrupt.h"
 #include "tracers/engine.h"
 #include "view/text.h"
 #include "viewer/viewer.h"
+#include "viewer/window.h"
 
 namespace sunfleck {
 int view(const ViewOptions& options) {

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Longest time between two frames while something changes by itself, and while nothing does.
+// Longest time between two frames: while something changes without input, and while nothing does.
 constexpr double busy_wait_s = 0.03;
 constexpr double idle_wait_s = 0.25;
 constexpr double message_s = 8.0;

@@ -2,12 +2,12 @@
 // The main loop of the window: handles input and draws frames.
 
 #include "app/options.h"
-#include "gpu/window.h"
 #include "viewer/events.h"
 #include "viewer/file_watch.h"
 #include "viewer/hands.h"
 #include "viewer/session.h"
 #include "viewer/state.h"
+#include "viewer/window.h"
 
 #include <array>
 #include <chrono>

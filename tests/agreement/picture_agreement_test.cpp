@@ -181,7 +181,7 @@ TEST(Picture, LeavesOutTheCopiesBeforeThePlot) {
     }
     ++plot;
     hidden += all[k].copy != 0 ? 1 : 0;
-    // Leaves of the copies beside the plot reach into its rows, in front of its own leaves or behind them.
+    // Leaves of the neighbouring copies reach into the rows of the plot, in front of its own leaves or behind them.
     EXPECT_TRUE(cut[k].copy == 0 ? cut[k].surface == alone[k].surface : cut[k].depth < alone[k].depth) << k;
   }
   EXPECT_GT(hidden, plot * 9 / 10);

@@ -1,4 +1,4 @@
-// Calls every function of the shared text, and is itself shared text: one struct for the inputs and one for the outputs.
+// Calls every function of the shared text, and is shared text itself: one struct for the inputs and one for the outputs.
 #ifndef SUNFLECK_TESTS_SHARED_TEXT_H
 #define SUNFLECK_TESTS_SHARED_TEXT_H
 

@@ -1,4 +1,4 @@
-// Measures what matters on a GPU: whether it finds the CPU path's hits, and how fast it is with which choices.
+// Measures what matters on a GPU: whether it finds the CPU path's hits, and how fast it is with each choice.
 //   device/agree/RAYS            ten million rays on both; the counter "differ" is the number that land elsewhere
 //   device/fetch/RAYS/HOW        the tree in texel buffers or in storage buffers
 //   device/group/RAYS/SIZE       threads per workgroup

@@ -1,6 +1,6 @@
 #pragma once
-// Registers the groups of measurements; main.cpp describes them. Without `context`, measurements that need a Vulkan device are
-// left out; it must outlive the run.
+// Registers the groups of measurements, which main.cpp describes. Without `context`, which must outlive the run, measurements
+// that need a Vulkan device are left out.
 
 #include "gpu/context.h"
 

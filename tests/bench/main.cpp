@@ -1,4 +1,4 @@
-// sunfleck_bench [--device=NAME] [Google Benchmark's options]: measures our engine beside Embree in the same process.
+// sunfleck_bench [--device=NAME] [Google Benchmark's options]: compares our engine with Embree in the same process.
 //   trace/RAYS/PLOT/WHO        rays per second; RAYS: beam, leaf or random (packets in the tree's order, or in random order);
 //                              PLOT: endless or single; WHO: embree1, embree8, cpu or device
 //   growth/RAYS/WHO/plants:N   the same over canopies from 32,000 to ten million triangles

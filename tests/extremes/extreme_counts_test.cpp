@@ -9,8 +9,8 @@
 #include "support/scattering.h"
 #include "transport/band_quanta.h"
 #include "transport/beam_block.h"
-#include "transport/indirect_round.h"
-#include "transport/tally.h"
+#include "transport/indirect.h"
+#include "transport/run_sums.h"
 
 #include <array>
 #include <limits>
@@ -74,7 +74,7 @@ TEST(ExtremeCounts, EightBillionRaysInARun) {
   EXPECT_NEAR(result.direct.grid_m, 0x1p-16 / std::sqrt(2.0), 1e-12);
 }
 
-// No run reaches this bound: the run ends, and says so, while the ledgers can still hold the incident flux.
+// No run reaches this bound: the run ends, and reports it, while the ledgers can still hold the incident flux.
 TEST(ExtremeCounts, ARunHasNoMoreReplicatesThanItsLedgersHold) {
   const RadiationModel model = black_model(quarter(), unit_plot, sun_at(60.0, 33.0));
   const Prepared prepared(model);
@@ -225,14 +225,16 @@ TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
   RadiationModel model = scattering_model(quarter(), unit_plot, sun_at(60.0, 33.0), std::array{usual_nir});
   const Prepared prepared(model);
   const Surfaces surfaces(model);
-  Tally tally(model, prepared.layout, surfaces, nullptr, {}, ElementErrors::skip);
-  const std::vector<std::uint32_t> none(prepared.layout.words());
-  const DirectSums sums = tally.sum(none);
-  IndirectSums indirect(model, prepared.layout, surfaces);
+  const Conversion conversion(model, prepared.layout, surfaces, nullptr, {});
+  RunSums sums(conversion, ElementErrors::skip);
+  Replicate replicate;
+  replicate.counters.resize(prepared.layout.words());
+  replicate.direct = conversion.sum(replicate.counters);
+  IndirectSums& indirect = replicate.packets.emplace(model, prepared.layout, surfaces);
   indirect.surface_landed[0] = indirect.side_landed[0] = std::int64_t{20000} << 46U;  // most_rounds times the whole flux
   int added = 0;
   try {
-    for (; added < 100; ++added) tally.add(none, sums, {}, &indirect);
+    for (; added < 100; ++added) sums.add(replicate);
     ADD_FAILURE() << "it overflowed unnoticed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::failure);

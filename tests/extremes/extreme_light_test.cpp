@@ -212,7 +212,7 @@ TEST_F(ExtremeLight, OneTriangleInAKilometre) {
   }
 }
 
-// A thousand leaves of 4 m stand in a plot of a kilometre, and as many of 4 mm in one of a metre.
+// A thousand leaves of 4 m stand in a plot of a kilometre, and the same number of 4 mm leaves in one of a metre.
 TEST_F(ExtremeLight, ManyLeavesInAKilometre) {
   for (const double size_m : {1024.0, 0.0078125}) {
     const double leaf_m = size_m / 256.0;

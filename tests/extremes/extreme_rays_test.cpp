@@ -114,8 +114,9 @@ TEST_F(ExtremeRays, LeaveAlongAnEdge) {
   }
 }
 
-// An upright leaf reaches through the ground, and a level one lies below. The ground stops light from above, also what starts as
-// far below it as a packet does from a leaf that lies in it; what starts lower meets the level leaf or leaves downwards.
+// An upright leaf reaches through the ground, and a level one lies below. The ground stops light from above, including light that
+// starts as far below it as a packet from a leaf that lies in it; light that starts lower meets the level leaf or leaves
+// downwards.
 TEST_F(ExtremeRays, BelowAnIsolatedPlotMeetNoGround) {
   MeshMaker maker;
   maker.organ("leaf", 1, 1);
@@ -138,7 +139,7 @@ TEST_F(ExtremeRays, BelowAnIsolatedPlotMeetNoGround) {
   EXPECT_EQ(landings[5].surface, shared::left_upwards);
 }
 
-// A leaf below an isolated plot, lit from beside it: none of what it scatters comes to the soil, and what it sends downwards is
+// A leaf below an isolated plot, lit from the side: none of what it scatters comes to the soil, and what it sends downwards is
 // transmitted.
 TEST_F(ExtremeRays, ALeafBelowAnIsolatedPlotLightsNoSoil) {
   MeshMaker maker;

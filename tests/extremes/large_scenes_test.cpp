@@ -69,7 +69,7 @@ TEST_F(LargeScenes, TenMillionTriangles) {
   }
 }
 
-// Where there is less memory than needed, one line says so.
+// If there is less memory than needed, one line reports it.
 TEST_F(LargeScenes, TooLittleMemoryIsSaid) {
   const rlim_t before = [] {
     rlimit limit{};

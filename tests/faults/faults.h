@@ -87,7 +87,7 @@ class FaultTest : public regression::PreloadTest {
   }
 
   // Expects the same after a kill, which may leave temporary files, and may have come between the last file and the program's
-  // end: if a summary says that the run is complete, all files of a complete run must be beside it.
+  // end: if a summary says that the run is complete, all files of a complete run must be in the same folder.
   void expect_whole_after_kill(const std::map<std::string, std::string>& undisturbed) const {
     expect_files_whole(undisturbed);
     if (!exists_in_out("summary.json") || !tells_complete()) return;

@@ -1,4 +1,4 @@
-// Signals at any time, and clocks that jump.
+// Tests signals at any time, and clocks that jump.
 
 #include "faults/faults.h"
 
@@ -9,7 +9,8 @@ namespace {
 
 class Signals : public FaultTest {
  protected:
-  // The signal at the `moment`-th of the program's writes, fsyncs and renames in the folder `out`; before all of them for 0.
+  // Runs the program and sends the signal at the `moment`-th of its writes, fsyncs and renames in the folder `out`; 0 means
+  // before all of them.
   Outcome run_and_send(const Arguments& arguments, int signal, int moment) {
     may_be_killed_ = true;
     preload_signals(std::to_string(signal) + "@#" + std::to_string(moment));
@@ -23,7 +24,7 @@ class Signals : public FaultTest {
     return outcome;
   }
 
-  // Moments from the first to the last, one in each of `count` equal parts.
+  // Returns moments from the first to the last, one in each of `count` equal parts.
   static std::vector<int> moments(int last, int count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> of(0.0, 1.0);
@@ -32,7 +33,7 @@ class Signals : public FaultTest {
     return all;
   }
 
-  // Undisturbed: its files and how many moments it has.
+  // Runs the program undisturbed; returns its files and its number of moments.
   [[nodiscard]] std::pair<std::map<std::string, std::string>, int> undisturbed(const Arguments& arguments) {
     const std::filesystem::path journal = folder_ / "journal.txt";
     std::filesystem::remove(journal);
@@ -46,7 +47,7 @@ class Signals : public FaultTest {
     return result;
   }
 
-  // With a plot drawn by gnuplot, pictures and exports: something of every stage.
+  // Includes a plot drawn by gnuplot, pictures and exports, so that every stage has something to do.
   const Arguments whole_run_ =
       Arguments{"run", "scene.toml", "-o", "out", "--export", "csv,nc", "--size", "320x240", "--samples", "16"} + quick_;
 };
@@ -62,7 +63,7 @@ TEST_F(Signals, AtAnyTimeEndARunCleanly) {
     SCOPED_TRACE(moment);
     std::filesystem::remove_all(folder_ / "out");
     const Outcome outcome = run_and_send(whole_run_, signals[turn++ % 3], moment);
-    // It may be killed before main, as every program.
+    // Like every program, it may be killed before main.
     const bool not_begun = outcome.status == -1 && !std::filesystem::exists(folder_ / "out");
     EXPECT_TRUE(outcome.status == 130 || outcome.status == 0 || not_begun) << outcome.status << outcome.err;
     for (const auto& [name, bytes] : files()) EXPECT_FALSE(name.ends_with(".tmp")) << name;
@@ -90,14 +91,14 @@ TEST_F(Signals, ThatKillLeaveNoFileHalfWritten) {
     folder_.write("other.csv.12.tmp", "mine");
   }
   EXPECT_GT(killed, count / 2);
-  // Into the same folder: what was left aside goes.
+  // The next run into the same folder removes the files left aside.
   EXPECT_EQ(run(whole_run_).status, 0);
   const auto after = files();
   EXPECT_EQ(after.size(), whole.size());
   for (const auto& [name, bytes] : whole) EXPECT_TRUE(name == "summary.json" || after.at(name) == bytes) << name;
 }
 
-// The first one as soon as the run has a summary, the second one as it writes what it has by then.
+// The first signal comes as soon as the run has a summary, the second one while it writes the results it has by then.
 TEST_F(Signals, TheSecondOfAKindForcesTheEnd) {
   may_be_killed_ = true;
   preload_signals(signal_at(SIGINT, "fsync .") + "," + signal_at(SIGINT, "write "));
@@ -147,7 +148,7 @@ TEST_F(Signals, ThatAreIgnoredFromOutsideStayIgnored) {
   preload_signals(signal_at(SIGHUP, "rename summary.json"));
   before_program_ = [preloaded = before_program_] {
     preloaded();
-    std::signal(SIGHUP, SIG_IGN);  // nohup
+    std::signal(SIGHUP, SIG_IGN);  // as under nohup
   };
   EXPECT_EQ(run(whole_run_).status, 0);
   EXPECT_EQ(summary()["complete"], true);
@@ -171,7 +172,7 @@ TEST_F(Clocks, ThatJumpChangeNothing) {
   }
 }
 
-// A limit of the steady clock, of which 100 readings are a second; the time of day jumps by years.
+// The limit is on a steady clock of which 100 readings make a second; the time of day jumps by years.
 TEST_F(Clocks, ThatJumpChangeNoLimitOfTime) {
   preload({{"SUNFLECK_FAULT_CLOCK", "1"}, {"SUNFLECK_FAULT_STRIDE", "0.01"}});
   const Arguments endless{"--device", "cpu", "--images", "none", "--direct-error", "1e-7", "--max-seconds"};

@@ -1,5 +1,5 @@
-# Fails unless the folder of the corpus holds one archive for each target and nothing else, which would be a file that nobody
-# replays: cmake -D CORPUS=... -D TARGETS="scene;obj" -P check_packed.cmake
+# Fails unless the corpus folder holds one archive for each target and nothing else, because any other file would never be
+# replayed: cmake -D CORPUS=... -D TARGETS="scene;obj" -P check_packed.cmake
 cmake_minimum_required(VERSION 3.25)
 
 set(expected ${TARGETS})

@@ -1,4 +1,4 @@
-// libFuzzer's entry to the target SUNFLECK_FUZZ_TARGET.
+// Passes libFuzzer's inputs to the target SUNFLECK_FUZZ_TARGET.
 
 #include "base/log.h"
 #include "fuzz/targets.h"

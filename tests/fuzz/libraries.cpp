@@ -1,5 +1,5 @@
-// Debian hands out these two compiled; here they are compiled again, so that fuzzer and sanitizers see into them. (tinygltf and
-// nlohmann-json come as headers.)
+// Debian ships these two libraries compiled; they are compiled again here, so that the fuzzer and the sanitizers can see into
+// them. (tinygltf and nlohmann-json are header-only.)
 
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>

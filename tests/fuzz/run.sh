@@ -2,10 +2,10 @@
 # Builds the fuzzers of users' files, unpacks the kept corpus (tests/fuzz/corpus/TARGET.tar.xz) and runs each fuzzer on it, two at
 # a time:
 #   tests/fuzz/run.sh [SECONDS] [TARGET...]     600 seconds and all targets by default
-# Prints executions and findings; exit 1 if there is any finding. Needs Debian's clang, libclang-rt-14-dev and xz-utils.
-# What the fuzzers found new lies in build/fuzz/corpus, what ended them in build/fuzz/findings. To keep them:
+# Prints executions and findings; exits with status 1 if there is any finding. Needs Debian's clang, libclang-rt-14-dev and xz-utils.
+# New inputs are kept in build/fuzz/corpus, inputs that ended a fuzzer in build/fuzz/findings. To add them to the corpus:
 #   tests/fuzz/run.sh --merge [TARGET...]       packs the smallest files that reach as much as the kept and the new ones
-# Equal files make equal archives.
+# Equal files give equal archives.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

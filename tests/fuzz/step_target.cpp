@@ -1,4 +1,4 @@
-// What days and runs keep to be resumed.
+// Fuzzes the files that days and runs keep in order to be resumed.
 
 #include "fuzz/support.h"
 #include "io/run_store.h"
@@ -18,7 +18,7 @@ void feed_run_state(std::string_view bytes);
 
 namespace {
 
-// The file that an eight-letter mark and the right check sum make of any bytes, so that more than the check sum is tried.
+// Returns a file with this eight-letter mark, the right checksum and any bytes, so that fuzzing reaches beyond the checksum.
 std::string sealed_as(std::string file, std::string_view bytes) {
   const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
   file.resize(file.size() + sizeof sum);

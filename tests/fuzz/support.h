@@ -1,5 +1,5 @@
 #pragma once
-// What the fuzz targets share.
+// Functions shared by the fuzz targets.
 
 #include <filesystem>
 #include <functional>
@@ -8,16 +8,16 @@
 
 namespace sunfleck::fuzz {
 
-// Ends the process if a promise is broken, with a line on standard error.
+// Ends the process with a line on standard error if a promise is broken.
 void promise(bool kept, std::string_view what);
 
 // Runs the work; a refusal must be one line in three parts.
 void read_or_refuse(const std::function<void()>& work);
 
-// A folder of this process, made once with the files that others may name, and removed at the end.
+// Returns a folder of this process, which is created once, with the files that others may name, and removed at the end.
 [[nodiscard]] const std::filesystem::path& folder();
 
-// Writes a file there and returns its path.
+// Writes a file into that folder and returns its path.
 std::filesystem::path write(const std::string& name, std::string_view bytes);
 
 }  // namespace sunfleck::fuzz

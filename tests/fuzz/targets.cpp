@@ -49,7 +49,7 @@ void check_scene(const Scene& scene) {
 }
 
 void feed_scene(std::string_view bytes) {
-  // Generated stands take long; their keys are few and have tests of their own.
+  // Generating stands takes long; their few keys are tested elsewhere.
   if (bytes.find("maize") != bytes.npos) return;
   const std::filesystem::path file = write("scene.toml", bytes);
   for (const ScenePurpose purpose : {ScenePurpose::moment, ScenePurpose::day})

@@ -1,4 +1,4 @@
-# Unpacks one target's corpus into a folder of its own: cmake -D ARCHIVE=NAME.tar.xz -D FOLDER=... -D STAMP=... -P unpack.cmake
+# Unpacks one target's corpus into a separate folder: cmake -D ARCHIVE=NAME.tar.xz -D FOLDER=... -D STAMP=... -P unpack.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE ${FOLDER})

@@ -11,21 +11,21 @@
 namespace sunfleck::test::differential {
 namespace {
 
-// A figure is traced well enough for the root mean square of z below this relative error: at least 400 landings of equal weight,
-// a quarter of them in the program's run. Rarer ones do not scatter as Student's t does.
+// Below this relative error a figure is traced well enough to count in the root mean square of z: it has at least 400 landings
+// of equal weight, a quarter of them in the program's run. Rarer figures do not scatter as Student's t does.
 constexpr double well_traced = 0.05;
-// A run of the program has a quarter of the tracer's paths: its error is no smaller than twice the traced one, whatever its few
-// landings make of it.
+// A run of the program has a quarter of the tracer's paths, so its error is at least twice the traced one, whatever its few
+// landings suggest.
 constexpr double rare_error = 2.0;
-// Rarer still, and nothing can be told.
+// Above this relative error nothing can be concluded.
 constexpr double too_rare = 0.25;
-// No spread between the batches, but for rounding.
+// Below this relative spread the batches differ only by rounding.
 constexpr double no_spread = 1e-9;
-// Corners, rays and quanta are rounded to this part of a value.
+// Corners, rays and quanta are rounded to this share of a value.
 constexpr double rounded = 4e-6;
 constexpr double least_rms = 0.9;
 constexpr double most_rms = 1.1;
-constexpr double chance = 0.001;  // of a false alarm
+constexpr double chance = 0.001;  // probability of a false alarm
 constexpr std::size_t most_named = 10;
 
 }  // namespace
@@ -38,7 +38,7 @@ void Comparison::add(const std::string& name, const Stated& program, const State
   }
   const double size = std::abs(traced.value);
   if (std::isnan(program.value) || std::isnan(program.error)) {
-    // It tells nothing where too few rays could land, or none did.
+    // The program states nothing where too few rays could land, or where none did.
     EXPECT_TRUE(size == 0.0 || traced.error > 0.5 * well_traced * size) << name << ": nothing is stated of " << traced.value;
     ++untold_;
     return;
@@ -57,8 +57,8 @@ void Comparison::add(const std::string& name, const Stated& program, const State
   deviations_.push_back({name, (program.value - traced.value) / error, program.value, traced.value, is_rare});
 }
 
-// Where no ray ever differed, the program's interval is what may have escaped its rays: 3.69 of them at 95 %, and more for as
-// little chance as this many comparisons leave each.
+// Checks figures on which all rays agreed. The program's interval is then what may have escaped its rays: 3.69 of them at 95 %,
+// and more at the small probability that so many comparisons leave to each.
 void Comparison::expect_exact_ones(std::size_t count) const {
   const double events = -std::log(0.5 * chance / static_cast<double>(count));
   std::size_t apart = 0;
@@ -71,7 +71,7 @@ void Comparison::expect_exact_ones(std::size_t count) const {
   EXPECT_EQ(apart, 0U);
 }
 
-// Names the first few that are.
+// Expects no deviation beyond the limit; names the first few that exceed it.
 void Comparison::expect_none_beyond(double limit) const {
   std::size_t beyond = 0;
   for (const Deviation& deviation : deviations_) {

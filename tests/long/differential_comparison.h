@@ -11,13 +11,13 @@ namespace sunfleck::test::differential {
 
 class Comparison {
  public:
-  // `replicates`: behind each standard error, at least. `quantile`: of the program's half-widths.
+  // `replicates` is the least number behind any standard error, `quantile` that of the program's half-widths.
   Comparison(std::size_t replicates, double quantile) : replicates_(replicates), quantile_(quantile) {}
 
-  // Adds one figure as the program states it and as it was traced.
+  // Adds one figure, as the program states it and as it was traced.
   void add(const std::string& name, const Stated& program, const Stated& traced);
 
-  // Expects the root mean square of z between 0.9 and 1.1, and no deviation beyond the Sidak limit for them all.
+  // Expects the root mean square of z to lie between 0.9 and 1.1, and no deviation to exceed the Sidak limit for all of them.
   void expect_agreement(const std::string& kind) const;
 
  private:

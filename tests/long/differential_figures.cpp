@@ -9,16 +9,17 @@
 namespace sunfleck::test::differential {
 namespace {
 
-// Flux that is still unshot, relative to what was absorbed: finer figures' errors hold that part of their value.
+// Returns the flux that is still unshot, relative to the absorbed flux. The errors of finer figures include this share of their
+// value.
 double unshot_share(const RadiationResult& result, std::size_t band) {
   const FluxLedger& ledger = result.bands[band].ledger;
   const auto absorbed = static_cast<double>(ledger.absorbed_vegetation + ledger.absorbed_soil);
   return absorbed > 0.0 ? static_cast<double>(ledger.unshot) / absorbed : 0.0;
 }
 
-// All light on a side, W m-2.
+// Returns all light on a side, W m-2.
 double side_w_m2(const RadiationModel& model, const RadiationResult& result, std::size_t side, std::size_t band) {
-  const ElementResult& element = result.elements[side / 2];
+  const BeamLandings& element = result.elements[side / 2];
   const double area = area_m2(model.canopy.corners[side / 2]);
   const double beam_w_m2 = model.has_beam() ? model.bands[band].direct_w_m2 : 0.0;
   return result.irradiance_w_m2(side % 2 == 0 ? element.upper : element.lower, area, beam_w_m2) +

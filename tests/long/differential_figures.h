@@ -46,13 +46,13 @@ struct Figure {
 
 [[nodiscard]] std::string name_of(const RadiationModel& model, const Figure& figure);
 
-// Holds a value and its standard error; NaN where none is stated.
+// A value and its standard error; NaN where none is stated.
 struct Stated {
   double value = 0.0;
   double error = 0.0;
 };
 
-// Returns what the program states of a figure, without the part of the error that unshot flux makes. `quantile`: of the
+// Returns a figure as the program states it, with its error reduced by the part for unshot flux. `quantile` is that of the
 // half-widths.
 [[nodiscard]] Stated stated(const RadiationModel& model, const RadiationResult& result, const Figure& figure, double quantile);
 

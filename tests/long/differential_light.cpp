@@ -14,7 +14,7 @@ namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
-// Two unit vectors that stand upright on a third and on each other.
+// Two unit vectors that are perpendicular to a third and to each other.
 struct Frame {
   Frame(const glm::dvec3& first, const glm::dvec3& second) : u(first), v(second) {}
   explicit Frame(const glm::dvec3& along) {
@@ -25,7 +25,7 @@ struct Frame {
   glm::dvec3 u, v;
 };
 
-// Returns a point of the unit square in cell k of cells * cells.
+// Returns a random point in cell k of the unit square's cells * cells cells.
 glm::dvec2 jittered(std::size_t k, std::size_t cells, Dice& dice) {
   const std::size_t column = k % cells;
   const std::size_t row = k / cells;
@@ -71,8 +71,8 @@ Light::Light(const RadiationModel& model, const World& world) : model_(model), w
   find_lamps();
 }
 
-// The largest radiance, and how much level ground the rays through a window stand for: the integral of radiance over the sky
-// times its area. Radiance is constant in cells that are even in zenith angle and azimuth.
+// Finds the largest radiance, and the level ground that the rays through a window represent: the integral of radiance over the
+// sky times the window's area. Radiance is constant in cells that are even in zenith angle and azimuth.
 void Light::measure_sky() {
   double plain = 0.0;
   for (const SkyLight& light : sky_lights()) plain += light.weight / light.to_sky.y;
@@ -115,7 +115,7 @@ double Light::Window::area_m2() const {
   return 4.0 * glm::length(half_u_m) * glm::length(half_v_m);
 }
 
-// The shadow of the stand's box, one edge level. Not for light from the zenith.
+// Returns a window that just covers the shadow of the stand's box, with one edge level. Not for light from the zenith.
 Light::Window Light::window_to(const glm::dvec3& to_light) const {
   const glm::dvec3 level = glm::normalize(glm::dvec3(to_light.z, 0.0, -to_light.x));
   const Frame frame{glm::cross(level, to_light), level};
@@ -126,7 +126,7 @@ Light::Window Light::window_to(const glm::dvec3& to_light) const {
   return {0.5 * (lo_m_ + hi_m_), half_m.x * frame.u, half_m.y * frame.v};
 }
 
-// A square that is as large for light from everywhere.
+// Returns a square window that is equally large for light from every direction.
 Light::Window Light::any_window(const glm::dvec3& to_light) const {
   const Frame frame(to_light);
   const double half_m = 0.501 * glm::length(hi_m_ - lo_m_);
@@ -148,7 +148,8 @@ std::vector<Ray> Light::beam_rays(std::size_t cells, Dice& dice) const {
   return rays;
 }
 
-// By rejection: on level ground each ray carries an equal part of the irradiance, through the square of the radiance.
+// Draws by rejection: over level ground each ray carries an equal share of the irradiance, through the square an equal share of
+// the radiance.
 glm::dvec3 Light::sky_direction(Dice& dice) const {
   const glm::dvec3 zenith(0.0, 1.0, 0.0);
   const bool by_cosine = model_.plot.periodic;

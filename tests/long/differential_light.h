@@ -1,5 +1,5 @@
 #pragma once
-// Sends the independent tracer's light: from sun, sky and lamps. Flux is in W, for each waveband.
+// The light of the independent tracer: from sun, sky and lamps. Flux is in W, for each waveband.
 
 #include "long/differential_world.h"
 #include "transport/model.h"
@@ -22,7 +22,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-// Returns a cosine-distributed direction about a unit normal, and one of any direction.
+// Return a cosine-distributed direction about a unit normal, and a direction uniform over the sphere.
 [[nodiscard]] glm::dvec3 cosine_direction(const glm::dvec3& normal, Dice& dice);
 [[nodiscard]] glm::dvec3 any_direction(Dice& dice);
 
@@ -30,7 +30,7 @@ struct Ray {
   glm::dvec3 origin_m{0.0}, direction{0.0};
 };
 
-// Holds light that starts at a point: flux by band.
+// Light that starts at a point, with its flux by band.
 struct Emitted {
   Ray ray;
   std::size_t element = 0;
@@ -46,15 +46,15 @@ class Light {
   [[nodiscard]] bool has_lamps() const { return !lamps_.empty(); }
   [[nodiscard]] const glm::dvec3& to_sun() const { return to_sun_; }
 
-  // Return the level ground that all rays together stand for, m2: of the beam, and of the sky.
+  // Return the level ground that all rays together represent, m2: those of the beam, and those of the sky.
   [[nodiscard]] double beam_ground_m2() const { return beam_ground_m2_; }
   [[nodiscard]] double sky_ground_m2() const { return sky_ground_m2_; }
 
-  // Return rays, one in each of cells * cells equal cells of the plane that the light comes through; each carries an equal part
-  // of the flux.
+  // Return one ray in each of the cells * cells equal cells of the plane that the light comes through; each carries an equal
+  // share of the flux.
   [[nodiscard]] std::vector<Ray> beam_rays(std::size_t cells, Dice& dice) const;
   [[nodiscard]] std::vector<Ray> sky_rays(std::size_t cells, Dice& dice) const;
-  // Returns light of one of the lamps, as if `count` such were all of it.
+  // Returns light of one of the lamps, as if `count` of these were all of it.
   [[nodiscard]] Emitted emitted(std::size_t count, Dice& dice) const;
 
   // Returns the radiance of the sky for a horizontal irradiance of 1; 0 for a sky of single lights.
@@ -62,7 +62,7 @@ class Light {
   [[nodiscard]] const std::vector<SkyLight>& sky_lights() const;
 
  private:
-  // Stands across the way of light, wide enough for an isolated stand.
+  // A rectangle across the path of light, wide enough for an isolated stand.
   struct Window {
     glm::dvec3 centre_m{0.0}, half_u_m{0.0}, half_v_m{0.0};
     [[nodiscard]] double area_m2() const;
@@ -85,8 +85,8 @@ class Light {
   Window beam_window_;
   struct Lamp {
     std::size_t element = 0;
-    double share = 0.0;  // of all lamps' flux, the mean over the bands
-    double up_to = 0.0;  // the shares of this and all earlier ones
+    double share = 0.0;  // of all lamps' flux, averaged over the bands
+    double up_to = 0.0;  // sum of the shares of this and all earlier lamps
     double area_m2 = 0.0;
   };
   std::vector<Lamp> lamps_;

@@ -1,5 +1,5 @@
 #pragma once
-// Makes the parts of random scenes: plots, suns, leaves, plants, rooms, optics, receivers.
+// Builds the parts of random scenes: plots, suns, leaves, plants, rooms, optics, receivers.
 
 #include "support/models.h"
 
@@ -13,7 +13,7 @@ namespace sunfleck::test::differential {
 [[nodiscard]] SunPosition random_sun(Random& random);
 [[nodiscard]] glm::dvec3 random_normal(Random& random);
 
-// Bounds the centres of leaves.
+// Limits of the positions of leaf centres.
 struct Space {
   glm::dvec3 lo_m{0.0}, hi_m{0.0};
 };
@@ -39,7 +39,7 @@ void add_room(MeshMaker& maker, const glm::dvec3& lo_m, const glm::dvec3& hi_m);
 // Adds an undulating sheet of soil that closes across the borders of the plot.
 void add_soil_sheet(MeshMaker& maker, Random& random, const Plot& plot);
 
-// Returns optics of which both faces are alike: dark as in the visible, or bright as in the near infrared.
+// Returns optics with two equal faces: dark as in the visible, or bright as in the near infrared.
 [[nodiscard]] FaceOptics dark_face(Random& random);
 [[nodiscard]] FaceOptics bright_face(Random& random);
 
@@ -47,13 +47,13 @@ void add_soil_sheet(MeshMaker& maker, Random& random, const Plot& plot);
 // transmit nothing.
 void paint(RadiationModel& model, Random& random);
 
-// Returns a model of a mesh in the sun, painted, with one receiver plane and two sensors.
+// Returns a model of a mesh in the sun, with painted surfaces, one receiver plane and two sensors.
 [[nodiscard]] RadiationModel painted_model(const Mesh& mesh, const Plot& plot, const SunPosition& sun, Random& random);
 
-// Adds sky light to all bands, as much as a part of 1 W m-2.
+// Adds sky light to all bands, this share of 1 W m-2.
 void add_sky(RadiationModel& model, const SkyModel& sky, double part);
 
-// Adds a plane at that height, and a sensor of one point somewhere in the plot, below `highest_m`.
+// Adds a plane at that height, and a sensor of one point anywhere in the plot, below `highest_m`.
 void add_plane(RadiationModel& model, double height_m);
 void add_sensor(RadiationModel& model, Random& random, SensorResponse response, const glm::dvec3& normal, double highest_m);
 

@@ -13,10 +13,10 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const glm::dvec3 upwards(0.0, 1.0, 0.0);
 
-// Below this part of what it began with a path is ended by chance.
+// A path that has less than this share of its initial weight may be ended by chance.
 constexpr double roulette_from = 0.1;
 
-// The mean over the bands of what each carries relative to its scale.
+// Returns the mean over the bands of the weight relative to its scale.
 double importance(const std::vector<double>& weights, const std::vector<double>& scale) {
   double sum = 0.0;
   double bands = 0.0;
@@ -32,7 +32,8 @@ void multiply(std::vector<double>& weights, double factor) {
   for (double& weight : weights) weight *= factor;
 }
 
-// Chooses one of two ways with odds as their importance, and keeps the mean. False if neither carries anything.
+// Chooses one of two paths with odds equal to their importance, and preserves the mean. Returns false if neither carries
+// anything.
 bool choose(std::vector<double>& first, std::vector<double>& second, const std::vector<double>& scale, Dice& dice,
             bool& takes_first) {
   const double a = importance(first, scale);
@@ -44,7 +45,7 @@ bool choose(std::vector<double>& first, std::vector<double>& second, const std::
   return true;
 }
 
-// False if the path ends here.
+// Returns false if the path ends here.
 bool survives(std::vector<double>& weights, const std::vector<double>& scale, Dice& dice) {
   const double left = importance(weights, scale);
   if (left >= roulette_from) return true;
@@ -83,7 +84,7 @@ Paths::Leaving Paths::scatter(const Landing& landing, std::vector<double>& weigh
   return {{world_.start(landing.point_m, normal), cosine_direction(normal, dice)}, true};
 }
 
-// `first`: where the light lands first, if it is known.
+// `first` is the first landing of the light, if it is known.
 void Paths::follow(Ray ray, Height from, std::vector<double> flux_w, Carried carried, Dice& dice, Tally& tally,
                    const Landing* first) const {
   const std::vector<double> scale = flux_w;
@@ -147,7 +148,7 @@ std::vector<double> Paths::lights_on(const glm::dvec3& start_m, const glm::dvec3
   return irradiance_w_m2;
 }
 
-// What leaves the side that was seen was reflected there, or came through from the other one.
+// Light that leaves the side that was seen was reflected there, or was transmitted from the other side.
 Paths::Arrived Paths::arrive(const Landing& landing, std::vector<double>& weights, Dice& dice) const {
   const std::vector<double> scale(weights.size(), 1.0);
   if (landing.on == Landing::On::soil_plane) {
@@ -167,7 +168,7 @@ Paths::Arrived Paths::arrive(const Landing& landing, std::vector<double>& weight
   return {world_.start(landing.point_m, normal), normal, true};
 }
 
-// One path: `weight` turns the radiance it meets into what the sensor reads.
+// Follows one path; `weight` converts the radiance that it meets to the sensor's reading.
 void Paths::look_back(Ray ray, double weight, Dice& dice, Reading& reading) const {
   const std::size_t bands = model_.bands.size();
   std::vector<double> weights(bands, 1.0);

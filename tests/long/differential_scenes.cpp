@@ -13,7 +13,7 @@
 namespace sunfleck::test::differential {
 namespace {
 
-// Level plates, some across the plot's border, over or under one that covers all of it.
+// Builds level plates, some across the plot's border, above or below one that covers all of it.
 RadiationModel plates(Random& random, int scene) {
   const Plot plot = random_plot(random);
   MeshMaker maker;
@@ -31,7 +31,7 @@ RadiationModel plates(Random& random, int scene) {
   return painted_model(maker.mesh(), plot, random_sun(random), random);
 }
 
-// A room without other light: lamps are all its surfaces, or a panel below the ceiling.
+// Builds a room without other light: either all its surfaces are lamps, or a panel below the ceiling is.
 RadiationModel room(Random& random, Plot plot, bool all_glow) {
   MeshMaker maker;
   add_room(maker, {0.05, 0.02, 0.05}, {plot.size_x_m - 0.05, 0.7, plot.size_z_m - 0.05});
@@ -53,7 +53,7 @@ RadiationModel room(Random& random, Plot plot, bool all_glow) {
 
 RadiationModel furnace(Random& random, int scene) {
   RadiationModel model = room(random, random_plot(random, scene % 2 == 0), true);
-  // Every surface sends on the same part of the light, whichever way.
+  // Every surface scatters the same share of the light, whether by reflection or by transmission.
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const double sent_on = random.uniform(0.3, 0.7);
     for (SurfaceOptics& optics : model.optics) {
@@ -97,7 +97,7 @@ RadiationModel maize_like(Random& random, int /*scene*/) {
   return painted_model(maker.mesh(), plot, random_sun(random), random);
 }
 
-// A uniform sky, an overcast one, a clear one and single lights, the second without a sun.
+// Returns a uniform, an overcast or a clear sky, or single lights; the scene with the overcast sky has no sun.
 SkyModel random_sky(Random& random, int number) {
   if (number == 0) return {};
   if (number == 1) return {.kind = SkyKind::overcast};
@@ -121,7 +121,7 @@ RadiationModel sky_light(Random& random, int scene) {
   return model;
 }
 
-// Leaves on a plot that does not repeat, some of them beside it.
+// Builds leaves on a plot that is not repeated, some of them beside it.
 RadiationModel isolated(Random& random, int scene) {
   const Plot plot = random_plot(random, false);
   MeshMaker maker;
@@ -134,7 +134,7 @@ RadiationModel isolated(Random& random, int scene) {
   return model;
 }
 
-// Paints a model anew in bands of any light and any optics; `faces` returns those of a band.
+// Gives a model new bands with random light and optics; `faces` returns the optics of a band.
 template <class Faces>
 void set_random_bands(RadiationModel& model, Random& random, int count, const Faces& faces) {
   model.bands.clear();
@@ -161,7 +161,7 @@ FaceOptics any_face(Random& random) {
   return {reflected, sent_on - reflected};
 }
 
-// Black, transparent, reflecting and nearly white leaves.
+// Builds black, transparent, reflecting and nearly white leaves.
 RadiationModel wavebands(Random& random, int scene) {
   RadiationModel model = leaf_canopy(random, 0);
   if (scene == 2) add_sky(model, {}, 1.0);
@@ -194,7 +194,7 @@ RadiationModel receivers(Random& random, int scene) {
   return model;
 }
 
-// Triangles that lie exactly on earlier ones, some of them turned over, as organs of their own and optics of their own.
+// Builds triangles that coincide with earlier ones, some of them turned over, as separate organs with separate optics.
 RadiationModel copies(Random& random, int /*scene*/) {
   const Plot plot = random_plot(random);
   MeshMaker maker;
@@ -210,7 +210,7 @@ RadiationModel copies(Random& random, int /*scene*/) {
   return painted_model(maker.mesh(), plot, random_sun(random), random);
 }
 
-// Some leaves lie in the plane of the beam.
+// Builds leaves of which some lie in the plane of the beam.
 RadiationModel edge_on(Random& random, int /*scene*/) {
   const Plot plot = random_plot(random);
   const SunPosition sun = random_sun(random);
@@ -228,8 +228,8 @@ RadiationModel edge_on(Random& random, int /*scene*/) {
   return painted_model(maker.mesh(), plot, sun, random);
 }
 
-// Leaves that reach through the ground or lie below it, in one scene of an endless plot; the isolated ones are lit from beside as
-// well, by a sun that is not high.
+// Builds leaves that reach through the ground or lie below it: one scene has an endless plot; the isolated ones are also lit
+// from the side, by a low sun.
 RadiationModel through_ground(Random& random, int scene) {
   const Plot plot = random_plot(random, scene == 0);
   MeshMaker maker;
@@ -250,8 +250,8 @@ RadiationModel low_sun(Random& random, int scene) {
   return painted_model(maker.mesh(), plot, sun_at(2.0, random.uniform(0.0, 360.0)), random);
 }
 
-// Strips up to twice as long as the plot is wide, over a leaf that is larger than all of it; never level: their copies would
-// lie in one plane.
+// Builds strips up to twice as long as the plot is wide, over a leaf that is larger than the whole plot. No strip is level,
+// because its copies would lie in one plane.
 RadiationModel large_leaves(Random& random, int /*scene*/) {
   const Plot plot{random.uniform(0.4, 0.6), random.uniform(0.4, 0.6), true};
   MeshMaker maker;
@@ -281,7 +281,7 @@ RadiationModel no_soil(Random& random, int scene) {
   return model;
 }
 
-// Soil made of triangles, over the soil plane or without it.
+// Builds soil from triangles, with or without the soil plane below.
 RadiationModel soil_mesh(Random& random, int scene) {
   const Plot plot = random_plot(random, scene != 2);
   MeshMaker maker;

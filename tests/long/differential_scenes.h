@@ -1,5 +1,5 @@
 #pragma once
-// Makes random scenes of many kinds, small enough to be traced twice in seconds. Their seeds are fixed.
+// Builds random scenes of many kinds, small enough to be traced twice within seconds. Their seeds are fixed.
 
 #include "support/models.h"
 
@@ -16,7 +16,7 @@ struct SceneKind {
 // Returns all kinds.
 [[nodiscard]] std::span<const SceneKind> scene_kinds();
 
-// Returns scene number `scene` of a kind, from 0 on.
+// Returns scene number `scene` of a kind, counted from 0.
 [[nodiscard]] RadiationModel make_scene(const SceneKind& kind, int scene);
 
 }  // namespace sunfleck::test::differential

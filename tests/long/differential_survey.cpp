@@ -9,10 +9,10 @@
 namespace sunfleck::test::differential {
 namespace {
 
-// The guide: a leaf whose plane is this close to the beam has no sunlit share.
+// As the guide states, a leaf whose plane is this close to the beam has no sunlit share.
 constexpr double edge_on = 1e-5;
 
-// Returns the area of a triangle's part below a height, by clipping.
+// Returns the area of the part of a triangle below a height, by clipping.
 double area_below_m2(const Triangle& corners, double y_m) {
   std::vector<glm::dvec3> part;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -27,7 +27,8 @@ double area_below_m2(const Triangle& corners, double y_m) {
   return 0.5 * glm::length(doubled);
 }
 
-// True if soil keeps the beam from all of a triangle: under an endless plot, or in the shadow of an isolated plot's rectangle.
+// Returns true if soil keeps the beam away from the whole triangle: below an endless plot, or in the shadow of an isolated
+// plot's rectangle.
 bool is_under_soil(const RadiationModel& model, const Triangle& corners, const glm::dvec3& to_sun) {
   return model.soil && std::all_of(corners.begin(), corners.end(), [&](const glm::vec3& corner) {
            if (corner.y >= 0.0F) return false;

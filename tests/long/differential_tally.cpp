@@ -12,7 +12,7 @@ double share(double part, double whole) {
   return whole > 0.0 ? part / whole : none;
 }
 
-// True if a place lies above a plane of that height. All but soil lies above one at the ground.
+// Returns true if a place lies above a plane of that height. Everything but soil lies above a plane at the ground.
 bool is_above(const Height& height, double plane_y_m) {
   return height.y_m > Height::lowest && (plane_y_m <= 0.0 || height.y_m >= plane_y_m);
 }
@@ -196,7 +196,7 @@ double Tally::value(const Figure& figure) const {
     case Of::sensor_direct:
     case Of::sensor_sky:
     case Of::sensor_scattered:
-      break;  // SensorTracer's
+      break;  // computed by Paths::read
   }
   return none;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Adds up one batch of the independent tracer in double precision, and gives the figures that follow.
+// Adds up one batch of the independent tracer in double precision, and computes the figures from it.
 
 #include "long/differential_figures.h"
 #include "long/differential_light.h"
@@ -12,7 +12,7 @@
 
 namespace sunfleck::test::differential {
 
-// Knows all that follows from the scene alone: roles and areas of elements, rows of the profile.
+// Everything that follows from the scene alone: roles and areas of elements, rows of the profile.
 class Survey {
  public:
   Survey(const RadiationModel& model, const World& world, const Light& light);
@@ -21,7 +21,8 @@ class Survey {
   [[nodiscard]] bool is_foliage(std::size_t element) const { return foliage_[element]; }
   [[nodiscard]] bool has_beam() const { return has_beam_; }
 
-  // Returns the area of a leaf that a square metre of the beam's level ground lights; 0 if the beam cannot hit it.
+  // Returns the area of a leaf that is lit by a square metre of the beam, measured on level ground; 0 if the beam cannot hit
+  // it.
   [[nodiscard]] double lit_per_ground(std::size_t element) const { return lit_per_ground_[element]; }
 
   // Returns the row of the profile that holds a height.
@@ -45,25 +46,26 @@ class Survey {
   std::vector<double> organ_m2_, organ_facing_m2_, row_facing_m2_;
 };
 
-// Tells where a straight way begins or ends, for the planes that it passes: soil and all that lies below count as lowest.
+// Where a straight path begins or ends, as far as planes are concerned: soil and everything below it count as lowest.
 struct Height {
   static constexpr double lowest = -std::numeric_limits<double>::infinity();
   double y_m = lowest;
-  int row = -1;  // of the profile; the number of rows above all
+  int row = -1;  // row of the profile; the number of rows for a place above all of them
 };
 
-// Tells which light is on a straight way: the sun's beam, the sky's as it comes in, or light that lamps and surfaces sent.
+// The light on a straight path: the sun's beam, light from the sky before its first landing, or light sent by lamps and
+// surfaces.
 enum class Carried { beam, sky, sent };
 
 class Tally {
  public:
   Tally(const RadiationModel& model, const Survey& survey);
 
-  // Adds a ray of the beam that stands for so much level ground, for the shares in direct sun.
+  // Adds a ray of the beam that represents this area of level ground to the shares in direct sun.
   void add_sunlight(const Ray& ray, const Landing& landing, double ground_m2);
 
-  // Adds flux by band on its way and where it lands. Light that first comes in and passes beside an isolated plot counts for
-  // planes alone.
+  // Adds flux by band, on its path and at its landing. Light that passes beside an isolated plot before any landing
+  // counts only for planes.
   void add(const Ray& ray, const Height& from, const Landing& landing, std::span<const double> flux_w, Carried carried);
 
   [[nodiscard]] Height height_of(const Landing& landing) const;

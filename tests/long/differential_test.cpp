@@ -1,6 +1,6 @@
-// The program agrees with an independent tracer on random scenes of many kinds, in every total, organ, element, side, row of the
-// profile, plane and sensor. Embree finds the triangles of one period; wrap, sampling, scattering and tallies are the tracer's
-// own, in double precision.
+// Compares the program with an independent tracer on random scenes of many kinds, in every total, organ, element, side, row of
+// the profile, plane and sensor. Embree finds the triangles of one period; wrapping, sampling, scattering and tallies are the
+// tracer's own, in double precision.
 
 #include "long/differential_comparison.h"
 #include "long/differential_figures.h"
@@ -19,7 +19,7 @@
 
 namespace sunfleck::test::differential {
 
-// Writes a kind as GoogleTest shows it.
+// Prints a kind in GoogleTest's messages.
 inline void PrintTo(const SceneKind& kind, std::ostream* out) {
   *out << kind.scenes << " scenes";
 }

@@ -24,7 +24,7 @@ double read_value(const std::vector<Paths::Reading>& readings, const Figure& fig
   return (figure.of == Of::sensor_sky ? reading.sky : reading.scattered)[figure.band];
 }
 
-// The mean of the batches and its standard error.
+// Returns the mean of the batches and its standard error.
 Stated mean_of(const std::vector<std::vector<double>>& values, std::size_t figure) {
   const auto n = static_cast<double>(values.size());
   double sum = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 // The independent tracer follows paths from the light to their ends, and from sensors backwards, with weights in double
-// precision and Russian roulette. It shares no code with the program but the description of scene and sky.
+// precision and Russian roulette. It shares no code with the program except the description of scene and sky.
 
 #include "long/differential_figures.h"
 #include "transport/model.h"
@@ -13,7 +13,8 @@ namespace sunfleck::test::differential {
 
 struct TracerWork {
   std::size_t batches = 64;
-  std::size_t cells = 96;  // along each side of the grid that the beam starts on, and the sky: cells * cells rays a batch
+  // Number of rays along each side of the grid from which the beam, or the sky's light, starts: cells * cells rays per batch.
+  std::size_t cells = 96;
   std::size_t sensor_paths = 512;
   std::uint64_t seed = 1;
 };

@@ -78,7 +78,7 @@ Landing World::follow(const glm::dvec3& origin_m, const glm::dvec3& direction) c
   return model_.plot.periodic ? follow_in_endless_plot(origin_m, direction) : follow_in_isolated_plot(origin_m, direction);
 }
 
-// Meets the triangles where they are.
+// Finds the triangle met at its own place.
 std::optional<World::Meeting> World::meet(const glm::dvec3& origin_m, const glm::dvec3& direction, double limit) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -97,7 +97,7 @@ std::optional<World::Meeting> World::meet(const glm::dvec3& origin_m, const glm:
   return Meeting{query.ray.tfar, element, point_m};
 }
 
-// Meets all copies of the triangles that reach into a cell, from a point in it on.
+// Finds the nearest copy of a triangle that reaches into a cell, starting from a point in the cell.
 std::optional<World::Meeting> World::meet_copies(const glm::dvec3& at_m, const glm::dvec3& direction, double limit,
                                                  std::int64_t cell_x, std::int64_t cell_z) const {
   const glm::dvec2 period_m = model_.canopy.period_m;
@@ -167,8 +167,8 @@ Landing World::follow_in_endless_plot(const glm::dvec3& origin_m, const glm::dve
   return {Landing::On::nowhere};
 }
 
-// The ground stops light from above alone. What starts a little below it, from the lower face of an element that lies in it,
-// counts as from above.
+// The ground stops light only from above. Light that starts slightly below it, from the lower face of an element that lies in
+// it, counts as coming from above.
 Landing World::follow_in_isolated_plot(const glm::dvec3& origin_m, const glm::dvec3& direction) const {
   const bool down = direction.y < 0.0;
   const double to_ground = std::max(0.0, (ground_y_m_ - origin_m.y) / direction.y);

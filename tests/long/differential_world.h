@@ -1,5 +1,5 @@
 #pragma once
-// Holds a scene as the independent tracer sees it: one period's triangles are in Embree, and a walk of its own leads through the
+// A scene as the independent tracer sees it: Embree holds the triangles of one period, and a separate walk leads through the
 // copies of an endless plot, cell by cell, with positions in double precision.
 
 #include "transport/model.h"
@@ -14,14 +14,14 @@
 
 namespace sunfleck::test::differential {
 
-// Tells where a ray ends.
+// The end of a ray.
 struct Landing {
   enum class On { element, soil_plane, sky, below, nowhere };
   On on = On::nowhere;      // nowhere: it crossed too many cells
   std::size_t element = 0;  // of an element
   std::size_t side = 0;     // 0: the upper face
   glm::dvec3 point_m{0.0};  // on an element or the soil plane
-  // In an isolated plot, of a ray that ends below: it passed beside the plot, not through it.
+  // For a ray that ends below an isolated plot: true if it passed beside the plot, not through it.
   bool beside_plot = false;
 };
 
@@ -35,7 +35,7 @@ class World {
   // Follows a ray to its end. The direction is a unit vector.
   [[nodiscard]] Landing follow(const glm::dvec3& origin_m, const glm::dvec3& direction) const;
 
-  // Returns the start of light that leaves a point of a surface to the side that `normal` points to.
+  // Returns the start of light that leaves a point of a surface on the side to which `normal` points.
   [[nodiscard]] glm::dvec3 start(const glm::dvec3& point_m, const glm::dvec3& normal) const {
     return point_m + normal * offset_m_;
   }
@@ -45,7 +45,7 @@ class World {
   [[nodiscard]] double ground_y_m() const { return ground_y_m_; }
   [[nodiscard]] double top_y_m() const { return hi_m_.y + 0.01; }
   [[nodiscard]] const glm::dvec3& normal(std::size_t element) const { return normals_[element]; }
-  // Returns whether an element lies exactly on an earlier one: then it takes no light and gives none off.
+  // Returns whether an element coincides with an earlier one; it then neither receives nor emits light.
   [[nodiscard]] bool is_copy(std::size_t element) const { return is_copy_[element]; }
 
  private:
@@ -71,7 +71,7 @@ class World {
   glm::dvec3 elements_lo_m_{0.0}, elements_hi_m_{0.0};
   double ground_y_m_ = 0.0;
   double offset_m_ = 0.0;
-  double depth_m_ = 0.0;  // elements down to here below the ground win over it
+  double depth_m_ = 0.0;  // elements down to this depth below the ground take precedence over it
 };
 
 }  // namespace sunfleck::test::differential

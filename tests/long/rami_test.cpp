@@ -60,7 +60,7 @@ void expect_near(const Estimate& got, double expected, double tolerance, const c
 }
 
 // HET01 discrete, NIR, sun at 20 degrees from the zenith. Here the disc of radius 0.1 m is a square of equal area, and the
-// leaves are drawn anew, which changes the reflected flux by up to 1.2 % and the other fluxes by up to 0.004 (C2).
+// leaves are drawn again, which changes the reflected flux by up to 1.2 % and the other fluxes by up to 0.004 (C2).
 TEST(Rami, FloatingSpheres) {
   const std::array<glm::dvec3, 15> centres_enu_m = {{{-24.8302, 11.6110, 15.6210},
                                                      {-38.3380, -9.06342, 17.6094},

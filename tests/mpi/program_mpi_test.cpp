@@ -211,7 +211,7 @@ TEST_F(Mpi, LeavesNothingBehindButAStateAfterCtrlC) {
   ASSERT_NE(sent_to_, 0) << ended.err;
   EXPECT_NE(ended.status, 0);
   EXPECT_TRUE(exists("run_state.bin"));
-  // Whoever adopted it may not have buried it yet.
+  // The process that adopted it may not have reaped it yet.
   for (int wait = 0; is_at_work(worker) && wait < 60000; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_FALSE(is_at_work(worker));
 }

@@ -41,7 +41,7 @@ found_on() {
   sed 's/^/    /' "$work/failed.txt"
 }
 
-# The same for the differential test.
+# Does the same for the differential test.
 found_by_differential() {
   if "$work/build/tests/long/differential_test" > "$work/failed.txt" 2>&1; then
     echo "  differential: NOT FOUND"

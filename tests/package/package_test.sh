@@ -36,7 +36,7 @@ done
 
 echo "== install =="
 own_dpkg -i "$package"
-for file in bin/sunfleck share/sunfleck/scenes/maize_sparse.toml share/doc/sunfleck/README.md share/doc/sunfleck/copyright; do
+for file in bin/sunfleck share/sunfleck/scenes/maize_sparse.toml share/sunfleck/plots/profile.gp share/doc/sunfleck/README.md share/doc/sunfleck/copyright; do
   [ -f "$root/usr/$file" ] || fail "usr/$file is not installed"
 done
 [ -z "$(find "$root" -type f -path '*local*')" ] || fail "files below usr/local"
@@ -45,7 +45,14 @@ file "$root/usr/bin/sunfleck" | grep -q 'stripped' || fail "not stripped"
 echo "== run =="
 program=$root/usr/bin/sunfleck
 "$program" --version
-"$program" run "$root/usr/share/sunfleck/scenes/two_squares.toml" -o "$scratch/results" --device cpu --grid 0.05 --images none --quiet
+"$program" run "$root/usr/share/sunfleck/scenes/two_squares.toml" -o "$scratch/results" --device cpu --grid 0.05 --images profile --quiet
+if command -v gnuplot > /dev/null; then
+  [ -s "$scratch/results/profile.png" ] || fail "no profile.png"
+  # The installed script draws, not the one of the source tree.
+  echo "print no_such_variable" > "$root/usr/share/sunfleck/plots/profile.gp"
+  "$program" run "$root/usr/share/sunfleck/scenes/two_squares.toml" -o "$scratch/results" --device cpu --grid 0.05 --images profile --quiet 2> "$scratch/warning"
+  grep -q no_such_variable "$scratch/warning" || fail "the installed profile.gp is not used"
+fi
 grep -q '"complete": true' "$scratch/results/summary.json" || fail "the run is not complete"
 module=$(find "$root/usr/lib" -name '_core*.so' -path '*sunfleck*')
 if [ -n "$module" ]; then

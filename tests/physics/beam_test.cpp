@@ -76,7 +76,7 @@ TEST(Beam, OneTriangleIsLitOnOneSideOnly) {
     const RadiationResult result = simulate(model, fixed_work(model, 1e4, 8));
     const double area = area_m2(model.canopy.corners[0]);
     EXPECT_NEAR(area, 1.137980668e-3, 1e-9);
-    const ElementResult& element = result.elements[0];
+    const BeamLandings& element = result.elements[0];
     EXPECT_EQ(result.irradiance_w_m2(row.upper ? element.lower : element.upper, area, 1.0), 0.0);
     const double lit = result.irradiance_w_m2(row.upper ? element.upper : element.lower, area, 1.0);
     EXPECT_GT(lit, 0.0);

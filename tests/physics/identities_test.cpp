@@ -29,7 +29,7 @@ TEST(Identities, SunlitAreasFillThePlot) {
     double landed_m2 = 0.0;
     // Each leaf is flat, so both of its triangles have its normal.
     for (std::size_t e = 0; e < model.canopy.size(); ++e) {
-      const ElementResult& element = result.elements[e];
+      const BeamLandings& element = result.elements[e];
       landed_m2 += static_cast<double>(element.upper + element.lower) * result.ground_per_ray_m2;
       if (e % 2 == 1) continue;
       const OrganResult& leaf = result.organs[model.canopy.organ_of[e]];

@@ -148,7 +148,7 @@ Mesh cut_in_four(const Mesh& whole) {
   return cut;
 }
 
-// B14 (vii), with a leaf's own flux beside the aggregates: the place on a leaf where the light lands must be kept.
+// B14 (vii), with a leaf's own flux in addition to the aggregates: the place on a leaf where the light lands must be kept.
 TEST(ScatterIdentities, TrianglesCutInFourChangeNothing) {
   const RadiationResult& whole = usual_run();
   const RadiationResult cut = run(paper_model(cut_in_four(cut_in_four(stand())), plot, paper_sun()), 4);

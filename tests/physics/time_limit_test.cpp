@@ -1,4 +1,4 @@
-// Runs with a limit of time, by a clock that advances one second with each replicate that is told of.
+// Tests runs with a time limit, using a clock that advances by one second with each reported replicate.
 #include "support/light_mix.h"
 #include "support/models.h"
 
@@ -30,8 +30,8 @@ Timed timed(const SolveSettings& settings) {
   return run;
 }
 
-// The pilots take 16 seconds of this clock. Of the packets that they foretell for 16 replicates, all that the bound needs, the
-// other half of 32 seconds holds a quarter.
+// The pilots take 16 seconds of this clock and forecast the packets that the bound needs in 16 replicates. The other half of 32
+// seconds has room for a quarter of them.
 SolveSettings settings_for(std::optional<double> max_seconds, bool fit_to_time) {
   SolveSettings settings;
   settings.accuracy.direct = 0.01;

@@ -30,6 +30,8 @@ def check(python, place, **environment):
     file, table = run([python, "-B", "-c", CODE, os.path.dirname(__file__)], **environment).split("\n", 1)
     assert pathlib.Path(file).is_relative_to(place)
     assert table == sunfleck.run(with_arrays(), **WORK).table("organs.csv")
+    installed = pathlib.Path(file).parent / "plots"
+    assert {path.name for path in installed.iterdir()} == {path.name for path in (SOURCE / "share" / "plots").iterdir()}
 
 
 def test_pip(tmp_path):
@@ -39,7 +41,7 @@ def test_pip(tmp_path):
     source.mkdir()
     for name in ("CMakeLists.txt", "README.md", "pyproject.toml", "setup.py"):
         shutil.copy(SOURCE / name, source)
-    for name in ("python", "scripts"):
+    for name in ("python", "scripts", "share"):
         shutil.copytree(SOURCE / name, source / name)
     pip = [tmp_path / "venv" / "bin" / "pip", "install", "--quiet", "--no-index", source]
     run(pip, SUNFLECK_BUILD=str(BUILD))

@@ -12,7 +12,7 @@ import sunfleck
 from conftest import with_arrays
 
 ENDLESS = {"error": 1e-7, "device": "cpu"}
-PATIENCE_S = 600.0  # for what never ends
+PATIENCE_S = 600.0  # limit for work that never ends
 
 
 def test_progress_is_told():

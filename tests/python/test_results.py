@@ -42,6 +42,17 @@ def test_xarray(result):
     assert "absorbed" not in data and "sunlit_leaf_fraction" not in data
 
 
+def test_every_column_is_described(result):
+    for table, columns in (("organs.csv", result.organs), ("profile.csv", result.profile), ("triangles.csv", result.triangles)):
+        described = result.describe(table)
+        assert list(described) == [name for name in columns if name not in ("organ_name", "optics_name")]
+        assert all(meaning for _, meaning in described.values())
+    assert result.describe("organs.csv")["area_m2"] == ("m2", "one-sided area")
+    assert result.describe("profile.csv")["PAR_down_error"] == ("W m-2", "half-width of the confidence interval of PAR_down")
+    with pytest.raises(ValueError, match="not a table"):
+        result.describe("canopy.csv")
+
+
 def test_is_told_in_a_line(result):
     assert repr(result) == "<sunfleck.Result of 'three leaves': 3 triangles, PAR, NIR, complete>"
 
@@ -111,7 +122,11 @@ def test_simulations_leak_nothing():
 
     for _ in range(20):
         assert once()
-    settled = memory_kib()
-    for _ in range(60):
-        assert once()
-    assert memory_kib() - settled < 4096
+    # A leak grows in every round; the memory that the allocator keeps for another thread grows in one.
+    growth_kib = []
+    for _ in range(3):
+        before = memory_kib()
+        for _ in range(30):
+            assert once()
+        growth_kib.append(memory_kib() - before)
+    assert min(growth_kib) < 1024, growth_kib

@@ -1,6 +1,6 @@
 #pragma once
-// Runs of the program with the library of tests/faults/system_faults.cpp before it: what happens to them depends on what they do,
-// never on how fast the machine is.
+// Runs the program with the library of tests/faults/system_faults.cpp preloaded: what happens to it depends only on its
+// actions, never on the speed of the machine.
 
 #include "regression/program.h"
 
@@ -8,7 +8,7 @@
 
 namespace sunfleck::regression {
 
-// An entry of SUNFLECK_FAULT_SIGNALS: the signal at the `count`-th such event.
+// Returns an entry of SUNFLECK_FAULT_SIGNALS: the signal is sent at the `count`-th event of this kind.
 inline std::string signal_at(int signal, const std::string& event, int count = 1) {
   std::string list;
   for (int k = 1; k < count; ++k) list += "0@" + event + ",";
@@ -26,10 +26,10 @@ class PreloadTest : public ProgramTest {
     };
   }
 
-  // Until preload is called again.
+  // Removes the library until preload is called again.
   void preload_nothing() { before_program_ = {}; }
 
-  // Signals at events in the folder `out`.
+  // Sends signals at events in the folder `out`.
   void preload_signals(const std::string& signals, Variables more = {}) {
     more["SUNFLECK_FAULT_FOLDER"] = (folder_ / "out").string();
     more["SUNFLECK_FAULT_SIGNALS"] = signals;

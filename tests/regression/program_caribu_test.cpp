@@ -1,4 +1,4 @@
-// Tests stands in CARIBU's files, run without a scene, and the scenes that `convert` makes of them.
+// Tests running stands in CARIBU's files without a scene, and the scenes that `convert` makes of them.
 
 #include "regression/program.h"
 #include "support/caribu_files.h"

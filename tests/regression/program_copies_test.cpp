@@ -1,4 +1,5 @@
-// Triangles that lie exactly on others: named by `info`, warned of by `run`, dark and without a sunlit share in the tables.
+// Tests triangles that coincide with others: `info` names them, `run` warns of them, and the tables show them dark and without
+// a sunlit share.
 
 #include "regression/program.h"
 #include "support/table.h"
@@ -32,7 +33,7 @@ file = "leaves.obj"
 optics = "leaf"
 )";
 
-// Leaf 1 lies alone.
+// Leaf 1 coincides with no other.
 const std::string corners = R"(v 0.1 0.5 0.1
 v 0.1 0.5 0.5
 v 0.5 0.5 0.1
@@ -53,7 +54,7 @@ class Copies : public ProgramTest {
     folder_.write("scene.toml", scene);
     folder_.write("leaves.obj", corners + originals + copies);
   }
-  // Within twice the half-width of its interval at 95 %, some four standard errors.
+  // Allows twice the half-width of the 95 % interval, about four standard errors.
   static void expect_wholly_sunlit(const Table& organs, std::size_t row) {
     const double half_width = organs.number(row, "sunlit_fraction_error");
     EXPECT_LT(half_width, 0.05);
@@ -89,7 +90,8 @@ TEST_F(Copies, AreWarnedOfOnce) {
   EXPECT_EQ(outcome.err.find("coincide", warning + 60), std::string::npos) << outcome.err;
 }
 
-// The earlier triangle takes all light. The later one takes none; its area counts in the leaf area, and in no sunlit share.
+// The earlier triangle receives all the light, the later one none. The area of the later one counts in the leaf area but in no
+// sunlit share.
 TEST_F(Copies, AreDarkAndHaveNoSunlitShare) {
   simulate("scene.toml", work_);
   const Table organs(file("organs.csv"));
@@ -112,7 +114,7 @@ TEST_F(Copies, AreDarkAndHaveNoSunlitShare) {
     EXPECT_EQ(organs.number(copy, column), 0.0) << column;
   const std::size_t half = row_of(4.0);
   EXPECT_NEAR(organs.number(half, "area_m2"), 2.0 * second_m2, 1e-6);
-  expect_wholly_sunlit(organs, half);  // the half that is there once
+  expect_wholly_sunlit(organs, half);  // its share is that of the half without a copy
   EXPECT_NEAR(organs.number(half, "PAR_direct"), 50.0, 1.0) << "over both halves";
   EXPECT_NEAR(summary()["leaf_area_index"].get<double>(), 2.0 * first_m2 + 3.0 * second_m2, 1e-6);
   EXPECT_NEAR(summary()["sunlit_leaf_fraction"].get<double>(), 1.0,

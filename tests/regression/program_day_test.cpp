@@ -1,4 +1,4 @@
-// `day` through the program: its tables, and that a day which was cut short goes on as if nothing had been.
+// Tests `day` through the program: its tables, and that an interrupted day resumes with the same results.
 
 #include "regression/preload.h"
 #include "support/table.h"
@@ -89,13 +89,13 @@ class Day : public PreloadTest {
     }
     return count;
   }
-  // A day that gets Ctrl-C as the `steps`-th step is kept: the next one is being simulated then.
+  // Sends Ctrl-C to a day when the `steps`-th step is stored; the next step is being simulated then.
   void interrupt_evening(int steps) {
     preload_signals(signal_at(SIGINT, "rename steps/step_", steps));
     expect_day(evening_, 130);
     preload_nothing();
   }
-  // A day that is killed at these events, with or without what it had kept.
+  // Kills a day at these events, with or without the steps it had stored.
   void kill_day(const Arguments& more, const std::string& signals) {
     preload_signals(signals);
     may_be_killed_ = true;
@@ -221,7 +221,7 @@ TEST_F(Day, FieldsAreReadByXarray) {
 
 TEST_F(Day, GoesOnWhereItWasKilled) {
   expect_day({}, 0, "whole");
-  // As a step gets its name, before a step is written, and while the next one is simulated.
+  // The kills come when a step is renamed, before a step is written, and while the next one is simulated.
   kill_day({}, signal_at(SIGKILL, "rename steps/step_", 2));
   EXPECT_EQ(finished_steps(), 1U);
   kill_day({"--resume"}, signal_at(0, "rename steps/step_", 3) + "," + signal_at(SIGKILL, "write steps/step_"));
@@ -283,7 +283,7 @@ TEST_F(Day, ResumesWithTheSameSettingsOnly) {
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_NE(again.err.find("nothing to resume"), std::string::npos) << again.err;
   EXPECT_EQ(file("day.csv"), table);
-  // Without --resume everything begins anew.
+  // Without --resume the day starts from the beginning.
   expect_day({"--from", "12:00", "--to", "13:00", "--seed", "2"});
   EXPECT_EQ(Table(file("day.csv")).size(), 1U);
 }

@@ -1,4 +1,4 @@
-// Fixed work, limits, interruption, and what is said where.
+// Tests fixed work, limits, interruption, and what is printed where.
 
 #include "regression/preload.h"
 #include "support/table.h"
@@ -14,7 +14,7 @@ const Arguments on_cpu{"--device", "cpu", "--images", "none"};
 
 class Limits : public PreloadTest {
  protected:
-  // Whole files of an incomplete run, every number in them finite or empty.
+  // Expects complete files of an incomplete run, in which every number is finite or missing.
   void expect_kept() const {
     EXPECT_EQ(summary().value("complete", true), false);
     for (const char* name : {"profile.csv", "organs.csv"}) {
@@ -71,7 +71,7 @@ TEST_F(Limits, RaysStopTheRun) {
   expect_kept();
 }
 
-// By a clock of which 100 readings are a second, so that it always has run out after as much work.
+// On a clock of which 100 readings make a second, the time always runs out after the same work.
 TEST_F(Limits, SecondsStopTheRun) {
   preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
   const Outcome outcome = simulate(maize_, on_cpu + Arguments{"--direct-error", "1e-7", "--max-seconds", "6"}, 1);
@@ -90,7 +90,8 @@ TEST_F(Limits, NoTimeAtAllIsSaid) {
   expect_kept();
 }
 
-// Before the first ray, among the pilots and among the replicates of the run, which would not end by itself.
+// The signals come before the first ray, during the pilots, and during the replicates of the run, which would not end on its
+// own.
 TEST_F(Limits, SignalsEndTheRunCleanly) {
   for (const int signal : {SIGINT, SIGTERM}) {
     for (const int reading : {1, 30, 300}) {

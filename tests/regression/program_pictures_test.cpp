@@ -150,7 +150,7 @@ TEST_F(Pictures, FromAFolderAreThoseOfTheRun) {
   EXPECT_EQ(content(folder_ / "again.png"), file("rank-interval_total.png"));
 }
 
-// The line below a chart states its numbers of rays, packets and rays from the sky.
+// The line below a chart states its numbers of rays, packets and sky rays.
 TEST_F(Pictures, OfSkyLightFromAFolderAreThoseOfTheRun) {
   std::string sky_scene = bright_scene;
   for (const char* beam : {"direct = 100.0\n", "direct = 80.0\n"}) {

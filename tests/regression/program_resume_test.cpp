@@ -1,4 +1,4 @@
-// Runs that were stopped or killed, and go on.
+// Tests resuming runs that were stopped or killed.
 
 #include "regression/preload.h"
 
@@ -15,7 +15,7 @@ using regression::Outcome;
 using regression::signal_at;
 using regression::operator+;
 
-// Two bands that scatter, sun and sky, a facula map and a sensor.
+// Contains two bands that scatter, sun and sky, a facula map and a sensor.
 const std::string scene =
     "[plot]\nsize = [1.0, 1.0]\n"
     "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
@@ -52,7 +52,8 @@ class Resume : public regression::PreloadTest {
     for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name;
   }
 
-  // The signal as a state gets its name for the `count`-th time. A clock that counts makes that every few replicates.
+  // Sends the signal when a state is renamed for the `count`-th time. A clock that advances with each reading makes that happen
+  // every few replicates.
   void send_as_state_is_kept(int signal, int count) {
     preload_signals(signal_at(signal, "rename run_state.bin", count), {{"SUNFLECK_FAULT_STRIDE", "0.01"}});
   }
@@ -61,7 +62,7 @@ class Resume : public regression::PreloadTest {
     return simulate("scene.toml", work_ + more, status, to);
   }
 
-  // Many replicates.
+  // Asks for many replicates.
   const Arguments work_{"--device", "cpu", "--images", "none", "--export", "csv", "--passes", "800", "--error", "0.1"};
 };
 
@@ -81,7 +82,7 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   EXPECT_NE(stopped.err.find("--resume continues the run"), std::string::npos) << stopped.err;
   const auto replicates = summary()["direct"]["replicates"].get<int>();
   EXPECT_GT(replicates, 2);
-  // Not one replicate is lost at Ctrl-C.
+  // Ctrl-C loses no finished replicate.
   const Outcome last = go({"--resume"});
   EXPECT_NE(last.err.find("resuming after " + std::to_string(replicates) + " replicates"), std::string::npos) << last.err;
   EXPECT_EQ(summary()["complete"], true);
@@ -92,7 +93,7 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   expect_same_tables("whole", "out");
 }
 
-// With --resume from the start, so that no work is sized by the clock. Six seconds are 600 readings of this clock.
+// --resume is given from the start, so that the clock determines no work. Six seconds are 600 readings of this clock.
 TEST_F(Resume, GoesOnAfterALimitOfTime) {
   go({}, 0, "whole");
   preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
@@ -139,7 +140,7 @@ TEST_F(Resume, GoesOnWithTheSameSettingsOnly) {
   expect_one_error(run(again), 2, "out/run_state.bin (it is damaged)");
   folder_.write("out/run_state.bin", state);
   EXPECT_TRUE(tables("out") == before);
-  // Another table of the triangles may be asked for.
+  // The resumed run may export another table of the triangles.
   EXPECT_EQ(run(changed("--export", "nc")).status, 0);
   EXPECT_TRUE(exists("results.nc"));
   EXPECT_FALSE(exists("triangles.csv")) << "of the run that was stopped";

@@ -1,4 +1,4 @@
-// sunfleck tradeoff: its table, what it says, its slopes, and how it ends.
+// Tests `sunfleck tradeoff`: its table, its messages, its slopes, and how it ends.
 
 #include "regression/preload.h"
 #include "support/table.h"
@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// A leaf that lies askew over soil, so that its shadow's edges cross the cells of every grid.
+// A tilted leaf over soil, so that the edges of its shadow cross the cells of every grid.
 const std::string leaf_scene = R"(title = "One leaf"
 [plot]
 size = [1.0, 1.0]
@@ -82,9 +82,9 @@ TEST_F(Tradeoff, TableAndSlopes) {
                                                     {"error 0.005", 1}};
   for (const auto& [setting, factor] : expected) EXPECT_EQ(seeds_of[setting].size(), factor * seeds) << setting;
 
-  // Validation G3 has -0.73 for sharp edges on a jittered grid, and the gate -0.68. The spread of a rung's root mean square
-  // over n seeds is 1 / sqrt(2 n) of it: 0.25 of the finest rung's, 0.18, then 0.125. Of six rungs a factor of four apart the
-  // slope is the sum of (k - 2.5) / (17.5 log 4) of the logarithms: its standard error is 0.032.
+  // Validation G3 has -0.73 for sharp edges on a jittered grid, and its limit is -0.68. The relative spread of a level's root
+  // mean square over n seeds is 1 / sqrt(2 n): 0.25 at the finest level, then 0.18, then 0.125. For six levels a factor of four
+  // apart the slope is the sum of the logarithms with weights (k - 2.5) / (17.5 log 4): its standard error is 0.032.
   const json& slopes = report["slopes"];
   int seen = 0;
   for (const json& slope : slopes) {
@@ -134,7 +134,7 @@ TEST_F(Tradeoff, StopsInTimeAndKeepsWhatIsDone) {
   EXPECT_NE(file("tradeoff.csv").find("# incomplete"), std::string::npos);
   EXPECT_NE(file("tradeoff.csv").find("\nsetting,seed,"), std::string::npos);
   EXPECT_EQ(Table(file("tradeoff.csv")).size(), 0U);
-  // By a clock of which 100 readings are a second: after the reference, before the last of the settings.
+  // On a clock of which 100 readings make a second, the limit falls after the reference and before the last setting.
   preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
   const Outcome some = tradeoff({"--rays", "2000", "--seeds", "100", "--max-seconds", "60"}, 1);
   EXPECT_NE(some.err.find("stopped after --max-seconds 60 after "), std::string::npos) << some.err;

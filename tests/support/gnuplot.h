@@ -2,7 +2,7 @@
 // Support for tests that draw with the real gnuplot and examine the pictures. Without the program they are skipped and say so,
 // or fail if SUNFLECK_REQUIRE_DEVICE=1 is set.
 
-#include "io/gnuplot.h"
+#include "io/plots.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -63,11 +63,11 @@ class GnuplotTest : public testing::Test {
     GTEST_SKIP() << *warning;
   }
 
-  // Draws twice, expects identical bytes, and reads the picture.
-  [[nodiscard]] Picture draw(const std::string& script) const {
+  // Draws twice with a script of share/plots, expects the same bytes, and reads them.
+  [[nodiscard]] Picture draw(const char* script, const PlotVariables& variables) const {
     const std::filesystem::path first = folder_ / "first.png", second = folder_ / "second.png";
-    EXPECT_EQ(draw_plot(script, first).value_or(""), "");
-    EXPECT_EQ(draw_plot(script, second).value_or(""), "");
+    EXPECT_EQ(draw_table(script, variables, first).value_or(""), "");
+    EXPECT_EQ(draw_table(script, variables, second).value_or(""), "");
     EXPECT_EQ(file_bytes(first), file_bytes(second));
     return read_picture(first);
   }

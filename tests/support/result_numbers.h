@@ -39,7 +39,7 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
     estimates(std::array{layer.sunfleck_ratio, layer.sunlit_leaf_fraction});
     for (const auto* all : {&layer.down, &layer.up, &layer.absorbed}) estimates(*all);
   }
-  for (const ElementResult& element : result.elements) integer(element.upper), integer(element.lower);
+  for (const BeamLandings& element : result.elements) integer(element.upper), integer(element.lower);
   for (const double error : result.element_error) number(error);
   for (const auto landings : result.soil_cells) integer(landings);
   for (const auto quanta : result.side_indirect) integer(quanta);

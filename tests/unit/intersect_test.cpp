@@ -133,7 +133,7 @@ int met_of_quad(const Ray& ray, const std::array<glm::vec3, 4>& quad, int order)
   return (meet(ray, one).met ? 1 : 0) + (meet(ray, other).met ? 1 : 0);
 }
 
-// Returns the cross product of two vectors as seen along the direction; its sign tells on which side the second lies.
+// Returns the cross product of two vectors as seen along the direction; its sign shows on which side the second lies.
 double seen_cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& direction) {
   return glm::dot(glm::cross(a, b), glm::normalize(direction));
 }

@@ -6,6 +6,7 @@
 #include "cluster/replicate_message.h"
 #include "support/light_mix.h"
 #include "support/result_numbers.h"
+#include "transport/replicate_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +64,7 @@ class LocalMailbox final : public Mailbox {
 class RanksTest : public ::testing::Test {
  protected:
   using Make =
-      std::function<std::optional<Replicate>(ReplicateMaker&, const ReplicateOrder&, const Tally&, const StopQuestion&)>;
+      std::function<std::optional<Replicate>(ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&)>;
 
   // Starts a worker with this rank; `make` may replace its way of making replicates.
   void start(int rank, const Make& make, const StopQuestion& interrupted = {}) {
@@ -78,8 +79,8 @@ class RanksTest : public ::testing::Test {
       service.set_stage = [this](std::uint64_t stage) { stages_ |= std::uint64_t{1} << stage; };
       service.make = [&](const ReplicateOrder& order, const StopQuestion& stop) {
         ++made_;
-        const Tally tally = maker.tally(maker.incidence(order.beam_rays), ElementErrors::skip);
-        return make(maker, order, tally, stop);
+        const Conversion conversion = maker.conversion(maker.incidence(order.beam_rays));
+        return make(maker, order, conversion, stop);
       };
       service.interrupted = interrupted;
       EXPECT_TRUE(serve(mailbox, service));
@@ -110,8 +111,8 @@ class RanksTest : public ::testing::Test {
     if (!threads_.empty()) end();
   }
 
-  static constexpr auto usual_ = [](ReplicateMaker& maker, const ReplicateOrder& order, const Tally& tally,
-                                    const StopQuestion& stop) { return maker.make(order, tally, stop); };
+  static constexpr auto usual_ = [](ReplicateMaker& maker, const ReplicateOrder& order, const Conversion& conversion,
+                                    const StopQuestion& stop) { return maker.make(order, conversion, stop); };
 
   RadiationModel model_ = test::light_mix();
   test::Prepared prepared_{model_};
@@ -150,9 +151,9 @@ TEST_F(RanksTest, ChangeNoNumberOfFixedWorkNorOfSeveralStages) {
 
 TEST_F(RanksTest, MayBeSlowAndOutOfTurn) {
   const auto alone = test::all_numbers(solve_alone());
-  start_all([](ReplicateMaker& maker, const ReplicateOrder& order, const Tally& tally, const StopQuestion& stop) {
+  start_all([](ReplicateMaker& maker, const ReplicateOrder& order, const Conversion& conversion, const StopQuestion& stop) {
     std::this_thread::sleep_for(std::chrono::milliseconds(order.number % 3 * 10));
-    return maker.make(order, tally, stop);
+    return maker.make(order, conversion, stop);
   });
   EXPECT_TRUE(test::all_numbers(solve_with_helpers()) == alone);
 }
@@ -160,13 +161,13 @@ TEST_F(RanksTest, MayBeSlowAndOutOfTurn) {
 // Replicates begun beyond the run's end are not waited for.
 TEST_F(RanksTest, DropWhatIsNotNeeded) {
   const std::size_t needed = solve_alone().direct.replicates;
-  start_all([needed](ReplicateMaker& maker, const ReplicateOrder& order, const Tally& tally,
+  start_all([needed](ReplicateMaker& maker, const ReplicateOrder& order, const Conversion& conversion,
                      const StopQuestion& stop) -> std::optional<Replicate> {
     if (order.number < most_replicates && order.number >= needed) {  // excludes the pilot's replicates
       while (!stop()) std::this_thread::sleep_for(1ms);
       return std::nullopt;
     }
-    return maker.make(order, tally, stop);
+    return maker.make(order, conversion, stop);
   });
   EXPECT_EQ(solve_with_helpers().direct.replicates, needed);
   EXPECT_EQ(solve_with_helpers().direct.replicates, needed);
@@ -207,7 +208,7 @@ std::string message_of(const std::function<void()>& task, ErrorKind kind) {
 }
 
 TEST_F(RanksTest, ThatFailEndTheRun) {
-  start_all([](ReplicateMaker&, const ReplicateOrder&, const Tally&, const StopQuestion&) -> std::optional<Replicate> {
+  start_all([](ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&) -> std::optional<Replicate> {
     throw_device("its card", "gone", "get another");
   });
   const std::string message = message_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::device);

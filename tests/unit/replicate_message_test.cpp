@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "support/light_mix.h"
+#include "transport/replicate_maker.h"
 
 #include <gtest/gtest.h>
 
@@ -64,8 +65,8 @@ class Replicates : public ::testing::Test {
  protected:
   // Makes a replicate just as for the scene.
   [[nodiscard]] Replicate make(const ReplicateOrder& order) {
-    const Tally tally = maker_.tally(maker_.incidence(order.beam_rays), ElementErrors::skip);
-    return *maker_.make(order, tally, [] { return false; });
+    const Conversion conversion = maker_.conversion(maker_.incidence(order.beam_rays));
+    return *maker_.make(order, conversion, [] { return false; });
   }
   [[nodiscard]] ReplicateOrder order(double packets) const {
     return {4000.0, maker_.incidence(4000.0).rays, packets, 500, 0.01, 1, 7};

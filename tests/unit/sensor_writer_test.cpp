@@ -1,6 +1,6 @@
 // Tests sensors.csv.
 
-#include "io/sensor_writer.h"
+#include "io/result_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -22,7 +22,7 @@ struct Square {
 };
 
 template <class Share>
-// `below` returns the share of a uniform sky under a zenith angle.
+// `below` returns the share of a uniform sky that lies within a zenith angle.
 Square inverse(const Sky& sky, const glm::dvec3& d, const Share& below) {
   const auto radiance = [&](int row, int column) {
     return sky.radiance(to_sky((row + 0.5) * row_height, (column + 0.5) * column_width));

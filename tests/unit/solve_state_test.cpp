@@ -17,7 +17,7 @@ class SolveStateTest : public ::testing::Test {
  protected:
   // Returns the result of a run from the beginning, or from a state.
   RadiationResult solve_from(const SolveState* state, const Monitor& monitor = {}) {
-    settings_.go_on_from = state;
+    settings_.resume_from = state;
     return solve(model_, prepared_.layout, tracer_, settings_, monitor);
   }
 
@@ -28,7 +28,7 @@ class SolveStateTest : public ::testing::Test {
     monitor.interrupted = [&] { return last.replicates() >= replicates; };
     monitor.wants_state = [] { return true; };
     monitor.receive_state = [&](const SolveState& state) { last = state; };
-    settings_.replicates_at_once = 1;  // otherwise others that are finished would be added
+    settings_.replicates_at_once = 1;  // otherwise other finished replicates would be added
     EXPECT_EQ(solve_from(from, monitor).stop, StopReason::interrupted);
     settings_.replicates_at_once = 2;
     EXPECT_EQ(last.replicates(), replicates);
@@ -84,7 +84,7 @@ TEST_F(SolveStateTest, GoesOnWithoutPacketsAndReceivers) {
   const RadiationResult stopped = solve(model_, prepared.layout, tracer, settings_, monitor);
   ASSERT_EQ(stopped.stop, StopReason::interrupted);
   const RadiationResult whole = solve(model_, prepared.layout, tracer, settings_, {});
-  settings_.go_on_from = &state;
+  settings_.resume_from = &state;
   EXPECT_TRUE(test::all_numbers(solve(model_, prepared.layout, tracer, settings_, {})) == test::all_numbers(whole));
 }
 
@@ -111,7 +111,7 @@ TEST_F(SolveStateTest, IsHandedOverWhenAskedForAndNotOfPilots) {
     EXPECT_EQ(state.replicates(), 5U * static_cast<std::size_t>(states));
   };
   const RadiationResult result = solve_from(nullptr, monitor);
-  EXPECT_EQ(static_cast<std::size_t>(questions), result.direct.replicates - 1);  // not asked again once the run is done
+  EXPECT_EQ(static_cast<std::size_t>(questions), result.direct.replicates - 1);  // not called again once the run is done
   EXPECT_EQ(states, questions / 5);
 }
 

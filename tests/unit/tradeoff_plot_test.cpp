@@ -1,6 +1,8 @@
-#include "io/tradeoff_plot.h"
+#include "app/tradeoff_fit.h"
+#include "io/tradeoff_table.h"
 #include "support/gnuplot.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,9 +15,23 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr test::Picture::Pixel blue{0x00, 0x72, 0xB2}, vermilion{0xD5, 0x5E, 0x00}, green{0x00, 0x9E, 0x73},
-    purple{0xCC, 0x79, 0xA7};
+    purple{0xCC, 0x79, 0xA7}, black{0, 0, 0};
 
-using TradeoffPlot = test::GnuplotTest;
+// Draws the table of a report with the variables that `tradeoff` sets.
+class TradeoffPlot : public test::GnuplotTest {
+ protected:
+  [[nodiscard]] test::Picture picture(const TradeoffReport& report) const {
+    PlotVariables variables;
+    variables.set_file("table", folder_.write("tradeoff.csv", tradeoff_csv(report)));
+    if (report.marked_grid_m) variables.set("grid", *report.marked_grid_m);
+    if (report.recommendation) {
+      variables.set("asked", report.recommendation->asked_error);
+      variables.set("seconds", report.recommendation->seconds);
+      variables.set("expected", report.recommendation->expected);
+    }
+    return draw("tradeoff.gp", variables);
+  }
+};
 
 // Returns a setting with two runs that have these errors, by quantity.
 TradeoffRung rung(Ladder ladder, double value, double seconds, std::uint64_t rays, std::array<double, 4> errors) {
@@ -52,52 +68,67 @@ TradeoffReport maize_report() {
     report.rungs.push_back(rung(Ladder::bounds, 0.02 * std::pow(0.5, k), 0.9 * more, static_cast<std::uint64_t>(300000 * more),
                                 {0.0025 * falls, 0.01 * falls, 0.036 * falls, 1.4 * falls}));
   }
-  for (const Ladder ladder : {Ladder::grids, Ladder::packets}) {
-    for (const Quantity quantity : quantities) {
-      const TradeoffRung& first = report.rungs[ladder == Ladder::grids ? 0 : 6];
-      TradeoffFit fit{ladder, quantity, {ladder == Ladder::grids ? -0.68 : -0.5, 1.0, 0.01}, {}};
-      fit.of_rays.factor = first.error[static_cast<std::size_t>(quantity)] / std::pow(mean_rays(first), fit.of_rays.exponent);
-      report.fits.push_back(fit);
-    }
-  }
   report.recommendation = Recommendation{0.01, Quantity::organ, 0.0024, 20.0, 0.009, 1.1, true};
   report.marked_grid_m = 0.0015;
   return report;
 }
 
-TEST_F(TradeoffPlot, ACurveForEachQuantity) {
-  const std::string script = tradeoff_plot(maize_report());
-  const test::Picture picture = draw(script);
-  EXPECT_EQ(picture.width, 1600);
-  EXPECT_EQ(picture.height, 900);
-  for (const test::Picture::Pixel& colour : {blue, vermilion, green, purple}) EXPECT_GT(picture.count(colour), 1000U);
-  EXPECT_NE(script.find("'0.15 cm grid'"), std::string::npos);
-  EXPECT_NE(script.find("'\u22120.68'"), std::string::npos);
-  EXPECT_NE(script.find("'--error 0.0024, about 20 s'"), std::string::npos);
+TEST_F(TradeoffPlot, HasACurveForEachQuantity) {
+  const test::Picture drawn = picture(maize_report());
+  EXPECT_EQ(drawn.width, 1600);
+  EXPECT_EQ(drawn.height, 900);
+  for (const test::Picture::Pixel& colour : {blue, vermilion, green, purple}) EXPECT_GT(drawn.count(colour), 1000U);
+}
+
+TEST_F(TradeoffPlot, MarksTheRecommendationAndTheGrid) {
+  TradeoffReport report = maize_report();
+  const std::size_t both = picture(report).count(black, 0x60);
+  report.marked_grid_m.reset();
+  const std::size_t recommendation = picture(report).count(black, 0x60);
+  report.recommendation.reset();
+  const std::size_t neither = picture(report).count(black, 0x60);
+  EXPECT_GT(both, recommendation + 500) << "a dashed line and its name";
+  EXPECT_GT(recommendation, neither + 500);
+}
+
+TEST_F(TradeoffPlot, FitsTheSlopesThatTheProgramPrints) {
+  TradeoffReport report = maize_report();
+  const std::string table = folder_.write("tradeoff.csv", tradeoff_csv(report)).string();
+  const std::vector<TradeoffFit> fits = fit_ladders(report.rungs);
+  std::string script = "table = '" + table + "'\nload '" + SUNFLECK_SOURCE_DIR "/share/plots/tradeoff.gp'\n";
+  for (std::size_t i = 1; i <= 8; ++i) script += fmt::format("print sprintf('%.2f', slope[{}])\n", i);
+  ASSERT_EQ(fits.size(), 8U);
+  const std::string printed = folder_.write("slopes", "").string();
+  const std::string to_file = "set print '" + printed + "'\n";
+  const std::size_t at = script.find("print sprintf");
+  EXPECT_EQ(draw_plot(script.substr(0, at) + to_file + script.substr(at), folder_ / "a.png").value_or(""), "");
+  std::string expected;
+  for (const TradeoffFit& fit : fits) expected += fmt::format("{:.2f}\n", fit.of_rays.exponent);
+  EXPECT_EQ(test::file_bytes(printed), expected);
 }
 
 TEST_F(TradeoffPlot, WholeRunsAndCoarserMeshesAreDrawnToo) {
   TradeoffReport report = maize_report();
-  const std::size_t all = draw(tradeoff_plot(report)).count(green);
+  const std::size_t all = picture(report).count(green);
   report.rungs.push_back(rung(Ladder::meshes, 0.5, 5.0, 5000000, {0.001, 0.02, 0.05, none}));
-  const std::size_t with_mesh = draw(tradeoff_plot(report)).count(green);
+  const std::size_t with_mesh = picture(report).count(green);
   EXPECT_GT(with_mesh, all);
   report.rungs.resize(11);
-  EXPECT_LT(draw(tradeoff_plot(report)).count(green), all);
+  EXPECT_LT(picture(report).count(green), all);
 }
 
 TEST_F(TradeoffPlot, OfAnythingThatCanBeMeasured) {
   const TradeoffReport whole = maize_report();
   TradeoffReport report;
   report.record.title = "it's `touch x` \"@x\" {a}_b^2 \\ \xff";
-  EXPECT_EQ(draw(tradeoff_plot(report)).width, 1600);
+  EXPECT_EQ(picture(report).width, 1600);
   report.rungs.push_back(rung(Ladder::bounds, 0.02, 1.0, 100, {none, none, none, none}));
   report.rungs.push_back(rung(Ladder::grids, 0.02, 0.0, 100, {0.0, 0.0, 0.0, 0.0}));
-  EXPECT_EQ(draw(tradeoff_plot(report)).width, 1600);
+  EXPECT_EQ(picture(report).width, 1600);
   report.rungs = {whole.rungs.front()};
-  EXPECT_EQ(draw(tradeoff_plot(report)).width, 1600);
+  EXPECT_EQ(picture(report).width, 1600);
   report.recommendation = whole.recommendation;
-  EXPECT_EQ(draw(tradeoff_plot(report)).width, 1600);
+  EXPECT_EQ(picture(report).width, 1600);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(TradeoffFit, NeedsTwoPoints) {
   EXPECT_FALSE(fit_power_law(std::vector<WorkAndError>{{2.0, 1.0}, {2.0, 3.0}}));
 }
 
-// Returns a rung of the ladder of bounds whose runs have these organ errors.
+// Returns a level of the series of bounds whose runs have these organ errors.
 TradeoffRung bound_rung(double bound, double seconds, const std::vector<double>& errors) {
   TradeoffRung rung{Ladder::bounds, bound, {}};
   for (const double error : errors) {
@@ -129,7 +129,7 @@ TEST(Recommendation, InterpolatesBetweenRungs) {
 }
 
 TEST(Recommendation, KeepsAMarginForTheWorstSeed) {
-  // The root mean square is 0.05 and the worst run 1.4 times that: this very rung meets an error of 0.07.
+  // The root mean square is 0.05 and the worst run 1.4 times that, so this level itself meets an error of 0.07.
   const std::vector<TradeoffRung> rungs{bound_rung(0.2, 0.25, {0.02, 0.14}), bound_rung(0.1, 1.0, {0.01, 0.07})};
   const auto found = recommend(rungs, 0.0701, Quantity::organ);
   ASSERT_TRUE(found);
@@ -151,7 +151,7 @@ TEST(Recommendation, GoesBeyondTheFinestRungAndSaysSo) {
   EXPECT_TRUE(found->extrapolated);
   EXPECT_NEAR(found->bound, 0.01, 1e-12);
   EXPECT_NEAR(found->seconds, 16.0, 1e-9);
-  // Even where the error hardly fell with the bound, the bound follows the error at least by its square.
+  // Even where the error hardly falls with the bound, the bound is extrapolated as the square of the error, no faster.
   const std::vector<TradeoffRung> flat{bound_rung(0.04, 1.0, {0.021}), bound_rung(0.02, 4.0, {0.02})};
   EXPECT_NEAR(recommend(flat, 0.01, Quantity::organ)->bound, 0.005, 1e-12);
 }

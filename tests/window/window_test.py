@@ -20,7 +20,7 @@ import numpy
 from screen import HEIGHT, WIDTH, Screen, read_png, write_png
 
 PROGRAM, OUT = sys.argv[1:3]
-PATIENCE_S = 600.0  # for what never comes
+PATIENCE_S = 600.0  # limit for waits that would never end
 SIZE = (1000, 840)
 NEEDED = ("Xvfb", "xdotool", "twm")
 
@@ -358,7 +358,7 @@ class WindowTest(unittest.TestCase):
         window.wait_for("picture", wish=1)
         self.keep_shot("mesh_changed")
         self.assertGreater(numpy.mean(numpy.any(before != window.picture(), axis=2)), 0.005)
-        # A broken mesh is reported; if the mesh is missing for a moment, the window waits for it.
+        # A broken mesh is reported; if the mesh is briefly missing, the window waits for it.
         self.write("leaves.obj", "f 1 2 3\n")
         self.assertIn("leaves.obj", window.wait_for("problem")["text"])
         os.remove(os.path.join(self.folder, "leaves.obj"))

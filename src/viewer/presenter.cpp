@@ -1,4 +1,4 @@
-#include "gpu/presenter.h"
+#include "viewer/presenter.h"
 
 #include "base/check.h"
 #include "base/error.h"

@@ -1,8 +1,8 @@
-#include "gpu/window.h"
+#include "viewer/window.h"
 
 #include "base/error.h"
 #include "gpu/instance.h"
-#include "gpu/presenter.h"
+#include "viewer/presenter.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_vulkan.h>

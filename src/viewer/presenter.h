@@ -2,7 +2,7 @@
 // Draws into a window: copies a picture pixel by pixel to each image of the swapchain and lets callers record commands over it.
 
 #include "gpu/context.h"
-#include "gpu/window.h"
+#include "viewer/window.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,0 +1,125 @@
+# PLANE.png: the facula maps of a receiver, for the beam and for all light, and the sizes of its sunflecks. North is up, west is left.
+#   gnuplot -e "table = 'plane_0.500.csv'; flecks = 'plane_0.500_flecks.csv'" plane.gp > plane.png
+# The program sets these variables before it loads this file:
+if (!exists("table")) table = 'plane_0.000.csv'
+if (!exists("flecks")) flecks = ''  # the table of fleck sizes; empty without a beam
+if (!exists("band")) band = 'PAR'
+if (!exists("beam")) beam = NaN     # horizontal irradiance of the beam in that band, W m-2
+
+folder = ''
+do for [i = strlen(ARG0):1:-1] { if (folder eq '' && ARG0[i:i] eq '/') { folder = ARG0[1:i] } }
+load folder . 'style.gp'
+load folder . 'table.gp'
+if (!exists("title")) title = table_title
+
+# The beam: the sunlit share of each cell times the irradiance of the beam. The landings in the table fluctuate with the number
+# of rays that happened to cross each cell, which would show as grain in full sun.
+ks = column_of('sunfleck'); kd = column_of(band . '_direct'); kt = column_of(band . '_total')
+direct(x) = beam == beam && valid(ks) ? beam * column(ks) : column(kd)
+total(x) = column(kt) - column(kd) + direct(x)
+
+# Cells, metres and watts. The colours reach at least to the full beam, and beyond it to all but the brightest cells, whose
+# excess is noise: four standard deviations above the mean.
+place = remarks[strstrt(remarks, 'horizontal plane at ') + 20:*]
+cells_x = number(past(', ', place)); cells_z = number(past(' x ', place))
+stats table using (last_x = $1, last_z = $2, total(0)) name 'TOTAL' nooutput
+size_x = last_x * cells_x / (cells_x - 0.5); size_z = last_z * cells_z / (cells_z - 0.5)
+bright = TOTAL_mean + 4 * TOTAL_stddev
+bright = bright > TOTAL_max ? TOTAL_max : bright
+bright = positive(beam > bright ? beam : bright, 1)
+
+if (flecks ne '') {
+  stats flecks using 1:4 name 'SIZE' nooutput
+  stats flecks using 2 name 'UPPER' nooutput
+}
+
+# The share and the number of flecks, under the title.
+ratio = number(after('sunfleck ratio ')); error = number(past('error ', after('sunfleck ratio ')))
+count = number(past(': ', after('flecks ')))
+note = ratio == ratio ? sprintf('Sunfleck ratio %.4f', ratio) . (error == error ? sprintf(' ± %.2g', error) : '') \
+  . sprintf('   ·   %d fleck%s, %.1f beam rays a cell', count, count == 1 ? '' : 's', number(past('; ', after('sunfleck ratio ')))) \
+  : 'No direct beam'
+
+# Both maps have the shape of the plot; they stand side by side above the sizes, and low ones beside a taller colour bar.
+width = 1600.0
+widest = 590.0; highest = 760.0
+scale = widest / size_z < highest / size_x ? widest / size_z : highest / size_x
+map_width = scale * size_z; map_height = scale * size_x
+slot = map_width > 340 ? map_width : 340
+left1 = 150 + widest - 0.5 * (slot + map_width)
+left2 = left1 + slot + 50
+bar = map_height > 260 ? map_height : 260
+height = 0.0 + ceil(500 + bar + 165)
+bottom = 500 + 0.5 * (bar - map_height)
+set terminal pngcairo noenhanced size width,height font font . ',20' linewidth 2 background '#ffffff'
+set multiplot
+# Viridis at nine positions (van der Walt and Smith 2015, matplotlib), perceptually uniform in colour and in grey.
+set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', 7 '#addc30', \
+  8 '#fde725')
+set cbrange [0:bright]
+set xrange [size_z:0]
+set yrange [size_x:0]
+step(length, room) = (finest = length * room, decade = 10 ** floor(log10(finest)), \
+  decade * (finest <= decade ? 1 : finest <= 2 * decade ? 2 : finest <= 5 * decade ? 5 : 10))
+set xtics step(size_z, 90 / map_width) out nomirror
+set ytics step(size_x, 70 / map_height) out nomirror
+set cbtics out
+unset grid; unset colorbox
+set bmargin at screen bottom / height
+set tmargin at screen (bottom + map_height) / height
+set label 1 cut(title, 70) . ' – plane at ' . sprintf('%.3f m', number(place)) at screen 0.5,(1 - 40 / height) center \
+  font ',24' textcolor '#101010'
+set label 2 note at screen 0.5,(1 - 82 / height) center font ',18' textcolor '#101010'
+set label 3 'X (m), from north to south' at screen (left1 - 100) / width,(bottom + 0.5 * map_height) / height center rotate by 90
+set xlabel 'Z (m), from east to west' offset 0,0.2
+# An image needs two cells along each side; single rows are drawn as boxes.
+half_x = 0.5 * size_x / cells_x; half_z = 0.5 * size_z / cells_z
+boxes = cells_x < 2 || cells_z < 2
+
+do for [map = 1:2] {
+  left = map == 1 ? left1 : left2
+  set lmargin at screen left / width
+  set rmargin at screen (left + map_width) / width
+  set title (map == 1 ? 'Direct ' : 'Total ') . band offset 0,-0.3
+  if (map == 2) {
+    unset label
+    set format y ''
+    set colorbox vertical user origin screen (left + map_width + 30) / width,500 / height size screen 30 / width,bar / height bdefault
+    set label 3 band . ' downwards (W m⁻²)' at screen (left + map_width + 185) / width,(bottom + 0.5 * map_height) / height \
+      center rotate by 90
+  }
+  if (boxes) {
+    plot table using 2:1:(half_z):(half_x):(map == 1 ? direct(0) : total(0)) with boxxyerror fillcolor palette fillstyle solid notitle
+  } else {
+    plot table using 2:1:(map == 1 ? direct(0) : total(0)) with image notitle
+  }
+}
+
+unset title; unset label; unset colorbox
+set format y '%g'
+set lmargin at screen 150 / width
+set rmargin at screen 1540 / width
+set bmargin at screen 120 / height
+set tmargin at screen 350 / height
+set xlabel 'Area of a fleck (cm²); above the columns: number of flecks' offset 0,0.2
+set label 3 'Share of plane (%)' at screen 50 / width,235 / height center rotate by 90
+set grid noxtics ytics back linetype 1 linecolor '#d9d9d9' linewidth 0.5
+set format x '%g'
+set xtics autofreq
+set xrange [1:1000]
+set logscale x
+if (count > 0 && flecks ne '') {
+  most = 125 * SIZE_max_y
+  set xrange [10 ** floor(log10(SIZE_min_x) + 1e-9):10 ** ceil(log10(UPPER_max) - 1e-9)]
+  set yrange [0:most]
+  set ytics step(most, 50 / 230.0)
+  plot flecks using (sqrt($1 * $2)):(100 * $4):1:2:(0):(100 * $4) with boxxyerror fillcolor rgb colour[1] fillstyle solid 0.8 \
+      border linecolor '#ffffff' notitle, \
+    flecks using (sqrt($1 * $2)):(100 * $4):(sprintf('%d', $3)) with labels offset 0,0.7 font ',17' notitle
+} else {
+  set yrange [0:1]
+  set ytics 0.5
+  set label 4 'no flecks' at graph 0.5,0.5 center
+  plot NaN notitle
+}
+unset multiplot

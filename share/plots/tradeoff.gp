@@ -1,0 +1,177 @@
+# tradeoff.png: error against time, a panel for each kind of setting.
+#   gnuplot tradeoff.gp > tradeoff.png
+# reads tradeoff.csv in the current folder. The program sets these variables before it loads this file:
+if (!exists("table")) table = 'tradeoff.csv'
+if (!exists("asked")) asked = NaN        # the error that a bound is recommended for,
+if (!exists("seconds")) seconds = NaN    # the time of a run with that bound,
+if (!exists("expected")) expected = NaN  # and the error that is expected of it
+if (!exists("grid")) grid = NaN          # the grid to be marked, m
+
+folder = ''
+do for [i = strlen(ARG0):1:-1] { if (folder eq '' && ARG0[i:i] eq '/') { folder = ARG0[1:i] } }
+load folder . 'style.gp'
+load folder . 'table.gp'
+if (!exists("title")) title = table_title
+
+array quantity[4] = ['canopy', 'layer', 'organ', 'triangle']
+array kind[3] = ['grid', 'packets', 'error']
+array light[3] = ['direct', 'indirect', 'absorbed']
+array panel[3] = ["Sun’s direct light: grids", 'All other light: packets', 'Whole runs: --error']
+
+# The settings in the order of the table, two words each: kind and value.
+settings = ''; last = ''
+stats table using (last = strcol(1) eq last ? last : (settings = settings . ' ' . strcol(1), strcol(1)), 0) nooutput
+n = words(settings) / 2
+array time[n + 1]; array rays[n + 1]; array percent[4 * n + 4]
+of_kind(i, p) = word(settings, 2 * i - 1) eq kind[p] || (p == 3 && word(settings, 2 * i - 1) eq 'mesh')
+# The root mean square over the seeds, without the reference's own error; NaN where that is most of it.
+add(here, error) = here ? (count = count + 1, squares = squares + error ** 2) : 0
+without(own, square) = (rest = square - (own == own ? own ** 2 : 0), rest > 0 && rest >= 0.5 * square ? 100 * sqrt(rest) : NaN)
+do for [i = 1:n] {
+  setting = word(settings, 2 * i - 1) . ' ' . word(settings, 2 * i)
+  stats table using (strcol(1) eq setting ? $3 : NaN) name 'TIME' nooutput
+  stats table using (strcol(1) eq setting ? $4 : NaN) name 'RAYS' nooutput
+  time[i] = TIME_median; rays[i] = RAYS_mean
+  used = of_kind(i, 1) ? light[1] : of_kind(i, 2) ? light[2] : light[3]
+  do for [q = 1:4] {
+    count = 0; squares = 0.0
+    stats table using (add(strcol(1) eq setting && strcol(5) eq quantity[q], $6), 0) nooutput
+    own = number(past(', ' . quantity[q] . ' ', after('reference of ' . used . ' light')))
+    percent[4 * i + q] = count > 0 ? without(own, squares / count) : NaN
+  }
+}
+
+# The law error = factor * rays ** slope of each pass and quantity, by least squares of the logarithms.
+array slope[8]; array factor[8]
+do for [p = 1:2] {
+  do for [q = 1:4] {
+    m = 0; sx = 0.0; sy = 0.0; sxx = 0.0; sxy = 0.0
+    do for [i = 1:n] {
+      if (of_kind(i, p) && percent[4 * i + q] > 0 && rays[i] > 0) {
+        x = log(rays[i]); y = log(percent[4 * i + q])
+        m = m + 1; sx = sx + x; sy = sy + y; sxx = sxx + x * x; sxy = sxy + x * y
+      }
+    }
+    spread = m * sxx - sx * sx
+    slope[4 * p - 4 + q] = m > 1 && spread > 1e-9 * m * sxx ? (m * sxy - sx * sy) / spread : NaN
+    factor[4 * p - 4 + q] = m > 0 ? exp((sy - slope[4 * p - 4 + q] * sx) / m) : NaN
+  }
+}
+set datafile separator whitespace
+set datafile missing 'NaN'
+unset datafile columnheaders
+
+# All panels share the axis of errors.
+lowest = 1e300; highest = 0.0
+widen(x) = x > 0 ? (lowest = x < lowest ? x : lowest, highest = x > highest ? x : highest) : 0
+do for [i = 1:n] { do for [q = 1:4] { dummy = widen(percent[4 * i + q]) } }
+dummy = widen(100 * asked)
+if (highest == 0) { lowest = 0.1; highest = 10 }
+
+width = 1600.0; height = 900.0
+set terminal pngcairo noenhanced size width,height font font . ',20' linewidth 2 background '#ffffff'
+set multiplot
+set logscale xy
+set format '%g'
+set mxtics 10
+set mytics 10
+set bmargin at screen 125 / height
+set tmargin at screen 680 / height
+set yrange [lowest / 2.5:highest * 10]
+do for [q = 1:4] {
+  open = shape[q] - 1
+  set style line q linecolor rgb colour[q] linewidth 1.3 pointtype shape[q] pointsize 1.5
+  set style line (q + 4) linecolor rgb colour[q] linewidth 1.4 pointtype open pointsize 1.7
+}
+set style line 9 linecolor rgb '#000000' linewidth 1 dashtype 2
+set style line 10 linecolor rgb '#000000' linewidth 1.4 pointtype 6 pointsize 2.6
+# Names a setting next to its highest point.
+centimetres(m) = m < 0.01 ? sprintf('%.3g mm', 1000 * m) : sprintf('%.3g cm', 100 * m)
+name(kind, value) = kind eq 'grid' ? centimetres(value) : kind eq 'mesh' ? sprintf('mesh %.3g', value) : kind eq 'error' ? sprintf('%.3g', value) \
+  : value >= 1024 ? sprintf('%.0f k', value / 1024) : sprintf('%.0f', value)
+apart(a, b, ratio) = a > ratio * b || b > ratio * a
+signed(x) = x == x ? (x < 0 ? '−' : '') . sprintf('%.2f', abs(x)) : ''
+
+array end_time[4]; array end_error[4]
+do for [p = 1:3] {
+  # Columns: time, the errors of the four quantities, their fitted laws, whether the mesh is coarser.
+  first = 1e300; last = 0.0
+  at_time = 0.0; at_error = 0.0
+  unset label; unset arrow
+  set print $points
+  print 'NaN NaN NaN NaN NaN NaN NaN NaN NaN 0'
+  do for [i = 1:n] {
+    if (of_kind(i, p) && time[i] > 0) {
+      first = time[i] < first ? time[i] : first
+      last = time[i] > last ? time[i] : last
+      top = 0.0; row = sprintf('%.9g', time[i])
+      do for [q = 1:4] {
+        top = percent[4 * i + q] > top ? percent[4 * i + q] : top
+        row = row . sprintf(' %.9g', percent[4 * i + q])
+      }
+      do for [q = 1:4] {
+        fitted = p < 3 ? (slope[4 * p - 4 + q] == slope[4 * p - 4 + q] ? factor[4 * p - 4 + q] * rays[i] ** slope[4 * p - 4 + q] : NaN) : word(settings, 2 * i - 1) eq 'mesh' ? NaN : percent[4 * i + q]
+        row = row . sprintf(' %.9g', percent[4 * i + q] > 0 ? fitted : NaN)
+      }
+      print row . (word(settings, 2 * i - 1) eq 'mesh' ? ' 1' : ' 0')
+      if (top > 0 && (apart(time[i], at_time, 1.15) || apart(top, at_error, 1.3))) {
+        at_time = time[i]; at_error = top
+        set label name(word(settings, 2 * i - 1), real(word(settings, 2 * i))) at time[i],top left offset 0.6,0.75 font ',16' textcolor '#404040' front
+      }
+    }
+  }
+  unset print
+  # Places the slopes next to the ends of their curves, from the lowest to the highest, each at least a line above the previous one.
+  line = p < 3 ? (highest * 25 / lowest) ** (25 / 555.0) : 1
+  do for [q = 1:4] { end_time[q] = NaN; end_error[q] = NaN }
+  do for [i = 1:n] {
+    do for [q = 1:4] { if (p < 3 && of_kind(i, p) && percent[4 * i + q] > 0) { end_time[q] = time[i]; end_error[q] = percent[4 * i + q] } }
+  }
+  free = 0.0
+  do for [rank = 1:4] {
+    next = 0
+    do for [q = 1:4] { if (end_error[q] > 0 && (next == 0 || end_error[q] < end_error[next > 0 ? next : 1])) { next = q } }
+    if (next > 0) {
+      at_error = end_error[next] > free ? end_error[next] : free
+      free = at_error * line
+      set label signed(slope[4 * p - 4 + next]) at end_time[next],at_error left offset 1.2,0 font ',17' textcolor rgb colour[next]
+      end_error[next] = NaN
+    }
+  }
+  if (p == 3 && seconds > 0) {
+    first = seconds < first ? seconds : first
+    last = seconds > last ? seconds : last
+    set arrow from graph 0,first 100 * asked to graph 1,first 100 * asked nohead back linestyle 9
+    set arrow from seconds,graph 0 to seconds,first 100 * asked nohead back linestyle 9
+    set label '' at seconds,100 * expected point linestyle 10 front
+    advice = after('for ')
+    set label up_to(':', advice) . ':' at graph 0.96,0.95 right font ',17' front
+    set label past(': ', up_to(' on this', advice)) at graph 0.96,0.895 right font ',17' front
+  }
+  if (last == 0) { set label 'nothing measured' at graph 0.5,0.5 center; first = 1.0; last = 1.0 }
+  if (p == 1) {
+    set label cut(title, 84) at screen 0.5,(1 - 40 / height) center font ',25' textcolor '#101010'
+    set label 'Points: measured. Lines and numbers of the two passes: fitted powers of the number of rays' \
+      at screen 0.5,(1 - 82 / height) center font ',18' textcolor '#101010'
+    set label 'Relative error (%), root mean square' at screen 30 / width,402 / height center rotate by 90
+    do for [i = 1:n] {
+      if (of_kind(i, 1) && abs(real(word(settings, 2 * i)) / grid - 1) < 1e-6) {
+        set arrow from time[i],graph 0 to time[i],graph 1 nohead back linestyle 9
+        set label sprintf('%.3g cm grid', 100 * grid) at time[i],graph 0.95 right offset -0.8,0 font ',17' front
+      }
+    }
+  }
+  left = 150 + 490 * (p - 1)
+  set lmargin at screen left / width
+  set rmargin at screen (left + 440) / width
+  set xrange [first / 2.2:last * 7]
+  set title panel[p] offset 0,-0.3
+  set xlabel 'Time of a run (s)' offset 0,0.2
+  if (p > 1) { unset key } else { set key at screen 150 / width,(1 - 104 / height) left top vertical maxrows 1 Left reverse samplen 2 font ',19' }
+  plot for [q = 1:4] $points using 1:(column(5 + q)) with lines linestyle q notitle, \
+    for [q = 1:4] $points using (column(10) > 0 ? NaN : column(1)):(column(1 + q)) with points linestyle q notitle, \
+    for [q = 1:4] $points using (column(10) > 0 ? column(1) : NaN):(column(1 + q)) with points linestyle q + 4 notitle, \
+    for [q = 1:4] keyentry with linespoints linestyle q title quantity[q]
+  set format y ''
+}
+unset multiplot
