@@ -14,7 +14,7 @@ class Pause {
     std::this_thread::sleep_for(next_);
     next_ = std::min(longest, next_ + next_ / 4);
   }
-  void begin_anew() { next_ = shortest; }
+  void restart() { next_ = shortest; }
 
  private:
   using Duration = std::chrono::microseconds;

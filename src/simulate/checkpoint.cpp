@@ -1,13 +1,13 @@
 #include "simulate/checkpoint.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/log.h"
+#include "base/sealed_file.h"
 #include "base/version.h"
-#include "io/exports.h"
-#include "io/file.h"
-#include "io/result_writer.h"
-#include "io/sealed_file.h"
-#include "io/summary_parts.h"
+#include "files/results/exports/exports.h"
+#include "files/results/tables/result_writer.h"
+#include "files/results/tables/work_settings.h"
 #include "simulate/result_folder.h"
 
 #include <fmt/format.h>
@@ -27,17 +27,9 @@ constexpr std::chrono::milliseconds shortest_pause{500};
 
 // Returns everything on which the bytes of the tables depend, as in summary.json.
 ordered_json run_settings(const Scene& scene, const SolveSettings& settings) {
-  return {{"command", "run"},
-          {"sunfleck", version()},
-          {"scene_digest", scene.digest},
-          {"seed", settings.seed},
-          {"direct_error", settings.accuracy.direct},
-          {"indirect_error", settings.accuracy.indirect},
-          {"confidence", settings.accuracy.confidence},
-          {"of", error_target_name(settings.accuracy.of)},
-          {"grid_m", value_or_null(settings.grid_m)},
-          {"passes", value_or_null(settings.passes)},
-          {"max_rays", value_or_null(settings.max_rays)}};
+  ordered_json noted = {{"command", "run"}, {"sunfleck", version()}, {"scene_digest", scene.digest}, {"seed", settings.seed}};
+  add_work_settings(noted, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
+  return noted;
 }
 
 // Returns the settings, extended by whether sums of single triangles are kept.
@@ -81,7 +73,7 @@ bool Checkpoint::is_finished() const {
     if (!asked || fs::exists(folder_ / export_file(kind), error)) continue;
     throw_input(fmt::format("--export {}", export_name(kind)),
                 fmt::format("the run in {} is finished, and has no {}", printable(folder_.string()), export_file(kind)),
-                "leave --resume out to compute it anew");
+                "leave --resume out to compute it again");
   }
   return true;
 }

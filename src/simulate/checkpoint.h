@@ -1,9 +1,9 @@
 #pragma once
 // Keeps the state of a run in its folder while it works, so that `run --resume` can resume it.
 
-#include "io/run_store.h"
-#include "io/scene_reader.h"
-#include "transport/solve.h"
+#include "files/results/stores/run_store.h"
+#include "files/scene/scene_reader.h"
+#include "physics/transport/solve/solve.h"
 
 #include <chrono>
 #include <filesystem>

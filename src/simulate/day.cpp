@@ -3,7 +3,8 @@
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
-#include "io/summary_parts.h"
+#include "files/results/tables/day_fields.h"
+#include "files/results/tables/work_settings.h"
 #include "simulate/ranks.h"
 
 #include <algorithm>
@@ -158,21 +159,16 @@ SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, in
 }
 
 ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan) {
-  return {{"sunfleck", version()},
-          {"scene_digest", scene.digest},
-          {"date", plan.course.dates.front()},
-          {"to_date", plan.course.dates.back()},
-          {"step_min", request.step_min},
-          {"from", clock_text(plan.from_min)},
-          {"to", clock_text(plan.to_min)},
-          {"seed", settings.seed},
-          {"direct_error", settings.accuracy.direct},
-          {"indirect_error", settings.accuracy.indirect},
-          {"confidence", settings.accuracy.confidence},
-          {"of", error_target_name(settings.accuracy.of)},
-          {"grid_m", value_or_null(settings.grid_m)},
-          {"passes", value_or_null(settings.passes)},
-          {"max_rays", value_or_null(settings.max_rays)}};
+  ordered_json noted = {{"sunfleck", version()},
+                        {"scene_digest", scene.digest},
+                        {"date", plan.course.dates.front()},
+                        {"to_date", plan.course.dates.back()},
+                        {"step_min", request.step_min},
+                        {"from", clock_text(plan.from_min)},
+                        {"to", clock_text(plan.to_min)},
+                        {"seed", settings.seed}};
+  add_work_settings(noted, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
+  return noted;
 }
 
 void set_light(RadiationModel& model, const MomentLight& light) {

@@ -5,13 +5,13 @@
 // would now choose (RadiationResult::next_work), which is stored with the step: a day that was stopped anywhere and is resumed
 // gives the same bytes as one that was not.
 
-#include "io/day_summary.h"
-#include "io/scene_reader.h"
-#include "io/step_store.h"
+#include "files/results/stores/step_store.h"
+#include "files/results/tables/day_summary.h"
+#include "files/scene/scene_reader.h"
+#include "physics/transport/solve/solve.h"
 #include "simulate/day_plan.h"
 #include "simulate/requests.h"
 #include "simulate/simulation.h"
-#include "transport/solve.h"
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>

@@ -1,9 +1,9 @@
 #include "simulate/day_plan.h"
 
 #include "base/error.h"
-#include "io/file.h"
-#include "light/sun_events.h"
-#include "light/years.h"
+#include "base/file.h"
+#include "physics/light/sun_events.h"
+#include "physics/light/years.h"
 
 #include <fmt/format.h>
 

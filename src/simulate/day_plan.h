@@ -1,9 +1,9 @@
 #pragma once
 // Plans the steps of a day: combines the options of `day` with the scene's place and weather.
 
-#include "io/day_course.h"
-#include "io/moment_light.h"
-#include "io/scene_reader.h"
+#include "files/results/tables/day_course.h"
+#include "files/scene/moment_light.h"
+#include "files/scene/scene_reader.h"
 #include "simulate/requests.h"
 
 #include <vector>

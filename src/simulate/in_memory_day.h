@@ -1,12 +1,12 @@
 #pragma once
 // Simulates a day in memory, without a folder.
 
-#include "io/day_course.h"
-#include "io/result_writer.h"
-#include "io/scene_reader.h"
+#include "files/results/tables/day_course.h"
+#include "files/results/tables/result_writer.h"
+#include "files/scene/scene_reader.h"
+#include "physics/transport/solve/solve.h"
 #include "simulate/day_plan.h"
 #include "simulate/requests.h"
-#include "transport/solve.h"
 
 #include <string>
 #include <vector>

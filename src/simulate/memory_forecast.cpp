@@ -1,6 +1,6 @@
 #include "simulate/memory_forecast.h"
 
-#include "transport/surfaces.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <algorithm>
 

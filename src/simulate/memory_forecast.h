@@ -2,7 +2,7 @@
 // Forecasts the peak memory of a run.
 
 #include "simulate/simulation.h"
-#include "transport/solve.h"
+#include "physics/transport/solve/solve.h"
 
 #include <cstdint>
 #include <optional>

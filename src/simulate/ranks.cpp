@@ -3,9 +3,10 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/version.h"
-#include "cluster/rank_worker.h"
+#include "devices/tracers/cpu_tracer.h"
+#include "physics/transport/indirect/replicate_maker.h"
+#include "simulate/cluster/rank_worker.h"
 #include "simulate/interrupt.h"
-#include "transport/replicate_maker.h"
 
 #include <fmt/format.h>
 

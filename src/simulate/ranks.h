@@ -2,11 +2,11 @@
 // Shares a run or a day among several processes, started by an MPI launcher: rank 0 does everything that the program does
 // alone, and the others are workers that make replicates for it.
 
-#include "cluster/job.h"
-#include "cluster/rank_helpers.h"
+#include "physics/transport/solve/solve.h"
+#include "simulate/cluster/job.h"
+#include "simulate/cluster/rank_helpers.h"
 #include "simulate/requests.h"
 #include "simulate/simulation.h"
-#include "transport/solve.h"
 
 #include <cstdint>
 #include <functional>

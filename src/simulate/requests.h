@@ -1,7 +1,7 @@
 #pragma once
 // A user's requests for a simulation as plain values: the same for the command line, the window and Python.
 
-#include "pictures/picture.h"
+#include "pictures/charts/picture.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +29,7 @@ struct SceneRequest {
 
 struct DeviceRequest {
   std::string device = "auto";  // auto | gpu | lavapipe | cpu | INDEX | NAME
-  int device_turn = 0;          // see DeviceAsked; set for MPI ranks
+  int device_turn = 0;          // see DeviceChoice; set for MPI ranks
   int threads = 0;              // 0: one per core
 };
 
@@ -49,7 +49,7 @@ struct WorkRequest {
 // The contents of a result folder.
 struct ResultRequest {
   std::filesystem::path output;                // empty: results/<stem of the scene>
-  std::vector<std::string> exports;            // names of io/exports.h
+  std::vector<std::string> exports;            // names of files/results/exports/exports.h
   std::filesystem::path measured;              // field data; may be empty
   std::vector<std::filesystem::path> compare;  // folders of earlier results
   std::vector<std::string> images{"all"};      // file stems, all or none

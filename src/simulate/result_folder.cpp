@@ -1,18 +1,20 @@
 #include "simulate/result_folder.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
-#include "io/exports.h"
-#include "io/file.h"
-#include "io/image_writer.h"
-#include "io/plane_writer.h"
-#include "io/plots.h"
-#include "io/result_store.h"
-#include "io/run_store.h"
-#include "io/step_store.h"
-#include "pictures/colouring.h"
-#include "pictures/fields.h"
+#include "devices/tracers/cpu_tracer.h"
+#include "files/results/exports/exports.h"
+#include "files/results/plots/plots.h"
+#include "files/results/stores/result_store.h"
+#include "files/results/stores/run_store.h"
+#include "files/results/stores/step_store.h"
+#include "files/results/tables/plane_writer.h"
+#include "physics/transport/model/receivers.h"
+#include "pictures/charts/colouring.h"
+#include "pictures/charts/fields.h"
+#include "pictures/drawing/image_writer.h"
 #include "simulate/interrupt.h"
 #include "simulate/scene_source.h"
 
@@ -52,8 +54,8 @@ std::vector<Picture> named_pictures(const ResultRequest& request) {
   return named;
 }
 
-// Returns the pictures requested by name and, of those that `all` stands for, the ones that have something to show: none of
-// light that the scene does not have, and no total where all light is direct.
+// Returns the pictures requested by name. If `all` is requested, adds the usual pictures that have something to show: those of
+// direct light if the scene has a beam, and the others if some light is not direct.
 std::vector<Picture> wanted_pictures(const ResultRequest& request, const RadiationModel& model, const RadiationResult& result) {
   std::vector<Picture> wanted = named_pictures(request);
   if (!asks_for(request, "all")) return wanted;

@@ -1,9 +1,9 @@
 #pragma once
 // The folder with the results of `run`: tables, exports, plots, pictures and the summary.
 
-#include "io/folder_lock.h"
-#include "io/measured_reader.h"
-#include "io/profile_table.h"
+#include "base/folder_lock.h"
+#include "files/formats/measured/measured_reader.h"
+#include "files/results/tables/profile_table.h"
 #include "simulate/requests.h"
 #include "simulate/simulated_scene.h"
 #include "simulate/unwritten_files.h"

@@ -1,9 +1,9 @@
 #include "simulate/scene_source.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/log.h"
-#include "io/file.h"
-#include "io/mesh_reader.h"
+#include "files/formats/mesh/mesh_reader.h"
 
 #include <fmt/format.h>
 
@@ -42,13 +42,6 @@ fs::path name_from(const fs::path& folder, const fs::path& file) {
   if (folder_error || file_error) return fs::absolute(file, file_error);
   const fs::path relative = whole.lexically_relative(base);
   return relative.empty() || *relative.begin() == ".." ? whole : relative;
-}
-
-std::string StandFiles::first_given() const {
-  if (!optics.empty()) return "--optics";
-  if (!light.empty()) return "--light";
-  if (!domain.empty()) return "--domain";
-  return scale ? "--scale" : "";
 }
 
 Scene load_scene(const SceneRequest& request, ScenePurpose purpose, SourceFiles* files) {

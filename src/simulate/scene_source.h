@@ -1,8 +1,8 @@
 #pragma once
 // Reads a command's scene: a scene file, or a mesh with CARIBU's files beside it.
 
-#include "io/caribu_scene.h"
-#include "io/scene_reader.h"
+#include "files/scene/caribu_scene.h"
+#include "files/scene/scene_reader.h"
 #include "simulate/requests.h"
 
 #include <filesystem>

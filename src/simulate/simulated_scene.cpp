@@ -2,10 +2,10 @@
 
 namespace sunfleck {
 
-Tracing::Tracing(const RadiationModel& model, const DeviceAsked& device, EngineUse use)
+Tracing::Tracing(const RadiationModel& model, const DeviceChoice& device, EngineUse use)
     : tree(model),
       build_s(watch_.lap()),
-      engine(device, tree.bvh, traced_scene(model), tree.layout.words(), use),
+      engine(device, tree.bvh, trace_domain(model), tree.layout.words(), use),
       open_s(watch_.lap()) {}
 
 bool is_done(StopReason stop) {

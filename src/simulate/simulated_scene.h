@@ -2,12 +2,12 @@
 // A result together with its scene, and the tree with which it is drawn.
 
 #include "base/stopwatch.h"
-#include "io/result_writer.h"
-#include "io/scene_reader.h"
-#include "pictures/pictures.h"
-#include "tracers/engine.h"
-#include "tracers/scene_tree.h"
-#include "transport/result.h"
+#include "devices/tracers/engine.h"
+#include "devices/tracers/scene_tree.h"
+#include "files/results/tables/result_writer.h"
+#include "files/scene/scene_reader.h"
+#include "physics/transport/model/result.h"
+#include "pictures/charts/pictures.h"
 
 #include <memory>
 #include <string>
@@ -19,7 +19,7 @@ class Tracing {
   Stopwatch watch_;  // first member, since it times the members that follow
 
  public:
-  Tracing(const RadiationModel& model, const DeviceAsked& device, EngineUse use);
+  Tracing(const RadiationModel& model, const DeviceChoice& device, EngineUse use);
 
   SceneTree tree;
   const double build_s;  // seconds that building the tree took

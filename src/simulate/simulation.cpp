@@ -1,13 +1,14 @@
 #include "simulate/simulation.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
-#include "io/file.h"
-#include "light/beam_grid.h"
+#include "devices/tracers/cpu_tracer.h"
+#include "physics/light/beam_grid.h"
+#include "physics/transport/receivers/sensors.h"
 #include "simulate/checkpoint.h"
 #include "simulate/ranks.h"
-#include "transport/sensors.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ std::uint32_t sensor_rays(const SolveSettings& settings) {
 std::shared_ptr<Tracing> open_tracing(const RadiationModel& model, const DeviceRequest& device, EngineUse use) {
   set_software_threads(device.threads);
   const CpuThreads limit(device.threads);
-  return std::make_shared<Tracing>(model, DeviceAsked(device.device, device.device_turn), use);
+  return std::make_shared<Tracing>(model, DeviceChoice(device.device, device.device_turn), use);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #pragma once
 // A scene with its tree on a device, with which the commands, the window, Python and the ranks of an MPI job simulate.
 
-#include "io/result_writer.h"
-#include "io/scene_reader.h"
+#include "devices/tracers/remembered_beams.h"
+#include "files/results/tables/result_writer.h"
+#include "files/scene/scene_reader.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/solve/solve.h"
 #include "simulate/requests.h"
 #include "simulate/simulated_scene.h"
-#include "tracers/remembered_beams.h"
-#include "transport/result.h"
-#include "transport/solve.h"
 
 #include <cstddef>
 #include <memory>
@@ -42,7 +42,7 @@ class Simulation {
   // Returns a simulation of a model with the same triangles, soil and plot, which shares the tree and the device.
   [[nodiscard]] Simulation with_model(RadiationModel model) const;
 
-  // Gives the scene other light, like relight of io/scene_reader.h. Existing results keep the scene to which they belong.
+  // Gives the scene other light, like relight of files/scene/scene_reader.h. Existing results keep the scene to which they belong.
   void relight(const SceneText& light, const SceneAccess& access);
 
   // Returns the scene. Through the mutable reference only its light, optics and title may be changed, and only while nothing is
@@ -55,7 +55,7 @@ class Simulation {
   void remember_beams(std::size_t most_bytes);
   [[nodiscard]] std::uint64_t spared_beams() const { return beams_ ? beams_->spared() : 0; }
 
-  // Simulates the scene, sensors included. Throws as `solve` of transport/solve.h does.
+  // Simulates the scene, sensors included. Throws as `solve` of physics/transport/solve/solve.h does.
   [[nodiscard]] RadiationResult solve(const SolveSettings& settings, const Monitor& monitor,
                                       ReplicateHelpers* helpers = nullptr);
 

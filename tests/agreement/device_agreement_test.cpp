@@ -2,9 +2,9 @@
 // is cut.
 
 #include "agreement/scenes.h"
+#include "devices/tracers/canopy_view.h"
+#include "devices/tracers/vulkan_tracer.h"
 #include "support/device.h"
-#include "tracers/canopy_view.h"
-#include "tracers/vulkan_tracer.h"
 
 #include <gtest/gtest.h>
 

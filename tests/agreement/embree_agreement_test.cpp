@@ -2,6 +2,7 @@
 // where two surfaces meet, closer than single precision can distinguish.
 
 #include "agreement/scenes.h"
+#include "physics/bvh/build.h"
 #include "shared/beam.h"
 #include "support/embree.h"
 

@@ -2,11 +2,11 @@
 // whole runs with scattered light give the same numbers on both.
 
 #include "agreement/scenes.h"
+#include "devices/tracers/vulkan_tracer.h"
+#include "physics/transport/indirect/indirect.h"
 #include "support/device.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
-#include "tracers/vulkan_tracer.h"
-#include "transport/indirect.h"
 
 #include <gtest/gtest.h>
 

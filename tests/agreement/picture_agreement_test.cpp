@@ -2,11 +2,11 @@
 // device.
 
 #include "agreement/scenes.h"
+#include "devices/tracers/canopy_view.h"
+#include "devices/tracers/gpu_tree.h"
+#include "pictures/drawing/chart.h"
+#include "pictures/drawing/view_block.h"
 #include "support/device.h"
-#include "tracers/canopy_view.h"
-#include "tracers/gpu_tree.h"
-#include "view/chart.h"
-#include "view/view_block.h"
 
 #include <cstring>
 #include <string>

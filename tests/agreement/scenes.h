@@ -1,7 +1,7 @@
 #pragma once
 // Scenes on which all tracers must agree, both ordinary and difficult.
 
-#include "canopy/maize.h"
+#include "physics/canopy/maize.h"
 #include "support/bvh_check.h"
 #include "support/models.h"
 

@@ -1,10 +1,10 @@
 // Tests that sensors read the same numbers, bit by bit, on the CPU path and on the device.
 
 #include "agreement/scenes.h"
+#include "devices/tracers/vulkan_tracer.h"
+#include "physics/transport/receivers/sensors.h"
 #include "support/device.h"
 #include "support/leaf_scenes.h"
-#include "tracers/vulkan_tracer.h"
-#include "transport/sensors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Tests that the shared text gives the same bits on the device as in C++, for a million inputs.
 
 #include "agreement/shared_text.h"
-#include "gpu/buffer.h"
-#include "gpu/compute.h"
+#include "devices/gpu/buffer.h"
+#include "devices/gpu/compute.h"
 #include "shared_text.spirv.h"
 #include "support/bvh_check.h"
 #include "support/device.h"

@@ -3,8 +3,8 @@
 
 #include "agreement/scenes.h"
 #include "agreement/shared_text.h"
+#include "devices/tracers/vulkan_tracer.h"
 #include "support/device.h"
-#include "tracers/vulkan_tracer.h"
 #include "tree_walk.spirv.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "bench/benches.h"
 #include "bench/measure.h"
 #include "bench/peer.h"
+#include "physics/bvh/build.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -6,8 +6,8 @@
 #include "bench/benches.h"
 #include "bench/measure.h"
 #include "bench/ours.h"
-#include "transport/beam_block.h"
-#include "transport/indirect.h"
+#include "physics/transport/indirect/indirect.h"
+#include "physics/transport/model/beam_block.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #include "bench/benches.h"
 #include "bench/measure.h"
 #include "bench/ours.h"
-#include "transport/sensors.h"
-#include "transport/solve.h"
+#include "physics/transport/receivers/sensors.h"
+#include "physics/transport/solve/solve.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

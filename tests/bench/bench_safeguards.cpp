@@ -5,9 +5,10 @@
 #include "bench/measure.h"
 #include "bench/ours.h"
 #include "bench/rays.h"
+#include "physics/bvh/build.h"
+#include "physics/transport/indirect/indirect.h"
 #include "shared/beam.h"
 #include "shared/intersect.h"
-#include "transport/indirect.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // Registers the groups of measurements, which main.cpp describes. Without `context`, which must outlive the run, measurements
 // that need a Vulkan device are left out.
 
-#include "gpu/context.h"
+#include "devices/gpu/context.h"
 
 namespace sunfleck::bench {
 

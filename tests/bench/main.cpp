@@ -11,7 +11,7 @@
 
 #include "bench/benches.h"
 
-#include "tracers/engine.h"
+#include "devices/tracers/engine.h"
 
 #include <benchmark/benchmark.h>
 

@@ -2,7 +2,7 @@
 
 #include "bench/ours.h"
 #include "bench/peer.h"
-#include "transport/indirect.h"
+#include "physics/transport/indirect/indirect.h"
 
 #include <cstdint>
 #include <vector>

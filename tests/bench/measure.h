@@ -2,8 +2,8 @@
 // One measurement of tracing.
 
 #include "bench/rays.h"
-#include "gpu/context.h"
-#include "transport/tracer.h"
+#include "devices/gpu/context.h"
+#include "physics/transport/model/tracer.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 #include "bench/ours.h"
 
-#include "tracers/cpu_tracer.h"
-#include "tracers/vulkan_tracer.h"
+#include "devices/tracers/cpu_tracer.h"
+#include "devices/tracers/vulkan_tracer.h"
 
 namespace sunfleck::bench {
 

@@ -2,10 +2,10 @@
 // Runs our own tracers over a stand.
 
 #include "bench/stand.h"
-#include "gpu/context.h"
-#include "tracers/gpu_tree.h"
-#include "tracers/vulkan_choices.h"
-#include "transport/tracer.h"
+#include "devices/gpu/context.h"
+#include "devices/tracers/gpu_tree.h"
+#include "devices/tracers/vulkan_choices.h"
+#include "physics/transport/model/tracer.h"
 
 #include <memory>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "bench/rays.h"
 
+#include "devices/tracers/cpu_tracer.h"
+#include "physics/transport/model/beam_block.h"
+#include "physics/transport/solve/solve.h"
 #include "shared/beam.h"
-#include "tracers/cpu_tracer.h"
-#include "transport/beam_block.h"
-#include "transport/solve.h"
 
 #include <algorithm>
 #include <random>

@@ -1,6 +1,6 @@
 #include "bench/stand.h"
 
-#include "canopy/maize.h"
+#include "physics/canopy/maize.h"
 
 #include <cmath>
 #include <map>

@@ -13,7 +13,7 @@ enum class Plots { endless, single };
 struct Stand {
   explicit Stand(int plants, Plots plots = Plots::endless);
 
-  [[nodiscard]] CpuTracer::Scene tracer_scene() const { return test::tracer_scene(model); }
+  [[nodiscard]] TraceDomain tracer_scene() const { return test::tracer_scene(model); }
   [[nodiscard]] std::size_t triangles() const { return model.canopy.size(); }
 
   RadiationModel model;

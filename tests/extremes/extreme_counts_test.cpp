@@ -2,15 +2,15 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "extremes/tracers.h"
+#include "physics/transport/indirect/indirect.h"
+#include "physics/transport/model/band_quanta.h"
+#include "physics/transport/model/beam_block.h"
+#include "physics/transport/solve/run_sums.h"
 #include "shared/beam.h"
 #include "support/chi_square.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 #include "support/scattering.h"
-#include "transport/band_quanta.h"
-#include "transport/beam_block.h"
-#include "transport/indirect.h"
-#include "transport/run_sums.h"
 
 #include <array>
 #include <limits>
@@ -30,7 +30,7 @@ Mesh quarter() {
 }
 
 // Counts rays without sending them: a given number out of every 2^20 on the first element, the others on the first cell of the
-// soil. A tracer may be anything that counts every ray once (transport/tracer.h), so a run of billions of rays takes no time.
+// soil. A tracer may be anything that counts every ray once (physics/transport/model/tracer.h), so a run of billions of rays takes no time.
 class CountingTracer final : public Tracer {
  public:
   CountingTracer(const CounterLayout& layout, std::uint64_t on_element, std::uint64_t spread)

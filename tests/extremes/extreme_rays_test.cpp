@@ -1,10 +1,10 @@
 // Tests rays where arithmetic has no leeway: along edges, through corners, in the planes of boxes, past needles, through
 // thousands of periods. Coordinates are multiples of powers of two, so the rays are exactly there.
 #include "extremes/tracers.h"
+#include "physics/transport/model/beam_block.h"
 #include "shared/beam.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
-#include "transport/beam_block.h"
 
 #include <fmt/format.h>
 

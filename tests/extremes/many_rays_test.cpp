@@ -1,5 +1,5 @@
 // Traces more than 2^32 rays, each of them in full.
-#include "light/beam_grid.h"
+#include "physics/light/beam_grid.h"
 #include "support/comparison.h"
 #include "support/models.h"
 

@@ -2,11 +2,11 @@
 // Runs simulations and packets on every path: the tree and the test of every element on the CPU, both kinds of tree on the
 // device. All must agree bit by bit.
 
+#include "devices/tracers/vulkan_tracer.h"
+#include "physics/transport/indirect/indirect.h"
 #include "support/device.h"
 #include "support/models.h"
 #include "support/result_numbers.h"
-#include "tracers/vulkan_tracer.h"
-#include "transport/indirect.h"
 
 #include <gtest/gtest.h>
 

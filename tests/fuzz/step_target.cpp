@@ -1,8 +1,8 @@
 // Fuzzes the files that days and runs keep in order to be resumed.
 
+#include "files/results/stores/run_store.h"
+#include "files/results/stores/step_store.h"
 #include "fuzz/support.h"
-#include "io/run_store.h"
-#include "io/step_store.h"
 
 #include <zlib.h>
 

@@ -1,13 +1,13 @@
 #include "fuzz/targets.h"
 
+#include "files/formats/caribu/caribu_reader.h"
+#include "files/formats/caribu/light_reader.h"
+#include "files/formats/measured/measured_reader.h"
+#include "files/formats/mesh/mesh_reader.h"
+#include "files/formats/weather/weather_reader.h"
+#include "files/results/stores/result_store.h"
+#include "files/scene/scene_reader.h"
 #include "fuzz/support.h"
-#include "io/caribu_reader.h"
-#include "io/light_reader.h"
-#include "io/measured_reader.h"
-#include "io/mesh_reader.h"
-#include "io/result_store.h"
-#include "io/scene_reader.h"
-#include "io/weather_reader.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "long/differential_figures.h"
 
-#include "canopy/triangle.h"
+#include "physics/canopy/triangle.h"
 
 #include <fmt/format.h>
 

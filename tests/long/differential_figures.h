@@ -1,8 +1,8 @@
 #pragma once
 // Lists the figures that are compared, and reads how the program states them.
 
-#include "transport/model.h"
-#include "transport/result.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
 
 #include <cstddef>
 #include <string>

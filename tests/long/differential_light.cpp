@@ -1,6 +1,6 @@
 #include "long/differential_light.h"
 
-#include "canopy/triangle.h"
+#include "physics/canopy/triangle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,8 @@
 // The light of the independent tracer: from sun, sky and lamps. Flux is in W, for each waveband.
 
 #include "long/differential_world.h"
-#include "transport/model.h"
+#include "physics/light/sky.h"
+#include "physics/transport/model/model.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>

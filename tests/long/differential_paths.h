@@ -4,7 +4,7 @@
 #include "long/differential_light.h"
 #include "long/differential_tally.h"
 #include "long/differential_world.h"
-#include "transport/model.h"
+#include "physics/transport/model/model.h"
 
 #include <cstddef>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "long/differential_figures.h"
 #include "long/differential_light.h"
 #include "long/differential_world.h"
-#include "transport/model.h"
+#include "physics/transport/model/model.h"
 
 #include <limits>
 #include <span>

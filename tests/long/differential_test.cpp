@@ -6,8 +6,8 @@
 #include "long/differential_figures.h"
 #include "long/differential_scenes.h"
 #include "long/differential_tracer.h"
+#include "physics/transport/receivers/sensors.h"
 #include "support/leaf_scenes.h"
-#include "transport/sensors.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // precision and Russian roulette. It shares no code with the program except the description of scene and sky.
 
 #include "long/differential_figures.h"
-#include "transport/model.h"
+#include "physics/transport/model/model.h"
 
 #include <cstddef>
 #include <cstdint>

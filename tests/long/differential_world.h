@@ -2,7 +2,7 @@
 // A scene as the independent tracer sees it: Embree holds the triangles of one period, and a separate walk leads through the
 // copies of an endless plot, cell by cell, with positions in double precision.
 
-#include "transport/model.h"
+#include "physics/transport/model/model.h"
 
 #include <embree3/rtcore.h>
 

@@ -43,7 +43,7 @@ found_on() {
 
 # Does the same for the differential test.
 found_by_differential() {
-  if "$work/build/tests/long/differential_test" > "$work/failed.txt" 2>&1; then
+  if "$work/build/tests/long/long_tests" --gtest_filter="*Differential*" > "$work/failed.txt" 2>&1; then
     echo "  differential: NOT FOUND"
     return 1
   fi
@@ -72,7 +72,7 @@ for mutant in "${mutants[@]}"; do
         for device in cpu lavapipe; do found_on "$device" || missed=$((missed + 1)); done
         ;;
       differential)
-        build differential_test
+        build long_tests
         found_by_differential || missed=$((missed + 1))
         ;;
       *)

@@ -1,6 +1,6 @@
 // Tests scenes given leaf by leaf, whose light was also computed by independent programs: scene S1 of the validation table
 // (B12) and a whole maize stand, in PAR and NIR.
-#include "io/mesh_reader.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 

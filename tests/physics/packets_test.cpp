@@ -1,7 +1,8 @@
 // Tests how waiting flux becomes packets, and how a packet's quanta are split where it lands.
+#include "physics/bvh/references.h"
+#include "physics/transport/indirect/candidates.h"
 #include "support/chi_square.h"
 #include "support/scattering.h"
-#include "transport/candidates.h"
 
 #include <gtest/gtest.h>
 

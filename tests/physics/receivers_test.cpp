@@ -1,9 +1,9 @@
 // Tests horizontal receivers: maps of the light that comes down through a plane, which agree with the profile to the last
 // quantum.
+#include "physics/transport/indirect/beam_landings.h"
+#include "physics/transport/model/beam_block.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
-#include "transport/beam_block.h"
-#include "transport/beam_landings.h"
 
 #include <gtest/gtest.h>
 

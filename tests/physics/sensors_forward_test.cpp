@@ -1,7 +1,7 @@
 // Compares sensors with light followed forwards: on planes of a canopy, and on leaves (validation.md B14 vi).
+#include "physics/transport/receivers/sensors.h"
 #include "support/leaf_scenes.h"
 #include "support/scattering.h"
-#include "transport/sensors.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // Tests sensors: rays followed backwards must give the values of closed forms.
-#include "transport/sensors.h"
+#include "physics/transport/receivers/sensors.h"
 
+#include "physics/light/sky.h"
 #include "support/leaf_scenes.h"
 #include "support/scattering.h"
 

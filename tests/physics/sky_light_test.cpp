@@ -1,6 +1,6 @@
 // Tests light from the sky: the light that single faces receive, the light that canopies absorb (B12 and E of the validation
 // table), and the identities that hold with it.
-#include "io/mesh_reader.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 

@@ -1,6 +1,6 @@
 // Compares a whole maize stand with an independent Monte Carlo program: leaves, stems and soil are black, the plot is periodic,
 // 3 x 3 m.
-#include "io/mesh_reader.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "support/comparison.h"
 #include "support/models.h"
 

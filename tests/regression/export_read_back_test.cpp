@@ -1,10 +1,9 @@
 // Tests that programs written by others read the exports: VTK, meshio, netCDF4 and xarray, assimp. The scripts in read_back/
 // print their findings as JSON.
 
-#include "io/export_formats.h"
-#include "io/file.h"
-#include "io/mesh_reader.h"
-#include "io/result_writer.h"
+#include "base/file.h"
+#include "files/formats/mesh/mesh_reader.h"
+#include "files/results/tables/result_writer.h"
 #include "support/export_models.h"
 #include "support/temp_folder.h"
 
@@ -132,7 +131,7 @@ void expect_record(const json& found) {
   EXPECT_EQ(found["scene_digest"], "f00d");
   EXPECT_EQ(found["seed"], "18446744073709551615");
   EXPECT_EQ(found["grid_m"], "0.002");
-  EXPECT_EQ(found["title"], clean_text(awkward_name));
+  EXPECT_EQ(found["title"], printable(awkward_name));
 }
 
 // Checks two triangles about 2 km up, whose organ and optics have names that are difficult for every format.
@@ -158,7 +157,7 @@ TEST_F(ExportReadBack, Vtk) {
   write(ExportKind::vtp, test::two_triangles(), test::two_triangles_result());
   const json two = read(ExportKind::vtp);
   expect_two_triangles(two);
-  EXPECT_EQ(two["organ_names"], json({"leaf", clean_text(awkward_name)}));
+  EXPECT_EQ(two["organ_names"], json({"leaf", printable(awkward_name)}));
   EXPECT_EQ(two["bounds"][2], 2000.1) << "in double precision";
 }
 
@@ -173,7 +172,7 @@ TEST_F(ExportReadBack, Meshio) {
   write(ExportKind::ply, test::two_triangles(), test::two_triangles_result());
   const json two = read(ExportKind::ply);
   expect_two_triangles(two);
-  EXPECT_EQ(two["record"]["organ 1"], clean_text(awkward_name));
+  EXPECT_EQ(two["record"]["organ 1"], printable(awkward_name));
   EXPECT_EQ(two["bounds"][2], 2000.1) << "in double precision";
 }
 
@@ -199,7 +198,7 @@ TEST_F(ExportReadBack, Netcdf) {
   write(ExportKind::nc, test::two_triangles(), test::two_triangles_result());
   const json two = read(ExportKind::nc);
   expect_two_triangles(two);
-  EXPECT_EQ(two["organ_names"], json({"leaf", clean_text(awkward_name)}));
+  EXPECT_EQ(two["organ_names"], json({"leaf", printable(awkward_name)}));
   EXPECT_EQ(two["flag_meanings"].size(), 2U);
   EXPECT_EQ(two["bounds"][2], 2000.1) << "in double precision";
 }
@@ -254,7 +253,7 @@ TEST_F(ExportReadBack, GltfIsAMeshWithExtras) {
   }
 
   write(ExportKind::glb, test::two_triangles(), test::two_triangles_result());
-  EXPECT_EQ(read_mesh(folder_ / "canopy.glb", {}).organs.at(1).name, clean_text(awkward_name));
+  EXPECT_EQ(read_mesh(folder_ / "canopy.glb", {}).organs.at(1).name, printable(awkward_name));
 }
 
 // Writes each file again more than a second later: no format may contain the time.

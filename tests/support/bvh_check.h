@@ -2,7 +2,9 @@
 // Functions shared by the tests of the tree: hand-made canopies, a check of everything that bvh.h promises of a tree, and a
 // plain walk in double precision.
 
-#include "bvh/bvh.h"
+#include "physics/bvh/bvh.h"
+#include "physics/bvh/decode.h"
+#include "physics/bvh/references.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // Compares estimates with their known values.
 
-#include "transport/statistics.h"
+#include "physics/transport/model/statistics.h"
 
 #include <gtest/gtest.h>
 

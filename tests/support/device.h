@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "gpu/context.h"
+#include "devices/gpu/context.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // The validation layer (1.3.239) leaks and is unloaded before the report, so its leaks cannot be recognised by their origin.
@@ -26,7 +26,7 @@ class DeviceTest : public testing::Test {
   void SetUp() override {
     if (!list_devices().empty()) {
       const Validation wanted = is_set("SUNFLECK_THOROUGH_VALIDATION") ? Validation::thorough : Validation::on;
-      context_ = std::make_unique<GpuContext>(wish(), validation_installed() ? wanted : Validation::off);
+      context_ = std::make_unique<GpuContext>(selector(), validation_installed() ? wanted : Validation::off);
     } else if (is_set("SUNFLECK_REQUIRE_DEVICE")) {
       FAIL() << "no Vulkan device, and SUNFLECK_REQUIRE_DEVICE=1 asks for one";
     } else {
@@ -47,15 +47,15 @@ class DeviceTest : public testing::Test {
     return value != nullptr && std::string(value) == "1";
   }
 
-  static DeviceWish wish() {
-    DeviceWish result;
+  static DeviceSelector selector() {
+    DeviceSelector result;
     if (const char* name = std::getenv("SUNFLECK_TEST_DEVICE")) {
-      result.kind = DeviceWish::Kind::name;
+      result.kind = DeviceSelector::Kind::name;
       result.name = name;
       return result;
     }
     for (const auto& device : list_devices()) {
-      if (device.software) result.kind = DeviceWish::Kind::software;
+      if (device.software) result.kind = DeviceSelector::Kind::software;
     }
     return result;
   }

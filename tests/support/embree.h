@@ -1,7 +1,7 @@
 #pragma once
 // Runs Embree, the independent reference for hits and speed, on the same triangles as our tree.
 
-#include "bvh/bvh.h"
+#include "physics/bvh/bvh.h"
 
 #include <embree3/rtcore.h>
 

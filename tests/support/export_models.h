@@ -1,8 +1,8 @@
 #pragma once
 // Models that the tests of the exports write: two triangles with results chosen by hand, and a simulated maize plant on soil.
 
-#include "canopy/maize.h"
-#include "io/exports.h"
+#include "files/results/exports/exports.h"
+#include "physics/canopy/maize.h"
 #include "support/models.h"
 
 #include <limits>

@@ -2,7 +2,7 @@
 // Support for tests that draw with the real gnuplot and examine the pictures. Without the program they are skipped and say so,
 // or fail if SUNFLECK_REQUIRE_DEVICE=1 is set.
 
-#include "io/plots.h"
+#include "files/results/plots/plots.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>

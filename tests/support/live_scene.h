@@ -1,8 +1,8 @@
 #pragma once
 // A small scene for testing the simulation behind the window: a leaf over soil, two bands, sun and sky.
 
-#include "app/options.h"
-#include "io/scene_reader.h"
+#include "files/scene/scene_reader.h"
+#include "programs/cli/options.h"
 #include "simulate/simulation.h"
 #include "support/temp_folder.h"
 
@@ -65,7 +65,7 @@ inline std::filesystem::path write_live_scene(const TempFolder& folder) {
 // A simulation on the CPU path, set up as in the window.
 struct LiveScene {
   explicit LiveScene(const std::filesystem::path& file)
-      : scene(read_scene(file)), simulation(scene, DeviceRequest{"cpu", 0, 0}, EngineUse::drawn_meanwhile) {
+      : scene(read_scene(file)), simulation(scene, DeviceRequest{"cpu", 0, 0}, EngineUse::shared_with_window) {
     options.scene = file;
     options.device = "cpu";
     options.quiet = true;

@@ -1,7 +1,7 @@
 #pragma once
 // The two maize stands used by the tests, and sums over their triangles.
 
-#include "canopy/maize.h"
+#include "physics/canopy/maize.h"
 
 #include <cstdint>
 #include <glm/geometric.hpp>

@@ -1,9 +1,11 @@
 #pragma once
 // Small scenes built by the tests, and one call that simulates them on the CPU path.
 
-#include "bvh/bvh.h"
-#include "tracers/cpu_tracer.h"
-#include "transport/solve.h"
+#include "devices/tracers/cpu_tracer.h"
+#include "devices/tracers/trace_domain.h"
+#include "physics/bvh/build.h"
+#include "physics/bvh/bvh.h"
+#include "physics/transport/solve/solve.h"
 
 #include <cmath>
 #include <cstdint>
@@ -133,7 +135,7 @@ struct Prepared {
   Bvh bvh;
 };
 
-inline CpuTracer::Scene tracer_scene(const RadiationModel& model) {
+inline TraceDomain tracer_scene(const RadiationModel& model) {
   return {model.plot.periodic, model.soil.has_value()};
 }
 

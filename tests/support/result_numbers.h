@@ -1,7 +1,7 @@
 #pragma once
 // Returns every number of a result except clock times, bit by bit: two runs are identical if these numbers are.
 
-#include "transport/result.h"
+#include "physics/transport/model/result.h"
 
 #include <array>
 #include <bit>

@@ -2,7 +2,7 @@
 // A scene file that contains everything, a folder for it, and a check of every error message about it.
 
 #include "base/error.h"
-#include "io/scene_reader.h"
+#include "files/scene/scene_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Skies for tests, and integrals over them.
 
-#include "light/sky.h"
+#include "physics/light/sky.h"
 
 #include <algorithm>
 #include <array>

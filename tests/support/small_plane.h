@@ -1,8 +1,8 @@
 #pragma once
 // A result with one receiver plane, small enough to check by hand.
 
-#include "transport/model.h"
-#include "transport/result.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
 
 #include <utility>
 #include <vector>

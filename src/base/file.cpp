@@ -1,0 +1,244 @@
+#include "base/file.h"
+
+#include "base/error.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+namespace sunfleck {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Handle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+Handle open(const fs::path& file, const char* mode) {
+  return {std::fopen(file.c_str(), mode), &std::fclose};
+}
+
+[[noreturn]] void refuse_read(const fs::path& file, std::string_view why, std::string_view cure) {
+  throw_input(fmt::format("{}: cannot be read", printable(file.string())), why, cure);
+}
+
+[[noreturn]] void refuse_write(const fs::path& file, int code) {
+  throw_failure(fmt::format("{}: cannot be written", printable(file.string())), std::strerror(code), write_cure(code));
+}
+
+// Returns 0, or the errno that forbids replacing a file of this name; a rename alone would ignore it.
+int protection(const fs::path& file) {
+  struct stat state {};
+  if (::stat(file.c_str(), &state) != 0) return 0;  // there is no file, or opening the new one will report the reason
+  if (S_ISDIR(state.st_mode)) return EISDIR;
+  return ::access(file.c_str(), W_OK) == 0 ? 0 : errno;
+}
+
+// Waits until a file or folder is on the disk. Returns 0 or errno; a file system without fsync counts as success.
+int sync(int number) {
+  int code = 0;
+  do {
+    code = ::fsync(number) == 0 ? 0 : errno;
+  } while (code == EINTR);
+  return code == EINVAL || code == ENOTSUP ? 0 : code;
+}
+
+int sync_file(const fs::path& file) {
+  const int number = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (number < 0) return errno;
+  const int code = sync(number);
+  ::close(number);
+  return code;
+}
+
+// Waits until the entries of a folder are on the disk. Returns 0 or errno; a folder that is writable but not readable counts as
+// success.
+int sync_folder(const fs::path& folder) {
+  const int number = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (number < 0) return errno == EACCES ? 0 : errno;
+  const int code = sync(number);
+  ::close(number);
+  return code;
+}
+
+// Renames a file that is on the disk, and waits for its new name. Returns 0 or errno.
+int put_in_place(const fs::path& file, const fs::path& aside) {
+  if (const int code = protection(file); code != 0) return code;
+  if (std::rename(aside.c_str(), file.c_str()) != 0) return errno;
+  return sync_folder(file.parent_path());
+}
+
+// Writes all bytes, waits until they are on the disk, and closes the file. Returns 0 or errno.
+int fill(int number, std::string_view bytes) {
+  int code = 0;
+  while (!bytes.empty() && code == 0) {
+    const ssize_t written = ::write(number, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) code = errno;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (code == 0) code = sync(number);
+  if (::close(number) != 0 && code == 0) code = errno;  // a full network disk may be reported only now
+  return code;
+}
+
+}  // namespace
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
+    const unsigned first = byte(0), second = byte(1);
+    std::size_t length = 1;
+    if (first >= 0x80U) {
+      length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
+      const unsigned least = first == 0xE0U ? 0xA0U : first == 0xF0U ? 0x90U : 0x80U;
+      const unsigned most = first == 0xEDU ? 0x9FU : first == 0xF4U ? 0x8FU : 0xBFU;
+      if (first < 0xC2U || first > 0xF4U || second < least || second > most) return false;
+      for (std::size_t i = 2; i < length; ++i)
+        if ((byte(i) & 0xC0U) != 0x80U) return false;
+    }
+    at += length;
+  }
+  return true;
+}
+
+std::string printable(std::string_view text) {
+  const bool ascii_only = !is_utf8(text);
+  std::string shown(text);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto c = static_cast<unsigned char>(shown[i]);
+    // U+0080 to U+009F are control characters too.
+    const bool second_control = c == 0xC2U && i + 1 < shown.size() && static_cast<unsigned char>(shown[i + 1]) < 0xA0U;
+    if (c < 0x20U || c == 0x7FU || (c >= 0x80U && ascii_only)) shown[i] = '?';
+    if (second_control && !ascii_only) shown[i] = shown[i + 1] = '?';
+  }
+  return shown;
+}
+
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  return text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
+}
+
+std::string shortened(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  std::size_t cut = longest;
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;
+  return fmt::format("{}...", text.substr(0, cut));
+}
+
+std::uintmax_t physical_memory_bytes() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uintmax_t>::max();
+  return static_cast<std::uintmax_t>(pages) * static_cast<std::uintmax_t>(page_bytes);
+}
+
+std::uintmax_t available_memory_bytes() {
+  std::uintmax_t available = physical_memory_bytes();
+  std::ifstream meminfo("/proc/meminfo");
+  for (std::string line; std::getline(meminfo, line);) {
+    std::uintmax_t kib = 0;
+    if (std::sscanf(line.c_str(), "MemAvailable: %ju kB", &kib) == 1) available = std::min(available, kib * 1024);
+  }
+  // The control group (version 2) may allow less memory; its limit reads "max" if there is none.
+  std::uintmax_t limit = 0, used = 0;
+  std::ifstream limit_file("/sys/fs/cgroup/memory.max"), used_file("/sys/fs/cgroup/memory.current");
+  if (limit_file >> limit && used_file >> used) available = std::min(available, limit - std::min(limit, used));
+  return available;
+}
+
+std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
+  std::error_code code;
+  const fs::file_status status = fs::status(file, code);
+  if (status.type() == fs::file_type::not_found) refuse_read(file, "there is no such file", "check the name and the folder");
+  if (code) refuse_read(file, code.message(), "check the path and its permissions");
+  if (fs::is_directory(status)) refuse_read(file, "it is a directory", "name a file");
+  if (!fs::is_regular_file(status)) refuse_read(file, "it is not a regular file", "name a file on disk");
+
+  const Handle handle = open(file, "rb");
+  if (!handle) refuse_read(file, std::strerror(errno), "check its permissions");
+  const std::uintmax_t size = fs::file_size(file, code);
+  if (code) refuse_read(file, code.message(), "check the path and its permissions");
+  if (const std::uintmax_t most = std::min(most_bytes, physical_memory_bytes()); size > most)
+    refuse_read(file, fmt::format("it has {} bytes, but at most {} are allowed", size, most), "use a smaller file");
+  std::string bytes(size, '\0');
+  const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), handle.get());
+  if (std::ferror(handle.get()) != 0) refuse_read(file, std::strerror(errno), "check the disk");
+  if (got != bytes.size()) refuse_read(file, "it was truncated while being read", "try again when it is complete");
+  return bytes;
+}
+
+std::string_view write_cure(int code) {
+  switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose another disk";
+    case EFBIG:
+      return "raise the limit of file sizes (ulimit -f) or choose another disk";
+    case ENOENT:
+    case ENOTDIR:
+      return "create its folder first";
+    case EISDIR:
+      return "remove that folder or choose another name";
+    case EIO:
+      return "check the disk";
+    default:
+      return "choose a folder with write permission";
+  }
+}
+
+void write_file(const fs::path& file, std::string_view bytes) {
+  constexpr mode_t mode = 0666;  // before the user's umask
+  check_writable(file);
+  const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
+  ::unlink(aside.c_str());
+  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (number < 0) refuse_write(file, errno);
+  int code = fill(number, bytes);
+  if (code == 0) code = put_in_place(file, aside);
+  if (code == 0) return;
+  ::unlink(aside.c_str());
+  refuse_write(file, code);
+}
+
+void check_writable(const fs::path& file) {
+  if (const int code = protection(file); code != 0) refuse_write(file, code);
+}
+
+void replace_file(const fs::path& file, const fs::path& aside) {
+  int code = sync_file(aside);
+  if (code == 0) code = put_in_place(file, aside);
+  if (code == 0) return;
+  ::unlink(aside.c_str());
+  refuse_write(file, code);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> parents;  // parents that get a new entry
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path()) parents.push_back(at.parent_path());
+  fs::create_directories(folder, error);
+  if (error) throw_failure(printable(folder.string()), error.message(), "choose a writable folder with -o");
+  for (const fs::path& parent : parents) {
+    if (const int code = sync_folder(parent); code != 0) refuse_write(folder, code);
+  }
+}
+
+bool is_left_aside(std::string_view name, std::string_view of) {
+  constexpr std::string_view ending = ".tmp";
+  if (!name.starts_with(of) || !name.ends_with(ending) || name.size() < of.size() + ending.size() + 2) return false;
+  const std::string_view number = name.substr(of.size() + 1, name.size() - of.size() - 1 - ending.size());
+  return name[of.size()] == '.' && number.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,81 @@
+#include "base/sealed_file.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/packed_array.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+namespace sunfleck {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::size_t deepest = 2;  // nesting depth of lists and maps
+constexpr std::size_t mark_bytes = 8;
+constexpr std::size_t head_bytes = mark_bytes + sizeof(std::uint32_t);
+
+std::uint32_t check_sum(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+std::string value_text(const ordered_json& settings, const std::string& key) {
+  return settings.contains(key) ? printable(settings[key].dump()) : "not given";
+}
+
+}  // namespace
+
+std::string sealed(std::string_view mark, const json& content) {
+  std::string bytes(head_bytes, '\0');
+  json::to_cbor(content, bytes);
+  const std::uint32_t sum = check_sum(std::string_view(bytes).substr(head_bytes));
+  bytes.replace(0, mark_bytes, mark);
+  std::memcpy(bytes.data() + mark_bytes, &sum, sizeof sum);
+  return bytes;
+}
+
+std::optional<json> unsealed(std::string_view mark, std::string_view bytes) {
+  if (bytes.size() < head_bytes || bytes.substr(0, mark_bytes) != mark) return std::nullopt;
+  const std::string_view content = bytes.substr(head_bytes);
+  std::uint32_t sum = 0;
+  std::memcpy(&sum, bytes.data() + mark_bytes, sizeof sum);
+  if (sum != check_sum(content)) return std::nullopt;
+  try {
+    return read_cbor(content, deepest);
+  } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+ordered_json parse_settings(const std::string& text) {
+  bool plain = true;
+  const auto keep = [&](int depth, ordered_json::parse_event_t, ordered_json&) {
+    plain = plain && depth < 2;
+    return plain;
+  };
+  ordered_json settings = ordered_json::parse(text, keep, false);
+  return plain && settings.is_object() ? std::move(settings) : ordered_json();
+}
+
+void expect_same_settings(const ordered_json& now, const ordered_json& noted, const std::string& what,
+                          const std::filesystem::path& result_folder) {
+  for (const ordered_json* settings : {&now, &noted}) {
+    for (const auto& [key, value] : settings->items()) {
+      if (now.contains(key) && noted.contains(key) && now[key] == noted[key]) continue;
+      throw_input(fmt::format("--resume {}", printable(result_folder.string())),
+                  fmt::format("{} has other settings: {} was {}, now {}", what, printable(key), value_text(noted, key),
+                              value_text(now, key)),
+                  "use the same settings, or omit --resume to start again");
+    }
+  }
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,95 @@
+#include "base/text_reader.h"
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <system_error>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr std::string_view blanks = " \t\f\v";
+
+// Returns the cell of a table trimmed and without enclosing double quotes.
+std::string_view unquoted(std::string_view cell) {
+  cell = trimmed(cell);
+  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+}  // namespace
+
+void refuse_line(const std::filesystem::path& file, std::size_t line, std::string_view what, std::string_view why,
+                 std::string_view cure) {
+  const std::string place = line == 0 ? file.string() : fmt::format("{}:{}", file.string(), line);
+  throw_input(printable(fmt::format("{}: {}", place, what)), printable(why), cure);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  return fmt::format("'{}'", printable(shortened(text, longest)));
+}
+
+bool LineReader::next() {
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find_first_of("\r\n");
+  line_ = rest_.substr(0, end);
+  if (end == rest_.npos)
+    rest_ = {};
+  else
+    rest_.remove_prefix(rest_.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
+  ++number_;
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view next_word(std::string_view& rest) {
+  std::size_t first = 0;
+  while (first < rest.size() && blanks.find(rest[first]) != blanks.npos) ++first;
+  std::size_t last = first;
+  while (last < rest.size() && blanks.find(rest[last]) == blanks.npos) ++last;
+  const std::string_view word = rest.substr(first, last - first);
+  rest.remove_prefix(last);
+  return word;
+}
+
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(unquoted(line.substr(0, comma)));
+    if (comma == line.npos) return;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> parse_number(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || word.empty()) return std::nullopt;
+  // from_chars leaves the value unchanged both on underflow and on overflow; strtod distinguishes them.
+  if (code == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
+  if (code == std::errc::invalid_argument || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  std::int64_t value = 0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || word.empty() || code != std::errc()) return std::nullopt;
+  return value;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,41 @@
+#pragma once
+// Device buffers.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "devices/gpu/context.h"
+
+namespace sunfleck {
+
+enum class BufferUse {
+  storage,        // read and written by shaders
+  uniform_texel,  // read-only, fetched as four 32-bit unsigned words per texel (usamplerBuffer)
+};
+
+// A device-local buffer with its memory.
+struct GpuBuffer {
+  struct Handles;  // devices/gpu/handles.h
+  struct Destroy {
+    void operator()(Handles* handles) const noexcept;
+  };
+
+  BufferUse use = BufferUse::storage;
+  std::size_t bytes = 0;
+  std::unique_ptr<Handles, Destroy> handles;  // null: the buffer does not exist yet
+};
+
+// Creates a buffer with undefined contents. `bytes` may be 0: the buffer then has room for one texel, so that it can be bound.
+// Throws Error (failure) naming `what` if memory runs out, Error (device) if the size exceeds the device's limit for this use.
+[[nodiscard]] GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what);
+
+// Copy data through the staging memory, in pieces with one fence each. offset + size <= bytes.
+void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset = 0);
+void download(const GpuContext& context, const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset = 0);
+
+// Sets every 32-bit word of the buffer to `word`.
+void fill(const GpuContext& context, const GpuBuffer& buffer, std::uint32_t word);
+
+}  // namespace sunfleck

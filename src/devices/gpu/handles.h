@@ -1,0 +1,67 @@
+#pragma once
+// Vulkan's handles behind contexts, buffers and pipelines. Only for the sources of gpu.
+
+#include "devices/gpu/buffer.h"
+#include "devices/gpu/compute.h"
+#include "devices/gpu/context.h"
+
+#include <cstddef>
+#include <string>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace sunfleck {
+
+// Host-visible, coherent, permanently mapped memory through which all data travel to and from the device.
+struct Staging {
+  static constexpr std::size_t bytes = std::size_t{16} << 20;
+  vk::raii::DeviceMemory memory{nullptr};
+  vk::raii::Buffer buffer{nullptr};
+  std::byte* data = nullptr;
+};
+
+// Members are destroyed in the reverse of this order.
+struct GpuContext::Handles {
+  vk::raii::Context loader;
+  vk::raii::Instance instance{nullptr};
+  vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
+  vk::raii::PhysicalDevice physical{nullptr};
+  vk::raii::Device device{nullptr};
+  vk::raii::Queue queue{nullptr};
+  vk::raii::CommandPool pool{nullptr};
+  vk::raii::CommandBuffer commands{nullptr};
+  vk::raii::Fence fence{nullptr};
+  Staging staging;
+};
+
+struct GpuBuffer::Handles {
+  vk::raii::DeviceMemory memory{nullptr};
+  vk::raii::Buffer buffer{nullptr};
+  vk::raii::BufferView view{nullptr};  // of a texel buffer
+};
+
+struct ComputePipeline::Handles {
+  vk::raii::DescriptorSetLayout set_layout{nullptr};
+  vk::raii::PipelineLayout layout{nullptr};
+  vk::raii::Pipeline pipeline{nullptr};
+  vk::raii::DescriptorPool pool{nullptr};
+  vk::raii::DescriptorSet set{nullptr};
+};
+
+// Allocates memory of a type that has all `required` properties, and the `preferred` ones too if such a type exists. Lets
+// Vulkan-Hpp's exceptions pass through.
+[[nodiscard]] vk::raii::DeviceMemory allocate(const GpuContext::Handles& context, const vk::MemoryRequirements& needs,
+                                              vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred);
+
+// Returns the single command buffer, reset and begun. Writes of earlier submissions are visible to the transfers and compute
+// shaders recorded here; barriers between commands of the same recording are the caller's responsibility. Throws Error
+// (failure).
+[[nodiscard]] const vk::raii::CommandBuffer& begin_commands(const GpuContext& context);
+// Ends that command buffer, submits it and waits; afterwards its writes are visible to the host. Throws Error (failure) if the
+// device is lost.
+void submit_and_wait(const GpuContext& context);
+
+// Reports every Vulkan call that fails after a device was chosen. Throws Error (failure) that names the operation `what`, the
+// device and the reason.
+[[noreturn]] void throw_call_failed(const GpuContext& context, const std::string& what, const vk::SystemError& error);
+
+}  // namespace sunfleck

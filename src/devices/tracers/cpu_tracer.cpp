@@ -1,0 +1,185 @@
+#include "devices/tracers/cpu_tracer.h"
+
+#include "base/check.h"
+#include "shared/beam.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace sunfleck {
+namespace {
+
+// Largest number of rays between two checks whether to stop: a fraction of a second.
+constexpr std::uint32_t rays_per_slice = 1U << 18U;
+constexpr std::uint32_t packets_per_slice = 1U << 17U;
+
+void count(std::span<std::uint32_t> counters, std::size_t word) {
+  std::atomic_ref<std::uint32_t>(counters[word]).fetch_add(1, std::memory_order_relaxed);
+}
+
+shared::Landing landing_of(const CpuHit& hit) {
+  return {2 * hit.element + hit.lower, hit.triangle, hit.weight_b, hit.weight_c};
+}
+
+shared::Landing ground_landing(const shared::Ray& ray, float t, bool has_soil) {
+  const glm::vec2 at = shared::ground_point(ray, t);
+  return {has_soil ? shared::landed_on_ground : shared::left_downwards, 0, at.x, at.y};
+}
+
+}  // namespace
+
+CpuTracer::CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk)
+    : bvh_(bvh), domain_(domain), walk_(walk), beam_budget_(rays_per_slice, 0.0), packet_budget_(packets_per_slice, 0.0) {}
+
+void CpuTracer::check_stop_every(double seconds) {
+  beam_budget_ = DispatchBudget(rays_per_slice, seconds);
+  packet_budget_ = DispatchBudget(packets_per_slice, seconds);
+}
+
+TracerDevice CpuTracer::device() const {
+  return {"cpu", walk_ == CpuWalk::tree ? "CPU path" : "CPU path, every element tested", "", true};
+}
+
+CpuHit CpuTracer::nearest(const shared::Ray& ray, float limit, OwnElement own) const {
+  return walk_ == CpuWalk::tree ? nearest_hit(bvh_, ray, limit, Images::all, own) : nearest_hit_of_all(bvh_, ray, limit, own);
+}
+
+void CpuTracer::count_element(const shared::BeamBlock& beam, const CpuHit& hit, std::span<std::uint32_t> counters) const {
+  const BvhTriangle& reference = bvh_.triangles[hit.triangle];
+  const float y = shared::landing_y(reference.a[1], reference.b[1], reference.c[1], hit.weight_b, hit.weight_c);
+  const std::uint32_t layer = shared::layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers);
+  count(counters, reference.counter + 2 * layer + hit.lower);
+  if (!domain_.periodic) count(counters, shared::counter_met);
+}
+
+void CpuTracer::count_ground(const shared::BeamBlock& beam, const shared::Ray& ray, float t,
+                             std::span<std::uint32_t> counters) const {
+  if (domain_.has_soil) {
+    count(counters, shared::counter_first_cell + shared::soil_cell(beam.ground, shared::ground_point(ray, t)));
+  } else {
+    count(counters, shared::counter_transmitted);
+  }
+  if (!domain_.periodic) count(counters, shared::counter_met);
+}
+
+void CpuTracer::follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray,
+                                         std::span<std::uint32_t> counters) const {
+  const shared::Ground ground = shared::meet_ground(ray, beam.ground);
+  const bool over_plot = shared::falls_on_plot(ray, beam.ground);
+  const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F);
+  if (hit.found) {
+    count_element(beam, hit, counters);
+  } else if (over_plot) {
+    count_ground(beam, ray, ground.t, counters);
+  } else {
+    count(counters, shared::counter_missed);
+  }
+}
+
+void CpuTracer::follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
+                                         std::span<std::uint32_t> counters) const {
+  while (true) {
+    const shared::Ground ground = shared::meet_ground(ray, beam.ground);
+    const shared::Crossing crossing = shared::next_crossing(ray, beam.period, beam.overlap);
+    const CpuHit hit = nearest(ray, ground.limit < crossing.limit ? ground.limit : crossing.limit);
+    if (hit.found) return count_element(beam, hit, counters);
+    if (ground.t <= crossing.t) return count_ground(beam, ray, ground.t, counters);
+    if (++crossings > shared::max_crossings) return count(counters, shared::counter_lost);
+    ray.origin = shared::enter_next_period(ray, crossing, beam.period);
+  }
+}
+
+void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused,
+                           std::span<std::uint32_t> counters) const {
+  const shared::Ray ray = shared::make_ray(paused.origin, beam.direction);
+  if (domain_.periodic) {
+    follow_in_endless_canopy(beam, ray, paused.crossings, counters);
+  } else {
+    follow_in_isolated_stand(beam, ray, counters);
+  }
+}
+
+TraceOutcome CpuTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters, const StopQuestion& stop) {
+  const std::uint32_t rays = beam.columns * beam.rows;
+  for (std::uint32_t first = 0; first < rays;) {
+    if (stop && stop()) return TraceOutcome::stopped;
+    const DispatchClock clock;
+    const std::uint32_t end = first + std::min(beam_budget_.rays(), rays - first);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, 256), [&](const auto& range) {
+      for (std::uint32_t ray = range.begin(); ray < range.end(); ++ray) {
+        finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, counters);
+      }
+    });
+    beam_budget_.record_duration(end - first, clock.seconds());
+    first = end;
+  }
+  return TraceOutcome::finished;
+}
+
+shared::Landing CpuTracer::follow_in_isolated_stand(const shared::PacketBlock& scene, const shared::Ray& ray,
+                                                    OwnElement own) const {
+  const bool down = ray.inverse.y < 0.0F;
+  const shared::Ground ground = shared::meet_ground(ray, scene.ground);
+  const bool over_plot = down && shared::falls_on_plot(ray, scene.ground);
+  const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F, own);
+  if (hit.found) return landing_of(hit);
+  if (over_plot) return ground_landing(ray, ground.t, domain_.has_soil);
+  return {down ? shared::left_downwards : shared::left_upwards, 0, 0.0F, 0.0F};
+}
+
+shared::Landing CpuTracer::follow_in_endless_canopy(const shared::PacketBlock& scene, shared::Ray ray, OwnElement own,
+                                                    std::uint32_t crossings) const {
+  const bool down = ray.inverse.y < 0.0F;
+  while (true) {
+    const shared::Ground end = down ? shared::meet_ground(ray, scene.ground) : shared::meet_top(ray, scene.top_y);
+    const shared::Crossing crossing = shared::next_crossing(ray, scene.period, scene.overlap);
+    const CpuHit hit = nearest(ray, end.limit < crossing.limit ? end.limit : crossing.limit, own);
+    if (hit.found) return landing_of(hit);
+    if (end.t <= crossing.t) {
+      return down ? ground_landing(ray, end.t, domain_.has_soil) : shared::Landing{shared::left_upwards, 0, 0.0F, 0.0F};
+    }
+    if (++crossings > shared::max_crossings) return {shared::lost_on_its_way, 0, 0.0F, 0.0F};
+    ray.origin = shared::enter_next_period(ray, crossing, scene.period);
+    own.image = shared::image_in_next_period(own.image, ray, crossing.along_x);
+  }
+}
+
+shared::Landing CpuTracer::follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
+                                         std::uint32_t crossings) const {
+  const shared::Ray ray = shared::make_ray(packet.origin, packet.direction);
+  const OwnElement own{packet.element, packet.image};
+  return domain_.periodic ? follow_in_endless_canopy(scene, ray, own, crossings) : follow_in_isolated_stand(scene, ray, own);
+}
+
+TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                              std::span<shared::Landing> landings, const StopQuestion& stop) {
+  for (std::size_t first = 0; first < packets.size();) {
+    if (stop && stop()) return TraceOutcome::stopped;
+    const DispatchClock clock;
+    const std::size_t end = std::min(packets.size(), first + packet_budget_.rays());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, 256), [&](const auto& range) {
+      for (std::size_t k = range.begin(); k < range.end(); ++k) landings[k] = follow_packet(scene, packets[k], 0);
+    });
+    packet_budget_.record_duration(static_cast<std::uint32_t>(end - first), clock.seconds());
+    first = end;
+  }
+  return TraceOutcome::finished;
+}
+
+struct CpuThreads::Limit {
+  tbb::global_control control;
+};
+
+CpuThreads::CpuThreads(int threads)
+    : limit_(
+          new Limit{tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()))}) {}
+
+CpuThreads::~CpuThreads() = default;
+
+}  // namespace sunfleck

@@ -1,0 +1,71 @@
+#pragma once
+// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, or tests every element when
+// the tree itself is in doubt.
+
+#include "devices/tracers/cpu_walk.h"
+#include "devices/tracers/dispatch_budget.h"
+#include "devices/tracers/trace_domain.h"
+#include "physics/bvh/bvh.h"
+#include "physics/transport/model/tracer.h"
+#include "shared/layout.h"
+
+#include <memory>
+
+namespace sunfleck {
+
+enum class CpuWalk { tree, every_element };
+
+class CpuTracer final : public Tracer {
+ public:
+  // The tree must outlive the tracer.
+  CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk = CpuWalk::tree);
+
+  // Makes the tracer check about every `seconds` seconds whether to stop, from now on.
+  void check_stop_every(double seconds);
+
+  [[nodiscard]] TracerDevice device() const override;
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override;
+
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override;
+
+  // Returns the landing of a packet that has reached `packet.origin` after `crossings` periods.
+  [[nodiscard]] shared::Landing follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
+                                              std::uint32_t crossings) const;
+
+  // Follows one paused ray to its end and counts its landing.
+  void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters) const;
+
+ private:
+  [[nodiscard]] CpuHit nearest(const shared::Ray& ray, float limit, OwnElement own = {}) const;
+  [[nodiscard]] shared::Landing follow_in_isolated_stand(const shared::PacketBlock& scene, const shared::Ray& ray,
+                                                         OwnElement own) const;
+  [[nodiscard]] shared::Landing follow_in_endless_canopy(const shared::PacketBlock& scene, shared::Ray ray, OwnElement own,
+                                                         std::uint32_t crossings) const;
+  void count_element(const shared::BeamBlock& beam, const CpuHit& hit, std::span<std::uint32_t> counters) const;
+  void count_ground(const shared::BeamBlock& beam, const shared::Ray& ray, float t, std::span<std::uint32_t> counters) const;
+  void follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray, std::span<std::uint32_t> counters) const;
+  void follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
+                                std::span<std::uint32_t> counters) const;
+
+  const Bvh& bvh_;
+  TraceDomain domain_;
+  CpuWalk walk_;
+  DispatchBudget beam_budget_, packet_budget_;  // rays between two checks whether to stop
+};
+
+// Sets the number of threads of the CPU path for the lifetime of the object; 0: all cores.
+class CpuThreads {
+ public:
+  explicit CpuThreads(int threads);
+  ~CpuThreads();
+  CpuThreads(const CpuThreads&) = delete;
+  CpuThreads& operator=(const CpuThreads&) = delete;
+
+ private:
+  struct Limit;
+  std::unique_ptr<Limit> limit_;
+};
+
+}  // namespace sunfleck

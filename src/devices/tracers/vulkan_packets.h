@@ -1,0 +1,43 @@
+#pragma once
+// The part of the Vulkan tracer that follows packets. It is created when the first packet is traced, so that a run without
+// scattering has neither its buffers nor its shader.
+
+#include "devices/gpu/buffer.h"
+#include "devices/gpu/compute.h"
+#include "devices/tracers/cpu_tracer.h"
+#include "devices/tracers/dispatch_budget.h"
+#include "devices/tracers/gpu_tree.h"
+#include "devices/tracers/trace_domain.h"
+#include "devices/tracers/vulkan_choices.h"
+#include "physics/transport/model/tracer.h"
+
+namespace sunfleck {
+
+class VulkanPackets {
+ public:
+  // All arguments except the choices must outlive the object; the choices are complete.
+  VulkanPackets(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, TraceDomain domain,
+                const VulkanChoices& choices);
+
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop);
+
+ private:
+  void dispatch(const shared::PacketPush& push);
+  // Follows packets that took too many steps in one period to their end on the CPU. Returns the number of packets that
+  // continue.
+  [[nodiscard]] std::uint32_t take_out_stuck(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                             std::vector<std::pair<std::uint32_t, shared::Landing>>& finished);
+
+  const GpuContext& context_;
+  const GpuTree& tree_;
+  const CpuTracer& cpu_;
+  std::uint32_t packets_per_dispatch_;
+  DispatchBudget budget_;
+  GpuBuffer scene_, packets_, landings_, inbox_, outbox_;
+  ComputePipeline pipeline_;
+  std::vector<shared::Packet> sent_;     // of one dispatch, in the order of packet_order.h
+  std::vector<shared::Landing> landed_;  // of the packets in sent_
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,55 @@
+#pragma once
+// The tracer on Vulkan: uploads the tree once, divides every replicate into short dispatches and resumes paused rays.
+
+#include "devices/gpu/buffer.h"
+#include "devices/gpu/compute.h"
+#include "devices/gpu/context.h"
+#include "devices/tracers/cpu_tracer.h"
+#include "devices/tracers/dispatch_budget.h"
+#include "devices/tracers/gpu_tree.h"
+#include "devices/tracers/trace_domain.h"
+#include "devices/tracers/vulkan_choices.h"
+#include "devices/tracers/vulkan_packets.h"
+#include "physics/bvh/bvh.h"
+#include "physics/transport/model/tracer.h"
+
+#include <memory>
+
+namespace sunfleck {
+
+class VulkanTracer final : public Tracer {
+ public:
+  // Context, tree and device tree must outlive the tracer. `counter_words` is the length of the counters of every count_beam.
+  // Throws Error (device) naming the limit if the counters are too large for the device, and Error (failure) if its memory runs
+  // out.
+  VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuTree& tree, TraceDomain domain, std::size_t counter_words,
+               VulkanChoices choices = {});
+
+  [[nodiscard]] TracerDevice device() const override;
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override;
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override;
+
+ private:
+  void dispatch(const shared::BeamPush& push);
+  // Adds the counts of the device to the counters.
+  void add_landings(std::span<std::uint32_t> counters) const;
+  // Returns the number of rays that paused in the last dispatch.
+  [[nodiscard]] std::uint32_t paused_count() const;
+  // Follows rays that took too many steps in one period to their end on the CPU; the others continue in the next dispatch.
+  [[nodiscard]] std::uint32_t take_out_stuck_rays(const shared::BeamBlock& beam, std::uint32_t paused,
+                                                  std::span<std::uint32_t> counters);
+
+  const GpuContext& context_;
+  CpuTracer cpu_;
+  TraceDomain domain_;
+  VulkanChoices choices_;
+  DispatchBudget budget_;
+  const GpuTree& tree_;
+  GpuBuffer beam_, counters_, inbox_, outbox_;
+  ComputePipeline pipeline_;
+  std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
+};
+
+}  // namespace sunfleck

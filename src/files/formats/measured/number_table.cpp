@@ -1,0 +1,105 @@
+#include "files/formats/measured/number_table.h"
+
+#include "base/file.h"
+#include "base/text_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::uintmax_t most_bytes = 10'000'000;
+constexpr std::size_t most_columns = 1000;
+
+void take_header(NumberTable& table, std::size_t line, const std::vector<std::string_view>& names) {
+  table.header_line = line;
+  if (names.size() > most_columns)
+    refuse_table(table, line, fmt::format("{} columns", names.size()), fmt::format("a table may have at most {}", most_columns),
+                 "remove the columns that are not needed");
+  for (const std::string_view name : names) {
+    if (name.empty()) refuse_table(table, line, "a column without a name", "the header must name every column", "name it");
+    if (table.find_column(name))
+      refuse_table(table, line, fmt::format("column {} twice", in_quotes(name)), "column names must differ", "rename one");
+    table.columns.emplace_back(name);
+  }
+}
+
+void take_row(NumberTable& table, std::size_t line, const std::vector<std::string_view>& cells) {
+  if (cells.size() != table.columns.size()) {
+    refuse_table(table, line, fmt::format("{} cells", cells.size()),
+                 fmt::format("the header in line {} has {} columns", table.header_line, table.columns.size()),
+                 "give one cell per column, separated by commas, with a decimal point in numbers");
+  }
+  NumberTable::Row row{line, {}};
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::optional<double> value = cells[c].empty() ? std::numeric_limits<double>::quiet_NaN() : parse_number(cells[c]);
+    if (!value) {
+      refuse_table(table, line, fmt::format("{} = {}", table.columns[c], in_quotes(cells[c])), "not a finite number",
+                   "correct the number");
+    }
+    row.cells.push_back(*value);
+  }
+  table.rows.push_back(std::move(row));
+}
+
+}  // namespace
+
+void refuse_table(const NumberTable& table, std::size_t line, std::string_view what, std::string_view why,
+                  std::string_view cure) {
+  refuse_line(table.file, line, what, why, cure);
+}
+
+std::optional<std::size_t> NumberTable::find_column(std::string_view name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end()) return {};
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::size_t NumberTable::column(std::string_view name) const {
+  const std::optional<std::size_t> found = find_column(name);
+  if (!found) {
+    refuse_table(*this, header_line, fmt::format("no column {}", name), "it is required",
+                 "use a file as written by this program");
+  }
+  return *found;
+}
+
+NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header) {
+  NumberTable table;
+  table.file = file;
+  std::error_code error;
+  const std::uintmax_t bytes_there = std::filesystem::file_size(file, error);
+  if (!error && bytes_there > most_bytes) {
+    refuse_table(table, 0, fmt::format("{} bytes", bytes_there), "a table may have at most 10 MB", "give fewer rows");
+  }
+  const std::string bytes = read_file(file);
+  std::vector<std::string_view> cells;
+  for (LineReader lines(without_mark(bytes)); lines.next();) {
+    const std::string_view line = trimmed(lines.line());
+    if (line.empty()) continue;
+    if (line.front() == '#') {
+      table.comments.emplace_back(trimmed(line.substr(1)));
+      continue;
+    }
+    split_cells(line, cells);
+    if (table.columns.empty()) {
+      take_header(table, lines.number(), cells);
+      if (check_header) check_header(table);
+    } else {
+      take_row(table, lines.number(), cells);
+    }
+  }
+  if (table.columns.empty())
+    refuse_table(table, 0, "only blank lines and comments", "a line of column names must come first", "check the file");
+  if (table.rows.empty())
+    refuse_table(table, table.header_line, "no rows below the header", "at least one is required", "check the file");
+  return table;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,57 @@
+#pragma once
+// Builds a mesh while its file is read.
+
+#include "files/formats/mesh/mesh_source.h"
+#include "physics/canopy/mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace sunfleck {
+
+// Builds a mesh in the order of the file, with one entry for each optics name and each organ.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const MeshSource& source) : source_(source) {}
+
+  // Refuses `count` more vertices if there would be over 2^28 of them. Triangles have the same limit.
+  void reserve_vertices(std::size_t count);
+  std::uint32_t add_vertex(const glm::dvec3& position);
+  [[nodiscard]] std::size_t vertex_count() const { return mesh_.vertices.size(); }
+
+  // Returns the index of an optics name. Names end up in tables and in files for other programs, so a new one must be a single
+  // line of UTF-8 with at most 200 bytes.
+  [[nodiscard]] std::uint32_t optics(std::string_view name);
+  [[nodiscard]] const std::string& optics_name(std::uint32_t optics) const { return mesh_.optics_names[optics]; }
+  // Returns the optics of triangles without a material; refuses if the scene names none. `line` is used as in refuse.
+  [[nodiscard]] std::uint32_t default_optics(std::size_t line);
+  [[nodiscard]] std::uint32_t organ(const Organ& organ);
+  // Returns the organ of triangles that have none: plant 1, named after the optics, rank 0.
+  [[nodiscard]] std::uint32_t default_organ(std::uint32_t optics);
+
+  // Adds a polygon, cut into the triangle fan about its first corner. It needs at least three valid vertex numbers. Either all
+  // polygons of a file have labels or none has.
+  void add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ,
+                   std::optional<std::uint64_t> label = std::nullopt);
+
+  [[nodiscard]] Mesh take() { return std::move(mesh_); }
+
+ private:
+  void check_name(std::string_view kind, std::string_view name) const;
+
+  const MeshSource& source_;
+  Mesh mesh_;
+  std::map<std::string, std::uint32_t, std::less<>> optics_;
+  std::map<std::tuple<std::uint32_t, std::string, int>, std::uint32_t> organs_;
+  std::uint32_t last_optics_ = 0, last_organ_ = 0;  // most triangles share those of the one before
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,29 @@
+#pragma once
+// The file that a mesh reader reads, with messages about it.
+
+#include "base/source_files.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sunfleck {
+
+struct MeshSource {
+  std::filesystem::path file;
+  std::string_view bytes;             // not empty
+  std::optional<std::string> optics;  // for triangles whose file names no material
+  bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
+  SourceFiles* files = nullptr;       // collects the buffers of a glTF file
+};
+
+// Throws Error (input) `FILE:LINE: what (why); cure`. Line 0 leaves the line out.
+[[noreturn]] void refuse(const MeshSource& source, std::size_t line, std::string_view what, std::string_view why,
+                         std::string_view cure);
+
+// Removes the next word from `rest` and returns it as a coordinate; refuses a missing, unreadable or infinite one.
+[[nodiscard]] double coordinate(const MeshSource& source, std::size_t line, std::string_view& rest);
+
+}  // namespace sunfleck

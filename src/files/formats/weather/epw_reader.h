@@ -1,0 +1,13 @@
+#pragma once
+// Reads EnergyPlus weather as specified by its data dictionary ("Auxiliary Programs", EnergyPlus 24.1).
+
+#include "files/formats/weather/weather_reader.h"
+#include "files/formats/weather/weather_source.h"
+
+namespace sunfleck {
+
+// Returns the hours of the file with its place and years, but not its name; see weather_reader.h. Throws Error (input), one
+// line.
+[[nodiscard]] WeatherFile read_epw(const WeatherSource& source);
+
+}  // namespace sunfleck

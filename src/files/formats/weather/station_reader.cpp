@@ -1,0 +1,228 @@
+#include "files/formats/weather/station_reader.h"
+
+#include "base/text.h"
+#include "base/text_reader.h"
+#include "physics/light/years.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr std::size_t not_there = static_cast<std::size_t>(-1);
+constexpr std::string_view time_cure = "write it as 2002-08-08T10:10:00+08:00";
+
+struct Columns {
+  std::size_t count = 0;
+  std::size_t time = not_there, ghi = not_there, dni = not_there, dhi = not_there;
+};
+
+class StationReader {
+ public:
+  explicit StationReader(const WeatherSource& source) : source_(source) {}
+
+  WeatherFile read() {
+    LineReader lines(source_.bytes);
+    while (lines.next()) {
+      const std::string_view line = trimmed(lines.line());
+      if (line.empty() || line.front() == '#') continue;
+      line_ = lines.number();
+      split_cells(line, cells_);
+      if (columns_.count == 0) {
+        read_header();
+      } else {
+        read_row();
+      }
+    }
+    if (columns_.count == 0) refuse(source_, 0, "no line of column names found", "the file has no rows", "begin with time,ghi");
+    if (intervals_.size() < 2) {
+      refuse(source_, 0, fmt::format("{} row found", intervals_.empty() ? "no" : "one"),
+             "an interval lasts until the next one starts, so at least two are needed", "add rows");
+    }
+    set_lengths();
+    WeatherFile result;
+    result.weather.source = Weather::Source::intervals;
+    result.weather.intervals = std::move(intervals_);
+    return result;
+  }
+
+ private:
+  void read_header() {
+    columns_.count = cells_.size();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const std::string name = lower_case(cells_[i]);
+      for (const auto& [known, column] :
+           {std::pair{"time", &columns_.time}, {"ghi", &columns_.ghi}, {"dni", &columns_.dni}, {"dhi", &columns_.dhi}}) {
+        if (name != known) continue;
+        if (*column != not_there) refuse(source_, line_, fmt::format("column {}", known), "appears twice", "keep one");
+        *column = i;
+      }
+    }
+    if (columns_.time == not_there) {
+      refuse(source_, line_, fmt::format("the line of column names is {}", in_quotes(cells_.front())),
+             "no column is named time", "begin with a line such as time,ghi or time,dni,dhi; separate by commas");
+    }
+    const bool one_part = (columns_.dni == not_there) != (columns_.dhi == not_there);
+    if (one_part) {
+      refuse(source_, line_, fmt::format("column {} is missing", columns_.dni == not_there ? "dni" : "dhi"),
+             "direct normal and diffuse horizontal irradiance are needed together", "add it, or give only ghi");
+    }
+    if (columns_.ghi == not_there && columns_.dni == not_there) {
+      refuse(source_, line_, "no irradiance", "no columns are named ghi, or dni and dhi", "add such columns, in W m-2");
+    }
+  }
+
+  void read_row() {
+    if (cells_.size() != columns_.count) {
+      refuse(source_, line_, fmt::format("{} cells", cells_.size()), fmt::format("there are {} columns", columns_.count),
+             "give every column a value, separated by commas");
+    }
+    WeatherInterval interval;
+    interval.line = line_;
+    interval.start = read_time(cells_[columns_.time]);
+    if (columns_.ghi != not_there) interval.ghi_w_m2 = read_value("ghi", cells_[columns_.ghi]);
+    if (columns_.dni != not_there) {
+      interval.dni_w_m2 = read_value("dni", cells_[columns_.dni]);
+      interval.dhi_w_m2 = read_value("dhi", cells_[columns_.dhi]);
+    }
+    if (!intervals_.empty() && seconds_between(intervals_.back().start, interval.start) <= 0.0) {
+      refuse(source_, line_, fmt::format("time {}", in_quotes(cells_[columns_.time])),
+             fmt::format("it is not later than that of line {}", intervals_.back().line), "sort the rows by time");
+    }
+    intervals_.push_back(interval);
+  }
+
+  double read_value(std::string_view column, std::string_view cell) const {
+    const std::optional<double> value = parse_number(cell);
+    if (!value) {
+      refuse(source_, line_, fmt::format("{} {}", column, in_quotes(cell)),
+             "must be a number; missing values are not interpolated", "fill it in, or remove the row to leave a gap");
+    }
+    if (*value < 0.0 || *value > most_broadband_w_m2) {
+      refuse(source_, line_, fmt::format("{} = {}", column, *value),
+             fmt::format("must lie in 0..{} W m-2", most_broadband_w_m2),
+             *value < 0.0 ? "set the night offset of the pyranometer to 0" : "give the mean over the interval in W m-2");
+    }
+    return *value;
+  }
+
+  // Removes exactly `count` digits from the front of `rest` and returns their value; nothing if there are other characters.
+  static std::optional<int> take_digits(std::string_view& rest, std::size_t count) {
+    if (rest.size() < count) return std::nullopt;
+    int value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (rest[i] < '0' || rest[i] > '9') return std::nullopt;
+      value = 10 * value + (rest[i] - '0');
+    }
+    rest.remove_prefix(count);
+    return value;
+  }
+  static bool take(std::string_view& rest, std::string_view any_of) {
+    if (rest.empty() || any_of.find(rest.front()) == any_of.npos) return false;
+    rest.remove_prefix(1);
+    return true;
+  }
+  // Removes one of the separators and two digits.
+  static std::optional<int> take_part(std::string_view& rest, std::string_view separators) {
+    return take(rest, separators) ? take_digits(rest, 2) : std::nullopt;
+  }
+
+  // Removes a colon and seconds with decimals; returns 0 if there are none.
+  static std::optional<double> take_seconds(std::string_view& rest) {
+    if (rest.empty() || rest.front() != ':') return 0.0;
+    const std::optional<int> whole = take_part(rest, ":");
+    if (!whole) return std::nullopt;
+    double second = *whole;
+    if (!take(rest, ".")) return second;
+    std::size_t digits = 0;
+    for (double unit = 0.1; !rest.empty() && std::isdigit(static_cast<unsigned char>(rest.front())) != 0; unit /= 10.0) {
+      second += unit * (rest.front() - '0');
+      rest.remove_prefix(1);
+      ++digits;
+    }
+    return digits > 0 ? std::optional<double>(second) : std::nullopt;
+  }
+
+  // Removes Z, +08, +0800 or +08:00 and returns minutes, positive to the east.
+  static std::optional<int> take_offset(std::string_view& rest) {
+    if (take(rest, "Zz")) return 0;
+    const bool west = rest.starts_with('-');
+    if (!take(rest, "+-")) return std::nullopt;
+    const std::optional<int> hours = take_digits(rest, 2);
+    int minutes = 0;
+    if (hours && !rest.empty()) {
+      static_cast<void>(take(rest, ":"));
+      const std::optional<int> given = take_digits(rest, 2);
+      if (!given) return std::nullopt;
+      minutes = *given;
+    }
+    if (!hours || *hours > 23 || minutes > 59) return std::nullopt;
+    return (west ? -1 : 1) * (60 * *hours + minutes);
+  }
+
+  UtcTime read_time(std::string_view cell) const {
+    const std::string shown = fmt::format("time {}", in_quotes(cell));
+    std::string_view rest = cell;
+    const auto year = take_digits(rest, 4);
+    const auto month = take_part(rest, "-"), day = take_part(rest, "-"), hour = take_part(rest, "Tt "),
+               minute = take_part(rest, ":");
+    const auto second = take_seconds(rest);
+    if (!year || !month || !day || !hour || !minute || !second)
+      refuse(source_, line_, shown, "is not an ISO 8601 date and time", time_cure);
+    rest = trimmed(rest);
+    if (rest.empty()) refuse(source_, line_, shown, "has no offset from UTC, so the time is ambiguous", time_cure);
+    const auto offset = take_offset(rest);
+    if (!offset || !rest.empty()) refuse(source_, line_, shown, "its offset from UTC cannot be read", time_cure);
+    const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
+                                           std::chrono::day(static_cast<unsigned>(*day))};
+    if (!date.ok() || *hour > 23 || *minute > 59 || *second >= 60.0)
+      refuse(source_, line_, shown, "there is no such date or time", "correct it");
+    // Excludes the first and last year for which the sun's position is known, so that the offset cannot lead out of them.
+    if (*year <= first_year || *year >= last_year) {
+      refuse(source_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
+             "correct the year");
+    }
+    return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * *offset);
+  }
+
+  // Lets each interval last until the next one starts, but no longer than the most common step.
+  void set_lengths() {
+    std::map<long long, std::size_t> counts;  // by step in milliseconds
+    for (std::size_t i = 0; i + 1 < intervals_.size(); ++i) {
+      intervals_[i].length_s = seconds_between(intervals_[i].start, intervals_[i + 1].start);
+      ++counts[std::llround(1000.0 * intervals_[i].length_s)];
+    }
+    // Goes from the longest step down, so that the longer of two equally common steps wins.
+    const auto common =
+        std::max_element(counts.rbegin(), counts.rend(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const double longest_s = 0.001 * static_cast<double>(common->first);
+    for (WeatherInterval& interval : intervals_) interval.length_s = std::min(interval.length_s, longest_s);
+    intervals_.back().length_s = intervals_[intervals_.size() - 2].length_s;
+  }
+
+  const WeatherSource& source_;
+  Columns columns_;
+  std::vector<std::string_view> cells_;
+  std::size_t line_ = 0;
+  std::vector<WeatherInterval> intervals_;
+};
+
+}  // namespace
+
+WeatherFile read_station(const WeatherSource& source) {
+  return StationReader(source).read();
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,12 @@
+#pragma once
+// Reads the CSV file of a weather station.
+
+#include "files/formats/weather/weather_reader.h"
+#include "files/formats/weather/weather_source.h"
+
+namespace sunfleck {
+
+// Returns the intervals of the file, but not its name; weather_reader.h describes the columns. Throws Error (input), one line.
+[[nodiscard]] WeatherFile read_station(const WeatherSource& source);
+
+}  // namespace sunfleck

@@ -1,0 +1,222 @@
+#include "files/results/exports/netcdf_file.h"
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/file.h"
+
+#include <fmt/format.h>
+#include <netcdf.h>
+#include <netcdf_mem.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+template <class T>
+constexpr int type_number = 0;
+template <>
+constexpr int type_number<std::int32_t> = NC_INT;
+template <>
+constexpr int type_number<std::int64_t> = NC_INT64;
+template <>
+constexpr int type_number<float> = NC_FLOAT;
+template <>
+constexpr int type_number<double> = NC_DOUBLE;
+
+int put_all(int file, int variable, const std::int32_t* values) {
+  return nc_put_var_int(file, variable, values);
+}
+int put_all(int file, int variable, const std::int64_t* values) {
+  static_assert(sizeof(long long) == sizeof(std::int64_t));
+  return nc_put_var_longlong(file, variable, reinterpret_cast<const long long*>(values));
+}
+int put_all(int file, int variable, const float* values) {
+  return nc_put_var_float(file, variable, values);
+}
+int put_all(int file, int variable, const double* values) {
+  return nc_put_var_double(file, variable, values);
+}
+
+// After a failed write, netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process exits and the
+// library closes it by itself. The file is therefore left open, and the process exits with its intended status before that.
+void leave_before_libraries() {
+  ::on_exit(
+      [](int status, void*) {
+        std::fflush(nullptr);
+        std::_Exit(status);
+      },
+      nullptr);
+}
+
+bool reason_of_disk(int code) {
+  return code == ENOSPC || code == EDQUOT || code == EFBIG || code == EIO;
+}
+
+}  // namespace
+
+NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)), cure_("export vtp or csv") {
+  constexpr std::size_t first_bytes = std::size_t{1} << 20;
+  check(nc_create_mem(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
+}
+
+NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file)
+    : name_(std::move(name)), cure_("free some space, or choose another folder with -o"), on_disk_(true) {
+  errno = 0;
+  check(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
+}
+
+NetcdfFile::~NetcdfFile() {
+  if (file_ >= 0 && !broken_) nc_abort(file_);
+}
+
+void NetcdfFile::check(int status, std::string_view what) {
+  if (status == NC_NOERR) return;
+  const int reason = errno;
+  if (!std::exchange(broken_, true)) leave_before_libraries();
+  // HDF5, below netCDF, reports only that a write failed; errno still holds the reason.
+  const bool of_disk = status == NC_EHDFERR && on_disk_ && reason_of_disk(reason);
+  throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : nc_strerror(status),
+                of_disk ? write_cure(reason) : cure_);
+}
+
+int NetcdfFile::dimension(const std::string& name, std::size_t size) {
+  int number = -1;
+  check(nc_def_dim(file_, name.c_str(), size, &number), fmt::format("dimension {}", name));
+  return number;
+}
+
+int NetcdfFile::define(const std::string& name, int type, const std::vector<int>& dimensions) {
+  const std::string what = fmt::format("variable {}", name);
+  int number = -1;
+  check(nc_def_var(file_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &number), what);
+  constexpr int deflate_level = 2;
+  if (!dimensions.empty()) check(nc_def_var_deflate(file_, number, 1, 1, deflate_level), what);
+  return number;
+}
+
+template <class T>
+int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimensions) {
+  const int number = define(name, type_number<T>, dimensions);
+  if constexpr (std::is_floating_point_v<T>) {
+    const T missing = std::numeric_limits<T>::quiet_NaN();
+    check(nc_def_var_fill(file_, number, NC_FILL, &missing), fmt::format("variable {}", name));
+  }
+  return number;
+}
+
+template <class T>
+int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units,
+                         std::string_view meaning) {
+  const int number = variable<T>(name, dimensions);
+  attribute(number, "long_name", meaning);
+  if (!units.empty()) attribute(number, "units", units);
+  return number;
+}
+
+void NetcdfFile::attribute(int variable, const std::string& name, std::string_view text) {
+  check(nc_put_att_text(file_, variable, name.c_str(), text.size(), text.data()), fmt::format("attribute {}", name));
+}
+
+void NetcdfFile::attribute(int variable, const std::string& name, std::span<const std::int32_t> numbers) {
+  check(nc_put_att_int(file_, variable, name.c_str(), NC_INT, numbers.size(), numbers.data()),
+        fmt::format("attribute {}", name));
+}
+
+template <class T>
+void NetcdfFile::put(int variable, std::span<const T> values) {
+  if (!values.empty()) check(put_all(file_, variable, values.data()), "its values cannot be written");
+}
+
+int NetcdfFile::variable(const Column& column, const std::vector<int>& dimensions) {
+  const auto define_as = [&]<class T>(T) { return variable<T>(column.name, dimensions, column.unit, column.meaning); };
+  if (std::holds_alternative<std::span<const double>>(column.values)) return define_as(double{});
+  if (std::holds_alternative<std::span<const std::int32_t>>(column.values)) return define_as(std::int32_t{});
+  return define_as(std::int64_t{});
+}
+
+void NetcdfFile::put(int variable, const Column& column) {
+  struct Put {
+    NetcdfFile& file;
+    int variable;
+    void operator()(std::span<const double> numbers) const { file.put(variable, numbers); }
+    void operator()(std::span<const std::int32_t> numbers) const { file.put(variable, numbers); }
+    void operator()(std::span<const std::uint32_t> numbers) const { put_wide({numbers.begin(), numbers.end()}); }
+    void operator()(const RowNumbers& numbers) const {
+      std::vector<std::int64_t> wide(numbers.count);
+      std::iota(wide.begin(), wide.end(), 0);
+      put_wide(wide);
+    }
+    void operator()(std::span<const std::string> texts) const { EXPECT(texts.size(), ==, std::size_t{0}); }
+    void put_wide(const std::vector<std::int64_t>& wide) const { file.put(variable, std::span(wide)); }
+  };
+  std::visit(Put{*this, variable}, column.values);
+}
+
+int NetcdfFile::add(const Column& column, const std::vector<int>& dimensions) {
+  const int number = variable(column, dimensions);
+  put(number, column);
+  return number;
+}
+
+void NetcdfFile::store_by_row(int variable, std::size_t row_length) {
+  constexpr std::size_t longest_chunk = std::size_t{1} << 18;
+  const std::size_t chunk[] = {1, std::clamp<std::size_t>(row_length, 1, longest_chunk)};
+  check(nc_def_var_chunking(file_, variable, NC_CHUNKED, chunk), "its layout cannot be set");
+}
+
+void NetcdfFile::put_row(int variable, std::size_t row, std::span<const float> values) {
+  const std::size_t begin[] = {row, 0};
+  const std::size_t count[] = {1, values.size()};
+  if (values.empty()) return;
+  check(nc_put_vara_float(file_, variable, begin, count, values.data()), "its values cannot be written");
+}
+
+void NetcdfFile::names(const std::string& name, int dimension, const std::vector<std::string>& values,
+                       std::string_view meaning) {
+  std::size_t longest = 1;
+  for (const std::string& value : values) longest = std::max(longest, value.size());
+  const int length = this->dimension(name + "_length", longest);
+  const int number = define(name, NC_CHAR, {dimension, length});
+  attribute(number, "long_name", meaning);
+  attribute(number, "_Encoding", "utf-8");
+  std::string text;
+  for (const std::string& value : values) {
+    text += value;
+    text.append(longest - value.size(), '\0');
+  }
+  if (!values.empty()) check(nc_put_var_text(file_, number, text.data()), "its names cannot be written");
+}
+
+std::string NetcdfFile::take() {
+  NC_memio memory{};
+  check(nc_close_memio(std::exchange(file_, -1), &memory), "it cannot be finished");
+  const std::unique_ptr<void, decltype(&std::free)> owner(memory.memory, &std::free);
+  return {static_cast<const char*>(memory.memory), memory.size};
+}
+
+void NetcdfFile::finish() {
+  check(nc_sync(file_), "it cannot be finished");  // so that closing writes nothing more
+  check(nc_close(std::exchange(file_, -1)), "it cannot be finished");
+}
+
+template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::vector<int>&);
+template int NetcdfFile::variable<std::int64_t>(const std::string&, const std::vector<int>&);
+template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&);
+template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&);
+template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
+template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
+template void NetcdfFile::put(int, std::span<const std::int32_t>);
+template void NetcdfFile::put(int, std::span<const std::int64_t>);
+template void NetcdfFile::put(int, std::span<const float>);
+template void NetcdfFile::put(int, std::span<const double>);
+
+}  // namespace sunfleck

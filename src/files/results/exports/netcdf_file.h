@@ -1,0 +1,76 @@
+#pragma once
+// A netCDF-4 file in memory or on disk, written by the C library. Dimensions and variables with their attributes come first,
+// then the values.
+
+#include "files/results/tables/table.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sunfleck {
+
+class NetcdfFile {
+ public:
+  explicit NetcdfFile(std::string name);  // creates a file in memory; `name` is for messages
+  NetcdfFile(std::string name, const std::filesystem::path& file);
+  ~NetcdfFile();
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+  // Define a dimension or variable and return its number. Variables with dimensions are compressed (deflate 2 after shuffling);
+  // NaN is the missing value of float and double variables.
+  int dimension(const std::string& name, std::size_t size);
+  template <class T>  // std::int32_t, std::int64_t, float or double
+  int variable(const std::string& name, const std::vector<int>& dimensions);
+  // Defines a variable with long_name and, unless they are empty, units.
+  template <class T>
+  int variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning);
+
+  // Defines a variable for a column of numbers; row numbers and unsigned numbers become std::int64_t.
+  int variable(const Column& column, const std::vector<int>& dimensions);
+
+  // Lays out a variable of two dimensions for writing by put_row. A row is an index of the first dimension.
+  void store_by_row(int variable, std::size_t row_length);
+
+  // Adds an attribute to a variable, or to the file if the number is -1.
+  void attribute(int variable, const std::string& name, std::string_view text);
+  void attribute(int variable, const std::string& name, std::span<const std::int32_t> numbers);
+
+  // Writes all values, the last dimension fastest. The first put ends the definitions.
+  template <class T>
+  void put(int variable, std::span<const T> values);
+  void put(int variable, const Column& column);
+  void put_row(int variable, std::size_t row, std::span<const float> values);
+
+  // Define a variable and write its values.
+  int add(const Column& column, const std::vector<int>& dimensions);
+  template <class T>
+  int add(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning,
+          const std::vector<T>& values) {
+    const int number = variable<T>(name, dimensions, units, meaning);
+    put(number, std::span<const T>(values));
+    return number;
+  }
+
+  // Writes a variable of names, `name`(dimension, name_length), padded with zeros.
+  void names(const std::string& name, int dimension, const std::vector<std::string>& values, std::string_view meaning);
+
+  // Completes the file; no other call may follow. Use `take` for a file in memory and `finish` for one on disk.
+  [[nodiscard]] std::string take();
+  void finish();
+
+ private:
+  int define(const std::string& name, int type, const std::vector<int>& dimensions);
+  void check(int status, std::string_view what);
+
+  std::string name_, cure_;
+  bool on_disk_ = false;
+  bool broken_ = false;  // a call failed, so the library must not be called again with this file
+  int file_ = -1;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,35 @@
+#pragma once
+// Stores the state of an unfinished run in run_state.bin of the result folder, from which `run --resume` resumes. The file
+// format is that of base/sealed_file.h; its arrays are deflated (zlib).
+
+#include "physics/transport/solve/solve_state.h"
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+namespace sunfleck {
+
+inline constexpr const char* run_state_file = "run_state.bin";
+
+class RunStore {
+ public:
+  // `settings` is a JSON object of plain values with everything that determines the bytes of the run's tables.
+  RunStore(const std::filesystem::path& result_folder, const nlohmann::ordered_json& settings);
+
+  // Returns the state left by an earlier run, or nothing. `blank` provides the sizes. Throws Error (input) if the settings
+  // differ, naming the first difference, or if the file is damaged.
+  [[nodiscard]] std::optional<SolveState> read(const SolveState& blank) const;
+
+  // Writes the file aside and renames it. Throws Error (failure).
+  void write(const SolveState& state) const;
+
+  void remove() const;  // throws Error (failure)
+
+ private:
+  std::filesystem::path folder_, file_;
+  std::string settings_;  // JSON
+};
+
+}  // namespace sunfleck

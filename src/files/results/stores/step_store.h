@@ -1,0 +1,68 @@
+#pragma once
+// Stores the finished steps of a day in the folder `steps` of the result folder. The tables and fields are made from them, so
+// an interrupted day resumes where it stopped.
+//
+// settings.json holds the settings of the steps and whether the day is finished; the steps of a finished day are removed.
+// step_00007.bin is step 7, counted from 0, in the format of base/sealed_file.h; long arrays are byte strings, little-endian and
+// deflated (zlib).
+
+#include "files/results/tables/day_course.h"
+#include "files/results/tables/element_fields.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <future>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+struct StoredStep {
+  StepLight light;
+  std::vector<float> fields;  // [(band * columns + column) * elements + element], W m-2
+  Work next_work;             // initial work of the next step
+  std::uint64_t rays = 0, packets = 0, lost_rays = 0;
+  std::optional<double> direct_error, indirect_error;  // relative, as compared with the bounds
+  bool reached_bound = true;
+  double seconds = 0.0;
+};
+
+// Removes what a day left in `steps`; other files there are kept. Throws Error (failure).
+void remove_day_steps(const std::filesystem::path& result_folder);
+
+class StepStore {
+ public:
+  // `settings` is a JSON object of plain values.
+  StepStore(const std::filesystem::path& result_folder, const RadiationModel& model, const nlohmann::ordered_json& settings);
+
+  enum class Found { nothing, begun, finished };
+  // Returns the state that an earlier day left. Throws Error (input), naming the first difference, if its settings differ.
+  [[nodiscard]] Found find() const;
+
+  // Removes what an earlier day left and records the settings. Throws Error (failure).
+  void begin();
+  // Records that the tables are written and removes the steps.
+  void finish();
+
+  void write(std::size_t step, const StoredStep& stored) const;
+  // Writes a step in another thread, which also waits for the disk; the data are copied before this returns. The future throws
+  // what `write` would throw.
+  [[nodiscard]] std::future<void> begin_write(std::size_t step, const StoredStep& stored) const;
+  // Returns nothing if the step is missing, was made with other settings, or its file is damaged.
+  [[nodiscard]] std::optional<StoredStep> read(std::size_t step) const;
+
+  // Returns a path at which a large file can be written before it is renamed; `begin` and `finish` remove any file left there.
+  [[nodiscard]] std::filesystem::path scratch_file() const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file_of(std::size_t step) const;
+  void write_settings(bool finished) const;
+
+  std::filesystem::path folder_;
+  std::string settings_;  // JSON
+  std::size_t bands_, organs_, field_values_;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,120 @@
+#include "files/results/tables/day_course.h"
+
+#include "base/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+
+namespace sunfleck {
+namespace {
+
+constexpr Estimate zero{0.0, 0.0};
+
+constexpr Estimate StepBand::*terms[] = {&StepBand::incident, &StepBand::absorbed_vegetation, &StepBand::absorbed_soil,
+                                         &StepBand::reflected, &StepBand::transmitted};
+
+// A sum of fluxes; the half-width of `random` holds only the random errors.
+struct Sum {
+  Estimate random{0.0, 0.0};
+  double unshot = 0.0;
+
+  void add(const Estimate& flux, double unshot_part, double length_s) {
+    random.value += flux.value * length_s;
+    random.half_width = std::hypot(random.half_width, (flux.half_width - unshot_part) * length_s);
+    unshot += unshot_part * length_s;
+  }
+  [[nodiscard]] Estimate estimate() const { return {random.value, random.half_width + unshot}; }
+};
+
+struct Sums {
+  std::size_t steps = 0;
+  std::vector<std::array<Sum, std::size(terms)>> bands;
+  std::vector<Sum> organs;  // [organ * bands + band]
+
+  void add(const StepLight& light, double length_s) {
+    EXPECT(light.bands.size(), ==, bands.size());
+    EXPECT(light.organ_absorbed.size(), ==, organs.size());
+    ++steps;
+    for (std::size_t b = 0; b < bands.size(); ++b) {
+      const StepBand& band = light.bands[b];
+      for (std::size_t t = 0; t < std::size(terms); ++t) {
+        const Estimate& flux = band.*terms[t];
+        bands[b][t].add(flux, std::min(flux.half_width, band.unshot), length_s);
+      }
+      const double absorbed = band.absorbed_vegetation.value + band.absorbed_soil.value;
+      const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
+      for (std::size_t i = b; i < organs.size(); i += bands.size()) {
+        const Estimate& flux = light.organ_absorbed[i];
+        organs[i].add(flux, std::min(flux.half_width, flux.value * unshot_share), length_s);
+      }
+    }
+  }
+
+  [[nodiscard]] DateSums sums() const {
+    DateSums date;
+    date.steps = steps;
+    for (const auto& band : bands) {
+      StepBand sums;
+      for (std::size_t t = 0; t < std::size(terms); ++t) sums.*terms[t] = band[t].estimate();
+      sums.unshot = band.back().unshot;
+      date.bands.push_back(sums);
+    }
+    for (const Sum& organ : organs) date.organ_absorbed.push_back(organ.estimate());
+    return date;
+  }
+};
+
+}  // namespace
+
+std::string local_time_text(const UtcTime& time, int offset_minutes) {
+  const UtcTime local = plus_seconds(time, 60.0 * offset_minutes);
+  const int off = std::abs(offset_minutes);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}", local.year, local.month, local.day, local.hour,
+                     local.minute, static_cast<int>(local.second), offset_minutes < 0 ? '-' : '+', off / 60, off % 60);
+}
+
+StepLight step_light(const RadiationModel& model, const RadiationResult& result) {
+  StepLight light;
+  for (const BandResult& band : result.bands) {
+    StepBand step{{band.incident, 0.0}, band.absorbed_vegetation, band.absorbed_soil,
+                  band.reflected,       band.transmitted,         band.unshot};
+    if (!model.plot.periodic) {
+      step.incident.half_width = band.absorbed_vegetation.half_width + band.absorbed_soil.half_width +
+                                 band.reflected.half_width + band.transmitted.half_width;
+    }
+    light.bands.push_back(step);
+  }
+  for (const OrganResult& organ : result.organs) {
+    light.organ_absorbed.insert(light.organ_absorbed.end(), organ.absorbed.begin(), organ.absorbed.end());
+  }
+  light.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
+  return light;
+}
+
+StepLight night_light(const RadiationModel& model) {
+  const std::size_t bands = model.bands.size();
+  return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, 0.0}),
+          std::vector<Estimate>(model.canopy.organs.size() * bands, zero), zero};
+}
+
+std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
+  const std::size_t bands = model.bands.size();
+  Sums dark;
+  dark.bands.resize(bands);
+  dark.organs.resize(model.canopy.organs.size() * bands);
+  std::vector<Sums> dates(course.dates.size(), dark);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const DayStep& step = course.steps[i];
+    dates.at(step.date).add(lights[i], step.length_s);
+  }
+  std::vector<DateSums> sums;
+  for (const Sums& date : dates) sums.push_back(date.sums());
+  return sums;
+}
+
+}  // namespace sunfleck

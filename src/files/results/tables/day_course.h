@@ -1,0 +1,66 @@
+#pragma once
+// The course of one or several days: time and light of each step, and the sums over each date.
+
+#include "physics/light/sun.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+// One time step; the light at its middle represents all of [start, start + length_s).
+struct DayStep {
+  UtcTime start, middle;
+  double length_s = 0.0;
+  std::size_t date = 0;  // index of the date, from 0
+  SunPosition sun;       // at the middle of the step
+
+  // Returns whether the sun is at or below the horizon; nothing is simulated then and every figure is zero.
+  [[nodiscard]] bool night() const { return !(sun.elevation_rad > 0.0); }
+};
+
+// The steps of all dates; each date covers the same local hours.
+struct DayCourse {
+  int offset_minutes = 0;  // local time minus UTC
+  std::vector<DayStep> steps;
+  std::vector<std::string> dates;  // [date], YYYY-MM-DD, local
+};
+
+// Returns e.g. 2002-08-08T05:00:00+08:00.
+[[nodiscard]] std::string local_time_text(const UtcTime& time, int offset_minutes);
+
+// Fluxes of a step in one band, W m-2 of ground.
+struct StepBand {
+  Estimate incident, absorbed_vegetation, absorbed_soil, reflected, transmitted;
+  double unshot = 0.0;  // included in the half-widths, as in BandResult
+};
+
+struct StepLight {
+  std::vector<StepBand> bands;           // [band]
+  std::vector<Estimate> organ_absorbed;  // [organ * bands + band], W m-2 of the organ's one-sided area
+  Estimate sunlit_leaf_fraction;
+};
+
+// Returns the light of a step from its result. The incident flux of a periodic plot is exact. That of an isolated plot is
+// counted by rays: its half-width is the sum of the half-widths of its parts, which bounds it for any correlation between them.
+[[nodiscard]] StepLight step_light(const RadiationModel& model, const RadiationResult& result);
+[[nodiscard]] StepLight night_light(const RadiationModel& model);
+
+// Sums over the steps of a date, J m-2. The random errors of the steps are independent, because each step has its own random
+// numbers, and add in quadrature. The unshot flux in the half-widths may err in the same direction in all steps and adds
+// linearly.
+struct DateSums {
+  std::size_t steps = 0;
+  std::vector<StepBand> bands;
+  std::vector<Estimate> organ_absorbed;  // [organ * bands + band], J m-2 of the organ's one-sided area
+};
+
+// Returns one entry per date. `lights` holds the light of the first steps of the course.
+[[nodiscard]] std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& course,
+                                              std::span<const StepLight> lights);
+
+}  // namespace sunfleck

@@ -1,0 +1,135 @@
+#include "files/results/tables/day_summary.h"
+
+#include "files/results/tables/summary_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double per_mega = 1e-6;
+
+constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 5> terms = {
+    {{"incident", &StepBand::incident},
+     {"absorbed_vegetation", &StepBand::absorbed_vegetation},
+     {"absorbed_soil", &StepBand::absorbed_soil},
+     {"reflected", &StepBand::reflected},
+     {"transmitted", &StepBand::transmitted}}};
+
+ordered_json date_json(const DaySummary& day, const std::string& name, const DateSums& date) {
+  ordered_json bands = ordered_json::array();
+  for (std::size_t b = 0; b < date.bands.size(); ++b) {
+    const Waveband& waveband = day.model.bands[b];
+    ordered_json band = {{"name", waveband.name}};
+    ordered_json errors;
+    for (const auto& [term, member] : terms) {
+      const Estimate sum = (date.bands[b].*member).scaled(per_mega);
+      band[fmt::format("{}_mj_m2", term)] = number_or_null(sum.value);
+      errors[fmt::format("{}_mj_m2", term)] = number_or_null(sum.half_width);
+    }
+    if (waveband.umol_per_joule > 0.0) {
+      band["absorbed_vegetation_mol_m2"] =
+          number_or_null(date.bands[b].absorbed_vegetation.value * per_mega * waveband.umol_per_joule);
+    }
+    band["error"] = errors;
+    bands.push_back(std::move(band));
+  }
+  return {{"date", name}, {"steps", date.steps}, {"bands", bands}};
+}
+
+double leaf_area_index(const RadiationModel& model) {
+  const ElementRoles roles = element_roles(model.canopy);
+  double leaf_m2 = 0.0;
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) leaf_m2 += roles.foliage[e] ? area_m2(model.canopy.corners[e]) : 0.0;
+  return leaf_m2 / model.plot.area_m2();
+}
+
+}  // namespace
+
+std::string day_summary_json(const DaySummary& day) {
+  const RunRecord& record = day.record;
+  const DayTotals& totals = day.totals;
+  const bool fixed = record.grid_m || record.passes;
+  const std::vector<DateSums> sums = sum_dates(day.model, day.course, day.lights);
+  ordered_json dates = ordered_json::array();
+  for (std::size_t d = 0; d < day.course.dates.size(); ++d) {
+    if (sums[d].steps > 0) dates.push_back(date_json(day, day.course.dates[d], sums[d]));
+  }
+  const auto night = [](const DayStep& step) { return step.night(); };
+  ordered_json settings = day.settings;
+  settings["scene_file"] = record.scene_file;
+  settings["max_seconds"] = value_or_null(record.max_seconds);
+  settings["threads"] = record.threads;
+  settings["ranks"] = record.ranks;
+  const auto bound = [fixed](double asked) { return fixed ? ordered_json(nullptr) : ordered_json(asked); };
+  ordered_json summary = {
+      {"sunfleck", record.version},
+      {"commit", record.commit},
+      {"command", "day"},
+      {"scene", record.title},
+      {"scene_digest", record.scene_digest},
+      {"complete", record.complete},
+      {"seed", record.seed},
+      {"settings", settings},
+      {"device", {{"kind", record.device.kind}, {"name", record.device.name}, {"driver", record.device.driver}}},
+      {"triangles", day.model.canopy.size()},
+      {"organs", day.model.canopy.organs.size()},
+      {"plants", plant_count(day.model.canopy)},
+      {"plot_area_m2", day.model.plot.area_m2()},
+      {"leaf_area_index", leaf_area_index(day.model)},
+      {"steps",
+       {{"asked", day.course.steps.size()},
+        {"done", day.lights.size()},
+        {"night", std::count_if(day.course.steps.begin(), day.course.steps.end(), night)},
+        {"short_of_bound", totals.short_of_bound}}},
+      {"dates", dates},
+      {"lost_rays", totals.lost_rays},
+      {"direct",
+       {{"rays", totals.rays},
+        {"relative_error", value_or_null(totals.direct_error)},
+        {"bound", bound(record.accuracy.direct)}}},
+      {"indirect",
+       {{"packets", totals.packets},
+        {"relative_error", value_or_null(totals.indirect_error)},
+        {"bound", bound(record.accuracy.indirect)}}},
+      {"seconds",
+       {{"load", record.seconds.load},
+        {"bvh", record.seconds.bvh},
+        {"device", record.seconds.device},
+        {"steps", totals.seconds},
+        {"write", record.seconds.write},
+        {"total", record.seconds.total}}}};
+  if (!record.not_written.empty()) summary["not_written"] = record.not_written;
+  return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string day_report(const DaySummary& day) {
+  std::string text = fmt::format("{}\n  {} triangles, {} steps, {} of them simulated\n", day.record.title,
+                                 day.model.canopy.size(), day.lights.size(), day.totals.simulated);
+  const std::vector<DateSums> sums = sum_dates(day.model, day.course, day.lights);
+  for (std::size_t d = 0; d < day.course.dates.size(); ++d) {
+    const DateSums& date = sums[d];
+    for (std::size_t b = 0; date.steps > 0 && b < date.bands.size(); ++b) {
+      text += fmt::format("  {} {}, MJ m-2", day.course.dates[d], day.model.bands[b].name);
+      char separator = ':';
+      for (const auto& [term, member] : terms) {
+        const Estimate sum = (date.bands[b].*member).scaled(per_mega);
+        std::string words = term;
+        std::replace(words.begin(), words.end(), '_', ' ');
+        text += fmt::format("{} {} {:.4g}", std::exchange(separator, ','), words, sum.value);
+        if (sum.half_width > 0.0) text += fmt::format(" ± {:.2g}", sum.half_width);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace sunfleck

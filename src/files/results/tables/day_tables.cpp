@@ -1,0 +1,102 @@
+#include "files/results/tables/day_tables.h"
+
+#include "base/units.h"
+#include "files/results/tables/result_tables.h"
+#include "files/results/tables/table_text.h"
+
+#include <fmt/format.h>
+
+namespace sunfleck {
+namespace {
+
+std::vector<double> organ_areas_m2(const Canopy& canopy) {
+  std::vector<double> areas(canopy.organs.size());
+  for (std::size_t e = 0; e < canopy.size(); ++e) areas[canopy.organ_of[e]] += area_m2(canopy.corners[e]);
+  return areas;
+}
+
+std::vector<std::string> stopped_note(const DayCourse& course, std::span<const StepLight> lights) {
+  if (lights.size() == course.steps.size()) return {};
+  return {fmt::format("incomplete: the first {} of {} steps", lights.size(), course.steps.size())};
+}
+
+}  // namespace
+
+Table steps_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
+  const std::vector<DayStep>& steps = course.steps;
+  Table table{"The course of the day; a step has the light of its middle, a night step none",
+              "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected: "
+              "W m-2 of ground; sunlit_leaf_fraction: share; _error: half-width of the confidence interval",
+              stopped_note(course, lights),
+              {lights.size()},
+              {}};
+  table.add({"time", "", "start of the step, local time with its offset"},
+            [&](std::size_t i) { return local_time_text(steps[i].start, course.offset_minutes); });
+  table.add({"step_s", "s", "length of the step"}, [&](std::size_t i) { return steps[i].length_s; });
+  table.add({"elevation_deg", "degree", "elevation of the sun at the middle of the step"},
+            [&](std::size_t i) { return steps[i].sun.elevation_rad / degree; });
+  table.add({"azimuth_deg", "degree", "azimuth of the sun at the middle of the step, clockwise from north"},
+            [&](std::size_t i) { return steps[i].sun.azimuth_rad / degree; });
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    table.add({band + "_incident", "W m-2", "incident flux per ground area"},
+              [&](std::size_t i) { return lights[i].bands[b].incident; });
+    table.add({band + "_absorbed_vegetation", "W m-2", "flux absorbed by vegetation per ground area"},
+              [&](std::size_t i) { return lights[i].bands[b].absorbed_vegetation; });
+    table.add({band + "_absorbed_soil", "W m-2", "flux absorbed by soil per ground area"},
+              [&](std::size_t i) { return lights[i].bands[b].absorbed_soil; });
+    table.add({band + "_reflected", "W m-2", "flux that leaves upwards per ground area"},
+              [&](std::size_t i) { return lights[i].bands[b].reflected; });
+  }
+  table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in direct sun"},
+            [&](std::size_t i) { return as_share(lights[i].sunlit_leaf_fraction); });
+  return table;
+}
+
+Table organs_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
+  constexpr double per_mega = 1e-6;
+  const std::vector<std::size_t> by_date{0}, by_organ{1};
+  constexpr unsigned outputs = in_csv | in_arrays;
+  const std::vector<Organ>& organs = model.canopy.organs;
+  const std::vector<DateSums> sums = sum_dates(model, course, lights);
+  std::vector<std::size_t> dates;
+  for (std::size_t d = 0; d < sums.size(); ++d) {
+    if (sums[d].steps > 0) dates.push_back(d);
+  }
+  Table table{"What organs absorbed over the steps of each date, soil elements included; the ground of [soil] has no row",
+              "area_m2: m2, one-sided; absorbed: per one-sided area; _error: relative half-width of the confidence interval of "
+              "absorbed",
+              stopped_note(course, lights),
+              {dates.size(), organs.size()},
+              {}};
+  table.add({"date", "", "local date", outputs, by_date}, [&](std::size_t d) { return course.dates[dates[d]]; });
+  add_organ_names(table, organs, 1);
+  table.add({"area_m2", "m2", "one-sided area", outputs, by_organ}, organ_areas_m2(model.canopy));
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    const auto joules = [&, b](std::size_t row) -> const Estimate& {
+      return sums[dates[row / organs.size()]].organ_absorbed[row % organs.size() * model.bands.size() + b];
+    };
+    table.add({band + "_absorbed_mj_m2", "MJ m-2", "energy absorbed by both faces per one-sided area"},
+              [&](std::size_t row) { return joules(row).value * per_mega; });
+    table.add({band + "_error", "1", "relative half-width of the confidence interval of absorbed"},
+              [&](std::size_t row) { return relative_half_width(joules(row)); });
+    if (!(umol_per_joule > 0.0)) continue;
+    table.add({band + "_absorbed_mol_m2", "mol m-2", "photons absorbed by both faces per one-sided area"},
+              [&](std::size_t row) { return joules(row).value * umol_per_joule * per_mega; });
+  }
+  return table;
+}
+
+std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+                    std::span<const StepLight> lights) {
+  return csv_text(record, steps_table(model, course, lights));
+}
+
+std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+                           std::span<const StepLight> lights) {
+  return csv_text(record, organs_day_table(model, course, lights));
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,33 @@
+#include "files/results/tables/judged_figure.h"
+
+#include "base/file.h"
+
+#include <fmt/format.h>
+
+namespace sunfleck {
+namespace {
+
+std::string place_name(const JudgedFigure& figure, const RadiationModel& model) {
+  switch (figure.of) {
+    case JudgedFigure::Of::vegetation:
+      return "vegetation";
+    case JudgedFigure::Of::soil:
+      return model.soil ? "soil" : "the ground";
+    case JudgedFigure::Of::organ: {
+      const Organ& organ = model.canopy.organs[figure.organ];
+      return fmt::format("{} {} of plant {}", printable(organ.name), organ.rank, organ.plant);
+    }
+    case JudgedFigure::Of::triangles:
+      return "triangles, root mean square";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string figure_name(const JudgedFigure& figure, const RadiationModel& model) {
+  const std::string light = figure.band ? model.bands[*figure.band].name + " absorbed by" : "beam on";
+  return fmt::format("{} {}", light, place_name(figure, model));
+}
+
+}  // namespace sunfleck

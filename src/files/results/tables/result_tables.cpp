@@ -1,0 +1,147 @@
+#include "files/results/tables/result_tables.h"
+
+#include "base/check.h"
+
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr unsigned everywhere_but_meshes = in_csv | in_arrays | in_netcdf;
+
+// Returns the table of the sensors first ... end - 1.
+Table table_of_sensors(const RadiationModel& model, const RadiationResult& result, std::size_t first, std::size_t end) {
+  EXPECT(result.sensors.size(), ==, model.sensors.size());
+  struct Row {
+    const Sensor& sensor;
+    std::uint32_t point;
+    const SensorResult& reading;
+  };
+  std::vector<Row> rows;
+  for (std::size_t s = first; s < end; ++s) {
+    const Sensor& sensor = model.sensors.at(s);
+    EXPECT(result.sensors[s].size(), ==, sensor.points_m.size());
+    for (std::uint32_t p = 0; p < sensor.points_m.size(); ++p) rows.push_back({sensor, p, result.sensors[s][p]});
+  }
+  Table table{"Sensors, point by point",
+              "x, y, z: m (X south, Y up, Z west); direct, sky, scattered: W m-2, on a plane (cosine response) or on a "
+              "sphere's cross-section (spherical); _error: half-width of the confidence interval",
+              {},
+              {rows.size()},
+              {}};
+  const auto position = [&](std::size_t i) { return rows[i].sensor.points_m[rows[i].point]; };
+  table.add({"sensor", "", "name of the sensor", in_csv}, [&](std::size_t i) { return rows[i].sensor.name; });
+  table.add({"point", "1", "number of the point in its sensor, from 0", in_csv}, [&](std::size_t i) { return rows[i].point; });
+  table.add({"x", "m", "position towards the south"}, [&](std::size_t i) { return position(i).x; });
+  table.add({"y", "m", "position upwards"}, [&](std::size_t i) { return position(i).y; });
+  table.add({"z", "m", "position towards the west"}, [&](std::size_t i) { return position(i).z; });
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    table.add({band + "_direct", "W m-2", "reading of the sun's beam"},
+              [&](std::size_t i) { return rows[i].reading.direct[b]; });
+    table.add({band + "_sky", "W m-2", "reading of unscattered sky light"},
+              [&](std::size_t i) { return rows[i].reading.sky[b]; });
+    table.add({band + "_scattered", "W m-2", "reading of scattered and emitted light"},
+              [&](std::size_t i) { return rows[i].reading.scattered[b]; });
+  }
+  return table;
+}
+
+}  // namespace
+
+void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t axis) {
+  const std::vector<std::size_t> along{axis};
+  const auto add = [&](const char* name, const char* unit, const char* meaning, const auto part) {
+    table.add({name, unit, meaning, in_csv | in_arrays, along}, [&](std::size_t o) { return organs[o].*part; });
+  };
+  add("plant", "1", "number of the plant, 0 for soil", &Organ::plant);
+  add("organ", "", "name of the organ", &Organ::name);
+  add("rank", "1", "leaf number from the ground, 0 for organs without one", &Organ::rank);
+}
+
+Table organs_table(const RadiationModel& model, const RadiationResult& result) {
+  const std::vector<Organ>& organs = model.canopy.organs;
+  const std::vector<OrganResult>& light = result.organs;
+  Table table{
+      "Organs, those of soil elements included; the ground of [soil] has no row",
+      "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided area; _error: relative "
+      "half-width of the confidence interval of absorbed; absorbed_umol_m2_s: the same in photons, umol m-2 s-1",
+      {},
+      {organs.size()},
+      {}};
+  add_organ_names(table, organs, 0);
+  table.add({"area_m2", "m2", "one-sided area"}, [&](std::size_t o) { return light[o].area_m2; });
+  table.add({"sunlit_fraction", "1", "share of the area in direct sun"},
+            [&](std::size_t o) { return as_share(light[o].sunlit_fraction); });
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    table.add({band + "_direct", "W m-2", "irradiance of both faces by the sun's beam"},
+              [&](std::size_t o) { return light[o].direct[b].value; });
+    table.add({band + "_indirect", "W m-2", "irradiance of both faces by all light but the sun's beam at its first hit"},
+              [&](std::size_t o) { return light[o].indirect[b].value; });
+    table.add({band + "_absorbed", "W m-2", "flux absorbed by both faces per one-sided area"},
+              [&](std::size_t o) { return light[o].absorbed[b].value; });
+    table.add({band + "_error", "1", "relative half-width of the confidence interval of absorbed"},
+              [&](std::size_t o) { return relative_half_width(light[o].absorbed[b]); });
+    if (!(umol_per_joule > 0.0)) continue;
+    table.add({band + "_absorbed_umol_m2_s", "umol m-2 s-1", "photons absorbed by both faces per one-sided area"},
+              [&](std::size_t o) { return light[o].absorbed[b].value * umol_per_joule; });
+  }
+  return table;
+}
+
+Table layers_table(const RadiationModel& model, const RadiationResult& result) {
+  const std::vector<LayerResult>& layers = result.layers;
+  const auto is_top_plane = [&](std::size_t i) { return layers[i].absorbed.empty(); };
+  Table table{"Layers from the ground up, each with the horizontal plane at its lower edge; the last row is the top plane",
+              "height_m: m; down, up: W m-2 through the plane; absorbed: W m-2 of ground in the layer; others: shares; _error: "
+              "half-width of the confidence interval",
+              {},
+              {layers.size()},
+              {}};
+  table.add({"height_m", "m", "height of the horizontal plane", everywhere_but_meshes},
+            [&](std::size_t i) { return layers[i].height_m; });
+  table.add({"leaf_area_index", "1", "one-sided leaf area in the layer per ground area"},
+            [&](std::size_t i) { return is_top_plane(i) ? none : layers[i].leaf_area_index; });
+  table.add({"sunfleck_ratio", "1", "share of the plane that the direct beam reaches", everywhere_but_meshes},
+            [&](std::size_t i) { return layers[i].sunfleck_ratio; });
+  table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in the layer in direct sun"},
+            [&](std::size_t i) { return as_share(layers[i].sunlit_leaf_fraction); });
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    table.add({band + "_down", "W m-2", "flux through the plane, downwards", everywhere_but_meshes},
+              [&](std::size_t i) { return layers[i].down[b]; });
+    table.add({band + "_up", "W m-2", "flux through the plane, upwards", everywhere_but_meshes},
+              [&](std::size_t i) { return layers[i].up[b]; });
+    table.add({band + "_absorbed", "W m-2", "flux absorbed in the layer per ground area"},
+              [&](std::size_t i) { return is_top_plane(i) ? Estimate{none} : layers[i].absorbed[b]; });
+  }
+  return table;
+}
+
+Table balance_table(const RadiationResult& result) {
+  const std::vector<BandResult>& bands = result.bands;
+  Table table{"Bands", "W m-2 of ground", {}, {bands.size()}, {}};
+  const auto add = [&](const char* name, const char* meaning, const auto term) {
+    table.add({name, "W m-2", meaning, in_netcdf | in_arrays}, [&](std::size_t b) { return bands[b].*term; });
+  };
+  add("incident", "incident flux per ground area", &BandResult::incident);
+  add("absorbed_vegetation", "flux absorbed by vegetation per ground area", &BandResult::absorbed_vegetation);
+  add("absorbed_soil", "flux absorbed by soil per ground area", &BandResult::absorbed_soil);
+  add("reflected", "flux that leaves upwards per ground area", &BandResult::reflected);
+  add("transmitted", "flux that leaves downwards per ground area", &BandResult::transmitted);
+  add("unshot", "flux not followed to its end per ground area", &BandResult::unshot);
+  return table;
+}
+
+Table sensors_table(const RadiationModel& model, const RadiationResult& result) {
+  return table_of_sensors(model, result, 0, model.sensors.size());
+}
+
+Table sensor_table(const RadiationModel& model, const RadiationResult& result, std::size_t sensor) {
+  return table_of_sensors(model, result, sensor, sensor + 1);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,31 @@
+#pragma once
+// The contents of the result tables: one function per table, one line per column. A new column is added here and nowhere else.
+
+#include "files/results/tables/table.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sunfleck {
+
+// Adds plant, name and rank of each organ, which vary along one axis of the table.
+void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t axis);
+
+// organs.csv: one row per organ of the canopy, in its order, including soil elements of a mesh (organ soil; plant 0 in a .can).
+// The ground of [soil] is not an organ and has no row; absorbed_soil in the summary covers both.
+[[nodiscard]] Table organs_table(const RadiationModel& model, const RadiationResult& result);
+
+// profile.csv: one row per layer and one for the top plane. The columns of results.nc are those of the planes.
+[[nodiscard]] Table layers_table(const RadiationModel& model, const RadiationResult& result);
+
+// The energy balance in results.nc and xarray: one row per band.
+[[nodiscard]] Table balance_table(const RadiationResult& result);
+
+// sensors.csv: one row per point, in the order of the scene, of all sensors or of one. The result must have readings of all
+// sensors of the model.
+[[nodiscard]] Table sensors_table(const RadiationModel& model, const RadiationResult& result);
+[[nodiscard]] Table sensor_table(const RadiationModel& model, const RadiationResult& result, std::size_t sensor);
+
+}  // namespace sunfleck

@@ -1,0 +1,209 @@
+#include "files/results/tables/result_writer.h"
+
+#include "files/results/tables/judged_figure.h"
+#include "files/results/tables/result_tables.h"
+#include "files/results/tables/summary_parts.h"
+#include "files/results/tables/table_text.h"
+#include "files/results/tables/work_settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace sunfleck {
+namespace {
+
+using nlohmann::ordered_json;
+
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+ordered_json band_json(const BandResult& band) {
+  return {{"name", band.name},
+          {"incident", band.incident},
+          {"absorbed_vegetation", band.absorbed_vegetation.value},
+          {"absorbed_soil", band.absorbed_soil.value},
+          {"reflected", band.reflected.value},
+          {"transmitted", band.transmitted.value},
+          {"unshot", band.unshot},
+          {"residual", band.ledger.residual()},
+          {"quanta",
+           {{"incident", band.ledger.incident},
+            {"absorbed_vegetation", band.ledger.absorbed_vegetation},
+            {"absorbed_soil", band.ledger.absorbed_soil},
+            {"reflected", band.ledger.reflected},
+            {"transmitted", band.ledger.transmitted},
+            {"unshot", band.ledger.unshot}}},
+          {"error",
+           {{"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width)},
+            {"absorbed_soil", number_or_null(band.absorbed_soil.half_width)},
+            {"reflected", number_or_null(band.reflected.half_width)},
+            {"transmitted", number_or_null(band.transmitted.half_width)}}}};
+}
+
+// Returns the same fluxes in photons, umol m-2 s-1 of ground, for bands with umol_per_joule.
+ordered_json photons_json(const BandResult& band, double umol_per_joule) {
+  return {{"incident", band.incident * umol_per_joule},
+          {"absorbed_vegetation", band.absorbed_vegetation.value * umol_per_joule},
+          {"absorbed_soil", band.absorbed_soil.value * umol_per_joule},
+          {"reflected", band.reflected.value * umol_per_joule},
+          {"transmitted", band.transmitted.value * umol_per_joule}};
+}
+
+ordered_json bands_json(const RadiationModel& model, const RadiationResult& result) {
+  ordered_json bands = ordered_json::array();
+  for (std::size_t b = 0; b < result.bands.size(); ++b) {
+    bands.push_back(band_json(result.bands[b]));
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    if (umol_per_joule > 0.0) bands.back()["umol_m2_s"] = photons_json(result.bands[b], umol_per_joule);
+  }
+  return bands;
+}
+
+ordered_json sun_json(const RadiationModel& model) {
+  if (!model.sun) return nullptr;
+  return {{"elevation_deg", degrees(model.sun->elevation_rad)}, {"azimuth_deg", degrees(model.sun->azimuth_rad)}};
+}
+
+ordered_json planes_json(const RadiationResult& result) {
+  ordered_json planes = ordered_json::array();
+  for (const PlaneResult& plane : result.planes) {
+    ordered_json down = ordered_json::array();
+    ordered_json error = ordered_json::array();
+    for (const Estimate& total : plane.total_down) {
+      down.push_back(total.value);
+      error.push_back(number_or_null(total.half_width));
+    }
+    planes.push_back({{"height_m", plane.height_m},
+                      {"sunfleck_ratio", number_or_null(plane.sunfleck_ratio.value)},
+                      {"sunfleck_ratio_error", number_or_null(plane.sunfleck_ratio.half_width)},
+                      {"down", down},
+                      {"down_error", error}});
+  }
+  return planes;
+}
+
+ordered_json settings_json(const RunRecord& record) {
+  ordered_json settings = {{"scene_file", record.scene_file}};
+  add_work_settings(settings, record.accuracy, record.grid_m, record.passes, record.max_rays);
+  settings["max_seconds"] = value_or_null(record.max_seconds);
+  settings["memory_bytes"] = value_or_null(record.memory_bytes);
+  settings["threads"] = record.threads;
+  settings["ranks"] = record.ranks;
+  return settings;
+}
+
+ordered_json judged_json(const std::optional<JudgedFigure>& judged, const RadiationModel& model) {
+  if (!judged) return nullptr;
+  return figure_name(*judged, model);
+}
+
+const char* stop_name(StopReason stop) {
+  switch (stop) {
+    case StopReason::bound_reached:
+      return "bound reached";
+    case StopReason::work_done:
+      return "work done";
+    case StopReason::rays_spent:
+      return "rays spent";
+    case StopReason::replicates_spent:
+      return "replicates spent";
+    case StopReason::time_spent:
+      return "time spent";
+    case StopReason::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+}  // namespace
+
+const char* error_target_name(ErrorTarget target) {
+  switch (target) {
+    case ErrorTarget::canopy:
+      return "canopy";
+    case ErrorTarget::organ:
+      return "organ";
+    case ErrorTarget::triangle:
+      return "triangle";
+  }
+  return "";
+}
+
+std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  ordered_json summary = {
+      {"sunfleck", record.version},
+      {"commit", record.commit},
+      {"scene", record.title},
+      {"scene_digest", record.scene_digest},
+      {"complete", record.complete},
+      {"stopped", stop_name(record.pictures_interrupted ? StopReason::interrupted : result.stop)},
+      {"seed", record.seed},
+      {"settings", settings_json(record)},
+      {"device", {{"kind", record.device.kind}, {"name", record.device.name}, {"driver", record.device.driver}}},
+      {"triangles", model.canopy.size()},
+      {"organs", model.canopy.organs.size()},
+      {"plants", plant_count(model.canopy)},
+      {"plot_area_m2", model.plot.area_m2()},
+      {"leaf_area_index", result.leaf_area_index},
+      {"sun", sun_json(model)},
+      {"bands", bands_json(model, result)},
+      {"sunlit_leaf_fraction", number_or_null(as_share(result.sunlit_leaf_fraction).value)},
+      {"sunlit_leaf_fraction_error", number_or_null(result.sunlit_leaf_fraction.half_width)},
+      {"ground_sunfleck_ratio", number_or_null(result.ground_sunfleck_ratio.value)},
+      {"ground_sunfleck_ratio_error", number_or_null(result.ground_sunfleck_ratio.half_width)},
+      {"planes", planes_json(result)},
+      {"lost_rays", result.lost_rays},
+      {"direct",
+       {{"rays", result.direct.rays},
+        {"replicates", result.direct.replicates},
+        {"grid_m", result.direct.grid_m},
+        {"relative_error", value_or_null(result.direct.relative_error)},
+        {"judged", judged_json(result.direct.judged, model)},
+        {"bound", value_or_null(result.direct.bound)},
+        {"seconds", result.direct.seconds}}},
+      {"indirect",
+       {{"sky_rays", result.indirect.sky_rays},
+        {"packets", result.indirect.packets},
+        {"rounds", result.indirect.rounds},
+        {"first_round_packets", std::floor(result.work.packets)},
+        {"relative_error", value_or_null(result.indirect.relative_error)},
+        {"judged", judged_json(result.indirect.judged, model)},
+        {"bound", value_or_null(result.indirect.bound)},
+        {"seconds", result.indirect.seconds}}},
+      {"seconds",
+       {{"load", record.seconds.load},
+        {"bvh", record.seconds.bvh},
+        {"device", record.seconds.device},
+        {"direct", record.seconds.direct},
+        {"indirect", record.seconds.indirect},
+        {"write", record.seconds.write},
+        {"total", record.seconds.total}}}};
+  if (!record.not_written.empty()) summary["not_written"] = record.not_written;
+  return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return csv_text(record, layers_table(model, result));
+}
+
+std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return csv_text(record, organs_table(model, result));
+}
+
+std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return csv_text(record, sensors_table(model, result));
+}
+
+std::string triangles_csv(const RunRecord& record, const ElementFields& fields) {
+  return csv_text(record, triangles_table(fields));
+}
+
+std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return triangles_csv(record, make_element_fields(model, result));
+}
+
+}  // namespace sunfleck

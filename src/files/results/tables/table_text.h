@@ -1,0 +1,24 @@
+#pragma once
+// Text functions shared by the result tables.
+
+#include "files/results/tables/result_writer.h"
+#include "files/results/tables/table.h"
+
+#include <string>
+#include <string_view>
+
+namespace sunfleck {
+
+// Returns the `#` lines: title, content, seed and confidence, units.
+[[nodiscard]] std::string table_head(const RunRecord& record, std::string_view content, std::string_view units);
+
+// Appends a comma and the number with nine significant digits; leaves the cell empty for NaN.
+void append_number(std::string& row, double value);
+
+// Returns a table as CSV below its `#` lines. Numbers have nine significant digits.
+[[nodiscard]] std::string csv_text(const RunRecord& record, const Table& table);
+
+// Returns the text, quoted as in RFC 4180 if it holds a comma, a quote or a line break.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
+}  // namespace sunfleck

@@ -1,0 +1,104 @@
+#include "files/scene/plausibility.h"
+
+#include "base/file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+constexpr double tallest_m = 150.0;           // taller than any plant
+constexpr double densest = 30.0;              // one-sided area of all elements over that of the plot
+constexpr double below_ground_m = 0.01;       // the foot of a mesh may lie this deep
+constexpr double least_share_of_area = 0.01;  // share of the stand's area below ground
+
+struct Stand {
+  double area_m2 = 0.0, buried_m2 = 0.0;
+  double top_m = -std::numeric_limits<double>::infinity();
+};
+
+Stand stand_of(const Canopy& canopy) {
+  const ElementRoles roles = element_roles(canopy);
+  Stand stand;
+  for (std::size_t e = 0; e < canopy.size(); ++e) {
+    if (roles.soil[e]) continue;
+    const Triangle& corners = canopy.corners[e];
+    const double area = area_m2(corners);
+    const double middle_m = (double{corners[0].y} + corners[1].y + corners[2].y) / 3.0 + canopy.origin_m.y;
+    stand.area_m2 += area;
+    if (middle_m < -below_ground_m) stand.buried_m2 += area;
+    for (const glm::vec3& corner : corners) stand.top_m = std::max(stand.top_m, corner.y + canopy.origin_m.y);
+  }
+  return stand;
+}
+
+bool has_lamp(const RadiationModel& model, std::size_t band) {
+  return std::any_of(model.optics.begin(), model.optics.end(), [&](const SurfaceOptics& optics) {
+    return !optics.emission_w_m2.empty() && optics.emission_w_m2[band] > 0.0;
+  });
+}
+
+bool is_dark(const BandLight& light) {
+  return !light.share && light.direct_w_m2 == 0.0 && light.direct_normal_w_m2 == 0.0 && light.diffuse_w_m2 == 0.0;
+}
+
+void warn_of_missing_light(const Scene& scene, const std::string& file, std::vector<std::string>& warnings) {
+  if (!scene.model.sun && !scene.light.sky) return;
+  bool diffuse = false;
+  for (std::size_t b = 0; b < scene.light.bands.size(); ++b) {
+    const BandLight& light = scene.light.bands[b];
+    diffuse = diffuse || light.share || light.diffuse_w_m2 > 0.0;
+    if (!is_dark(light) || has_lamp(scene.model, b)) continue;
+    warnings.push_back(fmt::format("{}: band {} has no light; add direct or diffuse, in W m-2, to its [[band]]", file,
+                                   scene.model.bands[b].name));
+  }
+  if (scene.light.sky && !diffuse) {
+    warnings.push_back(
+        fmt::format("{}: sky sends no light, because no band has diffuse; add diffuse, in W m-2, to a [[band]]", file));
+  }
+}
+
+std::string element_name(const Canopy& canopy, std::uint32_t element) {
+  const Organ& organ = canopy.organs[canopy.organ_of[element]];
+  return fmt::format("triangle {} of {} of plant {}", element, printable(organ.name), organ.plant);
+}
+
+void warn_of_copies(const Canopy& canopy, const std::string& file, std::vector<std::string>& warnings) {
+  if (canopy.copies.empty()) return;
+  const Copy& first = canopy.copies.front();
+  warnings.push_back(
+      fmt::format("{}: {} triangles coincide with earlier ones, e.g. {} with {}; the earlier one takes all light and "
+                  "the copy none, so remove the copies (sunfleck info names them)",
+                  file, canopy.copies.size(), element_name(canopy, first.element), element_name(canopy, first.original)));
+}
+
+}  // namespace
+
+std::vector<std::string> plausibility_warnings(const Scene& scene) {
+  const std::string file = printable(scene.file.string());
+  std::vector<std::string> warnings;
+  warn_of_missing_light(scene, file, warnings);
+  warn_of_copies(scene.model.canopy, file, warnings);
+  const Stand stand = stand_of(scene.model.canopy);
+  if (stand.top_m > tallest_m) {
+    warnings.push_back(fmt::format(
+        "{}: the highest element is {:.4g} m above the ground; for a mesh in centimetres add scale = 0.01", file, stand.top_m));
+  } else if (stand.area_m2 > densest * scene.model.plot.area_m2()) {
+    warnings.push_back(fmt::format("{}: {:.4g} m2 of plants stand on {:.4g} m2; check plot.size, in metres, and scale", file,
+                                   stand.area_m2, scene.model.plot.area_m2()));
+  }
+  if (scene.model.soil && stand.buried_m2 > least_share_of_area * stand.area_m2) {
+    warnings.push_back(fmt::format(
+        "{}: {:.0f} % of the plants' area lies below the ground, y = 0, where soil hides it; raise them with at, or "
+        "set up = \"z\" for a "
+        "mesh whose z points up",
+        file, 100.0 * stand.buried_m2 / stand.area_m2));
+  }
+  return warnings;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,41 @@
+#include "files/scene/scene_files.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+namespace sunfleck {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  const auto [in_folder, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return in_folder == folder.end();
+}
+
+}  // namespace
+
+fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access,
+                         std::string_view wanted) {
+  const std::string name = *table.text("file");
+  std::error_code code;
+  const fs::path parent = scene_file.parent_path();
+  const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, code);
+  if (code) table.refuse("file", "the scene's folder cannot be read: " + code.message(), "check its permissions");
+  fs::path file = fs::weakly_canonical(folder / name, code);
+  if (code) table.refuse("file", "its path cannot be resolved: " + code.message(), "correct the path");
+  if (!access.allow_outside && !lies_in(file, folder)) {
+    table.refuse("file", "it lies outside the scene's folder", "move it into that folder, or run with --allow-outside");
+  }
+  access.files->note(folder / name);
+  const fs::file_status status = fs::status(file, code);
+  if (status.type() == fs::file_type::not_found) {
+    table.refuse("file", "there is no such file; names are relative to the scene's folder", "correct the name");
+  }
+  if (!fs::is_regular_file(status)) table.refuse("file", "it is not a regular file", wanted);
+  return file;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,243 @@
+#include "files/scene/scene_geometry.h"
+
+#include "base/file.h"
+#include "files/scene/plain_name.h"
+#include "files/scene/scene_files.h"
+#include "physics/canopy/canopy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace sunfleck {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t most_rows = 10000;
+constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the generator, about 15 GB
+constexpr double farthest_m = 1e7;           // largest coordinate of a scene
+
+constexpr NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
+
+GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
+  static_cast<void>(table.word("generator", {"maize"}));  // the only generator
+  for (const char* key : {"optics", "up", "scale", "heading", "at"}) {
+    if (table.has(key))
+      table.refuse(key, "it is only for files; a generated stand fills the plot from its corner", "remove it");
+  }
+  MaizeStand stand;
+  stand.rows = static_cast<int>(table.integer("rows", 1, most_rows).value_or(stand.rows));
+  stand.per_row = static_cast<int>(table.integer("per_row", 1, most_rows).value_or(stand.per_row));
+  plants_so_far += std::int64_t{stand.rows} * stand.per_row;
+  if (plants_so_far > most_plants) {
+    table.refuse(table.has("rows")      ? "rows"
+                 : table.has("per_row") ? "per_row"
+                                        : "generator",
+                 fmt::format("rows * per_row gives {} plants, but at most {} are allowed", plants_so_far, most_plants),
+                 "use fewer; a periodic plot repeats them without end");
+  }
+  const auto spacing_m = table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres"});
+  if (spacing_m) {
+    stand.spacing_in_row_m = (*spacing_m)[0];
+    stand.spacing_between_rows_m = (*spacing_m)[1];
+  }
+  const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max());
+  if (seed) stand.seed = static_cast<std::uint64_t>(*seed);
+  return GeometryPart{.table = table, .maize = stand, .mesh = nullptr, .file = {}, .import = {}, .placements = {Placement{}}};
+}
+
+fs::path find_mesh(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
+  fs::path file = find_scene_file(table, scene_file, access, "name a mesh file");
+  if (!is_mesh_file(file)) {
+    table.refuse("file", "its format is unknown", "use .glb, .gltf, .obj, .ply, .stl, .can or .can.gz");
+  }
+  return file;
+}
+
+std::vector<Placement> read_placements(const TomlTable& table) {
+  const std::vector<glm::dvec3> positions_m = table.triples("at", anywhere).value_or(std::vector<glm::dvec3>{{0.0, 0.0, 0.0}});
+  const NumberRange turn{.lo = -360.0, .hi = 360.0, .cure = "give degrees clockwise seen from above"};
+  const std::vector<double> headings_deg =
+      table.number_or_list("heading", positions_m.size(), turn).value_or(std::vector<double>(positions_m.size(), 0.0));
+  std::vector<Placement> placements;
+  for (std::size_t i = 0; i < positions_m.size(); ++i) placements.push_back({positions_m[i], glm::radians(headings_deg[i])});
+  return placements;
+}
+
+const Mesh* find_given_mesh(const TomlTable& table, const SceneText& source) {
+  const std::string name = *table.text("mesh");
+  const auto found = source.meshes.find(name);
+  if (found == source.meshes.end()) table.refuse("mesh", "there is no mesh of that name", "correct the name");
+  return &found->second;
+}
+
+GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, const SceneAccess& access) {
+  for (const char* key : {"rows", "per_row", "spacing", "seed"}) {
+    if (table.has(key)) table.refuse(key, "it is only for generator = \"maize\"", "remove it; place a file's copies with `at`");
+  }
+  MeshImport import;
+  import.optics = table.text("optics");
+  import.allow_outside = access.allow_outside;
+  if (const auto up = table.word("up", {"y", "z"})) import.up = *up == 0 ? UpAxis::y : UpAxis::z;
+  import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
+                     .value_or(import.scale);
+  std::vector<Placement> placements = read_placements(table);
+  const bool given = table.has("mesh");
+  return GeometryPart{.table = table,
+                      .maize = std::nullopt,
+                      .mesh = given ? find_given_mesh(table, source) : nullptr,
+                      .file = given ? fs::path() : find_mesh(table, source.file, access),
+                      .import = import,
+                      .placements = std::move(placements)};
+}
+
+void refuse_many(const GeometryPart& part, std::size_t triangles) {
+  constexpr double bytes_each = 200.0;  // for a direct-only run, including the tree
+  const double memory = static_cast<double>(physical_memory_bytes());
+  if (bytes_each * static_cast<double>(triangles) <= memory) return;
+  part.table.refuse(part.source_key(),
+                    fmt::format("{} triangles so far need about {:.0f} GB of memory, but this machine has only {:.0f} GB",
+                                triangles, bytes_each * 1e-9 * static_cast<double>(triangles), 1e-9 * memory),
+                    "place fewer copies, or use a coarser mesh");
+}
+
+void refuse_far(const GeometryPart& part, const Mesh& mesh) {
+  double farthest = 0.0;
+  for (const glm::dvec3& vertex_m : mesh.vertices) {
+    farthest = std::max({farthest, std::abs(vertex_m.x), std::abs(vertex_m.y), std::abs(vertex_m.z)});
+  }
+  if (farthest > farthest_m) {
+    part.table.refuse(part.source_key(),
+                      fmt::format("it extends to {:.3g} m, but at most {:.0e} m is allowed", farthest, farthest_m),
+                      "give its unit with scale, e.g. scale = 0.001 for millimetres");
+  }
+}
+
+Mesh load_mesh(const GeometryPart& part, SourceFiles& files) {
+  if (part.maize) return make_maize(*part.maize);
+  return part.mesh != nullptr ? import_mesh(*part.mesh, part.table.place("mesh"), part.import)
+                              : read_mesh(part.file, part.import, &files);
+}
+
+const OpticsInput* find_optics(const OpticsByName& defined, const std::string& name) {
+  const auto found = defined.find(name);
+  return found == defined.end() ? nullptr : &found->second;
+}
+
+// Returns the name as a TOML key, in quotes if it has other characters.
+std::string key_of(const std::string& name) {
+  return is_plain_name(name) ? name : fmt::format("\"{}\"", printable(name));
+}
+
+// Returns advice about an undefined name.
+std::string cure_of_undefined(const std::string& name, const OpticsByName& defined) {
+  std::vector<std::string> names;
+  for (const auto& [known, input] : defined) names.push_back(known);
+  const std::string add = is_soil_name(name) ? fmt::format("add [optics.{}] or [soil]", key_of(name))
+                                             : fmt::format("add [optics.{}] with reflectance", key_of(name));
+  const auto nearest = nearest_word(name, names);
+  return nearest ? fmt::format("did you mean {}? Otherwise {}", printable(*nearest), add) : add;
+}
+
+[[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
+  part.table.refuse(part.source_key(), fmt::format("it uses optics \"{}\", which is not defined", printable(name)),
+                    cure_of_undefined(name, defined));
+}
+
+SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
+  SurfaceOptics optics;
+  optics.name = name;
+  optics.rgb = soil.rgb;
+  for (const double reflectance : soil.reflectance) optics.upper.push_back({reflectance, 0.0});
+  optics.lower = optics.upper;
+  return optics;
+}
+
+void allow_keys(const TomlTable& table, const SceneText& source) {
+  if (source.meshes.empty()) {
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at"});
+  } else {
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at"});
+  }
+}
+
+// Requires exactly one of generator, file and mesh.
+void require_one_source(const TomlTable& table) {
+  for (const char* other : {"file", "mesh"}) {
+    if (!table.has(other)) continue;
+    for (const char* first : {"generator", "file"}) {
+      if (std::string_view(first) == other || !table.has(first)) continue;
+      table.refuse(other, fmt::format("{} is also given", first),
+                   "keep one of the two, and add another [[geometry]] for the other");
+    }
+  }
+  if (!table.has("generator") && !table.has("mesh")) table.require("file", "file = \"stand.glb\", or generator = \"maize\"");
+}
+
+}  // namespace
+
+std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access) {
+  std::vector<GeometryPart> parts;
+  std::int64_t plants = 0;  // total of all generators
+  for (const TomlTable& table : root.tables("geometry")) {
+    allow_keys(table, source);
+    require_one_source(table);
+    parts.push_back(table.has("generator") ? read_generator(table, plants) : read_mesh_part(table, source, access));
+  }
+  return parts;
+}
+
+std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files) {
+  constexpr std::size_t least_of_plant = 10'000;  // triangles
+  std::vector<PlacedMesh> meshes;
+  std::size_t triangles = 0;
+  for (const GeometryPart& part : parts) {
+    if (part.maize) {
+      const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
+      refuse_many(part, triangles + plants * least_of_plant);
+    }
+    meshes.push_back({load_mesh(part, files), part.placements});
+    const Mesh& mesh = meshes.back().mesh;
+    refuse_far(part, mesh);
+    triangles += mesh.triangles.size() * part.placements.size();
+    refuse_many(part, triangles);
+  }
+  return meshes;
+}
+
+void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
+                  const Scene& scene) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const std::string& name : meshes[i].mesh.optics_names) {
+      const bool known = find_optics(defined, name) != nullptr || (is_soil_name(name) && scene.model.soil);
+      if (!known) refuse_undefined(parts[i], name, defined);
+    }
+    const auto& own = parts[i].import.optics;
+    if (own && find_optics(defined, *own) == nullptr && !(is_soil_name(*own) && scene.model.soil)) {
+      refuse_undefined(parts[i], *own, defined);
+    }
+  }
+}
+
+std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<const std::string> names,
+                                           const OpticsByName& defined, const std::optional<Soil>& soil) {
+  std::vector<SurfaceOptics> chosen;
+  for (const std::string& name : names) {
+    const OpticsInput* input = find_optics(defined, name);
+    if (input == nullptr && !(is_soil_name(name) && soil)) {
+      root.refuse_table(fmt::format("the canopy uses optics \"{}\", which is not defined", printable(name)),
+                        cure_of_undefined(name, defined));
+    }
+    chosen.push_back(input != nullptr ? input->optics : soil_optics(name, *soil));
+  }
+  return chosen;
+}
+
+}  // namespace sunfleck

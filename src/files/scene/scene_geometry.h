@@ -1,0 +1,49 @@
+#pragma once
+// Reads [[geometry]]: the sources of triangles and their optics.
+
+#include "base/source_files.h"
+#include "files/formats/mesh/mesh_reader.h"
+#include "files/scene/scene_reader.h"
+#include "files/scene/scene_surface.h"
+#include "files/scene/toml_view.h"
+#include "physics/canopy/maize.h"
+#include "physics/canopy/mesh.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sunfleck {
+
+// One [[geometry]] table, read but without its triangles.
+struct GeometryPart {
+  TomlTable table;
+  std::optional<MaizeStand> maize;  // exactly one of `maize`, `mesh` and `file` is set
+  const Mesh* mesh = nullptr;       // points into the SceneText
+  std::filesystem::path file;       // location of the file, symbolic links resolved
+  MeshImport import;
+  std::vector<Placement> placements;
+
+  [[nodiscard]] std::string_view source_key() const { return maize ? "generator" : mesh != nullptr ? "mesh" : "file"; }
+};
+
+// Reads the [[geometry]] tables. The source must outlive the parts.
+[[nodiscard]] std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source,
+                                                      const SceneAccess& access);
+
+// Loads the meshes. Refuses more triangles than fit into the memory of this machine, before allocating memory for their copies.
+[[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files);
+
+// Refuses the table whose mesh uses undefined optics. Soil names need no definition if the scene has [soil].
+void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
+                  const Scene& scene);
+
+// Returns the optics of these names; undefined soil names take the reflectance and colour of [soil]. Refuses the whole text if
+// any other name is undefined.
+[[nodiscard]] std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<const std::string> names,
+                                                         const OpticsByName& defined, const std::optional<Soil>& soil);
+
+}  // namespace sunfleck

@@ -1,0 +1,263 @@
+#include "files/scene/scene_reader.h"
+
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "files/scene/moment_light.h"
+#include "files/scene/plausibility.h"
+#include "files/scene/scene_bands.h"
+#include "files/scene/scene_geometry.h"
+#include "files/scene/scene_placement.h"
+#include "files/scene/scene_receivers.h"
+#include "files/scene/scene_sky.h"
+#include "files/scene/scene_sun.h"
+#include "files/scene/scene_surface.h"
+#include "files/scene/scene_weather.h"
+#include "files/scene/toml_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <set>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr double farthest_m = 1e7;
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // enough for a million positions in `at`
+constexpr double default_fov_deg = 40.0;
+
+std::string read_title(const TomlTable& root, const std::filesystem::path& file) {
+  return root.text("title").value_or(printable(file.stem().string()));
+}
+
+Plot read_plot(const TomlTable& root) {
+  root.require("plot", "[plot] with size = [1.8, 2.4]");
+  const TomlTable table = *root.table("plot");
+  table.allow({"size", "periodic"});
+  table.require("size", "size = [1.8, 2.4], metres along X and Z");
+  const auto size_m = *table.numbers("size", 2, {.lo = 1e-6, .hi = 1e6, .cure = "give metres"});
+  Plot plot;
+  plot.size_x_m = size_m[0];
+  plot.size_z_m = size_m[1];
+  plot.periodic = table.boolean("periodic").value_or(plot.periodic);
+  return plot;
+}
+
+Accuracy read_accuracy(const TomlTable& root) {
+  Accuracy accuracy;
+  const auto table = root.table("accuracy");
+  if (!table) return accuracy;
+  table->allow({"direct", "indirect", "confidence", "of"});
+  const NumberRange bound{
+      .lo = 0.0, .hi = 1.0, .lo_open = true, .hi_open = true, .cure = "give a relative error such as 0.001 for 0.1 percent"};
+  accuracy.direct = table->number("direct", bound).value_or(accuracy.direct);
+  accuracy.indirect = table->number("indirect", bound).value_or(accuracy.indirect);
+  const NumberRange confidence{.lo = 0.5, .hi = 0.9999, .cure = "give 0.95 for 95 percent"};
+  accuracy.confidence = table->number("confidence", confidence).value_or(accuracy.confidence);
+  constexpr ErrorTarget targets[] = {ErrorTarget::canopy, ErrorTarget::organ, ErrorTarget::triangle};
+  if (const auto of = table->word("of", {"canopy", "organ", "triangle"})) accuracy.of = targets[*of];
+  return accuracy;
+}
+
+std::optional<CameraPose> read_camera(const TomlTable& root) {
+  const auto table = root.table("camera");
+  if (!table) return std::nullopt;
+  table->allow({"position", "look_at", "fov"});
+  table->require("position", "position = [3.0, 2.5, 3.0], or remove [camera] for a view that fits");
+  table->require("look_at", "look_at = [0.9, 1.0, 1.2]");
+  const NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
+  CameraPose pose;
+  pose.position_m = *table->triple("position", anywhere);
+  pose.look_at_m = *table->triple("look_at", anywhere);
+  if (pose.position_m == pose.look_at_m) {
+    table->refuse("look_at", "it equals the position of the camera, so there is no viewing direction", "give another point");
+  }
+  const NumberRange fov{.lo = 1.0, .hi = 179.0, .cure = "give degrees from the lower to the upper edge"};
+  pose.fov_rad = glm::radians(table->number("fov", fov).value_or(default_fov_deg));
+  return pose;
+}
+
+int read_layers(const TomlTable& root, int fallback) {
+  const auto table = root.table("output");
+  if (!table) return fallback;
+  table->allow({"layers"});
+  return static_cast<int>(table->integer("layers", 1, 10000).value_or(fallback));
+}
+
+void warn_of_night(const SunInput& sun, std::vector<std::string>& warnings) {
+  if (sun.position.elevation_rad > 0.0) return;
+  warnings.push_back(fmt::format("{}: the sun is not above the horizon (elevation {:.4g} degrees), so there is no direct light",
+                                 sun.table.place(), glm::degrees(sun.position.elevation_rad)));
+}
+
+void warn_of_unused(const OpticsByName& optics, const Scene& scene, std::vector<std::string>& warnings) {
+  const std::set<std::string> used(scene.model.canopy.optics_names.begin(), scene.model.canopy.optics_names.end());
+  for (const auto& [name, input] : optics) {
+    if (!used.contains(name)) warnings.push_back(fmt::format("{} is not used by any geometry", input.place));
+  }
+}
+
+template <class T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+void add_mesh(Digest& digest, const Mesh& mesh) {
+  digest.add(bytes_of(mesh.vertices));
+  digest.add(bytes_of(mesh.triangles));
+  digest.add(bytes_of(mesh.optics_of));
+  digest.add(bytes_of(mesh.organ_of));
+  digest.add(bytes_of(mesh.labels));
+  for (const std::string& name : mesh.optics_names) digest.add(name + "\n");
+  for (const Organ& organ : mesh.organs) digest.add(fmt::format("{} {} {}\n", organ.plant, organ.name, organ.rank));
+}
+
+// Returns the digest of a scene; `files` are those read for the text.
+std::string digest_of(std::string_view text, std::span<const SourceFile> files, std::span<const GeometryPart> parts) {
+  Digest digest;
+  digest.add(text);
+  for (const SourceFile& file : files) {
+    if (!file.digest.empty()) digest.add(file.digest + "\n");
+  }
+  for (const GeometryPart& part : parts) {
+    if (part.mesh != nullptr) add_mesh(digest, *part.mesh);
+  }
+  return digest.text();
+}
+
+// Reads [sun], [sky], [weather] and [[band]].
+void read_light(const TomlTable& root, const SceneAccess& access, Scene& scene) {
+  const std::optional<SunInput> sun = read_sun(root);
+  if (sun) {
+    scene.model.sun = sun->position;
+    scene.moment = sun->moment;
+    if (access.purpose == ScenePurpose::moment) warn_of_night(*sun, scene.warnings);
+  }
+  std::optional<WeatherInput> weather = read_weather_table(root, scene.file, access, sun, scene.warnings);
+  const std::optional<SkyInput> sky = read_sky(root, scene.file, access, sun, weather);
+  BandsInput bands = read_bands(root, sun, sky, weather, scene.warnings);
+  scene.model.bands = std::move(bands.bands);
+  scene.light.bands = std::move(bands.lights);
+  if (weather) {
+    scene.light.weather_place = weather->table.place();
+    scene.light.weather = std::move(weather->weather);
+  }
+  if (sky) {
+    scene.light.sky = sky->model;
+    scene.light.sky_from_weather = sky->from_weather;
+    scene.model.sky = sky->model;
+  }
+  if (access.purpose == ScenePurpose::moment) {
+    MomentLight now = light_of(scene);
+    scene.model.bands = std::move(now.bands);
+    scene.model.sky = std::move(now.sky);
+  }
+}
+
+// Returns an access that always has a list of files: the caller's, or `own`.
+SceneAccess noting_access(SceneAccess access, SourceFiles& own) {
+  if (access.files == nullptr) access.files = &own;
+  return access;
+}
+
+TomlTable parse_scene(const SceneText& source) {
+  TomlTable root = TomlTable::parse(source.file.string(), source.text);
+  root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
+              "plane", "sensor"});
+  return root;
+}
+
+// Reads everything but the geometry, and returns the optics, from which the canopy takes its own.
+OpticsByName read_all_but_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access, Scene& scene) {
+  scene.file = source.file;
+  scene.title = read_title(root, source.file);
+  scene.model.plot = read_plot(root);
+  read_light(root, access, scene);
+  scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, scene.warnings);
+  OpticsByName optics = read_optics(root, scene.model.bands);
+  scene.accuracy = read_accuracy(root);
+  scene.camera = read_camera(root);
+  scene.model.layers = read_layers(root, scene.model.layers);
+  scene.model.planes = read_planes(root, scene.model.plot);
+  scene.model.sensors = read_sensors(root);
+  return optics;
+}
+
+// Refuses a change of the quantities for which the canopy's tree and counters were built.
+void check_same_ground(const TomlTable& root, const RadiationModel& model, const RadiationModel& other) {
+  const auto refuse = [&](const char* what) {
+    root.refuse_table(fmt::format("{} differs from the scene for which the canopy's tree was built", what),
+                      "change only light and optics, or load the whole scene again");
+  };
+  const bool same_plot = model.plot.size_x_m == other.plot.size_x_m && model.plot.size_z_m == other.plot.size_z_m &&
+                         model.plot.periodic == other.plot.periodic;
+  if (!same_plot) refuse("[plot]");
+  if (model.soil.has_value() != other.soil.has_value()) refuse("the presence of [soil]");
+  if (model.soil && model.soil->patch_m != other.soil->patch_m) refuse("soil.patch");
+  if (model.layers != other.layers) refuse("output.layers");
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
+  if (is_mesh_file(file)) {
+    throw_input(fmt::format("{}: not a scene", printable(file.string())), "this is a mesh",
+                "name it under [[geometry]] of a scene file");
+  }
+  SourceFiles own;
+  const SceneAccess noting = noting_access(access, own);
+  return read_scene(SceneText{file, noting.files->read(file, most_bytes), {}}, noting);
+}
+
+Scene read_scene(const SceneText& source, const SceneAccess& access) {
+  SourceFiles own;
+  const SceneAccess noting = noting_access(access, own);
+  const std::size_t before = noting.files->list().size();
+  const TomlTable root = parse_scene(source);
+  Scene scene;
+  const OpticsByName optics = read_all_but_geometry(root, source, noting, scene);
+
+  const std::vector<GeometryPart> parts = read_geometry(root, source, noting);
+  const std::vector<PlacedMesh> meshes = load_geometry(parts, *noting.files);
+  scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
+  check_optics(parts, meshes, optics, scene);
+  scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, scene.model.soil);
+  scene.files = noting.files->list();
+  scene.digest = digest_of(source.text, std::span(scene.files).subspan(before), parts);
+  warn_of_unused(optics, scene, scene.warnings);
+  for (std::string& warning : plausibility_warnings(scene)) scene.warnings.push_back(std::move(warning));
+  for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
+  return scene;
+}
+
+void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
+  const TomlTable root = parse_scene(source);
+  SourceFiles own;
+  const SceneAccess noting = noting_access(access, own);
+  const std::size_t before = noting.files->list().size();
+  Scene other;
+  const OpticsByName optics = read_all_but_geometry(root, source, noting, other);
+  check_same_ground(root, scene.model, other.model);
+  other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, other.model.soil);
+  const std::span<const SourceFile> read = std::span(noting.files->list()).subspan(before);
+  Digest digest;
+  digest.add(scene.digest);
+  digest.add(digest_of(source.text, read, {}));
+  other.digest = digest.text();
+  other.files = std::move(scene.files);
+  const auto is_read_again = [&](const SourceFile& known) {
+    return std::any_of(read.begin(), read.end(), [&](const SourceFile& file) { return file.path == known.path; });
+  };
+  std::erase_if(other.files, is_read_again);  // a scene often gets new light from the same files
+  other.files.insert(other.files.end(), read.begin(), read.end());
+  other.model.canopy = std::move(scene.model.canopy);
+  scene = std::move(other);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,150 @@
+#include "files/scene/scene_surface.h"
+
+#include "base/file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr double most_patches = 64e6;  // cells of the soil map: 512 MB per field in double precision
+// Most cells of a map without `patch`, on a plot where 0.05 m would give too many.
+constexpr double default_patches = 4e6;
+constexpr double sum_tolerance = 1e-12;  // rounding of reflectance + transmittance as decimal fractions
+constexpr std::size_t most_optics = 65535;
+constexpr std::size_t most_coefficients = 4'000'000;  // optics times bands; 32 bytes each
+
+constexpr NumberRange share{.lo = 0.0, .hi = 1.0, .is_share = true, .cure = "give a share of the incident light"};
+
+constexpr NumberRange exitance{.lo = 0.0, .hi = 1e15, .cure = "give the flux that leaves the upper side in W m-2"};
+
+// Reads one number for all bands, or a table with exactly one number per band; returns nothing if the key is absent.
+std::optional<std::vector<double>> read_by_band(const TomlTable& table, std::string_view key,
+                                                const std::vector<Waveband>& bands, const NumberRange& range = share) {
+  if (!table.is_table(key)) {
+    const auto value = table.number(key, range);
+    if (!value) return std::nullopt;
+    return std::vector<double>(bands.size(), *value);
+  }
+  const TomlTable by_band = *table.table(key);
+  std::vector<std::string> names;
+  for (const Waveband& band : bands) names.push_back(band.name);
+  for (const std::string& name : by_band.keys()) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    by_band.refuse(name, "the scene has no [[band]] of this name",
+                   did_you_mean(name, names, "remove it, or add a [[band]] with this name"));
+  }
+  std::vector<double> values;
+  for (const std::string& name : names) {
+    by_band.require(name, fmt::format("a number for band {}, or give one number for all bands", name));
+    values.push_back(*by_band.number(name, range));
+  }
+  return values;
+}
+
+glm::dvec3 read_rgb(const TomlTable& table, const glm::dvec3& fallback) {
+  return table.triple("rgb", {.lo = 0.0, .hi = 1.0, .cure = "give reflectances; divide 8-bit colours by 255"})
+      .value_or(fallback);
+}
+
+std::vector<FaceOptics> read_face(const TomlTable& table, const std::vector<Waveband>& bands) {
+  table.require("reflectance", fmt::format("reflectance = {{ {} = 0.12 }}", bands.front().name));
+  const std::vector<double> reflectance = *read_by_band(table, "reflectance", bands);
+  const std::vector<double> transmittance =
+      read_by_band(table, "transmittance", bands).value_or(std::vector<double>(bands.size(), 0.0));
+  std::vector<FaceOptics> face;
+  for (std::size_t band = 0; band < bands.size(); ++band) {
+    const double sum = reflectance[band] + transmittance[band];
+    if (sum > 1.0 + sum_tolerance) {
+      table.refuse("transmittance",
+                   fmt::format("reflectance + transmittance = {} in band {}, but must be at most 1", sum, bands[band].name),
+                   "lower one of the two");
+    }
+    face.push_back({reflectance[band], transmittance[band]});
+  }
+  return face;
+}
+
+SurfaceOptics read_surface(const TomlTable& table, const std::string& name, const std::vector<Waveband>& bands) {
+  table.allow({"reflectance", "transmittance", "rgb", "upper", "lower", "emission"});
+  SurfaceOptics optics;
+  optics.name = name;
+  optics.rgb = read_rgb(table, optics.rgb);
+  optics.emission_w_m2 = read_by_band(table, "emission", bands, exitance).value_or(std::vector<double>());
+  if (!table.has("upper") && !table.has("lower")) {
+    optics.upper = read_face(table, bands);
+    optics.lower = optics.upper;
+    return optics;
+  }
+  for (const char* key : {"reflectance", "transmittance"}) {
+    if (table.has(key)) table.refuse(key, "upper and lower give it for each face", "remove it, or upper and lower");
+  }
+  table.require("upper", fmt::format("[optics.{}.upper] with reflectance", printable(name)));
+  table.require("lower", fmt::format("[optics.{}.lower] with reflectance", printable(name)));
+  const TomlTable upper = *table.table("upper");
+  const TomlTable lower = *table.table("lower");
+  upper.allow({"reflectance", "transmittance"});
+  lower.allow({"reflectance", "transmittance"});
+  optics.upper = read_face(upper, bands);
+  optics.lower = read_face(lower, bands);
+  return optics;
+}
+
+double cells(const Plot& plot, double patch_m) {
+  return std::ceil(plot.size_x_m / patch_m) * std::ceil(plot.size_z_m / patch_m);
+}
+
+}  // namespace
+
+std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,
+                              std::vector<std::string>& warnings) {
+  const auto table = root.table("soil");
+  if (!table) return std::nullopt;
+  table->allow({"reflectance", "patch", "rgb"});
+  table->require("reflectance", fmt::format("reflectance = {{ {} = 0.15 }}", bands.front().name));
+  Soil soil;
+  soil.reflectance = *read_by_band(*table, "reflectance", bands);
+  soil.rgb = read_rgb(*table, soil.rgb);
+  const auto patch_m = table->number("patch", {.lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give metres"});
+  soil.patch_m = patch_m.value_or(soil.patch_m);
+  const double count = cells(plot, soil.patch_m);
+  if (count <= most_patches) return soil;
+  if (patch_m) {
+    table->refuse("patch", fmt::format("gives {:.3g} cells on this plot, but at most {:.0f} are allowed", count, most_patches),
+                  "use larger patches");
+  }
+  soil.patch_m = std::sqrt(plot.area_m2() / default_patches);
+  warnings.push_back(fmt::format("{}.patch is {:.3g} m, because there would be {:.3g} patches of 0.05 m on this plot",
+                                 table->place(), soil.patch_m, count));
+  return soil;
+}
+
+OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& bands) {
+  const auto all = root.table("optics");
+  if (!all) return {};
+  const std::size_t names = all->keys().size();
+  if (names > most_optics) all->refuse_table(fmt::format("there are more than {} names", most_optics), "define fewer");
+  if (names * bands.size() > most_coefficients) {
+    all->refuse_table(
+        fmt::format("{} names with {} bands each give more than {} coefficients", names, bands.size(), most_coefficients),
+        "define fewer, or split the bands over scenes");
+  }
+  OpticsByName optics;
+  for (const std::string& name : all->keys()) {
+    if (!all->is_table(name)) {
+      all->refuse(name, "each entry must be a table named after a material of a mesh",
+                  "write [optics.leaf] with reflectance below it, or remove this key");
+    }
+    if (name.empty()) all->refuse(name, "a name must not be empty", "give the name of a mesh's material");
+    const TomlTable table = *all->table(name);
+    optics.emplace(name, OpticsInput{read_surface(table, name, bands), table.place()});
+  }
+  return optics;
+}
+
+}  // namespace sunfleck

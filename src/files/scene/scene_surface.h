@@ -1,0 +1,29 @@
+#pragma once
+// Reads the optical properties of surfaces: [soil] and [optics.NAME].
+
+#include "files/scene/toml_view.h"
+#include "physics/canopy/optics.h"
+#include "physics/canopy/plot.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+// Returns nothing for a scene without [soil]. The default of `patch` is 0.05 m, or more, with a warning, if the plot would have
+// too many such cells.
+[[nodiscard]] std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,
+                                            std::vector<std::string>& warnings);
+
+struct OpticsInput {
+  SurfaceOptics optics;
+  std::string place;  // location of its table, for messages
+};
+using OpticsByName = std::map<std::string, OpticsInput>;
+
+// Returns the entries of [optics] by name, with values for each band.
+[[nodiscard]] OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& bands);
+
+}  // namespace sunfleck

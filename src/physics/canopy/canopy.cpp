@@ -1,0 +1,210 @@
+#include "physics/canopy/canopy.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+struct DoubleBox {
+  glm::dvec3 lo{std::numeric_limits<double>::infinity()};
+  glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
+
+  [[nodiscard]] bool empty() const { return lo.x > hi.x; }
+};
+
+// Turns clockwise as seen from above: south (+X) turns towards west (+Z).
+glm::dvec3 place(const glm::dvec3& vertex_m, const Placement& placement) {
+  if (placement.heading_rad == 0.0) return vertex_m + placement.position_m;
+  const double c = std::cos(placement.heading_rad);
+  const double s = std::sin(placement.heading_rad);
+  return glm::dvec3(vertex_m.x * c - vertex_m.z * s, vertex_m.y, vertex_m.x * s + vertex_m.z * c) + placement.position_m;
+}
+
+DoubleBox bounds_of(std::span<const PlacedMesh> parts) {
+  DoubleBox box;
+  for (const PlacedMesh& part : parts) {
+    for (const Placement& placement : part.placements) {
+      for (const glm::dvec3& vertex_m : part.mesh.vertices) {
+        const glm::dvec3 at_m = place(vertex_m, placement);
+        box.lo = glm::min(box.lo, at_m);
+        box.hi = glm::max(box.hi, at_m);
+      }
+    }
+  }
+  return box;
+}
+
+// Returns the local origin on one axis. A stand that lies several times its own size from zero would lose digits in single
+// precision, so it gets a separate origin on that axis.
+double local_origin_m(const DoubleBox& box, int axis) {
+  const glm::dvec3 size_m = box.hi - box.lo;
+  const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
+  const double centre_m = 0.5 * (box.lo[axis] + box.hi[axis]);
+  return std::abs(centre_m) > 4.0 * largest_m ? centre_m : 0.0;
+}
+
+// Returns the grid step: 2^-23 of the period rounded up to a power of two. Coordinates up to twice that power are exact in
+// single precision.
+double grid_step_m(double period_m) {
+  return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(period_m))) - 23);
+}
+
+double snapped(double value_m, double step_m) {
+  return std::round(value_m / step_m) * step_m;
+}
+
+// Moves corners onto the grid and shifts them by whole periods until their centroid lies in the plot.
+class Wrapper {
+ public:
+  explicit Wrapper(const Plot& plot)
+      : step_m_(grid_step_m(plot.size_x_m), grid_step_m(plot.size_z_m)),
+        period_m_(snapped(plot.size_x_m, step_m_.x), snapped(plot.size_z_m, step_m_.y)) {}
+
+  [[nodiscard]] glm::dvec2 period_m() const { return period_m_; }
+
+  void wrap(std::array<glm::dvec3, 3>& corners_m) const {
+    wrap_axis(corners_m, 0, step_m_.x, period_m_.x);
+    wrap_axis(corners_m, 2, step_m_.y, period_m_.y);
+  }
+
+ private:
+  static void wrap_axis(std::array<glm::dvec3, 3>& corners_m, int axis, double step_m, double period_m) {
+    double sum_m = 0.0;
+    for (glm::dvec3& corner_m : corners_m) {
+      corner_m[axis] = snapped(corner_m[axis], step_m);
+      sum_m += corner_m[axis];
+    }
+    const double shift_m = -std::floor(sum_m / 3.0 / period_m) * period_m;
+    for (glm::dvec3& corner_m : corners_m) corner_m[axis] += shift_m;
+  }
+
+  glm::dvec2 step_m_;
+  glm::dvec2 period_m_;
+};
+
+std::vector<std::uint16_t> merge_optics_names(Canopy& canopy, const Mesh& mesh) {
+  std::vector<std::uint16_t> merged;
+  for (const std::string& name : mesh.optics_names) {
+    const auto found = std::find(canopy.optics_names.begin(), canopy.optics_names.end(), name);
+    merged.push_back(static_cast<std::uint16_t>(found - canopy.optics_names.begin()));
+    if (found != canopy.optics_names.end()) continue;
+    if (canopy.optics_names.size() >= std::numeric_limits<std::uint16_t>::max()) {
+      throw_input(fmt::format("{} optics names", canopy.optics_names.size()), "at most 65535 are possible",
+                  "give surfaces of the same optics the same material");
+    }
+    canopy.optics_names.push_back(name);
+  }
+  return merged;
+}
+
+// Appends the organs of one copy, its plants numbered from `offset`; returns the highest plant number in use.
+std::uint32_t add_organs(Canopy& canopy, const Mesh& mesh, std::uint32_t offset) {
+  std::uint32_t highest = offset;
+  for (Organ organ : mesh.organs) {
+    if (organ.plant > std::numeric_limits<std::uint32_t>::max() - offset) {
+      throw_input(fmt::format("plant {} of a mesh", organ.plant), fmt::format("{} plants come before it, too many", offset),
+                  "number a mesh's plants from 1");
+    }
+    if (organ.plant > 0) organ.plant += offset;
+    highest = std::max(highest, organ.plant);
+    canopy.organs.push_back(std::move(organ));
+  }
+  return highest;
+}
+
+}  // namespace
+
+Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
+  Canopy canopy;
+  std::size_t elements = 0;
+  for (const PlacedMesh& part : parts) elements += part.mesh.triangles.size() * part.placements.size();
+  if (elements > std::numeric_limits<std::uint32_t>::max() / 4) {
+    throw_input(fmt::format("{} triangles", elements), "at most 1073741823 are possible", "place fewer copies");
+  }
+  canopy.corners.reserve(elements);
+  canopy.organ_of.reserve(elements);
+  canopy.optics_of.reserve(elements);
+
+  const bool labelled =
+      std::any_of(parts.begin(), parts.end(), [](const PlacedMesh& part) { return !part.mesh.labels.empty(); });
+  if (labelled) canopy.labels.reserve(elements);
+
+  const DoubleBox box = bounds_of(parts);
+  const Wrapper wrapper(plot);
+  if (plot.periodic) canopy.period_m = wrapper.period_m();
+  if (!box.empty()) {
+    canopy.origin_m.y = local_origin_m(box, 1);
+    if (!plot.periodic) {
+      canopy.origin_m.x = local_origin_m(box, 0);
+      canopy.origin_m.z = local_origin_m(box, 2);
+    }
+  }
+
+  std::uint32_t highest_plant = 0;
+  for (const PlacedMesh& part : parts) {
+    const Mesh& mesh = part.mesh;
+    const std::vector<std::uint16_t> optics = merge_optics_names(canopy, mesh);
+    for (const Placement& placement : part.placements) {
+      const auto first_organ = static_cast<std::uint32_t>(canopy.organs.size());
+      highest_plant = add_organs(canopy, mesh, highest_plant);
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        std::array<glm::dvec3, 3> corners_m;
+        for (int k = 0; k < 3; ++k) corners_m[k] = place(mesh.vertices[mesh.triangles[t][k]], placement) - canopy.origin_m;
+        if (plot.periodic) wrapper.wrap(corners_m);
+        canopy.corners.push_back({glm::vec3(corners_m[0]), glm::vec3(corners_m[1]), glm::vec3(corners_m[2])});
+        canopy.organ_of.push_back(first_organ + mesh.organ_of[t]);
+        canopy.optics_of.push_back(optics[mesh.optics_of[t]]);
+        if (labelled) canopy.labels.push_back(mesh.labels.empty() ? no_label : mesh.labels[t]);
+      }
+    }
+  }
+  canopy.copies = find_copies(canopy.corners);
+  return canopy;
+}
+
+Box bounds(const Canopy& canopy) {
+  if (canopy.corners.empty()) return {};
+  Box box{canopy.corners[0][0], canopy.corners[0][0]};
+  for (const Triangle& triangle : canopy.corners) {
+    for (const glm::vec3& corner : triangle) {
+      box.lo = glm::min(box.lo, corner);
+      box.hi = glm::max(box.hi, corner);
+    }
+  }
+  return box;
+}
+
+bool is_soil_name(std::string_view name) {
+  if (!name.starts_with("soil")) return false;
+  return std::all_of(name.begin() + 4, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_leaf_name(std::string_view name) {
+  return name.starts_with("leaf");
+}
+
+ElementRoles element_roles(const Canopy& canopy) {
+  std::vector<bool> soil_optics;
+  for (const std::string& name : canopy.optics_names) soil_optics.push_back(is_soil_name(name));
+  ElementRoles roles{std::vector<bool>(canopy.size()), std::vector<bool>(canopy.size())};
+  bool has_leaves = false;
+  for (std::size_t e = 0; e < canopy.size(); ++e) {
+    const Organ& organ = canopy.organs[canopy.organ_of[e]];
+    roles.soil[e] = soil_optics[canopy.optics_of[e]] || is_soil_name(organ.name);
+    roles.foliage[e] = !roles.soil[e] && is_leaf_name(organ.name);
+    has_leaves = has_leaves || roles.foliage[e];
+  }
+  if (!has_leaves) {
+    for (std::size_t e = 0; e < canopy.size(); ++e) roles.foliage[e] = !roles.soil[e];
+  }
+  return roles;
+}
+
+}  // namespace sunfleck

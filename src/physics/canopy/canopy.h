@@ -1,0 +1,60 @@
+#pragma once
+// The canopy as it is traced: single-precision triangles ("elements") in a local frame, wrapped into the plot.
+
+#include "physics/canopy/copies.h"
+#include "physics/canopy/mesh.h"
+#include "physics/canopy/plot.h"
+#include "physics/canopy/triangle.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sunfleck {
+
+struct Box {
+  glm::vec3 lo{0.0F};
+  glm::vec3 hi{0.0F};
+};
+
+// The elements, numbered in the order of the files, copy by copy. Local frame = scene frame - origin_m. In a periodic plot
+// the corners and the periods are whole multiples of a power of two (about 1e-7 of the period), so that a shift by whole
+// periods is exact in single precision and neighbouring triangles stay sealed across the plot's border.
+struct Canopy {
+  glm::dvec3 origin_m{0.0};               // scene position of the local frame's origin
+  glm::dvec2 period_m{0.0};               // period along X and Z on that grid; 0 for an isolated stand
+  std::vector<Triangle> corners;          // [element], m, local frame, wrapped so that the centroid lies in the plot
+  std::vector<std::uint32_t> organ_of;    // [element]
+  std::vector<std::uint16_t> optics_of;   // [element]
+  std::vector<Organ> organs;              // [organ]
+  std::vector<std::string> optics_names;  // [optics]
+  std::vector<std::uint64_t> labels;      // [element], as in Mesh
+  std::vector<Copy> copies;               // ascending by element; copies neither receive nor emit light
+
+  [[nodiscard]] std::size_t size() const { return corners.size(); }
+};
+
+// Places the meshes in the plot. The plants of each copy are numbered from the highest number so far (plant 0, the soil,
+// stays 0), so every copy has its own organs; the first copy keeps the numbers of its file.
+[[nodiscard]] Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot);
+
+// Returns the bounds of all elements in the local frame; lo = hi = 0 without elements.
+[[nodiscard]] Box bounds(const Canopy& canopy);
+
+// Return whether an organ of this name counts as soil (soil, soil2, ...) or as a leaf (any name that starts with `leaf`).
+[[nodiscard]] bool is_soil_name(std::string_view name);
+[[nodiscard]] bool is_leaf_name(std::string_view name);
+
+// The role of each element, from the names of its organ and its optics. `foliage` marks the elements to which leaf area
+// index and sunlit leaf fraction refer: leaves, or every element but soil if no organ of the canopy has such a name.
+struct ElementRoles {
+  std::vector<bool> soil;     // [element]
+  std::vector<bool> foliage;  // [element]
+};
+[[nodiscard]] ElementRoles element_roles(const Canopy& canopy);
+
+}  // namespace sunfleck

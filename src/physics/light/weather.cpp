@@ -1,0 +1,181 @@
+#include "physics/light/weather.h"
+
+#include "base/check.h"
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <tuple>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double spitters_solar_constant_w_m2 = 1370.0;  // Spitters et al. 1986, eq. 1
+constexpr double solar_constant_w_m2 = 1367.0;           // World Radiometric Centre, as in Duffie and Beckman 1980
+constexpr double sea_level_pressure_hpa = 1013.25;       // ISO 2533
+
+bool is_leap(int year) {
+  return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+}
+
+std::string text_of(const UtcTime& time) {
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02.0f} UTC", time.year, time.month, time.day, time.hour, time.minute,
+                     std::floor(time.second));
+}
+
+bool is_before(const UtcTime& a, const UtcTime& b) {
+  return std::tie(a.year, a.month, a.day, a.hour, a.minute, a.second) <
+         std::tie(b.year, b.month, b.day, b.hour, b.minute, b.second);
+}
+
+// Returns the clearness index, the ratio of global irradiance to that outside the atmosphere, for a sun above the horizon.
+double clearness(double global_w_m2, double solar_constant, const SunPosition& sun, std::optional<int> day) {
+  return global_w_m2 / (extraterrestrial_normal_w_m2(solar_constant, day) * std::sin(sun.elevation_rad));
+}
+
+Broadband split(double global_w_m2, double direct_horizontal_w_m2, const SunPosition& sun) {
+  const double sine = std::sin(sun.elevation_rad);
+  return {direct_horizontal_w_m2 / sine, std::max(0.0, global_w_m2 - direct_horizontal_w_m2)};
+}
+
+// Returns the time in the year that represents every year.
+UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
+  UtcTime local = plus_seconds(time, 60.0 * weather.zone_minutes);
+  const UtcTime first = plus_seconds(weather.intervals.front().start, 60.0 * weather.zone_minutes);
+  if (local.month == 2 && local.day == 29 && !is_leap(first.year)) {
+    throw_input("weather at " + text_of(time), fmt::format("the year of {} has no 29 February", weather.name),
+                "choose another date, or a file with one");
+  }
+  local.year = first.year;
+  return plus_seconds(local, -60.0 * weather.zone_minutes);
+}
+
+[[noreturn]] void refuse_time(const Weather& weather, const UtcTime& time) {
+  std::string why = "the file is empty";
+  if (!weather.intervals.empty()) {
+    const WeatherInterval& last = weather.intervals.back();
+    const UtcTime end = plus_seconds(last.start, last.length_s);
+    const bool within = !is_before(time, weather.intervals.front().start) && is_before(time, end);
+    why = within ? fmt::format("{} has a gap there", weather.name)
+                 : fmt::format("{} covers {} to {}", weather.name, text_of(weather.intervals.front().start), text_of(end));
+  }
+  throw_input("weather at " + text_of(time), why, "choose a time that it covers, or add what is missing");
+}
+
+}  // namespace
+
+double Broadband::direct_horizontal_w_m2(const SunPosition& sun) const {
+  return sun.elevation_rad > 0.0 ? direct_normal_w_m2 * std::sin(sun.elevation_rad) : 0.0;
+}
+
+double Broadband::global_w_m2(const SunPosition& sun) const {
+  return direct_horizontal_w_m2(sun) + diffuse_w_m2;
+}
+
+int day_of_year(const UtcTime& time) {
+  constexpr int days_before[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+  EXPECT(time.month, >=, 1);
+  EXPECT(time.month, <=, 12);
+  return days_before[time.month - 1] + time.day + (time.month > 2 && is_leap(time.year) ? 1 : 0);
+}
+
+double extraterrestrial_normal_w_m2(double constant_w_m2, std::optional<int> day) {
+  return day ? constant_w_m2 * (1.0 + 0.033 * std::cos(2.0 * pi * *day / 365.0)) : constant_w_m2;
+}
+
+double spitters_diffuse_share(double global_w_m2, const SunPosition& sun, std::optional<int> day) {
+  if (sun.elevation_rad <= 0.0) return 1.0;
+  const double sine = std::sin(sun.elevation_rad);
+  const double t = clearness(global_w_m2, spitters_solar_constant_w_m2, sun, day);
+  const double r = 0.847 - 1.61 * sine + 1.04 * sine * sine;
+  const double k = (1.47 - r) / 1.66;
+  if (t <= 0.22) return 1.0;
+  if (t <= 0.35) return 1.0 - 6.4 * (t - 0.22) * (t - 0.22);
+  return t <= k ? 1.47 - 1.66 * t : r;
+}
+
+double erbs_diffuse_share(double global_w_m2, const SunPosition& sun, std::optional<int> day) {
+  if (sun.elevation_rad <= 0.0) return 1.0;
+  const double k = clearness(global_w_m2, solar_constant_w_m2, sun, day);
+  if (k <= 0.22) return 1.0 - 0.09 * k;
+  if (k > 0.8) return 0.165;
+  return 0.9511 + k * (-0.1604 + k * (4.388 + k * (-16.638 + k * 12.336)));
+}
+
+Broadband split_global(double global_w_m2, SplitRule rule, const SunPosition& sun, std::optional<int> day) {
+  EXPECT(global_w_m2, >=, 0.0);
+  if (sun.elevation_rad <= 0.0) return {0.0, global_w_m2};
+  const bool spitters = rule == SplitRule::spitters;
+  const double share = spitters ? spitters_diffuse_share(global_w_m2, sun, day) : erbs_diffuse_share(global_w_m2, sun, day);
+  const double outside_w_m2 = extraterrestrial_normal_w_m2(spitters ? spitters_solar_constant_w_m2 : solar_constant_w_m2, day);
+  const double most_w_m2 = outside_w_m2 * std::sin(sun.elevation_rad);
+  return split(global_w_m2, std::clamp((1.0 - share) * global_w_m2, 0.0, most_w_m2), sun);
+}
+
+Broadband ineichen_perez(const ClearAir& air, double apparent_zenith_rad, double air_mass, double outside_w_m2) {
+  EXPECT(air.linke_turbidity, >=, 1.0);
+  const double cosine = std::cos(apparent_zenith_rad);
+  if (cosine <= 0.0) return {};
+  const double turbidity = air.linke_turbidity;
+  const double fh1 = std::exp(-air.altitude_m / 8000.0);
+  const double fh2 = std::exp(-air.altitude_m / 1250.0);
+  const double cg1 = 5.09e-5 * air.altitude_m + 0.868;
+  const double cg2 = 3.92e-5 * air.altitude_m + 0.0387;
+  const double global_w_m2 = cg1 * outside_w_m2 * cosine * std::exp(-cg2 * air_mass * (fh1 + fh2 * (turbidity - 1.0)));
+  const double b = 0.664 + 0.163 / fh1;
+  const double by_turbidity_w_m2 = b * outside_w_m2 * std::exp(-0.09 * air_mass * (turbidity - 1.0));
+  const double most_share = 1.0 - (0.1 - 0.2 * std::exp(-turbidity)) / (0.1 + 0.882 / fh1);
+  const double direct_normal_w_m2 = std::min(by_turbidity_w_m2, global_w_m2 * most_share / cosine);
+  return {direct_normal_w_m2, std::max(0.0, global_w_m2 - direct_normal_w_m2 * cosine)};
+}
+
+double relative_air_mass(double apparent_elevation_rad) {
+  const double elevation_deg = apparent_elevation_rad * 180.0 / pi;
+  return 1.0 / (std::sin(apparent_elevation_rad) + 0.50572 * std::pow(elevation_deg + 6.07995, -1.6364));
+}
+
+double standard_pressure_hpa(double altitude_m) {
+  return sea_level_pressure_hpa * std::pow(1.0 - 0.0065 / 288.15 * altitude_m, 5.25588);
+}
+
+Broadband clear_sky(const ClearAir& air, const SunPosition& sun, std::optional<int> day) {
+  if (sun.elevation_rad <= 0.0) return {};
+  const double pressure_hpa = standard_pressure_hpa(air.altitude_m);
+  const double apparent_rad = std::min(pi / 2.0, apparent_elevation_rad(sun.elevation_rad, {.pressure_hpa = pressure_hpa}));
+  const double air_mass = relative_air_mass(apparent_rad) * pressure_hpa / sea_level_pressure_hpa;
+  const Broadband seen =
+      ineichen_perez(air, pi / 2.0 - apparent_rad, air_mass, extraterrestrial_normal_w_m2(solar_constant_w_m2, day));
+  const double global_w_m2 = seen.global_w_m2({apparent_rad, sun.azimuth_rad});
+  return split(global_w_m2, std::min(global_w_m2, seen.direct_horizontal_w_m2(sun)), sun);
+}
+
+const WeatherInterval& interval_at(const Weather& weather, const UtcTime& time) {
+  if (weather.intervals.empty()) refuse_time(weather, time);
+  const UtcTime asked = weather.every_year ? in_typical_year(weather, time) : time;
+  const auto next = std::upper_bound(weather.intervals.begin(), weather.intervals.end(), asked,
+                                     [](const UtcTime& t, const WeatherInterval& each) { return is_before(t, each.start); });
+  if (next == weather.intervals.begin()) refuse_time(weather, time);
+  const WeatherInterval& interval = *std::prev(next);
+  if (seconds_between(interval.start, asked) >= interval.length_s) refuse_time(weather, time);
+  return interval;
+}
+
+Broadband weather_at(const Weather& weather, const std::optional<UtcTime>& time, const SunPosition& sun) {
+  const std::optional<int> day = time ? std::optional<int>(day_of_year(*time)) : std::nullopt;
+  if (weather.source == Weather::Source::clear_sky) return clear_sky(weather.air, sun, day);
+  if (weather.source == Weather::Source::intervals) EXPECT(time.has_value(), ==, true);
+  const WeatherInterval& given = weather.source == Weather::Source::moment ? weather.moment : interval_at(weather, *time);
+  if (given.has_parts()) return {given.dni_w_m2, given.dhi_w_m2};
+  if (given.ghi_w_m2 >= 0.0) return split_global(given.ghi_w_m2, weather.split, sun, day);
+  EXPECT(weather.source == Weather::Source::intervals, ==, true);
+  throw_input(fmt::format("{}:{}: weather at {}", weather.name, given.line, text_of(*time)),
+              "irradiance is marked as missing there", "choose another time, or fill the value in");
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,228 @@
+#include "physics/transport/indirect/candidates.h"
+
+#include "base/check.h"
+#include "physics/bvh/bvh.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+namespace sunfleck {
+namespace {
+
+// Steps of the additive sequence: powers of the plastic number. Roberts' sequences in two and in four dimensions would have
+// different steps; a round needs two numbers for a direction, and two more for a place on a lamp.
+constexpr double step_1 = 0.7548776662466927;
+constexpr double step_2 = 0.5698402909980532;
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+// Returns a direction that is cosine-distributed about the unit normal n, in a frame after Duff et al. 2017, "Building an
+// orthonormal basis, revisited", JCGT 6(1).
+glm::dvec3 cosine_direction(const glm::dvec3& n, double u, double v) {
+  const double sign = std::copysign(1.0, n.z);
+  const double a = -1.0 / (sign + n.z);
+  const double b = n.x * n.y * a;
+  const glm::dvec3 tangent(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x);
+  const glm::dvec3 bitangent(b, sign + n.y * n.y * a, -n.y);
+  const double radius = std::sqrt(u);
+  const double angle = 2.0 * std::numbers::pi * v;
+  return tangent * (radius * std::cos(angle)) + bitangent * (radius * std::sin(angle)) + n * std::sqrt(1.0 - u);
+}
+
+// Moves a point that may stick out of the plot back into it; sets `image` to the number of the element's copy there.
+glm::dvec3 wrapped(glm::dvec3 point_m, const glm::dvec2& period_m, std::uint32_t& image) {
+  const double dx = std::floor(point_m.x / period_m.x);
+  const double dz = std::floor(point_m.z / period_m.y);
+  image = pack_image(-static_cast<int>(dx), -static_cast<int>(dz));
+  point_m.x -= dx * period_m.x;
+  point_m.z -= dz * period_m.y;
+  return point_m;
+}
+
+// Random numbers of one packet, each uniform over [0, 1).
+struct PacketNumbers {
+  double direction_u, direction_v, place_u, place_v;
+};
+
+shared::Packet start_packet(const Canopy& canopy, const EmissionPoint& place, const EmissionFrame& frame,
+                            const PacketNumbers& numbers) {
+  shared::Packet packet;
+  packet.element = shared::no_element;
+  packet.image = 0;
+  glm::dvec3 point_m(place.a, frame.ground_y_m, place.b);
+  glm::dvec3 normal(0.0, 1.0, 0.0);
+  if (place.surface != shared::landed_on_ground) {
+    packet.element = place.surface / 2;
+    const Triangle& corners = canopy.corners[packet.element];
+    double b = place.a;
+    double c = place.b;
+    if (place.a == anywhere) {  // uniform over the triangle (Turk 1990, Graphics Gems)
+      const double root = std::sqrt(numbers.place_u);
+      b = root * (1.0 - numbers.place_v);
+      c = root * numbers.place_v;
+    }
+    const glm::dvec3 corner(corners[0]);
+    point_m = corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c;
+    normal = unit_normal(corners) * (place.surface % 2 == 0 ? 1.0 : -1.0);
+  }
+  point_m += normal * frame.offset_m;
+  if (canopy.period_m.x > 0.0) point_m = wrapped(point_m, canopy.period_m, packet.image);
+  packet.origin = point_m;
+  packet.direction = cosine_direction(normal, numbers.direction_u, numbers.direction_v);
+  return packet;
+}
+
+// Returns the numbers of the places in ascending order of `order`. The sort is stable: a radix sort in three passes of
+// eleven bits, several times faster here than std::stable_sort.
+std::vector<std::uint32_t> sorted_by_order(const std::vector<EmissionPoint>& places) {
+  constexpr unsigned bits = 11;
+  constexpr std::uint32_t mask = (1U << bits) - 1U;
+  std::vector<std::uint32_t> from(places.size());
+  std::vector<std::uint32_t> to(places.size());
+  std::iota(from.begin(), from.end(), 0U);
+  for (unsigned shift = 0; shift < 32; shift += bits) {
+    std::array<std::uint32_t, mask + 2> start{};
+    for (const EmissionPoint& place : places) ++start[(place.order >> shift & mask) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    for (const std::uint32_t k : from) to[start[places[k].order >> shift & mask]++] = k;
+    std::swap(from, to);
+  }
+  return from;
+}
+
+// Returns true for a lower side. Upper sides are drawn before lower ones: with both sides of one landing next to each other,
+// systematic sampling would take the same side every time when a landing's expectation is one packet (rho + tau = 1).
+bool on_lower_side(const EmissionPoint& place) {
+  return place.surface % 2 == 1;
+}
+
+}  // namespace
+
+void Candidates::add(const EmissionPoint& place, std::span<const std::int64_t> quanta) {
+  if (std::all_of(quanta.begin(), quanta.end(), [](std::int64_t q) { return q == 0; })) return;
+  places_.push_back(place);
+  quanta_.insert(quanta_.end(), quanta.begin(), quanta.end());
+}
+
+void Candidates::clear() {
+  places_.clear();
+  quanta_.clear();
+}
+
+void Candidates::sort() {
+  std::vector<std::uint32_t> order = sorted_by_order(places_);
+  std::stable_partition(order.begin(), order.end(), [this](std::uint32_t k) { return !on_lower_side(places_[k]); });
+  std::vector<EmissionPoint> places;
+  std::vector<std::int64_t> sorted;
+  places.reserve(places_.size());
+  sorted.reserve(quanta_.size());
+  for (const std::uint32_t candidate : order) {
+    places.push_back(places_[candidate]);
+    const auto own = quanta(candidate);
+    sorted.insert(sorted.end(), own.begin(), own.end());
+  }
+  places_ = std::move(places);
+  quanta_ = std::move(sorted);
+}
+
+std::int64_t Candidates::total(std::size_t band) const {
+  std::int64_t sum = 0;
+  for (std::size_t k = band; k < quanta_.size(); k += bands_) sum += quanta_[k];
+  return sum;
+}
+
+void Candidates::retire(std::size_t band) {
+  for (std::size_t k = band; k < quanta_.size(); k += bands_) quanta_[k] = 0;
+}
+
+namespace {
+
+// Gives a band's quanta to the drawn packets: cumulative shares of the total are rounded down, so their differences add up
+// to it.
+void share_out(const Candidates& candidates, std::span<const double> expected, std::size_t band, Draw& draw) {
+  const std::size_t bands = draw.kept.size();
+  const std::int64_t total = candidates.total(band);
+  std::vector<double> weights(draw.candidate.size());
+  double total_weight = 0.0;
+  std::size_t last = 0;
+  for (std::size_t p = 0; p < weights.size(); ++p) {
+    const std::uint32_t k = draw.candidate[p];
+    weights[p] = static_cast<double>(candidates.quanta(k)[band]) / expected[k];
+    total_weight += weights[p];
+    if (weights[p] > 0.0) last = p;
+  }
+  draw.kept[band] = total > 0 && total_weight == 0.0;
+  if (total_weight == 0.0) return;
+  double sum = 0.0;
+  std::int64_t given = 0;
+  for (std::size_t p = 0; p <= last; ++p) {
+    if (weights[p] == 0.0) continue;
+    sum += weights[p];
+    const auto share = static_cast<std::int64_t>(sum / total_weight * static_cast<double>(total));
+    const std::int64_t up_to = p == last ? total : std::clamp(share, given, total);
+    draw.quanta[p * bands + band] = up_to - given;
+    given = up_to;
+  }
+}
+
+}  // namespace
+
+Draw draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random) {
+  EXPECT(expected.size(), ==, candidates.size());
+  Draw draw;
+  double reached = random.unit();
+  double taken = 1.0;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    reached += expected[k];
+    for (; taken <= reached; taken += 1.0) draw.candidate.push_back(static_cast<std::uint32_t>(k));
+  }
+  const std::size_t bands = candidates.size() > 0 ? candidates.quanta(0).size() : 0;
+  draw.quanta.resize(draw.candidate.size() * bands);
+  draw.kept.assign(bands, false);
+  for (std::size_t b = 0; b < bands; ++b) share_out(candidates, expected, b, draw);
+  return draw;
+}
+
+QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmittance, double u) {
+  const auto whole = static_cast<double>(quanta);
+  const bool absorbs = 1.0 - reflectance - transmittance > 1e-12;
+  QuantaSplit split;
+  if (transmittance == 0.0 && !absorbs) {
+    split.reflected = quanta;
+    return split;
+  }
+  if (reflectance > 0.0) split.reflected = std::min(quanta, static_cast<std::int64_t>(whole * reflectance + u));
+  const std::int64_t both =
+      absorbs ? std::min(quanta, static_cast<std::int64_t>(whole * (reflectance + transmittance) + u)) : quanta;
+  if (transmittance > 0.0) split.transmitted = std::max<std::int64_t>(0, both - split.reflected);
+  split.absorbed = quanta - split.reflected - split.transmitted;
+  return split;
+}
+
+std::vector<shared::Packet> start_packets(const Canopy& canopy, const Candidates& candidates, const Draw& draw,
+                                          const EmissionFrame& frame, RandomStream& random) {
+  const PacketNumbers start{random.unit(), random.unit(), random.unit(), random.unit()};
+  // Places on a lamp use the same sequence with the dimensions exchanged and a different step.
+  constexpr double pace = 0.6180339887498949;
+  std::vector<shared::Packet> packets(draw.candidate.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 1024), [&](const auto& range) {
+    for (std::size_t p = range.begin(); p < range.end(); ++p) {
+      const auto k = static_cast<double>(p);
+      const PacketNumbers numbers{fraction(start.direction_u + k * step_1), fraction(start.direction_v + k * step_2),
+                                  fraction(start.place_u + k * pace), fraction(start.place_v + k * pace * pace * step_1)};
+      packets[p] = start_packet(canopy, candidates.place(draw.candidate[p]), frame, numbers);
+    }
+  });
+  return packets;
+}
+
+}  // namespace sunfleck

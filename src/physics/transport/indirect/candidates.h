@@ -1,0 +1,87 @@
+#pragma once
+// Flux waiting to be shot: where it waits, how packets are drawn from it, and how the packets start.
+
+#include "base/random.h"
+#include "physics/canopy/canopy.h"
+#include "shared/layout.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// A point on a side of an element, or on the ground, from which light leaves.
+struct EmissionPoint {
+  std::uint32_t surface = 0;  // 2 * element + side, or shared::landed_on_ground
+  std::uint32_t order = 0;    // candidates are drawn in this order: the tree's leaf order, then the ground
+  float a = 0.0F;             // barycentric weight of corner b; x on the ground
+  float b = 0.0F;             // barycentric weight of corner c; z on the ground
+  std::int32_t level = 0;     // layer of the place; -1 for soil
+};
+
+// Returns the array index of a level; the soil's level has index 0.
+[[nodiscard]] constexpr std::size_t level_index(std::int32_t level) {
+  return static_cast<std::size_t>(std::int64_t{level} + 1);
+}
+
+// Value of EmissionPoint::a that stands for a point chosen uniformly on the element: packets of lamps start there.
+inline constexpr float anywhere = -1.0F;
+
+class Candidates {
+ public:
+  explicit Candidates(std::size_t bands) : bands_(bands) {}
+
+  // Adds a place with its quanta, [waveband]. A place without quanta is dropped.
+  void add(const EmissionPoint& place, std::span<const std::int64_t> quanta);
+  void clear();
+  // Sorts the places by `order`; places of equal order keep the order in which they were added.
+  void sort();
+
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  [[nodiscard]] const EmissionPoint& place(std::size_t candidate) const { return places_[candidate]; }
+  [[nodiscard]] std::span<const std::int64_t> quanta(std::size_t candidate) const {
+    return std::span(quanta_).subspan(candidate * bands_, bands_);
+  }
+  [[nodiscard]] std::int64_t total(std::size_t band) const;
+  // Removes all quanta of a band.
+  void retire(std::size_t band);
+
+ private:
+  std::size_t bands_;
+  std::vector<EmissionPoint> places_;  // [candidate]
+  std::vector<std::int64_t> quanta_;   // [candidate * bands + band]
+};
+
+// Packets drawn from candidates.
+struct Draw {
+  std::vector<std::uint32_t> candidate;  // [packet], ascending
+  std::vector<std::int64_t> quanta;      // [packet * bands + band]
+  std::vector<bool> kept;                // [band]; true if no packet carries the band: its flux then stays with the candidates
+};
+
+// Draws packets by systematic sampling with one random offset: a candidate is drawn expected[candidate] times on average,
+// rounded down or up. A packet carries its candidate's quanta divided by that expectation; each band is then scaled so that
+// all packets together carry exactly its total. (Scaling level by level would be biased, since it would be a ratio of a few
+// packets each.)
+[[nodiscard]] Draw draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random);
+
+// Splits landed quanta into parts that add up to them exactly. Each part is its exact share rounded down or up at random, so
+// that its expectation is right; a part whose coefficient is 0 gets exactly 0. `u` is uniform over [0, 1).
+struct QuantaSplit {
+  std::int64_t absorbed = 0, reflected = 0, transmitted = 0;
+  [[nodiscard]] std::int64_t scattered() const { return reflected + transmitted; }
+};
+[[nodiscard]] QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmittance, double u);
+
+// Returns the drawn packets with their origins and cosine-distributed directions. The directions of all packets of a round
+// form one additive sequence with a random start (based on the plastic number, as in canopy_view.h), so that neighbours in
+// the drawing order complement each other.
+struct EmissionFrame {
+  double offset_m = 0.0;  // distance of the origin in front of the surface
+  double ground_y_m = 0.0;
+};
+[[nodiscard]] std::vector<shared::Packet> start_packets(const Canopy& canopy, const Candidates& candidates, const Draw& draw,
+                                                        const EmissionFrame& frame, RandomStream& random);
+
+}  // namespace sunfleck

@@ -1,0 +1,141 @@
+#include "physics/transport/indirect/conversion.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+namespace sunfleck {
+namespace {
+
+// Returns how a ray's quanta split on each face. The rounding is the same for every ray; it is one quantum in some ten
+// million.
+std::vector<QuantaSplit> split_rays(const RadiationModel& model, const std::vector<BandQuanta>& quanta) {
+  constexpr double middle = 0.5;
+  std::vector<QuantaSplit> splits;
+  for (const SurfaceOptics& optics : model.optics) {
+    for (const auto* face : {&optics.upper, &optics.lower}) {
+      for (std::size_t b = 0; b < quanta.size(); ++b) {
+        splits.push_back(split_quanta(quanta[b].per_ray, (*face)[b].reflectance, (*face)[b].transmittance, middle));
+      }
+    }
+  }
+  for (std::size_t b = 0; model.soil && b < quanta.size(); ++b) {
+    splits.push_back(split_quanta(quanta[b].per_ray, model.soil->reflectance[b], 0.0, middle));
+  }
+  return splits;
+}
+
+}  // namespace
+
+Conversion::Conversion(const RadiationModel& of_model, const CounterLayout& of_layout, const Surfaces& of_surfaces,
+                       const PlaneReceivers* plane_receivers, const Incidence& incidence)
+    : model(of_model),
+      layout(of_layout),
+      surfaces(of_surfaces),
+      receivers(plane_receivers),
+      rays(incidence.rays),
+      ground_per_ray_m2(incidence.ground_per_ray_m2),
+      quanta(make_band_quanta(model, incidence)),
+      events(make_light_events(model, quanta, incidence)),
+      exposure(model, layout, incidence.ground_per_ray_m2),
+      areas(model, layout, surfaces, exposure),
+      splits_(split_rays(model, quanta)) {}
+
+BeamLandings Conversion::element_landings(std::span<const std::uint32_t> counters, std::size_t element) const {
+  BeamLandings landings;
+  for (std::uint32_t bin = layout.first_bin[element]; bin < layout.first_bin[element + 1]; ++bin) {
+    landings.upper += counters[layout.first_bin_word + 2 * bin];
+    landings.lower += counters[layout.first_bin_word + 2 * bin + 1];
+  }
+  return landings;
+}
+
+DirectSums Conversion::sum(std::span<const std::uint32_t> counters) const {
+  DirectSums sums;
+  sums.surface.resize(surfaces.of.size());
+  sums.layer_optics.resize(areas.layer_foliage_m2.size() * model.optics.size());
+  sums.organ_lit_m2.resize(areas.organ_m2.size());
+  sums.layer_lit_m2.resize(areas.layer_foliage_m2.size());
+  sums.transmitted = counters[shared::counter_transmitted];
+  sums.missed = counters[shared::counter_missed];
+  sums.lost = counters[shared::counter_lost];
+  for (std::uint32_t cell = 0; cell < layout.cells(); ++cell) sums.soil_plane += counters[shared::counter_first_cell + cell];
+  sum_elements(counters, sums);
+  sums.met = model.plot.periodic ? rays : counters[shared::counter_met];
+  sums.ground = sums.soil_plane + sums.transmitted;
+  for (std::size_t s = 0; s < surfaces.of.size(); ++s) sums.ground += surfaces.of[s].soil ? sums.surface[s].both() : 0;
+  check(sums);
+  return sums;
+}
+
+void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSums& sums) const {
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+    const BeamLandings element = element_landings(counters, e);
+    if (element.both() == 0) continue;
+    const std::uint32_t number = surfaces.number_of[e];
+    const Surface& surface = surfaces.of[number];
+    sums.surface[number].upper += element.upper;
+    sums.surface[number].lower += element.lower;
+    sums.organ_lit_m2[surface.organ] += static_cast<double>(element.both()) * double{exposure.lit_m2_per_landing(e)};
+    if (surface.soil) continue;
+    std::size_t layer = first_layer(layout, model.canopy.corners[e]);
+    for (std::uint32_t bin = layout.first_bin[e]; bin < layout.first_bin[e + 1]; ++bin, ++layer) {
+      const std::uint32_t upper = counters[layout.first_bin_word + 2 * bin];
+      const std::uint32_t lower = counters[layout.first_bin_word + 2 * bin + 1];
+      BeamLandings& in_layer = sums.layer_optics[layer * model.optics.size() + surface.optics];
+      in_layer.upper += upper;
+      in_layer.lower += lower;
+      if (areas.foliage[e]) sums.layer_lit_m2[layer] += (1.0 * upper + lower) * double{exposure.lit_m2_per_landing(e)};
+    }
+  }
+}
+
+void Conversion::check(const DirectSums& sums) const {
+  std::uint64_t landed = sums.soil_plane + sums.transmitted + sums.lost;
+  for (const BeamLandings& surface : sums.surface) landed += surface.both();
+  const std::uint64_t sent = model.plot.periodic ? rays : sums.met + sums.lost;
+  const std::uint64_t followed = model.plot.periodic ? rays : sent + sums.missed;
+  if (landed == sent && followed == rays) return;
+  throw_failure(fmt::format("direct pass: {} of {} rays landed, {} were followed", landed, sent, followed),
+                "every ray sent must land, leave or be counted as lost",
+                "run it with --device cpu, and report the device and the scene");
+}
+
+std::int64_t Conversion::scattered_of(const BeamLandings& landings, std::size_t optics, std::size_t band) const {
+  return static_cast<std::int64_t>(landings.upper) * split(optics, 0, band).scattered() +
+         static_cast<std::int64_t>(landings.lower) * split(optics, 1, band).scattered();
+}
+
+// `landings` are [place * optics + optics]; the first of them lie in place `first` of `places`, the soil plane in place 0.
+std::vector<std::int64_t> Conversion::scattered_by_place(std::span<const BeamLandings> landings, std::size_t first,
+                                                         std::size_t places, std::uint64_t soil_plane) const {
+  const std::size_t bands = quanta.size();
+  const std::size_t optics = model.optics.size();
+  std::vector<std::int64_t> scattered(places * bands);
+  for (std::size_t b = 0; b < bands; ++b) {
+    for (std::size_t k = 0; k < landings.size(); ++k) {
+      scattered[(first + k / optics) * bands + b] += scattered_of(landings[k], k % optics, b);
+    }
+    if (model.soil) scattered[b] += static_cast<std::int64_t>(soil_plane) * soil_split(b).scattered();
+  }
+  return scattered;
+}
+
+std::vector<std::int64_t> Conversion::scattered(const DirectSums& sums) const {
+  const std::size_t levels = areas.layer_foliage_m2.size() + 1;
+  std::vector<std::int64_t> scattered = scattered_by_place(sums.layer_optics, 1, levels, sums.soil_plane);
+  for (std::size_t s = 0; s < surfaces.of.size(); ++s) {
+    const Surface& surface = surfaces.of[s];
+    for (std::size_t b = 0; surface.soil && b < quanta.size(); ++b) {
+      scattered[b] += scattered_of(sums.surface[s], surface.optics, b);
+    }
+  }
+  return scattered;
+}
+
+std::vector<std::int64_t> Conversion::scattered_by_zone(const DirectSums& sums, const PlaneSums& passed) const {
+  if (receivers == nullptr) return {};
+  return scattered_by_place(passed.zone_landings, 0, receivers->size() + 1, sums.soil_plane);
+}
+
+}  // namespace sunfleck

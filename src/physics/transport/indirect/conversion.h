@@ -1,0 +1,72 @@
+#pragma once
+// Conversion of landings and quanta into flux. It is the same for all replicates of one incidence, and never changes.
+
+#include "physics/transport/indirect/candidates.h"
+#include "physics/transport/indirect/replicate.h"
+#include "physics/transport/model/band_quanta.h"
+#include "physics/transport/model/canopy_areas.h"
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/events.h"
+#include "physics/transport/model/exposure.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/surfaces.h"
+#include "physics/transport/receivers/planes.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+struct Conversion {
+  // All arguments but the incidence must outlive the conversion; `receivers` may be null.
+  Conversion(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
+             const PlaneReceivers* receivers, const Incidence& incidence);
+
+  // Returns the sums of one replicate's counters. Throws Error (failure) unless every ray sent is accounted for.
+  [[nodiscard]] DirectSums sum(std::span<const std::uint32_t> counters) const;
+  [[nodiscard]] BeamLandings element_landings(std::span<const std::uint32_t> counters, std::size_t element) const;
+
+  // Returns the flux that the first landings leave to be shot, as FirstLandings::scattered.
+  [[nodiscard]] std::vector<std::int64_t> scattered(const DirectSums& sums) const;
+
+  // Returns the same by zones of the receivers, as FirstLandings::scattered_by_zone; empty without receivers.
+  [[nodiscard]] std::vector<std::int64_t> scattered_by_zone(const DirectSums& sums, const PlaneSums& passed) const;
+
+  // Returns how a beam ray's quanta split on a face (side 0 is the upper one), or on the soil plane.
+  [[nodiscard]] const QuantaSplit& split(std::size_t optics, std::size_t side, std::size_t band) const {
+    return splits_[(optics * 2 + side) * quanta.size() + band];
+  }
+  [[nodiscard]] const QuantaSplit& soil_split(std::size_t band) const {
+    return splits_[model.optics.size() * 2 * quanta.size() + band];
+  }
+
+  [[nodiscard]] double absorptance(std::size_t optics, std::size_t side, std::size_t band) const {
+    return (side == 0 ? model.optics[optics].upper : model.optics[optics].lower)[band].absorptance();
+  }
+
+  // Returns the horizontal irradiance of the beam.
+  [[nodiscard]] double beam_w_m2(std::size_t band) const { return model.has_beam() ? model.bands[band].direct_w_m2 : 0.0; }
+
+  const RadiationModel& model;
+  const CounterLayout& layout;
+  const Surfaces& surfaces;
+  const PlaneReceivers* const receivers;
+  const std::uint64_t rays;  // of the beam
+  const double ground_per_ray_m2;
+  const std::vector<BandQuanta> quanta;  // [band]
+  const LightEvents events;
+  const BeamExposure exposure;
+  const CanopyAreas areas;
+
+ private:
+  void sum_elements(std::span<const std::uint32_t> counters, DirectSums& sums) const;
+  void check(const DirectSums& sums) const;
+  [[nodiscard]] std::int64_t scattered_of(const BeamLandings& landings, std::size_t optics, std::size_t band) const;
+  [[nodiscard]] std::vector<std::int64_t> scattered_by_place(std::span<const BeamLandings> landings, std::size_t first,
+                                                             std::size_t places, std::uint64_t soil_plane) const;
+
+  std::vector<QuantaSplit> splits_;  // of a ray: [(optics * 2 + side) * bands + band], then [band] of the soil plane
+};
+
+}  // namespace sunfleck

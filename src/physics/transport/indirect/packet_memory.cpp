@@ -1,0 +1,53 @@
+#include "physics/transport/indirect/packet_memory.h"
+
+#include "physics/transport/indirect/candidates.h"
+
+#include <algorithm>
+
+namespace sunfleck {
+namespace {
+
+constexpr double ray_bytes = sizeof(shared::Packet) + sizeof(shared::Landing);
+
+double lamp_count(const RadiationModel& model) {
+  const auto glows = [&](std::uint16_t optics) {
+    const std::vector<double>& emission_w_m2 = model.optics[optics].emission_w_m2;
+    return std::any_of(emission_w_m2.begin(), emission_w_m2.end(), [](double exitance) { return exitance > 0.0; });
+  };
+  return static_cast<double>(std::count_if(model.canopy.optics_of.begin(), model.canopy.optics_of.end(), glows));
+}
+
+// Returns the number of first landings. The indirect pass takes a sample of the beam's landings, at most one for each
+// packet.
+double first_landings(const RayCounts& counts) {
+  return std::min(counts.packets, counts.beam_rays) + counts.sky_rays;
+}
+
+}  // namespace
+
+PacketMemory::PacketMemory(const RadiationModel& model) : bands_(model.bands.size()), lamps_(lamp_count(model)) {}
+
+void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
+  const double landings = first_landings(counts);
+  const double left = std::max(0.0, static_cast<double>(sums.first_candidates) - lamps_);
+  const double per_landing = landings > 0.0 ? left / landings : 0.0;
+  const double per_packet = counts.packets > 0.0 ? static_cast<double>(sums.most_candidates) / counts.packets : 0.0;
+  per_landing_ = learned_ ? std::max(per_landing_, per_landing) : per_landing;
+  per_packet_ = learned_ ? std::max(per_packet_, per_packet) : per_packet;
+  learned_ = true;
+}
+
+// Returns the larger of two peaks: while candidates are copied into their order, and when packets have landed and left new
+// candidates.
+double PacketMemory::bytes(const RayCounts& counts) const {
+  const double quanta_bytes = static_cast<double>(bands_) * sizeof(std::int64_t);
+  const double candidate_bytes = sizeof(EmissionPoint) + quanta_bytes;
+  const double waiting = lamps_ + per_landing_ * first_landings(counts);
+  const double sorting = waiting * (2.0 * candidate_bytes + 2.0 * sizeof(std::uint32_t));
+  const double per_packet = sizeof(std::uint32_t) + quanta_bytes + ray_bytes + per_packet_ * candidate_bytes;
+  const double landed = waiting * candidate_bytes + counts.packets * per_packet;
+  const double first = counts.sky_rays * ray_bytes + waiting * candidate_bytes;
+  return std::max({sorting, landed, first});
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,37 @@
+#pragma once
+// Memory that the rays, packets and candidates of a replicate take while it is made.
+
+#include "physics/transport/indirect/replicate.h"
+#include "physics/transport/model/model.h"
+
+#include <cstddef>
+
+namespace sunfleck {
+
+// The numbers of rays and packets of one replicate.
+struct RayCounts {
+  double beam_rays = 0.0;
+  double sky_rays = 0.0;
+  double packets = 0.0;  // in the first round
+};
+
+class PacketMemory {
+ public:
+  explicit PacketMemory(const RadiationModel& model);
+
+  // Records how many candidates a replicate with these rays had.
+  void learn(const RayCounts& counts, const IndirectSums& sums);
+
+  // Returns the peak memory of such a replicate, in bytes: an upper limit until something has been learned, then an
+  // estimate from earlier replicates. It grows with the number of packets.
+  [[nodiscard]] double bytes(const RayCounts& counts) const;
+
+ private:
+  std::size_t bands_;
+  double lamps_;  // candidates present before any landing
+  bool learned_ = false;
+  double per_landing_ = 2.0;  // candidates per first landing
+  double per_packet_ = 2.0;   // candidates per packet
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,67 @@
+#pragma once
+// One replicate: its order, and the sums that it contributes to the result.
+
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/model/surfaces.h"
+#include "physics/transport/receivers/planes.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sunfleck {
+
+// Landings of one replicate's beam rays, summed from its counters.
+struct DirectSums {
+  std::vector<BeamLandings> surface;       // [surface]
+  std::vector<BeamLandings> layer_optics;  // [layer * optics + optics], without soil
+  std::vector<double> organ_lit_m2;        // [organ]
+  std::vector<double> layer_lit_m2;        // [layer], foliage
+  std::uint64_t soil_plane = 0, transmitted = 0, ground = 0, met = 0, missed = 0, lost = 0;
+};
+
+// Quanta carried by one replicate's sky rays and packets. The `landed` arrays count all flux that arrived, before it is
+// split.
+struct IndirectSums {
+  IndirectSums(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
+
+  std::size_t bands;
+  std::vector<std::int64_t> surface_landed;  // [(surface * 2 + side) * bands + band]
+  std::vector<std::int64_t> layer_landed;    // [((layer * optics + optics) * 2 + side) * bands + band], without soil
+  std::vector<std::int64_t> side_landed;     // [(2 * element + side) * bands + band]
+  std::vector<std::uint32_t> element_hits;   // [element], packets that landed on either side
+  std::vector<std::int64_t> cell_landed;     // [cell of the soil's map * bands + band]
+  std::vector<std::int64_t> side_sky;        // as side_landed, sky rays only; empty without a sky
+  std::vector<std::int64_t> cell_sky;        // as cell_landed, sky rays only
+  std::vector<std::int64_t> down, up;        // [plane * bands + band], through the planes of the layers, top plane last
+  std::vector<FluxLedger> ledger;            // [band]; `incident` holds flux from the lamps and the sky
+  PlaneSums receivers;                       // at the horizontal receivers, if there are any
+  std::uint64_t sky_rays = 0, packets = 0, rounds = 0, lost = 0;
+  // Number waiting before the first round, and the largest number waiting after a round.
+  std::uint64_t first_candidates = 0, most_candidates = 0;
+};
+
+// The sums that one replicate contributes to a run.
+struct Replicate {
+  std::vector<std::uint32_t> counters;  // numbered as in physics/transport/model/counters.h
+  DirectSums direct;
+  PlaneSums passed;                     // receivers that the beam rays passed
+  std::optional<IndirectSums> packets;  // empty without an indirect pass
+  double direct_s = 0.0;                // wall time, including the wait for the tracer
+  double indirect_s = 0.0;
+};
+
+// Describes one replicate. Replicates with the same seed and number are identical, whatever else is made at the same time.
+struct ReplicateOrder {
+  double beam_rays = 0.0;       // approximate number
+  std::uint64_t grid_rays = 0;  // actual number of rays on the grid
+  double packets = 0.0;         // in the first round; 0: no indirect pass
+  std::size_t sky_rays = 0;     // if there is a sky
+  double bound = 0.003;         // of the indirect pass; its stop rule leaves a tenth of it unshot
+  std::uint64_t seed = 1;
+  std::uint64_t number = 0;
+};
+
+}  // namespace sunfleck

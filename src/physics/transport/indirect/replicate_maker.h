@@ -1,0 +1,74 @@
+#pragma once
+// Makes replicates. Several may be made at the same time: while the tracer works on one, the host draws and books the
+// packets of another.
+
+#include "physics/transport/indirect/conversion.h"
+#include "physics/transport/indirect/indirect.h"
+#include "physics/transport/indirect/replicate.h"
+#include "physics/transport/indirect/sky_rays.h"
+#include "physics/transport/model/surfaces.h"
+#include "physics/transport/model/tracer.h"
+#include "physics/transport/receivers/planes.h"
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+
+namespace sunfleck {
+
+class ReplicateMaker {
+ public:
+  // All arguments must outlive the maker, and the model must not change.
+  ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer);
+
+  [[nodiscard]] bool has_indirect_pass() const { return indirect_.has_value(); }
+  [[nodiscard]] bool has_sky() const { return sky_.has_value(); }
+
+  // Returns the incidence of replicates with about this many beam rays.
+  [[nodiscard]] Incidence incidence(double beam_rays) const;
+
+  // Returns the conversion for replicates of that incidence. The maker must outlive it.
+  [[nodiscard]] Conversion conversion(const Incidence& incidence) const;
+
+  // Returns a replicate without landings, with all arrays as large as those of an ordered one.
+  [[nodiscard]] Replicate blank(const ReplicateOrder& order) const;
+
+  // Returns the size of a replicate's counters and sums in bytes; it does not depend on the numbers of rays and packets.
+  [[nodiscard]] double sum_bytes() const;
+
+  // Makes a replicate of the conversion's incidence; returns nothing if stopped. Several threads may call this at the same
+  // time; all of them call `stop`.
+  [[nodiscard]] std::optional<Replicate> make(const ReplicateOrder& order, const Conversion& conversion,
+                                              const StopQuestion& stop);
+
+ private:
+  // A tracer that serves one thread at a time.
+  class OneAtATime final : public Tracer {
+   public:
+    explicit OneAtATime(Tracer& tracer) : tracer_(tracer) {}
+    [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
+    [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                          const StopQuestion& stop) override;
+    [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                     std::span<shared::Landing> landings, const StopQuestion& stop) override;
+
+   private:
+    Tracer& tracer_;
+    std::mutex mutex_;
+  };
+
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop);
+
+  [[nodiscard]] const PlaneReceivers* receivers() const { return receivers_ ? &*receivers_ : nullptr; }
+
+  const RadiationModel& model_;
+  const CounterLayout& layout_;
+  Surfaces surfaces_;
+  std::optional<PlaneReceivers> receivers_;
+  std::optional<SkyRays> sky_;
+  OneAtATime tracer_;
+  std::optional<IndirectScene> indirect_;  // empty without a sky if no light is scattered after its first landing
+};
+
+}  // namespace sunfleck

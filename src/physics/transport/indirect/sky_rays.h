@@ -1,0 +1,42 @@
+#pragma once
+// Rays of sky light, one for each equal share of the sky's flux: from a plane above an endless canopy, or from a disc around
+// an isolated stand.
+
+#include "base/random.h"
+#include "physics/light/sky.h"
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/model.h"
+#include "shared/layout.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sunfleck {
+
+class SkyRays {
+ public:
+  // The model must have a sky.
+  SkyRays(const RadiationModel& model, const CounterLayout& layout);
+
+  // Returns the area of level ground on which the horizontal sky irradiance gives the flux of all rays of a replicate.
+  [[nodiscard]] double ground_m2() const { return ground_m2_; }
+
+  // Returns about `count` rays of equal flux in parallel beams. One direction is drawn in each of equal shares of the
+  // sky's flux; the origins of a beam's rays lie one in each cell of a grid over the plot, or over the disc that faces the
+  // beam.
+  [[nodiscard]] std::vector<shared::Packet> draw(std::size_t count, RandomStream& random) const;
+
+ private:
+  [[nodiscard]] glm::dvec3 origin_above(double u, double v) const;
+  [[nodiscard]] glm::dvec3 origin_around(const glm::dvec3& to_sky, double u, double v) const;
+
+  Sky sky_;
+  bool periodic_;
+  glm::dvec2 period_m_{0.0};
+  double top_y_m_ = 0.0;
+  glm::dvec3 centre_m_{0.0};  // of the sphere around an isolated stand with its plot and receivers
+  double radius_m_ = 0.0;
+  double ground_m2_ = 0.0;
+};
+
+}  // namespace sunfleck

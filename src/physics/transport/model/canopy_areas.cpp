@@ -1,0 +1,50 @@
+#include "physics/transport/model/canopy_areas.h"
+
+#include <algorithm>
+
+namespace sunfleck {
+
+CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
+                         const BeamExposure& exposure)
+    : foliage(element_roles(model.canopy).foliage),
+      organ_m2(model.canopy.organs.size()),
+      organ_facing_m2(organ_m2),
+      layer_foliage_m2(static_cast<std::size_t>(layout.layers.count)),
+      layer_facing_m2(layer_foliage_m2),
+      layer_holds_vegetation(layer_foliage_m2.size()),
+      organ_absorptance(organ_m2.size() * model.bands.size()),
+      vegetation_absorptance(model.bands.size()),
+      soil_absorptance(model.bands.size()) {
+  const Canopy& canopy = model.canopy;
+  const std::size_t bands = model.bands.size();
+  const std::vector<bool> hidden = hidden_elements(model, layout);
+  for (std::size_t b = 0; model.soil && b < bands; ++b) soil_absorptance[b] = 1.0 - model.soil->reflectance[b];
+  for (std::size_t e = 0; e < canopy.size(); ++e) {
+    const double area = area_m2(canopy.corners[e]);
+    const std::size_t organ = canopy.organ_of[e];
+    organ_m2[organ] += area;
+    if (exposure.can_hit(e)) organ_facing_m2[organ] += area;
+    const bool soil = surfaces.at(e).soil;
+    beam_meets_vegetation = beam_meets_vegetation || (!soil && exposure.can_hit(e));
+    for (std::size_t b = 0; b < bands && !hidden[e] && area > 0.0; ++b) {
+      const SurfaceOptics& optics = model.optics[canopy.optics_of[e]];
+      const double absorptance = std::max(optics.upper[b].absorptance(), optics.lower[b].absorptance());
+      for (double* largest : {&organ_absorptance[organ * bands + b], &(soil ? soil_absorptance : vegetation_absorptance)[b]}) {
+        *largest = std::max(*largest, absorptance);
+      }
+    }
+    if (!soil && !hidden[e] && area > 0.0) {
+      const std::size_t first = first_layer(layout, canopy.corners[e]);
+      const std::size_t end = first + layout.first_bin[e + 1] - layout.first_bin[e];
+      for (std::size_t k = first; k < end; ++k) layer_holds_vegetation[k] = true;
+    }
+    if (!foliage[e]) continue;
+    foliage_m2 += area;
+    add_area_by_layer(layout.layers, canopy.corners[e], layer_foliage_m2);
+    if (!exposure.can_hit(e)) continue;
+    facing_m2 += area;
+    add_area_by_layer(layout.layers, canopy.corners[e], layer_facing_m2);
+  }
+}
+
+}  // namespace sunfleck

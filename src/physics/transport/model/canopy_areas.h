@@ -1,0 +1,29 @@
+#pragma once
+// The areas of a model by organ and layer, in total and for elements that the beam can hit, and the largest absorptances of
+// what light can reach.
+
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/exposure.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/surfaces.h"
+
+#include <vector>
+
+namespace sunfleck {
+
+struct CanopyAreas {
+  CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, const BeamExposure& exposure);
+
+  std::vector<bool> foliage;                 // [element]
+  std::vector<double> organ_m2;              // [organ]
+  std::vector<double> organ_facing_m2;       // [organ], of elements that the beam can hit
+  std::vector<double> layer_foliage_m2;      // [layer]
+  std::vector<double> layer_facing_m2;       // [layer], of foliage that the beam can hit
+  std::vector<bool> layer_holds_vegetation;  // [layer], holds vegetation that light can reach
+  double foliage_m2 = 0.0, facing_m2 = 0.0;
+  bool beam_meets_vegetation = false;                            // the beam can hit some of it
+  std::vector<double> organ_absorptance;                         // [organ * bands + band], the largest of its faces
+  std::vector<double> vegetation_absorptance, soil_absorptance;  // [band], the largest of all such surfaces
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,23 @@
+#pragma once
+// The light of a single ray or packet. Where all replicates agree (no ray met a surface, or every ray did), their spread is
+// zero and gives no interval; the interval then follows from how much a few more or fewer events would have changed the figure.
+
+#include "physics/transport/model/band_quanta.h"
+#include "physics/transport/model/model.h"
+
+#include <vector>
+
+namespace sunfleck {
+
+// Light per event in one replicate, per ground area of the plot.
+struct LightEvents {
+  double beam_share = 0.0;         // share of the plot that one beam ray represents
+  std::vector<double> beam_w_m2;   // [band], of one beam ray
+  std::vector<double> other_w_m2;  // [band], the most that one sky ray or packet carries; 0 in a band without such light
+
+  [[nodiscard]] double largest_w_m2(std::size_t band) const;
+};
+[[nodiscard]] LightEvents make_light_events(const RadiationModel& model, const std::vector<BandQuanta>& quanta,
+                                            const Incidence& incidence);
+
+}  // namespace sunfleck

@@ -1,0 +1,187 @@
+#pragma once
+// The results of a simulation. Fluxes are per ground area of the plot unless stated otherwise; every estimate carries the
+// half-width of its confidence interval.
+
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/statistics.h"
+#include "physics/transport/model/tracer.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+
+// The fate of one band's flux, in integer quanta. Each term is tallied by itself; `incident` must equal the sum of the
+// others.
+struct FluxLedger {
+  std::int64_t incident = 0;
+  std::int64_t absorbed_vegetation = 0;
+  std::int64_t absorbed_soil = 0;
+  std::int64_t reflected = 0;
+  std::int64_t transmitted = 0;
+  std::int64_t unshot = 0;
+
+  // Returns the part of `incident` that the other terms do not account for.
+  [[nodiscard]] std::int64_t residual() const {
+    return incident - (absorbed_vegetation + absorbed_soil + reflected + transmitted + unshot);
+  }
+
+  // Returns the flux that may still be absorbed, relative to the flux absorbed.
+  [[nodiscard]] double unshot_share() const {
+    const auto absorbed = static_cast<double>(absorbed_vegetation + absorbed_soil);
+    return absorbed > 0.0 ? static_cast<double>(unshot) / absorbed : 0.0;
+  }
+};
+
+// The flux balance of one band, W m-2 of ground. The half-widths include the unshot flux, which could still end up in any of
+// the four terms.
+struct BandResult {
+  std::string name;
+  FluxLedger ledger;
+  double incident = 0.0;
+  double unshot = 0.0;
+  Estimate absorbed_vegetation, absorbed_soil, reflected, transmitted;
+};
+
+// The light of one organ, W m-2 of its one-sided area. Here and in all finer figures the half-width of `absorbed` includes
+// unshot flux in proportion to what was absorbed, with the canopy's ratio of unshot to absorbed flux.
+struct OrganResult {
+  double area_m2 = 0.0;
+  Estimate sunlit_fraction;        // share of its area in direct sun
+  std::vector<Estimate> direct;    // [waveband], beam incident on both faces
+  std::vector<Estimate> indirect;  // [waveband], all other light incident on both faces
+  std::vector<Estimate> absorbed;  // [waveband]
+};
+
+// A layer, and the horizontal plane at its lower edge. Soil elements count as lying below every plane.
+struct LayerResult {
+  double height_m = 0.0;  // of the lower edge; in the last entry, of the top plane
+  double leaf_area_index = 0.0;
+  Estimate sunfleck_ratio;         // share of the plane that the direct beam reaches
+  Estimate sunlit_leaf_fraction;   // NaN without leaf area in the layer
+  std::vector<Estimate> down, up;  // [waveband], W m-2 through the plane
+  std::vector<Estimate> absorbed;  // [waveband], W m-2 of ground, by elements other than soil
+};
+
+// Landings of beam rays on the two sides of an element or a surface.
+struct BeamLandings {
+  std::uint64_t upper = 0;
+  std::uint64_t lower = 0;
+
+  [[nodiscard]] std::uint64_t both() const { return upper + lower; }
+};
+
+// The map of a horizontal receiver. Cells are numbered x fastest; the sums over the cells are the flux through the whole
+// plane.
+struct PlaneResult {
+  double height_m = 0.0;
+  std::uint32_t cells_x = 0, cells_z = 0;
+  std::vector<std::uint64_t> reached;  // [cell], beam rays that came down through it
+  // [cell], beam rays whose extended line crosses it: those that would reach it if nothing stood above.
+  std::vector<std::uint64_t> crossing;
+  std::vector<std::int64_t> down;    // [cell * bands + band], quanta of all other light that came down through it
+  Estimate sunfleck_ratio;           // share of the plane that the direct beam reaches; value NaN without a beam
+  std::vector<Estimate> total_down;  // [band], W m-2 of plane, beam and all other light
+};
+
+// The reading at one point of a sensor, W m-2.
+struct SensorResult {
+  std::vector<Estimate> direct, sky, scattered;  // [band]; `direct` is exact: a point sees the sun or does not
+};
+
+// The size of one replicate: rays of the beam, packets of the first round.
+struct Work {
+  double rays = 0.0;
+  double packets = 0.0;
+};
+
+// A figure whose error is compared with a bound.
+struct JudgedFigure {
+  enum class Of { vegetation, soil, organ, triangles };
+  Of of = Of::vegetation;
+  std::size_t organ = 0;            // for Of::organ
+  std::optional<std::size_t> band;  // empty: the beam's landings, which are the same in all bands
+};
+
+struct PassSummary {
+  std::uint64_t rays = 0;
+  std::size_t replicates = 0;
+  double grid_m = 0.0;                   // square root of plot area over rays
+  std::optional<double> relative_error;  // error that is compared with the bound
+  std::optional<JudgedFigure> judged;    // figure with that error, the largest of all; empty without a beam
+  std::optional<double> bound;           // empty if the work was fixed
+  double seconds = 0.0;
+};
+
+struct IndirectSummary {
+  std::uint64_t sky_rays = 0;
+  std::uint64_t packets = 0;
+  std::uint64_t rounds = 0;  // over all replicates
+  std::optional<double> relative_error;
+  std::optional<JudgedFigure> judged;
+  std::optional<double> bound;
+  double seconds = 0.0;
+};
+
+enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, time_spent, interrupted };
+
+struct RadiationResult {
+  StopReason stop = StopReason::work_done;
+  std::vector<BandResult> bands;
+  std::vector<OrganResult> organs;     // [organ of the canopy]
+  std::vector<LayerResult> layers;     // [layer, bottom first, + 1 for the top plane]
+  std::vector<BeamLandings> elements;  // [element], over all replicates
+  std::vector<double> element_error;   // [waveband * elements + element], W m-2, of absorbed flux; empty unless requested
+  std::vector<double> side_error;      // [(2 * element + side) * bands + band], W m-2, of incident flux; empty unless requested
+  std::vector<std::uint64_t> soil_cells;  // [cell of the soil's map], landings of beam rays
+  // [(2 * element + side) * bands + band], quanta of all other light; empty without any.
+  std::vector<std::int64_t> side_indirect;
+  std::vector<std::int64_t> cell_indirect;  // [cell * bands + band]
+  std::vector<std::int64_t> side_sky;  // the part of side_indirect that comes unscattered from the sky; empty without a sky
+  std::vector<std::int64_t> cell_sky;  // the same part of cell_indirect
+  std::vector<PlaneResult> planes;     // [plane of the model]
+  std::vector<std::vector<SensorResult>> sensors;  // [sensor of the model][point]
+  std::vector<double> w_per_quantum;               // [waveband], W per quantum of the arrays above
+  Estimate sunlit_leaf_fraction;
+  Estimate ground_sunfleck_ratio;  // value NaN without a beam
+  double leaf_area_index = 0.0;
+  double ground_per_ray_m2 = 0.0;  // level ground that one landing represents, from which irradiance follows
+  std::uint64_t lost_rays = 0;
+  PassSummary direct;
+  IndirectSummary indirect;
+  Work work;       // of each replicate
+  Work next_work;  // suitable start for a run on a very similar scene with the same bounds
+
+  // Return the irradiance (W m-2) of a side, or of a cell of the soil's map, by all light but the beam; 0 without area.
+  [[nodiscard]] double side_indirect_w_m2(std::size_t side, double area_m2, std::size_t band) const {
+    return indirect_w_m2(side_indirect, side, area_m2, band);
+  }
+  [[nodiscard]] double cell_indirect_w_m2(std::size_t cell, double area_m2, std::size_t band) const {
+    return indirect_w_m2(cell_indirect, cell, area_m2, band);
+  }
+
+  // Return the part of that irradiance that comes unscattered from the sky.
+  [[nodiscard]] double side_sky_w_m2(std::size_t side, double area_m2, std::size_t band) const {
+    return indirect_w_m2(side_sky, side, area_m2, band);
+  }
+  [[nodiscard]] double cell_sky_w_m2(std::size_t cell, double area_m2, std::size_t band) const {
+    return indirect_w_m2(cell_sky, cell, area_m2, band);
+  }
+
+  // Returns the irradiance (W m-2) that `landings` cause on `area_m2` in a band with that horizontal beam irradiance; 0
+  // without area.
+  [[nodiscard]] double irradiance_w_m2(std::uint64_t landings, double area_m2, double beam_w_m2) const {
+    return area_m2 > 0.0 ? static_cast<double>(landings) * ground_per_ray_m2 * beam_w_m2 / area_m2 : 0.0;
+  }
+
+ private:
+  [[nodiscard]] double indirect_w_m2(const std::vector<std::int64_t>& quanta, std::size_t place, double area_m2,
+                                     std::size_t band) const {
+    if (quanta.empty() || !(area_m2 > 0.0)) return 0.0;
+    return static_cast<double>(quanta[place * w_per_quantum.size() + band]) * w_per_quantum[band] / area_m2;
+  }
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,29 @@
+#include "physics/transport/model/statistics.h"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace sunfleck {
+
+double ReplicateMean::standard_error() const {
+  if (count_ < 2) return std::numeric_limits<double>::quiet_NaN();
+  const auto n = static_cast<double>(count_);
+  return std::sqrt(squares_ / (n - 1.0) / n);
+}
+
+Estimate ReplicateMean::estimate(double t_quantile, double unseen) const {
+  const bool agree = count_ >= 2 && squares_ == 0.0;
+  return {mean_, agree ? unseen : t_quantile * standard_error()};
+}
+
+double unseen_events(double confidence) {
+  return -std::log(0.5 * (1.0 - confidence));
+}
+
+double t_quantile(double confidence, std::size_t replicates) {
+  if (replicates < 2) return std::numeric_limits<double>::quiet_NaN();
+  const boost::math::students_t distribution(static_cast<double>(replicates - 1));
+  return boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - confidence)));
+}
+
+}  // namespace sunfleck

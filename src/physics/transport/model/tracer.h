@@ -1,0 +1,43 @@
+#pragma once
+// The interface between the solver and the devices that trace rays. A tracer knows only geometry: which side of which
+// element a ray lands on, and where. Everything it counts is an integer.
+
+#include "shared/layout.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace sunfleck {
+
+// The device on which a tracer runs, as named in summary.json.
+struct TracerDevice {
+  std::string kind;  // "vulkan" or "cpu"
+  std::string name;
+  std::string driver;
+  bool software = true;
+};
+
+// Called now and then during long work; a result of true ends the work.
+using StopQuestion = std::function<bool()>;
+
+enum class TraceOutcome { finished, stopped };
+
+class Tracer {
+ public:
+  virtual ~Tracer() = default;
+
+  [[nodiscard]] virtual TracerDevice device() const = 0;
+
+  // Traces all rays of one replicate and adds their landings to `counters` (numbered as in physics/transport/model/counters.h). If
+  // stopped, the counters hold only part of the rays and must not be used.
+  [[nodiscard]] virtual TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                const StopQuestion& stop) = 0;
+
+  // Follows every packet to its end; landings[k] is where packets[k] landed. If stopped, the landings must not be used.
+  [[nodiscard]] virtual TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                           std::span<shared::Landing> landings, const StopQuestion& stop) = 0;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,114 @@
+#pragma once
+// Horizontal receivers: which of them a ray passes, and in which cell. They do not stop any ray, and soil never shades them:
+// flux that lands on soil has passed every plane between its start and y = 0.
+
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/model/surfaces.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// The planes cut space into zones: zone 0 lies below the lowest plane and includes the soil, zone k lies above k planes.
+class PlaneReceivers {
+ public:
+  static constexpr std::size_t no_cell = std::numeric_limits<std::size_t>::max();
+
+  // All arguments must outlive the receivers.
+  PlaneReceivers(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
+
+  [[nodiscard]] std::size_t size() const { return planes_.size(); }
+  [[nodiscard]] std::size_t cells() const { return first_cell_.back(); }  // of all planes together
+  [[nodiscard]] std::size_t first_cell(std::size_t plane) const { return first_cell_[plane]; }
+
+  // Returns the zone of a place that is not on soil (local frame). Where a plane is the edge of a layer, landings are
+  // assigned to zones exactly as they are to layers.
+  [[nodiscard]] std::size_t zone_at(float y_m) const;
+  // Returns the zone of any landing.
+  [[nodiscard]] std::size_t zone_of(const shared::Landing& landing) const;
+
+  // Returns true if no element reaches above the plane, so that light comes down through it unhindered.
+  [[nodiscard]] bool above_all(std::size_t plane) const { return planes_[plane].y_m >= layout_.box.hi_m.y; }
+
+  // Returns true for a plane at the ground, which lies below everything but soil.
+  [[nodiscard]] bool at_ground(std::size_t plane) const { return planes_[plane].threshold_y_m == lowest; }
+
+  // Returns the cell, numbered over all planes, where the line through a point crosses a plane; no_cell beside an isolated
+  // plot.
+  [[nodiscard]] std::size_t cell_at(std::size_t plane, const glm::vec3& point_m, const glm::vec3& direction) const;
+
+ private:
+  static constexpr float lowest = -std::numeric_limits<float>::infinity();
+  struct Plane {
+    double y_m = 0.0;            // local frame
+    float threshold_y_m = 0.0F;  // places at or above this height lie above the plane
+  };
+
+  const RadiationModel& model_;
+  const CounterLayout& layout_;
+  const Surfaces& surfaces_;
+  std::vector<Plane> planes_;
+  std::vector<std::size_t> first_cell_;  // [plane + 1]
+};
+
+// Sums over everything that passed the planes in one replicate.
+struct PlaneSums {
+  PlaneSums() = default;
+  PlaneSums(const PlaneReceivers& planes, const RadiationModel& model);
+
+  std::vector<std::uint32_t> reached, crossing;        // [cell], beam rays, as in PlaneResult
+  std::vector<BeamLandings> zone_landings;             // [zone * optics + optics]
+  std::vector<std::int64_t> down;                      // [cell * bands + band], quanta of packets and sky rays
+  std::vector<std::int64_t> through_down, through_up;  // [plane * bands + band], the same summed over whole planes
+};
+
+// Sums over all replicates.
+class PlaneTally {
+ public:
+  PlaneTally(const PlaneReceivers& planes, const RadiationModel& model);
+
+  // Adds one replicate. `beam_w_m2_per_ray` and `w_m2_per_quantum` are [band], per area of the plot. Either of the sums
+  // may be null.
+  void add(const PlaneSums* beam, const PlaneSums* packets, std::span<const double> beam_w_m2_per_ray,
+           std::span<const double> w_m2_per_quantum);
+
+  // Returns the maps of all planes. `quantile` is Student's, for the confidence intervals. Where all replicates agree, the
+  // intervals follow from `unseen_events` of statistics.h, each event being a beam ray or the light that `event_w_m2`
+  // gives, [band], W m-2 of plane in one replicate.
+  [[nodiscard]] std::vector<PlaneResult> results(double quantile, double unseen_events,
+                                                 std::span<const double> event_w_m2) const;
+
+  // Passes every sum to `archive`; see RunSums::visit.
+  template <class Self, class Archive>
+  static void visit_sums(Self& self, Archive& archive) {
+    for (auto& means : self.means_) {
+      archive.visit(means.sunfleck);
+      archive.visit(means.down);
+    }
+    archive.visit(self.reached_);
+    archive.visit(self.crossing_);
+    archive.visit(self.down_);
+    archive.visit(self.through_down_);
+  }
+
+ private:
+  struct Means {
+    ReplicateMean sunfleck;
+    std::vector<ReplicateMean> down;  // [band], W m-2 of plane
+  };
+  [[nodiscard]] std::vector<std::int64_t> closed_cells(std::size_t plane) const;
+
+  const PlaneReceivers& planes_;
+  const RadiationModel& model_;
+  std::vector<Means> means_;                       // [plane]
+  std::vector<std::uint64_t> reached_, crossing_;  // [cell]
+  std::vector<std::int64_t> down_, through_down_;  // as in PlaneSums
+};
+
+}  // namespace sunfleck

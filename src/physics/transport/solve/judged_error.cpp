@@ -1,0 +1,130 @@
+#include "physics/transport/solve/judged_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Figures are judged against at least this share of the incident flux (design: an aggregate below 1 % is judged against that
+// 1 %).
+constexpr double least_judged_share = 0.01;
+
+// Organs are judged if they receive at least this share of the mean organ's flux.
+constexpr double least_judged_organ = 0.1;
+
+// Returns the largest relative half-width of the organs' beam landings, or of their absorption of all other light.
+JudgedError organ_error(const RunSums& sums, double quantile, bool indirect) {
+  const Conversion& conversion = sums.conversion;
+  std::vector<bool> soil(sums.organs.size());
+  for (const Surface& surface : conversion.surfaces.of) soil[surface.organ] = soil[surface.organ] || surface.soil;
+  JudgedError largest;
+  for (std::size_t b = 0; b < (indirect ? sums.bands.size() : 1); ++b) {
+    const auto mean_of = [&](std::size_t o) -> const ReplicateMean& {
+      return indirect ? sums.organs[o].indirect_absorbed[b] : sums.organs[o].landed;
+    };
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t o = 0; o < sums.organs.size(); ++o) {
+      if (soil[o]) continue;
+      sum += mean_of(o).mean() * conversion.areas.organ_m2[o];
+      count += 1.0;
+    }
+    for (std::size_t o = 0; o < sums.organs.size(); ++o) {
+      const double flux = mean_of(o).mean() * conversion.areas.organ_m2[o];
+      if (soil[o] || flux <= 0.0 || flux < least_judged_organ * sum / count) continue;
+      const double error = quantile * mean_of(o).standard_error() / mean_of(o).mean();
+      JudgedFigure figure{.of = JudgedFigure::Of::organ, .organ = o};
+      if (indirect) figure.band = b;
+      largest.raise({error + (indirect ? sums.ledgers[b].unshot_share() : 0.0), figure});
+    }
+  }
+  return largest;
+}
+
+// Returns the root-mean-square half-width relative to the mean. `spreads` are those of the elements' landings or of their W
+// m-2, one per element from `first` on; the latter are multiplied by the element's area.
+double element_rms_error(const RunSums& sums, double quantile, const std::vector<Spread>& spreads, std::size_t first) {
+  if (spreads.empty()) return none;
+  const bool landings = &spreads == &sums.direct_spread;
+  const Conversion& conversion = sums.conversion;
+  double area = 0.0;
+  double flux = 0.0;
+  double squares = 0.0;
+  for (std::size_t e = 0; e < sums.elements.size(); ++e) {
+    const double element_m2 = area_m2(conversion.model.canopy.corners[e]);
+    if (conversion.surfaces.at(e).soil || element_m2 <= 0.0) continue;
+    const double to_flux = landings ? 1.0 : element_m2;
+    const double half = spreads[first + e].half_width(quantile, sums.replicates) * to_flux;
+    area += element_m2;
+    flux += spreads[first + e].sum * to_flux / static_cast<double>(sums.replicates);
+    squares += half * half / element_m2;
+  }
+  return flux > 0.0 ? std::sqrt(squares / area) * area / flux : 0.0;
+}
+
+}  // namespace
+
+void JudgedError::raise(const JudgedError& other) {
+  if (other.relative > relative) *this = other;
+}
+
+JudgedError direct_error(const RunSums& sums, const Accuracy& accuracy) {
+  const Conversion& conversion = sums.conversion;
+  const double quantile = t_quantile(accuracy.confidence, sums.replicates);
+  if (std::isnan(quantile)) return {none, {}};
+  JudgedError largest;
+  const double least = least_judged_share * sums.met.mean();
+  if (!(least > 0.0)) return largest;
+  // Without vegetation in its way the whole beam is known to reach the ground.
+  const double one_ray =
+      conversion.areas.beam_meets_vegetation ? sums.unseen(conversion.events.beam_share, accuracy.confidence) : 0.0;
+  const auto judge = [&](const ReplicateMean& mean, JudgedFigure::Of of) {
+    largest.raise({mean.estimate(quantile, one_ray).half_width / std::max(mean.mean(), least), {.of = of}});
+  };
+  judge(sums.first_vegetation, JudgedFigure::Of::vegetation);
+  judge(sums.first_ground, JudgedFigure::Of::soil);
+  if (accuracy.of == ErrorTarget::organ) {
+    largest.raise(organ_error(sums, quantile, false));
+  }
+  if (accuracy.of == ErrorTarget::triangle) {
+    largest.raise({element_rms_error(sums, quantile, sums.direct_spread, 0), {.of = JudgedFigure::Of::triangles}});
+  }
+  return largest;
+}
+
+JudgedError indirect_error(const RunSums& sums, const Accuracy& accuracy) {
+  const Conversion& conversion = sums.conversion;
+  const double quantile = t_quantile(accuracy.confidence, sums.replicates);
+  if (std::isnan(quantile)) return {none, {}};
+  JudgedError largest;
+  const auto n = static_cast<double>(sums.replicates);
+  for (std::size_t b = 0; b < sums.bands.size(); ++b) {
+    const double per_quantum = conversion.quanta[b].w_m2_per_quantum;
+    const double least = least_judged_share * static_cast<double>(sums.ledgers[b].incident) * per_quantum / n;
+    if (!(least > 0.0)) continue;
+    const double unshot = static_cast<double>(sums.ledgers[b].unshot) * per_quantum / n;
+    const double one_packet = sums.unseen(conversion.events.other_w_m2[b], accuracy.confidence);
+    const auto judge = [&](const ReplicateMean& mean, double absorptance, JudgedFigure::Of of) {
+      const double half_width = mean.estimate(quantile, one_packet * absorptance).half_width;
+      largest.raise({(half_width + unshot) / std::max(mean.mean(), least), {.of = of, .band = b}});
+    };
+    judge(sums.bands[b].indirect_vegetation, conversion.areas.vegetation_absorptance[b], JudgedFigure::Of::vegetation);
+    judge(sums.bands[b].indirect_soil, conversion.areas.soil_absorptance[b], JudgedFigure::Of::soil);
+  }
+  if (accuracy.of == ErrorTarget::organ) {
+    largest.raise(organ_error(sums, quantile, true));
+  }
+  if (accuracy.of == ErrorTarget::triangle && !sums.indirect_spread.empty()) {
+    for (std::size_t b = 0; b < sums.bands.size(); ++b) {
+      largest.raise({element_rms_error(sums, quantile, sums.indirect_spread, b * sums.elements.size()),
+                     {.of = JudgedFigure::Of::triangles, .band = b}});
+    }
+  }
+  return largest;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,265 @@
+#include "physics/transport/solve/result_of.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// A half-width of a share from here on means that nothing is known except that the share lies between 0 and 1.
+constexpr double unknown_share = 1.0 - 1e-9;
+
+// Confidence intervals of single elements stay empty below this many landings (validation G2: a normal interval on fewer
+// hits too seldom covers the true value).
+constexpr std::uint64_t least_landings = 20;
+
+// Makes the result of one series of replicates.
+class ResultMaker {
+ public:
+  ResultMaker(const RunSums& sums, double confidence)
+      : sums_(sums),
+        model_(sums.conversion.model),
+        layout_(sums.conversion.layout),
+        quanta_(sums.conversion.quanta),
+        events_(sums.conversion.events),
+        exposure_(sums.conversion.exposure),
+        areas_(sums.conversion.areas),
+        confidence_(confidence),
+        quantile_(t_quantile(confidence, sums.replicates)) {}
+
+  [[nodiscard]] RadiationResult result() const {
+    RadiationResult result;
+    for (std::size_t b = 0; b < model_.bands.size(); ++b) {
+      result.bands.push_back(band_result(b));
+      result.w_per_quantum.push_back(quanta_[b].w_m2_per_quantum * model_.plot.area_m2() /
+                                     std::max(1.0, static_cast<double>(sums_.replicates)));
+    }
+    result.organs = organ_results();
+    result.layers = layer_results();
+    result.elements = sums_.elements;
+    result.element_error = element_errors();
+    result.side_error = side_errors();
+    result.soil_cells = sums_.soil_cells;
+    result.side_indirect = sums_.side_landed;
+    result.cell_indirect = sums_.cell_landed;
+    result.side_sky = sums_.side_sky;
+    result.cell_sky = sums_.cell_sky;
+    if (sums_.planes) {
+      std::vector<double> events_w_m2;
+      for (std::size_t b = 0; b < sums_.bands.size(); ++b) events_w_m2.push_back(events_.largest_w_m2(b));
+      result.planes = sums_.planes->results(quantile_, unseen_events(confidence_), events_w_m2);
+    }
+    result.sunlit_leaf_fraction = sunlit_estimate(sums_.sunlit, areas_.facing_m2, agreed_foliage());
+    result.ground_sunfleck_ratio = {none, none};
+    if (model_.has_beam()) result.ground_sunfleck_ratio = sums_.ground_ratio.estimate(quantile_, unseen(share_of_one_ray()));
+    result.leaf_area_index = areas_.foliage_m2 / model_.plot.area_m2();
+    result.ground_per_ray_m2 =
+        sums_.replicates > 0 ? sums_.conversion.ground_per_ray_m2 / static_cast<double>(sums_.replicates) : 0.0;
+    result.lost_rays = sums_.lost;
+    result.indirect.sky_rays = sums_.sky_rays;
+    result.indirect.packets = sums_.packets;
+    result.indirect.rounds = sums_.rounds;
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double unseen(double event) const { return sums_.unseen(event, confidence_); }
+
+  [[nodiscard]] BandResult band_result(std::size_t band) const {
+    const FluxLedger& ledger = sums_.ledgers[band];
+    if (ledger.residual() != 0) {
+      throw_failure(fmt::format("band {}: the flux ledger misses {} quanta", model_.bands[band].name, ledger.residual()),
+                    "incident must equal absorbed + reflected + transmitted + unshot",
+                    "run it with --device cpu, and report the device and the scene");
+    }
+    const double per_quantum = quanta_[band].w_m2_per_quantum / std::max(1.0, static_cast<double>(sums_.replicates));
+    BandResult result;
+    result.name = model_.bands[band].name;
+    result.ledger = ledger;
+    result.incident = static_cast<double>(ledger.incident) * per_quantum;
+    result.unshot = static_cast<double>(ledger.unshot) * per_quantum;
+    const auto estimate = [&](std::int64_t quanta, const ReplicateMean& mean, double event_w_m2) {
+      const Estimate of_mean = mean.estimate(quantile_, unseen(event_w_m2));
+      return Estimate{static_cast<double>(quanta) * per_quantum, of_mean.half_width + result.unshot};
+    };
+    const double any = events_.largest_w_m2(band);
+    const double packet = scatters(model_, band) ? events_.other_w_m2[band] : 0.0;
+    const double beam = areas_.beam_meets_vegetation ? events_.beam_w_m2[band] : 0.0;
+    const double fallen = !model_.soil ? std::max(beam, events_.other_w_m2[band]) : !model_.plot.periodic ? packet : 0.0;
+    result.absorbed_vegetation =
+        estimate(ledger.absorbed_vegetation, sums_.bands[band].vegetation, any * areas_.vegetation_absorptance[band]);
+    result.absorbed_soil = estimate(ledger.absorbed_soil, sums_.bands[band].soil, any * areas_.soil_absorptance[band]);
+    result.reflected = estimate(ledger.reflected, sums_.bands[band].reflected, packet);
+    result.transmitted = estimate(ledger.transmitted, sums_.bands[band].transmitted, fallen);
+    return result;
+  }
+
+  // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` or, where that is zero,
+  // from `parts`. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree
+  // with what the rays met.
+  [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, std::vector<FacingArea> parts) const {
+    if (!(facing_m2 > 0.0)) return {none, none};
+    const bool agree = sums_.replicates >= 2 && mean.squares() == 0.0;
+    if (!agree) return mean.estimate(quantile_);
+    const double unseen_share = unseen_sunlit_m2(std::move(parts), unseen(1.0)) / facing_m2;
+    return unseen_share < unknown_share ? Estimate{mean.mean(), unseen_share} : Estimate{none, none};
+  }
+
+  // Returns the parts of each organ about which all replicates agree: [organ]; empty for the other organs.
+  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_organs() const {
+    std::vector<std::vector<FacingArea>> parts(sums_.organs.size());
+    for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
+      const std::size_t organ = model_.canopy.organ_of[e];
+      if (sums_.organs[organ].sunlit.squares() > 0.0 || !exposure_.can_hit(e)) continue;
+      parts[organ].push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
+    }
+    return parts;
+  }
+
+  // Returns the same for the foliage in each layer: [layer].
+  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_layers() const {
+    const std::size_t count = areas_.layer_foliage_m2.size();
+    std::vector<std::vector<FacingArea>> parts(count);
+    const auto agree = [&](std::size_t k) {
+      return areas_.layer_facing_m2[k] > 0.0 && sums_.layers[k].sunlit.squares() == 0.0;
+    };
+    bool any = false;
+    for (std::size_t k = 0; k < count; ++k) any = any || agree(k);
+    std::vector<double> area_in_layer_m2(count);
+    for (std::size_t e = 0; any && e < sums_.elements.size(); ++e) {
+      if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
+      const Triangle& corners = model_.canopy.corners[e];
+      add_area_by_layer(layout_.layers, corners, area_in_layer_m2);
+      const std::size_t first = first_layer(layout_, corners);
+      for (std::size_t k = first; k < first + layout_.first_bin[e + 1] - layout_.first_bin[e]; ++k) {
+        if (agree(k)) parts[k].push_back({area_in_layer_m2[k], exposure_.lit_m2_per_landing(e)});
+        area_in_layer_m2[k] = 0.0;
+      }
+    }
+    return parts;
+  }
+
+  // Returns the same for all foliage together.
+  [[nodiscard]] std::vector<FacingArea> agreed_foliage() const {
+    std::vector<FacingArea> parts;
+    for (std::size_t e = 0; sums_.sunlit.squares() == 0.0 && e < sums_.elements.size(); ++e) {
+      if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
+      parts.push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
+    }
+    return parts;
+  }
+
+  // Returns how much one beam ray changes a share of the rays that meet the scene, in one replicate.
+  [[nodiscard]] double share_of_one_ray() const {
+    return areas_.beam_meets_vegetation && sums_.met.mean() > 0.0 ? events_.beam_share / sums_.met.mean() : 0.0;
+  }
+
+  [[nodiscard]] std::vector<OrganResult> organ_results() const {
+    std::vector<std::vector<FacingArea>> parts = agreed_organs();
+    std::vector<OrganResult> results;
+    for (std::size_t o = 0; o < sums_.organs.size(); ++o) {
+      OrganResult result;
+      result.area_m2 = areas_.organ_m2[o];
+      result.sunlit_fraction = sunlit_estimate(sums_.organs[o].sunlit, areas_.organ_facing_m2[o], std::move(parts[o]));
+      const double per_area = areas_.organ_m2[o] > 0.0 ? model_.plot.area_m2() / areas_.organ_m2[o] : 0.0;
+      for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
+        const double absorptance = areas_.organ_absorptance[o * sums_.bands.size() + b];
+        const double beam = areas_.organ_facing_m2[o] > 0.0 ? events_.beam_w_m2[b] : 0.0;
+        const double other = absorptance > 0.0 ? events_.other_w_m2[b] : 0.0;
+        const auto one = [&](double event_w_m2) { return unseen(event_w_m2 * per_area); };
+        result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, one(beam)));
+        result.indirect.push_back(sums_.organs[o].indirect[b].estimate(quantile_, one(other)));
+        result.absorbed.push_back(sums_.organs[o].absorbed[b].estimate(quantile_, one(std::max(beam, other) * absorptance)));
+        result.absorbed.back().half_width += result.absorbed.back().value * sums_.ledgers[b].unshot_share();
+      }
+      results.push_back(std::move(result));
+    }
+    return results;
+  }
+
+  [[nodiscard]] std::vector<LayerResult> layer_results() const {
+    const std::size_t count = areas_.layer_foliage_m2.size();
+    std::vector<std::vector<FacingArea>> parts = agreed_layers();
+    const double one_ray = unseen(share_of_one_ray());
+    std::vector<LayerResult> results;
+    for (std::size_t k = 0; k <= count; ++k) {
+      const LayerMeans& means = sums_.layers[k];
+      LayerResult result;
+      result.height_m = layout_.layers.height_m * static_cast<double>(k) / static_cast<double>(count);
+      const bool below_top = k < count;
+      result.sunfleck_ratio = {none, none};
+      if (model_.has_beam()) result.sunfleck_ratio = means.ratio.estimate(quantile_, below_top ? one_ray : 0.0);
+      result.sunlit_leaf_fraction = {none, none};
+      if (below_top) {
+        result.leaf_area_index = areas_.layer_foliage_m2[k] / model_.plot.area_m2();
+        result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], std::move(parts[k]));
+      }
+      for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
+        const double any = std::max(areas_.beam_meets_vegetation ? events_.beam_w_m2[b] : 0.0, events_.other_w_m2[b]);
+        const double packet = scatters(model_, b) ? events_.other_w_m2[b] : 0.0;
+        result.down.push_back(means.down[b].estimate(quantile_, unseen(below_top ? any : 0.0)));
+        result.up.push_back(means.up[b].estimate(quantile_, unseen(packet)));
+        if (!below_top) continue;
+        const double absorbed = areas_.layer_holds_vegetation[k] ? any * areas_.vegetation_absorptance[b] : 0.0;
+        result.absorbed.push_back(means.absorbed[b].estimate(quantile_, unseen(absorbed)));
+        result.absorbed.back().half_width += result.absorbed.back().value * sums_.ledgers[b].unshot_share();
+      }
+      results.push_back(std::move(result));
+    }
+    return results;
+  }
+
+  [[nodiscard]] std::vector<double> element_errors() const {
+    std::vector<double> errors;
+    errors.reserve(sums_.absorbed_spread.size());
+    for (std::size_t b = 0; b < sums_.bands.size() && !sums_.absorbed_spread.empty(); ++b) {
+      for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
+        const Spread& spread = sums_.absorbed_spread[b * sums_.elements.size() + e];
+        const bool enough = sums_.element_hits[e] >= least_landings;
+        const double mean = spread.sum / static_cast<double>(sums_.replicates);
+        errors.push_back(enough ? spread.half_width(quantile_, sums_.replicates) + mean * sums_.ledgers[b].unshot_share()
+                                : none);
+      }
+    }
+    return errors;
+  }
+
+  [[nodiscard]] std::vector<double> side_errors() const {
+    std::vector<double> errors;
+    errors.reserve(sums_.side_spread.size());
+    for (std::size_t place = 0; place < sums_.side_spread.size(); ++place) {
+      const std::size_t bands = sums_.bands.size();
+      const double mean = sums_.side_spread[place].sum / static_cast<double>(sums_.replicates);
+      // If no light fell on a side its error is unknown, however often the other side was hit.
+      const bool enough = mean > 0.0 && sums_.element_hits[place / bands / 2] >= least_landings;
+      errors.push_back(enough ? sums_.side_spread[place].half_width(quantile_, sums_.replicates) +
+                                    mean * sums_.ledgers[place % bands].unshot_share()
+                              : none);
+    }
+    return errors;
+  }
+
+  const RunSums& sums_;
+  const RadiationModel& model_;
+  const CounterLayout& layout_;
+  const std::vector<BandQuanta>& quanta_;
+  const LightEvents& events_;
+  const BeamExposure& exposure_;
+  const CanopyAreas& areas_;
+  double confidence_, quantile_;
+};
+
+}  // namespace
+
+RadiationResult result_of(const RunSums& sums, double confidence) {
+  return ResultMaker(sums, confidence).result();
+}
+
+}  // namespace sunfleck

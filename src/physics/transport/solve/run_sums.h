@@ -1,0 +1,115 @@
+#pragma once
+// Sums over the replicates of a run: integers for the ledger, means and spreads for the rest.
+
+#include "physics/transport/indirect/conversion.h"
+#include "physics/transport/indirect/replicate.h"
+#include "physics/transport/model/accuracy.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/model/statistics.h"
+#include "physics/transport/receivers/planes.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sunfleck {
+
+struct BandMeans {                                         // W m-2 of ground
+  ReplicateMean vegetation, soil, reflected, transmitted;  // total flux absorbed or leaving
+  ReplicateMean indirect_vegetation, indirect_soil;        // absorbed flux except from the beam's first landings
+};
+
+struct OrganMeans {
+  ReplicateMean landed, sunlit;  // landed: ground area of the beam rays per organ area
+  std::vector<ReplicateMean> direct, indirect, absorbed, indirect_absorbed;  // [band], W m-2 of organ
+};
+
+struct LayerMeans {
+  ReplicateMean ratio, sunlit;
+  std::vector<ReplicateMean> down, up, absorbed;  // [band], W m-2 of ground
+};
+
+// The sum of one value per replicate, and of its squares.
+struct Spread {
+  double sum = 0.0, squares = 0.0;
+
+  void add(double value) {
+    sum += value;
+    squares += value * value;
+  }
+  // Returns the half-width of the interval of the mean.
+  [[nodiscard]] double half_width(double t_quantile, std::size_t replicates) const;
+};
+
+struct RunSums {
+  // All replicates have the incidence of `conversion`, which must outlive the sums.
+  RunSums(const Conversion& conversion, ElementErrors element_errors);
+
+  // Adds a replicate. Without an indirect pass the flux scattered by first landings counts as unshot, as does the sky's flux
+  // in an endless canopy. Throws Error (failure) if the sums over all replicates would overflow: light between mirrors can
+  // land that often.
+  void add(const Replicate& replicate);
+
+  // Returns how much the events that may have escaped all replicates would add to a mean if each adds `event` in its
+  // replicate.
+  [[nodiscard]] double unseen(double event, double confidence) const;
+
+  // Passes every sum to `archive`; serves const and other sums alike. The number of values depends only on the model and on
+  // the element errors: arrays that stay empty before the first replicate have a size for `visit_late`.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive);
+
+  const Conversion& conversion;
+  std::size_t replicates = 0;
+  std::uint64_t lost = 0, sky_rays = 0, packets = 0, rounds = 0;
+  std::vector<double> landed;  // [band], quanta of packets and sky rays, counted once per landing
+  ReplicateMean first_vegetation, first_ground, met, ground_ratio, sunlit;
+  std::vector<FluxLedger> ledgers;  // [band]
+  std::vector<BandMeans> bands;
+  std::vector<OrganMeans> organs;
+  std::vector<LayerMeans> layers;         // [layer, + 1 for the top plane]
+  std::vector<BeamLandings> elements;     // [element]
+  std::vector<std::int64_t> side_landed;  // as IndirectSums::side_landed, over all replicates; empty before the first
+  std::vector<std::int64_t> cell_landed, side_sky, cell_sky;
+  std::vector<std::uint64_t> soil_cells;
+  std::vector<std::uint64_t> element_hits;  // [element], rays and packets; empty if errors are skipped
+  std::vector<Spread> direct_spread;        // [element], landings; this and the next two are empty if errors are skipped
+  std::vector<Spread> absorbed_spread;      // [band * elements + element], W m-2 of element
+  std::vector<Spread> indirect_spread;      // [band * elements + element], W m-2 of element
+  std::vector<Spread> side_spread;          // [(2 * element + side) * bands + band], W m-2 of element; empty unless kept
+  std::optional<PlaneTally> planes;
+};
+
+template <class Self, class Archive>
+void RunSums::visit(Self& self, Archive& archive) {
+  const RadiationModel& model = self.conversion.model;
+  const auto visit_all = [&](auto&... sums) { (archive.visit(sums), ...); };
+  visit_all(self.replicates, self.lost, self.sky_rays, self.packets, self.rounds, self.landed, self.first_vegetation,
+            self.first_ground, self.met, self.ground_ratio, self.sunlit);
+  for (auto& ledger : self.ledgers) {
+    visit_all(ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected, ledger.transmitted,
+              ledger.unshot);
+  }
+  for (auto& band : self.bands) {
+    visit_all(band.vegetation, band.soil, band.reflected, band.transmitted, band.indirect_vegetation, band.indirect_soil);
+  }
+  for (auto& organ : self.organs) {
+    visit_all(organ.landed, organ.sunlit, organ.direct, organ.indirect, organ.absorbed, organ.indirect_absorbed);
+  }
+  for (auto& layer : self.layers) visit_all(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed);
+  for (auto& element : self.elements) visit_all(element.upper, element.lower);
+  const bool packets = scatters(model) || model.has_sky();
+  const std::size_t sides = 2 * self.elements.size() * model.bands.size();
+  const std::size_t cells = self.soil_cells.size() * model.bands.size();
+  archive.visit_late(self.side_landed, packets ? sides : 0);
+  archive.visit_late(self.cell_landed, packets ? cells : 0);
+  archive.visit_late(self.side_sky, model.has_sky() ? sides : 0);
+  archive.visit_late(self.cell_sky, model.has_sky() ? cells : 0);
+  visit_all(self.soil_cells, self.element_hits);
+  for (auto* spreads : {&self.direct_spread, &self.absorbed_spread, &self.indirect_spread, &self.side_spread}) {
+    for (auto& spread : *spreads) visit_all(spread.sum, spread.squares);
+  }
+  if (self.planes) PlaneTally::visit_sums(*self.planes, archive);
+}
+
+}  // namespace sunfleck

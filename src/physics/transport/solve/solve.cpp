@@ -1,0 +1,363 @@
+#include "physics/transport/solve/solve.h"
+
+#include "base/check.h"
+#include "physics/transport/indirect/replicate_maker.h"
+#include "physics/transport/solve/darkness.h"
+#include "physics/transport/solve/foresight.h"
+#include "physics/transport/solve/judged_error.h"
+#include "physics/transport/solve/replicate_helpers.h"
+#include "physics/transport/solve/replicate_queue.h"
+#include "physics/transport/solve/result_of.h"
+#include "physics/transport/solve/run_sums.h"
+#include "physics/transport/solve/work_planner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+
+namespace sunfleck {
+namespace {
+
+// First number of the pilots' replicates, apart from those of the run.
+constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
+
+double steady_clock_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Holds replicates with the same work.
+struct Series {
+  Series(const ReplicateMaker& maker, const Incidence& incidence, ElementErrors element_errors)
+      : conversion(maker.conversion(incidence)), sums(conversion, element_errors), grid_rays(incidence.rays) {}
+
+  // Returns the number of rays and packets.
+  [[nodiscard]] std::uint64_t traced() const { return sums.replicates * grid_rays + sums.packets + sums.sky_rays; }
+
+  Conversion conversion;
+  RunSums sums;             // refers to the conversion, so that a series cannot be copied or moved
+  std::uint64_t grid_rays;  // of each replicate
+};
+
+class Solver {
+ public:
+  Solver(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
+         const Monitor& monitor, ReplicateHelpers* helpers)
+      : model_(model),
+        settings_(settings),
+        monitor_(monitor),
+        maker_(model, layout, tracer),
+        planner_(model, settings, maker_),
+        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
+
+  RadiationResult run() {
+    if (settings_.resume_from != nullptr) return resume(*settings_.resume_from);
+    const bool told = settings_.begin_with && !planner_.fixed();
+    const std::optional<Work> work = told ? planner_.begin_with(*settings_.begin_with) : choose_work();
+    if (!work) return finish(stop_);
+    begin(*work);
+    return run_on();
+  }
+
+  std::optional<RunForecast> forecast() {
+    const std::optional<Work> work = choose_work();
+    if (!work) return std::nullopt;
+    return RunForecast{*work, planner_.replicate_bytes(*work), planner_.at_once(*work)};
+  }
+
+ private:
+  [[nodiscard]] bool has_indirect() const { return maker_.has_indirect_pass(); }
+  [[nodiscard]] double clock_s() const { return monitor_.clock_s ? monitor_.clock_s() : steady_clock_s(); }
+  [[nodiscard]] double seconds() const { return clock_s() - start_s_; }
+
+  // Returns true once the run has to end, and records the reason. Any thread may call it.
+  bool must_stop() {
+    const std::lock_guard lock(stop_mutex_);
+    if (monitor_.interrupted && monitor_.interrupted()) {
+      stop_ = StopReason::interrupted;
+      return true;
+    }
+    if (settings_.max_seconds && seconds() >= *settings_.max_seconds) {
+      stop_ = StopReason::time_spent;
+      return true;
+    }
+    return false;
+  }
+
+  std::optional<Work> choose_work() {
+    return planner_.choose([this](const Work& pilot) { return run_pilots(pilot); });
+  }
+
+  // Makes pilots, which become the fallback, even if stopped.
+  std::optional<SeriesOutcome> run_pilots(const Work& pilot) {
+    const double before = seconds();
+    begin(pilot, pilot_stream);
+    while (series_->sums.replicates < pilot_replicates) {
+      if (!add_replicate(pilot_replicates, pilot_replicates)) {
+        keep_fallback();
+        return std::nullopt;
+      }
+      report_pilot();
+    }
+    SeriesOutcome pilots = outcome();
+    pilots.seconds_each = (seconds() - before) / pilot_replicates;
+    if (settings_.max_seconds) pilots.seconds_left = std::max(0.0, *settings_.max_seconds - seconds());
+    keep_fallback();
+    return pilots;
+  }
+
+  [[nodiscard]] SeriesOutcome outcome() const { return {series_->sums.replicates, direct_error(), indirect_error()}; }
+
+  // Begins a series of replicates; those of pilots have separate numbers.
+  void begin(const Work& work, std::uint64_t stream = 0) {
+    queue_.end();
+    work_ = work;
+    begun_with_ = 0;
+    begun_s_ = seconds();
+    completion_ = {};
+    Incidence incidence = maker_.incidence(work.rays);
+    incidence.packets = work.packets;
+    incidence.sky_rays = planner_.sky_rays(work);
+    series_ = std::make_unique<Series>(maker_, incidence, settings_.element_errors);
+    queue_.begin(
+        {work.rays, incidence.rays, work.packets, incidence.sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
+        series_->conversion, planner_.at_once(work));
+  }
+
+  // Adds one replicate, and starts others: among the first `certain` ones or, where workers would be idle, among the first
+  // `possible` ones. Returns false if the run has to end before the replicate is complete.
+  bool add_replicate(std::size_t certain, std::size_t possible) {
+    const std::optional<Replicate> replicate =
+        queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
+    if (!replicate) return false;
+    series_->sums.add(*replicate);
+    traced_ += series_->grid_rays;
+    if (replicate->packets) {
+      traced_ += replicate->packets->packets + replicate->packets->sky_rays;
+      planner_.learn(work_, *replicate->packets);
+    }
+    direct_s_ += replicate->direct_s;
+    indirect_s_ += replicate->indirect_s;
+    hand_over();
+    return true;
+  }
+
+  // Hands the result so far to the monitor.
+  void hand_over() {
+    if (!monitor_.wants_result || !monitor_.wants_result()) return;
+    const bool use_fallback = fallback_ && series_->traced() < fallback_->traced();
+    monitor_.receive_result(result_of_series(use_fallback ? *fallback_ : *series_, StopReason::interrupted));
+  }
+
+  // The two errors are empty for a pass without any light in the scene.
+  [[nodiscard]] std::optional<JudgedError> direct_error(const RunSums& sums) const {
+    if (!model_.has_beam()) return std::nullopt;
+    return sunfleck::direct_error(sums, settings_.accuracy);
+  }
+  [[nodiscard]] std::optional<JudgedError> indirect_error(const RunSums& sums) const {
+    if (!has_indirect()) return std::nullopt;
+    return sunfleck::indirect_error(sums, settings_.accuracy);
+  }
+  [[nodiscard]] double direct_error() const { return direct_error(series_->sums).value_or(JudgedError{}).relative; }
+  [[nodiscard]] double indirect_error() const { return indirect_error(series_->sums).value_or(JudgedError{}).relative; }
+
+  [[nodiscard]] bool bounds_hold() const {
+    return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
+  }
+
+  void report_pilot() const {
+    if (!monitor_.report) return;
+    monitor_.report({.stage = Progress::Stage::pilot, .rays = traced_});
+  }
+
+  // `expected` is the number of replicates of the whole run, as far as it is known.
+  void report(std::size_t expected) {
+    if (!monitor_.report) return;
+    const double direct = direct_error();
+    const double indirect = indirect_error();
+    const bool direct_lags = direct / settings_.accuracy.direct >= indirect / settings_.accuracy.indirect;
+    Progress progress{.rays = traced_};
+    progress.pass = direct_lags ? Progress::Pass::direct : Progress::Pass::indirect;
+    progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
+    if (!std::isnan(direct + indirect)) progress.relative_error = direct_lags ? direct : indirect;
+    const auto done = static_cast<double>(series_->sums.replicates);
+    const double each_s = (seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
+    const double left = std::min(static_cast<double>(expected) - done, affordable_replicates(each_s));
+    progress.fraction = completion_.update(done, done + left);
+    progress.seconds_left = left * each_s;
+    monitor_.report(progress);
+  }
+
+  // Returns how many more replicates the limits on time and rays allow.
+  [[nodiscard]] double affordable_replicates(double seconds_each) const {
+    double most = std::numeric_limits<double>::infinity();
+    if (settings_.max_seconds) most = std::max(0.0, *settings_.max_seconds - seconds()) / std::max(seconds_each, 1e-9);
+    if (settings_.max_rays && series_->sums.replicates > 0) {
+      const auto traced = static_cast<double>(series_->traced());
+      const double each = std::max(1.0, traced / static_cast<double>(series_->sums.replicates));
+      most = std::min(most, std::floor(std::max(0.0, static_cast<double>(*settings_.max_rays) - traced) / each));
+    }
+    return most;
+  }
+
+  // Returns the number of replicates after which a run to its bounds is expected to end: at the second good check in a
+  // row.
+  [[nodiscard]] std::size_t expected_replicates() const {
+    const std::size_t done = series_->sums.replicates;
+    std::size_t needed = planned_replicates;
+    if (done >= 2) {
+      const auto needs = [&](double error, double bound) {
+        return replicates_needed(error, bound, settings_.accuracy.confidence, done, most_replicates);
+      };
+      needed = std::max(needs(direct_error(), settings_.accuracy.direct), needs(indirect_error(), settings_.accuracy.indirect));
+    }
+    std::size_t check = next_check_;
+    if (good_checks_ > 0 && needed <= check) return check;
+    while (check < std::min(needed, most_replicates)) check = check_after(check);
+    return check_after(check);
+  }
+
+  void keep_fallback() {
+    if (series_ && series_->sums.replicates >= 2) {
+      fallback_ = std::move(series_);
+    }
+    series_.reset();
+  }
+
+  RadiationResult resume(const SolveState& state) {
+    begin(state.work, state.replicates());
+    ENSURE(restore(series_->sums, state.sums), ==, true);
+    begun_with_ = series_->sums.replicates;
+    traced_ = series_->traced();
+    next_check_ = state.next_check;
+    good_checks_ = state.good_checks;
+    return run_on();
+  }
+
+  RadiationResult run_on() { return planner_.fixed() ? run_fixed() : run_to_bound(); }
+
+  RadiationResult run_fixed() {
+    const auto all = static_cast<std::size_t>(planner_.asked_replicates());
+    while (series_->sums.replicates < all) {
+      if (spent() || !add_replicate(all, all)) return finish(stop_);
+      report(all);
+      if (monitor_.wants_state && monitor_.wants_state()) keep_state();
+    }
+    return finish(StopReason::work_done);
+  }
+
+  RadiationResult run_to_bound() {
+    while (true) {
+      // The run cannot end before the next check, nor at it if it were the first good one.
+      const std::size_t certain = good_checks_ == 0 ? check_after(next_check_) : next_check_;
+      if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
+      report(expected_replicates());
+      if (series_->sums.replicates >= next_check_) {
+        good_checks_ = bounds_hold() ? good_checks_ + 1 : 0;
+        if (good_checks_ == 2) return finish(StopReason::bound_reached);
+        if (series_->sums.replicates >= most_replicates) return finish(StopReason::replicates_spent);
+        next_check_ = check_after(next_check_);
+      }
+      if (monitor_.wants_state && monitor_.wants_state()) keep_state();
+    }
+  }
+
+  [[nodiscard]] static std::size_t check_after(std::size_t check) {
+    return std::min(most_replicates, check + std::max<std::size_t>(4, check / 8));
+  }
+
+  void keep_state() const {
+    if (!monitor_.receive_state || series_->sums.replicates < 2 || planner_.fitted_to_time()) return;
+    monitor_.receive_state({work_, next_check_, good_checks_, plain_sums(series_->sums)});
+  }
+
+  // Returns true if the next replicate would need more rays than are left.
+  bool spent() {
+    if (!settings_.max_rays) return false;
+    const std::size_t done = series_->sums.replicates;
+    const std::uint64_t run = series_->traced();
+    const std::uint64_t next = done > 0 ? run / done : series_->grid_rays;
+    if (run + next <= *settings_.max_rays) return false;
+    stop_ = StopReason::rays_spent;
+    return true;
+  }
+
+  RadiationResult finish(StopReason reason) {
+    queue_.end();
+    const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
+    if (stopped && series_) keep_state();
+    const bool use_fallback = fallback_ && (!series_ || series_->sums.replicates < 2);
+    if (use_fallback) {
+      series_ = std::move(fallback_);
+    } else if (!series_) {
+      begin(first_pilot);
+    }
+    RadiationResult result = result_of_series(*series_, reason);
+    result.work = work_;
+    result.next_work = planner_.next(work_, outcome());
+    return result;
+  }
+
+  [[nodiscard]] RadiationResult result_of_series(const Series& series, StopReason reason) const {
+    RadiationResult result = result_of(series.sums, settings_.accuracy.confidence);
+    result.stop = reason;
+    result.direct.replicates = series.sums.replicates;
+    result.direct.rays = series.sums.replicates * series.grid_rays;
+    if (result.direct.rays > 0) {
+      result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
+    }
+    const auto tell = [](const std::optional<JudgedError>& error, auto& summary) {
+      if (!error || std::isnan(error->relative)) return;
+      summary.relative_error = error->relative;
+      summary.judged = error->figure;
+    };
+    tell(direct_error(series.sums), result.direct);
+    tell(indirect_error(series.sums), result.indirect);
+    if (!model_.has_beam()) result.direct.relative_error = 0.0;
+    // Replicates overlap, so the elapsed time is divided in proportion to the time spent in each pass.
+    const double busy_s = direct_s_ + indirect_s_;
+    result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
+    result.direct.seconds = seconds() - result.indirect.seconds;
+    if (!planner_.fixed()) {
+      result.direct.bound = settings_.accuracy.direct;
+      if (has_indirect()) result.indirect.bound = settings_.accuracy.indirect;
+    }
+    return result;
+  }
+
+  const RadiationModel& model_;
+  const SolveSettings& settings_;
+  const Monitor& monitor_;
+  ReplicateMaker maker_;
+  WorkPlanner planner_;
+  double start_s_ = clock_s();
+  std::unique_ptr<Series> series_, fallback_;
+  std::mutex stop_mutex_;
+  StopReason stop_ = StopReason::interrupted;
+  Work work_;
+  std::uint64_t traced_ = 0;
+  std::size_t next_check_ = first_check, good_checks_ = 0;
+  std::size_t begun_with_ = 0;  // replicates that an earlier process made
+  double begun_s_ = 0.0;        // time at which this series began
+  Completion completion_;
+  double direct_s_ = 0.0, indirect_s_ = 0.0;
+  ReplicateQueue queue_;  // declared last, so that it is destroyed first
+};
+
+}  // namespace
+
+std::optional<RunForecast> forecast(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
+                                    const SolveSettings& settings, const Monitor& monitor) {
+  if (is_dark(model)) return RunForecast{};
+  return Solver(model, layout, tracer, settings, monitor, nullptr).forecast();
+}
+
+RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
+                      const Monitor& monitor, ReplicateHelpers* helpers) {
+  if (is_dark(model)) return dark_result(model, layout, settings);
+  return Solver(model, layout, tracer, settings, monitor, helpers).run();
+}
+
+}  // namespace sunfleck

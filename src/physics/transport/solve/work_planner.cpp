@@ -1,0 +1,178 @@
+#include "physics/transport/solve/work_planner.h"
+
+#include "physics/light/beam_grid.h"
+#include "physics/transport/model/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+// A pilot is trusted to forecast work up to this multiple of its own; beyond it a larger pilot follows, at a few percent of
+// the cost.
+constexpr double trusted_refinement = 16;
+// Exponents by which errors fall. The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation
+// G3), and more slowly while its cells are not yet small compared with the leaves: rays^-0.6 gave the best forecasts from
+// pilots on maize. The error of packets falls with packets^-1/2.
+constexpr double ray_slope = 0.6;
+constexpr double packet_slope = 0.5;
+// Part of the bound to aim at, so that the checks rarely fail by chance.
+constexpr double aimed_part_of_bound = 0.7;
+// Sky rays per packet of the first round when the work is not fixed, and the largest number of sky rays in one replicate.
+constexpr double sky_rays_per_packet = 2.0;
+constexpr double most_sky_rays = 0x1p22;
+// A replicate whose packets take more memory than this gains nothing: more replicates do the same work.
+constexpr double comfortable_bytes = 0x1p28;
+
+// Returns the factor by which the work must grow for an error to fall to the part of its bound that is aimed at.
+double growth(double error, double bound, double slope) {
+  return std::pow(error / (aimed_part_of_bound * bound), 1.0 / slope);
+}
+
+// Returns the ratio of the half-widths that `replicates` would give to those that `done` gave.
+double half_width_ratio(std::size_t done, int replicates, double confidence) {
+  return std::sqrt(static_cast<double>(done) / replicates) * t_quantile(confidence, static_cast<std::size_t>(replicates)) /
+         t_quantile(confidence, done);
+}
+
+}  // namespace
+
+int WorkPlanner::asked_replicates() const {
+  return settings_.passes.value_or(settings_.grid_m ? fixed_grid_replicates : planned_replicates);
+}
+
+std::optional<Work> WorkPlanner::choose(const RunPilots& run_pilots) {
+  const bool needs_pilots = !settings_.grid_m || (maker_.has_indirect_pass() && !settings_.packets);
+  std::optional<Work> work = needs_pilots ? choose_by_pilots(run_pilots) : Work{};
+  if (!work || !settings_.grid_m) return work;
+  work->rays = grid_rays_asked();
+  work->packets = settings_.packets.value_or(std::max(first_pilot.packets, work->packets));
+  return work;
+}
+
+// Returns the work of a replicate such that the planned number of replicates reaches the bounds: pilots of the direct pass alone
+// determine the rays, then pilots with half those rays determine the packets. Returns nothing if stopped.
+std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
+  double most = static_cast<double>(max_grid_rays);
+  if (settings_.max_rays) most = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * pilot_replicates));
+  Work work;
+  if (settings_.grid_m) {
+    work.rays = grid_rays_asked();
+  } else if (model_.has_beam()) {
+    const Work pilot{std::min(first_pilot.rays, most), 0.0};
+    const auto rays = grow_pilots(run_pilots, pilot, &Work::rays, &WorkPlanner::ray_growth, [&] { return most; });
+    if (!rays) return std::nullopt;
+    work.rays = rays->chosen;
+  }
+  if (!maker_.has_indirect_pass()) return work;
+  // On a fixed grid there is at most one packet per ray, and at least as many packets as in the first pilot.
+  if (settings_.grid_m) most = std::min(most, std::max(first_pilot.packets, work.rays));
+  if (most <= first_pilot.packets) {
+    work.packets = most;
+    return work;
+  }
+  const Work pilot{std::max(std::min(first_pilot.rays, work.rays), 0.5 * work.rays), std::min(first_pilot.packets, most)};
+  const auto packets = grow_pilots(run_pilots, pilot, &Work::packets, &WorkPlanner::packet_growth,
+                                   [&] { return std::min(most, most_packets(work)); });
+  if (!packets) return std::nullopt;
+  work.packets = packets->chosen;
+  // More replicates make up for packets that do not fit the memory, and each of them then needs fewer rays.
+  const bool held_back = !fixed() && packets->chosen == most_packets(work);
+  if (held_back) work.rays *= std::pow(packets->wanted / packets->chosen, -0.5 / ray_slope);
+  if (held_back && model_.has_beam()) work.rays = std::max(first_pilot.rays, work.rays);
+  return work;
+}
+
+// Runs pilots until one is large enough to forecast `part` of the work, which is at most `most()`.
+std::optional<WorkPlanner::Part> WorkPlanner::grow_pilots(const RunPilots& run_pilots, Work pilot, double Work::*part,
+                                                          Growth growth, const std::function<double()>& most) {
+  while (true) {
+    const std::optional<SeriesOutcome> pilots = run_pilots(pilot);
+    if (!pilots) return std::nullopt;
+    const double wanted = pilot.*part * std::max(0.25, (this->*growth)(*pilots, asked_replicates()));
+    const double possible = std::min(wanted, most());
+    const double affordable = pilot.*part * affordable_growth(*pilots);
+    if (affordable < possible) fitted_to_time_ = true;
+    const double next = std::max(1.0, std::min(possible, affordable));
+    if (next <= trusted_refinement * pilot.*part || next < wanted) return Part{wanted, next};
+    pilot.*part *= trusted_refinement;
+  }
+}
+
+double WorkPlanner::ray_growth(const SeriesOutcome& series, int replicates) const {
+  const double fewer = half_width_ratio(series.replicates, replicates, settings_.accuracy.confidence);
+  return growth(series.direct_error * fewer, settings_.accuracy.direct, ray_slope);
+}
+
+double WorkPlanner::packet_growth(const SeriesOutcome& series, int replicates) const {
+  const double fewer = half_width_ratio(series.replicates, replicates, settings_.accuracy.confidence);
+  return growth(series.indirect_error * fewer, settings_.accuracy.indirect, packet_slope);
+}
+
+// With a limit on time, replicates must be small enough for pilot_replicates of them to be done in time.
+double WorkPlanner::affordable_growth(const SeriesOutcome& pilots) const {
+  if (!settings_.max_seconds || !settings_.fit_to_time) return std::numeric_limits<double>::infinity();
+  return pilots.seconds_left / (2.0 * pilot_replicates * std::max(pilots.seconds_each, 1e-6));
+}
+
+Work WorkPlanner::begin_with(Work earlier) const {
+  if (model_.has_beam()) earlier.rays = std::max(first_pilot.rays, earlier.rays);
+  if (maker_.has_indirect_pass()) earlier.packets = std::max(first_pilot.packets, earlier.packets);
+  return earlier;
+}
+
+Work WorkPlanner::next(const Work& work, const SeriesOutcome& run) const {
+  Work next = work;
+  if (run.replicates < 2) return next;
+  const auto trusted = [](double factor) { return std::clamp(factor, 1.0 / trusted_refinement, trusted_refinement); };
+  next.rays *= trusted(ray_growth(run, planned_replicates));
+  next.packets *= trusted(packet_growth(run, planned_replicates));
+  next.rays = std::min(next.rays, static_cast<double>(max_grid_rays));
+  next.packets = std::min(next.packets, most_packets(next));
+  return next;
+}
+
+// A fixed grid sets the number of sky rays too.
+std::size_t WorkPlanner::sky_rays(const Work& work) const {
+  if (!maker_.has_sky()) return 0;
+  const double rays = settings_.grid_m && !settings_.packets ? work.rays : sky_rays_per_packet * work.packets;
+  return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
+}
+
+// Without an indirect pass the host has almost nothing to do meanwhile, and saving memory is better.
+std::size_t WorkPlanner::at_once(const Work& work) const {
+  if (settings_.max_rays || !maker_.has_indirect_pass()) return 1;
+  const double asked = std::max(1, settings_.replicates_at_once);
+  if (!settings_.memory_bytes) return static_cast<std::size_t>(asked);
+  return static_cast<std::size_t>(std::clamp(*settings_.memory_bytes / replicate_bytes(work), 1.0, asked));
+}
+
+double WorkPlanner::replicate_bytes(const Work& work) const {
+  return maker_.sum_bytes() + (maker_.has_indirect_pass() ? memory_.bytes(ray_counts(work)) : 0.0);
+}
+
+double WorkPlanner::grid_rays_asked() const {
+  return std::max(1.0, model_.plot.area_m2() / (*settings_.grid_m * *settings_.grid_m) / asked_replicates());
+}
+
+// Returns the largest number of packets in a replicate's first round that fits the memory. It depends on the machine only if
+// memory is too short for even a single comfortable replicate.
+double WorkPlanner::most_packets(Work work) const {
+  if (!settings_.memory_bytes) return most_first_packets;
+  const double most_bytes = std::min(comfortable_bytes, *settings_.memory_bytes - maker_.sum_bytes());
+  double fits = first_pilot.packets;
+  double exceeds = most_first_packets;
+  while (exceeds - fits > 1.0) {
+    work.packets = std::floor(0.5 * (fits + exceeds));
+    (memory_.bytes(ray_counts(work)) <= most_bytes ? fits : exceeds) = work.packets;
+  }
+  return fits;
+}
+
+RayCounts WorkPlanner::ray_counts(const Work& work) const {
+  return {model_.has_beam() ? work.rays : 0.0, static_cast<double>(sky_rays(work)), work.packets};
+}
+
+}  // namespace sunfleck

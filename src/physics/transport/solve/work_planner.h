@@ -1,0 +1,90 @@
+#pragma once
+// The work of one replicate: as much as brings a run just to its bounds, which pilots show, within its limits on rays, time
+// and memory.
+
+#include "physics/transport/indirect/packet_memory.h"
+#include "physics/transport/indirect/replicate_maker.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/solve/solve.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace sunfleck {
+
+// Number of replicates for which the work is chosen, and in a series of pilots.
+inline constexpr int planned_replicates = 16;
+inline constexpr int pilot_replicates = 8;
+// The smallest work of pilots.
+inline constexpr Work first_pilot{16384, 4096};
+
+// What a series of replicates showed.
+struct SeriesOutcome {
+  std::size_t replicates = 0;
+  double direct_error = 0.0, indirect_error = 0.0;  // compared with the bounds; 0 without such light
+  double seconds_each = 0.0;
+  double seconds_left = 0.0;  // of max_seconds
+};
+
+class WorkPlanner {
+ public:
+  // Makes pilot_replicates of that work; returns nothing if stopped.
+  using RunPilots = std::function<std::optional<SeriesOutcome>(const Work&)>;
+
+  // All arguments must outlive the planner.
+  WorkPlanner(const RadiationModel& model, const SolveSettings& settings, const ReplicateMaker& maker)
+      : model_(model), settings_(settings), maker_(maker), memory_(model) {}
+
+  // Returns true if the settings give the work, so that no error ends the run.
+  [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
+  [[nodiscard]] int asked_replicates() const;
+
+  // Returns the work of the run's replicates, after pilots if they are needed; nothing if stopped.
+  [[nodiscard]] std::optional<Work> choose(const RunPilots& run_pilots);
+
+  // Returns the work for a run that uses an earlier one as its pilot. Work for light that this scene has and the earlier one
+  // lacked starts as small as in pilots.
+  [[nodiscard]] Work begin_with(Work earlier) const;
+
+  // Returns the work with which planned_replicates would just have reached the bounds, as far as this run shows.
+  [[nodiscard]] Work next(const Work& work, const SeriesOutcome& run) const;
+
+  [[nodiscard]] std::size_t sky_rays(const Work& work) const;
+  // Returns the number of replicates to make at the same time in this process.
+  [[nodiscard]] std::size_t at_once(const Work& work) const;
+  // Returns the memory of a replicate while it is made, in bytes.
+  [[nodiscard]] double replicate_bytes(const Work& work) const;
+  // Records the memory that a replicate took.
+  void learn(const Work& work, const IndirectSums& packets) { memory_.learn(ray_counts(work), packets); }
+
+  // Returns true if the chosen work was limited by max_seconds.
+  [[nodiscard]] bool fitted_to_time() const { return fitted_to_time_; }
+
+ private:
+  // A part of the work as the pilots request it, and as much of it as is possible.
+  struct Part {
+    double wanted = 0.0, chosen = 0.0;
+  };
+
+  using Growth = double (WorkPlanner::*)(const SeriesOutcome& series, int replicates) const;
+
+  [[nodiscard]] std::optional<Work> choose_by_pilots(const RunPilots& run_pilots);
+  [[nodiscard]] std::optional<Part> grow_pilots(const RunPilots& run_pilots, Work pilot, double Work::*part, Growth growth,
+                                                const std::function<double()>& most);
+  [[nodiscard]] double ray_growth(const SeriesOutcome& series, int replicates) const;
+  [[nodiscard]] double packet_growth(const SeriesOutcome& series, int replicates) const;
+  [[nodiscard]] double affordable_growth(const SeriesOutcome& pilots) const;
+  [[nodiscard]] double grid_rays_asked() const;
+  [[nodiscard]] double most_packets(Work work) const;
+  [[nodiscard]] RayCounts ray_counts(const Work& work) const;
+
+  const RadiationModel& model_;
+  const SolveSettings& settings_;
+  const ReplicateMaker& maker_;
+  PacketMemory memory_;
+  bool fitted_to_time_ = false;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,115 @@
+#include "pictures/charts/colouring.h"
+
+#include "pictures/drawing/tone_map.h"
+#include "pictures/drawing/viridis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sunfleck {
+namespace {
+
+Colouring ranked(const FieldValues& values, const RankScale& scale) {
+  Colouring colouring;
+  colouring.colours.reserve(values.w_m2.size());
+  for (const double value : values.w_m2) colouring.colours.push_back(rank_colour(rank_of(scale, value)));
+  colouring.legend = rank_legend(scale);
+  return colouring;
+}
+
+Colouring mapped(const FieldValues& values, const MapScale& scale) {
+  constexpr int steps = 64;
+  Colouring colouring;
+  colouring.colours.reserve(values.w_m2.size());
+  for (const double value : values.w_m2) colouring.colours.push_back(map_colour(scale, value));
+  ColourBar bar{0.0, scale.top, {}};
+  for (int k = 0; k <= steps; ++k)
+    bar.colours.push_back(scale.top > 0.0 ? viridis(static_cast<double>(k) / steps) : viridis(0));
+  colouring.bar = bar;
+  if (scale.open) colouring.legend.push_back({viridis(1.0), fmt::format("> {:.3g}", scale.top)});
+  return colouring;
+}
+
+// Returns up to `count` numbers of the form 1, 2 or 5 times a power of ten, the largest first, none above `top`.
+std::vector<double> round_levels(double top, int count) {
+  std::vector<double> levels;
+  if (!(top > 0.0)) return levels;
+  int power = static_cast<int>(std::floor(std::log10(top)));
+  while (static_cast<int>(levels.size()) < count) {
+    for (const double digit : {5.0, 2.0, 1.0}) {
+      const double level = digit * std::pow(10.0, power);
+      if (level <= top && static_cast<int>(levels.size()) < count) levels.push_back(level);
+    }
+    --power;
+  }
+  return levels;
+}
+
+// The legend shows the surface with the largest area at some round irradiances, and without light.
+Colouring hue_mapped(const FieldValues& values, const SurfaceColours& surfaces) {
+  constexpr int swatches = 6;
+  constexpr double brightest_swatch = 1.25;  // relative to the value that nearly all surfaces stay below
+  const ToneMap tones = make_tone_map(values.w_m2, values.area_m2, surfaces.reflectance);
+  Colouring colouring;
+  colouring.colours.reserve(values.w_m2.size());
+  for (std::size_t i = 0; i < values.w_m2.size(); ++i) {
+    colouring.colours.push_back(hue_colour(tones, surfaces.reflectance[i], values.w_m2[i]));
+  }
+  const double top = brightest_swatch * weighted_quantile(values.w_m2, values.area_m2, map_top_share);
+  for (const double level : round_levels(top, swatches)) {
+    colouring.legend.push_back({hue_colour(tones, surfaces.typical, level), fmt::format("{:.6g}", level)});
+  }
+  colouring.legend.push_back({Colour{}, "0"});
+  colouring.note = fmt::format("hue mapping, log-mean {:.3g} W m⁻²", tones.log_mean_w_m2);
+  return colouring;
+}
+
+}  // namespace
+
+SurfaceColours surface_colours(const RadiationModel& model, const CounterLayout& layout) {
+  SurfaceColours surfaces;
+  surfaces.reflectance = surface_reflectance(model, layout);
+  std::vector<double> area(model.optics.size(), 0.0);
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+    area[model.canopy.optics_of[e]] += 2.0 * area_m2(model.canopy.corners[e]);
+  }
+  const auto largest = std::max_element(area.begin(), area.end());
+  const double soil_m2 = model.soil ? model.plot.area_m2() : 0.0;
+  if (largest == area.end() || *largest < soil_m2) {
+    surfaces.name = "soil";
+    if (!surfaces.reflectance.empty()) surfaces.typical = surfaces.reflectance.back();
+    return surfaces;
+  }
+  const SurfaceOptics& optics = model.optics[static_cast<std::size_t>(largest - area.begin())];
+  surfaces.name = optics.name;
+  surfaces.typical = {optics.rgb.r, optics.rgb.g, optics.rgb.b};
+  return surfaces;
+}
+
+Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces, const std::string& title,
+                       std::optional<double> top_w_m2) {
+  Colouring colouring;
+  switch (chart) {
+    case ChartKind::rank:
+      colouring = ranked(values, equal_count_ranks(values.w_m2, values.area_m2));
+      break;
+    case ChartKind::rank_interval:
+      colouring =
+          ranked(values, top_w_m2 ? rank_scale_to(*top_w_m2, values.w_m2) : equal_interval_ranks(values.w_m2, values.area_m2));
+      break;
+    case ChartKind::hue:
+      colouring = hue_mapped(values, surfaces);
+      break;
+    case ChartKind::map:
+      colouring = mapped(values, top_w_m2 ? map_scale_to(*top_w_m2, values.w_m2) : make_map_scale(values.w_m2, values.area_m2));
+      break;
+  }
+  colouring.legend_title = title;
+  if (chart == ChartKind::hue) colouring.legend_title += fmt::format(" (as on {})", surfaces.name);
+  return colouring;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,214 @@
+#include "pictures/charts/pictures.h"
+
+#include "base/error.h"
+#include "base/units.h"
+#include "base/file.h"
+#include "pictures/charts/colouring.h"
+#include "pictures/charts/fields.h"
+#include "pictures/charts/open_spot.h"
+#include "devices/tracers/canopy_view.h"
+#include "pictures/drawing/camera.h"
+#include "pictures/drawing/chart.h"
+#include "pictures/drawing/value_image.h"
+#include "pictures/drawing/view_block.h"
+
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+// Height from which a canopy photograph is taken: between the plants, above the clods of the soil.
+constexpr double fisheye_height_m = 0.1;
+
+std::string subtitle_line(const RadiationModel& model, const RadiationResult& result) {
+  std::string line;
+  if (model.has_beam()) {
+    line = fmt::format("Sun at elevation {:.2f}°, azimuth {:.2f}°; ", model.sun->elevation_rad / degree,
+                       model.sun->azimuth_rad / degree);
+  }
+  return line + fmt::format("{} triangles, leaf area index {:.2f}", model.canopy.size(), result.leaf_area_index);
+}
+
+std::string footer_line(LightField field, const RadiationResult& result, const std::string& note) {
+  std::string line;
+  const auto add = [&](std::uint64_t count, const char* what, const std::optional<double>& error) {
+    if (count == 0) return;
+    line += fmt::format("{}{:.2f} million {}", line.empty() ? "" : "; ", static_cast<double>(count) * 1e-6, what);
+    if (error) line += fmt::format(", relative error {:.2g}", *error);
+  };
+  add(result.direct.rays, "rays", result.direct.relative_error);
+  if (field != LightField::direct) {
+    add(result.indirect.packets + result.indirect.sky_rays, "packets", result.indirect.relative_error);
+  }
+  return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
+}
+
+// One look at a scene, passed on in bands of rows.
+class Look {
+ public:
+  Look(const Drawing& drawing, const PictureOptions& options, const Camera& camera)
+      : options_(options), viewer_(drawing.engine.viewer(picture_look(drawing.scene.model, drawing.layout, options, camera))) {}
+
+  // Passes on every band of rows, from top to bottom. Returns false if stopped.
+  template <class Receive>
+  [[nodiscard]] bool each_band(const StopQuestion& stop, const Receive& receive) const {
+    for (const RowBand& rows : row_bands(options_.width, options_.height, options_.samples)) {
+      const auto samples = viewer_->see(static_cast<std::uint32_t>(rows.first), static_cast<std::uint32_t>(rows.count), stop);
+      if (samples.empty()) return false;
+      receive(surface_image(samples, rows, options_));
+    }
+    return true;
+  }
+
+ private:
+  const PictureOptions& options_;
+  std::unique_ptr<CanopyViewer> viewer_;
+};
+
+}  // namespace
+
+std::size_t picture_band(const RadiationModel& model, const std::string& name) {
+  if (name.empty()) return 0;
+  std::string known;
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    if (model.bands[b].name == name) return b;
+    known += (known.empty() ? "" : ", ") + model.bands[b].name;
+  }
+  throw_input(fmt::format("--band {}", printable(name)), "the scene has no such waveband", "give one of " + known);
+}
+
+void check_view(const RadiationModel& model, const PictureOptions& options) {
+  static_cast<void>(picture_band(model, options.band));
+  if (options.repeat == 1 || model.plot.periodic) return;
+  throw_input(fmt::format("--repeat {}", options.repeat), "the plot is isolated: it has no neighbours",
+              "leave --repeat out, or make the scene periodic");
+}
+
+void check_field(const RadiationModel& model, const Picture& picture) {
+  if (has_field(model, picture.field)) return;
+  const char* why = "nothing in the scene reflects, transmits or emits light, and there is no sky";
+  if (picture.field == LightField::direct) why = "the scene has no beam";
+  if (picture.field == LightField::sky) why = "the scene has no light from the sky";
+  throw_input("picture " + stem_of(picture), why, "choose another field");
+}
+
+ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout) {
+  const Box elements = bounds(model.canopy);
+  ShownBox box{glm::dvec3(0.0), glm::dvec3(model.plot.size_x_m, layout.layers.height_m, model.plot.size_z_m)};
+  if (model.canopy.size() > 0) {
+    box.lo_m = glm::min(box.lo_m, glm::dvec3(elements.lo) + model.canopy.origin_m);
+    box.hi_m = glm::max(box.hi_m, glm::dvec3(elements.hi) + model.canopy.origin_m);
+  }
+  return box;
+}
+
+Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options) {
+  const RadiationModel& model = scene.model;
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const auto& pose = scene.camera;
+  if (options.view == ViewKind::camera && pose) return look_at(pose->position_m, pose->look_at_m, pose->fov_rad, aspect);
+  if (options.view == ViewKind::fisheye) return fisheye_view(open_spot(model, fisheye_height_m), aspect);
+  auto [lo, hi] = shown_box(model, layout);
+  const glm::dvec3 beside = 0.5 * (options.repeat - 1) * glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
+  lo -= beside;
+  hi += beside;
+  if (options.view == ViewKind::top) return top_view(lo, hi, aspect);
+  return options.view == ViewKind::side ? side_view(lo, hi, aspect) : three_quarter_view(lo, hi, aspect);
+}
+
+CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,
+                        const Camera& camera) {
+  CanopyLook look;
+  look.view = make_view_block(camera, {options.width, options.height, options.samples}, model.canopy.origin_m);
+  look.view.elements = static_cast<std::uint32_t>(model.canopy.size());
+  look.view.ground = make_ground_map(layout);
+  look.offsets = sample_offsets(options.samples);
+  if (options.repeat == 1) return look;
+  // In a side view, copies in front would hide the plot itself.
+  const bool from_the_side = options.view == ViewKind::camera || options.view == ViewKind::side;
+  look.copies = {options.repeat, model.canopy.period_m,
+                 from_the_side ? SeenCopies::Which::not_before_plot : SeenCopies::Which::all};
+  return look;
+}
+
+SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, const RowBand& rows,
+                           const PictureOptions& options) {
+  static_assert(SurfaceImage::nothing == shared::seen_nothing);
+  SurfaceImage image{options.width, rows.count, options.samples, {}, {}, {}, rows.first};
+  image.surface.reserve(samples.size());
+  image.depth_m.reserve(samples.size());
+  if (options.repeat > 1) image.neighbour.reserve(samples.size());
+  for (const shared::SeenSurface& sample : samples) {
+    image.surface.push_back(sample.surface);
+    image.depth_m.push_back(sample.depth);
+    if (options.repeat > 1) image.neighbour.push_back(sample.copy != 0 ? 1 : 0);
+  }
+  return image;
+}
+
+ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
+                           const SurfaceColours& surfaces) {
+  const RadiationModel& model = source.model;
+  const std::size_t band = picture_band(model, options.band);
+  const FieldValues values = field_values(model, source.layout, source.result, band, picture.field);
+  Colouring colouring =
+      colour_field(picture.chart, values, surfaces, field_title(picture.field, model.bands[band].name), options.top_w_m2);
+  return {std::move(colouring.colours),
+          {source.title, subtitle_line(model, source.result), colouring.legend_title, colouring.legend,
+           footer_line(picture.field, source.result, colouring.note), colouring.bar}};
+}
+
+bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
+                 const StopQuestion& stop, const ChartReceiver& receive) {
+  const RadiationModel& model = drawing.scene.model;
+  const Camera camera = picture_camera(drawing.scene, drawing.layout, options);
+  const ChartFrame frame{options.width, options.height, camera, model.plot, drawing.layout.layers.height_m};
+  const SurfaceColours surfaces = surface_colours(model, drawing.layout);
+  std::vector<ChartCanvas> canvases;
+  std::vector<ChartText> texts;
+  for (const Picture& picture : pictures) {
+    ChartContent content =
+        chart_content({drawing.scene.title, model, drawing.layout, drawing.result}, options, picture, surfaces);
+    canvases.emplace_back(frame, std::move(content.colours));
+    texts.push_back(std::move(content.text));
+  }
+  const Look look(drawing, options, camera);
+  const bool seen = look.each_band(stop, [&](const SurfaceImage& rows) {
+    for (ChartCanvas& canvas : canvases) canvas.paint(rows);
+  });
+  if (!seen) return false;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    if (stop && stop()) return false;
+    receive(pictures[k], canvases[k].finish(texts[k]));
+  }
+  return true;
+}
+
+std::optional<ExrImage> draw_values(const Drawing& drawing, const PictureOptions& options, LightField field,
+                                    const StopQuestion& stop) {
+  const RadiationModel& model = drawing.scene.model;
+  const std::size_t band = picture_band(model, options.band);
+  const FieldValues values = field_values(model, drawing.layout, drawing.result, band, field);
+  ValueImage image;
+  const Look look(drawing, options, picture_camera(drawing.scene, drawing.layout, options));
+  const bool seen =
+      look.each_band(stop, [&](const SurfaceImage& rows) { append_rows(image, resolve_values(rows, values.w_m2)); });
+  if (!seen) return std::nullopt;
+  for (std::uint32_t& surface : image.surface) {
+    surface = surface < 2 * model.canopy.size() ? surface / 2 : SurfaceImage::nothing;
+  }
+  ExrImage exr{image.width, image.height, {}, {}};
+  exr.channels.push_back({"Y", std::move(image.value)});
+  exr.channels.push_back({"A", std::move(image.coverage)});
+  exr.channels.push_back({"element", std::move(image.surface)});
+  exr.comments = fmt::format(
+      "{}; Y: {}, mean over the samples that see a surface; A: share of the samples that see one; element: number of the "
+      "triangle that most samples see, from 0, 4294967295 for soil and sky",
+      drawing.scene.title, field_title(field, model.bands[band].name));
+  return exr;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,85 @@
+#pragma once
+// Draws the pictures of a result.
+
+#include "pictures/drawing/exr_writer.h"
+#include "files/scene/scene_reader.h"
+#include "pictures/charts/colouring.h"
+#include "pictures/charts/picture.h"
+#include "devices/tracers/engine.h"
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/result.h"
+#include "pictures/drawing/camera.h"
+#include "pictures/drawing/chart.h"
+#include "pictures/drawing/image.h"
+#include "pictures/drawing/surface_image.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace sunfleck {
+
+// Returns the number of the waveband of that name; an empty name means the first. Throws Error (input) if the scene has no such
+// waveband.
+[[nodiscard]] std::size_t picture_band(const RadiationModel& model, const std::string& name);
+
+// Throw Error (input) if the scene lacks what a picture is to show, or does not allow the view.
+void check_view(const RadiationModel& model, const PictureOptions& options);
+void check_field(const RadiationModel& model, const Picture& picture);
+
+// What to draw. `layout` is the scene's, `result` is of that scene, and the engine holds the scene's tree.
+struct Drawing {
+  const Scene& scene;
+  const CounterLayout& layout;
+  const RadiationResult& result;
+  const Engine& engine;
+};
+
+// Building blocks of draw_charts, for callers that redraw one scene.
+
+// The box around the plot and the canopy.
+struct ShownBox {
+  glm::dvec3 lo_m, hi_m;
+};
+[[nodiscard]] ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout);
+
+// Returns the scene's own camera or the requested view.
+[[nodiscard]] Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options);
+
+// Returns how to look through that camera, with the size, samples and copies of the plot that the options give.
+[[nodiscard]] CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,
+                                      const Camera& camera);
+
+// Returns what the viewer saw as rows of a picture with those options.
+[[nodiscard]] SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, const RowBand& rows,
+                                         const PictureOptions& options);
+
+// Colours and text of one chart. `title` is the scene's.
+struct ChartContent {
+  std::vector<Colour> colours;  // linear, [surface number]
+  ChartText text;
+};
+struct ChartSource {
+  const std::string& title;
+  const RadiationModel& model;
+  const CounterLayout& layout;
+  const RadiationResult& result;
+};
+[[nodiscard]] ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
+                                         const SurfaceColours& surfaces);
+
+// Draws charts of one view: the scene is looked at only once for all of them. Passes each on as soon as it is finished, in
+// order. Returns false if stopped before the last.
+using ChartReceiver = std::function<void(const Picture& picture, const Image& image)>;
+[[nodiscard]] bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
+                               const StopQuestion& stop, const ChartReceiver& receive);
+
+// Returns the values themselves, or none if stopped. Channels: "Y" is the field in W m-2, averaged over the pixel's samples
+// that see a surface, 0 if none does; "A" is the share of samples that see a surface; "element" is the number of the element
+// that most of them see, 4294967295 if most see none (the soil is not an element).
+[[nodiscard]] std::optional<ExrImage> draw_values(const Drawing& drawing, const PictureOptions& options, LightField field,
+                                                  const StopQuestion& stop);
+
+}  // namespace sunfleck

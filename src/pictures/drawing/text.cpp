@@ -1,0 +1,114 @@
+#include "pictures/drawing/text.h"
+
+#include "base/check.h"
+#include "dejavu_sans.h"
+
+#include <stb_truetype.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+constexpr char32_t replacement = 0xfffd;
+
+// Removes the next code point from the line and returns it; removes at least one byte. Overlong forms, surrogates and values
+// above U+10FFFF are invalid (Unicode 15.0, table 3-7).
+char32_t take_code_point(std::string_view& line) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(line[i]); };
+  const unsigned char first = byte(0);
+  const std::size_t length = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  constexpr std::array<char32_t, 5> smallest = {0, 0, 0x80, 0x800, 0x10000};
+  char32_t value = length == 1 ? first : first & (0xffU >> (length + 1));
+  std::size_t used = 1;
+  while (used < length && used < line.size() && (byte(used) & 0xc0U) == 0x80U) value = value << 6U | (byte(used++) & 0x3fU);
+  const bool lone = length > 1 && first < 0xc2;
+  const bool good = used == length && !lone && first < 0xf5 && value >= smallest[length] && value <= 0x10ffff &&
+                    (value < 0xd800 || value > 0xdfff);
+  line.remove_prefix(lone ? 1 : used);
+  return good ? value : replacement;
+}
+
+// One letter of a set line: its glyph and its origin relative to the line's start.
+struct SetGlyph {
+  int glyph = 0;
+  double x_px = 0.0;
+};
+
+struct SetLine {
+  std::vector<SetGlyph> glyphs;
+  double width_px = 0.0;
+};
+
+SetLine set(const stbtt_fontinfo& font, std::string_view line, double scale) {
+  SetLine result;
+  int previous = -1;
+  while (!line.empty()) {
+    const int glyph = stbtt_FindGlyphIndex(&font, static_cast<int>(take_code_point(line)));
+    if (previous >= 0) result.width_px += scale * stbtt_GetGlyphKernAdvance(&font, previous, glyph);
+    result.glyphs.push_back({glyph, result.width_px});
+    int advance = 0;
+    int bearing = 0;
+    stbtt_GetGlyphHMetrics(&font, glyph, &advance, &bearing);
+    result.width_px += scale * advance;
+    previous = glyph;
+  }
+  return result;
+}
+
+// Mixes encoded values: mixed in linear light, the thin strokes of dark type on a light background would look too faint.
+void mix_encoded(std::array<std::uint8_t, 3>& pixel, const std::array<std::uint8_t, 3>& colour, double coverage) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] + coverage * (colour[i] - pixel[i])));
+  }
+}
+
+}  // namespace
+
+std::span<const unsigned char> Typeface::file() {
+  return dejavu_sans;
+}
+
+Typeface::Typeface() : font_(std::make_unique<stbtt_fontinfo>()) {
+  const int ready = stbtt_InitFont(font_.get(), dejavu_sans, stbtt_GetFontOffsetForIndex(dejavu_sans, 0));
+  ENSURE(ready, !=, 0);
+}
+
+Typeface::~Typeface() = default;
+
+double Typeface::width_px(std::string_view line, double size_px) const {
+  return set(*font_, line, stbtt_ScaleForMappingEmToPixels(font_.get(), static_cast<float>(size_px))).width_px;
+}
+
+void Typeface::draw(Image& image, std::string_view line, glm::dvec2 baseline_px, double size_px, const Colour& colour) const {
+  const float scale = stbtt_ScaleForMappingEmToPixels(font_.get(), static_cast<float>(size_px));
+  const std::array<std::uint8_t, 3> encoded = to_srgb(colour);
+  // Aligned with the rows, so that stems stay crisp.
+  const int baseline_row = static_cast<int>(std::lround(baseline_px.y));
+  std::vector<unsigned char> coverage;
+  for (const SetGlyph& letter : set(*font_, line, scale).glyphs) {
+    const double x_px = baseline_px.x + letter.x_px;
+    const int column = static_cast<int>(std::floor(x_px));
+    const float shift = static_cast<float>(x_px - column);
+    int left = 0, top = 0, right = 0, bottom = 0;
+    stbtt_GetGlyphBitmapBoxSubpixel(font_.get(), letter.glyph, scale, scale, shift, 0.0F, &left, &top, &right, &bottom);
+    const int width = right - left;
+    if (width <= 0 || bottom <= top) continue;
+    coverage.assign(static_cast<std::size_t>(width) * (bottom - top), 0);
+    stbtt_MakeGlyphBitmapSubpixel(font_.get(), coverage.data(), width, bottom - top, width, scale, scale, shift, 0.0F,
+                                  letter.glyph);
+    for (int y = std::max(top, -baseline_row); y < std::min(bottom, image.height - baseline_row); ++y) {
+      for (int x = std::max(left, -column); x < std::min(right, image.width - column); ++x) {
+        const double covered = coverage[static_cast<std::size_t>(y - top) * width + (x - left)] / 255.0;
+        const std::size_t pixel = static_cast<std::size_t>(baseline_row + y) * image.width + (column + x);
+        mix_encoded(image.pixels[pixel], encoded, covered);
+      }
+    }
+  }
+}
+
+}  // namespace sunfleck

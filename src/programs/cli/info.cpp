@@ -1,0 +1,189 @@
+#include "programs/cli/info.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "base/units.h"
+#include "devices/gpu/context.h"
+#include "physics/light/sun_events.h"
+#include "programs/cli/terminal.h"
+#include "simulate/memory_forecast.h"
+#include "simulate/scene_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json device_json(const DeviceDescription& device) {
+  return {{"name", device.name},
+          {"kind", device.software ? "software Vulkan" : "GPU"},
+          {"driver", device.driver},
+          {"usable", device.unusable.empty()},
+          {"lacks", device.unusable}};
+}
+
+std::string clock_time(const std::optional<UtcTime>& utc, int offset_minutes) {
+  if (!utc) return "none";
+  const double minutes = utc->hour * 60.0 + utc->minute + utc->second / 60.0 + offset_minutes;
+  const int of_day = static_cast<int>(std::floor(minutes * 60.0 + 0.5)) % 86400;
+  const int seconds = (of_day + 86400) % 86400;
+  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+// Returns the date on the place's own clock.
+LocalDate local_date(const SunMoment& moment) {
+  using namespace std::chrono;
+  const UtcTime& utc = moment.time;
+  const sys_days utc_day =
+      year_month_day(year(utc.year), month(static_cast<unsigned>(utc.month)), day(static_cast<unsigned>(utc.day)));
+  const auto local = utc_day + hours(utc.hour) + minutes(utc.minute + moment.offset_minutes);
+  const year_month_day date(floor<days>(local));
+  return {static_cast<int>(date.year()), static_cast<int>(static_cast<unsigned>(date.month())),
+          static_cast<int>(static_cast<unsigned>(date.day())), moment.offset_minutes};
+}
+
+ordered_json sun_json(const Scene& scene) {
+  if (!scene.model.sun) return nullptr;
+  ordered_json sun = {{"elevation_deg", scene.model.sun->elevation_rad / degree},
+                      {"azimuth_deg", scene.model.sun->azimuth_rad / degree},
+                      {"sunrise", nullptr},
+                      {"transit", nullptr},
+                      {"sunset", nullptr}};
+  if (!scene.moment) return sun;
+  const int offset = scene.moment->offset_minutes;
+  const SunEvents events = sun_events(local_date(*scene.moment), scene.moment->place);
+  if (events.sunrise) sun["sunrise"] = clock_time(events.sunrise, offset);
+  sun["transit"] = clock_time(events.transit, offset);
+  if (events.sunset) sun["sunset"] = clock_time(events.sunset, offset);
+  return sun;
+}
+
+// Counts coincident triangles by the organ they belong to and the organ they coincide with.
+ordered_json copies_json(const Canopy& canopy) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> triangles;
+  for (const Copy& copy : canopy.copies) ++triangles[{canopy.organ_of[copy.element], canopy.organ_of[copy.original]}];
+  const auto organ_json = [&](std::uint32_t number) {
+    const Organ& organ = canopy.organs[number];
+    return ordered_json{{"plant", organ.plant}, {"organ", organ.name}, {"rank", organ.rank}};
+  };
+  ordered_json copies = ordered_json::array();
+  for (const auto& [organs, count] : triangles) {
+    ordered_json entry = organ_json(organs.first);
+    entry["triangles"] = count;
+    entry["coincide_with"] = organ_json(organs.second);
+    copies.push_back(std::move(entry));
+  }
+  return copies;
+}
+
+// Adds the memory that a run with these options needs, and what it is needed for.
+void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
+  const SolveSettings settings = solve_settings(options, scene, options.threads);
+  Simulation simulation(std::move(scene), options);
+  ProgressLine line("forecasting the memory of a run");
+  const auto memory = forecast_memory(simulation, settings, terminal_monitor(line));
+  if (!memory) throw_failure("info", "interrupted", "start it again");
+  info["memory_bytes"] = memory->bytes;
+  info["memory_device"] = simulation.device().name;
+  info["replicates_at_once"] = memory->run.at_once;
+  info["replicate_bytes"] = static_cast<std::uint64_t>(memory->run.replicate_bytes);
+}
+
+void add_scene(ordered_json& info, const Scene& scene) {
+  double area = 0.0;
+  ordered_json by_optics = ordered_json::object();
+  std::vector<double> optics_area(scene.model.canopy.optics_names.size());
+  for (std::size_t e = 0; e < scene.model.canopy.size(); ++e) {
+    const double element_m2 = area_m2(scene.model.canopy.corners[e]);
+    area += element_m2;
+    optics_area[scene.model.canopy.optics_of[e]] += element_m2;
+  }
+  for (std::size_t o = 0; o < optics_area.size(); ++o) by_optics[scene.model.canopy.optics_names[o]] = optics_area[o];
+  info["title"] = scene.title;
+  info["triangles"] = scene.model.canopy.size();
+  info["organs"] = scene.model.canopy.organs.size();
+  info["area_m2"] = area;
+  info["area_by_optics_m2"] = by_optics;
+  info["coincident_triangles"] = scene.model.canopy.copies.size();
+  info["coincident_organs"] = copies_json(scene.model.canopy);
+  info["plot_area_m2"] = scene.model.plot.area_m2();
+  info["sun"] = sun_json(scene);
+}
+
+void print_copies(const ordered_json& info) {
+  constexpr std::size_t most_lines = 10;
+  const ordered_json& organs = info["coincident_organs"];
+  if (organs.empty()) return;
+  fmt::print("{} triangles coincide with earlier ones and receive no light:\n",
+             info["coincident_triangles"].get<std::size_t>());
+  const auto name = [](const ordered_json& organ) {
+    return fmt::format("{} of plant {}", printable(organ["organ"].get<std::string>()), organ["plant"].get<std::uint32_t>());
+  };
+  for (std::size_t k = 0; k < std::min(organs.size(), most_lines); ++k) {
+    fmt::print("  {} of {} with {}\n", organs[k]["triangles"].get<std::size_t>(), name(organs[k]),
+               name(organs[k]["coincide_with"]));
+  }
+  if (organs.size() > most_lines)
+    fmt::print("  and those of {} more organs (--json lists them all)\n", organs.size() - most_lines);
+}
+
+void print_lines(const ordered_json& info) {
+  if (info["devices"].empty()) fmt::print("no Vulkan device: the CPU path is used\n");
+  int index = 0;
+  for (const ordered_json& device : info["devices"]) {
+    fmt::print("device {}: {} ({}; {}){}\n", index++, device["name"].get<std::string>(), device["kind"].get<std::string>(),
+               device["driver"].get<std::string>(),
+               device["usable"].get<bool>() ? "" : ", cannot be used: " + device["lacks"].get<std::string>());
+  }
+  if (!info.contains("triangles")) return;
+  fmt::print("{}\n{} triangles in {} organs, {:.5g} m2 on a plot of {:.5g} m2\n", info["title"].get<std::string>(),
+             info["triangles"].get<std::size_t>(), info["organs"].get<std::size_t>(), info["area_m2"].get<double>(),
+             info["plot_area_m2"].get<double>());
+  for (const auto& [name, area] : info["area_by_optics_m2"].items()) fmt::print("  {}: {:.5g} m2\n", name, area.get<double>());
+  print_copies(info);
+  constexpr double mib = 1048576.0;
+  fmt::print("memory needed: {:.1f} MiB on {}, of which {:.1f} MiB for {} replicates in progress\n",
+             info["memory_bytes"].get<double>() / mib, info["memory_device"].get<std::string>(),
+             info["replicates_at_once"].get<double>() * info["replicate_bytes"].get<double>() / mib,
+             info["replicates_at_once"].get<std::size_t>());
+  if (info["sun"].is_null()) return;
+  fmt::print("sun: elevation {:.4f} deg, azimuth {:.4f} deg\n", info["sun"]["elevation_deg"].get<double>(),
+             info["sun"]["azimuth_deg"].get<double>());
+  if (info["sun"]["transit"].is_null()) return;
+  const auto time = [&](const char* key) {
+    return info["sun"][key].is_null() ? std::string("none") : info["sun"][key].get<std::string>();
+  };
+  fmt::print("sunrise {}, transit {}, sunset {}\n", time("sunrise"), time("transit"), time("sunset"));
+}
+
+}  // namespace
+
+int show_info(const InfoOptions& options) {
+  start_at_terminal(options.run);
+  ordered_json info;
+  info["devices"] = ordered_json::array();
+  for (const DeviceDescription& device : list_devices()) info["devices"].push_back(device_json(device));
+  if (!options.run.scene.empty()) {
+    Scene scene = load_scene_with_warnings(options.run);
+    add_scene(info, scene);
+    add_memory(info, std::move(scene), options.run);
+  }
+  if (options.run.json) {
+    fmt::print("{}\n", info.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  } else {
+    print_lines(info);
+  }
+  return 0;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,334 @@
+#include "programs/cli/option_groups.h"
+
+#include "base/version.h"
+#include "files/results/exports/exports.h"
+#include "programs/cli/option_checks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::uint64_t least_memory_bytes = 1'000'000;
+constexpr std::uint64_t most_memory_bytes = std::uint64_t{1} << 50U;
+constexpr std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
+
+std::string list_of(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+void add_bounds(CLI::Option_group& group, RunOptions& options, OptionWords& words) {
+  group.add_option("--error", words.both_errors, "Relative error bound of both passes")->check(relative_error());
+  group.add_option("--direct-error", options.direct_error, "Relative error bound of the direct pass")->check(relative_error());
+  group.add_option("--indirect-error", options.indirect_error, "Relative error bound of the indirect pass")
+      ->check(relative_error());
+}
+
+void add_fixed_work(CLI::Option_group& group, RunOptions& options) {
+  group.add_option("--grid", options.grid_m, "Fixed work: grid spacing of all rays of the run, m")->check(positive());
+  group.add_option("--passes", options.passes, "Fixed work: exactly this many replicates")->transform(whole_number(8, 65536));
+}
+
+void add_memory(CLI::Option_group& group, RunOptions& options) {
+  group
+      .add_option("--memory", options.memory_bytes,
+                  "Memory for replicates in progress, e.g. 500MB or 2GB (default: a quarter of the free memory)")
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Range(least_memory_bytes, most_memory_bytes));
+}
+
+// Adds the options that only a simulation needs.
+void add_simulation(CLI::App& command, RunOptions& options, OptionWords& words) {
+  CLI::Option_group& group = *command.add_option_group("Simulation");
+  add_bounds(group, options, words);
+  add_fixed_work(group, options);
+  group.add_option("--max-seconds", options.max_seconds, "Stop after this many seconds; results are kept")->check(positive());
+  group.add_option("--max-rays", options.max_rays, "Stop before exceeding this many rays; results are kept")
+      ->transform(whole_number(1, std::uint64_t{1} << 62U));
+  add_memory(group, options);
+  group.add_option("--seed", options.seed, "Random seed")->transform(whole_number(0, most_seed))->capture_default_str();
+  group.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
+}
+
+void add_stand(CLI::App& command, StandFiles& stand) {
+  CLI::Option_group& group = *command.add_option_group("A mesh with CARIBU's files instead of a scene");
+  group
+      .add_option(
+          "--optics", stand.optics,
+          "Optical properties (.opt), one file per band: par.opt,nir.opt give the bands PAR and NIR; NAME=FILE names a band")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(not_empty());
+  group.add_option("--light", stand.light, "Light (.light): one direction is the sun, several are a sky")->check(not_empty());
+  group.add_option("--domain", stand.domain, "Plot (.8) that repeats without end (default: an isolated stand)")
+      ->check(not_empty());
+  group.add_option("--scale", stand.scale, "Metres per unit of the mesh and the domain: 0.01 for centimetres (default: 1)")
+      ->check(positive());
+}
+
+template <class Options>
+void add_device(CLI::App& command, Options& options) {
+  command.add_option("--device", options.device, "auto, gpu, lavapipe, cpu, a device number or part of a device name")
+      ->transform(device_kind())
+      ->check(not_empty())
+      ->capture_default_str();
+  command.add_option("--threads", options.threads, "Threads for the CPU path and software Vulkan (0: all cores)")
+      ->transform(whole_number(0, 4096))
+      ->capture_default_str();
+  command.add_flag("--quiet", options.quiet, "Print only warnings and errors");
+}
+
+void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words) {
+  constexpr std::uint64_t most_repeat = 9;
+  CLI::Option_group& group = *command.add_option_group("Pictures");
+  group.add_option("--field", words.field, "Light to show: " + list_of(field_names()))
+      ->check(one_of(field_names()))
+      ->capture_default_str();
+  group.add_option("--band", options.band, "Waveband to show (default: the scene's first)")->check(not_empty());
+  group
+      .add_option("--chart", words.chart,
+                  "Classes of equal count, classes of equal width, hue mapping or a continuous map: " + list_of(chart_names()))
+      ->check(one_of(chart_names()))
+      ->capture_default_str();
+  group.add_option("--view", words.view, "The scene's camera, from above, from the south or upwards: " + list_of(view_names()))
+      ->check(one_of(view_names()))
+      ->capture_default_str();
+  group
+      .add_option("--range", options.top_w_m2,
+                  "Upper end of the scale of rank-interval and map, W m-2 (default: close to the largest value)")
+      ->check(positive());
+  group.add_option("--size", words.size, "Picture size in pixels, WxH")->capture_default_str();
+  group.add_option("--samples", options.samples, "Samples per pixel")->transform(whole_number(1, 256))->capture_default_str();
+  group.add_option("--repeat", options.repeat, "Show N x N copies of a periodic plot (N odd)")
+      ->transform(whole_number(1, most_repeat))
+      ->capture_default_str();
+}
+
+std::vector<std::string> image_words() {
+  std::vector<std::string> words;
+  for (const Picture& picture : all_pictures()) words.push_back(stem_of(picture));
+  words.insert(words.end(), {"profile", "planes", "all", "none"});
+  return words;
+}
+
+std::vector<std::string> export_words() {
+  std::vector<std::string> words;
+  for (const ExportKind kind : export_kinds) words.emplace_back(export_name(kind));
+  return words;
+}
+
+}  // namespace
+
+void add_version(CLI::App& command) {
+  command.set_version_flag("--version", "sunfleck " + version());
+}
+
+void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
+  CLI::App& run = *app.add_subcommand("run", "Simulate a scene and write result tables and pictures (also under mpirun)");
+  add_version(run);
+  run.add_option("scene", options.scene, "Scene file (TOML), or a .can with CARIBU's files")->required()->check(not_empty());
+  run.add_option("-o,--output", options.output, "Result folder (default: results/<scene>)")->check(not_empty());
+  run.add_option(
+         "--export", options.exports,
+         "Per-triangle values for other programs, separated by commas: " + list_of(export_words()) + " (always for a .can)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of(export_words()));
+  run.add_option("--measured", options.measured, "Field data (CSV: height_m, sunfleck_ratio), drawn in profile.png")
+      ->check(not_empty());
+  run.add_option("--compare", options.compare, "Folder of an earlier result to draw beside this one in profile.png")
+      ->allow_extra_args(false)
+      ->check(not_empty());
+  run.add_option("--images", options.images,
+                 "Pictures, separated by commas: CHART_FIELD, ...; profile; planes; all (profile, planes, and rank and hue of "
+                 "direct, indirect and total) or none")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of(image_words()))
+      ->capture_default_str();
+  run.add_flag(
+      "--resume", options.resume,
+      "Resume a stopped or killed run from its last saved replicate, or start it; with --max-seconds, give it from the "
+      "first run on, so that the work does not depend on the machine's speed");
+  run.add_flag("--json", options.json, "Print only the summary (JSON) on standard output");
+  add_stand(run, options.stand);
+  add_device(run, options);
+  add_simulation(run, options, words);
+  add_pictures(run, options.pictures, words);
+}
+
+void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
+  CLI::App& day = *app.add_subcommand(
+      "day",
+      "Simulate one or more days in steps (--max-seconds applies to all of them, --max-rays to each step; also under mpirun)");
+  add_version(day);
+  day.add_option("scene", options.run.scene, "Scene file (TOML) with a place and weather")->required()->check(not_empty());
+  day.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>)")->check(not_empty());
+  day.add_option("--from", options.from, "Start of the first step, local time HH:MM (default: sunrise)")->check(not_empty());
+  day.add_option("--to", options.to, "End of the last step, which may be shorter (default: sunset)")->check(not_empty());
+  day.add_option("--step", options.step_min, "Step length in minutes; each step has the light of its midpoint (default: 60)")
+      ->transform(whole_number(1, 1440));
+  day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
+  day.add_option("--to-date", options.to_date, "Last of several dates, all with the same hours")->check(not_empty());
+  day.add_flag("--resume", options.run.resume, "Resume a stopped day; its finished steps are kept");
+  day.add_option("--export", options.run.exports, "nc: day.nc, which is always written")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of({"nc"}));
+  day.add_option("--images", options.run.images, "day (the course of the day), none or all (default)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(one_of({"day", "all", "none"}));
+  day.add_option("--band", options.run.pictures.band, "Waveband of the picture (default: the scene's first)")
+      ->check(not_empty());
+  day.add_flag("--json", options.run.json, "Print only the summary (JSON) on standard output");
+  add_device(day, options.run);
+  add_simulation(day, options.run, words);
+}
+
+void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
+  CLI::App& render = *app.add_subcommand("render", "Draw one picture of a scene or of a finished run's folder");
+  add_version(render);
+  render
+      .add_option("scene", options.run.scene,
+                  "Scene file (TOML), or a .can with CARIBU's files, or the folder of a finished run")
+      ->required()
+      ->check(not_empty());
+  render.add_option("-o,--output", options.file, "Picture file: .png, or .exr for the values themselves")->check(not_empty());
+  add_stand(render, options.run.stand);
+  add_device(render, options.run);
+  add_simulation(render, options.run, words);
+  add_pictures(render, options.run.pictures, words);
+}
+
+void add_view(CLI::App& app, ViewOptions& options, OptionWords& words) {
+  CLI::App& view = *app.add_subcommand("view", "Open a scene in a window: move the sun and watch the light change");
+  add_version(view);
+  view.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")
+      ->required()
+      ->check(not_empty());
+  view.add_option("-o,--output", options.run.output, "Folder for saved pictures and results (default: results/<scene>_view)")
+      ->check(not_empty());
+  view.add_flag("--json", options.run.json, "Print one line of JSON per event on standard output");
+  add_stand(view, options.run.stand);
+  add_device(view, options.run);
+  add_simulation(view, options.run, words);
+  add_pictures(view, options.run.pictures, words);
+}
+
+void add_validate(CLI::App& app, ValidateOptions& options) {
+  CLI::App& validate = *app.add_subcommand("validate", "Run the cases with known answers on this device");
+  add_version(validate);
+  validate.add_option("-o,--output", options.output, "Result folder (default: results/validate)")->check(not_empty());
+  validate.add_option("--cases", options.cases, "Run only cases whose names contain one of these words, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(not_empty());
+  validate.add_flag("--json", options.json, "Print only the table, as JSON, on standard output");
+  add_device(validate, options);
+}
+
+void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
+  constexpr std::uint64_t most_seeds = 1000;
+  CLI::App& tradeoff =
+      *app.add_subcommand("tradeoff", "Measure speed against accuracy for a scene and write a table and a plot");
+  add_version(tradeoff);
+  tradeoff.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")
+      ->required()
+      ->check(not_empty());
+  tradeoff.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>_tradeoff)")
+      ->check(not_empty());
+  tradeoff.add_option("--for", options.requested_error, "Relative error for which a setting is recommended")
+      ->check(relative_error())
+      ->capture_default_str();
+  tradeoff.add_option("--of", options.quantity, "Quantity to which that error applies: canopy, layer, organ, triangle")
+      ->check(one_of({"canopy", "layer", "organ", "triangle"}))
+      ->capture_default_str();
+  tradeoff.add_option("--seeds", options.seeds, "Number of runs per setting")
+      ->transform(whole_number(4, most_seeds))
+      ->capture_default_str();
+  tradeoff.add_option("--rays", options.finest_rays, "Rays of the finest grid; packets and the reference scale with it")
+      ->check(CLI::Range(1e3, 1e9))
+      ->capture_default_str();
+  tradeoff
+      .add_option("--grid", options.run.grid_m, "A grid spacing of your own, m: it is measured too, and marked in the plot")
+      ->check(positive());
+  tradeoff
+      .add_option("--meshes", options.meshes,
+                  "Measure coarser meshes as well: shares of the triangles to keep, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(without_blanks())
+      ->check(relative_error());
+  tradeoff.add_option("--seed", options.run.seed, "Seed of the first run")
+      ->transform(whole_number(0, most_seed))
+      ->capture_default_str();
+  tradeoff.add_option("--max-seconds", options.run.max_seconds, "Stop after this many seconds; results are kept")
+      ->check(positive());
+  tradeoff.add_flag("--allow-outside", options.run.allow_outside, "Accept mesh files outside the scene's folder");
+  tradeoff.add_flag("--json", options.run.json, "Print only the slopes and the recommendation (JSON) on standard output");
+  add_stand(tradeoff, options.run.stand);
+  add_device(tradeoff, options.run);
+}
+
+void add_maize(CLI::App& app, MaizeOptions& options) {
+  CLI::App& maize = *app.add_subcommand("maize", "Write a parametric maize stand as glTF");
+  add_version(maize);
+  maize.add_option("-o,--output", options.output, "Output file, .glb or .gltf")->check(not_empty())->capture_default_str();
+  maize.add_option("--rows", options.rows, "Number of rows, which run along X")
+      ->transform(whole_number(1, most_plants))
+      ->capture_default_str();
+  maize.add_option("--per-row", options.per_row, "Number of plants per row")
+      ->transform(whole_number(1, most_plants))
+      ->capture_default_str();
+  maize.add_option("--spacing", options.spacing_m, "Plant spacing along the row and between rows, m")
+      ->expected(2)
+      ->delimiter(',')
+      ->check(positive())
+      ->capture_default_str();
+  maize.add_option("--seed", options.seed, "Seed of the variation between plants")
+      ->transform(whole_number(0, most_seed))
+      ->capture_default_str();
+}
+
+void add_convert(CLI::App& app, ConvertOptions& options) {
+  CLI::App& convert = *app.add_subcommand(
+      "convert", "Convert a mesh with CARIBU's files to a scene, or a mesh or scene to another mesh format");
+  add_version(convert);
+  convert.add_option("in", options.input, "Mesh (.glb, .gltf, .obj, .ply, .stl, .can, .can.gz) or scene file (.toml)")
+      ->required()
+      ->check(not_empty());
+  convert
+      .add_option("out", options.output,
+                  "Scene file (.toml), with --optics and --light; or mesh (.glb, .gltf, .obj, .ply, .can)")
+      ->required()
+      ->check(not_empty());
+  add_stand(convert, options.stand);
+  convert.add_flag("--z-up", options.z_up, "The input's axes are x east, y north, z up, as a .can's always are");
+  convert.add_flag("--allow-outside", options.allow_outside, "Accept files outside the folder of the scene or glTF");
+}
+
+void add_info(CLI::App& app, InfoOptions& options, OptionWords& words) {
+  CLI::App& info = *app.add_subcommand("info", "Show the devices, the contents of a scene and the memory its run needs");
+  add_version(info);
+  info.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")->check(not_empty());
+  add_stand(info, options.run.stand);
+  add_device(info, options.run);
+  CLI::Option_group& group = *info.add_option_group("The run whose memory is forecast");
+  add_bounds(group, options.run, words);
+  add_fixed_work(group, options.run);
+  add_memory(group, options.run);
+  info.add_flag("--allow-outside", options.run.allow_outside, "Accept mesh files outside the scene's folder");
+  info.add_flag("--json", options.run.json, "Print JSON");
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,199 @@
+#include "programs/cli/options.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/version.h"
+#include "files/formats/mesh/mesh_reader.h"
+#include "files/results/exports/exports.h"
+#include "programs/cli/option_groups.h"
+#include "simulate/result_folder.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sunfleck {
+namespace {
+
+constexpr int usual_window_width = 1280;
+constexpr int usual_window_height = 800;
+
+void read_size(const std::string& size, PictureOptions& options) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 64 || height < 64 || width > 8192 ||
+      height > 8192) {
+    throw_input(fmt::format("--size {}", printable(size)), "must be WIDTHxHEIGHT, each 64..8192",
+                "give 1600x1200, for example");
+  }
+  options.width = width;
+  options.height = height;
+}
+
+template <class Choice>
+Choice choice_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Choice>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+Picture read_picture(const OptionWords& words) {
+  return {choice_of<ChartKind>(chart_names(), words.chart), choice_of<LightField>(field_names(), words.field)};
+}
+
+void read_pictures(const OptionWords& words, PictureOptions& options) {
+  read_size(words.size, options);
+  options.view = choice_of<ViewKind>(view_names(), words.view);
+  if (options.repeat % 2 == 0) {
+    throw_input(fmt::format("--repeat {}", options.repeat), "must be odd: the plot is in the middle of its copies",
+                fmt::format("give {}", options.repeat + 1));
+  }
+}
+
+void read_errors(const OptionWords& words, RunOptions& options) {
+  if (!options.direct_error) options.direct_error = words.both_errors;
+  if (!options.indirect_error) options.indirect_error = words.both_errors;
+}
+
+void check_images(const RunOptions& options) {
+  const bool none = std::find(options.images.begin(), options.images.end(), "none") != options.images.end();
+  if (!none || (options.images.size() == 1 && !options.extra_picture)) return;
+  throw_input(fmt::format("--images {}", fmt::join(options.images, ",")),
+              "none cannot be combined with other pictures, --chart or --field", "remove either none or the others");
+}
+
+// Adds the table that CARIBU's users expect.
+void add_caribu_table(RunOptions& options) {
+  const std::string table = export_name(ExportKind::caribu);
+  const bool given = std::find(options.exports.begin(), options.exports.end(), table) != options.exports.end();
+  if (is_can_file(options.scene) && !given) options.exports.push_back(table);
+}
+
+RunOptions finished(RunOptions options, const OptionWords& words, const CLI::App& command) {
+  add_caribu_table(options);
+  options.triangle_errors = needs_triangle_errors(options.exports);
+  read_errors(words, options);
+  read_pictures(words, options.pictures);
+  if (command.count("--chart") + command.count("--field") > 0) options.extra_picture = read_picture(words);
+  check_images(options);
+  return options;
+}
+
+DayOptions finished(DayOptions options, const OptionWords& words) {
+  read_errors(words, options.run);
+  check_images(options.run);
+  return options;
+}
+
+InfoOptions finished(InfoOptions options, const OptionWords& words) {
+  read_errors(words, options.run);
+  add_caribu_table(options.run);
+  options.run.triangle_errors = needs_triangle_errors(options.run.exports);
+  return options;
+}
+
+RenderOptions finished(RenderOptions options, const OptionWords& words, const CLI::App& command) {
+  read_errors(words, options.run);
+  read_pictures(words, options.run.pictures);
+  options.picture = read_picture(words);
+  options.chart_given = command.count("--chart") > 0;
+  for (const char* name : {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--max-seconds", "--max-rays",
+                           "--memory", "--seed", "--allow-outside", "--optics", "--light", "--domain", "--scale"}) {
+    if (options.simulating.empty() && command.count(name) > 0) options.simulating = name;
+  }
+  return options;
+}
+
+ViewOptions finished(ViewOptions options, const OptionWords& words, const CLI::App& command) {
+  read_errors(words, options.run);
+  read_pictures(words, options.run.pictures);
+  if (command.count("--size") == 0) {
+    options.run.pictures.width = usual_window_width;
+    options.run.pictures.height = usual_window_height;
+  }
+  options.picture = read_picture(words);
+  return options;
+}
+
+void check_stand(const MaizeOptions& options) {
+  const std::uint64_t plants = static_cast<std::uint64_t>(options.rows) * static_cast<std::uint64_t>(options.per_row);
+  if (plants <= most_plants) return;
+  throw_input(fmt::format("--rows {} --per-row {}", options.rows, options.per_row),
+              fmt::format("{} plants; at most {} are allowed", plants, most_plants),
+              "give fewer; a periodic plot repeats them without end");
+}
+
+// Rethrows CLI11's message in three parts. Messages of its own checks read `OPTION: what is wrong`, those of ours `OPTION:
+// VALUE (why)`.
+[[noreturn]] void throw_usage(const CLI::ParseError& error, const CLI::App& app, int argc, const char* const* argv) {
+  const std::string first = argc > 1 ? printable(argv[1]) : "";
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty() && (first.empty() || first[0] != '-')) {
+    throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "unknown command",
+                "use run, day, render, view, validate, tradeoff, maize, convert or info; see sunfleck --help");
+  }
+  const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
+  const std::vector<std::string> unknown = app.remaining(true);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !unknown.empty()) {
+    throw_input("command line: " + printable(unknown.front()), "unknown option or argument", cure);
+  }
+  const std::string what = printable(error.what());
+  const std::size_t colon = what.find(": ");
+  if (colon == std::string::npos) throw_input("command line", what, cure);
+  const std::string option = what.substr(0, colon);
+  const std::string rest = what.substr(colon + 2);
+  if (rest.back() == ')') throw Error(ErrorKind::input, fmt::format("command line: {} {}; {}", option, rest, cure));
+  throw_input("command line: " + option, rest, cure);
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv) {
+  CLI::App app("sunfleck: how sunlight spreads in three-dimensional plant canopies", "sunfleck");
+  add_version(app);
+  app.require_subcommand(1);
+  RunOptions run;
+  DayOptions day;
+  MaizeOptions maize;
+  ConvertOptions convert;
+  InfoOptions info;
+  RenderOptions render;
+  ViewOptions view;
+  ValidateOptions validate;
+  TradeoffOptions tradeoff;
+  OptionWords words;
+  add_run(app, run, words);
+  add_day(app, day, words);
+  add_render(app, render, words);
+  add_view(app, view, words);
+  add_validate(app, validate);
+  add_tradeoff(app, tradeoff);
+  add_maize(app, maize);
+  add_convert(app, convert);
+  add_info(app, info, words);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    return TextToPrint{"sunfleck " + version() + "\n"};
+  } catch (const CLI::Success&) {  // --help of the program or of a command
+    return TextToPrint{app.help()};
+  } catch (const CLI::ParseError& error) {
+    throw_usage(error, app, argc, argv);
+  }
+  if (app.got_subcommand("maize")) {
+    check_stand(maize);
+    return maize;
+  }
+  if (app.got_subcommand("convert")) return convert;
+  if (app.got_subcommand("info")) return finished(info, words);
+  if (app.got_subcommand("validate")) return validate;
+  if (app.got_subcommand("tradeoff")) return tradeoff;
+  if (app.got_subcommand("day")) return finished(day, words);
+  if (app.got_subcommand("view")) return finished(view, words, *app.get_subcommand("view"));
+  if (app.got_subcommand("render")) return finished(render, words, *app.get_subcommand("render"));
+  return finished(run, words, *app.get_subcommand("run"));
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,71 @@
+#include "programs/cli/report.h"
+
+#include "base/units.h"
+#include "files/results/tables/table_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sunfleck {
+namespace {
+
+std::string with_error(const Estimate& estimate) {
+  return std::isnan(estimate.half_width) ? fmt::format("{:.4g}", estimate.value)
+                                         : fmt::format("{:.4g} ± {:.2g}", estimate.value, estimate.half_width);
+}
+
+}  // namespace
+
+std::string balance_report(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  std::string text = fmt::format("{}\n", record.title);
+  text += fmt::format("  {} triangles, {} organs, leaf area index {:.3f}\n", model.canopy.size(), model.canopy.organs.size(),
+                      result.leaf_area_index);
+  if (model.sun) {
+    text += fmt::format("  sun: elevation {:.4f} deg, azimuth {:.4f} deg\n", model.sun->elevation_rad / degree,
+                        model.sun->azimuth_rad / degree);
+  }
+  text += fmt::format("  device: {}{}\n", record.device.name,
+                      record.device.kind == "vulkan" && record.device.software ? " (software Vulkan)" : "");
+  for (const BandResult& band : result.bands) {
+    text += fmt::format(
+        "  {}: incident {:.4g} W m-2, absorbed by vegetation {}, by soil {}, reflected {}, transmitted {}, "
+        "unshot {:.2g}\n",
+        band.name, band.incident, with_error(band.absorbed_vegetation), with_error(band.absorbed_soil),
+        with_error(band.reflected), with_error(band.transmitted), band.unshot);
+  }
+  if (model.has_beam()) {
+    text += fmt::format("  sunlit leaf fraction {}, sunflecks on the ground {}\n",
+                        with_error(as_share(result.sunlit_leaf_fraction)), with_error(result.ground_sunfleck_ratio));
+  }
+  const auto errors = [](const std::optional<double>& error, const std::optional<double>& bound) {
+    std::string line;
+    if (error) line += fmt::format(", relative error {:.2g}", *error);
+    if (bound) line += fmt::format(" (bound {:.2g})", *bound);
+    return line;
+  };
+  if (result.direct.rays > 0) {
+    text += fmt::format("  direct: {} rays in {} replicates, spacing {:.3g} mm{}, {:.2f} s\n", result.direct.rays,
+                        result.direct.replicates, result.direct.grid_m * 1e3,
+                        errors(result.direct.relative_error, result.direct.bound), result.direct.seconds);
+  }
+  if (result.indirect.packets + result.indirect.sky_rays > 0) {
+    const std::string sky =
+        result.indirect.sky_rays > 0 ? fmt::format("{} rays from the sky, ", result.indirect.sky_rays) : std::string();
+    text +=
+        fmt::format("  indirect: {}{} packets in {} rounds{}, {:.2f} s\n", sky, result.indirect.packets, result.indirect.rounds,
+                    errors(result.indirect.relative_error, result.indirect.bound), result.indirect.seconds);
+  }
+  for (const PlaneResult& plane : result.planes) {
+    text += fmt::format("  plane at {:.3f} m:", plane.height_m);
+    if (model.has_beam()) text += fmt::format(" sunflecks {},", with_error(plane.sunfleck_ratio));
+    for (std::size_t b = 0; b < plane.total_down.size(); ++b) {
+      text += fmt::format("{} {} down {} W m-2", b > 0 ? "," : "", result.bands[b].name, with_error(plane.total_down[b]));
+    }
+    text += '\n';
+  }
+  if (result.lost_rays > 0) text += fmt::format("  {} rays were lost: their flux counts as unshot\n", result.lost_rays);
+  return text;
+}
+
+}  // namespace sunfleck

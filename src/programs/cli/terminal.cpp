@@ -1,0 +1,106 @@
+#include "programs/cli/terminal.h"
+
+#include "base/file.h"
+#include "files/results/tables/judged_figure.h"
+#include "programs/cli/report.h"
+#include "simulate/interrupt.h"
+#include "simulate/result_folder.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace sunfleck {
+
+void start_at_terminal(const RunOptions& options) {
+  start_log(options.quiet || options.json ? Verbosity::quiet : Verbosity::normal);
+  exit_on_interrupts();
+}
+
+std::string device_line(const TracerDevice& device) {
+  return fmt::format("device: {}{}", device.name,
+                     device.software && device.kind == "vulkan" ? " (software Vulkan, no GPU)" : "");
+}
+
+ProgressLine::State progress_state(const Progress& progress) {
+  ProgressLine::State state{.rays = progress.rays, .fraction = progress.fraction, .seconds_left = progress.seconds_left};
+  if (progress.stage == Progress::Stage::pilot) state.stage = "pilot";
+  if (progress.relative_error) {
+    state.relative_error = progress.relative_error;
+    state.bound = progress.bound;
+    state.error_of = progress.pass == Progress::Pass::direct ? "direct" : "indirect";
+  }
+  return state;
+}
+
+Monitor terminal_monitor(ProgressLine& line) {
+  Monitor monitor;
+  monitor.interrupted = interrupted;
+  monitor.report = [&line](const Progress& progress) { line.update(progress_state(progress)); };
+  return monitor;
+}
+
+SimulatedScene simulate_at_terminal(Simulation& simulation, const SolveSettings& settings, Checkpoint* checkpoint,
+                                    Ranks* ranks) {
+  ProgressLine line("simulating");
+  return simulation.run(settings, {terminal_monitor(line), checkpoint, ranks});
+}
+
+int exit_status(StopReason stop) {
+  if (is_done(stop)) return exit_done;
+  return stop == StopReason::interrupted ? exit_interrupted : exit_short_of_bound;
+}
+
+std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
+                      const std::optional<JudgedFigure>& judged, const RadiationModel& model) {
+  if (!error || !bound || !judged || *error <= *bound) return "";
+  return fmt::format("{} error {:.2g} of {:.2g} ({})", pass, *error, *bound, figure_name(*judged, model));
+}
+
+void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view cure) {
+  const RadiationResult& result = simulated.result;
+  const RadiationModel& model = simulated.scene->model;
+  if (is_done(result.stop)) return;
+  std::string line = "interrupted";
+  if (result.stop == StopReason::time_spent)
+    line = fmt::format("stopped after --max-seconds {}", settings.max_seconds.value_or(0));
+  if (result.stop == StopReason::replicates_spent) line = "stopped at the largest number of replicates of a run";
+  if (result.stop == StopReason::rays_spent) line = fmt::format("stopped at --max-rays {}", settings.max_rays.value_or(0));
+  if (result.direct.rays + result.indirect.sky_rays + result.indirect.packets == 0) {
+    line += " before the first rays were counted: the tables contain no light yet";
+  } else {
+    line += fmt::format(" after {} replicates", result.direct.replicates);
+    const std::string direct =
+        shortfall("direct", result.direct.relative_error, result.direct.bound, result.direct.judged, model);
+    const std::string indirect =
+        shortfall("indirect", result.indirect.relative_error, result.indirect.bound, result.indirect.judged, model);
+    for (const std::string& pass : {direct, indirect}) {
+      if (!pass.empty()) line += ", " + pass;
+    }
+    if (direct.empty() && indirect.empty() && result.direct.bound) line += ", before a second check confirmed the bounds";
+  }
+  warn(fmt::format("{}; the results are kept and marked incomplete{}", line, cure));
+}
+
+int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
+  const std::string summary = read_file(folder / summary_file);
+  const nlohmann::json finished = nlohmann::json::parse(summary, nullptr, false);
+  const bool complete = finished.is_object() && finished.contains("complete") && finished["complete"] == true;
+  if (options.json) {
+    fmt::print("{}", summary);
+  } else {
+    say(fmt::format("{}: this {} is finished, nothing to resume", printable(folder.string()), work));
+  }
+  return complete ? exit_done : exit_short_of_bound;
+}
+
+void print_result(const std::filesystem::path& folder, const RunOptions& options, const SimulatedScene& simulated) {
+  const RadiationModel& model = simulated.scene->model;
+  if (options.json) {
+    fmt::print("{}", summary_json(simulated.record, model, simulated.result));
+  } else if (!options.quiet) {
+    fmt::print("{}{}\n", balance_report(simulated.record, model, simulated.result), folder.string());
+  }
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,57 @@
+#pragma once
+// The behaviour that all simulating commands share at a terminal: messages, progress, Ctrl-C and the exit status.
+
+#include "base/log.h"
+#include "files/results/tables/result_writer.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/solve/solve.h"
+#include "programs/cli/options.h"
+#include "simulate/simulation.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sunfleck {
+
+inline constexpr int exit_done = 0;
+inline constexpr int exit_failed = 1;
+inline constexpr int exit_short_of_bound = 1;
+inline constexpr int exit_interrupted = 130;
+
+// Starts the log, which is quiet with --quiet and --json, and lets an interrupt end the program while nothing is written yet.
+void start_at_terminal(const RunOptions& options);
+
+// Returns the device in use, as one line for the user.
+[[nodiscard]] std::string device_line(const TracerDevice& device);
+
+// Returns the part of a solver's progress that a progress line shows.
+[[nodiscard]] ProgressLine::State progress_state(const Progress& progress);
+
+// Returns a monitor that draws the progress line, which must outlive it, and that Ctrl-C interrupts.
+[[nodiscard]] Monitor terminal_monitor(ProgressLine& line);
+
+// Runs the simulation with a progress line, until Ctrl-C. The checkpoint and the ranks may be null.
+[[nodiscard]] SimulatedScene simulate_at_terminal(Simulation& simulation, const SolveSettings& settings,
+                                                  Checkpoint* checkpoint = nullptr, Ranks* ranks = nullptr);
+
+[[nodiscard]] int exit_status(StopReason stop);
+
+// Reports in one line why a run ended early and which figures of which pass fell short of their bounds, followed by `cure`;
+// prints nothing if a run did all its work.
+void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view cure = "");
+
+// Returns the part of that line about a pass: "direct error 0.0037 of 0.001 (beam on vegetation)". Empty for a pass that
+// reached its bound, has none, or has no light.
+[[nodiscard]] std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
+                                    const std::optional<JudgedFigure>& judged, const RadiationModel& model);
+
+// Reports that the `work` in the folder, a run or a day, is finished, or prints its summary if --json requests it. Returns the
+// exit status.
+[[nodiscard]] int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work);
+
+// Prints the balance of a result and its folder, or its summary if --json requests it.
+void print_result(const std::filesystem::path& folder, const RunOptions& options, const SimulatedScene& simulated);
+
+}  // namespace sunfleck

@@ -1,0 +1,103 @@
+#include "programs/python/long_work.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace sunfleck {
+namespace {
+
+namespace py = pybind11;
+
+constexpr std::chrono::milliseconds listening_interval{20};
+constexpr std::chrono::milliseconds telling_interval{100};
+
+// State shared by the two threads.
+struct Desk {
+  std::atomic<bool> stop = false;
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool done = false;
+  Progress progress;  // the latest known
+};
+
+py::dict as_dict(const Progress& progress) {
+  py::dict dict;
+  const bool pilot = progress.stage == Progress::Stage::pilot;
+  dict["stage"] = pilot ? "pilot" : "run";
+  dict["rays"] = progress.rays;
+  dict["fraction"] = progress.fraction;
+  dict["seconds_left"] = progress.seconds_left ? py::object(py::float_(*progress.seconds_left)) : py::object(py::none());
+  dict["pass"] = progress.pass == Progress::Pass::direct ? "direct" : "indirect";
+  dict["relative_error"] = progress.relative_error ? py::object(py::float_(*progress.relative_error)) : py::object(py::none());
+  dict["bound"] = progress.bound;
+  return dict;
+}
+
+// Waits for the end of the work; throws what Python raises meanwhile.
+void attend(Desk& desk, const py::object& progress) {
+  auto last_told = std::chrono::steady_clock::now() - telling_interval;
+  while (true) {
+    Progress news;
+    bool done = false;
+    {
+      const py::gil_scoped_release release;
+      std::unique_lock lock(desk.mutex);
+      desk.changed.wait_for(lock, listening_interval, [&] { return desk.done; });
+      done = desk.done;
+      news = desk.progress;
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    const auto now = std::chrono::steady_clock::now();
+    if (!progress.is_none() && (done || now - last_told >= telling_interval)) {
+      progress(as_dict(news));
+      last_told = now;
+    }
+    if (done) return;
+  }
+}
+
+}  // namespace
+
+void do_long_work(const std::function<void(const Monitor&)>& work, const py::object& progress) {
+  Desk desk;
+  Monitor monitor;
+  monitor.interrupted = [&desk] { return desk.stop.load(); };
+  monitor.report = [&desk](const Progress& state) {
+    const std::lock_guard lock(desk.mutex);
+    const double furthest = desk.progress.fraction;
+    desk.progress = state;
+    desk.progress.fraction = std::max(furthest, state.fraction);
+  };
+  std::exception_ptr failure;
+  std::thread worker([&] {
+    try {
+      work(monitor);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(desk.mutex);
+    desk.done = true;
+    desk.changed.notify_all();
+  });
+  std::exception_ptr from_python;
+  try {
+    attend(desk, progress);
+  } catch (...) {
+    from_python = std::current_exception();
+    desk.stop = true;
+  }
+  {
+    const py::gil_scoped_release release;
+    worker.join();
+  }
+  if (failure) std::rethrow_exception(failure);
+  if (from_python) std::rethrow_exception(from_python);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,48 @@
+#pragma once
+// A result for Python: arrays by name.
+
+#include "files/results/tables/element_fields.h"
+#include "simulate/requests.h"
+#include "simulate/simulated_scene.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace sunfleck {
+
+// Names are those of the result files; arrays of the triangles are views of data that the outcome owns.
+class Outcome {
+ public:
+  explicit Outcome(SimulatedScene simulated) : simulated_(std::move(simulated)) {}
+
+  [[nodiscard]] bool complete() const { return simulated_.record.complete; }
+  [[nodiscard]] std::string summary() const;                       // summary.json
+  [[nodiscard]] std::string table(const std::string& name) const;  // profile.csv, organs.csv, triangles.csv, sensors.csv
+  // Returns the unit, the meaning and whether xarray has it, for each column of a table, or of `balance`.
+  [[nodiscard]] pybind11::dict describe(const std::string& name);
+  [[nodiscard]] pybind11::dict balance() const;  // [band], the energy balance
+  [[nodiscard]] pybind11::dict profile() const;  // [layer + 1], the columns of profile.csv
+  [[nodiscard]] pybind11::dict organs() const;   // [organ], the columns of organs.csv
+  [[nodiscard]] pybind11::list planes() const;   // a dict per [[plane]]: maps of [cells_x, cells_z]
+  [[nodiscard]] pybind11::list sensors() const;  // a dict per [[sensor]]: [point]
+  // Writes into a folder what `run` would write there; an earlier result in it is replaced. Throws Error as `run` does.
+  void write(const ResultRequest& request) const;
+
+  // Returns the columns of triangles.csv, [triangle]; `self` is the Python object of this outcome.
+  [[nodiscard]] pybind11::dict triangles(const pybind11::object& self);
+  [[nodiscard]] pybind11::array corners() const;  // [triangle, corner, axis], m, in the scene's frame
+
+ private:
+  const ElementFields& fields();
+
+  SimulatedScene simulated_;
+  std::unique_ptr<ElementFields> fields_;  // created when first used
+};
+
+void bind_outcome(pybind11::module_& module);
+
+}  // namespace sunfleck

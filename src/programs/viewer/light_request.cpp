@@ -1,0 +1,219 @@
+#include "programs/viewer/light_request.h"
+
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/units.h"
+#include "files/scene/moment_light.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+constexpr int clear_type = 12;
+
+SunRequest sun_request(const Scene& scene) {
+  SunRequest request;
+  if (scene.model.sun) {
+    request.shines = true;
+    request.elevation_deg = scene.model.sun->elevation_rad / degree;
+    request.azimuth_deg = scene.model.sun->azimuth_rad / degree;
+  }
+  if (!scene.moment) return request;
+  const SunMoment& moment = *scene.moment;
+  const UtcTime local = plus_seconds(moment.time, 60.0 * moment.offset_minutes);
+  request.by_clock = true;
+  request.year = local.year;
+  request.month = local.month;
+  request.day = local.day;
+  request.hour = local.hour + local.minute / 60.0 + local.second / 3600.0;
+  request.offset_minutes = moment.offset_minutes;
+  request.latitude_deg = moment.place.latitude_rad / degree;
+  request.longitude_deg = moment.place.longitude_rad / degree;
+  request.altitude_m = moment.place.altitude_m;
+  return request;
+}
+
+SurfaceRequest surface_request(const SurfaceOptics& optics) {
+  SurfaceRequest request;
+  for (const FaceOptics& face : optics.upper) request.upper.push_back({face.reflectance, face.transmittance});
+  for (const FaceOptics& face : optics.lower) request.lower.push_back({face.reflectance, face.transmittance});
+  return request;
+}
+
+SunPosition position_of(const SunRequest& sun) {
+  if (!sun.by_clock) return {sun.elevation_deg * degree, sun.azimuth_deg * degree};
+  return sun_position(time_of(sun), {sun.latitude_deg * degree, sun.longitude_deg * degree, sun.altitude_m});
+}
+
+std::optional<SkyModel> sky_of(const SkyRequest& request, const Scene& scene) {
+  SkyModel sky;
+  switch (request.kind) {
+    case SkyRequestKind::none:
+      return std::nullopt;
+    case SkyRequestKind::uniform:
+      sky.kind = SkyKind::uniform;
+      break;
+    case SkyRequestKind::overcast:
+      sky.kind = SkyKind::overcast;
+      break;
+    case SkyRequestKind::clear:
+    case SkyRequestKind::general:
+      sky.kind = SkyKind::general;
+      sky.cie_type = request.kind == SkyRequestKind::clear ? clear_type : request.cie_type;
+      break;
+    case SkyRequestKind::all_weather:
+      sky.kind = SkyKind::all_weather;
+      sky.dni_w_m2 = request.dni_w_m2;
+      sky.dhi_w_m2 = request.dhi_w_m2;
+      break;
+    case SkyRequestKind::of_scene:
+      return scene.model.sky;
+  }
+  return sky;
+}
+
+// Resets the fields that the other choices make irrelevant, so that only relevant differences remain.
+SunRequest in_use(SunRequest sun) {
+  if (sun.by_clock) {
+    sun.elevation_deg = sun.azimuth_deg = 0.0;
+    return sun;
+  }
+  SunRequest angles;
+  angles.shines = sun.shines;
+  angles.elevation_deg = sun.elevation_deg;
+  angles.azimuth_deg = sun.azimuth_deg;
+  return angles;
+}
+
+SkyRequest in_use(const SkyRequest& sky) {
+  SkyRequest request{sky.kind};
+  if (sky.kind == SkyRequestKind::general) request.cie_type = sky.cie_type;
+  if (sky.kind == SkyRequestKind::all_weather) request = sky;
+  return request;
+}
+
+// Keeps the scene's own moment exactly, so that an untouched window shows what `run` computes. A sun that does not shine still
+// determines the time.
+void grant_light(const LightRequest& request, const Scene& scene, RadiationModel& model) {
+  const LightRequest own = request_of(scene);
+  model.sun = scene.model.sun;
+  model.bands = scene.model.bands;
+  model.sky = scene.model.sky;
+  if (in_use(request.sun) != in_use(own.sun)) {
+    std::optional<UtcTime> time;
+    if (scene.moment) time = scene.moment->time;
+    if (request.sun.by_clock) time = time_of(request.sun);
+    const SunPosition sun = position_of(request.sun);
+    MomentLight light = light_under(scene, sun, time);
+    model.bands = std::move(light.bands);
+    model.sky = std::move(light.sky);
+    model.sun = request.sun.shines ? std::optional(sun) : std::nullopt;
+  }
+  if (in_use(request.sky) != in_use(own.sky)) model.sky = sky_of(request.sky, scene);
+  if (request.own_irradiance) {
+    for (std::size_t b = 0; b < model.bands.size(); ++b) {
+      const BandRequest& band = request.bands[b];
+      model.bands[b].direct_w_m2 = band.total_w_m2 * (1.0 - band.diffuse_share);
+      model.bands[b].diffuse_w_m2 = band.total_w_m2 * band.diffuse_share;
+    }
+  }
+  const bool sun_up = model.sun && model.sun->elevation_rad > 0.0;
+  for (Waveband& band : model.bands) {
+    if (!sun_up) band.direct_w_m2 = 0.0;
+    if (!model.sky) band.diffuse_w_m2 = 0.0;
+  }
+  if (model.sky && model.sky->follows_sun() && !model.sun) {
+    throw_input("sky", "it follows the sun, but the scene has no sun",
+                "switch the sun on, or choose a uniform or overcast sky");
+  }
+}
+
+void grant_optics(const LightRequest& request, const Scene& scene, RadiationModel& model) {
+  for (std::size_t i = 0; i < model.optics.size(); ++i) {
+    SurfaceOptics& optics = model.optics[i];
+    optics = scene.model.optics[i];
+    for (std::size_t b = 0; b < optics.upper.size(); ++b) {
+      optics.upper[b] = {request.optics[i].upper[b].reflectance, request.optics[i].upper[b].transmittance};
+      optics.lower[b] = {request.optics[i].lower[b].reflectance, request.optics[i].lower[b].transmittance};
+    }
+  }
+  if (model.soil) model.soil->reflectance = request.soil_reflectance;
+}
+
+}  // namespace
+
+BandRequest band_request(const Waveband& band) {
+  const double total = band.direct_w_m2 + band.diffuse_w_m2;
+  return {total, total > 0.0 ? band.diffuse_w_m2 / total : 0.0};
+}
+
+LightRequest request_of(const Scene& scene) {
+  LightRequest request;
+  request.sun = sun_request(scene);
+  request.sky.kind = scene.model.sky ? SkyRequestKind::of_scene : SkyRequestKind::none;
+  for (const Waveband& band : scene.model.bands) request.bands.push_back(band_request(band));
+  for (const SurfaceOptics& optics : scene.model.optics) request.optics.push_back(surface_request(optics));
+  if (scene.model.soil) request.soil_reflectance = scene.model.soil->reflectance;
+  return request;
+}
+
+std::string first_difference(const LightRequest& one, const LightRequest& other) {
+  if (in_use(one.sun) != in_use(other.sun)) return "sun";
+  if (in_use(one.sky) != in_use(other.sky)) return "sky";
+  if (one.own_irradiance != other.own_irradiance || (one.own_irradiance && one.bands != other.bands)) return "irradiance";
+  if (one.optics != other.optics || one.soil_reflectance != other.soil_reflectance) return "optics";
+  return "";
+}
+
+std::string digest_of(const LightRequest& request) {
+  Digest digest;
+  const auto add = [&](double number) { digest.add(fmt::format("{} ", number)); };
+  const SunRequest sun = in_use(request.sun);
+  for (const double number :
+       {static_cast<double>(sun.shines), static_cast<double>(sun.by_clock), static_cast<double>(sun.year),
+        static_cast<double>(sun.month), static_cast<double>(sun.day), sun.hour, static_cast<double>(sun.offset_minutes),
+        sun.latitude_deg, sun.longitude_deg, sun.altitude_m, sun.elevation_deg, sun.azimuth_deg}) {
+    add(number);
+  }
+  const SkyRequest sky = in_use(request.sky);
+  for (const double number : {static_cast<double>(sky.kind), static_cast<double>(sky.cie_type), sky.dni_w_m2, sky.dhi_w_m2})
+    add(number);
+  for (const BandRequest& band : request.own_irradiance ? request.bands : std::vector<BandRequest>()) {
+    add(band.total_w_m2);
+    add(band.diffuse_share);
+  }
+  for (const SurfaceRequest& surface : request.optics) {
+    for (const auto* faces : {&surface.upper, &surface.lower}) {
+      for (const FaceRequest& face : *faces) {
+        add(face.reflectance);
+        add(face.transmittance);
+      }
+    }
+  }
+  for (const double reflectance : request.soil_reflectance) add(reflectance);
+  return digest.text();
+}
+
+UtcTime time_of(const SunRequest& sun) {
+  return plus_seconds({sun.year, sun.month, sun.day, 0, 0, 0.0}, 3600.0 * sun.hour - 60.0 * sun.offset_minutes);
+}
+
+void grant(const LightRequest& request, const Scene& scene, RadiationModel& model) {
+  const std::optional<SunPosition> sun = model.sun;
+  const std::optional<SkyModel> sky = model.sky;
+  const std::vector<Waveband> bands = model.bands;
+  try {
+    grant_light(request, scene, model);
+  } catch (...) {
+    model.sun = sun;
+    model.sky = sky;
+    model.bands = bands;
+    throw;
+  }
+  grant_optics(request, scene, model);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,129 @@
+#pragma once
+// The simulation behind a window. It restarts whenever the light changes, and publishes intermediate results.
+
+#include "files/scene/scene_reader.h"
+#include "physics/transport/model/result.h"
+#include "programs/cli/options.h"
+#include "programs/viewer/light_request.h"
+#include "simulate/simulation.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace sunfleck {
+
+// Outcome of a request to save.
+struct SaveOutcome {
+  bool done = false;
+  std::string text;  // one line
+};
+
+// State of the simulation, small enough to be copied every frame.
+struct LightNews {
+  std::uint64_t request = 0;                  // number of the request that is or was simulated last; counts from 1
+  std::uint64_t version = 0;                  // of the latest result; 0: none yet
+  std::uint64_t result_request = 0;           // number of the request that the result belongs to
+  bool complete = false;                      // no further result of this request will follow
+  StopReason stop = StopReason::interrupted;  // why it ended: the bounds or a limit were reached
+  double seconds = 0.0;                       // from the request to the result
+  std::uint64_t rays = 0;                     // of the result, including packets and sky rays
+  // Replicates of the direct pass that were reused instead of traced, since the scene was loaded.
+  std::uint64_t spared_beams = 0;
+  std::optional<SunPosition> sun;
+  std::vector<Waveband> incoming;  // [band], incident light
+  std::optional<double> direct_error, indirect_error;
+  double direct_bound = 0.0, indirect_bound = 0.0;
+  std::vector<BandResult> bands;
+  std::vector<LayerResult> layers;
+  std::string problem;               // one line, why the last request failed; empty if it did not
+  std::optional<SaveOutcome> saved;  // outcome of the last request to save, once known
+  bool saving = false;
+};
+
+// Identifies a result.
+struct LightStamp {
+  std::uint64_t version = 0;  // as in LightNews; increases with every result
+  std::uint64_t request = 0;
+  bool complete = false;
+};
+
+class LiveLight {
+ public:
+  // Starts with the scene's own light. The simulation must outlive the object; `notify` is called from the simulating thread when
+  // there is news.
+  LiveLight(Simulation& simulation, const RunOptions& options, std::function<void()> notify);
+  ~LiveLight();
+  LiveLight(const LiveLight&) = delete;
+  LiveLight& operator=(const LiveLight&) = delete;
+
+  // Restarts with other light. Returns the number of the request.
+  std::uint64_t ask(const LightRequest& request);
+
+  // Writes the result into a folder as `run` does, complete or not, as soon as there is one; planes and sensors are left out.
+  void save(const std::filesystem::path& folder);
+
+  [[nodiscard]] LightNews news() const;
+
+  // Returns the scene, of which only the parts that no light changes may be read at any time: triangles, organs, plot, camera.
+  [[nodiscard]] const Scene& geometry() const { return simulation_.scene(); }
+
+  // Calls `use` with the result and its scene, both valid during the call. Returns false without calling it if there is no
+  // result yet.
+  template <class Use>
+  bool with_result(const Use& use) const {
+    const std::lock_guard lock(result_mutex_);
+    if (!result_) return false;
+    use(simulation_.scene(), *result_, stamp_);
+    return true;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void work();
+  [[nodiscard]] bool wait_for_order();
+  void simulate_request(const LightRequest& request, std::uint64_t number);
+  void take_result(RadiationResult result, std::uint64_t number, bool complete);
+  void tell(const RadiationResult& result, std::uint64_t number, bool complete);
+  void save_if_asked();
+  void write(const std::filesystem::path& folder, const RadiationResult& result);
+  [[nodiscard]] bool superseded(std::uint64_t number) const { return quitting_ || asked_ != number; }
+  [[nodiscard]] bool wants_result() const;
+
+  Scene original_;  // with the light as read; its canopy is empty
+  Simulation& simulation_;
+  RunOptions options_;
+  std::function<void()> notify_;
+  SolveSettings settings_;
+  bool has_receivers_;  // planes or sensors, which the window does not show
+
+  std::atomic<bool> quitting_ = false;
+  std::atomic<std::uint64_t> asked_ = 0;  // number of the last request
+  std::atomic<bool> save_asked_ = false;
+
+  mutable std::mutex result_mutex_;  // guards the simulation's scene and the next two members; readers may hold it
+  std::optional<RadiationResult> result_;
+  LightStamp stamp_;
+
+  // Guards the members below up to the worker; held only briefly.
+  mutable std::mutex news_mutex_;
+  std::condition_variable order_;
+  LightRequest request_;
+  LightNews news_;
+  std::filesystem::path save_folder_;
+  Clock::time_point asked_at_, last_result_;
+
+  // Declared last, so that all other members exist when it starts.
+  std::thread worker_;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,48 @@
+#include "programs/viewer/session.h"
+
+#include "simulate/scene_source.h"
+
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file, SourceFiles& files) {
+  // A file dropped on the window is a scene file.
+  const StandFiles stand = file == options.run.scene ? options.run.stand : StandFiles{};
+  Scene scene = load_scene({file, stand, options.run.allow_outside}, ScenePurpose::moment, &files);
+  check_view(scene.model, options.run.pictures);
+  check_grid(options.run, scene);
+  return scene;
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& things) {
+  std::vector<std::string> names;
+  for (const Named& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+// Returns the run options for the scene that is shown, which decides the folder and the name of saved files.
+RunOptions run_options(const ViewOptions& options, const std::filesystem::path& file) {
+  RunOptions run = options.run;
+  run.scene = file;
+  return run;
+}
+
+}  // namespace
+
+Session::Session(const ViewOptions& options, const std::filesystem::path& scene_file, SourceFiles& files,
+                 const std::function<void()>& notify)
+    : file(scene_file),
+      simulation(checked_scene(options, file, files), options.run, EngineUse::shared_with_window),
+      title(simulation.scene().title),
+      light_of_scene(request_of(simulation.scene())),
+      bands(names_of(simulation.model().bands)),
+      optics(names_of(simulation.model().optics)),
+      warnings(simulation.scene().warnings),
+      box(shown_box(simulation.model(), simulation.layout())),
+      light(simulation, run_options(options, file), notify),
+      picture(light, simulation.tracing(), notify) {}
+
+}  // namespace sunfleck

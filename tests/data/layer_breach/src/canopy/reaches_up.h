@@ -1,3 +1,0 @@
-#pragma once
-#include "base/error.h"
-#include "bvh/bvh.h"  // up

@@ -1,3 +1,0 @@
-#include "view/image.h"
-#include "tracers/cpu_tracer.h"  // sideways
-  #  include "../canopy/canopy.h"  // hidden

@@ -1,0 +1,3 @@
+#pragma once
+#include "base/error.h"
+#include "physics/bvh/bvh.h"  // up

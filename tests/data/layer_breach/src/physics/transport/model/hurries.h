@@ -1,0 +1,2 @@
+#pragma once
+#include "physics/transport/indirect/replicate.h"  // up, within its room

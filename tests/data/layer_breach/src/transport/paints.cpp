@@ -1,3 +1,0 @@
-#include "bvh/bvh.h"
-#include "view/image.h"  // up
-#include <vulkan/vulkan.h>  // not its library

@@ -1,0 +1,275 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "devices/gpu/buffer.h"
+#include "devices/gpu/compute.h"
+#include "devices/gpu/context.h"
+#include "devices/gpu/handles.h"
+#include "gpu_test.spirv.h"
+#include "support/device.h"
+
+namespace sunfleck {
+namespace {
+
+struct Push {
+  std::uint32_t count;
+  std::uint32_t addend;
+};
+
+enum class Mode : std::uint32_t { add, fetch, write_past_end };
+
+ComputePipeline make_pipeline(const GpuContext& context, Mode mode, std::uint32_t factor = 1) {
+  const ShaderCode code{"gpu_test", gpu_test_spirv, {BufferUse::storage, BufferUse::uniform_texel}, sizeof(Push), 64};
+  return {context, code, {static_cast<std::uint32_t>(mode), factor}};
+}
+
+void run(ComputePipeline& pipeline, std::uint64_t threads, const Push& push, const GpuBuffer& words, const GpuBuffer& texels) {
+  const GpuBuffer* buffers[] = {&words, &texels};
+  pipeline.run(threads, std::as_bytes(std::span(&push, 1)), buffers);
+}
+
+GpuBuffer make_buffer(const GpuContext& context, BufferUse use, std::span<const std::uint32_t> words) {
+  GpuBuffer buffer = create_buffer(context, use, words.size_bytes(), "test data");
+  upload(context, buffer, std::as_bytes(words));
+  return buffer;
+}
+
+std::vector<std::uint32_t> read_words(const GpuContext& context, const GpuBuffer& buffer) {
+  std::vector<std::uint32_t> words(buffer.bytes / 4);
+  download(context, buffer, std::as_writable_bytes(std::span(words)));
+  return words;
+}
+
+std::vector<std::uint32_t> noise(std::size_t count) {
+  std::vector<std::uint32_t> words(count);
+  std::uint32_t state = 1;
+  for (auto& word : words) word = state = state * 747796405u + 2891336453u;
+  return words;
+}
+
+// Expects `call` to throw an error with this one line and kind.
+template <class Call>
+std::string device_error(Call call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::device);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+void open_device(DeviceSelector::Kind kind, int index, const std::string& name) {
+  const GpuContext context({kind, index, name}, Validation::off);
+}
+
+using GpuTest = DeviceTest;
+
+TEST_F(GpuTest, BuffersGiveBackWhatWasUploaded) {
+  for (const auto use : {BufferUse::storage, BufferUse::uniform_texel}) {
+    for (const std::size_t count :
+         {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{1027}, Staging::bytes / 2 + 5}) {
+      const auto words = noise(count);
+      const auto buffer = make_buffer(context(), use, words);
+      EXPECT_TRUE(read_words(context(), buffer) == words) << count;
+    }
+  }
+}
+
+TEST_F(GpuTest, UploadAndDownloadReachAPartOfABuffer) {
+  auto words = noise(100);
+  const auto buffer = make_buffer(context(), BufferUse::storage, words);
+  const std::uint32_t part[] = {7, 8, 9};
+  upload(context(), buffer, std::as_bytes(std::span(part)), 97 * 4);
+  std::copy(std::begin(part), std::end(part), words.begin() + 97);
+  EXPECT_EQ(read_words(context(), buffer), words);
+  std::uint32_t two[2] = {};
+  download(context(), buffer, std::as_writable_bytes(std::span(two)), 96 * 4);
+  EXPECT_EQ(two[0], words[96]);
+  EXPECT_EQ(two[1], 7u);
+  EXPECT_THROW(upload(context(), buffer, std::as_bytes(std::span(part)), 98 * 4), std::logic_error);
+  EXPECT_THROW(download(context(), buffer, std::as_writable_bytes(std::span(two)), 101 * 4), std::logic_error);
+}
+
+TEST_F(GpuTest, FillSetsEveryWord) {
+  for (const std::size_t count : {0, 1, 5, 1001}) {
+    const auto buffer = make_buffer(context(), BufferUse::storage, noise(count));
+    fill(context(), buffer, 0xDEADBEEFu);
+    EXPECT_EQ(read_words(context(), buffer), std::vector<std::uint32_t>(count, 0xDEADBEEFu));
+  }
+}
+
+TEST_F(GpuTest, ShadersRunForEveryThreadAndNoOther) {
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  auto pipeline = make_pipeline(context(), Mode::add);
+  for (const std::uint32_t threads : {0u, 1u, 63u, 64u, 65u, 1000u, 100'003u}) {
+    auto words = noise(threads + 64);
+    const auto buffer = make_buffer(context(), BufferUse::storage, words);
+    run(pipeline, threads, {threads, 42}, buffer, texels);
+    run(pipeline, threads, {threads, 1000}, buffer, texels);  // sees what the first run wrote
+    for (std::uint32_t i = 0; i < threads; ++i) words[i] += 1042;
+    EXPECT_TRUE(read_words(context(), buffer) == words) << threads;
+  }
+}
+
+TEST_F(GpuTest, SpecialisationConstantsReachTheShader) {
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  const auto buffer = create_buffer(context(), BufferUse::storage, 10 * 4, "words");
+  fill(context(), buffer, 5);
+  auto pipeline = make_pipeline(context(), Mode::add, 3);
+  run(pipeline, 10, {10, 7}, buffer, texels);
+  EXPECT_EQ(read_words(context(), buffer), std::vector<std::uint32_t>(10, 5 + 3 * 7));
+}
+
+TEST_F(GpuTest, TexelFetchesKeepEveryBit) {
+  // Read as floats, these are zeros, denormals, infinities, quiet and signalling NaNs of both signs, and the largest and
+  // smallest numbers.
+  std::vector<std::uint32_t> words = {0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007FFFFF, 0x807FFFFF,
+                                      0x00400000, 0x7F800000, 0xFF800000, 0x7F800001, 0xFF800001, 0x7FBFFFFF,
+                                      0x7FC00000, 0xFFC00000, 0x7FFFFFFF, 0xFFFFFFFF, 0x00800000, 0x7F7FFFFF};
+  const auto more = noise(4096 - words.size());
+  words.insert(words.end(), more.begin(), more.end());
+  const auto texels = make_buffer(context(), BufferUse::uniform_texel, words);
+  const auto buffer = create_buffer(context(), BufferUse::storage, words.size() * 4, "words");
+  auto pipeline = make_pipeline(context(), Mode::fetch);
+  run(pipeline, 1024, {1024, 0}, buffer, texels);
+  EXPECT_EQ(read_words(context(), buffer), words);
+}
+
+TEST_F(GpuTest, RunRefusesWhatDoesNotFitTheShader) {
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  const auto buffer = create_buffer(context(), BufferUse::storage, 64, "words");
+  auto pipeline = make_pipeline(context(), Mode::add);
+  EXPECT_EQ(pipeline.max_threads() % 64, 0u);
+  EXPECT_GE(pipeline.max_threads(), 65535u * 64u);
+  EXPECT_LE(pipeline.max_threads(), std::uint64_t{1} << 32);
+  EXPECT_THROW(run(pipeline, pipeline.max_threads() + 1, {1, 1}, buffer, texels), std::logic_error);
+  EXPECT_THROW(run(pipeline, 1, {1, 1}, texels, buffer), std::logic_error);
+  const Push push{1, 1};
+  const GpuBuffer* buffers[] = {&buffer, &texels};
+  EXPECT_THROW(pipeline.run(1, {}, buffers), std::logic_error);
+  EXPECT_THROW(pipeline.run(1, std::as_bytes(std::span(&push, 1)), std::span(buffers).first(1)), std::logic_error);
+}
+
+TEST_F(GpuTest, OneRunReachesTheLastThreadOfTheLargestDispatch) {
+  auto pipeline = make_pipeline(context(), Mode::add);
+  const std::uint32_t threads = static_cast<std::uint32_t>(std::min<std::uint64_t>(pipeline.max_threads(), 65535u * 64u));
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  const auto buffer = create_buffer(context(), BufferUse::storage, std::size_t{threads} * 4, "words");
+  fill(context(), buffer, 0);
+  run(pipeline, threads, {threads, 1}, buffer, texels);
+  const auto words = read_words(context(), buffer);
+  EXPECT_EQ(std::count(words.begin(), words.end(), 1u), threads);
+}
+
+TEST_F(GpuTest, BuffersAboveTheLimitsAreRefusedByName) {
+  const auto storage = [&] {
+    static_cast<void>(create_buffer(context(), BufferUse::storage, context().limits().max_storage_buffer_bytes + 1, "big"));
+  };
+  const auto texel = [&] {
+    const auto bytes = (context().limits().max_texel_buffer_elements + 1) * 16;
+    static_cast<void>(create_buffer(context(), BufferUse::uniform_texel, bytes, "big"));
+  };
+  const std::string storage_line = device_error(storage);
+  EXPECT_NE(storage_line.find("big: "), std::string::npos) << storage_line;
+  EXPECT_NE(storage_line.find("maxStorageBufferRange"), std::string::npos) << storage_line;
+  EXPECT_NE(device_error(texel).find("maxTexelBufferElements"), std::string::npos);
+}
+
+TEST_F(GpuTest, DevicesAreFoundByNumberNameAndKind) {
+  const auto devices = list_devices();
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (!devices[i].unusable.empty()) continue;
+    const GpuContext by_number({DeviceSelector::Kind::index, static_cast<int>(i), ""}, Validation::off);
+    EXPECT_EQ(by_number.description().name, devices[i].name);
+    std::string part = devices[i].name.substr(0, 4);
+    std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const GpuContext by_name({DeviceSelector::Kind::name, 0, part}, Validation::off);
+    EXPECT_EQ(by_name.description().name.substr(0, 4), devices[i].name.substr(0, 4));
+    if (devices[i].name.find("llvmpipe") != std::string::npos) {
+      EXPECT_TRUE(GpuContext({DeviceSelector::Kind::name, 0, "Lavapipe"}, Validation::off).description().software);
+    }
+  }
+  const GpuContext any({}, Validation::off);
+  const bool hardware =
+      std::any_of(devices.begin(), devices.end(), [](const auto& d) { return !d.software && d.unusable.empty(); });
+  EXPECT_EQ(any.description().software, !hardware);
+}
+
+TEST_F(GpuTest, SelectorsThatNothingFitsListTheDevices) {
+  const auto devices = list_devices();
+  const auto count = static_cast<int>(devices.size());
+  for (const std::string& line : {device_error([&] { open_device(DeviceSelector::Kind::index, count, ""); }),
+                                  device_error([&] { open_device(DeviceSelector::Kind::index, -1, ""); }),
+                                  device_error([&] { open_device(DeviceSelector::Kind::name, 0, "no such device"); })}) {
+    for (const auto& device : devices) EXPECT_NE(line.find(device.name), std::string::npos) << line;
+  }
+  const bool all_software = std::all_of(devices.begin(), devices.end(), [](const auto& device) { return device.software; });
+  if (all_software) device_error([&] { open_device(DeviceSelector::Kind::hardware, 0, ""); });
+}
+
+TEST(Turns, GoRoundTheBest) {
+  const std::vector<std::optional<int>> values{4, 0, std::nullopt, 1, 0, 0};
+  std::vector<std::size_t> taken;
+  for (int turn = 0; turn < 7; ++turn) taken.push_back(smallest_in_turn(values, turn).value());
+  EXPECT_EQ(taken, (std::vector<std::size_t>{1, 4, 5, 1, 4, 5, 1}));
+  EXPECT_EQ(smallest_in_turn(std::vector<std::optional<int>>{std::nullopt, 7}, 3), 1U);
+  EXPECT_EQ(smallest_in_turn(std::vector<std::optional<int>>{std::nullopt}, 0), std::nullopt);
+  EXPECT_EQ(smallest_in_turn({}, 2), std::nullopt);
+}
+
+TEST_F(GpuTest, ValidationTellsOfMisuse) {
+  if (!validation_installed()) GTEST_SKIP() << "no validation layer on this machine";
+  const GpuContext own({}, Validation::on);
+  static_cast<void>(own.handles().device.createBuffer({{}, 0, vk::BufferUsageFlagBits::eStorageBuffer}));
+  ASSERT_FALSE(own.validation_messages().empty());
+  EXPECT_NE(own.validation_messages().front().find("VUID-VkBufferCreateInfo-size"), std::string::npos);
+}
+
+TEST_F(GpuTest, ThoroughValidationSeesWritesPastTheEnd) {
+  if (!validation_installed()) GTEST_SKIP() << "no validation layer on this machine";
+  const GpuContext own({}, Validation::thorough);
+  const auto texels = create_buffer(own, BufferUse::uniform_texel, 0, "nothing");
+  const auto buffer = create_buffer(own, BufferUse::storage, 64 * 4, "words");
+  auto inside = make_pipeline(own, Mode::add);
+  run(inside, 64, {64, 1}, buffer, texels);
+  EXPECT_EQ(own.validation_messages(), std::vector<std::string>{});
+  auto outside = make_pipeline(own, Mode::write_past_end);
+  run(outside, 1, {1, 64}, buffer, texels);
+  EXPECT_FALSE(own.validation_messages().empty());
+}
+
+// The loader reads the variable whenever an instance is created, so a driver list without entries acts like a machine without
+// Vulkan.
+TEST(GpuWithoutDriver, IsAnEmptyListAndADeviceError) {
+  const char* variables[] = {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"};
+  std::vector<std::pair<const char*, std::string>> before;
+  for (const char* variable : variables) {
+    const char* value = std::getenv(variable);
+    before.emplace_back(variable, value == nullptr ? "" : value);
+    setenv(variable, "/no/such/driver.json", 1);
+  }
+  EXPECT_TRUE(list_devices().empty());
+  const std::string line = device_error([] { open_device(DeviceSelector::Kind::any, 0, ""); });
+  EXPECT_NE(line.find("Vulkan device"), std::string::npos);
+  for (const auto& [variable, value] : before) value.empty() ? unsetenv(variable) : setenv(variable, value.c_str(), 1);
+}
+
+TEST(SoftwareThreads, AreSetForTheDriver) {
+  set_software_threads(3);
+  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "3");
+  set_software_threads(0);
+  EXPECT_EQ(std::getenv("LP_NUM_THREADS"), nullptr);
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,428 @@
+#include "files/results/plots/plots.h"
+
+#include "files/results/tables/day_tables.h"
+#include "files/results/tables/plane_writer.h"
+#include "support/gnuplot.h"
+#include "support/small_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr test::Picture::Pixel blue{0x00, 0x72, 0xB2}, vermilion{0xD5, 0x5E, 0x00}, green{0x00, 0x9E, 0x73}, black{0, 0, 0},
+    white{255, 255, 255};
+const std::string hostile = "it's `touch x` \"@x\" {a}_b^2 \\ \xff";
+
+RunRecord titled(const std::string& title) {
+  RunRecord record;
+  record.title = title;
+  record.accuracy.confidence = 0.95;
+  return record;
+}
+
+std::vector<LayerResult> layers(double ground_ratio) {
+  std::vector<LayerResult> all;
+  for (int i = 0; i <= 20; ++i) {
+    const double height_m = 0.1 * i;
+    const double ratio = ground_ratio + (1.0 - ground_ratio) * height_m / 2.0;
+    all.push_back({height_m, 0.1, {ratio, 0.03}, {0.5, 0.01}, {{1.0, 0.0}}, {{1.0, 0.0}}, {{10.0 + i, 2.0}}});
+  }
+  all.back().absorbed.clear();
+  return all;
+}
+
+using Points = std::vector<std::vector<double>>;  // sunfleck ratio, height
+
+class Plots : public test::GnuplotTest {
+ protected:
+  // Writes the profile.csv of a result with these layers, in the band PAR.
+  [[nodiscard]] fs::path profile(const std::string& title, const std::vector<LayerResult>& layers, int number = 0) const {
+    RadiationModel model;
+    model.bands = {{"PAR", 100.0, 0.0}};
+    RadiationResult result;
+    result.layers = layers;
+    return folder_.write("profile" + std::to_string(number) + ".csv", profile_csv(titled(title), model, result));
+  }
+
+  // Returns the variables that `run` sets for profile.gp.
+  static PlotVariables profiles(const std::vector<fs::path>& tables, const std::string& band = "PAR",
+                                const std::string& measured = {}, const Points& points = {}) {
+    PlotVariables variables;
+    variables.set_files("tables", tables);
+    variables.set_text("band", band);
+    if (measured.empty()) return variables;
+    variables.set_text("measured", measured);
+    variables.set_table("measured", "sunfleck_ratio,height_m", points);
+    variables.set_text("agreement", "n 3, R2 0.970");
+    return variables;
+  }
+
+  // Draws a plane as `run` does.
+  [[nodiscard]] test::Picture plane(const std::string& title, const RadiationModel& model, const RadiationResult& result,
+                                    std::size_t band) const {
+    PlotVariables variables;
+    variables.set_file("table", folder_.write("plane.csv", plane_csv(titled(title), model, result, 0)));
+    if (!result.planes[0].reached.empty())
+      variables.set_file("flecks", folder_.write("flecks.csv", plane_flecks_csv(titled(title), model, result, 0)));
+    variables.set_text("title", title);
+    variables.set_text("band", model.bands[band].name);
+    variables.set("beam", model.bands[band].direct_w_m2);
+    return draw("plane.gp", variables);
+  }
+
+  // Draws a day with these steps as `day` does.
+  [[nodiscard]] test::Picture day(const std::string& title, const std::vector<DayStep>& steps,
+                                  const std::vector<StepLight>& lights) const {
+    RadiationModel model;
+    model.bands = {{"PAR", 0.0, 0.0}};
+    DayCourse course;
+    course.steps = steps;
+    PlotVariables variables;
+    variables.set_file("table", folder_.write("day.csv", day_csv(titled(title), model, course, lights)));
+    variables.set_text("title", title);
+    variables.set_text("band", "PAR");
+    return draw("day.gp", variables);
+  }
+};
+
+TEST_F(Plots, AProfileAlone) {
+  const test::Picture picture = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
+  EXPECT_EQ(picture.width, 1600);
+  EXPECT_EQ(picture.height, 1000);
+  EXPECT_GT(picture.count(blue), 1000U);
+  EXPECT_EQ(picture.count(vermilion), 0U);
+  EXPECT_GT(picture.count(white), 1'000'000U);
+}
+
+TEST_F(Plots, TwoProfilesAndFieldData) {
+  const std::vector<fs::path> tables{profile("sparse", layers(0.2), 1), profile("dense", layers(0.02), 2)};
+  const test::Picture picture = draw("profile.gp", profiles(tables, "PAR", "field.csv", {{0.2, 0.0}, {0.7, 1.0}, {1.0, 3.0}}));
+  EXPECT_GT(picture.count(blue), 1000U);
+  EXPECT_GT(picture.count(vermilion), 1000U);
+  EXPECT_GT(picture.count(black), draw("profile.gp", profiles(tables)).count(black) + 100) << "rings of the field data";
+}
+
+TEST_F(Plots, AProfileHasBothPanels) {
+  const auto in_half = [](const test::Picture& picture, bool right) {
+    std::size_t count = 0;
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = right ? 860 : 0; x < (right ? picture.width : 860); ++x) count += picture.at(x, y) == blue ? 1 : 0;
+    }
+    return count;
+  };
+  const test::Picture both = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
+  EXPECT_GT(in_half(both, false), 500U);
+  EXPECT_GT(in_half(both, true), 500U);
+  const test::Picture other_band = draw("profile.gp", profiles({profile("A stand", layers(0.2))}, "UV"));
+  EXPECT_EQ(in_half(other_band, false), in_half(both, false));
+  EXPECT_EQ(in_half(other_band, true), 0U);
+  std::vector<LayerResult> dark = layers(0.2);
+  for (LayerResult& layer : dark) layer.sunfleck_ratio = {none, none};
+  const test::Picture no_beam = draw("profile.gp", profiles({profile("A stand", dark)}));
+  EXPECT_EQ(in_half(no_beam, false), 0U);
+  EXPECT_EQ(in_half(no_beam, true), in_half(both, true));
+}
+
+TEST_F(Plots, ProfilesOfAnythingASimulationGives) {
+  std::vector<LayerResult> dark = layers(0.2), unsure = layers(0.2);
+  for (LayerResult& layer : dark) layer.sunfleck_ratio = {none, none};
+  for (LayerResult& layer : unsure) {
+    layer.sunfleck_ratio.half_width = none;
+    for (Estimate& absorbed : layer.absorbed) absorbed = {0.0, none};
+  }
+  std::vector<LayerResult> flat{layers(1.0).front(), layers(1.0).back()};
+  flat[1].height_m = 0.0;
+  std::vector<fs::path> many;
+  for (int i = 1; i <= 9; ++i) many.push_back(profile("curve", layers(0.1 * i), i));
+  const fs::path a = profile("a", dark, 10), b = profile("b", unsure, 11), c = profile("c", flat, 12);
+  for (const std::vector<fs::path>& tables : {std::vector<fs::path>{a}, {b}, {c}, {a, b}, many}) {
+    EXPECT_EQ(draw("profile.gp", profiles(tables, "PAR", "field.csv", {{0.7, 1.0}})).width, 1600);
+    EXPECT_EQ(draw("profile.gp", profiles(tables, "UV")).width, 1600);
+  }
+}
+
+// Draws with a text in every place where a user's text may stand: title, file names, and the name of the field data.
+class HostileTexts : public Plots {
+ protected:
+  [[nodiscard]] int width_with(const std::string& text) const {
+    std::string name = text.substr(0, 100);
+    for (char& c : name) c = c == '/' || c == '\0' ? '|' : c;
+    const fs::path folder = folder_ / ("folder " + name);
+    fs::create_directories(folder);
+    const fs::path table = folder / "profile.csv";
+    fs::copy_file(profile(text, layers(0.2)), table, fs::copy_options::overwrite_existing);
+    const fs::path file = folder / "profile.png";
+    PlotVariables variables = profiles({table, table}, text, text, {{0.2, 0.0}});
+    EXPECT_EQ(draw_table("profile.gp", variables, file).value_or(""), "") << text;
+    variables.set_texts("titles", std::vector<std::string>{text, text});
+    EXPECT_EQ(draw_table("profile.gp", variables, file).value_or(""), "") << text;
+    return test::read_picture(file).width;
+  }
+};
+
+TEST_F(HostileTexts, AreOnlyText) {
+  const fs::path mark = fs::current_path() / "mark_of_a_hostile_text";
+  fs::remove(mark);
+  const std::string touch = "touch mark_of_a_hostile_text";
+  const std::string texts[] = {"'; system '" + touch + "'; set title '",
+                               "\"; system \"" + touch + "\"; \"",
+                               "`" + touch + "`",
+                               "a `" + touch + "` \" `" + touch + "` ' `" + touch + "`",
+                               "$(" + touch + ")",
+                               "< " + touch,
+                               "|" + touch,
+                               "x'\n!" + touch + "\n'",
+                               "x\r\nsystem('" + touch + "')\r\n",
+                               "' . system('" + touch + "') . '",
+                               "@macro @ARG0 {/Bold x} _a ^2 \\n \\' \\",
+                               "{{{ }}} ((( [[[ ### %s %d %n",
+                               "'",
+                               "''",
+                               "'''",
+                               "\"",
+                               "\\",
+                               "~",
+                               "-",
+                               "$data << EOD",
+                               "EOD",
+                               "# seed 1, confidence 7",
+                               "",
+                               std::string("nul\0nul", 7),
+                               "\x01 \x1b[31m",
+                               "\xff\xfe broken \xc3",
+                               "W m\u207b\u00b2 \u00b1",
+                               std::string(100000, 'M')};
+  for (const std::string& text : texts) {
+    EXPECT_EQ(width_with(text), 1600) << text;
+    EXPECT_FALSE(fs::exists(mark)) << text;
+  }
+}
+
+TEST_F(HostileTexts, MadeOfDangerousCharactersAreOnlyText) {
+  const std::string alphabet = "'\"`\\{}()[]@$#!|;,&<>%^_~*?\n\r\t ax0\xc3\xa9\xff";
+  std::mt19937 random(1);
+  for (int i = 0; i < 40; ++i) {
+    std::string text;
+    for (int length = 1 + static_cast<int>(random() % 30); length > 0; --length) text += alphabet[random() % alphabet.size()];
+    EXPECT_EQ(width_with(text), 1600) << text;
+  }
+}
+
+TEST_F(Plots, ALongTitleIsCut) {
+  const auto with = [&](const std::string& title) {
+    return draw("profile.gp", profiles({profile(title, layers(0.2))})).pixels;
+  };
+  EXPECT_EQ(with(std::string(85, 'i')), with(std::string(200, 'i')));
+  EXPECT_NE(with(std::string(83, 'i')), with(std::string(84, 'i')));
+}
+
+TEST_F(Plots, ATitleIsDrawnAsItStands) {
+  const fs::path table = profile("A stand", layers(0.2));
+  const auto with = [&](const std::string& title) {
+    PlotVariables variables = profiles({table});
+    variables.set_texts("titles", std::vector<std::string>{title});
+    return draw("profile.gp", variables).pixels;
+  };
+  EXPECT_EQ(with("A stand"), draw("profile.gp", profiles({table})).pixels) << "the title of the table";
+  EXPECT_NE(with("a \\n b"), with("a  b")) << "a backslash is a character like others";
+  EXPECT_NE(with("a \"q\" b"), with("a ")) << "a quote ends nothing";
+  EXPECT_NE(with("x_1"), with("x1"));
+}
+
+TEST(GnuplotText, IsAConstantWithoutSpecialCharacters) {
+  EXPECT_EQ(gnuplot_text("Maize, 60 x 60 cm: a/b_c-1.5"), "\"Maize, 60 x 60 cm: a/b_c-1.5\"");
+  EXPECT_EQ(gnuplot_text("it's `x` \"@y\" \\"), R"("it\047s \140x\140 \042\100y\042 \134")");
+  EXPECT_EQ(gnuplot_text("a\nb\xc3\xa9"), R"("a\012b\303\251")");
+  EXPECT_EQ(gnuplot_text(std::string_view("a\0b", 3)), "\"ab\"");
+  EXPECT_EQ(gnuplot_text("'12a3"), R"("\047\061\062a3")") << "digits after an octal number would belong to it";
+  EXPECT_EQ(gnuplot_text(""), "\"\"");
+}
+
+// Sets SUNFLECK_PLOTS as long as it lives.
+class PlotsFrom {
+ public:
+  explicit PlotsFrom(const fs::path& folder) { ::setenv("SUNFLECK_PLOTS", folder.c_str(), 1); }
+  ~PlotsFrom() { ::unsetenv("SUNFLECK_PLOTS"); }
+  PlotsFrom(const PlotsFrom&) = delete;
+  PlotsFrom& operator=(const PlotsFrom&) = delete;
+};
+
+TEST_F(Plots, AUsersOwnScriptsAreTaken) {
+  const fs::path table = profile("A stand", layers(0.2));
+  const fs::path own = folder_ / "own";
+  fs::copy(plot_folder(), own);
+  std::string script = test::file_bytes(own / "profile.gp");
+  const std::string width = "width = 1600.0";
+  script.replace(script.find(width), width.size(), "width = 800.0");
+  std::ofstream(own / "profile.gp") << script;
+  const PlotsFrom from(own);
+  EXPECT_EQ(draw("profile.gp", profiles({table})).width, 800);
+}
+
+TEST_F(Plots, AMissingScriptIsNamed) {
+  const PlotsFrom from(folder_.path());
+  EXPECT_EQ(draw_table("profile.gp", {}, folder_ / "profile.png").value_or(""),
+            "profile.png is left out: " + (folder_ / "profile.gp").string() +
+                " is missing; install sunfleck again, or correct SUNFLECK_PLOTS");
+  EXPECT_FALSE(fs::exists(folder_ / "profile.png"));
+}
+
+TEST_F(Plots, AMissingOrEmptyTableIsAWarning) {
+  for (const char* script : {"plane.gp", "day.gp", "tradeoff.gp"}) {
+    PlotVariables variables;
+    variables.set_file("table", folder_ / "none.csv");
+    const std::string warning = draw_table(script, variables, folder_ / "a.png").value_or("");
+    EXPECT_EQ(warning.find("gnuplot failed: a.png is left out (exit status 1"), 0U) << script << ": " << warning;
+  }
+  const std::string warning = draw_table("profile.gp", profiles({folder_ / "none.csv"}), folder_ / "a.png").value_or("");
+  EXPECT_EQ(warning.find("gnuplot failed: a.png is left out (exit status 1"), 0U) << warning;
+}
+
+// Finds where a plane's first map is drawn: the bounds of its shaded cells.
+struct Map {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+Map first_map(const test::Picture& picture) {
+  constexpr test::Picture::Pixel dark{0x44, 0x01, 0x54};  // the lower end of viridis, which a cell in the shade has
+  Map map{picture.width, picture.height, 0, 0};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < 760; ++x) {
+      if (picture.at(x, y) != dark) continue;
+      map.left = std::min(map.left, x);
+      map.top = std::min(map.top, y);
+      map.right = std::max(map.right, x);
+      map.bottom = std::max(map.bottom, y);
+    }
+  }
+  return map;
+}
+
+TEST_F(Plots, AMapHasNorthUpAndWestLeft) {
+  const auto [model, result] = test::small_plane();
+  const test::Picture picture = plane(hostile, model, result, 0);
+  EXPECT_EQ(picture.width, 1600);
+  const Map map = first_map(picture);
+  const double width = map.right - map.left + 1.0, height = map.bottom - map.top + 1.0;
+  EXPECT_NEAR(width / height, 3.0, 0.05) << "3 m from east to west, 1 m from north to south";
+  const auto at = [&](double from_west, double from_north) {
+    return picture.at(map.left + static_cast<int>(from_west * width), map.top + static_cast<int>(from_north * height));
+  };
+  const test::Picture::Pixel shade = at(1.0 / 6.0, 0.25), sun = at(5.0 / 6.0, 0.25), half = at(0.5, 0.25);
+  EXPECT_EQ(shade, (test::Picture::Pixel{0x44, 0x01, 0x54}));
+  EXPECT_GT(sun[1], 0xC0) << "bright: yellow or close to it";
+  EXPECT_GT(sun[1], half[1]);
+  EXPECT_GT(half[1], shade[1]);
+  EXPECT_EQ(at(0.5, 0.75), shade) << "south of it";
+  EXPECT_EQ(at(5.0 / 6.0, 0.75), shade) << "south-east";
+}
+
+TEST_F(Plots, MapsOfAnythingASimulationGives) {
+  auto [model, result] = test::small_plane();
+  result.planes[0].down.clear();
+  EXPECT_EQ(plane("No other light", model, result, 1).width, 1600);
+  result.planes[0].reached.assign(6, 0);
+  EXPECT_EQ(plane("All shade", model, result, 0).width, 1600);
+  result.planes[0].reached.clear();
+  result.planes[0].crossing.clear();
+  result.planes[0].sunfleck_ratio = {none, none};
+  EXPECT_EQ(plane("No beam", model, result, 0).width, 1600);
+  for (const auto& [x, z] : {std::pair{1U, 1U}, {1U, 5U}, {1700U, 3U}}) {
+    PlaneResult& map = result.planes[0];
+    map.cells_x = x;
+    map.cells_z = z;
+    map.reached.assign(std::size_t{x} * z, 3);
+    map.crossing.assign(std::size_t{x} * z, 3);
+    EXPECT_EQ(plane("Few or many cells", model, result, 0).width, 1600);
+  }
+  model.plot = {100.0, 1.0, false};
+  EXPECT_EQ(plane("A long plot", model, result, 0).width, 1600);
+}
+
+DayStep step_at(int day, double hour) {
+  const UtcTime start{2002, 8, 8 + day, static_cast<int>(hour), static_cast<int>(60.0 * (hour - std::floor(hour)) + 0.5), 0.0};
+  return {start, start, 600.0, 0, {std::sin((hour - 6.0) / 12.0 * 3.14), 1.0}};
+}
+
+StepLight light(double w_m2) {
+  const StepBand band{{w_m2, 0.0}, {0.7 * w_m2, 0.05 * w_m2}, {0.2 * w_m2, 0.02 * w_m2}, {0.1 * w_m2, 0.01 * w_m2}, {}, 0.0};
+  return {{band}, {}, {w_m2 > 0.0 ? 0.4 : 0.0, w_m2 > 0.0 ? 0.05 : 0.0}};
+}
+
+struct Days {
+  std::vector<DayStep> steps;
+  std::vector<StepLight> lights;
+};
+
+Days days(int count, int from_hour, int to_hour) {
+  Days all;
+  for (int day = 0; day < count; ++day) {
+    for (int i = 6 * from_hour; i < 6 * to_hour; ++i) {
+      all.steps.push_back(step_at(day, i / 6.0));
+      all.lights.push_back(light(std::max(0.0, 400.0 * all.steps.back().sun.elevation_rad)));
+    }
+  }
+  return all;
+}
+
+TEST_F(Plots, TheCourseOfADay) {
+  const auto [steps, lights] = days(1, 5, 20);
+  const test::Picture picture = day(hostile, steps, lights);
+  EXPECT_EQ(picture.width, 1600);
+  EXPECT_EQ(picture.height, 1100);
+  EXPECT_GT(picture.count(black), 1000U) << "incident";
+  EXPECT_GT(picture.count(green), 500U) << "absorbed by vegetation";
+  EXPECT_GT(picture.count(vermilion), 500U) << "soil, and sunlit leaves";
+  EXPECT_GT(picture.count(blue), 200U) << "reflected";
+  EXPECT_GT(picture.count({0xB2, 0xE2, 0xD5}, 2), 1000U) << "the band of absorbed by vegetation: 0.3 of green on white";
+}
+
+TEST_F(Plots, CurvesHaveAGapWhereStepsAreMissing) {
+  const auto black_at_the_first_midnight = [&](Days all) {
+    all.lights.assign(all.lights.size(), light(300.0));
+    const test::Picture picture = day("Three days", all.steps, all.lights);
+    std::size_t count = 0;
+    for (int y = 180; y < 650; ++y) {
+      for (int x = 598; x < 608; ++x) count += picture.at(x, y) == black ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(black_at_the_first_midnight(days(3, 10, 14)), 0U);
+  EXPECT_GT(black_at_the_first_midnight(days(3, 0, 24)), 0U);
+}
+
+TEST_F(Plots, ManyDaysAreDrawn) {
+  const auto [steps, lights] = days(20, 10, 11);
+  EXPECT_EQ(day("Twenty days", steps, lights).width, 1600);
+}
+
+TEST_F(Plots, DaysOfAnythingASimulationGives) {
+  EXPECT_EQ(day("Night", {step_at(0, 0.0), step_at(0, 0.5)}, {light(0.0), light(0.0)}).width, 1600);
+  StepLight one = light(100.0);
+  one.bands[0].incident.half_width = one.sunlit_leaf_fraction.half_width = none;
+  EXPECT_EQ(day("One step, no errors", {step_at(0, 12.0)}, {one}).width, 1600);
+}
+
+TEST_F(Plots, AThousandCellsASideAreDrawn) {
+  auto [model, result] = test::small_plane();
+  PlaneResult& map = result.planes[0];
+  map.cells_x = map.cells_z = 1000;
+  map.crossing.assign(1'000'000, 4);
+  map.reached.assign(1'000'000, 0);
+  for (std::size_t cell = 0; cell < map.reached.size(); cell += 3) map.reached[cell] = 4;
+  map.down.clear();
+  EXPECT_EQ(plane("Large", model, result, 0).width, 1600);
+}
+
+}  // namespace
+}  // namespace sunfleck

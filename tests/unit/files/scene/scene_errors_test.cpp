@@ -1,0 +1,283 @@
+#include "files/scene/scene_reader.h"
+
+#include "files/scene/toml_view.h"
+#include "support/scene_text.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+// A change that breaks the good scene. The message must name the line that contains `mark`.
+struct Breakage {
+  const char* name;
+  std::string from;
+  std::string to;
+  std::string mark;
+  std::string key;
+  std::string hint;  // part of the reason or of the advice
+};
+
+void PrintTo(const Breakage& breakage, std::ostream* out) {
+  *out << breakage.name;
+}
+
+const std::vector<Breakage> breakages = {
+    {"PlotMissing", "[plot]\nsize     = [2.0, 3]\nperiodic = false\n", "", "title", "plot", "add [plot]"},
+    {"PlotTwice", "[sun]", "[plot]\nsize = [1, 1]\n[sun]", "[plot]\nsize = [1, 1]", "plot", "keep one"},
+    {"PlotAsList", "[plot]", "[[plot]]", "[[plot]]", "plot", "write [plot]"},
+    {"PlotEmpty", "[2.0, 3]", "[0.0, 3]", "[0.0, 3]", "plot.size", "give metres"},
+    {"PlotNegative", "[2.0, 3]", "[2.0, -3]", "-3]", "plot.size, item 2", "-3"},
+    {"PlotHuge", "[2.0, 3]", "[2.0, 1e30]", "1e30", "plot.size", "1000000"},
+    {"PlotNan", "[2.0, 3]", "[nan, 3]", "nan", "plot.size", "must lie in"},
+    {"PlotThreeNumbers", "[2.0, 3]", "[2.0, 3, 4]", "3, 4]", "plot.size", "has 3"},
+    {"PlotSizeText", "[2.0, 3]", "\"2 x 3\"", "\"2 x 3\"", "plot.size", "write it as [1.8, 2.4]"},
+    {"PlotItemText", "[2.0, 3]", "[\"2\", 3]", "\"2\"", "plot.size", "without quotes"},
+    {"PlotSizeMissing", "size     = [2.0, 3]\n", "", "[plot]", "plot.size", "add size"},
+    {"PlotKeyTypo", "size     =", "sise =", "sise", "plot.sise", "did you mean size?"},
+    {"PeriodicNumber", "periodic = false", "periodic = 0", "periodic = 0", "plot.periodic", "true or false"},
+    {"TopTableTypo", "[camera]", "[camra]", "[camra]", "camra", "did you mean camera?"},
+    {"TopKeyUnknown", "[plot]", "units = \"cm\"\n[plot]", "units", "units", "remove it"},
+    {"TitleNumber", "\"A test stand\"", "3", "title", "title", "in quotes"},
+    {"TitleTwoLines", "\"A test stand\"", "\"A\\nB\"", "title", "title", "one line"},
+    {"ElevationRange", "30.0", "91", "elevation", "sun.elevation", "-90..90"},
+    {"ElevationInfinite", "30.0", "inf", "elevation", "sun.elevation", "inf"},
+    {"ElevationText", "30.0", "\"noon\"", "elevation", "sun.elevation", "number"},
+    {"AzimuthRange", "-90", "-361", "azimuth", "sun.azimuth", "-360..360"},
+    {"AzimuthMissing", "azimuth   = -90\n", "", "[sun]", "sun.azimuth", "add azimuth"},
+    {"SunMixed", "azimuth   = -90", "latitude = 3", "elevation", "sun.elevation", "remove it"},
+    {"SunNoOffset", "elevation = 30.0\nazimuth   = -90", "time = 2002-08-08T10:10:00\nlatitude = 3\nlongitude = 4", "time",
+     "sun.time", "+08:00"},
+    {"SunTimeText", "elevation = 30.0\nazimuth   = -90", "time = \"2002-08-08T10:10:00Z\"\nlatitude = 3\nlongitude = 4", "time",
+     "sun.time", "without quotes"},
+    {"SunTimeYear", "elevation = 30.0\nazimuth   = -90", "time = 1202-08-08T10:10:00Z\nlatitude = 3\nlongitude = 4", "time",
+     "sun.time", "1900..2100"},
+    {"SunNoLatitude", "elevation = 30.0\nazimuth   = -90", "time = 2002-08-08T10:10:00Z\nlongitude = 4", "[sun]",
+     "sun.latitude", "degrees north"},
+    {"SunLatitudeRange", "elevation = 30.0\nazimuth   = -90", "time = 2002-08-08T10:10:00Z\nlatitude = 90.5\nlongitude = 4",
+     "latitude", "sun.latitude", "-90..90"},
+    {"SunLongitudeRange", "elevation = 30.0\nazimuth   = -90", "time = 2002-08-08T10:10:00Z\nlatitude = 3\nlongitude = 361",
+     "longitude", "sun.longitude", "-180..360"},
+    {"SunGoneBandStays", "[sun]\nelevation = 30.0\nazimuth   = -90\n", "", "direct  = 350.0", "band.direct", "add [sun]"},
+    {"BandMissing",
+     "[[band]]\nname    = \"PAR\"\ndirect  = 350.0\ndiffuse = 0.0\n\n[[band]]\nname          = \"NIR_1\"\ndirect_normal = "
+     "400\n",
+     "", "title", "band", "add [[band]]"},
+    {"BandSingleBrackets", "[[band]]\nname    = \"PAR\"", "[band]\nname    = \"PAR\"", "[[band]]\nname          =", "band",
+     "TOML"},
+    {"BandNumber",
+     "[[band]]\nname    = \"PAR\"\ndirect  = 350.0\ndiffuse = 0.0\n\n[[band]]\nname          = \"NIR_1\"\ndirect_normal = "
+     "400\n",
+     "[band]\nname = \"PAR\"\n", "[band]", "band", "two brackets"},
+    {"BandTwice", "NIR_1", "PAR", "name          =", "band.name", "a different name"},
+    {"BandNameSpace", "\"NIR_1\"", "\"N I R\"", "N I R", "band.name", "letters, digits"},
+    {"BandNameEmpty", "\"NIR_1\"", "\"\"", "\"\"", "band.name", "must not be empty"},
+    {"BandNameMissing", "name          = \"NIR_1\"\n", "", "[[band]]\ndirect_normal", "band.name", "add name"},
+    {"BandNegative", "350.0", "-350.0", "-350", "band.direct", "give W m-2"},
+    {"BandNan", "350.0", "nan", "nan", "band.direct", "must lie in"},
+    {"BandHuge", "350.0", "1e16", "1e16", "band.direct", "1e+15"},
+    {"BandBothDirect", "direct_normal = 400", "direct_normal = 400\ndirect = 3", "direct_normal", "band.direct_normal",
+     "remove one"},
+    {"BandDiffuse", "diffuse = 0.0", "diffuse = 60.0", "diffuse", "band.diffuse", "add [sky]"},
+    {"BandDiffuseNegative", "diffuse = 0.0", "diffuse = -60.0", "diffuse", "band.diffuse", "give W m-2"},
+    {"BandShare", "diffuse = 0.0", "share = 0.5", "share", "band.share", "add [weather]"},
+    {"BandSharePercent", "diffuse = 0.0", "share = 50", "share", "band.share = 50", "give 0.5 if percent"},
+    {"BandPhotons", "diffuse = 0.0", "umol_per_joule = 0", "umol_per_joule", "band.umol_per_joule", "4.57"},
+    {"EmissionBand", "rgb           = [0.05, 0.1, 0.04]", "emission = { PAR = 100.0 }", "emission",
+     "optics.leaf.emission.NIR_1", "band NIR_1"},
+    {"EmissionNegative", "rgb           = [0.05, 0.1, 0.04]", "emission = -1.0", "emission", "optics.leaf.emission = -1",
+     "W m-2"},
+    {"SoilPercent", "PAR = 0.15", "PAR = 15", "PAR = 15", "soil.reflectance.PAR = 15", "give 0.15 if percent was meant"},
+    {"SoilNoReflectance", "reflectance = { PAR = 0.15, NIR_1 = 0.25 }\n", "", "[soil]", "soil.reflectance", "add reflectance"},
+    {"SoilPatchZero", "0.02", "0", "patch", "soil.patch", "give metres"},
+    {"SoilPatchTooFine", "0.02", "1e-5", "patch", "soil.patch", "larger patches"},
+    {"SoilRgb", "[0.2, 0.15, 0.1]", "[46, 38, 26]", "rgb", "soil.rgb", "divide 8-bit colours"},
+    {"TableWithoutBand", "PAR = 0.12, NIR_1 = 0.45", "PAR = 0.12", "PAR = 0.12", "optics.leaf.reflectance.NIR_1", "band NIR_1"},
+    {"TableOtherBand", "PAR = 0.12, NIR_1 = 0.45", "PAR = 0.12, NIR_2 = 0.45", "NIR_2", "optics.leaf.reflectance.NIR_2",
+     "did you mean NIR_1?"},
+    {"SumAboveOne", "NIR_1 = 0.55", "NIR_1 = 0.56", "NIR_1 = 0.56", "optics.leaf.transmittance", "at most 1"},
+    {"ReflectanceNegative", "PAR = 0.12", "PAR = -0.12", "-0.12", "optics.leaf.reflectance.PAR = -0.12", "0..1"},
+    {"ReflectanceText", "reflectance = 0.3", "reflectance = \"0.3\"", "\"0.3\"", "optics.bark.upper.reflectance",
+     "without quotes"},
+    {"FaceMissing", "[optics.bark.upper]\nreflectance = 0.3\n", "", "[optics.bark.lower]", "optics.bark.upper",
+     "add [optics.bark.upper]"},
+    {"FaceAndWhole", "[optics.bark.upper]", "[optics.bark]\nreflectance = 0.1\n[optics.bark.upper]", "reflectance = 0.1\n[",
+     "optics.bark.reflectance", "remove it"},
+    {"OpticsNotTable", "[optics.leaf]", "[optics]\nstem = 3\n[optics.leaf]", "stem = 3", "optics.stem", "write [optics.leaf]"},
+    {"OpticsKeyTypo", "rgb           = [0.05", "rbg = [0.05", "rbg", "optics.leaf.rbg", "did you mean rgb?"},
+    {"OpticsUndefined", "[optics.leaf]", "[optics.Leaf]", "plates.obj", "geometry.file", "did you mean Leaf?"},
+    {"OpticsOfTableUndefined", "\"bark\"", "\"wood\"", "plates.obj", "geometry.file", "add [optics.wood]"},
+    {"GeometryEmpty", "file    = \"plates.obj\"\n", "", "[[geometry]]", "geometry.file", "add file"},
+    {"GeometryBoth", "optics  = \"bark\"", "generator = \"maize\"", "plates.obj", "geometry.file", "keep one"},
+    {"GeometryTypo", "file    =", "fil =", "fil =", "geometry.fil", "did you mean file?"},
+    {"GeneratorUnknown", "file    = \"plates.obj\"", "generator = \"maze\"", "maze", "geometry.generator",
+     "did you mean maize?"},
+    {"GeneratorWithAt", "file    = \"plates.obj\"", "generator = \"maize\"", "optics  =", "geometry.optics", "remove it"},
+    {"FileWithRows", "optics  = \"bark\"", "rows = 3", "rows", "geometry.rows", "remove it"},
+    {"FileMissing", "plates.obj", "plate.obj", "plate.obj", "geometry.file", "no such file"},
+    {"FileUnknownFormat", "plates.obj", "scene.toml", "\"scene.toml\"", "geometry.file", ".glb"},
+    {"FileIsFolder", "plates.obj", ".", "file    =", "geometry.file", "name a mesh file"},
+    {"FileWithNul", "plates.obj", "plates.obj\\u0000", "plates.obj", "geometry.file", "control characters"},
+    {"UpUnknown", "\"y\"", "\"x\"", "\"x\"", "geometry.up", "one of y, z"},
+    {"ScaleZero", "scale   = 0.5", "scale = 0", "scale = 0", "geometry.scale", "file in cm"},
+    {"ScaleHuge", "scale   = 0.5", "scale = 1e9", "plates.obj", "geometry.file", "scale = 0.001"},
+    {"HeadingCount", "[0, 90.0]", "[0, 90.0, 180]", "heading", "geometry.heading", "give one for each"},
+    {"HeadingText", "[0, 90.0]", "\"north\"", "heading", "geometry.heading", "number"},
+    {"AtFlat", "[[0.5, 0.0, 1.0], [1.5, 0.25, 2.0]]", "[0.5, 0.0, 1.0]", "at      =", "geometry.at", "[[0.9, 0.0, 1.2]]"},
+    {"AtEmpty", "[[0.5, 0.0, 1.0], [1.5, 0.25, 2.0]]", "[]", "at      =", "geometry.at", "[[0.9, 0.0, 1.2]]"},
+    {"AtTwoNumbers", "[1.5, 0.25, 2.0]", "[1.5, 2.0]", "at      =", "geometry.at, item 2", "has 2 numbers"},
+    {"AtOnLaterLine", "[1.5, 0.25, 2.0]", "\n\n [1.5, inf, 2.0]", "[1.5, inf", "geometry.at", "inf"},
+    {"DirectBoundZero", "0.002", "0", "direct     = 0", "accuracy.direct", "0.001"},
+    {"IndirectBoundOne", "0.004", "1.0", "indirect", "accuracy.indirect", "below 1"},
+    {"ConfidencePercent", "confidence = 0.9", "confidence = 95", "confidence", "accuracy.confidence", "0.95"},
+    {"OfUnknown", "\"organ\"", "\"organs\"", "organs", "accuracy.of", "did you mean organ?"},
+    {"CameraNowhere", "[0.9, 1.0, 1.2]", "[3.0, 2.5, 3.0]", "look_at", "camera.look_at", "another point"},
+    {"CameraFov", "fov      = 50", "fov = 180", "fov", "camera.fov", "1..179"},
+    {"CameraNoPosition", "position = [3.0, 2.5, 3.0]\n", "", "[camera]", "camera.position", "add position"},
+    {"LayersZero", "layers = 12", "layers = 0", "layers", "output.layers", "1..10000"},
+    {"LayersReal", "layers = 12", "layers = 12.0", "layers", "output.layers", "whole number"},
+    {"LayersTypo", "layers = 12", "layer = 12", "layer = 12", "output.layer", "did you mean layers?"},
+    {"SyntaxNoValue", "fov      = 50", "fov = ", "fov =", "TOML", "correct the TOML syntax"},
+    {"SyntaxQuote", "\"A test stand\"", "\"A test stand", "title", "TOML", "TOML syntax"},
+    {"SyntaxDecimalComma", "fov      = 50", "fov = 48,85 # \"x\"", "fov =", "TOML", "with a point, not a comma"},
+    {"SyntaxCommaInTable", "PAR = 0.15", "PAR = 0,15", "PAR = 0,15", "TOML", "with a point, not a comma"},
+    {"SyntaxBackslash", "\"A test stand\"", R"("C:\Users")", "title", "TOML", "write / for each backslash"},
+    {"SyntaxEscape", "\"A test stand\"", R"("C:\data")", "title", "TOML", "in single quotes"},
+    {"SyntaxBoolean", "fov      = 50", "fov = True", "fov =", "TOML", "write true or false"},
+    {"SyntaxPercent", "fov      = 50", "fov = 10 %", "fov =", "TOML", "0.1 for 10 %"},
+    {"SyntaxPercentClose", "fov      = 50", "fov = 10%", "fov =", "TOML", "0.1 for 10 %"},
+    {"SyntaxTime", "elevation = 30.0", "time = 2002-08-08T12:00+02:00", "time =", "TOML", "hh:mm:ss"},
+    {"SyntaxBareText", "\"A test stand\"", "stand", "title", "TOML", "put the text in quotes"},
+    {"SyntaxBareFile", "\"plates.obj\"", "./plates.obj", "file    =", "TOML", "put the text in quotes"},
+    {"KeyTwice", "fov      = 50", "fov = 50\nfov = 60", "fov = 60", "TOML", "keep one"},
+    {"NulByte", "fov      = 50", std::string("fov = 5\0", 8), "fov =", "NUL", "UTF-8"},
+};
+
+using BrokenSceneFile = SceneFolder;
+
+class BrokenScene : public SceneFolder, public ::testing::WithParamInterface<Breakage> {};
+
+TEST_P(BrokenScene, IsOneClearError) {
+  const Breakage& breakage = GetParam();
+  const std::string text = replaced(good_scene, breakage.from, breakage.to);
+  const auto message = message_of([&] { static_cast<void>(read(text)); });
+  ASSERT_TRUE(message);
+  expect_three_parts(*message);
+  const std::string place = file().string() + ":" + std::to_string(line_of(text, breakage.mark)) + ": ";
+  EXPECT_EQ(message->substr(0, place.size()), place) << *message;
+  EXPECT_NE(message->find(breakage.key), std::string::npos) << *message;
+  EXPECT_NE(message->find(breakage.hint), std::string::npos) << *message;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BrokenScene, ::testing::ValuesIn(breakages), [](const auto& each) { return each.param.name; });
+
+TEST_F(BrokenSceneFile, GeneratorsNumbersAreChecked) {
+  const std::string text =
+      bare_scene + "[[geometry]]\ngenerator = \"maize\"\nrows = 4\nper_row = 3\nspacing = [0.6, 0.6]\nseed = 1\n";
+  const std::vector<Breakage> cases = {
+      {"", "rows = 4", "rows = 0", "rows = 0", "geometry.rows", "1..10000"},
+      {"", "rows = 4", "rows = 10001", "rows", "geometry.rows", "1..10000"},
+      {"", "rows = 4", "rows = 10000", "rows", "geometry.rows", "30000 plants"},
+      {"", "rows = 4", "rows = 4.5", "rows", "geometry.rows", "whole number"},
+      {"", "per_row = 3", "per_row = -3", "per_row", "geometry.per_row", "1..10000"},
+      {"", "[0.6, 0.6]", "[0.6, 0]", "spacing", "geometry.spacing, item 2", "above 0"},
+      {"", "[0.6, 0.6]", "0.6", "spacing", "geometry.spacing", "2 numbers"},
+      {"", "seed = 1", "seed = -1", "seed", "geometry.seed", "at least 0"},
+      {"", "seed = 1", "at = [[0, 0, 0]]", "at =", "geometry.at", "remove it"},
+      {"", "seed = 1", "", "generator", "geometry.generator", "add [optics.leaf]"},
+  };
+  for (const Breakage& breakage : cases) {
+    const std::string broken = replaced(text, breakage.from, breakage.to);
+    const auto message = message_of([&] { static_cast<void>(read(broken)); });
+    ASSERT_TRUE(message) << breakage.to;
+    expect_three_parts(*message);
+    const std::string place = file().string() + ":" + std::to_string(line_of(broken, breakage.mark)) + ": " + breakage.key;
+    EXPECT_EQ(message->substr(0, place.size()), place) << *message;
+    EXPECT_NE(message->find(breakage.hint), std::string::npos) << *message;
+  }
+}
+
+TEST_F(BrokenSceneFile, RefusesWhatIsNoScene) {
+  const auto refused = [&](const std::filesystem::path& path) {
+    const auto message = message_of([&] { static_cast<void>(read_scene(path)); });
+    ASSERT_TRUE(message) << path;
+    expect_three_parts(*message);
+    EXPECT_NE(message->find(path.filename().string()), std::string::npos) << *message;
+  };
+  refused(folder_ / "missing.toml");
+  refused(folder_);
+  const std::vector<std::string> texts = {"",
+                                          " \n\n",
+                                          "# only a comment\n",
+                                          {'\xff', '\xfe', '[', '\0', 'p', '\0'},  // the beginning of a UTF-16 text
+                                          std::string(1000, '\0'),
+                                          "title = \"\xc3\"\n",
+                                          "# \xff\n",
+                                          "\x1b[31m = 3\n",
+                                          "{}",
+                                          "]]]]"};
+  for (const std::string& text : texts) {
+    write(file(), text);
+    refused(file());
+  }
+}
+
+TEST_F(BrokenSceneFile, RefusesAMesh) {
+  write(folder_ / "stand.glb", "glTF");
+  const auto message = message_of([&] { static_cast<void>(read_scene(folder_ / "stand.glb")); });
+  ASSERT_TRUE(message);
+  EXPECT_NE(message->find("stand.glb: not a scene (this is a mesh); name it under [[geometry]]"), std::string::npos)
+      << *message;
+}
+
+// Excessive nesting must overflow the stack neither in the parser nor when its tree is freed.
+TEST_F(BrokenSceneFile, DeepNestingIsRefused) {
+  constexpr int depth = 200000;
+  const auto repeated = [](const std::string& piece) {
+    std::string text;
+    for (int i = 0; i < depth; ++i) text += piece;
+    return text;
+  };
+  const std::string dotted = repeated("a.");
+  const std::vector<std::string> texts = {
+      fmt::format("{}a = 1\n", dotted),
+      fmt::format("[{}a]\n", dotted),
+      fmt::format("[[{}a]]\n", repeated("\"=\" . ")),
+      fmt::format("x = {{ b = [\"\"\"a\"\"\"\"\", {{{}a = 1}}] }}\n", repeated("'#'.")),
+      fmt::format("x = {}\n", repeated("[")),
+      fmt::format("x = {}{}\n", repeated("["), repeated("]")),
+      fmt::format("x = {}1{}\n", repeated("{a = "), repeated("}")),
+      fmt::format("x = \"\\\"\" # {}\n{}a = 1\n", repeated("."), dotted),
+  };
+  for (const std::string& text : texts) {
+    const auto message = message_of([&] { static_cast<void>(read(bare_scene + text)); });
+    ASSERT_TRUE(message) << text.substr(0, 20);
+    expect_three_parts(*message);
+    EXPECT_LT(message->size(), 1000U);
+  }
+  // Dots in texts and comments are not nesting.
+  EXPECT_FALSE(
+      message_of([&] { static_cast<void>(read("title = \"....................\" # ....................\n" + bare_scene)); }));
+}
+
+TEST(NearestWord, IsAtMostTwoEditsAway) {
+  const std::vector<std::string> words = {"size", "periodic", "up", "at", "rgb"};
+  EXPECT_EQ(nearest_word("siez", words), "size");
+  EXPECT_EQ(nearest_word("seize", words), "size");
+  EXPECT_EQ(nearest_word("periodical", words), "periodic");
+  EXPECT_EQ(nearest_word("rbg", words), "rgb");
+  EXPECT_EQ(nearest_word("a", words), "at");
+  EXPECT_EQ(nearest_word("xy", words), std::nullopt);
+  EXPECT_EQ(nearest_word("units", words), std::nullopt);
+  EXPECT_EQ(nearest_word("", words), std::nullopt);
+  EXPECT_EQ(nearest_word("RGB", words), "rgb");
+  EXPECT_EQ(nearest_word("par", {"NIR", "PAR"}), "PAR");
+  EXPECT_EQ(nearest_word("NIR", {"PAR"}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,220 @@
+#include "physics/light/weather.h"
+
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace sunfleck {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr SunPosition paper_sun{53.0176 * degree, 120.569 * degree};
+constexpr int paper_day = 220;  // 8 August
+
+TEST(Weather, DayOfYear) {
+  EXPECT_EQ(day_of_year({2002, 8, 8}), paper_day);
+  EXPECT_EQ(day_of_year({2001, 1, 1}), 1);
+  EXPECT_EQ(day_of_year({2001, 12, 31}), 365);
+  EXPECT_EQ(day_of_year({2000, 12, 31}), 366);
+  EXPECT_EQ(day_of_year({2000, 2, 29}), 60);
+  EXPECT_EQ(day_of_year({1900, 3, 1}), 60);
+}
+
+// The relation worked out by hand, given with five digits.
+TEST(Weather, SpittersKnownShares) {
+  EXPECT_NEAR(extraterrestrial_normal_w_m2(1370.0, paper_day) * std::sin(paper_sun.elevation_rad), 1065.536, 5e-4);
+  EXPECT_NEAR(spitters_diffuse_share(800.0, paper_sun, paper_day), 0.22454, 5e-6);
+  EXPECT_NEAR(spitters_diffuse_share(400.0, paper_sun, paper_day), 0.84684, 5e-6);
+  EXPECT_EQ(spitters_diffuse_share(200.0, paper_sun, paper_day), 1.0);  // t = 0.188
+  const double t = 300.0 / 1065.536;
+  EXPECT_NEAR(spitters_diffuse_share(300.0, paper_sun, paper_day), 1.0 - 6.4 * (t - 0.22) * (t - 0.22), 1e-6);
+  const Broadband split = split_global(800.0, SplitRule::spitters, paper_sun, paper_day);
+  EXPECT_NEAR(0.5 * split.direct_horizontal_w_m2(paper_sun), 310.19, 0.01);
+  EXPECT_NEAR(0.5 * split.diffuse_w_m2, 89.82, 0.005);
+}
+
+// The polynomial of Erbs et al. at round clearness indices, summed by hand.
+TEST(Weather, ErbsKnownShares) {
+  const double outside_w_m2 = extraterrestrial_normal_w_m2(1367.0, paper_day) * std::sin(paper_sun.elevation_rad);
+  const auto share = [&](double k) { return erbs_diffuse_share(k * outside_w_m2, paper_sun, paper_day); };
+  EXPECT_DOUBLE_EQ(share(0.0), 1.0);
+  EXPECT_NEAR(share(0.2), 1.0 - 0.018, 1e-12);
+  EXPECT_NEAR(share(0.5), 0.9511 - 0.0802 + 1.097 - 2.07975 + 0.771, 1e-12);
+  EXPECT_NEAR(share(0.9), 0.165, 1e-12);
+}
+
+// Reference values for sea level, Linke turbidity 3 and 1364 W m-2 outside the atmosphere, given with seven digits.
+TEST(Weather, IneichenKnownClearSkies) {
+  struct Case {
+    double apparent_zenith_deg, air_mass, ghi, dni, dhi;
+  };
+  for (const Case& known :
+       {Case{46.0467599, 1.32355476, 704.6968, 888.9015, 87.7360}, Case{10.56413562, 0.93527685, 1044.1231, 953.2493, 107.0311},
+        Case{72.41687122, 3.01614096, 251.9943, 655.4493, 53.9901}}) {
+    const double zenith_rad = known.apparent_zenith_deg * degree;
+    const Broadband got = ineichen_perez({.linke_turbidity = 3.0, .altitude_m = 0.0}, zenith_rad, known.air_mass, 1364.0);
+    EXPECT_NEAR(got.direct_normal_w_m2, known.dni, 1e-4);
+    EXPECT_NEAR(got.diffuse_w_m2, known.dhi, 1e-4);
+    EXPECT_NEAR(got.global_w_m2({std::numbers::pi / 2.0 - zenith_rad, 0.0}), known.ghi, 1e-4);
+  }
+}
+
+// The air masses of the cases above were computed for a station whose pressure is 0.91975 of that at sea level.
+TEST(Weather, AirMassOfKastenAndYoung) {
+  EXPECT_NEAR(0.91975021 * relative_air_mass((90.0 - 46.0467599) * degree), 1.32355476, 2e-8);
+  EXPECT_NEAR(0.91975021 * relative_air_mass((90.0 - 72.41687122) * degree), 3.01614096, 4e-8);
+  EXPECT_NEAR(relative_air_mass((90.0 - 36.9824) * degree), 1.25085, 5e-6);
+  EXPECT_NEAR(relative_air_mass(0.0), 37.92, 0.01);  // on the horizon, from their table
+  EXPECT_NEAR(standard_pressure_hpa(0.0), 1013.25, 1e-9);
+  EXPECT_NEAR(standard_pressure_hpa(1000.0), 898.75, 0.01);  // ISO 2533
+  EXPECT_NEAR(standard_pressure_hpa(5000.0), 540.20, 0.02);
+}
+
+TEST(Weather, ClearSkyIsThatOfTheSeenSun) {
+  const ClearAir air{.linke_turbidity = 3.0, .altitude_m = 300.0};
+  for (const double elevation_deg : {0.001, 0.5, 3.0, 20.0, 53.0176, 89.999, 90.0}) {
+    const SunPosition sun{elevation_deg * degree, 2.0};
+    const Broadband got = clear_sky(air, sun, paper_day);
+    const double apparent_rad =
+        std::min(90.0 * degree, apparent_elevation_rad(sun.elevation_rad, {.pressure_hpa = standard_pressure_hpa(300.0)}));
+    const Broadband seen = ineichen_perez(air, 90.0 * degree - apparent_rad,
+                                          relative_air_mass(apparent_rad) * standard_pressure_hpa(300.0) / 1013.25,
+                                          extraterrestrial_normal_w_m2(1367.0, paper_day));
+    const double global_w_m2 = seen.direct_normal_w_m2 * std::sin(apparent_rad) + seen.diffuse_w_m2;
+    EXPECT_NEAR(got.direct_normal_w_m2, seen.direct_normal_w_m2, 1e-9 * seen.direct_normal_w_m2) << elevation_deg;
+    EXPECT_NEAR(got.global_w_m2(sun), global_w_m2, 1e-9 * global_w_m2) << elevation_deg;
+    EXPECT_GT(got.diffuse_w_m2, 0.0);
+  }
+}
+
+TEST(Weather, ClearSkyFallsWithTurbidityAndRisesWithAltitude) {
+  double last_beam_w_m2 = 1e9;
+  for (double turbidity = 1.0; turbidity <= 20.0; turbidity += 0.5) {
+    const Broadband got = clear_sky({turbidity, 0.0}, paper_sun, paper_day);
+    EXPECT_LT(got.direct_normal_w_m2, last_beam_w_m2);
+    EXPECT_GE(got.diffuse_w_m2, 0.0);
+    last_beam_w_m2 = got.direct_normal_w_m2;
+  }
+  EXPECT_GT(clear_sky({3.0, 2000.0}, paper_sun, paper_day).direct_normal_w_m2,
+            clear_sky({3.0, 0.0}, paper_sun, paper_day).direct_normal_w_m2);
+}
+
+// For any irradiance and any sun: no part is negative, both add up, and the beam is no stronger than outside the atmosphere.
+TEST(Weather, SplitsAddUpAndAreNeverNegative) {
+  for (const SplitRule rule : {SplitRule::spitters, SplitRule::erbs}) {
+    for (const double elevation_deg : {-10.0, 0.0, 1e-9, 0.01, 0.5, 2.0, 10.0, 30.0, 60.0, 89.99, 90.0}) {
+      const SunPosition sun{elevation_deg * degree, 1.0};
+      for (const double global_w_m2 : {0.0, 1e-12, 0.1, 5.0, 50.0, 200.0, 400.0, 600.0, 800.0, 1000.0, 1300.0, 3000.0}) {
+        const Broadband got = split_global(global_w_m2, rule, sun, paper_day);
+        EXPECT_GE(got.direct_normal_w_m2, 0.0);
+        EXPECT_GE(got.diffuse_w_m2, 0.0);
+        EXPECT_LE(got.direct_normal_w_m2, 1.034 * 1370.0);
+        EXPECT_NEAR(got.global_w_m2(sun), global_w_m2, 1e-12 * global_w_m2);
+        if (elevation_deg <= 0.0) {
+          EXPECT_EQ(got.diffuse_w_m2, global_w_m2);
+        }
+      }
+    }
+  }
+}
+
+TEST(Weather, SplitsAreContinuousWhereTheirPiecesMeet) {
+  const double outside_w_m2 = extraterrestrial_normal_w_m2(1370.0, paper_day) * std::sin(paper_sun.elevation_rad);
+  const double sine = std::sin(paper_sun.elevation_rad);
+  const double k = (1.47 - (0.847 - 1.61 * sine + 1.04 * sine * sine)) / 1.66;
+  for (const double t : {0.22, k}) {
+    EXPECT_NEAR(spitters_diffuse_share((t - 1e-9) * outside_w_m2, paper_sun, paper_day),
+                spitters_diffuse_share((t + 1e-9) * outside_w_m2, paper_sun, paper_day), 1e-7);
+  }
+}
+
+TEST(Weather, TheSunBelowTheHorizonSendsNoBeam) {
+  const SunPosition night{-0.1, 0.0};
+  EXPECT_EQ(clear_sky({}, night, paper_day).global_w_m2(night), 0.0);
+  EXPECT_EQ(clear_sky({}, {0.0, 0.0}, paper_day).diffuse_w_m2, 0.0);
+  EXPECT_EQ((Broadband{500.0, 20.0}.direct_horizontal_w_m2(night)), 0.0);
+  EXPECT_EQ((Broadband{500.0, 20.0}.global_w_m2(night)), 20.0);
+}
+
+Weather hourly(int count) {
+  Weather weather;
+  weather.source = Weather::Source::intervals;
+  weather.name = "station.csv";
+  for (int i = 0; i < count; ++i) {
+    weather.intervals.push_back({.start = plus_seconds({2002, 8, 7, 22}, 3600.0 * i), .ghi_w_m2 = 100.0 * i});
+  }
+  return weather;
+}
+
+TEST(Weather, IntervalsHoldTheirStartButNotTheirEnd) {
+  const Weather weather = hourly(5);
+  EXPECT_EQ(interval_at(weather, {2002, 8, 7, 22, 0, 0.0}).ghi_w_m2, 0.0);
+  EXPECT_EQ(interval_at(weather, {2002, 8, 7, 22, 59, 59.999}).ghi_w_m2, 0.0);
+  EXPECT_EQ(interval_at(weather, {2002, 8, 7, 23, 0, 0.0}).ghi_w_m2, 100.0);
+  EXPECT_EQ(interval_at(weather, {2002, 8, 8, 2, 59, 0.0}).ghi_w_m2, 400.0);
+  const Broadband got = weather_at(weather, UtcTime{2002, 8, 8, 2, 10}, paper_sun);
+  EXPECT_NEAR(got.diffuse_w_m2 / 400.0, 0.84684, 5e-6);
+  EXPECT_NEAR(got.global_w_m2(paper_sun), 400.0, 1e-10);
+}
+
+std::string refusal(const Weather& weather, const UtcTime& time) {
+  try {
+    static_cast<void>(weather_at(weather, time, paper_sun));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    return error.what();
+  }
+  ADD_FAILURE() << "not refused";
+  return "";
+}
+
+TEST(Weather, TimesOutsideAreRefusedByName) {
+  Weather weather = hourly(5);
+  EXPECT_EQ(refusal(weather, {2002, 8, 7, 21, 59, 59.0}),
+            "weather at 2002-08-07 21:59:59 UTC (station.csv covers 2002-08-07 22:00:00 UTC to 2002-08-08 03:00:00 UTC); "
+            "choose a time that it covers, or add what is missing");
+  EXPECT_NE(refusal(weather, {2002, 8, 8, 3, 0, 0.0}).find("covers"), std::string::npos);
+  weather.intervals.erase(weather.intervals.begin() + 2);
+  EXPECT_NE(refusal(weather, {2002, 8, 8, 0, 30, 0.0}).find("a gap there"), std::string::npos);
+  weather.intervals[1].ghi_w_m2 = -1.0;
+  weather.intervals[1].line = 7;
+  EXPECT_EQ(
+      refusal(weather, {2002, 8, 7, 23, 30, 0.0}),
+      "station.csv:7: weather at 2002-08-07 23:30:00 UTC (irradiance is marked as missing there); choose another time, or "
+      "fill the value in");
+}
+
+TEST(Weather, PartsGoBeforeTheWhole) {
+  Weather weather;
+  weather.moment = {.ghi_w_m2 = 1.0, .dni_w_m2 = 700.0, .dhi_w_m2 = 120.0};
+  const Broadband got = weather_at(weather, {}, paper_sun);
+  EXPECT_EQ(got.direct_normal_w_m2, 700.0);
+  EXPECT_EQ(got.diffuse_w_m2, 120.0);
+}
+
+// Covers half a day of local time and the turn of the year: hour i of the year carries the number i.
+TEST(Weather, ATypicalYearHoldsInEveryYear) {
+  Weather weather;
+  weather.source = Weather::Source::intervals;
+  weather.name = "typical.epw";
+  weather.every_year = true;
+  weather.zone_minutes = 480;
+  for (int i = 0; i < 8760; ++i) {
+    weather.intervals.push_back({.start = plus_seconds({2001, 1, 1}, 3600.0 * i - 28800.0), .ghi_w_m2 = 0.1 * i});
+  }
+  const auto hour = [&](const UtcTime& time) { return std::lround(10.0 * interval_at(weather, time).ghi_w_m2); };
+  EXPECT_EQ(hour({1999, 12, 31, 16}), 0);
+  EXPECT_EQ(hour({2035, 1, 1, 0}), 8);
+  EXPECT_EQ(hour({2002, 8, 8, 2, 10}), (paper_day - 1) * 24 + 10);
+  EXPECT_EQ(hour({2024, 8, 8, 2, 10}), (paper_day - 1) * 24 + 10);
+  EXPECT_EQ(hour({2024, 12, 31, 15, 59, 59.0}), 8759);
+  EXPECT_NE(refusal(weather, {2024, 2, 29, 3}).find("no 29 February"), std::string::npos);
+  EXPECT_EQ(hour({2024, 2, 29, 16}), 59 * 24);  // already 1 March local time
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,79 @@
+#include "pictures/drawing/overlay.h"
+
+#include <gtest/gtest.h>
+
+namespace sunfleck {
+namespace {
+
+using Pixel = std::array<std::uint8_t, 3>;
+constexpr Pixel white = {255, 255, 255};
+constexpr Pixel red = {220, 20, 30};
+
+Image blank() {
+  return {20, 10, std::vector<Pixel>(200, white)};
+}
+
+Pixel at(const Image& image, int x, int y) {
+  return image.pixels[static_cast<std::size_t>(y) * image.width + x];
+}
+
+// Returns light of `red` over white in the given share.
+Pixel mixed(double share) {
+  Colour colour = from_srgb(red);
+  for (double& channel : colour) channel = 1.0 + share * (channel - 1.0);
+  return to_srgb(colour);
+}
+
+TEST(Blend, MixesLight) {
+  Pixel pixel = white;
+  blend(pixel, {from_srgb(red), 0.5}, 0.5);
+  EXPECT_EQ(pixel, mixed(0.25));
+  blend(pixel, {from_srgb(red)}, 0.0);
+  EXPECT_EQ(pixel, mixed(0.25));
+  blend(pixel, {from_srgb(red)}, 1.0);
+  EXPECT_EQ(pixel, red);
+}
+
+TEST(FillRectangle, FillsWholePixelsWhollyAndHalvesByHalf) {
+  Image image = blank();
+  fill_rectangle(image, {{2.0, 3.0}, {6.5, 7.0}}, {}, {from_srgb(red)});
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 20; ++x) {
+      const bool row_inside = y >= 3 && y < 7;
+      const Pixel expected = row_inside && x >= 2 && x < 6 ? red : row_inside && x == 6 ? mixed(0.5) : white;
+      EXPECT_EQ(at(image, x, y), expected) << x << ", " << y;
+    }
+  }
+}
+
+TEST(FillRectangle, RoundsCorners) {
+  Image image = blank();
+  fill_rectangle(image, {{2.0, 1.0}, {12.0, 9.0}}, {3.0}, {from_srgb(red)});
+  EXPECT_EQ(at(image, 2, 1), white);  // 0.54 px beyond the arc
+  EXPECT_EQ(at(image, 11, 8), white);
+  EXPECT_EQ(at(image, 7, 1), red);
+  EXPECT_EQ(at(image, 2, 5), red);
+}
+
+TEST(FillRectangle, IsCutOffAtThePicturesEdges) {
+  Image image = blank();
+  fill_rectangle(image, {{-5.0, -5.0}, {50.0, 50.0}}, {}, {from_srgb(red)});
+  EXPECT_EQ(image.pixels, std::vector<Pixel>(200, red));
+  fill_rectangle(image, {{30.0, 30.0}, {50.0, 50.0}}, {}, {from_srgb(white)});
+  EXPECT_EQ(image.pixels, std::vector<Pixel>(200, red));
+}
+
+TEST(OutlineRectangle, LeavesTheMiddleAlone) {
+  Image image = blank();
+  outline_rectangle(image, {{2.0, 2.0}, {12.0, 8.0}}, {}, 1.0, {from_srgb(red)});
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 20; ++x) {
+      const bool in = x >= 2 && x < 12 && y >= 2 && y < 8;
+      const bool middle = x >= 3 && x < 11 && y >= 3 && y < 7;
+      EXPECT_EQ(at(image, x, y), in && !middle ? red : white) << x << ", " << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,314 @@
+#include "programs/viewer/live_light.h"
+
+#include "base/error.h"
+#include "support/live_scene.h"
+#include "support/models.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace sunfleck {
+namespace {
+
+constexpr double patience_s = 600.0;
+
+// Waits until the condition holds; returns false after a long time.
+template <class Condition>
+bool wait_for(const Condition& condition) {
+  const auto start = std::chrono::steady_clock::now();
+  while (!condition()) {
+    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > patience_s) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+bool wait_until_done(const LiveLight& light, std::uint64_t request) {
+  return wait_for([&] {
+    const LightNews news = light.news();
+    return news.result_request == request && news.complete;
+  });
+}
+
+RadiationResult result_of(const LiveLight& light) {
+  RadiationResult copy;
+  EXPECT_TRUE(light.with_result([&](const Scene&, const RadiationResult& result, const LightStamp&) { copy = result; }));
+  return copy;
+}
+
+// Returns what `run` would compute for the model as it is.
+RadiationResult run_of(const test::LiveScene& live, const RadiationModel& model) {
+  CpuTracer tracer(live.simulation.tracing().tree.bvh, {model.plot.periodic, model.soil.has_value()});
+  return solve(model, live.simulation.layout(), tracer, solve_settings(live.options, live.scene), {});
+}
+
+void expect_same(const RadiationResult& live, const RadiationResult& run) {
+  ASSERT_EQ(live.elements.size(), run.elements.size());
+  for (std::size_t e = 0; e < run.elements.size(); ++e) {
+    EXPECT_EQ(live.elements[e].upper, run.elements[e].upper);
+    EXPECT_EQ(live.elements[e].lower, run.elements[e].lower);
+  }
+  EXPECT_EQ(live.side_indirect, run.side_indirect);
+  EXPECT_EQ(live.cell_sky, run.cell_sky);
+  EXPECT_EQ(live.direct.rays, run.direct.rays);
+  EXPECT_EQ(live.direct.relative_error, run.direct.relative_error);
+  for (std::size_t b = 0; b < run.bands.size(); ++b) {
+    EXPECT_EQ(live.bands[b].ledger.absorbed_vegetation, run.bands[b].ledger.absorbed_vegetation);
+    EXPECT_EQ(live.bands[b].absorbed_soil.half_width, run.bands[b].absorbed_soil.half_width);
+  }
+}
+
+TEST(LiveLight, EndsWithWhatRunComputes) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  const RadiationResult run = run_of(live, live.scene.model);
+  LiveLight light(live.simulation, live.options, [] {});
+  ASSERT_TRUE(wait_until_done(light, 1));
+  expect_same(result_of(light), run);
+  EXPECT_EQ(light.news().problem, "");
+}
+
+TEST(LiveLight, AnotherSunBeginsAnew) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  LiveLight light(live.simulation, live.options, [] {});
+  LightRequest request = request_of(live.scene);
+  std::uint64_t number = 0;
+  for (const double hour : {8.0, 11.5, 14.0}) {  // without waiting for the previous one
+    request.sun.hour = hour;
+    number = light.ask(request);
+  }
+  EXPECT_EQ(number, 4U);
+  ASSERT_TRUE(wait_until_done(light, number));
+  RadiationModel model = live.scene.model;
+  grant(request, live.scene, model);
+  expect_same(result_of(light), run_of(live, model));
+  const std::optional<SunPosition> sun = light.news().sun;
+  ASSERT_TRUE(sun);
+  EXPECT_EQ(sun->azimuth_rad, model.sun->azimuth_rad);
+}
+
+TEST(LiveLight, OtherOpticsKeepTheBeams) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  LiveLight light(live.simulation, live.options, [] {});
+  ASSERT_TRUE(wait_until_done(light, 1));
+  const RadiationResult before = result_of(light);
+  EXPECT_EQ(light.news().spared_beams, 0U);
+  LightRequest request = request_of(live.scene);
+  request.optics.at(0).upper[0] = request.optics.at(0).lower[0] = {0.3, 0.3};
+  ASSERT_TRUE(wait_until_done(light, light.ask(request)));
+  EXPECT_GE(light.news().spared_beams, 8U);
+  RadiationModel model = live.scene.model;
+  grant(request, live.scene, model);
+  EXPECT_EQ(model.optics[0].upper[0].reflectance, 0.3);
+  const RadiationResult after = result_of(light);
+  expect_same(after, run_of(live, model));
+  EXPECT_NE(after.side_indirect, before.side_indirect);
+}
+
+TEST(LiveLight, ContinuesAfterARequestThatCannotBeMet) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  LiveLight light(live.simulation, live.options, [] {});
+  ASSERT_TRUE(wait_until_done(light, 1));
+  LightRequest request = request_of(live.scene);
+  request.sun.shines = false;
+  request.sky.kind = SkyRequestKind::clear;
+  light.ask(request);
+  ASSERT_TRUE(wait_for([&] { return !light.news().problem.empty(); }));
+  EXPECT_NE(light.news().problem.find("sky"), std::string::npos);
+  request.sky.kind = SkyRequestKind::uniform;
+  const std::uint64_t number = light.ask(request);
+  ASSERT_TRUE(wait_until_done(light, number));
+  EXPECT_EQ(light.news().problem, "");
+  EXPECT_EQ(result_of(light).direct.rays, 0U);
+}
+
+TEST(LiveLight, SavesWhatRunWrites) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  live.options.images = {"none"};
+  LiveLight light(live.simulation, live.options, [] {});
+  light.save(folder / "out");
+  ASSERT_TRUE(wait_for([&] { return light.news().saved.has_value(); }));
+  EXPECT_TRUE(light.news().saved->done) << light.news().saved->text;
+  ASSERT_TRUE(wait_until_done(light, 1));
+  light.save(folder / "out");
+  ASSERT_TRUE(wait_for([&] { return light.news().saved.has_value(); }));
+  EXPECT_EQ(light.news().saved->text, "saved in " + (folder / "out").string());
+  for (const char* name : {"summary.json", "profile.csv", "organs.csv", "pictures.cbor"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
+  light.save("/proc/no/folder");
+  ASSERT_TRUE(wait_for([&] { return light.news().saved.has_value(); }));
+  EXPECT_FALSE(light.news().saved->done);
+}
+
+// The half-width of a side belongs to the light that falls on it: on a leaf that absorbs everything, both sides together give
+// the absorbed flux.
+TEST(LiveLight, KnowsTheErrorOfEachSide) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  LiveLight light(live.simulation, live.options, [] {});
+  LightRequest request = request_of(live.scene);
+  for (std::size_t b = 0; b < 2; ++b) {
+    request.optics.at(0).upper[b] = request.optics.at(0).lower[b] = {};
+    request.soil_reflectance[b] = 0.0;
+  }
+  request.sky.kind = SkyRequestKind::none;
+  ASSERT_TRUE(wait_until_done(light, light.ask(request)));
+  const RadiationResult result = result_of(light);
+  const std::size_t elements = live.scene.model.canopy.size();
+  ASSERT_EQ(result.side_error.size(), 2 * elements * 2);
+  for (std::size_t e = 0; e < elements; ++e) {
+    for (std::size_t b = 0; b < 2; ++b) {
+      const double lit = result.side_error[2 * e * 2 + b];
+      const double dark = result.side_error[(2 * e + 1) * 2 + b];
+      EXPECT_TRUE(std::isnan(dark));  // the sun is above these leaves
+      EXPECT_NEAR(lit, result.element_error[b * elements + e], 1e-9 * lit);
+      EXPECT_GT(lit, 0.0);
+    }
+  }
+}
+
+// Watching a run does not change its result.
+TEST(Monitor, IsHandedWhatIsKnownAfterEachReplicate) {
+  const TempFolder folder;
+  const test::LiveScene live(test::write_live_scene(folder));
+  CpuTracer tracer(live.simulation.tracing().tree.bvh, {true, true});
+  const SolveSettings settings = solve_settings(live.options, live.scene);
+  std::vector<RadiationResult> seen;
+  Monitor monitor;
+  monitor.wants_result = [] { return true; };
+  monitor.receive_result = [&](RadiationResult result) { seen.push_back(std::move(result)); };
+  const RadiationResult end = solve(live.scene.model, live.simulation.layout(), tracer, settings, monitor);
+  expect_same(end, run_of(live, live.scene.model));
+  ASSERT_GE(seen.size(), 8U + end.direct.replicates);
+  for (const RadiationResult& result : seen) {
+    EXPECT_EQ(result.stop, StopReason::interrupted);
+    for (const BandResult& band : result.bands) EXPECT_EQ(band.ledger.residual(), 0);
+    EXPECT_GT(result.direct.rays + result.indirect.packets, 0U);
+  }
+  EXPECT_FALSE(seen.front().direct.relative_error) << "a single replicate tells no error";
+  expect_same(seen.back(), end);
+}
+
+TEST(LightRequest, OfTheSceneChangesNothing) {
+  const TempFolder folder;
+  const Scene scene = read_scene(test::write_live_scene(folder));
+  RadiationModel model = scene.model;
+  grant(request_of(scene), scene, model);
+  EXPECT_EQ(model.sun->elevation_rad, scene.model.sun->elevation_rad);
+  EXPECT_EQ(model.bands[1].diffuse_w_m2, 20.0);
+  EXPECT_EQ(model.sky->kind, SkyKind::overcast);
+  EXPECT_EQ(first_difference(request_of(scene), request_of(scene)), "");
+}
+
+TEST(LightRequest, ByTheClockIsTheSunOfThatMoment) {
+  const TempFolder folder;
+  const Scene scene = read_scene(test::write_live_scene(folder));
+  LightRequest request = request_of(scene);
+  EXPECT_TRUE(request.sun.by_clock);
+  EXPECT_NEAR(request.sun.hour, 10.0 + 10.0 / 60.0, 1e-9);
+  EXPECT_EQ(request.sun.day, 8);
+  request.sun.hour = 15.5;
+  RadiationModel model = scene.model;
+  grant(request, scene, model);
+  const SunPosition expected = sun_position({2002, 8, 8, 7, 30, 0.0}, scene.moment->place);
+  EXPECT_NEAR(model.sun->elevation_rad, expected.elevation_rad, 1e-9);
+  EXPECT_NEAR(model.sun->azimuth_rad, expected.azimuth_rad, 1e-9);
+  EXPECT_EQ(model.bands[0].direct_w_m2, 300.0);
+  EXPECT_EQ(first_difference(request_of(scene), request), "sun");
+  request.sun.hour = 23.0;
+  grant(request, scene, model);
+  EXPECT_FALSE(model.has_beam());
+  EXPECT_EQ(model.bands[0].diffuse_w_m2, 60.0);
+}
+
+// Irradiance that the scene states perpendicular to the beam follows the sun to any angle, even if the sun started below the
+// horizon.
+TEST(LightRequest, IrradianceFollowsTheSun) {
+  const TempFolder folder;
+  folder.write("leaves.obj", test::live_mesh_text);
+  std::string text = test::live_scene_text;
+  text.replace(text.find("direct = 300.0"), 14, "direct_normal = 800.0");
+  text.replace(text.find("time = 2002-08-08T10:10:00+08:00"), 32, "time = 2002-08-08T23:00:00+08:00");
+  const Scene scene = read_scene(folder.write("night.toml", text));
+  EXPECT_EQ(scene.model.bands[0].direct_w_m2, 0.0);
+  LightRequest request = request_of(scene);
+  RadiationModel model = scene.model;
+  request.sun.by_clock = false;
+  for (const double elevation_deg : {60.0, 10.0}) {
+    request.sun.elevation_deg = elevation_deg;
+    grant(request, scene, model);
+    EXPECT_NEAR(model.bands[0].direct_w_m2, 800.0 * std::sin(test::radians(elevation_deg)), 1e-9);
+    EXPECT_EQ(model.bands[1].direct_w_m2, 250.0);
+  }
+  request.sun.by_clock = true;
+  request.sun.hour = 12.0;
+  request.sun.latitude_deg = 10.0;  // at the place that was set, not at the scene's
+  grant(request, scene, model);
+  EXPECT_NEAR(model.bands[0].direct_w_m2, 800.0 * std::sin(model.sun->elevation_rad), 1e-9);
+  request.sun.shines = false;
+  grant(request, scene, model);
+  EXPECT_FALSE(model.has_beam());
+  EXPECT_EQ(model.bands[0].diffuse_w_m2, 60.0);
+}
+
+TEST(LightRequest, FieldsOutOfUseChangeNothing) {
+  const TempFolder folder;
+  const Scene scene = read_scene(test::write_live_scene(folder));
+  LightRequest request = request_of(scene);
+  request.sky.cie_type = 3;
+  request.sky.dni_w_m2 = 1.0;
+  request.sun.elevation_deg = 1.0;
+  request.bands[0].total_w_m2 = 1.0;
+  EXPECT_EQ(first_difference(request_of(scene), request), "");
+  EXPECT_EQ(digest_of(request_of(scene)), digest_of(request));
+  LightRequest other = request;
+  other.optics.at(0).lower.at(1).transmittance += 0.01;
+  EXPECT_NE(digest_of(other), digest_of(request));
+  RadiationModel model = scene.model;
+  grant(request, scene, model);
+  EXPECT_EQ(model.sun->elevation_rad, scene.model.sun->elevation_rad);
+  EXPECT_EQ(model.sky->kind, SkyKind::overcast);
+}
+
+TEST(LightRequest, HasItsOwnAnglesSkyAndIrradiance) {
+  const TempFolder folder;
+  const Scene scene = read_scene(test::write_live_scene(folder));
+  LightRequest request = request_of(scene);
+  request.sun.by_clock = false;
+  request.sun.elevation_deg = 30.0;
+  request.sun.azimuth_deg = 90.0;
+  request.sky = {SkyRequestKind::general, 5, 0.0, 0.0};
+  request.own_irradiance = true;
+  request.bands[0] = {500.0, 0.25};
+  RadiationModel model = scene.model;
+  grant(request, scene, model);
+  EXPECT_NEAR(model.sun->elevation_rad, std::numbers::pi / 6, 1e-12);
+  EXPECT_EQ(model.sky->cie_type, 5);
+  EXPECT_DOUBLE_EQ(model.bands[0].direct_w_m2, 375.0);
+  EXPECT_DOUBLE_EQ(model.bands[0].diffuse_w_m2, 125.0);
+  request.sky.kind = SkyRequestKind::none;
+  grant(request, scene, model);
+  EXPECT_FALSE(model.has_sky());
+}
+
+TEST(LightRequest, ThatCannotBeLeavesTheModel) {
+  const TempFolder folder;
+  const Scene scene = read_scene(test::write_live_scene(folder));
+  LightRequest request = request_of(scene);
+  request.sun.day = 31;
+  request.sun.month = 2;
+  RadiationModel model = scene.model;
+  EXPECT_THROW(grant(request, scene, model), Error);
+  EXPECT_EQ(model.sun->elevation_rad, scene.model.sun->elevation_rad);
+}
+
+}  // namespace
+}  // namespace sunfleck

@@ -1,0 +1,124 @@
+#include "simulate/cluster/replicate_message.h"
+
+#include "base/error.h"
+#include "physics/transport/indirect/replicate_maker.h"
+#include "support/light_mix.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace sunfleck {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// Tries every length that is too short, and one byte too many.
+template <class Unpack>
+void expect_whole_only(const Bytes& good, const Unpack& unpack) {
+  EXPECT_NO_THROW(unpack(good));
+  for (std::size_t length = 0; length < good.size(); length += 1 + length / 64) {
+    EXPECT_THROW(unpack(std::span(good).first(length)), Error) << length << " of " << good.size();
+  }
+  Bytes longer = good;
+  longer.push_back(std::byte{0});
+  EXPECT_THROW(unpack(longer), Error);
+}
+
+TEST(Orders, ArriveAsTheyWereSent) {
+  const OrderMessage sent{{3, 17}, 5, {1e6 / 7.0, 142884, 4096.5, 1U << 22U, 0.003, ~0ULL, (1ULL << 40U) + 17}};
+  const Bytes bytes = pack(sent);
+  const OrderMessage got = unpack_order(bytes);
+  EXPECT_EQ(got.key.series, 3U);
+  EXPECT_EQ(got.key.number, 17U);
+  EXPECT_EQ(got.stage, 5U);
+  EXPECT_EQ(got.order.beam_rays, sent.order.beam_rays);
+  EXPECT_EQ(got.order.grid_rays, sent.order.grid_rays);
+  EXPECT_EQ(got.order.packets, sent.order.packets);
+  EXPECT_EQ(got.order.sky_rays, sent.order.sky_rays);
+  EXPECT_EQ(got.order.bound, sent.order.bound);
+  EXPECT_EQ(got.order.seed, sent.order.seed);
+  EXPECT_EQ(got.order.number, sent.order.number);
+  expect_whole_only(bytes, [](std::span<const std::byte> cut) { static_cast<void>(unpack_order(cut)); });
+}
+
+TEST(Words, ArriveAsTheyWereSent) {
+  const Bytes ready = pack(ReadyMessage{2, "node7", "scene 0123"});
+  EXPECT_EQ(unpack_ready(ready).slots, 2U);
+  EXPECT_EQ(unpack_ready(ready).host, "node7");
+  EXPECT_EQ(unpack_ready(ready).scene, "scene 0123");
+  expect_whole_only(ready, [](std::span<const std::byte> cut) { static_cast<void>(unpack_ready(cut)); });
+  const Bytes failed = pack(FailedMessage{3, "", "no device (why); cure"});
+  EXPECT_EQ(unpack_failed(failed).kind, 3);
+  EXPECT_EQ(unpack_failed(failed).host, "");
+  EXPECT_EQ(unpack_failed(failed).text, "no device (why); cure");
+  expect_whole_only(failed, [](std::span<const std::byte> cut) { static_cast<void>(unpack_failed(cut)); });
+}
+
+TEST(Words, OfEndlessLengthTakeNoMemory) {
+  Bytes bytes = pack(FailedMessage{1, "", ""});
+  bytes.back() = std::byte{0x7F};  // the highest byte of the text's length
+  EXPECT_THROW(static_cast<void>(unpack_failed(bytes)), Error);
+}
+
+class Replicates : public ::testing::Test {
+ protected:
+  // Makes a replicate just as for the scene.
+  [[nodiscard]] Replicate make(const ReplicateOrder& order) {
+    const Conversion conversion = maker_.conversion(maker_.incidence(order.beam_rays));
+    return *maker_.make(order, conversion, [] { return false; });
+  }
+  [[nodiscard]] ReplicateOrder order(double packets) const {
+    return {4000.0, maker_.incidence(4000.0).rays, packets, 500, 0.01, 1, 7};
+  }
+
+  RadiationModel model_ = test::light_mix();
+  test::Prepared prepared_{model_};
+  CpuTracer tracer_{prepared_.bvh, test::tracer_scene(model_)};
+  ReplicateMaker maker_{model_, prepared_.layout, tracer_};
+};
+
+// Packed again, they give the same bytes, which contain the whole replicate.
+TEST_F(Replicates, ArriveAsTheyWereMade) {
+  for (const double packets : {0.0, 1000.0}) {
+    const Replicate made = make(order(packets));
+    const Bytes bytes = pack(ReplicateKey{1, 7}, made);
+    EXPECT_EQ(unpack_key(bytes).number, 7U);
+    const Replicate got = unpack_replicate(bytes, maker_.blank(order(packets)));
+    EXPECT_TRUE(pack(ReplicateKey{1, 7}, got) == bytes);
+    EXPECT_EQ(got.counters, made.counters);
+    EXPECT_EQ(got.passed.reached, made.passed.reached);
+    ASSERT_EQ(got.packets.has_value(), packets > 0.0);
+    if (!got.packets) continue;
+    EXPECT_EQ(got.packets->side_landed, made.packets->side_landed);
+    EXPECT_EQ(got.packets->side_sky, made.packets->side_sky);
+    EXPECT_EQ(got.packets->receivers.through_up, made.packets->receivers.through_up);
+    EXPECT_EQ(got.packets->ledger[1].unshot, made.packets->ledger[1].unshot);
+    EXPECT_EQ(got.packets->lost, made.packets->lost);
+  }
+}
+
+TEST_F(Replicates, AreRefusedUnlessWhole) {
+  const Bytes good = pack(ReplicateKey{1, 7}, make(order(1000.0)));
+  const Replicate blank = maker_.blank(order(1000.0));
+  expect_whole_only(good, [&](std::span<const std::byte> cut) { static_cast<void>(unpack_replicate(cut, blank)); });
+}
+
+TEST_F(Replicates, OfOtherSizesAreRefused) {
+  const Bytes good = pack(ReplicateKey{1, 7}, make(order(1000.0)));
+  const auto expect_refused = [&](const auto& change) {
+    Replicate blank = maker_.blank(order(1000.0));
+    change(blank);
+    EXPECT_THROW(static_cast<void>(unpack_replicate(good, blank)), Error);
+  };
+  expect_refused([](Replicate& r) { r.counters.pop_back(); });
+  expect_refused([](Replicate& r) { r.passed.down.push_back(0); });
+  expect_refused([](Replicate& r) { r.packets.reset(); });
+  expect_refused([](Replicate& r) { r.packets->side_sky.clear(); });
+  expect_refused([](Replicate& r) { r.packets->ledger.emplace_back(); });
+  EXPECT_THROW(static_cast<void>(unpack_replicate(pack(ReplicateKey{1, 7}, make(order(0.0))), maker_.blank(order(1000.0)))),
+               Error);
+}
+
+}  // namespace
+}  // namespace sunfleck
