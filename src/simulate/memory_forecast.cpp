@@ -1,8 +1,13 @@
 #include "simulate/memory_forecast.h"
 
+#include "devices/tracers/cpu_tracer.h"
+#include "physics/bvh/references.h"
 #include "physics/transport/model/surfaces.h"
+#include "pictures/charts/fields.h"
+#include "pictures/charts/pictures.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -39,6 +44,13 @@ double sum_bytes(const RadiationModel& model, const CounterLayout& layout, const
   return bytes;
 }
 
+// Returns the memory for drawing the pictures that a run draws unless others are asked for, together.
+double picture_bytes(const RadiationModel& model, const CounterLayout& layout) {
+  const std::vector<Picture> usual = usual_pictures();
+  const auto drawn = std::count_if(usual.begin(), usual.end(), [&](const Picture& p) { return has_field(model, p.field); });
+  return drawing_bytes(layout, model, PictureOptions{}, static_cast<std::size_t>(drawn));
+}
+
 }  // namespace
 
 std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const SolveSettings& settings, const Monitor& monitor) {
@@ -54,8 +66,10 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   if (!run) return std::nullopt;
   const auto elements = static_cast<double>(model.canopy.size());
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
-  const double solving = sum_bytes(model, tree.layout, settings) + in_the_making * run->replicate_bytes;
-  const double host = std::max({static_cast<double>(tree.bvh.triangles.size()) * building, solving, elements * stored});
+  const double sums = sum_bytes(model, tree.layout, settings);
+  const double host =
+      std::max({static_cast<double>(tree.bvh.triangles.size()) * building, sums + in_the_making * run->replicate_bytes,
+                elements * stored, sums + picture_bytes(model, tree.layout)});
   const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
   const double bytes = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + host + on_device;
   return MemoryForecast{static_cast<std::uint64_t>(bytes), *run};

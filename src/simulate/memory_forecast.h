@@ -1,8 +1,8 @@
 #pragma once
 // Forecasts the peak memory of a run.
 
-#include "simulate/simulation.h"
 #include "physics/transport/solve/solve.h"
+#include "simulate/simulation.h"
 
 #include <cstdint>
 #include <optional>
@@ -10,7 +10,7 @@
 namespace sunfleck {
 
 struct MemoryForecast {
-  std::uint64_t bytes = 0;  // memory of the whole process, without pictures and exports
+  std::uint64_t bytes = 0;  // peak of the whole process with the usual pictures, without exports and gnuplot
   RunForecast run;
 };
 

@@ -1,12 +1,12 @@
 #include "pictures/charts/pictures.h"
 
 #include "base/error.h"
-#include "base/units.h"
 #include "base/file.h"
+#include "base/units.h"
+#include "devices/tracers/canopy_view.h"
 #include "pictures/charts/colouring.h"
 #include "pictures/charts/fields.h"
 #include "pictures/charts/open_spot.h"
-#include "devices/tracers/canopy_view.h"
 #include "pictures/drawing/camera.h"
 #include "pictures/drawing/chart.h"
 #include "pictures/drawing/value_image.h"
@@ -159,6 +159,19 @@ ChartContent chart_content(const ChartSource& source, const PictureOptions& opti
   return {std::move(colouring.colours),
           {source.title, subtitle_line(model, source.result), colouring.legend_title, colouring.legend,
            footer_line(picture.field, source.result, colouring.note), colouring.bar}};
+}
+
+double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
+                     std::size_t pictures) {
+  const auto surfaces = 2.0 * static_cast<double>(model.canopy.size()) + layout.cells();
+  const auto count = static_cast<double>(pictures);
+  const double colours = surfaces * (count + 1.0) * sizeof(Colour);  // and once without light
+  const double values = surfaces * 2.0 * sizeof(double);
+  const double pixels = count * options.width * options.height * sizeof(decltype(Image::pixels)::value_type);
+  const double samples = static_cast<double>(samples_in_band) *
+                         (sizeof(shared::SeenSurface) + sizeof(decltype(SurfaceImage::surface)::value_type) +
+                          sizeof(decltype(SurfaceImage::depth_m)::value_type));
+  return colours + values + pixels + samples;
 }
 
 bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,

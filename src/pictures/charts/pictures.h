@@ -1,15 +1,15 @@
 #pragma once
 // Draws the pictures of a result.
 
-#include "pictures/drawing/exr_writer.h"
-#include "files/scene/scene_reader.h"
-#include "pictures/charts/colouring.h"
-#include "pictures/charts/picture.h"
 #include "devices/tracers/engine.h"
+#include "files/scene/scene_reader.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/result.h"
+#include "pictures/charts/colouring.h"
+#include "pictures/charts/picture.h"
 #include "pictures/drawing/camera.h"
 #include "pictures/drawing/chart.h"
+#include "pictures/drawing/exr_writer.h"
 #include "pictures/drawing/image.h"
 #include "pictures/drawing/surface_image.h"
 
@@ -69,6 +69,10 @@ struct ChartSource {
 };
 [[nodiscard]] ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
                                          const SurfaceColours& surfaces);
+
+// Returns the bytes that draw_charts needs for so many pictures of these sizes, in addition to the result and the tree.
+[[nodiscard]] double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
+                                   std::size_t pictures);
 
 // Draws charts of one view: the scene is looked at only once for all of them. Passes each on as soon as it is finished, in
 // order. Returns false if stopped before the last.

@@ -8,7 +8,6 @@ namespace sunfleck {
 
 std::vector<RowBand> row_bands(int width, int height, int samples) {
   EXPECT(std::min({width, height, samples}), >, 0);
-  constexpr std::int64_t samples_in_band = std::int64_t{1} << 22U;
   const std::int64_t samples_in_row = std::int64_t{width} * samples;
   const int rows = static_cast<int>(std::clamp<std::int64_t>(samples_in_band / samples_in_row, 1, height));
   std::vector<RowBand> bands;

@@ -25,8 +25,11 @@ struct RowBand {
   int count = 0;
 };
 
-// Divides the rows of a picture, from top to bottom, into bands of about four million samples, so that the samples of a large
-// picture never need to be in memory together.
+// The rows of a picture are drawn in bands of at most this many samples, or of one row if that has more, so that the samples
+// of a large picture never need to be in memory together.
+inline constexpr std::int64_t samples_in_band = std::int64_t{1} << 20U;
+
+// Divides the rows of a picture into such bands, from top to bottom.
 [[nodiscard]] std::vector<RowBand> row_bands(int width, int height, int samples);
 
 }  // namespace sunfleck
