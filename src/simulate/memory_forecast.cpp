@@ -15,6 +15,7 @@ namespace {
 constexpr double mib = 1048576.0;
 // Replicates that run side by side seldom reach their peaks at the same time.
 constexpr double at_their_peak = 0.7;
+constexpr double tallies = 3.0;  // those of the run, of its pilot and of the result, which alone is left to be drawn
 
 // Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
 double program_bytes(const TracerDevice& device) {
@@ -31,7 +32,6 @@ double tree_bytes(const Bvh& bvh) {
 
 // Returns the memory of the solver's results of all replicates: the sums and the result made from them.
 double sum_bytes(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
-  constexpr double tallies = 3.0;  // those of the run, of its pilot and of the result
   constexpr double numbering = 3.0 * sizeof(std::uint32_t);
   const auto elements = static_cast<double>(model.canopy.size());
   const auto bands = static_cast<double>(model.bands.size());
@@ -69,7 +69,7 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const double sums = sum_bytes(model, tree.layout, settings);
   const double host =
       std::max({static_cast<double>(tree.bvh.triangles.size()) * building, sums + in_the_making * run->replicate_bytes,
-                elements * stored, sums + picture_bytes(model, tree.layout)});
+                elements * stored, sums / tallies + picture_bytes(model, tree.layout)});
   const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
   const double bytes = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + host + on_device;
   return MemoryForecast{static_cast<std::uint64_t>(bytes), *run};
