@@ -28,7 +28,7 @@ int ceil_log2(std::uint32_t count) {
 }
 
 // The items of a subtree with the box around them and the box around their centres (times two).
-struct Range {
+struct ItemRange {
   Subtree subtree;
   Bounds box = nothing;
   Bounds centres{nothing.lo * 2.0F, nothing.hi * 2.0F};
@@ -46,7 +46,7 @@ struct Grid {
   Float4 bins_per_m{};  // 0 on an axis without extent
   std::uint32_t bins = 0;
 
-  explicit Grid(const Range& range) : lo(range.centres.lo), bins(bins_for(range.subtree.count)) {
+  explicit Grid(const ItemRange& range) : lo(range.centres.lo), bins(bins_for(range.subtree.count)) {
     const Float4 size = range.centres.hi - range.centres.lo;
     for (int axis = 0; axis < 3; ++axis) {
       // The factor keeps the last centre below `bins` whatever the rounding.
@@ -74,7 +74,7 @@ class BinaryBuilder {
   explicit BinaryBuilder(BinaryTree& tree) : items_(tree.items), nodes_(tree.nodes) {}
 
   // Builds a subtree that is at most `levels` high. The recursion is as deep as the tree: at most max_binary_height.
-  void build(const Range& range, int levels) {
+  void build(const ItemRange& range, int levels) {
     if (range.subtree.count < 2) return;
     DCHECK(ceil_log2(range.subtree.count), <=, levels);
     const auto [left, right] = divide(range, levels - 1);
@@ -88,8 +88,8 @@ class BinaryBuilder {
     build(right, levels - 1);
   }
 
-  [[nodiscard]] Range measure(std::uint32_t node, std::uint32_t first, std::uint32_t count) const {
-    Range range{{node, first, 0}};
+  [[nodiscard]] ItemRange measure(std::uint32_t node, std::uint32_t first, std::uint32_t count) const {
+    ItemRange range{{node, first, 0}};
     for (std::uint32_t i = first; i < first + count; ++i) range.add(items_[i]);
     return range;
   }
@@ -100,11 +100,11 @@ class BinaryBuilder {
     std::uint32_t count;
   };
   struct Halves {
-    Range left, right;
+    ItemRange left, right;
   };
 
   // Returns two halves that both fit into `levels`: those of the heuristic if they do, otherwise equal ones.
-  Halves divide(const Range& range, int levels) {
+  Halves divide(const ItemRange& range, int levels) {
     const auto& [node, first, count] = range.subtree;
     if (count > 2) {
       const Grid grid(range);
@@ -119,7 +119,7 @@ class BinaryBuilder {
     return {measure(node + 1, first, left_count), measure(node + left_count, first + left_count, count - left_count)};
   }
 
-  Split find_split(const Range& range, const Grid& grid) {
+  Split find_split(const ItemRange& range, const Grid& grid) {
     for (auto& axis : bins_) std::fill_n(axis.begin(), grid.bins, Bin{nothing, 0});
     const auto& [node, first, count] = range.subtree;
     for (std::uint32_t i = first; i < first + count; ++i) {
@@ -180,7 +180,7 @@ class BinaryBuilder {
   }
 
   // Sorts along the axis on which the centres spread most; if all are equal any order is good.
-  void sort_around_median(const Range& range) {
+  void sort_around_median(const ItemRange& range) {
     const Float4 size = range.centres.hi - range.centres.lo;
     int axis = 0;
     for (int other = 1; other < 3; ++other) {

@@ -19,7 +19,7 @@ struct ImageRange {
   int last = 0;
 };
 
-struct Images {
+struct ImageRanges {
   ImageRange x, z;
 
   [[nodiscard]] std::uint64_t count() const {
@@ -42,7 +42,7 @@ ImageRange images_on_axis(float lo_m, float hi_m, double period_m, double margin
   return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-Images images_of(const Canopy& canopy, std::size_t element, glm::vec2 margin_m) {
+ImageRanges images_of(const Canopy& canopy, std::size_t element, glm::vec2 margin_m) {
   const auto& [a, b, c] = canopy.corners[element];
   const auto [lo_x, hi_x] = std::minmax({a.x, b.x, c.x});
   const auto [lo_z, hi_z] = std::minmax({a.z, b.z, c.z});
@@ -50,7 +50,7 @@ Images images_of(const Canopy& canopy, std::size_t element, glm::vec2 margin_m) 
           images_on_axis(lo_z, hi_z, canopy.period_m.y, margin_m.y, element)};
 }
 
-void append_images(std::vector<Reference>& references, std::size_t element, const Images& images) {
+void append_images(std::vector<Reference>& references, std::size_t element, const ImageRanges& images) {
   const auto append = [&](int dx, int dz) {
     references.push_back({static_cast<std::uint32_t>(element), static_cast<std::int16_t>(dx), static_cast<std::int16_t>(dz)});
   };

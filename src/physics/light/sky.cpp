@@ -44,13 +44,13 @@ double accumulate_shares(std::span<double> values) {
   return total;
 }
 
-struct Draw {
+struct InvertedDraw {
   std::size_t index = 0;
   double fraction = 0.0;  // position within the chosen entry, 0..1
 };
 
 // Inverts cumulative shares. An entry without any share is never drawn.
-Draw invert(std::span<const double> cumulative, double u) {
+InvertedDraw invert(std::span<const double> cumulative, double u) {
   const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
   const auto index = static_cast<std::size_t>(found - cumulative.begin());
   const double below = index == 0 ? 0.0 : cumulative[index - 1];
@@ -146,7 +146,7 @@ double Sky::radiance(const glm::dvec3& to_sky) const {
 
 glm::dvec3 Sky::draw_by_horizontal_irradiance(double u, double v) const {
   if (is_list()) return lights_[invert(light_cosine_, u).index].to_sky;
-  const Draw row = invert(row_cosine_, u);
+  const InvertedDraw row = invert(row_cosine_, u);
   const int upper = static_cast<int>(row.index);
   const double squared = std::lerp(squared_sine(upper), squared_sine(upper + 1), row.fraction);
   return direction(std::sqrt(std::max(0.0, 1.0 - squared)), azimuth_in_row(row.index, v));
@@ -154,13 +154,13 @@ glm::dvec3 Sky::draw_by_horizontal_irradiance(double u, double v) const {
 
 glm::dvec3 Sky::draw_by_radiance(double u, double v) const {
   if (is_list()) return lights_[invert(light_plain_, u).index].to_sky;
-  const Draw row = invert(row_plain_, u);
+  const InvertedDraw row = invert(row_plain_, u);
   const int upper = static_cast<int>(row.index);
   return direction(std::lerp(cosine(upper), cosine(upper + 1), row.fraction), azimuth_in_row(row.index, v));
 }
 
 double Sky::azimuth_in_row(std::size_t row, double v) const {
-  const Draw column = invert(std::span(column_).subspan(row * columns, columns), v);
+  const InvertedDraw column = invert(std::span(column_).subspan(row * columns, columns), v);
   return (static_cast<double>(column.index) + column.fraction) * column_width_rad;
 }
 

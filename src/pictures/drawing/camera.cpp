@@ -17,11 +17,11 @@ namespace {
 // The part of the picture that the scene may fill, measured from the middle; half the picture is `half_height` high, as a
 // tangent or a length. The free strips hold the titles at the top, the footer at the bottom, an axis' letter at the left and
 // the legend at the right. The type size, and so the width of letter and legend, scales with the picture's height.
-struct Window {
+struct FreeWindow {
   double left, right, bottom, top;
 };
 
-Window free_window(double half_height, double aspect) {
+FreeWindow free_window(double half_height, double aspect) {
   constexpr double top_margin = 0.15, bottom_margin = 0.085;
   const double left_margin = std::min(0.065 / aspect, 0.15);
   const double legend_width = std::min(0.36 / aspect, 0.4);
@@ -44,7 +44,7 @@ struct Interval {
 // right, up and forward a point appears at the tangent (a - a0)/(d - d0). That it lies between the tangents l and r is linear
 // in the camera's (a0, d0):  a0 - l d0 <= min(a - l d)  and  a0 - r d0 >= max(a - r d).  The farthest-forward d0 for which an
 // a0 exists is (min - max)/(r - l); the same holds for b with bottom and top.
-glm::dvec3 fitting_position(const Camera& camera, const Window& window, std::span<const glm::dvec3> points_m) {
+glm::dvec3 fitting_position(const Camera& camera, const FreeWindow& window, std::span<const glm::dvec3> points_m) {
   Interval across, upwards;
   for (const glm::dvec3& point : points_m) {
     const double a = glm::dot(point, camera.right);
@@ -96,7 +96,7 @@ Camera fitting_orthographic(glm::dvec3 forward, glm::dvec3 right, double aspect,
     take_in(upwards, glm::dot(point, camera.up));
     take_in(along, glm::dot(point, camera.forward));
   }
-  const Window unit = free_window(1.0, aspect);
+  const FreeWindow unit = free_window(1.0, aspect);
   camera.half_height_m =
       std::max((across.hi - across.lo) / (unit.right - unit.left), (upwards.hi - upwards.lo) / (unit.top - unit.bottom));
   const double a0 = 0.5 * (across.lo + across.hi - camera.half_height_m * (unit.left + unit.right));
@@ -171,7 +171,7 @@ Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect) {
 Camera fisheye_view(glm::dvec3 position_m, double aspect) {
   EXPECT(aspect, >, 0.0);
   constexpr double letter_room = 0.035;  // around the circle, in picture heights
-  const Window window = free_window(0.5, aspect);
+  const FreeWindow window = free_window(0.5, aspect);
   Camera camera;
   camera.kind = Projection::fisheye;
   camera.aspect = aspect;

@@ -32,10 +32,10 @@ constexpr std::uint64_t reference_seed = std::uint64_t{1} << 40U;
 
 enum class Light { direct, indirect, absorbed };
 
-class Measurement {
+class TradeoffMeasurement {
  public:
-  Measurement(const TradeoffOptions& options, const SolveSettings& settings, Simulation& simulation, TradeoffReport& report,
-              const std::filesystem::path& table)
+  TradeoffMeasurement(const TradeoffOptions& options, const SolveSettings& settings, Simulation& simulation,
+                      TradeoffReport& report, const std::filesystem::path& table)
       : options_(options),
         settings_(settings),
         all_light_(simulation),
@@ -256,7 +256,7 @@ Quantity requested_quantity(const TradeoffOptions& options) {
 
 bool measure_tradeoff(const TradeoffOptions& options, const SolveSettings& settings, Simulation& simulation,
                       const std::filesystem::path& table, TradeoffReport& report) {
-  return Measurement(options, settings, simulation, report, table).run();
+  return TradeoffMeasurement(options, settings, simulation, report, table).run();
 }
 
 }  // namespace sunfleck

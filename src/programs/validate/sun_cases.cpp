@@ -28,7 +28,7 @@ double great_circle_deg(const SunPosition& sun, double elevation_deg, double azi
 constexpr double spa_deg = 0.0003;  // accuracy stated for the algorithm
 constexpr double three_digits_deg = 0.001;
 
-struct Events {
+struct EventsOfDay {
   const char* name;
   LocalDate date;
   Place place;
@@ -85,13 +85,13 @@ void sun_event_cases(CaseBench& bench) {
   const Place golden = place_deg(39.742476, -105.1786), south = place_deg(-35.0, 0.0), ohio = place_deg(40.0, -80.0);
   // NREL's calculator lists the events of a UTC date: the sunset it gives for 2 August 2015 is that of the evening before.
   const std::array rows = {
-      Events{"Golden 2015-01-02", {2015, 1, 2, -420}, golden, clock_s(7, 21, 55), clock_s(12, 4, 45), clock_s(16, 47, 43)},
-      Events{"Golden 2015-08-01", {2015, 8, 1, -420}, golden, -1.0, -1.0, clock_s(19, 13, 58)},
-      Events{"Golden 2015-08-02", {2015, 8, 2, -420}, golden, clock_s(5, 0, 27), clock_s(12, 6, 58), -1.0},
-      Events{"35 S 1996-07-05", {1996, 7, 5, 0}, south, clock_s(7, 8, 15), clock_s(12, 4, 36), clock_s(17, 1, 4)},
-      Events{"35 S 2004-12-04", {2004, 12, 4, 0}, south, clock_s(4, 38, 57), clock_s(11, 50, 22), clock_s(19, 2, 3)},
-      Events{"40 N 2000-01-01", {2000, 1, 1, -300}, ohio, clock_s(7, 41, 51), clock_s(12, 23, 23), clock_s(17, 5, 4)}};
-  for (const Events& row : rows) {
+      EventsOfDay{"Golden 2015-01-02", {2015, 1, 2, -420}, golden, clock_s(7, 21, 55), clock_s(12, 4, 45), clock_s(16, 47, 43)},
+      EventsOfDay{"Golden 2015-08-01", {2015, 8, 1, -420}, golden, -1.0, -1.0, clock_s(19, 13, 58)},
+      EventsOfDay{"Golden 2015-08-02", {2015, 8, 2, -420}, golden, clock_s(5, 0, 27), clock_s(12, 6, 58), -1.0},
+      EventsOfDay{"35 S 1996-07-05", {1996, 7, 5, 0}, south, clock_s(7, 8, 15), clock_s(12, 4, 36), clock_s(17, 1, 4)},
+      EventsOfDay{"35 S 2004-12-04", {2004, 12, 4, 0}, south, clock_s(4, 38, 57), clock_s(11, 50, 22), clock_s(19, 2, 3)},
+      EventsOfDay{"40 N 2000-01-01", {2000, 1, 1, -300}, ohio, clock_s(7, 41, 51), clock_s(12, 23, 23), clock_s(17, 5, 4)}};
+  for (const EventsOfDay& row : rows) {
     const SunEvents events = sun_events(row.date, row.place);
     const UtcTime midnight = plus_seconds({row.date.year, row.date.month, row.date.day}, -60.0 * row.date.offset_minutes);
     double furthest_s = 0.0;

@@ -28,7 +28,7 @@ bool Hands::busy(double now_s) const {
   return (pressed_on_picture_ && dragged_) || now_s - last_motion_s_ < rest_s;
 }
 
-bool Hands::drag(ViewerState& state, const Stage& stage) {
+bool Hands::drag(ViewerState& state, const PictureFrame& frame) {
   const ImGuiIO& io = ImGui::GetIO();
   // In the frame of the press, the mouse position still jumps from elsewhere.
   if (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)) return false;
@@ -37,7 +37,7 @@ bool Hands::drag(ViewerState& state, const Stage& stage) {
   const bool shifts = io.MouseDown[ImGuiMouseButton_Right] || io.MouseDown[ImGuiMouseButton_Middle] || io.KeyShift;
   if (!shifts && std::hypot(from_press.x, from_press.y) < click_slack_px && !dragged_) return false;
   dragged_ = true;
-  const glm::dvec2 by(io.MouseDelta.x / stage.height_px, io.MouseDelta.y / stage.height_px);
+  const glm::dvec2 by(io.MouseDelta.x / frame.height_px, io.MouseDelta.y / frame.height_px);
   if (shifts) {
     pan(state.hand, {-by.x, by.y}, 0.0);
   } else {
@@ -46,31 +46,31 @@ bool Hands::drag(ViewerState& state, const Stage& stage) {
   return true;
 }
 
-bool Hands::fly_by_keys(ViewerState& state, const Stage& stage) const {
+bool Hands::fly_by_keys(ViewerState& state, const PictureFrame& frame) const {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || io.KeyCtrl) return false;
   const glm::dvec3 by(pull('D', 'A'), pull('E', 'Q'), pull('W', 'S'));
   if (by == glm::dvec3(0.0)) return false;
-  const double metres = extents_per_second * glm::length(stage.hi_m - stage.lo_m) * std::min(0.1, double{io.DeltaTime});
+  const double metres = extents_per_second * glm::length(frame.hi_m - frame.lo_m) * std::min(0.1, double{io.DeltaTime});
   fly(state.hand, metres * by);
   return true;
 }
 
-std::optional<glm::ivec2> Hands::steer(ViewerState& state, const Stage& stage, double now_s) {
+std::optional<glm::ivec2> Hands::steer(ViewerState& state, const PictureFrame& frame, double now_s) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool over = !io.WantCaptureMouse && io.MousePos.x >= stage.left_px;
+  const bool over = !io.WantCaptureMouse && io.MousePos.x >= frame.left_px;
   for (const int mouse_button : {ImGuiMouseButton_Left, ImGuiMouseButton_Right, ImGuiMouseButton_Middle}) {
     if (over && ImGui::IsMouseClicked(mouse_button)) {
       pressed_on_picture_ = true;
       dragged_ = mouse_button != ImGuiMouseButton_Left;
     }
   }
-  bool moved = drag(state, stage);
+  bool moved = drag(state, frame);
   if (over && io.MouseWheel != 0.0F) {
     zoom(state.hand, std::pow(zoom_per_notch, io.MouseWheel));
     moved = true;
   }
-  moved = fly_by_keys(state, stage) || moved;
+  moved = fly_by_keys(state, frame) || moved;
   if (moved) {
     state.camera_as_given = false;
     last_motion_s_ = now_s;
@@ -79,7 +79,7 @@ std::optional<glm::ivec2> Hands::steer(ViewerState& state, const Stage& stage, d
   if (!pressed_on_picture_ || any_down) return std::nullopt;
   pressed_on_picture_ = false;
   if (std::exchange(dragged_, false)) return std::nullopt;
-  return glm::ivec2(static_cast<int>(io.MousePos.x - stage.left_px), static_cast<int>(io.MousePos.y));
+  return glm::ivec2(static_cast<int>(io.MousePos.x - frame.left_px), static_cast<int>(io.MousePos.y));
 }
 
 }  // namespace sunfleck

@@ -136,7 +136,7 @@ bool Viewer::at_work() const {
   return light || picture || state_.playing || loader_.is_loading() || hands_.busy(now_s());
 }
 
-Stage Viewer::stage() const {
+PictureFrame Viewer::picture_frame() const {
   const glm::ivec2 size = window_.size_px();
   const float left =
       state_.panel ? std::min(panel_width * static_cast<float>(window_.scale()), 0.6F * static_cast<float>(size.x)) : 0.0F;
@@ -153,7 +153,7 @@ void Viewer::frame() {
   take_news();
   take_picture();
   if (!drawn) return;
-  const Stage place = stage();
+  const PictureFrame place = picture_frame();
   if (now_s() > message_until_s_) state_.message.clear();
   PanelOrders orders;
   if (state_.panel) orders = draw_panel(state_, place.left_px, place.height_px);
@@ -162,13 +162,13 @@ void Viewer::frame() {
   take_keys();
   obey(orders);
   play();
-  place_camera(stage());
+  place_camera(picture_frame());
   ask_for_light();
   ask_for_picture();
   tell_controls();
   WindowPicture picture;
   if (state_.frame) {
-    const int left = static_cast<int>(stage().left_px);
+    const int left = static_cast<int>(picture_frame().left_px);
     picture = {state_.frame->pixels, state_.frame->width, state_.frame->height, {left, 0}};
   }
   window_.end_frame(picture, std::exchange(new_pixels_, false), background);
@@ -255,7 +255,7 @@ void Viewer::choose_view(ViewKind view) {
 void Viewer::obey(const PanelOrders& orders) {
   if (orders.view) choose_view(*orders.view);
   if (orders.fit) {
-    const Stage place = stage();
+    const PictureFrame place = picture_frame();
     fit(state_.hand, place.lo_m, place.hi_m);
     state_.camera_as_given = false;
   }
@@ -302,7 +302,7 @@ void Viewer::save_picture() {
 }
 
 // Fits an unmoved camera to the window as `render` would fit its picture.
-void Viewer::place_camera(const Stage& place) {
+void Viewer::place_camera(const PictureFrame& place) {
   state_.options.width = std::max(64, static_cast<int>(place.width_px));
   state_.options.height = std::max(64, static_cast<int>(place.height_px));
   const double aspect = static_cast<double>(state_.options.width) / state_.options.height;
@@ -387,7 +387,8 @@ void Viewer::tell_controls() {
   json fields = json::object();
   for (const auto& [name, place] : state_.controls) fields[name] = {place[0], place[1], place[2], place[3]};
   state_.controls.clear();
-  const json controls = {{"picture", {stage().left_px, 0, stage().width_px, stage().height_px}}, {"controls", fields}};
+  const json controls = {{"picture", {picture_frame().left_px, 0, picture_frame().width_px, picture_frame().height_px}},
+                         {"controls", fields}};
   const std::string text = controls.dump();
   if (text == told_controls_) return;
   told_controls_ = text;

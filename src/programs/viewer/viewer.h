@@ -47,13 +47,13 @@ class Viewer {
   void take_dropped_files();
 
   void frame();
-  [[nodiscard]] Stage stage() const;
+  [[nodiscard]] PictureFrame picture_frame() const;
   void take_news();
   void take_picture();
   void take_keys();
   void obey(const PanelOrders& orders);
   void choose_view(ViewKind view);
-  void place_camera(const Stage& stage);
+  void place_camera(const PictureFrame& place);
   void pick(glm::ivec2 pixel);
   void play();
   void ask_for_light();

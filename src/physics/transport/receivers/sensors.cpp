@@ -88,10 +88,10 @@ void add_sky_rays(Visibility& visibility, const Sky& sky, const SensorPoint& poi
   }
 }
 
-class Measurement {
+class SensorMeasurement {
  public:
-  Measurement(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SensorSettings& settings,
-              const StopQuestion& stop)
+  SensorMeasurement(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SensorSettings& settings,
+                    const StopQuestion& stop)
       : model_(model),
         layout_(layout),
         tracer_(tracer),
@@ -216,7 +216,7 @@ std::optional<std::vector<std::vector<SensorResult>>> measure_sensors(const Radi
   EXPECT(settings.rays, >=, 1U);
   EXPECT(settings.rays, <=, std::uint32_t{1} << 20U);
   if (model.sensors.empty()) return std::vector<std::vector<SensorResult>>{};
-  Measurement measurement(model, layout, tracer, settings, stop);
+  SensorMeasurement measurement(model, layout, tracer, settings, stop);
   if (!measurement.direct() || !measurement.sky() || !measurement.scattered()) return std::nullopt;
   return measurement.by_sensor();
 }
