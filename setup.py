@@ -1,6 +1,6 @@
 """Builds the compiled part of the Python module with CMake, for `pip install .`; all else stands in pyproject.toml.
 
-Where SUNFLECK_BUILD names a build folder of CMake's that holds the module already (./demo.sh makes one, build/release), that is
+If SUNFLECK_BUILD names a build folder that already holds the module (./demo.sh makes one, build/release), that module is
 taken.
 """
 
@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parent
 
 
 def version() -> str:
-    """As CMakeLists.txt has it."""
+    """Returns the version that CMakeLists.txt states."""
     return re.search(r"project\(sunfleck VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 
 

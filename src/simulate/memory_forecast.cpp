@@ -67,12 +67,13 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const auto elements = static_cast<double>(model.canopy.size());
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
   const double sums = sum_bytes(model, tree.layout, settings);
-  const double host =
-      std::max({static_cast<double>(tree.bvh.triangles.size()) * building, sums + in_the_making * run->replicate_bytes,
-                elements * stored, sums / tallies + picture_bytes(model, tree.layout)});
   const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
-  const double bytes = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + host + on_device;
-  return MemoryForecast{static_cast<std::uint64_t>(bytes), *run};
+  const double throughout = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
+  const double computing = std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
+                                     sums + in_the_making * run->replicate_bytes, elements * stored});
+  const double drawing = sums / tallies + picture_bytes(model, tree.layout);
+  return MemoryForecast{static_cast<std::uint64_t>(throughout + std::max(computing, drawing)),
+                        static_cast<std::uint64_t>(throughout + computing), *run};
 }
 
 }  // namespace sunfleck

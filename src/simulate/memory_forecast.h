@@ -10,7 +10,8 @@
 namespace sunfleck {
 
 struct MemoryForecast {
-  std::uint64_t bytes = 0;  // peak of the whole process with the usual pictures, without exports and gnuplot
+  // Peaks of the whole process, without exports and gnuplot: with the usual pictures, and with none.
+  std::uint64_t bytes = 0, bytes_without_pictures = 0;
   RunForecast run;
 };
 

@@ -41,7 +41,7 @@ def test_pip(tmp_path):
     source.mkdir()
     for name in ("CMakeLists.txt", "README.md", "pyproject.toml", "setup.py"):
         shutil.copy(SOURCE / name, source)
-    for name in ("python", "scripts", "share"):
+    for name in ("scripts", "share", "src/programs/python"):
         shutil.copytree(SOURCE / name, source / name)
     pip = [tmp_path / "venv" / "bin" / "pip", "install", "--quiet", "--no-index", source]
     run(pip, SUNFLECK_BUILD=str(BUILD))

@@ -94,6 +94,7 @@ void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
   const auto memory = forecast_memory(simulation, settings, terminal_monitor(line));
   if (!memory) throw_failure("info", "interrupted", "start it again");
   info["memory_bytes"] = memory->bytes;
+  info["memory_without_pictures_bytes"] = memory->bytes_without_pictures;
   info["memory_device"] = simulation.device().name;
   info["replicates_at_once"] = memory->run.at_once;
   info["replicate_bytes"] = static_cast<std::uint64_t>(memory->run.replicate_bytes);
@@ -152,10 +153,12 @@ void print_lines(const ordered_json& info) {
   for (const auto& [name, area] : info["area_by_optics_m2"].items()) fmt::print("  {}: {:.5g} m2\n", name, area.get<double>());
   print_copies(info);
   constexpr double mib = 1048576.0;
-  fmt::print("memory needed: {:.1f} MiB on {}, of which {:.1f} MiB for {} replicates in progress\n",
-             info["memory_bytes"].get<double>() / mib, info["memory_device"].get<std::string>(),
-             info["replicates_at_once"].get<double>() * info["replicate_bytes"].get<double>() / mib,
-             info["replicates_at_once"].get<std::size_t>());
+  fmt::print(
+      "memory needed: {:.1f} MiB on {} ({:.1f} MiB without pictures), of which {:.1f} MiB for {} replicates in progress\n",
+      info["memory_bytes"].get<double>() / mib, info["memory_device"].get<std::string>(),
+      info["memory_without_pictures_bytes"].get<double>() / mib,
+      info["replicates_at_once"].get<double>() * info["replicate_bytes"].get<double>() / mib,
+      info["replicates_at_once"].get<std::size_t>());
   if (info["sun"].is_null()) return;
   fmt::print("sun: elevation {:.4f} deg, azimuth {:.4f} deg\n", info["sun"]["elevation_deg"].get<double>(),
              info["sun"]["azimuth_deg"].get<double>());
