@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include "base/error.h"
+#include "base/text.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -95,20 +96,8 @@ int fill(int number, std::string_view bytes) {
 }  // namespace
 
 bool is_utf8(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
-    const unsigned first = byte(0), second = byte(1);
-    std::size_t length = 1;
-    if (first >= 0x80U) {
-      length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
-      const unsigned least = first == 0xE0U ? 0xA0U : first == 0xF0U ? 0x90U : 0x80U;
-      const unsigned most = first == 0xEDU ? 0x9FU : first == 0xF4U ? 0x8FU : 0xBFU;
-      if (first < 0xC2U || first > 0xF4U || second < least || second > most) return false;
-      for (std::size_t i = 2; i < length; ++i)
-        if ((byte(i) & 0xC0U) != 0x80U) return false;
-    }
-    at += length;
-  }
+  while (!text.empty())
+    if (!take_code_point(text)) return false;
   return true;
 }
 

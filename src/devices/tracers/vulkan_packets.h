@@ -3,10 +3,9 @@
 // scattering has neither its buffers nor its shader.
 
 #include "devices/gpu/buffer.h"
-#include "devices/gpu/compute.h"
 #include "devices/tracers/cpu_tracer.h"
-#include "devices/tracers/dispatch_budget.h"
 #include "devices/tracers/gpu_tree.h"
+#include "devices/tracers/paused_work.h"
 #include "devices/tracers/trace_domain.h"
 #include "devices/tracers/vulkan_choices.h"
 #include "physics/transport/model/tracer.h"
@@ -23,19 +22,10 @@ class VulkanPackets {
                                    std::span<shared::Landing> landings, const StopQuestion& stop);
 
  private:
-  void dispatch(const shared::PacketPush& push);
-  // Follows packets that took too many steps in one period to their end on the CPU. Returns the number of packets that
-  // continue.
-  [[nodiscard]] std::uint32_t take_out_stuck(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
-                                             std::vector<std::pair<std::uint32_t, shared::Landing>>& finished);
-
   const GpuContext& context_;
-  const GpuTree& tree_;
   const CpuTracer& cpu_;
-  std::uint32_t packets_per_dispatch_;
-  DispatchBudget budget_;
-  GpuBuffer scene_, packets_, landings_, inbox_, outbox_;
-  ComputePipeline pipeline_;
+  GpuBuffer scene_, packets_, landings_;
+  PausedWork<shared::PausedPacket, shared::PacketPush> work_;
   std::vector<shared::Packet> sent_;     // of one dispatch, in the order of packet_order.h
   std::vector<shared::Landing> landed_;  // of the packets in sent_
 };

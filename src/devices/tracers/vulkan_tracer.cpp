@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -32,19 +31,6 @@ constexpr std::uint32_t hardware_rays_per_dispatch = 1U << 22U;
 // Packets travel to the device and back, at most as many at a time as the smallest guaranteed storage binding holds.
 constexpr std::uint32_t most_packets_per_dispatch = 1U << 20U;
 
-constexpr std::size_t outbox_head_bytes = sizeof(std::uint32_t);
-
-ShaderCode direct_shader(const GpuTree& tree, std::uint32_t group_size) {
-  const std::span<const std::uint32_t> spirv = tree.fetch == TreeFetch::texel_buffers
-                                                   ? std::span<const std::uint32_t>(direct_spirv)
-                                                   : std::span<const std::uint32_t>(direct_storage_spirv);
-  return {"direct",
-          spirv,
-          {tree.use(), tree.use(), BufferUse::storage, BufferUse::storage, BufferUse::storage, BufferUse::storage},
-          sizeof(shared::BeamPush),
-          group_size};
-}
-
 VulkanChoices completed(VulkanChoices choices, const GpuContext& context) {
   if (choices.rays_per_dispatch != 0) return choices;
   choices.rays_per_dispatch = context.description().software ? software_rays_per_dispatch : hardware_rays_per_dispatch;
@@ -59,44 +45,14 @@ VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuT
       cpu_(bvh, domain),
       domain_(domain),
       choices_(completed(choices, context)),
-      budget_(choices_.rays_per_dispatch, choices_.seconds_per_dispatch),
       tree_(tree),
       beam_(create_buffer(context, BufferUse::storage, sizeof(shared::BeamBlock), "the beam's description")),
       counters_(create_buffer(context, BufferUse::storage, counter_words * sizeof(std::uint32_t), "the counters of landings")),
-      inbox_(create_buffer(context, BufferUse::storage,
-                           outbox_head_bytes + choices_.rays_per_dispatch * sizeof(shared::PausedRay), "paused rays")),
-      outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, "paused rays")),
-      pipeline_(context, direct_shader(tree, choices_.group_size),
-                {domain.periodic ? 1U : 0U, domain.has_soil ? 1U : 0U, choices_.group_size}) {}
+      work_(context, tree, domain, choices_, {"direct", direct_spirv, direct_storage_spirv, 2}, "paused rays") {}
 
 TracerDevice VulkanTracer::device() const {
   const DeviceDescription& device = context_.description();
   return {"vulkan", device.name, device.driver, device.software};
-}
-
-void VulkanTracer::dispatch(const shared::BeamPush& push) {
-  const std::uint32_t none = 0;
-  upload(context_, outbox_, std::as_bytes(std::span(&none, 1)));
-  const GpuBuffer* const buffers[] = {&tree_.nodes, &tree_.triangles, &beam_, &counters_, &inbox_, &outbox_};
-  pipeline_.run(push.count, std::as_bytes(std::span(&push, 1)), buffers);
-}
-
-std::uint32_t VulkanTracer::paused_count() const {
-  std::uint32_t count = 0;
-  download(context_, outbox_, std::as_writable_bytes(std::span(&count, 1)));
-  return count;
-}
-
-std::uint32_t VulkanTracer::take_out_stuck_rays(const shared::BeamBlock& beam, std::uint32_t paused,
-                                                std::span<std::uint32_t> counters) {
-  std::vector<shared::PausedRay> rays(paused);
-  download(context_, outbox_, std::as_writable_bytes(std::span(rays)), outbox_head_bytes);
-  const auto stuck = std::partition(rays.begin(), rays.end(), [](const shared::PausedRay& ray) { return ray.stuck == 0; });
-  for (auto ray = stuck; ray != rays.end(); ++ray) cpu_.finish_ray(beam, *ray, counters);
-  if (stuck == rays.end()) return paused;
-  rays.erase(stuck, rays.end());
-  upload(context_, outbox_, std::as_bytes(std::span(rays)), outbox_head_bytes);
-  return static_cast<std::uint32_t>(rays.size());
 }
 
 void VulkanTracer::add_landings(std::span<std::uint32_t> counters) const {
@@ -115,18 +71,10 @@ TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<s
   upload(context_, beam_, std::as_bytes(std::span(&beam, 1)));
   fill(context_, counters_, 0);
   const std::uint32_t rays = beam.columns * beam.rows;
+  const auto finish = [&](const shared::PausedRay& ray) { cpu_.finish_ray(beam, ray, counters); };
   for (std::uint32_t first = 0; first < rays;) {
-    const std::uint32_t slice = std::min(budget_.rays(), rays - first);
-    shared::BeamPush push{first, slice, 0};
-    while (push.count > 0) {
-      if (stop && stop()) return TraceOutcome::stopped;
-      const DispatchClock clock;
-      dispatch(push);
-      budget_.record_duration(push.count, clock.seconds());
-      push = {0, paused_count(), 1};
-      if (push.count > 0) push.count = take_out_stuck_rays(beam, push.count, counters);
-      std::swap(inbox_, outbox_);
-    }
+    const std::uint32_t slice = std::min(work_.rays_per_dispatch(), rays - first);
+    if (work_.run(first, slice, {&beam_, &counters_}, stop, finish) == TraceOutcome::stopped) return TraceOutcome::stopped;
     first += slice;
   }
   add_landings(counters);

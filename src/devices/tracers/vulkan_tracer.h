@@ -2,11 +2,10 @@
 // The tracer on Vulkan: uploads the tree once, divides every replicate into short dispatches and resumes paused rays.
 
 #include "devices/gpu/buffer.h"
-#include "devices/gpu/compute.h"
 #include "devices/gpu/context.h"
 #include "devices/tracers/cpu_tracer.h"
-#include "devices/tracers/dispatch_budget.h"
 #include "devices/tracers/gpu_tree.h"
+#include "devices/tracers/paused_work.h"
 #include "devices/tracers/trace_domain.h"
 #include "devices/tracers/vulkan_choices.h"
 #include "devices/tracers/vulkan_packets.h"
@@ -32,23 +31,16 @@ class VulkanTracer final : public Tracer {
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
 
  private:
-  void dispatch(const shared::BeamPush& push);
   // Adds the counts of the device to the counters.
   void add_landings(std::span<std::uint32_t> counters) const;
-  // Returns the number of rays that paused in the last dispatch.
-  [[nodiscard]] std::uint32_t paused_count() const;
-  // Follows rays that took too many steps in one period to their end on the CPU; the others continue in the next dispatch.
-  [[nodiscard]] std::uint32_t take_out_stuck_rays(const shared::BeamBlock& beam, std::uint32_t paused,
-                                                  std::span<std::uint32_t> counters);
 
   const GpuContext& context_;
   CpuTracer cpu_;
   TraceDomain domain_;
   VulkanChoices choices_;
-  DispatchBudget budget_;
   const GpuTree& tree_;
-  GpuBuffer beam_, counters_, inbox_, outbox_;
-  ComputePipeline pipeline_;
+  GpuBuffer beam_, counters_;
+  PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
 };
 

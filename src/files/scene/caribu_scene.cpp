@@ -7,6 +7,7 @@
 #include "files/formats/caribu/light_reader.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/scene/plain_name.h"
+#include "files/scene/toml_view.h"
 #include "physics/canopy/canopy.h"
 
 #include <fmt/format.h>
@@ -27,7 +28,6 @@ namespace sunfleck {
 namespace {
 
 constexpr double smallest_plot_m = 1e-6, largest_plot_m = 1e6;  // as in a scene file
-constexpr double farthest_m = 1e7;
 // Least width of an isolated stand's plot as a share of the stand's largest extent; a stand seen edge-on has no width.
 constexpr double least_width = 0.01;
 constexpr double largest_sum = 1e15;  // W m-2, as in a scene file

@@ -22,9 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t most_rows = 10000;
 constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the generator, about 15 GB
-constexpr double farthest_m = 1e7;           // largest coordinate of a scene
-
-constexpr NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only generator

@@ -28,7 +28,6 @@ namespace sunfleck {
 
 namespace {
 
-constexpr double farthest_m = 1e7;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // enough for a million positions in `at`
 constexpr double default_fov_deg = 40.0;
 
@@ -71,7 +70,6 @@ std::optional<CameraPose> read_camera(const TomlTable& root) {
   table->allow({"position", "look_at", "fov"});
   table->require("position", "position = [3.0, 2.5, 3.0], or remove [camera] for a view that fits");
   table->require("look_at", "look_at = [0.9, 1.0, 1.2]");
-  const NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
   CameraPose pose;
   pose.position_m = *table->triple("position", anywhere);
   pose.look_at_m = *table->triple("look_at", anywhere);

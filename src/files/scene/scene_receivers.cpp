@@ -18,8 +18,7 @@ namespace {
 constexpr std::size_t most_planes = 64;
 constexpr double most_cells = 64e6;  // of all planes together: 1.5 GB with one band
 constexpr double default_cell_m = 0.01;
-constexpr double default_cells = 1e6;  // most cells of a plane without `cells`
-constexpr double farthest_m = 1e7;
+constexpr double default_cells = 1e6;         // most cells of a plane without `cells`
 constexpr std::int64_t most_points = 100000;  // of all sensors together
 
 // Chooses nearly square cells of 1 cm, or larger ones if there would be too many.
@@ -63,7 +62,6 @@ std::string read_sensor_name(const TomlTable& table, std::set<std::string>& earl
 }
 
 std::vector<glm::dvec3> read_points(const TomlTable& table) {
-  const NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
   table.require("from", "from = [0.2, 1.2, 0.1]");
   const glm::dvec3 from_m = *table.triple("from", anywhere);
   if (!table.has("to")) {

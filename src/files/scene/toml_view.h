@@ -27,6 +27,9 @@ struct NumberRange {
   std::string_view cure = "give a value in that range";
 };
 
+inline constexpr double farthest_m = 1e7;  // largest coordinate of a scene
+inline constexpr NumberRange anywhere{.lo = -farthest_m, .hi = farthest_m, .cure = "give metres"};
+
 // A date and time as written, with its offset from UTC (positive to the east).
 struct OffsetTime {
   int year = 2000, month = 1, day = 1, hour = 0, minute = 0;

@@ -1,6 +1,7 @@
 #include "physics/light/sky_model.h"
 
 #include "base/check.h"
+#include "base/units.h"
 
 #include <algorithm>
 #include <array>
@@ -91,7 +92,7 @@ constexpr double largest_b = -0.01;  // a positive b would make the horizon infi
 
 // Kasten and Young 1989, eq. 3.
 double relative_air_mass(double zenith_rad) {
-  const double zenith_deg = zenith_rad * 180.0 / half_turn;
+  const double zenith_deg = in_degrees(zenith_rad);
   return 1.0 / (std::cos(zenith_rad) + 0.50572 * std::pow(96.07995 - zenith_deg, -1.6364));
 }
 

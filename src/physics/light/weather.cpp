@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/units.h"
 
 #include <fmt/format.h>
 
@@ -136,7 +137,7 @@ Broadband ineichen_perez(const ClearAir& air, double apparent_zenith_rad, double
 }
 
 double relative_air_mass(double apparent_elevation_rad) {
-  const double elevation_deg = apparent_elevation_rad * 180.0 / pi;
+  const double elevation_deg = in_degrees(apparent_elevation_rad);
   return 1.0 / (std::sin(apparent_elevation_rad) + 0.50572 * std::pow(elevation_deg + 6.07995, -1.6364));
 }
 

@@ -1,5 +1,7 @@
 #include "pictures/drawing/camera_motion.h"
 
+#include "base/units.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -98,7 +100,7 @@ std::string camera_toml(const HandCamera& hand) {
   const Camera& camera = hand.camera;
   if (camera.kind != Projection::perspective) return {};
   const glm::dvec3 at = camera.position_m + hand.distance_m * camera.forward;
-  const double fov_deg = 2.0 * std::atan(camera.tan_half_fov) * 180.0 / std::numbers::pi;
+  const double fov_deg = in_degrees(2.0 * std::atan(camera.tan_half_fov));
   return fmt::format("[camera]\nposition = [{:.4f}, {:.4f}, {:.4f}]\nlook_at = [{:.4f}, {:.4f}, {:.4f}]\nfov = {:.4f}\n",
                      camera.position_m.x, camera.position_m.y, camera.position_m.z, at.x, at.y, at.z, fov_deg);
 }

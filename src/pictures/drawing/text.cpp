@@ -1,6 +1,7 @@
 #include "pictures/drawing/text.h"
 
 #include "base/check.h"
+#include "base/text.h"
 #include "dejavu_sans.h"
 
 #include <stb_truetype.h>
@@ -15,23 +16,6 @@ namespace sunfleck {
 namespace {
 
 constexpr char32_t replacement = 0xfffd;
-
-// Removes the next code point from the line and returns it; removes at least one byte. Overlong forms, surrogates and values
-// above U+10FFFF are invalid (Unicode 15.0, table 3-7).
-char32_t take_code_point(std::string_view& line) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(line[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t length = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  constexpr std::array<char32_t, 5> smallest = {0, 0, 0x80, 0x800, 0x10000};
-  char32_t value = length == 1 ? first : first & (0xffU >> (length + 1));
-  std::size_t used = 1;
-  while (used < length && used < line.size() && (byte(used) & 0xc0U) == 0x80U) value = value << 6U | (byte(used++) & 0x3fU);
-  const bool lone = length > 1 && first < 0xc2;
-  const bool good = used == length && !lone && first < 0xf5 && value >= smallest[length] && value <= 0x10ffff &&
-                    (value < 0xd800 || value > 0xdfff);
-  line.remove_prefix(lone ? 1 : used);
-  return good ? value : replacement;
-}
 
 // One letter of a set line: its glyph and its origin relative to the line's start.
 struct SetGlyph {
@@ -48,7 +32,7 @@ SetLine set(const stbtt_fontinfo& font, std::string_view line, double scale) {
   SetLine result;
   int previous = -1;
   while (!line.empty()) {
-    const int glyph = stbtt_FindGlyphIndex(&font, static_cast<int>(take_code_point(line)));
+    const int glyph = stbtt_FindGlyphIndex(&font, static_cast<int>(take_code_point(line).value_or(replacement)));
     if (previous >= 0) result.width_px += scale * stbtt_GetGlyphKernAdvance(&font, previous, glyph);
     result.glyphs.push_back({glyph, result.width_px});
     int advance = 0;

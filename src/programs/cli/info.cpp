@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -42,14 +41,8 @@ std::string clock_time(const std::optional<UtcTime>& utc, int offset_minutes) {
 
 // Returns the date on the place's own clock.
 LocalDate local_date(const SunMoment& moment) {
-  using namespace std::chrono;
-  const UtcTime& utc = moment.time;
-  const sys_days utc_day =
-      year_month_day(year(utc.year), month(static_cast<unsigned>(utc.month)), day(static_cast<unsigned>(utc.day)));
-  const auto local = utc_day + hours(utc.hour) + minutes(utc.minute + moment.offset_minutes);
-  const year_month_day date(floor<days>(local));
-  return {static_cast<int>(date.year()), static_cast<int>(static_cast<unsigned>(date.month())),
-          static_cast<int>(static_cast<unsigned>(date.day())), moment.offset_minutes};
+  const UtcTime local = plus_seconds(moment.time, 60.0 * moment.offset_minutes);
+  return {local.year, local.month, local.day, moment.offset_minutes};
 }
 
 ordered_json sun_json(const Scene& scene) {

@@ -1,6 +1,7 @@
 #include "programs/python/simulation.h"
 
 #include "base/error.h"
+#include "base/units.h"
 #include "programs/python/arrays.h"
 #include "programs/python/long_work.h"
 #include "programs/python/outcome.h"
@@ -68,7 +69,6 @@ class PythonSimulation {
   // Returns the sun's position in degrees; None without a sun.
   [[nodiscard]] py::object sun() const {
     const auto& sun = simulation_->scene().model.sun;
-    constexpr double degree = 3.14159265358979323846 / 180.0;
     if (!sun) return py::none();
     return py::make_tuple(sun->elevation_rad / degree, sun->azimuth_rad / degree);
   }

@@ -53,8 +53,8 @@ void plates_under_the_sun(CaseBench& bench) {
   bench.compare("sunlit soil beside a level plate's shadow", of_one.bands[0].absorbed_soil, 0.88, {.largest_error = 2e-4});
   bench.compare("sunlit share of that plate", of_one.sunlit_leaf_fraction, 1.0, {.largest_error = 2e-3});
 
-  const double inclination = 50.0 * case_degree;
-  const double angle = 20.0 * case_degree;
+  const double inclination = 50.0 * degree;
+  const double angle = 20.0 * degree;
   const glm::dvec3 along = 0.15 * from_east_north_up(-std::sin(angle), std::cos(angle), 0.0);
   const glm::dvec3 up = 0.1 * from_east_north_up(-std::cos(inclination) * std::cos(angle),
                                                  -std::cos(inclination) * std::sin(angle), std::sin(inclination));
@@ -81,8 +81,8 @@ void plates_under_the_sun(CaseBench& bench) {
 
 // Builds endless strips across the sun's direction, which span the plot or extend `beyond` its border on both sides.
 RadiationModel blind(double tilt_deg, double elevation_deg, double azimuth_deg, double beyond) {
-  const double across = 0.4 * std::cos(tilt_deg * case_degree);
-  const double rise = 0.4 * std::sin(tilt_deg * case_degree);
+  const double across = 0.4 * std::cos(tilt_deg * degree);
+  const double rise = 0.4 * std::sin(tilt_deg * degree);
   CaseMesh mesh;
   mesh.quad(from_east_north_up(-across, -beyond, 0.5 - rise), from_east_north_up(across, -beyond, 0.5 + rise),
             from_east_north_up(across, 0.7 + beyond, 0.5 + rise), from_east_north_up(-across, 0.7 + beyond, 0.5 - rise));
@@ -97,7 +97,7 @@ void blinds(CaseBench& bench) {
     for (const double beyond : {0.0, 0.9}) {
       const RadiationModel model = blind(row.tilt_deg, row.elevation_deg, row.azimuth_deg, beyond);
       const RadiationResult result = bench.simulate(model, case_work(model, 4e5));
-      const double expected = passed_by_blind(0.8, row.tilt_deg * case_degree, row.elevation_deg * case_degree, 1.0);
+      const double expected = passed_by_blind(0.8, row.tilt_deg * degree, row.elevation_deg * degree, 1.0);
       bench.compare(fmt::format("blind tilted by {:g}, sun {:g} degrees high{}", row.tilt_deg, row.elevation_deg,
                                 beyond > 0.0 ? ", strips longer than the plot" : ""),
                     result.bands[0].absorbed_soil, expected, {.largest_error = 3e-4});
@@ -150,7 +150,7 @@ void far_shadow(CaseBench& bench) {
   mesh.level(0.0, width_m, 0.0, 0.3, low_m);
   const RadiationModel model = black_case(mesh.mesh(), {period_m, 0.3, true}, case_sun(elevation_deg, 180.0));
   const RadiationResult result = bench.simulate(model, case_work(model, 4e5));
-  const double tangent = std::tan(elevation_deg * case_degree);
+  const double tangent = std::tan(elevation_deg * degree);
   const double shift_m = (top_m - low_m) / tangent;
   const double lit = 1.0 - overlap_after_shift(width_m, width_m, period_m, -shift_m) / width_m;
   // Each period rounds a height of up to 3 m to half a unit in its last place.

@@ -8,7 +8,7 @@
 namespace sunfleck {
 
 SunPosition case_sun(double elevation_deg, double azimuth_deg) {
-  return {elevation_deg * case_degree, azimuth_deg * case_degree};
+  return {elevation_deg * degree, azimuth_deg * degree};
 }
 
 SunPosition beijing_sun() {

@@ -1,6 +1,7 @@
 #pragma once
 // Builds the scenes of the known-answer cases.
 
+#include "base/units.h"
 #include "physics/canopy/canopy.h"
 #include "physics/light/sun.h"
 #include "physics/transport/model/model.h"
@@ -8,13 +9,10 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <numbers>
 #include <span>
 #include <string>
 
 namespace sunfleck {
-
-inline constexpr double case_degree = std::numbers::pi / 180.0;
 
 [[nodiscard]] SunPosition case_sun(double elevation_deg, double azimuth_deg);
 

@@ -118,7 +118,7 @@ void sky_integral_cases(CaseBench& bench) {
   bench.equal("overcast, on the horizontal", on_plane(overcast, 0.0), 1.0);
   bench.equal("overcast, zenith radiance 9 / (7 pi)", zenith_radiance(overcast), 9.0 / (7.0 * pi), cells * 0.41);
   for (const double tilt_deg : {60.0, 90.0, 150.0}) {
-    const double tilt = tilt_deg * case_degree;
+    const double tilt = tilt_deg * degree;
     const double seen = 0.5 * (1.0 + std::cos(tilt));
     // Moon and Spencer 1942: (1 + 2 cos theta) / 3 of the zenith's radiance.
     const double under_overcast = 3.0 / 7.0 * seen + 4.0 / (7.0 * pi) * ((pi - tilt) * std::cos(tilt) + std::sin(tilt));

@@ -16,13 +16,13 @@ namespace sunfleck {
 namespace {
 
 Place place_deg(double latitude, double longitude, double altitude_m = 0.0) {
-  return {latitude * case_degree, longitude * case_degree, altitude_m};
+  return {latitude * degree, longitude * degree, altitude_m};
 }
 
 double great_circle_deg(const SunPosition& sun, double elevation_deg, double azimuth_deg) {
   const glm::dvec3 a = direction_to_sun(sun);
   const glm::dvec3 b = direction_to_sun(case_sun(elevation_deg, azimuth_deg));
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / case_degree;
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / degree;
 }
 
 constexpr double spa_deg = 0.0003;  // accuracy stated for the algorithm
@@ -44,8 +44,8 @@ double clock_s(int hour, int minute, int second) {
 void sun_position_cases(CaseBench& bench) {
   const Place golden = place_deg(39.742476, -105.1786, 1830.14);
   const auto angles = [&](const char* name, const SunPosition& sun, double elevation_deg, double azimuth_deg) {
-    bench.equal(fmt::format("{}, elevation in degrees", name), sun.elevation_rad / case_degree, elevation_deg, spa_deg);
-    bench.equal(fmt::format("{}, azimuth in degrees", name), sun.azimuth_rad / case_degree, azimuth_deg, spa_deg);
+    bench.equal(fmt::format("{}, elevation in degrees", name), sun.elevation_rad / degree, elevation_deg, spa_deg);
+    bench.equal(fmt::format("{}, azimuth in degrees", name), sun.azimuth_rad / degree, azimuth_deg, spa_deg);
   };
   angles("NREL's example, Golden 2003-10-17", sun_position({2003, 10, 17, 19, 30, 30.0}, golden, 67.0), 39.872046, 194.340241);
   angles("Golden a day later", sun_position({2003, 10, 18, 19, 30, 30.0}, golden, 67.0), 39.505196, 194.311132);
@@ -118,11 +118,11 @@ void weather_cases(CaseBench& bench) {
   for (const Row& row :
        {Row{46.0467599, 1.32355476, 704.6968, 888.9015, 87.7360}, Row{10.56413562, 0.93527685, 1044.1231, 953.2493, 107.0311},
         Row{72.41687122, 3.01614096, 251.9943, 655.4493, 53.9901}}) {
-    const Broadband sky = ineichen_perez({3.0, 0.0}, row.zenith_deg * case_degree, row.air_mass, 1364.0);
+    const Broadband sky = ineichen_perez({3.0, 0.0}, row.zenith_deg * degree, row.air_mass, 1364.0);
     const std::string name = fmt::format("Ineichen, zenith angle {:.0f} degrees, ", row.zenith_deg);
     bench.equal(name + "DNI", sky.direct_normal_w_m2, row.dni, 1e-3);
     bench.equal(name + "DHI", sky.diffuse_w_m2, row.dhi, 1e-3);
-    bench.equal(name + "GHI", sky.global_w_m2({(90.0 - row.zenith_deg) * case_degree, 0.0}), row.ghi, 1e-3);
+    bench.equal(name + "GHI", sky.global_w_m2({(90.0 - row.zenith_deg) * degree, 0.0}), row.ghi, 1e-3);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "programs/viewer/panel.h"
 
+#include "base/units.h"
 #include "programs/viewer/plots.h"
 
 #include <imgui.h>
@@ -143,9 +144,8 @@ void draw_sun(ViewerState& state) {
   if (ImGui::RadioButton("angles", &by_clock, 0)) {
     // Start from the sun's current position.
     if (sun.by_clock && state.news.sun) {
-      constexpr double degrees = 180.0 / 3.14159265358979323846;
-      sun.elevation_deg = state.news.sun->elevation_rad * degrees;
-      sun.azimuth_deg = state.news.sun->azimuth_rad * degrees;
+      sun.elevation_deg = state.news.sun->elevation_rad / degree;
+      sun.azimuth_deg = state.news.sun->azimuth_rad / degree;
     }
     sun.by_clock = false;
     state.playing = false;

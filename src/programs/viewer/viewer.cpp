@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/units.h"
 #include "physics/light/sun_events.h"
 #include "programs/cli/terminal.h"
 #include "programs/viewer/panel.h"
@@ -19,7 +20,6 @@
 #include <cmath>
 #include <exception>
 #include <new>
-#include <numbers>
 #include <utility>
 
 namespace sunfleck {
@@ -35,7 +35,6 @@ constexpr double message_s = 8.0;
 // Shortest time each moment of a played day is shown, once it has a first picture.
 constexpr double played_moment_s = 0.35;
 constexpr std::uint32_t background = 0x00e8ecf0;
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 }  // namespace
 
@@ -338,7 +337,7 @@ void Viewer::play() {
   double first_h = 0.0;
   double last_h = 24.0;
   try {
-    const Place where{sun.latitude_deg / degrees, sun.longitude_deg / degrees, sun.altitude_m};
+    const Place where{sun.latitude_deg * degree, sun.longitude_deg * degree, sun.altitude_m};
     const SunEvents events = sun_events({sun.year, sun.month, sun.day, sun.offset_minutes}, where);
     SunRequest midnight = sun;
     midnight.hour = 0.0;

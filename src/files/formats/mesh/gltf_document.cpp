@@ -1,19 +1,19 @@
 #include "files/formats/mesh/gltf_document.h"
 
-#include "base/error.h"
 #include "base/text_reader.h"
+#include "files/formats/mesh/gltf_library.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <new>
 #include <system_error>
+#include <type_traits>
+#include <utility>
 
 namespace sunfleck {
 
@@ -71,9 +71,6 @@ GlbChunks split_glb(const MeshSource& source) {
   return chunks;
 }
 
-// These sections are skipped: they concern images and animation, and may be missing or broken. Buffers are read here.
-constexpr std::array<std::string_view, 6> left_out{"animations", "cameras", "images", "samplers", "skins", "textures"};
-
 // Returns the deepest nesting of lists and objects.
 std::int64_t depth_of(std::string_view text) {
   std::int64_t depth = 0, deepest = 0;
@@ -96,17 +93,12 @@ std::string_view reason_of(const json::exception& problem) {
   return words.starts_with('[') && name != words.npos ? words.substr(name + 2) : words;
 }
 
-// Parses the JSON, then removes the skipped sections. The library's callbacks could skip them, but rescan a whole list at the
-// end of each of its objects.
 json parse_json(const MeshSource& source, std::string_view text) {
-  constexpr int deepest = 100;  // tinygltf follows extras recursively
+  constexpr int deepest = 100;  // nlohmann copies and prints values recursively
   if (depth_of(text) > deepest)
     refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "glTF files need far less", write_again);
   try {
-    json document = json::parse(text);
-    if (!document.is_object()) refuse(source, 0, "not a JSON object", "a glTF file must be one", write_again);
-    for (const std::string_view section : left_out) document.erase(std::string(section));
-    return document;
+    return json::parse(text);
   } catch (const json::exception& problem) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == text.npos || text[first] != '{')
@@ -115,80 +107,18 @@ json parse_json(const MeshSource& source, std::string_view text) {
   }
 }
 
-// Refuses optional values of a wrong type, which tinygltf ignores, and indices beyond 32 bits, which it truncates.
-class ValueCheck {
- public:
-  ValueCheck(const MeshSource& source, const json& object, std::string_view where)
-      : source_(source), object_(object), where_(where) {
-    if (!object.is_object()) refuse(source, 0, fmt::format("{} is not an object", where), "glTF 2.0 requires one", write_again);
-  }
-
-  void index(const char* key) const { check(key, is_index); }
-  void offset(const char* key) const {
-    check(key, [](const json& value) { return value.is_number_unsigned(); });
-  }
-  void indices(const char* key) const { check_list(key, is_index); }
-  void numbers(const char* key) const {
-    check_list(key, [](const json& value) { return value.is_number(); });
-  }
-
- private:
-  using Rule = bool (*)(const json&);
-
-  static bool is_index(const json& value) {
+template <class T>
+bool has_type(const json& value) {
+  if constexpr (std::is_same_v<T, int>)
     return value.is_number_unsigned() && value.get<std::uint64_t>() <= std::numeric_limits<int>::max();
-  }
-
-  void check(const char* key, Rule rule) const {
-    if (const auto value = object_.find(key); value != object_.end() && !rule(*value)) refuse_value(key, *value);
-  }
-
-  void check_list(const char* key, Rule rule) const {
-    const auto value = object_.find(key);
-    if (value == object_.end()) return;
-    if (!value->is_array() || !std::all_of(value->begin(), value->end(), rule)) refuse_value(key, *value);
-  }
-
-  void refuse_value(const char* key, const json& value) const {
-    refuse(source_, 0, fmt::format("malformed glTF, {}: {} = {}", where_, key, in_quotes(value.dump())),
-           "glTF 2.0 requires another type of value", write_again);
-  }
-
-  const MeshSource& source_;
-  const json& object_;
-  std::string where_;
-};
-
-void check_values(const MeshSource& source, const json& document) {
-  ValueCheck(source, document, "the file").index("scene");
-  const auto each = [&](const json& parent, const char* section, const auto& check) {
-    const auto items = parent.find(section);
-    if (items == parent.end()) return;
-    if (!items->is_array()) refuse(source, 0, fmt::format("{} is not an array", section), "glTF 2.0 requires one", write_again);
-    for (std::size_t i = 0; i < items->size(); ++i)
-      check(ValueCheck(source, (*items)[i], fmt::format("{} {}", section, i)), (*items)[i]);
-  };
-  each(document, "scenes", [](const ValueCheck& scene, const json&) { scene.indices("nodes"); });
-  each(document, "nodes", [](const ValueCheck& node, const json&) {
-    node.index("mesh");
-    node.indices("children");
-    for (const char* key : {"matrix", "rotation", "scale", "translation"}) node.numbers(key);
-  });
-  each(document, "meshes", [&](const ValueCheck&, const json& mesh) {
-    each(mesh, "primitives", [&](const ValueCheck& primitive, const json& described) {
-      for (const char* key : {"indices", "material", "mode"}) primitive.index(key);
-      if (const auto attributes = described.find("attributes"); attributes != described.end())
-        ValueCheck(source, *attributes, "attributes").index("POSITION");
-    });
-  });
-  each(document, "accessors", [](const ValueCheck& accessor, const json&) {
-    accessor.index("bufferView");
-    accessor.offset("byteOffset");
-  });
-  each(document, "bufferViews", [](const ValueCheck& view, const json&) {
-    view.index("buffer");
-    for (const char* key : {"byteOffset", "byteStride"}) view.offset(key);
-  });
+  else if constexpr (std::is_same_v<T, std::size_t>)
+    return value.is_number_unsigned();
+  else if constexpr (std::is_same_v<T, double>)
+    return value.is_number();
+  else if constexpr (std::is_same_v<T, std::string>)
+    return value.is_string();
+  else
+    return value.is_array() && std::all_of(value.begin(), value.end(), has_type<typename T::value_type>);
 }
 
 std::string percent_decoded(std::string_view uri) {
@@ -234,14 +164,12 @@ std::string read_buffer(const MeshSource& source, const std::string& uri) {
 }
 
 // Reads the buffers. A buffer may be longer than its byteLength (GLB pads to 4 bytes), but not shorter.
-void read_buffers(const MeshSource& source, std::string_view binary, GltfDocument& document) {
-  const json buffers = document.json.value("buffers", json::array());
-  document.json.erase("buffers");
-  if (!buffers.is_array()) refuse(source, 0, "buffers is not an array", "glTF 2.0 requires one", write_again);
-  document.owned.reserve(buffers.size());  // keeps the views below valid
+void read_buffers(const MeshSource& source, std::string_view binary, const GltfObject& file, GltfDocument& document) {
+  const std::size_t count = file.count("buffers");
+  document.owned.reserve(count);  // keeps the views below valid
   std::uint64_t owned_bytes = 0;
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    const json& buffer = buffers[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    const json& buffer = (*file.find("buffers"))[i];
     if (!buffer.is_object() || !buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned())
       refuse(source, 0, fmt::format("buffer {} has no byteLength", i), "it must be a whole number", write_again);
     std::string_view bytes = binary;
@@ -263,54 +191,66 @@ void read_buffers(const MeshSource& source, std::string_view binary, GltfDocumen
   }
 }
 
-void refuse_extensions(const MeshSource& source, const tinygltf::Model& model) {
-  constexpr std::array<std::string_view, 4> unread{"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
-                                                   "KHR_draco_mesh_compression", "KHR_mesh_quantization"};
-  const auto refuse_if_unread = [&](const std::string& name) {
-    if (std::find(unread.begin(), unread.end(), name) != unread.end())
-      refuse(source, 0, fmt::format("needs the extension {}", name), "it is not supported", "export the file without it");
-  };
-  for (const std::string& name : model.extensionsRequired) refuse_if_unread(name);
-  // Instances are geometry even if the file declares them optional.
-  for (const tinygltf::Node& node : model.nodes)
-    for (const auto& [name, value] : node.extensions)
-      if (name == unread.front()) refuse_if_unread(name);
+}  // namespace
+
+GltfObject::GltfObject(const MeshSource& source, const json& object, std::string place)
+    : source_(source), object_(object), place_(std::move(place)) {
+  if (!object.is_object()) refuse(source, 0, fmt::format("{} is not an object", place_), "glTF 2.0 requires one", write_again);
 }
 
-}  // namespace
+const json* GltfObject::find(const char* key) const {
+  const auto value = object_.find(key);
+  return value == object_.end() ? nullptr : &*value;
+}
+
+GltfObject GltfObject::inside(const char* key) const {
+  static const json empty = json::object();
+  const json* value = find(key);
+  return {source_, value == nullptr ? empty : *value, key};
+}
+
+template <class T>
+T GltfObject::get(const char* key, T if_missing) const {
+  const json* value = find(key);
+  if (value == nullptr) return if_missing;
+  if (!has_type<T>(*value))
+    refuse(source_, 0, fmt::format("malformed glTF, {}: {} = {}", place_, key, in_quotes(value->dump())),
+           "glTF 2.0 requires another type of value", write_again);
+  return value->get<T>();
+}
+
+template int GltfObject::get(const char*, int) const;
+template std::size_t GltfObject::get(const char*, std::size_t) const;
+template std::string GltfObject::get(const char*, std::string) const;
+template std::vector<int> GltfObject::get(const char*, std::vector<int>) const;
+template std::vector<double> GltfObject::get(const char*, std::vector<double>) const;
+template std::vector<std::string> GltfObject::get(const char*, std::vector<std::string>) const;
+
+std::size_t GltfObject::count(const char* list) const {
+  const json* items = find(list);
+  if (items == nullptr) return 0;
+  if (!items->is_array()) refuse(source_, 0, fmt::format("{} is not an array", list), "glTF 2.0 requires one", write_again);
+  return items->size();
+}
+
+GltfObject GltfObject::item(const char* list, int index, std::string_view what) const {
+  const std::size_t items = count(list);
+  if (index < 0 || static_cast<std::size_t>(index) >= items)
+    refuse(source_, 0, fmt::format("{} {}", what, index), fmt::format("the file has {}", items), write_again);
+  return {source_, (*find(list))[static_cast<std::size_t>(index)], fmt::format("{} {}", what, index)};
+}
 
 GltfDocument open_gltf(const MeshSource& source) {
   GlbChunks chunks{source.bytes, {}};
   if (source.bytes.starts_with("glTF") || source.bytes.starts_with("FTlg")) chunks = split_glb(source);
-  GltfDocument document;
-  document.json = parse_json(source, chunks.json);
-  read_buffers(source, chunks.binary, document);
-  check_values(source, document.json);
-
-  std::string errors, warnings;
-  bool loaded = false;
-  try {
-    const std::string text = document.json.dump();
-    if (text.size() > std::numeric_limits<unsigned>::max())
-      refuse(source, 0, "more than 4 GiB of JSON", "glTF allows no more", "export it as .glb");
-    loaded = tinygltf::TinyGLTF().LoadASCIIFromString(&document.model, &errors, &warnings, text.c_str(),
-                                                      static_cast<unsigned>(text.size()), "", tinygltf::REQUIRE_VERSION);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const json::exception& problem) {
-    errors = reason_of(problem);
-  } catch (const std::exception& problem) {
-    errors = problem.what();
-  }
-  // tinygltf also reports values of a wrong type, which it then leaves out.
-  if (!loaded || !errors.empty())
-    refuse(source, 0, "malformed glTF", errors.empty() ? "no reason given" : errors.substr(0, errors.find('\n')), write_again);
-  if (!document.model.asset.version.starts_with("2."))
-    refuse(source, 0, fmt::format("glTF version {}", in_quotes(document.model.asset.version)), "only 2.x is supported",
-           "export it as glTF 2.0");
-  refuse_extensions(source, document.model);
+  GltfDocument document{parse_json(source, chunks.json), {}, {}};
+  const GltfObject file(source, document.json, "the file");
+  const auto version = file.inside("asset").get<std::string>("version");
+  if (version.empty()) refuse(source, 0, "malformed glTF", "asset.version is missing", write_again);
+  if (!version.starts_with("2."))
+    refuse(source, 0, fmt::format("glTF version {}", in_quotes(version)), "only 2.x is supported", "export it as glTF 2.0");
+  read_buffers(source, chunks.binary, file, document);
+  document.json.erase("buffers");  // they may hold megabytes of text
   return document;
 }
 

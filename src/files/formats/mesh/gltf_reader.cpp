@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -32,6 +33,13 @@ using nlohmann::json;
 
 constexpr std::string_view write_again = "export the file again";
 
+// glTF 2.0, sections 3.6.2.2 and 3.7.2.1. The integers are unsigned.
+constexpr std::size_t byte_type = 5121, short_type = 5123, int_type = 5125, float_type = 5126;
+constexpr int triangles_mode = 4, strip_mode = 5, fan_mode = 6;
+
+// Instances are geometry even if the file declares them optional.
+constexpr const char* instances = "EXT_mesh_gpu_instancing";
+
 // The known part of a node's organ; children inherit whatever they do not specify themselves.
 struct OrganHint {
   std::optional<std::uint32_t> plant;
@@ -48,14 +56,12 @@ struct NodeVisit {
 class GltfReader {
  public:
   explicit GltfReader(const MeshSource& source)
-      : source_(source), document_(open_gltf(source)), model_(document_.model), builder_(source) {}
+      : source_(source), document_(open_gltf(source)), file_(source, document_.json, "the file"), builder_(source) {}
 
   Mesh read() {
-    for (const tinygltf::Material& material : model_.materials)
-      if (material.alphaMode != "OPAQUE" && material.pbrMetallicRoughness.baseColorTexture.index >= 0)
-        warn(fmt::format("{}: material {}: its transparency texture is not read; its triangles count as opaque",
-                         source_.file.string(), in_quotes(material.name)));
-    visited_.assign(model_.nodes.size(), false);
+    for (const std::string& name : file_.get<std::vector<std::string>>("extensionsRequired")) refuse_if_unread(name);
+    warn_of_cutouts();
+    visited_.assign(file_.count("nodes"), false);
     std::vector<NodeVisit> open;
     push(open, roots(), NodeVisit{});
     while (!open.empty()) {
@@ -67,21 +73,31 @@ class GltfReader {
   }
 
  private:
-  template <class T>
-  const T& item(const std::vector<T>& items, int index, std::string_view what) const {
-    if (index < 0 || static_cast<std::size_t>(index) >= items.size())
-      refuse(source_, 0, fmt::format("{} {}", what, index), fmt::format("the file has {}", items.size()), write_again);
-    return items[static_cast<std::size_t>(index)];
+  void refuse_if_unread(std::string_view extension) const {
+    constexpr std::array<std::string_view, 4> unread{instances, "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+                                                     "KHR_mesh_quantization"};
+    if (std::find(unread.begin(), unread.end(), extension) != unread.end())
+      refuse(source_, 0, fmt::format("needs the extension {}", extension), "it is not supported", "export the file without it");
+  }
+
+  void warn_of_cutouts() const {
+    for (std::size_t i = 0; i < file_.count("materials"); ++i) {
+      const GltfObject material = file_.item("materials", static_cast<int>(i), "material");
+      if (material.get<std::string>("alphaMode", "OPAQUE") == "OPAQUE") continue;
+      if (material.inside("pbrMetallicRoughness").find("baseColorTexture") == nullptr) continue;
+      warn(fmt::format("{}: material {}: its transparency texture is not read; its triangles count as opaque",
+                       source_.file.string(), in_quotes(material.get<std::string>("name"))));
+    }
   }
 
   // Returns the nodes of the default scene, otherwise those of the first scene, otherwise all nodes without a parent.
   std::vector<int> roots() const {
-    if (model_.defaultScene >= 0 || !model_.scenes.empty())
-      return item(model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
-    std::vector<bool> is_child(model_.nodes.size(), false);
-    for (const tinygltf::Node& node : model_.nodes)
-      for (const int child : node.children) {
-        static_cast<void>(item(model_.nodes, child, "node"));
+    if (file_.find("scene") != nullptr || file_.count("scenes") > 0)
+      return file_.item("scenes", file_.get("scene", 0), "scene").get<std::vector<int>>("nodes");
+    std::vector<bool> is_child(visited_.size(), false);
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+      for (const int child : file_.item("nodes", static_cast<int>(i), "node").get<std::vector<int>>("children")) {
+        static_cast<void>(file_.item("nodes", child, "node"));
         is_child[static_cast<std::size_t>(child)] = true;
       }
     std::vector<int> nodes;
@@ -96,51 +112,53 @@ class GltfReader {
   }
 
   void enter(NodeVisit visit, std::vector<NodeVisit>& open) {
-    const tinygltf::Node& node = item(model_.nodes, visit.node, "node");
+    const GltfObject node = file_.item("nodes", visit.node, "node");
     const auto number = static_cast<std::size_t>(visit.node);
     if (visited_[number])
       refuse(source_, 0, fmt::format("node {} is reached twice", visit.node), "nodes must form trees, without cycles",
              write_again);
     visited_[number] = true;
+    if (node.inside("extensions").find(instances) != nullptr) refuse_if_unread(instances);
     visit.to_scene = visit.to_scene * local_transform(node, visit.node);
     read_organ(node, visit);
-    if (node.mesh >= 0) {
+    if (node.find("mesh") != nullptr) {
+      const GltfObject mesh = file_.item("meshes", node.get("mesh", -1), "mesh");
       positions_.clear();
-      for (const tinygltf::Primitive& primitive : item(model_.meshes, node.mesh, "mesh").primitives)
-        read_primitive(primitive, visit);
+      for (std::size_t i = 0; i < mesh.count("primitives"); ++i)
+        read_primitive(mesh.item("primitives", static_cast<int>(i), "primitive"), visit);
     }
-    push(open, node.children, visit);
+    push(open, node.get<std::vector<int>>("children"), visit);
   }
 
-  glm::dmat4 local_transform(const tinygltf::Node& node, int number) const {
-    const auto sized = [&](const std::vector<double>& values, std::size_t size, std::string_view what) {
+  glm::dmat4 local_transform(const GltfObject& node, int number) const {
+    const auto numbers = [&](const char* key, std::size_t size) {
+      std::vector<double> values = node.get<std::vector<double>>(key);
       if (!values.empty() && values.size() != size)
-        refuse(source_, 0, fmt::format("node {}: {} has {} numbers", number, what, values.size()),
+        refuse(source_, 0, fmt::format("node {}: {} has {} numbers", number, key, values.size()),
                fmt::format("it needs {}", size), write_again);
-      return !values.empty();
+      return values;
     };
-    if (sized(node.matrix, 16, "matrix")) return glm::make_mat4(node.matrix.data());
+    if (const std::vector<double> m = numbers("matrix", 16); !m.empty()) return glm::make_mat4(m.data());
     glm::dmat4 transform(1.0);
-    if (sized(node.translation, 3, "translation")) transform[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1.0);
-    if (sized(node.rotation, 4, "rotation")) {
-      const std::vector<double>& r = node.rotation;  // x, y, z, w
+    if (const std::vector<double> t = numbers("translation", 3); !t.empty())
+      transform[3] = glm::dvec4(glm::make_vec3(t.data()), 1.0);
+    if (const std::vector<double> r = numbers("rotation", 4); !r.empty()) {  // x, y, z, w
       const double length = std::hypot(std::hypot(r[0], r[1]), std::hypot(r[2], r[3]));
       if (!(std::abs(length - 1.0) < 0.01))
         refuse(source_, 0, fmt::format("node {}: a rotation of length {}", number, length), "must be a unit quaternion",
                write_again);
       transform *= glm::mat4_cast(glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length));
     }
-    if (sized(node.scale, 3, "scale"))
-      for (int axis = 0; axis < 3; ++axis) transform[axis] *= node.scale[static_cast<std::size_t>(axis)];
+    if (const std::vector<double> s = numbers("scale", 3); !s.empty())
+      for (int axis = 0; axis < 3; ++axis) transform[axis] *= s[static_cast<std::size_t>(axis)];
     return transform;
   }
 
   // Reads the organ from the extras, or from the node's name if there are none.
-  void read_organ(const tinygltf::Node& node, NodeVisit& visit) const {
-    const json& described = document_.json["nodes"][static_cast<std::size_t>(visit.node)];
-    const auto extras = described.find("extras");
+  void read_organ(const GltfObject& node, NodeVisit& visit) const {
+    const json* extras = node.find("extras");
     bool found = false;
-    if (extras != described.end() && extras->is_object()) {
+    if (extras != nullptr && extras->is_object()) {
       const auto refuse_value = [&](std::string_view key, const json& value, std::string_view rule) {
         refuse(source_, 0, fmt::format("node {}: extras.{} = {}", visit.node, key, in_quotes(value.dump())), rule,
                "write for example {\"plant\": 1, \"organ\": \"leaf\", \"rank\": 7}");
@@ -167,7 +185,8 @@ class GltfReader {
       }
     }
     if (found) return;
-    if (const std::optional<Organ> named = organ_from_name(node.name)) visit.organ = {named->plant, named->name, named->rank};
+    if (const std::optional<Organ> named = organ_from_name(node.get<std::string>("name")))
+      visit.organ = {named->plant, named->name, named->rank};
   }
 
   struct Numbers {
@@ -176,20 +195,29 @@ class GltfReader {
   };
 
   // Returns the bytes of an accessor, after checking that all its elements lie in its view and the view in its buffer.
-  Numbers numbers(int index, const tinygltf::Accessor& accessor, std::size_t element_bytes) const {
+  Numbers numbers(int index, const GltfObject& accessor, std::size_t element_bytes) const {
     const auto bad = [&](std::string_view why) { refuse(source_, 0, fmt::format("accessor {}", index), why, write_again); };
-    if (accessor.sparse.isSparse) bad("sparse accessors are not supported");
-    const tinygltf::BufferView& view = item(model_.bufferViews, accessor.bufferView, "bufferView");
-    const std::string_view buffer = item(document_.buffers, view.buffer, "buffer");
-    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
-      bad(fmt::format("bufferView {} ends beyond its buffer of {} bytes", accessor.bufferView, buffer.size()));
-    const std::size_t stride = view.byteStride == 0 ? element_bytes : view.byteStride;
+    if (accessor.find("sparse") != nullptr) bad("sparse accessors are not supported");
+    const int number = accessor.get("bufferView", -1);
+    const GltfObject view = file_.item("bufferViews", number, "bufferView");
+    const int buffer = view.get("buffer", -1);
+    if (buffer < 0 || static_cast<std::size_t>(buffer) >= document_.buffers.size())
+      bad(fmt::format("bufferView {} needs buffer {}, but the file has {}", number, buffer, document_.buffers.size()));
+    std::string_view bytes = document_.buffers[static_cast<std::size_t>(buffer)];
+    const std::size_t first = view.get<std::size_t>("byteOffset"), length = view.get<std::size_t>("byteLength");
+    if (first > bytes.size() || length > bytes.size() - first)
+      bad(fmt::format("bufferView {} ends beyond its buffer of {} bytes", number, bytes.size()));
+    bytes = bytes.substr(first, length);
+    const std::size_t given = view.get<std::size_t>("byteStride"), stride = given == 0 ? element_bytes : given;
+    if (given % 4 != 0 || given > 252)
+      bad(fmt::format("bufferView {}: byteStride {} must be a multiple of 4 up to 252", number, given));
     if (stride < element_bytes) bad("its elements overlap");
-    if (accessor.count == 0) bad("it is empty");
-    if (accessor.byteOffset > view.byteLength || view.byteLength - accessor.byteOffset < element_bytes ||
-        accessor.count - 1 > (view.byteLength - accessor.byteOffset - element_bytes) / stride)
-      bad(fmt::format("its {} elements end beyond bufferView {}", accessor.count, accessor.bufferView));
-    return {buffer.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride};
+    const std::size_t count = accessor.get<std::size_t>("count"), offset = accessor.get<std::size_t>("byteOffset");
+    if (count == 0) bad("it is empty");
+    if (offset > bytes.size() || bytes.size() - offset < element_bytes ||
+        count - 1 > (bytes.size() - offset - element_bytes) / stride)
+      bad(fmt::format("its {} elements end beyond bufferView {}", count, number));
+    return {bytes.data() + offset, count, stride};
   }
 
   struct VertexRange {
@@ -200,8 +228,8 @@ class GltfReader {
   // Adds each accessor only once per node, because primitives of a mesh often share their positions.
   VertexRange read_positions(int index, const glm::dmat4& to_scene) {
     if (const auto known = positions_.find(index); known != positions_.end()) return known->second;
-    const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
-    if (accessor.type != TINYGLTF_TYPE_VEC3 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    const GltfObject accessor = file_.item("accessors", index, "accessor");
+    if (accessor.get<std::string>("type") != "VEC3" || accessor.get<std::size_t>("componentType") != float_type)
       refuse(source_, 0, fmt::format("accessor {}", index), "positions must be VEC3 of float",
              "export it without quantization");
     const Numbers source = numbers(index, accessor, 3 * sizeof(float));
@@ -221,13 +249,11 @@ class GltfReader {
   }
 
   std::vector<std::uint32_t> read_indices(int index, std::size_t vertices) const {
-    const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
-    const int type = accessor.componentType;
-    if (accessor.type != TINYGLTF_TYPE_SCALAR ||
-        (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
+    const GltfObject accessor = file_.item("accessors", index, "accessor");
+    const std::size_t type = accessor.get<std::size_t>("componentType");
+    const std::size_t bytes = type == byte_type ? 1 : type == short_type ? 2 : type == int_type ? 4 : 0;
+    if (accessor.get<std::string>("type") != "SCALAR" || bytes == 0)
       refuse(source_, 0, fmt::format("accessor {}", index), "indices must be SCALAR of an unsigned integer", write_again);
-    const auto bytes = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
     const Numbers source = numbers(index, accessor, bytes);
     std::vector<std::uint32_t> indices(source.count, 0);
     for (std::size_t i = 0; i < source.count; ++i) {
@@ -239,32 +265,32 @@ class GltfReader {
     return indices;
   }
 
-  void read_primitive(const tinygltf::Primitive& primitive, const NodeVisit& visit) {
-    const int mode = primitive.mode;
-    if (mode >= TINYGLTF_MODE_POINTS && mode < TINYGLTF_MODE_TRIANGLES) return;
-    if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
+  void read_primitive(const GltfObject& primitive, const NodeVisit& visit) {
+    const int mode = primitive.get("mode", triangles_mode);
+    if (mode < triangles_mode) return;  // points and lines have no surface
+    if (mode > fan_mode)
       refuse(source_, 0, fmt::format("node {}: a primitive of mode {}", visit.node, mode), "must lie in 0..6", write_again);
-    const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end())
+    const int positions = primitive.inside("attributes").get("POSITION", -1);
+    if (positions < 0)
       refuse(source_, 0, fmt::format("node {}: a primitive without POSITION", visit.node), "it has no positions", write_again);
-    const VertexRange range = read_positions(position->second, visit.to_scene);
+    const VertexRange range = read_positions(positions, visit.to_scene);
     std::vector<std::uint32_t> corners;
-    if (primitive.indices >= 0) {
-      corners = read_indices(primitive.indices, range.count);
+    if (primitive.find("indices") != nullptr) {
+      corners = read_indices(primitive.get("indices", -1), range.count);
     } else {
       corners.resize(range.count);
       for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
     }
-    if (corners.size() < 3 || (mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0))
+    if (corners.size() < 3 || (mode == triangles_mode && corners.size() % 3 != 0))
       refuse(source_, 0, fmt::format("node {}: a primitive of {} corners", visit.node, corners.size()),
              "they do not form whole triangles", write_again);
     for (std::uint32_t& corner : corners) corner += range.first;
     add_triangles(mode, corners, material(primitive), visit);
   }
 
-  std::uint32_t material(const tinygltf::Primitive& primitive) {
-    if (primitive.material < 0) return builder_.default_optics(0);
-    const std::string& name = item(model_.materials, primitive.material, "material").name;
+  std::uint32_t material(const GltfObject& primitive) {
+    if (primitive.find("material") == nullptr) return builder_.default_optics(0);
+    const auto name = file_.item("materials", primitive.get("material", -1), "material").get<std::string>("name");
     return name.empty() ? builder_.default_optics(0) : builder_.optics(name);
   }
 
@@ -282,9 +308,9 @@ class GltfReader {
       const std::uint32_t triangle[] = {a, mirrored ? c : b, mirrored ? b : c};
       builder_.add_polygon(triangle, optics, organ);
     };
-    if (mode == TINYGLTF_MODE_TRIANGLES)
+    if (mode == triangles_mode)
       for (std::size_t i = 0; i + 2 < corners.size(); i += 3) add(corners[i], corners[i + 1], corners[i + 2]);
-    else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+    else if (mode == strip_mode)
       for (std::size_t i = 0; i + 2 < corners.size(); ++i) add(corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]);
     else
       for (std::size_t i = 1; i + 1 < corners.size(); ++i) add(corners[0], corners[i], corners[i + 1]);
@@ -292,7 +318,7 @@ class GltfReader {
 
   const MeshSource& source_;
   GltfDocument document_;
-  const tinygltf::Model& model_;
+  GltfObject file_;
   MeshBuilder builder_;
   std::vector<bool> visited_;
   std::unordered_map<int, VertexRange> positions_;  // of the current node, by accessor

@@ -1,5 +1,6 @@
 #include "files/results/tables/result_writer.h"
 
+#include "base/units.h"
 #include "files/results/tables/judged_figure.h"
 #include "files/results/tables/result_tables.h"
 #include "files/results/tables/summary_parts.h"
@@ -10,16 +11,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 namespace sunfleck {
 namespace {
 
 using nlohmann::ordered_json;
-
-double degrees(double radians) {
-  return radians * 180.0 / std::numbers::pi;
-}
 
 ordered_json band_json(const BandResult& band) {
   return {{"name", band.name},
@@ -65,7 +61,7 @@ ordered_json bands_json(const RadiationModel& model, const RadiationResult& resu
 
 ordered_json sun_json(const RadiationModel& model) {
   if (!model.sun) return nullptr;
-  return {{"elevation_deg", degrees(model.sun->elevation_rad)}, {"azimuth_deg", degrees(model.sun->azimuth_rad)}};
+  return {{"elevation_deg", in_degrees(model.sun->elevation_rad)}, {"azimuth_deg", in_degrees(model.sun->azimuth_rad)}};
 }
 
 ordered_json planes_json(const RadiationResult& result) {

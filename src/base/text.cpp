@@ -1,0 +1,31 @@
+#include "base/text.h"
+
+#include <array>
+#include <cstddef>
+
+namespace sunfleck {
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+std::optional<char32_t> take_code_point(std::string_view& text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  const std::size_t length = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  constexpr std::array<char32_t, 5> smallest = {0, 0, 0x80, 0x800, 0x10000};
+  char32_t value = length == 1 ? first : first & (0xffU >> (length + 1));
+  std::size_t used = 1;
+  while (used < length && used < text.size() && (byte(used) & 0xc0U) == 0x80U) value = value << 6U | (byte(used++) & 0x3fU);
+  const bool lone = length > 1 && first < 0xc2;
+  const bool good = used == length && !lone && first < 0xf5 && value >= smallest[length] && value <= 0x10ffff &&
+                    (value < 0xd800 || value > 0xdfff);
+  text.remove_prefix(lone ? 1 : used);
+  return good ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace sunfleck

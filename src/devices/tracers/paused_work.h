@@ -1,0 +1,107 @@
+#pragma once
+// Rays or packets on the device that may need several dispatches.
+
+#include "devices/gpu/buffer.h"
+#include "devices/gpu/compute.h"
+#include "devices/gpu/context.h"
+#include "devices/tracers/dispatch_budget.h"
+#include "devices/tracers/gpu_tree.h"
+#include "devices/tracers/trace_domain.h"
+#include "devices/tracers/vulkan_choices.h"
+#include "physics/transport/model/tracer.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sunfleck {
+
+// A shader with two variants; its bindings are the tree, `buffers` storage buffers, and the paused rays before and after.
+struct WorkShader {
+  const char* name = "";
+  std::span<const std::uint32_t> with_texel_buffers, with_storage_buffers;
+  std::size_t buffers = 0;
+};
+
+// Rays that do not end within the steps of a dispatch pause, and the next dispatch resumes them. `Paused` describes such a ray
+// or packet, and `Push` what a dispatch has to do.
+template <class Paused, class Push>
+class PausedWork {
+ public:
+  // Context and tree must outlive the object; the choices are complete. `what` names the paused rays in messages.
+  PausedWork(const GpuContext& context, const GpuTree& tree, TraceDomain domain, const VulkanChoices& choices,
+             const WorkShader& shader, const char* what)
+      : context_(context),
+        tree_(tree),
+        budget_(choices.rays_per_dispatch, choices.seconds_per_dispatch),
+        inbox_(create_buffer(context, BufferUse::storage, head_bytes + choices.rays_per_dispatch * sizeof(Paused), what)),
+        outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, what)),
+        pipeline_(context, code_of(shader, tree, choices.group_size),
+                  {domain.periodic ? 1U : 0U, domain.has_soil ? 1U : 0U, choices.group_size}) {}
+
+  // Returns how many rays fit one dispatch at the moment.
+  [[nodiscard]] std::uint32_t rays_per_dispatch() const { return budget_.rays(); }
+
+  // Traces the rays `first` to `first + count - 1` to their end; `buffers` are those of the shader. Those that took too many
+  // steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
+  template <class Finish>
+  TraceOutcome run(std::uint32_t first, std::uint32_t count, const std::vector<const GpuBuffer*>& buffers,
+                   const StopQuestion& stop, const Finish& finish_on_cpu) {
+    Push push{first, count, 0};
+    while (push.count > 0) {
+      if (stop && stop()) return TraceOutcome::stopped;
+      const DispatchClock clock;
+      dispatch(push, buffers);
+      budget_.record_duration(push.count, clock.seconds());
+      push = {0, take_out_stuck(finish_on_cpu), 1};
+      std::swap(inbox_, outbox_);
+    }
+    return TraceOutcome::finished;
+  }
+
+ private:
+  static constexpr std::size_t head_bytes = sizeof(std::uint32_t);
+
+  static ShaderCode code_of(const WorkShader& shader, const GpuTree& tree, std::uint32_t group_size) {
+    std::vector<BufferUse> bindings{tree.use(), tree.use()};
+    bindings.resize(bindings.size() + shader.buffers + 2, BufferUse::storage);
+    const bool texel = tree.fetch == TreeFetch::texel_buffers;
+    return {shader.name, texel ? shader.with_texel_buffers : shader.with_storage_buffers, bindings, sizeof(Push), group_size};
+  }
+
+  void dispatch(const Push& push, const std::vector<const GpuBuffer*>& buffers) {
+    const std::uint32_t none = 0;
+    upload(context_, outbox_, std::as_bytes(std::span(&none, 1)));
+    std::vector<const GpuBuffer*> bound{&tree_.nodes, &tree_.triangles};
+    bound.insert(bound.end(), buffers.begin(), buffers.end());
+    bound.insert(bound.end(), {&inbox_, &outbox_});
+    pipeline_.run(push.count, std::as_bytes(std::span(&push, 1)), bound);
+  }
+
+  // Returns the number of rays that continue.
+  template <class Finish>
+  std::uint32_t take_out_stuck(const Finish& finish_on_cpu) {
+    std::uint32_t count = 0;
+    download(context_, outbox_, std::as_writable_bytes(std::span(&count, 1)));
+    if (count == 0) return 0;
+    std::vector<Paused> paused(count);
+    download(context_, outbox_, std::as_writable_bytes(std::span(paused)), head_bytes);
+    const auto stuck = std::partition(paused.begin(), paused.end(), [](const Paused& each) { return each.stuck == 0; });
+    if (stuck == paused.end()) return count;
+    std::for_each(stuck, paused.end(), finish_on_cpu);
+    paused.erase(stuck, paused.end());
+    upload(context_, outbox_, std::as_bytes(std::span(paused)), head_bytes);
+    return static_cast<std::uint32_t>(paused.size());
+  }
+
+  const GpuContext& context_;
+  const GpuTree& tree_;
+  DispatchBudget budget_;
+  GpuBuffer inbox_, outbox_;
+  ComputePipeline pipeline_;
+};
+
+}  // namespace sunfleck
