@@ -1,9 +1,12 @@
 #pragma once
-// Factors between units.
+// Factors between units, and the figure that stands for a missing value.
 
+#include <limits>
 #include <numbers>
 
 namespace sunfleck {
+
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();  // an empty cell of a table
 
 inline constexpr double degree = std::numbers::pi / 180.0;  // rad
 

@@ -14,7 +14,7 @@
 namespace sunfleck::bench {
 namespace {
 
-constexpr int fields[] = {16, 158};
+constexpr int built_fields[] = {16, 158};
 
 void build_ours(benchmark::State& state, int plants) {
   const Stand& stand = stand_of(plants);
@@ -39,7 +39,7 @@ void build_embree(benchmark::State& state, int plants) {
 }  // namespace
 
 void register_builds() {
-  for (const int plants : fields) {
+  for (const int plants : built_fields) {
     add_benchmark(fmt::format("build/embree/plants:{}", plants), build_embree, plants);
     add_benchmark(fmt::format("build/sunfleck/plants:{}", plants), build_ours, plants);
   }

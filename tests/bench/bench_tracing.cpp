@@ -15,7 +15,7 @@ namespace {
 constexpr std::array all_plots = {Plots::endless, Plots::single};
 constexpr std::array all_rays = {Rays::beam, Rays::leaf, Rays::random};
 // Plants, for 32,000 to ten million triangles.
-constexpr std::array fields = {2, 16, 158, 630};
+constexpr std::array traced_fields = {2, 16, 158, 630};
 
 const char* name_of(Plots plots) {
   return plots == Plots::endless ? "endless" : "single";
@@ -48,7 +48,7 @@ void register_tracing(const GpuContext* context) {
 void register_growth(const GpuContext* context) {
   std::vector<Way> ways = ours(context);
   ways.insert(ways.begin(), {"embree1", Who::embree_single, nullptr});
-  for (const int plants : fields) {
+  for (const int plants : traced_fields) {
     for (const Rays rays : {Rays::beam, Rays::leaf}) {
       for (const Way& way : ways) {
         add(fmt::format("growth/{}/{}/plants:{}", name_of(rays), way.name, plants), rays, plants, Plots::endless, way);

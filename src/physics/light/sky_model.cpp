@@ -91,7 +91,7 @@ constexpr double extraterrestrial_w_m2 = 1367.0;
 constexpr double largest_b = -0.01;  // a positive b would make the horizon infinite
 
 // Kasten and Young 1989, eq. 3.
-double relative_air_mass(double zenith_rad) {
+double air_mass_at_zenith(double zenith_rad) {
   const double zenith_deg = in_degrees(zenith_rad);
   return 1.0 / (std::cos(zenith_rad) + 0.50572 * std::pow(96.07995 - zenith_deg, -1.6364));
 }
@@ -159,7 +159,7 @@ AllWeather all_weather(double dni_w_m2, double dhi_w_m2, const SunPosition& sun)
   AllWeather w;
   w.clearness = std::min(((dhi_w_m2 + dni_w_m2) / dhi_w_m2 + cubed) / (1.0 + cubed), most_clearness);
   w.bin = 1 + static_cast<int>(std::upper_bound(bin_edges.begin(), bin_edges.end(), w.clearness) - bin_edges.begin());
-  w.brightness = relative_air_mass(zenith) * dhi_w_m2 / extraterrestrial_w_m2;
+  w.brightness = air_mass_at_zenith(zenith) * dhi_w_m2 / extraterrestrial_w_m2;
   const double least = w.bin >= 2 && w.bin <= 5 ? least_brightness_bins_2_to_5 : least_brightness;
   w.brightness = std::clamp(w.brightness, least, most_brightness);
 

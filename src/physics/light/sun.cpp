@@ -23,25 +23,25 @@ struct JulianDate {
   double fraction = 0.0;
 };
 
-std::string text_of(const UtcTime& t) {
+std::string moment_text(const UtcTime& t) {
   return fmt::format("time {:04}-{:02}-{:02} {:02}:{:02}:{:04.1f} UTC", t.year, t.month, t.day, t.hour, t.minute, t.second);
 }
 
 JulianDate julian_date(const UtcTime& time) {
   if (time.year < first_year - 1 || time.year > last_year + 1)
-    throw_input(text_of(time), fmt::format("the sun's position is known for {}..{}", first_year, last_year),
+    throw_input(moment_text(time), fmt::format("the sun's position is known for {}..{}", first_year, last_year),
                 "give a year between them");
   double origin = 0.0, days = 0.0;
   if (eraCal2jd(time.year, time.month, time.day, &origin, &days) != 0)
-    throw_input(text_of(time), "no such date in the calendar", "give month 1..12 and a day that month has");
+    throw_input(moment_text(time), "no such date in the calendar", "give month 1..12 and a day that month has");
   if (time.hour < 0 || time.hour > 23 || time.minute < 0 || time.minute > 59 || !(time.second >= 0.0 && time.second < 61.0))
-    throw_input(text_of(time), "no such time of day", "give hour 0..23, minute 0..59, second 0..60");
+    throw_input(moment_text(time), "no such time of day", "give hour 0..23, minute 0..59, second 0..60");
   return {origin + days, (time.hour * 3600.0 + time.minute * 60.0 + time.second) / seconds_per_day};
 }
 
 void refuse_year_outside(const UtcTime& time) {
   if (time.year < first_year || time.year > last_year)
-    throw_input(text_of(time), fmt::format("the sun's position is known for {}..{}", first_year, last_year),
+    throw_input(moment_text(time), fmt::format("the sun's position is known for {}..{}", first_year, last_year),
                 "give a year between them");
 }
 

@@ -16,7 +16,7 @@ namespace sunfleck {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double spitters_solar_constant_w_m2 = 1370.0;  // Spitters et al. 1986, eq. 1
 constexpr double solar_constant_w_m2 = 1367.0;           // World Radiometric Centre, as in Duffie and Beckman 1980
 constexpr double sea_level_pressure_hpa = 1013.25;       // ISO 2533

@@ -13,6 +13,11 @@
 
 namespace sunfleck {
 
+// Returns the size as Python counts it.
+[[nodiscard]] inline pybind11::ssize_t signed_size(std::size_t size) {
+  return static_cast<pybind11::ssize_t>(size);
+}
+
 // Returns a read-only array of that shape that refers to a vector without a copy; `owner` lives as long as the array. The
 // vector may be empty.
 template <class T>

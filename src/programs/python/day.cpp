@@ -25,10 +25,6 @@ namespace {
 
 namespace py = pybind11;
 
-py::ssize_t signed_size(std::size_t size) {
-  return static_cast<py::ssize_t>(size);
-}
-
 class Day {
  public:
   explicit Day(InMemoryDay day) : day_(std::move(day)) {}

@@ -13,10 +13,6 @@ namespace {
 
 namespace py = pybind11;
 
-py::ssize_t signed_size(std::size_t size) {
-  return static_cast<py::ssize_t>(size);
-}
-
 }  // namespace
 
 const ElementFields& Outcome::fields() {

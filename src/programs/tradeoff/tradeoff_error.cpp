@@ -1,15 +1,13 @@
 #include "programs/tradeoff/tradeoff_error.h"
 
 #include "base/check.h"
+#include "base/units.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::size_t number(Quantity quantity) {
   return static_cast<std::size_t>(quantity);
@@ -43,14 +41,14 @@ double TradeoffReference::own_error(Quantity quantity) const {
     squares += norm.weight[i] * relative * relative;
     weights += norm.weight[i];
   }
-  return weights > 0.0 ? std::sqrt(squares / weights) : none;
+  return weights > 0.0 ? std::sqrt(squares / weights) : no_value;
 }
 
 QuantityError TradeoffReference::error(Quantity quantity, const QuantityValues& run, double confidence,
                                        std::size_t replicates) const {
   const QuantityNorm& norm = norms_[number(quantity)];
   const std::vector<ReplicateMean>& truth = means_[number(quantity)];
-  QuantityError error{none, none, none, none};
+  QuantityError error{no_value, no_value, no_value, no_value};
   if (run.value.size() != truth.size()) return error;
   EXPECT(norm.weight.size(), ==, truth.size());
   const double quantile = t_quantile(confidence, replicates);
@@ -82,10 +80,10 @@ QuantityError TradeoffReference::error(Quantity quantity, const QuantityValues& 
 double typical_error(const std::vector<double>& errors, double reference_error) {
   double squares = 0.0;
   for (const double error : errors) squares += error * error;
-  if (errors.empty() || std::isnan(squares)) return none;
+  if (errors.empty() || std::isnan(squares)) return no_value;
   const double mean = squares / static_cast<double>(errors.size());
   const double own = mean - (std::isnan(reference_error) ? 0.0 : reference_error * reference_error);
-  return own >= 0.5 * mean && own > 0.0 ? std::sqrt(own) : none;
+  return own >= 0.5 * mean && own > 0.0 ? std::sqrt(own) : no_value;
 }
 
 }  // namespace sunfleck

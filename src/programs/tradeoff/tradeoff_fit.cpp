@@ -1,13 +1,12 @@
 #include "programs/tradeoff/tradeoff_fit.h"
 
+#include "base/units.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Limits beyond the finest setting: the error falls as a power of the bound between these two, whatever a few settings suggest;
 // the time grows at most with the square of the bound's inverse, as packets do.
@@ -20,7 +19,7 @@ double rms(const TradeoffLevel& level, Quantity quantity) {
     const double error = run.errors[static_cast<std::size_t>(quantity)].true_error;
     squares += error * error;
   }
-  return level.runs.empty() ? none : std::sqrt(squares / static_cast<double>(level.runs.size()));
+  return level.runs.empty() ? no_value : std::sqrt(squares / static_cast<double>(level.runs.size()));
 }
 
 // One setting of the series of bounds, in logarithms. The error is the larger of this and any finer setting's, so that it never
@@ -97,7 +96,7 @@ std::optional<PowerLaw> fit_power_law(std::span<const WorkAndError> points) {
   PowerLaw law;
   law.exponent = xy / xx;
   law.factor = std::exp(mean.error - law.exponent * mean.work);
-  law.standard_error = logarithms.size() > 2 ? std::sqrt(std::max(0.0, yy - law.exponent * xy) / (n - 2.0) / xx) : none;
+  law.standard_error = logarithms.size() > 2 ? std::sqrt(std::max(0.0, yy - law.exponent * xy) / (n - 2.0) / xx) : no_value;
   return law;
 }
 

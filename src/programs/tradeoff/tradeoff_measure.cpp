@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
+#include "base/units.h"
 #include "programs/tradeoff/coarse_mesh.h"
 #include "programs/tradeoff/tradeoff_error.h"
 #include "programs/tradeoff/tradeoff_fit.h"
@@ -13,12 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // The measured bounds start here and are halved at least `least_bounds` times, until one meets the required error, but not
 // where runs would need more than this share of the reference's rays or packets. Halving the bound takes four times the packets
@@ -171,7 +169,7 @@ class TradeoffMeasurement {
       for (const Quantity quantity : quantities) {
         const std::size_t q = static_cast<std::size_t>(quantity);
         found.errors[q] = quantity == Quantity::triangle && level.series == TradeoffSeries::meshes
-                              ? QuantityError{none, none, none, none}
+                              ? QuantityError{no_value, no_value, no_value, no_value}
                               : truth.error(quantity, values[q], settings_.accuracy.confidence, run->result.direct.replicates);
       }
       level.runs.push_back(found);

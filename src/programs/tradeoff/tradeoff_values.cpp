@@ -1,14 +1,12 @@
 #include "programs/tradeoff/tradeoff_values.h"
 
+#include "base/units.h"
 #include "files/results/tables/irradiance.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // These limits equal those by which the errors of a run are judged (Tally).
 constexpr double least_judged_share = 0.01;
@@ -55,7 +53,7 @@ void add_absorbed_triangles(const RadiationModel& model, const RadiationResult& 
       const double upper = side_irradiance(model, result, 2 * e, element_m2, b).total_w_m2();
       const double lower = side_irradiance(model, result, 2 * e + 1, element_m2, b).total_w_m2();
       add(values, {absorbed_w_m2(model.optics[model.canopy.optics_of[e]], upper, lower, b),
-                   result.element_error.empty() ? none : result.element_error[b * elements + e]});
+                   result.element_error.empty() ? no_value : result.element_error[b * elements + e]});
     }
   }
 }
@@ -165,7 +163,7 @@ RunValues absorbed_values(const RadiationModel& model, const RadiationResult& re
 RunValues indirect_values(const RadiationModel& model, const RadiationResult& result) {
   RunValues values;
   const std::vector<bool> soil = element_roles(model.canopy).soil;
-  const double relative = result.indirect.relative_error.value_or(none);
+  const double relative = result.indirect.relative_error.value_or(no_value);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const DirectAbsorbed direct = direct_absorbed(model, result, soil, b);
     const double least = least_judged_share * result.bands[b].incident;
@@ -184,7 +182,7 @@ RunValues indirect_values(const RadiationModel& model, const RadiationResult& re
     for (std::size_t e = 0; e < model.canopy.size(); ++e) {
       const double element_m2 = area_m2(model.canopy.corners[e]);
       add(values[triangle],
-          {result.side_indirect_w_m2(2 * e, element_m2, b) + result.side_indirect_w_m2(2 * e + 1, element_m2, b), none});
+          {result.side_indirect_w_m2(2 * e, element_m2, b) + result.side_indirect_w_m2(2 * e + 1, element_m2, b), no_value});
     }
   }
   return values;

@@ -14,7 +14,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int scenes = 16;
 
 enum class LeafAngles { spherical, horizontal, vertical };

@@ -10,7 +10,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t walls = 6;
 
 // Adds a rectangle facing along u x v, cut into n x n cells.

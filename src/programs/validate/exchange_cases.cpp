@@ -12,7 +12,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Two surfaces whose upper faces see each other, one organ each.
 struct Pair {

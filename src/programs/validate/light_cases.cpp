@@ -15,7 +15,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::array<const char*, 4> quarters = {"north", "east", "south", "west"};
 
 glm::dvec3 towards_sky(double zenith_rad, double azimuth_rad) {

@@ -16,7 +16,7 @@ namespace sunfleck {
 
 namespace {
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20U;  // enough for most_lights with long comments
+constexpr std::uintmax_t most_light_bytes = std::uintmax_t{64} << 20U;  // enough for most_lights with long comments
 
 constexpr std::string_view line_form = "write: weight dx dy dz";
 constexpr std::string_view line_rule = "a line has four numbers";
@@ -43,7 +43,7 @@ SkyLight parse_light(CaribuLines& lines) {
 }  // namespace
 
 std::vector<SkyLight> read_lights(const std::filesystem::path& file, SourceFiles* files) {
-  const std::string bytes = read_source(file, files, most_bytes);
+  const std::string bytes = read_source(file, files, most_light_bytes);
   std::vector<SkyLight> lights;
   CaribuLines lines(file, bytes);
   while (lines.next()) {

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 constexpr double per_mega = 1e-6;
 
-constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 5> terms = {
+constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 5> named_terms = {
     {{"incident", &StepBand::incident},
      {"absorbed_vegetation", &StepBand::absorbed_vegetation},
      {"absorbed_soil", &StepBand::absorbed_soil},
@@ -29,7 +29,7 @@ ordered_json date_json(const DaySummary& day, const std::string& name, const Dat
     const Waveband& waveband = day.model.bands[b];
     ordered_json band = {{"name", waveband.name}};
     ordered_json errors;
-    for (const auto& [term, member] : terms) {
+    for (const auto& [term, member] : named_terms) {
       const Estimate sum = (date.bands[b].*member).scaled(per_mega);
       band[fmt::format("{}_mj_m2", term)] = number_or_null(sum.value);
       errors[fmt::format("{}_mj_m2", term)] = number_or_null(sum.half_width);
@@ -119,7 +119,7 @@ std::string day_report(const DaySummary& day) {
     for (std::size_t b = 0; date.steps > 0 && b < date.bands.size(); ++b) {
       text += fmt::format("  {} {}, MJ m-2", day.course.dates[d], day.model.bands[b].name);
       char separator = ':';
-      for (const auto& [term, member] : terms) {
+      for (const auto& [term, member] : named_terms) {
         const Estimate sum = (date.bands[b].*member).scaled(per_mega);
         std::string words = term;
         std::replace(words.begin(), words.end(), '_', ' ');

@@ -1,18 +1,16 @@
 #include "files/results/tables/element_fields.h"
 
 #include "base/check.h"
+#include "base/units.h"
 #include "files/results/tables/irradiance.h"
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <map>
 #include <utility>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double value_of(LightColumn column, const Irradiance& upper, const Irradiance& lower, double absorbed_w_m2, double error_w_m2) {
   switch (column) {
@@ -35,7 +33,7 @@ double value_of(LightColumn column, const Irradiance& upper, const Irradiance& l
     case LightColumn::error:
       return error_w_m2;
   }
-  return none;
+  return no_value;
 }
 
 struct LightLabel {
@@ -116,7 +114,7 @@ ElementFields make_element_fields(const RadiationModel& model, const RadiationRe
       const Irradiance upper = side_irradiance(model, result, 2 * e, fields.area_m2[e], b);
       const Irradiance lower = side_irradiance(model, result, 2 * e + 1, fields.area_m2[e], b);
       const double absorbed = absorbed_w_m2(model.optics[model.canopy.optics_of[e]], upper.total_w_m2(), lower.total_w_m2(), b);
-      const double error = result.element_error.empty() ? none : result.element_error[b * fields.size() + e];
+      const double error = result.element_error.empty() ? no_value : result.element_error[b * fields.size() + e];
       for (LightValues& column : columns) column.values.push_back(value_of(column.column, upper, lower, absorbed, error));
     }
   }

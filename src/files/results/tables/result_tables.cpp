@@ -1,13 +1,11 @@
 #include "files/results/tables/result_tables.h"
 
 #include "base/check.h"
-
-#include <limits>
+#include "base/units.h"
 
 namespace sunfleck {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr unsigned everywhere_but_meshes = in_csv | in_arrays | in_netcdf;
 
 // Returns the table of the sensors first ... end - 1.
@@ -104,7 +102,7 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
   table.add({"height_m", "m", "height of the horizontal plane", everywhere_but_meshes},
             [&](std::size_t i) { return layers[i].height_m; });
   table.add({"leaf_area_index", "1", "one-sided leaf area in the layer per ground area"},
-            [&](std::size_t i) { return is_top_plane(i) ? none : layers[i].leaf_area_index; });
+            [&](std::size_t i) { return is_top_plane(i) ? no_value : layers[i].leaf_area_index; });
   table.add({"sunfleck_ratio", "1", "share of the plane that the direct beam reaches", everywhere_but_meshes},
             [&](std::size_t i) { return layers[i].sunfleck_ratio; });
   table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in the layer in direct sun"},
@@ -116,7 +114,7 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
     table.add({band + "_up", "W m-2", "flux through the plane, upwards", everywhere_but_meshes},
               [&](std::size_t i) { return layers[i].up[b]; });
     table.add({band + "_absorbed", "W m-2", "flux absorbed in the layer per ground area"},
-              [&](std::size_t i) { return is_top_plane(i) ? Estimate{none} : layers[i].absorbed[b]; });
+              [&](std::size_t i) { return is_top_plane(i) ? Estimate{no_value} : layers[i].absorbed[b]; });
   }
   return table;
 }

@@ -1,5 +1,6 @@
 #include "files/results/tables/tradeoff_table.h"
 
+#include "base/units.h"
 #include "files/results/tables/summary_parts.h"
 #include "files/results/tables/table_text.h"
 
@@ -7,15 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace sunfleck {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 const char* series_name(TradeoffSeries series) {
   constexpr std::array names{"grid", "packets", "error", "mesh"};
@@ -99,7 +97,7 @@ std::string setting_name(const TradeoffLevel& level) {
 }
 
 double median_seconds(const TradeoffLevel& level) {
-  if (level.runs.empty()) return none;
+  if (level.runs.empty()) return no_value;
   std::vector<double> seconds;
   for (const TradeoffRun& run : level.runs) seconds.push_back(run.seconds);
   std::sort(seconds.begin(), seconds.end());
@@ -110,7 +108,7 @@ double median_seconds(const TradeoffLevel& level) {
 double mean_rays(const TradeoffLevel& level) {
   double sum = 0.0;
   for (const TradeoffRun& run : level.runs) sum += static_cast<double>(run.rays);
-  return level.runs.empty() ? none : sum / static_cast<double>(level.runs.size());
+  return level.runs.empty() ? no_value : sum / static_cast<double>(level.runs.size());
 }
 
 std::string tradeoff_csv(const TradeoffReport& report) {

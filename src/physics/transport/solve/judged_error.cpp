@@ -1,13 +1,12 @@
 #include "physics/transport/solve/judged_error.h"
 
+#include "base/units.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Figures are judged against at least this share of the incident flux (design: an aggregate below 1 % is judged against that
 // 1 %).
@@ -48,7 +47,7 @@ JudgedError organ_error(const RunSums& sums, double quantile, bool indirect) {
 // Returns the root-mean-square half-width relative to the mean. `spreads` are those of the elements' landings or of their W
 // m-2, one per element from `first` on; the latter are multiplied by the element's area.
 double element_rms_error(const RunSums& sums, double quantile, const std::vector<Spread>& spreads, std::size_t first) {
-  if (spreads.empty()) return none;
+  if (spreads.empty()) return no_value;
   const bool landings = &spreads == &sums.direct_spread;
   const Conversion& conversion = sums.conversion;
   double area = 0.0;
@@ -75,7 +74,7 @@ void JudgedError::raise(const JudgedError& other) {
 JudgedError direct_error(const RunSums& sums, const Accuracy& accuracy) {
   const Conversion& conversion = sums.conversion;
   const double quantile = t_quantile(accuracy.confidence, sums.replicates);
-  if (std::isnan(quantile)) return {none, {}};
+  if (std::isnan(quantile)) return {no_value, {}};
   JudgedError largest;
   const double least = least_judged_share * sums.met.mean();
   if (!(least > 0.0)) return largest;
@@ -99,7 +98,7 @@ JudgedError direct_error(const RunSums& sums, const Accuracy& accuracy) {
 JudgedError indirect_error(const RunSums& sums, const Accuracy& accuracy) {
   const Conversion& conversion = sums.conversion;
   const double quantile = t_quantile(accuracy.confidence, sums.replicates);
-  if (std::isnan(quantile)) return {none, {}};
+  if (std::isnan(quantile)) return {no_value, {}};
   JudgedError largest;
   const auto n = static_cast<double>(sums.replicates);
   for (std::size_t b = 0; b < sums.bands.size(); ++b) {

@@ -1,17 +1,15 @@
 #include "physics/transport/solve/result_of.h"
 
 #include "base/error.h"
+#include "base/units.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // A half-width of a share from here on means that nothing is known except that the share lies between 0 and 1.
 constexpr double unknown_share = 1.0 - 1e-9;
@@ -57,7 +55,7 @@ class ResultMaker {
       result.planes = sums_.planes->results(quantile_, unseen_events(confidence_), events_w_m2);
     }
     result.sunlit_leaf_fraction = sunlit_estimate(sums_.sunlit, areas_.facing_m2, agreed_foliage());
-    result.ground_sunfleck_ratio = {none, none};
+    result.ground_sunfleck_ratio = {no_value, no_value};
     if (model_.has_beam()) result.ground_sunfleck_ratio = sums_.ground_ratio.estimate(quantile_, unseen(share_of_one_ray()));
     result.leaf_area_index = areas_.foliage_m2 / model_.plot.area_m2();
     result.ground_per_ray_m2 =
@@ -105,11 +103,11 @@ class ResultMaker {
   // from `parts`. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree
   // with what the rays met.
   [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, std::vector<FacingArea> parts) const {
-    if (!(facing_m2 > 0.0)) return {none, none};
+    if (!(facing_m2 > 0.0)) return {no_value, no_value};
     const bool agree = sums_.replicates >= 2 && mean.squares() == 0.0;
     if (!agree) return mean.estimate(quantile_);
     const double unseen_share = unseen_sunlit_m2(std::move(parts), unseen(1.0)) / facing_m2;
-    return unseen_share < unknown_share ? Estimate{mean.mean(), unseen_share} : Estimate{none, none};
+    return unseen_share < unknown_share ? Estimate{mean.mean(), unseen_share} : Estimate{no_value, no_value};
   }
 
   // Returns the parts of each organ about which all replicates agree: [organ]; empty for the other organs.
@@ -194,9 +192,9 @@ class ResultMaker {
       LayerResult result;
       result.height_m = layout_.layers.height_m * static_cast<double>(k) / static_cast<double>(count);
       const bool below_top = k < count;
-      result.sunfleck_ratio = {none, none};
+      result.sunfleck_ratio = {no_value, no_value};
       if (model_.has_beam()) result.sunfleck_ratio = means.ratio.estimate(quantile_, below_top ? one_ray : 0.0);
-      result.sunlit_leaf_fraction = {none, none};
+      result.sunlit_leaf_fraction = {no_value, no_value};
       if (below_top) {
         result.leaf_area_index = areas_.layer_foliage_m2[k] / model_.plot.area_m2();
         result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], std::move(parts[k]));
@@ -225,7 +223,7 @@ class ResultMaker {
         const bool enough = sums_.element_hits[e] >= least_landings;
         const double mean = spread.sum / static_cast<double>(sums_.replicates);
         errors.push_back(enough ? spread.half_width(quantile_, sums_.replicates) + mean * sums_.ledgers[b].unshot_share()
-                                : none);
+                                : no_value);
       }
     }
     return errors;
@@ -241,7 +239,7 @@ class ResultMaker {
       const bool enough = mean > 0.0 && sums_.element_hits[place / bands / 2] >= least_landings;
       errors.push_back(enough ? sums_.side_spread[place].half_width(quantile_, sums_.replicates) +
                                     mean * sums_.ledgers[place % bands].unshot_share()
-                              : none);
+                              : no_value);
     }
     return errors;
   }
