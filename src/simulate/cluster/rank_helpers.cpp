@@ -125,7 +125,7 @@ void RankHelpers::note(Rank& rank, const Letter& letter) {
   rank.silence = {};
   switch (letter.kind) {
     case LetterKind::ready: {
-      const ReadyMessage message = unpack_ready(letter.content);
+      const ReadyMessage message = unpack<ReadyMessage>(letter.content);
       rank.ready = true;
       rank.slots = message.slots;
       rank.scene = message.scene;
@@ -138,7 +138,7 @@ void RankHelpers::note(Rank& rank, const Letter& letter) {
       --rank.in_hand;
       break;
     case LetterKind::failed: {
-      const FailedMessage message = unpack_failed(letter.content);
+      const FailedMessage message = unpack<FailedMessage>(letter.content);
       throw Error(static_cast<ErrorKind>(message.kind),
                   fmt::format("rank {} on {}: {}", letter.from, message.host, message.text));
     }

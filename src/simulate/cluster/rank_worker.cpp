@@ -74,7 +74,7 @@ class Worker {
     int letters = 0;
     for (; std::optional<Letter> letter = mailbox_.take(); ++letters) {
       silence_ = {};
-      if (letter->kind == LetterKind::order) orders_.push_back(unpack_order(letter->content));
+      if (letter->kind == LetterKind::order) orders_.push_back(unpack<OrderMessage>(letter->content));
       if (letter->kind == LetterKind::drop) drop();
       if (letter->kind == LetterKind::end) {
         ended_ = true;

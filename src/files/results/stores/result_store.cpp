@@ -1,14 +1,12 @@
 #include "files/results/stores/result_store.h"
 
+#include "base/archive.h"
 #include "base/file.h"
-#include "base/packed_array.h"
 #include "physics/transport/model/counters.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 namespace sunfleck {
 namespace {
@@ -22,6 +20,7 @@ constexpr int store_version = 1;
 constexpr double farthest_m = 1e8;
 constexpr double most_patches = 64e6;
 constexpr std::size_t deepest = 6;  // nesting depth of lists and maps; a valid file has four levels
+constexpr double brightest_w_m2 = 1e15;
 
 [[noreturn]] void refuse(const std::string& why) {
   throw std::runtime_error(why);
@@ -31,210 +30,146 @@ void require(bool good, const char* what) {
   if (!good) refuse(fmt::format("{} is out of range", what));
 }
 
-json vector_json(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
+// The functions named `visit` describe the content of the file, and serve to write and to read it.
+
+template <class Archive, class Vector>
+void visit_vector(const Archive& archive, double largest, Vector& vector) {
+  archive.row(-largest, largest, vector.x, vector.y, vector.z);
 }
 
-json faces_json(const std::vector<FaceOptics>& faces) {
-  json list = json::array();
-  for (const FaceOptics& face : faces) list.push_back({face.reflectance, face.transmittance});
-  return list;
+template <class Archive, class Camera>
+void visit_camera(const Archive& archive, Camera& camera) {
+  constexpr double widest_rad = 3.1;
+  visit_vector(archive["position_m"], farthest_m, camera.position_m);
+  visit_vector(archive["look_at_m"], farthest_m, camera.look_at_m);
+  archive["fov_rad"].value(camera.fov_rad, 1e-6, widest_rad);
 }
 
-json model_json(const RadiationModel& model) {
-  json bands = json::array();
-  for (const Waveband& band : model.bands) {
-    bands.push_back({{"name", band.name}, {"direct_w_m2", band.direct_w_m2}, {"diffuse_w_m2", band.diffuse_w_m2}});
+template <class Archive, class Model>
+void visit_surfaces(const Archive& archive, Model& model) {
+  archive["bands"].list(model.bands, [](const auto& to, auto& band) {
+    to["name"].value(band.name);
+    to["direct_w_m2"].value(band.direct_w_m2, 0.0, brightest_w_m2);
+    to["diffuse_w_m2"].value(band.diffuse_w_m2, 0.0, brightest_w_m2);
+  });
+  const auto visit_face = [](const auto& to, auto& face) { to.row(0.0, 1.0, face.reflectance, face.transmittance); };
+  archive["optics"].list(model.optics, [&](const auto& to, auto& surface) {
+    to["name"].value(surface.name);
+    to["upper"].list(surface.upper, visit_face);
+    to["lower"].list(surface.lower, visit_face);
+    visit_vector(to["rgb"], 1.0, surface.rgb);
+    to["emission_w_m2"].value(surface.emission_w_m2, 0.0, brightest_w_m2);
+  });
+  archive["soil"].part(model.soil, [](const auto& to, auto& soil) {
+    to["reflectance"].value(soil.reflectance, 0.0, 1.0);
+    to["patch_m"].value(soil.patch_m, 0.0, farthest_m);
+    visit_vector(to["rgb"], 1.0, soil.rgb);
+  });
+}
+
+template <class Archive, class Canopy>
+void visit_canopy(const Archive& archive, Canopy& canopy) {
+  archive["organs"].list(canopy.organs, [](const auto& to, auto& organ) {
+    to[0].value(organ.plant);
+    to[1].value(organ.name);
+    to[2].value(organ.rank);
+  });
+  std::size_t triangles = canopy.size();
+  archive["triangles"].value(triangles);
+  visit_vector(archive["origin_m"], farthest_m, canopy.origin_m);
+  archive["period_m"].row(0.0, farthest_m, canopy.period_m.x, canopy.period_m.y);
+  archive["corners_m"].packed(canopy.corners, triangles);
+  archive["organ_of"].packed(canopy.organ_of, triangles);
+  archive["optics_of"].packed(canopy.optics_of, triangles);
+}
+
+template <class Archive, class Model>
+void visit_model(const Archive& archive, Model& model) {
+  constexpr double least_m = 1e-6;
+  constexpr double most_layers = 100000;
+  constexpr double most_rad = 7.0;  // more than a full turn
+  archive["plot"]["size_x_m"].value(model.plot.size_x_m, least_m, farthest_m);
+  archive["plot"]["size_z_m"].value(model.plot.size_z_m, least_m, farthest_m);
+  archive["plot"]["periodic"].value(model.plot.periodic);
+  archive["layers"].value(model.layers, 1, most_layers);
+  archive["sun"].part(model.sun, [](const auto& to, auto& sun) {
+    to["elevation_rad"].value(sun.elevation_rad, -most_rad, most_rad);
+    to["azimuth_rad"].value(sun.azimuth_rad, -most_rad, most_rad);
+  });
+  bool sky = model.sky.has_value();
+  archive["sky"].value(sky);
+  if constexpr (Archive::reads) {
+    if (sky) model.sky.emplace();
   }
-  json optics = json::array();
-  for (const SurfaceOptics& surface : model.optics) {
-    optics.push_back({{"name", surface.name},
-                      {"upper", faces_json(surface.upper)},
-                      {"lower", faces_json(surface.lower)},
-                      {"rgb", vector_json(surface.rgb)},
-                      {"emission_w_m2", surface.emission_w_m2}});
-  }
-  json organs = json::array();
-  for (const Organ& organ : model.canopy.organs) organs.push_back({organ.plant, organ.name, organ.rank});
-  json sun = nullptr;
-  if (model.sun) sun = {{"elevation_rad", model.sun->elevation_rad}, {"azimuth_rad", model.sun->azimuth_rad}};
-  json soil = nullptr;
-  if (model.soil) {
-    soil = {{"reflectance", model.soil->reflectance}, {"patch_m", model.soil->patch_m}, {"rgb", vector_json(model.soil->rgb)}};
-  }
-  const Canopy& canopy = model.canopy;
-  return {{"plot", {{"size_x_m", model.plot.size_x_m}, {"size_z_m", model.plot.size_z_m}, {"periodic", model.plot.periodic}}},
-          {"bands", bands},
-          {"optics", optics},
-          {"organs", organs},
-          {"sun", sun},
-          {"sky", model.sky.has_value()},
-          {"soil", soil},
-          {"layers", model.layers},
-          {"triangles", canopy.size()},
-          {"origin_m", vector_json(canopy.origin_m)},
-          {"period_m", {canopy.period_m.x, canopy.period_m.y}},
-          {"corners_m", pack(canopy.corners)},
-          {"organ_of", pack(canopy.organ_of)},
-          {"optics_of", pack(canopy.optics_of)}};
+  visit_surfaces(archive, model);
+  visit_canopy(archive, model.canopy);
 }
 
-json error_json(const std::optional<double>& error) {
-  return error ? json(*error) : json(nullptr);
+template <class Archive, class Result>
+void visit_result(const Archive& archive, Result& result, const RadiationModel& model) {
+  constexpr double largest = 1e30;
+  const std::size_t elements = model.canopy.size();
+  const std::size_t bands = model.bands.size();
+  std::size_t cells = result.soil_cells.size();
+  bool indirect = !result.side_indirect.empty() || !result.cell_indirect.empty();
+  bool sky = !result.side_sky.empty() || !result.cell_sky.empty();
+  archive["leaf_area_index"].value(result.leaf_area_index, 0.0, largest);
+  archive["ground_per_ray_m2"].value(result.ground_per_ray_m2, 0.0, largest);
+  archive["w_per_quantum"].value(result.w_per_quantum, 0.0, largest);
+  archive["rays"].value(result.direct.rays);
+  archive["direct_error"].value(result.direct.relative_error);
+  archive["packets"].value(result.indirect.packets);
+  archive.recent_value("sky_rays", result.indirect.sky_rays);
+  archive["indirect_error"].value(result.indirect.relative_error);
+  archive["landings"].packed(result.elements, elements);
+  archive["cells"].value(cells);
+  archive["cell_landings"].packed(result.soil_cells, cells);
+  archive["has_indirect"].value(indirect);
+  archive["side_indirect"].packed(result.side_indirect, indirect ? 2 * elements * bands : 0);
+  archive["cell_indirect"].packed(result.cell_indirect, indirect ? cells * bands : 0);
+  archive["has_sky"].value(sky);
+  archive["side_sky"].packed(result.side_sky, sky ? 2 * elements * bands : 0);
+  archive["cell_sky"].packed(result.cell_sky, sky ? cells * bands : 0);
 }
 
-json result_json(const RadiationResult& result) {
-  return {{"leaf_area_index", result.leaf_area_index},
-          {"ground_per_ray_m2", result.ground_per_ray_m2},
-          {"w_per_quantum", result.w_per_quantum},
-          {"rays", result.direct.rays},
-          {"direct_error", error_json(result.direct.relative_error)},
-          {"packets", result.indirect.packets},
-          {"sky_rays", result.indirect.sky_rays},
-          {"indirect_error", error_json(result.indirect.relative_error)},
-          {"landings", pack(result.elements)},
-          {"cells", result.soil_cells.size()},
-          {"cell_landings", pack(result.soil_cells)},
-          {"has_indirect", !result.side_indirect.empty() || !result.cell_indirect.empty()},
-          {"side_indirect", pack(result.side_indirect)},
-          {"cell_indirect", pack(result.cell_indirect)},
-          {"has_sky", !result.side_sky.empty() || !result.cell_sky.empty()},
-          {"side_sky", pack(result.side_sky)},
-          {"cell_sky", pack(result.cell_sky)}};
+template <class Archive, class Scene, class Result, class Record>
+void visit_store(const Archive& archive, Scene& scene, Result& result, Record& record) {
+  archive["title"].value(scene.title);
+  archive["scene_digest"].value(scene.digest);
+  archive["seed"].value(record.seed);
+  archive["complete"].value(record.complete);
+  archive["camera"].part(scene.camera, [](const auto& to, auto& camera) { visit_camera(to, camera); });
+  visit_model(archive["model"], scene.model);
+  visit_result(archive["result"], result, scene.model);
 }
 
-// Returns a finite number in lo..hi.
-double number(const json& object, const char* key, double lo, double hi) {
-  const auto value = object.at(key).get<double>();
-  require(value >= lo && value <= hi, key);
-  return value;
-}
+// The functions named `check` refuse parts that do not fit each other.
 
-std::vector<double> numbers(const json& list, std::size_t count, double lo, double hi, const char* what) {
-  auto values = list.get<std::vector<double>>();
-  require(values.size() == count, what);
-  for (const double value : values) require(value >= lo && value <= hi, what);
-  return values;
-}
-
-glm::dvec3 vector_of(const json& object, const char* key, double largest) {
-  const std::vector<double> v = numbers(object.at(key), 3, -largest, largest, key);
-  return {v[0], v[1], v[2]};
-}
-
-std::vector<FaceOptics> faces_of(const json& list, std::size_t bands) {
-  require(list.size() == bands, "optics");
-  std::vector<FaceOptics> faces;
-  for (const json& face : list) {
-    const std::vector<double> both = numbers(face, 2, 0.0, 1.0, "optics");
-    faces.push_back({both[0], both[1]});
-  }
-  return faces;
-}
-
-void read_surfaces(const json& from, RadiationModel& model) {
-  constexpr double brightest_w_m2 = 1e15;
-  for (const json& band : from.at("bands")) {
-    model.bands.push_back({band.at("name").get<std::string>(), number(band, "direct_w_m2", 0.0, brightest_w_m2),
-                           number(band, "diffuse_w_m2", 0.0, brightest_w_m2)});
-  }
+void check_surfaces(const RadiationModel& model) {
   const std::size_t bands = model.bands.size();
   require(bands > 0, "bands");
-  for (const json& surface : from.at("optics")) {
-    SurfaceOptics optics;
-    optics.name = surface.at("name").get<std::string>();
-    optics.upper = faces_of(surface.at("upper"), bands);
-    optics.lower = faces_of(surface.at("lower"), bands);
-    optics.rgb = vector_of(surface, "rgb", 1.0);
-    const json& emission = surface.at("emission_w_m2");
-    if (!emission.empty()) optics.emission_w_m2 = numbers(emission, bands, 0.0, brightest_w_m2, "emission_w_m2");
-    model.canopy.optics_names.push_back(optics.name);
-    model.optics.push_back(std::move(optics));
+  for (const SurfaceOptics& surface : model.optics) {
+    require(surface.upper.size() == bands && surface.lower.size() == bands, "optics");
+    require(surface.emission_w_m2.empty() || surface.emission_w_m2.size() == bands, "emission_w_m2");
   }
-  if (from.at("soil").is_null()) return;
-  const json& soil = from["soil"];
-  model.soil = Soil{numbers(soil.at("reflectance"), bands, 0.0, 1.0, "soil"), number(soil, "patch_m", 0.0, farthest_m),
-                    vector_of(soil, "rgb", 1.0)};
+  if (!model.soil) return;
+  require(model.soil->reflectance.size() == bands, "soil");
   const Plot& ground = model.plot;
   require(std::ceil(ground.size_x_m / model.soil->patch_m) * std::ceil(ground.size_z_m / model.soil->patch_m) <= most_patches,
           "patch_m");
 }
 
-void read_canopy(const json& from, Canopy& canopy, std::size_t optics) {
-  for (const json& organ : from.at("organs")) {
-    canopy.organs.push_back({whole<std::uint32_t>(organ.at(0)), organ.at(1).get<std::string>(), whole<int>(organ.at(2))});
-  }
-  const auto triangles = whole<std::size_t>(from.at("triangles"));
-  canopy.origin_m = vector_of(from, "origin_m", farthest_m);
-  const std::vector<double> period_m = numbers(from.at("period_m"), 2, 0.0, farthest_m, "period_m");
-  canopy.period_m = {period_m[0], period_m[1]};
-  canopy.corners = unpack<Triangle>(from.at("corners_m"), triangles);
-  canopy.organ_of = unpack<std::uint32_t>(from.at("organ_of"), triangles);
-  canopy.optics_of = unpack<std::uint16_t>(from.at("optics_of"), triangles);
+void check_canopy(const RadiationModel& model) {
+  const Canopy& canopy = model.canopy;
   for (const Triangle& corners : canopy.corners) {
     for (const glm::vec3& corner : corners) {
       for (int i = 0; i < 3; ++i) require(std::abs(corner[i]) <= farthest_m, "corners_m");
     }
   }
   for (const std::uint32_t organ : canopy.organ_of) require(organ < canopy.organs.size(), "organ_of");
-  for (const std::uint16_t number : canopy.optics_of) require(number < optics, "optics_of");
-}
-
-RadiationModel read_model(const json& from) {
-  constexpr double least_m = 1e-6;
-  constexpr int most_layers = 100000;
-  RadiationModel model;
-  const json& plot = from.at("plot");
-  model.plot = {number(plot, "size_x_m", least_m, farthest_m), number(plot, "size_z_m", least_m, farthest_m),
-                plot.at("periodic").get<bool>()};
-  model.layers = static_cast<int>(number(from, "layers", 1, most_layers));
-  if (!from.at("sun").is_null()) {
-    constexpr double most_rad = 7.0;  // more than a full turn
-    const json& sun = from["sun"];
-    model.sun = SunPosition{number(sun, "elevation_rad", -most_rad, most_rad), number(sun, "azimuth_rad", -most_rad, most_rad)};
-  }
-  if (from.at("sky").get<bool>()) model.sky = SkyModel{};
-  read_surfaces(from, model);
-  read_canopy(from, model.canopy, model.optics.size());
-  const bool has_period = model.canopy.period_m.x > 0.0 && model.canopy.period_m.y > 0.0;
-  require(has_period || !model.plot.periodic || model.canopy.size() == 0, "period_m");
-  return model;
-}
-
-std::optional<double> error_of(const json& object, const char* key) {
-  return object.at(key).is_null() ? std::nullopt : std::optional(object[key].get<double>());
-}
-
-RadiationResult read_result(const json& from, const RadiationModel& model) {
-  constexpr double largest = 1e30;
-  RadiationResult result;
-  result.leaf_area_index = number(from, "leaf_area_index", 0.0, largest);
-  result.ground_per_ray_m2 = number(from, "ground_per_ray_m2", 0.0, largest);
-  const std::size_t elements = model.canopy.size();
-  const auto cells = whole<std::size_t>(from.at("cells"));
-  require(cells == make_counter_layout(model).cells(), "cells");
-  result.direct.rays = whole<std::uint64_t>(from.at("rays"));
-  result.direct.relative_error = error_of(from, "direct_error");
-  result.indirect.packets = whole<std::uint64_t>(from.at("packets"));
-  if (from.contains("sky_rays")) result.indirect.sky_rays = whole<std::uint64_t>(from["sky_rays"]);
-  result.indirect.relative_error = error_of(from, "indirect_error");
-  result.elements = unpack<BeamLandings>(from.at("landings"), elements);
-  result.soil_cells = unpack<std::uint64_t>(from.at("cell_landings"), cells);
-  const auto quanta = [&](const char* key, bool there, std::size_t places) {
-    return unpack<std::int64_t>(from.at(key), there ? places * model.bands.size() : 0);
-  };
-  const bool indirect = from.at("has_indirect").get<bool>();
-  const bool sky = from.at("has_sky").get<bool>();
-  result.side_indirect = quanta("side_indirect", indirect, 2 * elements);
-  result.cell_indirect = quanta("cell_indirect", indirect, cells);
-  result.side_sky = quanta("side_sky", sky, 2 * elements);
-  result.cell_sky = quanta("cell_sky", sky, cells);
-  const json& w_per_quantum = from.at("w_per_quantum");
-  require(!w_per_quantum.empty() || (!indirect && !sky), "w_per_quantum");
-  if (!w_per_quantum.empty()) {
-    result.w_per_quantum = numbers(w_per_quantum, model.bands.size(), 0.0, largest, "w_per_quantum");
-  }
-  return result;
+  for (const std::uint16_t number : canopy.optics_of) require(number < model.optics.size(), "optics_of");
+  const bool has_period = canopy.period_m.x > 0.0 && canopy.period_m.y > 0.0;
+  require(has_period || !model.plot.periodic || canopy.size() == 0, "period_m");
 }
 
 StoredResult read_checked(const std::string& bytes) {
@@ -244,20 +179,19 @@ StoredResult read_checked(const std::string& bytes) {
   if (version != store_version)
     refuse(fmt::format("it has version {}, but this program reads version {}", version, store_version));
   StoredResult stored;
-  stored.seed = whole<std::uint64_t>(file.at("seed"));
-  stored.complete = file.at("complete").get<bool>();
-  Scene& scene = stored.scene;
-  scene.title = file.at("title").get<std::string>();
-  scene.digest = file.at("scene_digest").get<std::string>();
-  scene.model = read_model(file.at("model"));
-  if (!file.at("camera").is_null()) {
-    constexpr double widest_rad = 3.1;
-    const json& camera = file["camera"];
-    scene.camera = CameraPose{vector_of(camera, "position_m", farthest_m), vector_of(camera, "look_at_m", farthest_m),
-                              number(camera, "fov_rad", 1e-6, widest_rad)};
-    require(scene.camera->position_m != scene.camera->look_at_m, "camera");
-  }
-  stored.result = read_result(file.at("result"), scene.model);
+  visit_store(StoreReader(file), stored.scene, stored.result, stored);
+  RadiationModel& model = stored.scene.model;
+  check_surfaces(model);
+  check_canopy(model);
+  for (const SurfaceOptics& surface : model.optics) model.canopy.optics_names.push_back(surface.name);
+  const std::optional<CameraPose>& camera = stored.scene.camera;
+  require(!camera || camera->position_m != camera->look_at_m, "camera");
+  const RadiationResult& result = stored.result;
+  require(result.soil_cells.size() == make_counter_layout(model).cells(), "cells");
+  const bool counts_quanta =
+      !result.side_indirect.empty() || !result.cell_indirect.empty() || !result.side_sky.empty() || !result.cell_sky.empty();
+  const std::size_t factors = result.w_per_quantum.size();
+  require(factors == model.bands.size() || (factors == 0 && !counts_quanta), "w_per_quantum");
   return stored;
 }
 
@@ -265,16 +199,8 @@ StoredResult read_checked(const std::string& bytes) {
 
 void write_result_store(const std::filesystem::path& file, const RunRecord& record, const Scene& scene,
                         const RadiationResult& result) {
-  json camera = nullptr;
-  if (scene.camera) {
-    camera = {{"position_m", vector_json(scene.camera->position_m)},
-              {"look_at_m", vector_json(scene.camera->look_at_m)},
-              {"fov_rad", scene.camera->fov_rad}};
-  }
-  const json store = {
-      {"format", store_format},           {"version", store_version},     {"sunfleck", record.version},  {"title", scene.title},
-      {"scene_digest", scene.digest},     {"seed", record.seed},          {"complete", record.complete}, {"camera", camera},
-      {"model", model_json(scene.model)}, {"result", result_json(result)}};
+  json store = {{"format", store_format}, {"version", store_version}, {"sunfleck", record.version}};
+  visit_store(StoreWriter(store), scene, result, record);
   std::string bytes;
   json::to_cbor(store, bytes);
   write_file(file, bytes);

@@ -1,11 +1,10 @@
 #include "files/results/stores/run_store.h"
 
+#include "base/archive.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/packed_array.h"
 #include "base/sealed_file.h"
 
-#include <cstdint>
 #include <stdexcept>
 
 namespace sunfleck {
@@ -21,16 +20,15 @@ constexpr std::string_view state_mark = "SUNRUNS1";
   throw_input(printable(file.string()), "it is damaged", "omit --resume to start the run again");
 }
 
-// Reads a state. Throws std::runtime_error or json::exception if the content is not a valid state.
-SolveState state_of(const json& from, const SolveState& blank) {
-  SolveState state;
-  state.work = {from.at("rays").get<double>(), from.at("packets").get<double>()};
-  state.next_check = whole<std::size_t>(from.at("next_check"));
-  state.good_checks = whole<std::size_t>(from.at("good_checks"));
-  state.sums.integers = unpack<std::int64_t>(from.at("integers"), blank.sums.integers.size());
-  state.sums.reals = unpack<double>(from.at("reals"), blank.sums.reals.size());
-  if (!is_state_of(state, blank)) throw std::runtime_error("no run was ever in that state");
-  return state;
+// Writes or reads a state whose sums are as many as those of `blank`.
+template <class Archive, class State>
+void visit(const Archive& archive, State& state, const SolveState& blank) {
+  archive["rays"].value(state.work.rays);
+  archive["packets"].value(state.work.packets);
+  archive["next_check"].value(state.next_check);
+  archive["good_checks"].value(state.good_checks);
+  archive["integers"].packed(state.sums.integers, blank.sums.integers.size());
+  archive["reals"].packed(state.sums.reals, blank.sums.reals.size());
 }
 
 }  // namespace
@@ -51,19 +49,18 @@ std::optional<SolveState> RunStore::read(const SolveState& blank) const {
   if (!noted.is_object()) throw_damaged(file_);
   expect_same_settings(ordered_json::parse(settings_), noted, "that run", folder_);
   try {
-    return state_of(*content, blank);
-  } catch (const json::exception&) {
-    throw_damaged(file_);
+    SolveState state;
+    visit(StoreReader(*content), state, blank);
+    if (is_state_of(state, blank)) return state;
+  } catch (const json::exception&) {  // the content is that of no state
   } catch (const std::runtime_error&) {
-    throw_damaged(file_);
   }
+  throw_damaged(file_);
 }
 
 void RunStore::write(const SolveState& state) const {
-  const json content = {
-      {"settings", settings_},          {"rays", state.work.rays},          {"packets", state.work.packets},
-      {"next_check", state.next_check}, {"good_checks", state.good_checks}, {"integers", pack(state.sums.integers)},
-      {"reals", pack(state.sums.reals)}};
+  json content = {{"settings", settings_}};
+  visit(StoreWriter(content), state, state);
   write_file(file_, sealed(state_mark, content));
 }
 

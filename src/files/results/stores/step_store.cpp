@@ -1,8 +1,9 @@
 #include "files/results/stores/step_store.h"
 
+#include "base/archive.h"
+#include "base/each_number.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/packed_array.h"
 #include "base/sealed_file.h"
 #include "files/results/tables/day_fields.h"
 
@@ -20,43 +21,26 @@ constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
 
-// Visits every number of a step's light, in the order of the file.
-template <class Light, class Visit>
-void for_each_number(Light& light, const Visit& visit) {
-  const auto visit_estimate = [&](auto& estimate) {
-    visit(estimate.value);
-    visit(estimate.half_width);
-  };
-  for (auto& band : light.bands) {
-    for (auto* term : {&band.incident, &band.absorbed_vegetation, &band.absorbed_soil, &band.reflected, &band.transmitted}) {
-      visit_estimate(*term);
-    }
-    visit(band.unshot);
+// Writes or reads a step; its light has the sizes of the model.
+template <class Archive, class Step>
+void visit(const Archive& archive, Step& step, std::size_t field_values) {
+  std::vector<double> light;
+  EachNumber([&](double number) { light.push_back(number); })(step.light);
+  archive["light"].packed(light, light.size());
+  if constexpr (Archive::reads) {
+    auto next = light.begin();
+    EachNumber([&](double& number) { number = *next++; })(step.light);
   }
-  for (auto& organ : light.organ_absorbed) visit_estimate(organ);
-  visit_estimate(light.sunlit_leaf_fraction);
-}
-
-std::vector<double> numbers_of(const StepLight& light) {
-  std::vector<double> numbers;
-  for_each_number(light, [&](double number) { numbers.push_back(number); });
-  return numbers;
-}
-
-StepLight read_light(const json& packed, std::size_t bands, std::size_t organs) {
-  StepLight light{std::vector<StepBand>(bands), std::vector<Estimate>(organs * bands), {}};
-  const std::vector<double> numbers = unpack<double>(packed, numbers_of(light).size());
-  std::size_t next = 0;
-  for_each_number(light, [&](double& number) { number = numbers[next++]; });
-  return light;
-}
-
-json error_json(const std::optional<double>& error) {
-  return error ? json(*error) : json(nullptr);
-}
-
-std::optional<double> error_of(const json& value) {
-  return value.is_null() ? std::nullopt : std::optional<double>(value.get<double>());
+  archive["fields"].packed(step.fields, field_values);
+  archive["next_rays"].value(step.next_work.rays);
+  archive["next_packets"].value(step.next_work.packets);
+  archive["rays"].value(step.rays);
+  archive["packets"].value(step.packets);
+  archive["lost_rays"].value(step.lost_rays);
+  archive["direct_error"].value(step.direct_error);
+  archive["indirect_error"].value(step.indirect_error);
+  archive["reached_bound"].value(step.reached_bound);
+  archive["seconds"].value(step.seconds);
 }
 
 void remove_file(const fs::path& file) {
@@ -123,19 +107,8 @@ void StepStore::write(std::size_t step, const StoredStep& stored) const {
 }
 
 std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& stored) const {
-  const json content = {{"settings", settings_},
-                        {"step", step},
-                        {"light", pack(numbers_of(stored.light))},
-                        {"fields", pack(stored.fields)},
-                        {"next_rays", stored.next_work.rays},
-                        {"next_packets", stored.next_work.packets},
-                        {"rays", stored.rays},
-                        {"packets", stored.packets},
-                        {"lost_rays", stored.lost_rays},
-                        {"direct_error", error_json(stored.direct_error)},
-                        {"indirect_error", error_json(stored.indirect_error)},
-                        {"reached_bound", stored.reached_bound},
-                        {"seconds", stored.seconds}};
+  json content = {{"settings", settings_}, {"step", step}};
+  visit(StoreWriter(content), stored, field_values_);
   // If no thread can be started, the file is written when the result of the future is requested.
   return std::async(std::launch::async | std::launch::deferred,
                     [file = file_of(step), bytes = sealed(step_mark, content)] { write_file(file, bytes); });
@@ -147,19 +120,10 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
   const std::optional<json> content = unsealed(step_mark, read_file(file_of(step)));
   if (!content) return std::nullopt;
   try {
-    const json& from = *content;
-    if (from.at("settings") != settings_ || from.at("step") != step) return std::nullopt;
+    if (content->at("settings") != settings_ || content->at("step") != step) return std::nullopt;
     StoredStep stored;
-    stored.light = read_light(from.at("light"), bands_, organs_);
-    stored.fields = unpack<float>(from.at("fields"), field_values_);
-    stored.next_work = {from.at("next_rays").get<double>(), from.at("next_packets").get<double>()};
-    stored.rays = whole<std::uint64_t>(from.at("rays"));
-    stored.packets = whole<std::uint64_t>(from.at("packets"));
-    stored.lost_rays = whole<std::uint64_t>(from.at("lost_rays"));
-    stored.direct_error = error_of(from.at("direct_error"));
-    stored.indirect_error = error_of(from.at("indirect_error"));
-    stored.reached_bound = from.at("reached_bound").get<bool>();
-    stored.seconds = from.at("seconds").get<double>();
+    stored.light = {std::vector<StepBand>(bands_), std::vector<Estimate>(organs_ * bands_), {}};
+    visit(StoreReader(*content), stored, field_values_);
     return stored;
   } catch (const json::exception&) {
     return std::nullopt;

@@ -37,12 +37,22 @@ struct DayCourse {
 struct StepBand {
   Estimate incident, absorbed_vegetation, absorbed_soil, reflected, transmitted;
   double unshot = 0.0;  // included in the half-widths, as in BandResult
+
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.incident, self.absorbed_vegetation, self.absorbed_soil, self.reflected, self.transmitted, self.unshot);
+  }
 };
 
 struct StepLight {
   std::vector<StepBand> bands;           // [band]
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], W m-2 of the organ's one-sided area
   Estimate sunlit_leaf_fraction;
+
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction);
+  }
 };
 
 // Returns the light of a step from its result. The incident flux of a periodic plot is exact. That of an isolated plot is

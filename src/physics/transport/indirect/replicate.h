@@ -27,6 +27,14 @@ struct DirectSums {
 struct IndirectSums {
   IndirectSums(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
 
+  // Passes every sum to `archive`.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.surface_landed, self.layer_landed, self.side_landed, self.element_hits, self.cell_landed, self.side_sky,
+            self.cell_sky, self.down, self.up, self.ledger, self.receivers, self.sky_rays, self.packets, self.rounds,
+            self.first_candidates, self.most_candidates, self.lost);
+  }
+
   std::size_t bands;
   std::vector<std::int64_t> surface_landed;  // [(surface * 2 + side) * bands + band]
   std::vector<std::int64_t> layer_landed;    // [((layer * optics + optics) * 2 + side) * bands + band], without soil
@@ -45,6 +53,13 @@ struct IndirectSums {
 
 // The sums that one replicate contributes to a run.
 struct Replicate {
+  // Passes everything to `archive` but `direct`, which follows from the counters.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.counters, self.passed, self.direct_s, self.indirect_s);
+    if (self.packets) archive(*self.packets);
+  }
+
   std::vector<std::uint32_t> counters;  // numbered as in physics/transport/model/counters.h
   DirectSums direct;
   PlaneSums passed;                     // receivers that the beam rays passed
@@ -55,6 +70,11 @@ struct Replicate {
 
 // Describes one replicate. Replicates with the same seed and number are identical, whatever else is made at the same time.
 struct ReplicateOrder {
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.beam_rays, self.grid_rays, self.packets, self.sky_rays, self.bound, self.seed, self.number);
+  }
+
   double beam_rays = 0.0;       // approximate number
   std::uint64_t grid_rays = 0;  // actual number of rays on the grid
   double packets = 0.0;         // in the first round; 0: no indirect pass

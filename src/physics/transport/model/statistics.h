@@ -11,21 +11,28 @@ struct Estimate {
   double value = 0.0;
   double half_width = std::numeric_limits<double>::quiet_NaN();
 
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.value, self.half_width);
+  }
+
   [[nodiscard]] Estimate scaled(double factor) const { return {value * factor, half_width * (factor < 0 ? -factor : factor)}; }
 };
 
 // Running mean and sum of squared deviations (Welford 1962, Technometrics 4:419).
 class ReplicateMean {
  public:
-  ReplicateMean() = default;
-  // Restores an earlier state.
-  ReplicateMean(std::size_t count, double mean, double squares) : count_(count), mean_(mean), squares_(squares) {}
-
   void add(double value) {
     ++count_;
     const double delta = value - mean_;
     mean_ += delta / static_cast<double>(count_);
     squares_ += delta * (value - mean_);
+  }
+
+  // Passes the whole state to `archive`.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.count_, self.mean_, self.squares_);
   }
 
   [[nodiscard]] std::size_t count() const { return count_; }

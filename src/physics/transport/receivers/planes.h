@@ -62,6 +62,12 @@ struct PlaneSums {
   PlaneSums() = default;
   PlaneSums(const PlaneReceivers& planes, const RadiationModel& model);
 
+  // Passes every sum to `archive`.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.reached, self.crossing, self.zone_landings, self.down, self.through_down, self.through_up);
+  }
+
   std::vector<std::uint32_t> reached, crossing;        // [cell], beam rays, as in PlaneResult
   std::vector<BeamLandings> zone_landings;             // [zone * optics + optics]
   std::vector<std::int64_t> down;                      // [cell * bands + band], quanta of packets and sky rays
@@ -86,15 +92,9 @@ class PlaneTally {
 
   // Passes every sum to `archive`; see RunSums::visit.
   template <class Self, class Archive>
-  static void visit_sums(Self& self, Archive& archive) {
-    for (auto& means : self.means_) {
-      archive.visit(means.sunfleck);
-      archive.visit(means.down);
-    }
-    archive.visit(self.reached_);
-    archive.visit(self.crossing_);
-    archive.visit(self.down_);
-    archive.visit(self.through_down_);
+  static void visit(Self& self, Archive& archive) {
+    for (auto& means : self.means_) archive(means.sunfleck, means.down);
+    archive(self.reached_, self.crossing_, self.down_, self.through_down_);
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace sunfleck {
@@ -54,8 +55,8 @@ struct RunSums {
   // replicate.
   [[nodiscard]] double unseen(double event, double confidence) const;
 
-  // Passes every sum to `archive`; serves const and other sums alike. The number of values depends only on the model and on
-  // the element errors: arrays that stay empty before the first replicate have a size for `visit_late`.
+  // Passes every sum to `archive`, which writes those of const sums and fills others. The number of values depends only on
+  // the model and on the element errors: zeros are passed for arrays that are empty before the first replicate.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive);
 
@@ -82,34 +83,39 @@ struct RunSums {
 
 template <class Self, class Archive>
 void RunSums::visit(Self& self, Archive& archive) {
-  const RadiationModel& model = self.conversion.model;
-  const auto visit_all = [&](auto&... sums) { (archive.visit(sums), ...); };
-  visit_all(self.replicates, self.lost, self.sky_rays, self.packets, self.rounds, self.landed, self.first_vegetation,
-            self.first_ground, self.met, self.ground_ratio, self.sunlit);
+  archive(self.replicates, self.lost, self.sky_rays, self.packets, self.rounds, self.landed, self.first_vegetation,
+          self.first_ground, self.met, self.ground_ratio, self.sunlit);
   for (auto& ledger : self.ledgers) {
-    visit_all(ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected, ledger.transmitted,
-              ledger.unshot);
+    archive(ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected, ledger.transmitted,
+            ledger.unshot);
   }
   for (auto& band : self.bands) {
-    visit_all(band.vegetation, band.soil, band.reflected, band.transmitted, band.indirect_vegetation, band.indirect_soil);
+    archive(band.vegetation, band.soil, band.reflected, band.transmitted, band.indirect_vegetation, band.indirect_soil);
   }
   for (auto& organ : self.organs) {
-    visit_all(organ.landed, organ.sunlit, organ.direct, organ.indirect, organ.absorbed, organ.indirect_absorbed);
+    archive(organ.landed, organ.sunlit, organ.direct, organ.indirect, organ.absorbed, organ.indirect_absorbed);
   }
-  for (auto& layer : self.layers) visit_all(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed);
-  for (auto& element : self.elements) visit_all(element.upper, element.lower);
+  for (auto& layer : self.layers) archive(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed);
+  for (auto& element : self.elements) archive(element.upper, element.lower);
+  const auto visit_late = [&](auto& values, std::size_t size) {
+    if constexpr (!std::is_const_v<Self>) values.resize(size);
+    archive(values);
+    std::int64_t none = 0;
+    for (std::size_t k = values.size(); k < size; ++k) archive(none);
+  };
+  const RadiationModel& model = self.conversion.model;
   const bool packets = scatters(model) || model.has_sky();
   const std::size_t sides = 2 * self.elements.size() * model.bands.size();
   const std::size_t cells = self.soil_cells.size() * model.bands.size();
-  archive.visit_late(self.side_landed, packets ? sides : 0);
-  archive.visit_late(self.cell_landed, packets ? cells : 0);
-  archive.visit_late(self.side_sky, model.has_sky() ? sides : 0);
-  archive.visit_late(self.cell_sky, model.has_sky() ? cells : 0);
-  visit_all(self.soil_cells, self.element_hits);
+  visit_late(self.side_landed, packets ? sides : 0);
+  visit_late(self.cell_landed, packets ? cells : 0);
+  visit_late(self.side_sky, model.has_sky() ? sides : 0);
+  visit_late(self.cell_sky, model.has_sky() ? cells : 0);
+  archive(self.soil_cells, self.element_hits);
   for (auto* spreads : {&self.direct_spread, &self.absorbed_spread, &self.indirect_spread, &self.side_spread}) {
-    for (auto& spread : *spreads) visit_all(spread.sum, spread.squares);
+    for (auto& spread : *spreads) archive(spread.sum, spread.squares);
   }
-  if (self.planes) PlaneTally::visit_sums(*self.planes, archive);
+  if (self.planes) archive(*self.planes);
 }
 
 }  // namespace sunfleck

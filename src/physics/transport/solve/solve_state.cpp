@@ -1,5 +1,6 @@
 #include "physics/transport/solve/solve_state.h"
 
+#include "base/each_number.h"
 #include "physics/light/beam_grid.h"
 #include "physics/transport/model/surfaces.h"
 #include "physics/transport/receivers/planes.h"
@@ -9,91 +10,33 @@
 #include <type_traits>
 
 namespace sunfleck {
-namespace {
-
-// Appends the numbers of the sums that it visits.
-class Writer {
- public:
-  explicit Writer(PlainSums& sums) : sums_(sums) {}
-
-  template <class T>
-  requires std::is_integral_v<T>
-  void visit(const T& value) { sums_.integers.push_back(static_cast<std::int64_t>(value)); }
-  void visit(double value) { sums_.reals.push_back(value); }
-  void visit(const ReplicateMean& mean) {
-    visit(mean.count());
-    visit(mean.mean());
-    visit(mean.squares());
-  }
-  template <class T>
-  void visit(const std::vector<T>& values) {
-    for (const T& value : values) visit(value);
-  }
-  template <class T>
-  void visit_late(const std::vector<T>& values, std::size_t size) {
-    visit(values);
-    if (values.empty()) sums_.integers.resize(sums_.integers.size() + size);
-  }
-
- private:
-  PlainSums& sums_;
-};
-
-// Reads the numbers back in the same order; missing numbers are read as 0.
-class Reader {
- public:
-  explicit Reader(const PlainSums& sums) : sums_(sums) {}
-
-  // Returns true if exactly the available numbers were read.
-  [[nodiscard]] bool fits() const { return integer_ == sums_.integers.size() && real_ == sums_.reals.size(); }
-
-  template <class T>
-  requires std::is_integral_v<T>
-  void visit(T& value) {
-    value = integer_ < sums_.integers.size() ? static_cast<T>(sums_.integers[integer_]) : T{};
-    ++integer_;
-  }
-  void visit(double& value) {
-    value = real_ < sums_.reals.size() ? sums_.reals[real_] : 0.0;
-    ++real_;
-  }
-  void visit(ReplicateMean& mean) {
-    std::size_t count = 0;
-    double value = 0.0;
-    double squares = 0.0;
-    visit(count);
-    visit(value);
-    visit(squares);
-    mean = ReplicateMean(count, value, squares);
-  }
-  template <class T>
-  void visit(std::vector<T>& values) {
-    for (T& value : values) visit(value);
-  }
-  template <class T>
-  void visit_late(std::vector<T>& values, std::size_t size) {
-    values.resize(size);
-    visit(values);
-  }
-
- private:
-  const PlainSums& sums_;
-  std::size_t integer_ = 0, real_ = 0;
-};
-
-}  // namespace
 
 PlainSums plain_sums(const RunSums& sums) {
   PlainSums plain;
-  Writer writer(plain);
-  RunSums::visit(sums, writer);
+  const EachNumber write([&](auto number) {
+    if constexpr (std::is_integral_v<decltype(number)>) {
+      plain.integers.push_back(static_cast<std::int64_t>(number));
+    } else {
+      plain.reals.push_back(number);
+    }
+  });
+  RunSums::visit(sums, write);
   return plain;
 }
 
 bool restore(RunSums& sums, const PlainSums& plain) {
-  Reader reader(plain);
-  RunSums::visit(sums, reader);
-  return reader.fits();
+  std::size_t integers = 0;
+  std::size_t reals = 0;
+  const auto next = [](const auto& values, std::size_t& k) { return k++ < values.size() ? values[k - 1] : 0; };
+  const EachNumber read([&]<class T>(T& number) {
+    if constexpr (std::is_integral_v<T>) {
+      number = static_cast<T>(next(plain.integers, integers));
+    } else {
+      number = next(plain.reals, reals);
+    }
+  });
+  RunSums::visit(sums, read);
+  return integers == plain.integers.size() && reals == plain.reals.size();
 }
 
 std::size_t SolveState::replicates() const {

@@ -28,7 +28,7 @@ void expect_whole_only(const Bytes& good, const Unpack& unpack) {
 TEST(Orders, ArriveAsTheyWereSent) {
   const OrderMessage sent{{3, 17}, 5, {1e6 / 7.0, 142884, 4096.5, 1U << 22U, 0.003, ~0ULL, (1ULL << 40U) + 17}};
   const Bytes bytes = pack(sent);
-  const OrderMessage got = unpack_order(bytes);
+  const OrderMessage got = unpack<OrderMessage>(bytes);
   EXPECT_EQ(got.key.series, 3U);
   EXPECT_EQ(got.key.number, 17U);
   EXPECT_EQ(got.stage, 5U);
@@ -39,26 +39,26 @@ TEST(Orders, ArriveAsTheyWereSent) {
   EXPECT_EQ(got.order.bound, sent.order.bound);
   EXPECT_EQ(got.order.seed, sent.order.seed);
   EXPECT_EQ(got.order.number, sent.order.number);
-  expect_whole_only(bytes, [](std::span<const std::byte> cut) { static_cast<void>(unpack_order(cut)); });
+  expect_whole_only(bytes, [](std::span<const std::byte> cut) { static_cast<void>(unpack<OrderMessage>(cut)); });
 }
 
 TEST(Words, ArriveAsTheyWereSent) {
   const Bytes ready = pack(ReadyMessage{2, "node7", "scene 0123"});
-  EXPECT_EQ(unpack_ready(ready).slots, 2U);
-  EXPECT_EQ(unpack_ready(ready).host, "node7");
-  EXPECT_EQ(unpack_ready(ready).scene, "scene 0123");
-  expect_whole_only(ready, [](std::span<const std::byte> cut) { static_cast<void>(unpack_ready(cut)); });
+  EXPECT_EQ(unpack<ReadyMessage>(ready).slots, 2U);
+  EXPECT_EQ(unpack<ReadyMessage>(ready).host, "node7");
+  EXPECT_EQ(unpack<ReadyMessage>(ready).scene, "scene 0123");
+  expect_whole_only(ready, [](std::span<const std::byte> cut) { static_cast<void>(unpack<ReadyMessage>(cut)); });
   const Bytes failed = pack(FailedMessage{3, "", "no device (why); cure"});
-  EXPECT_EQ(unpack_failed(failed).kind, 3);
-  EXPECT_EQ(unpack_failed(failed).host, "");
-  EXPECT_EQ(unpack_failed(failed).text, "no device (why); cure");
-  expect_whole_only(failed, [](std::span<const std::byte> cut) { static_cast<void>(unpack_failed(cut)); });
+  EXPECT_EQ(unpack<FailedMessage>(failed).kind, 3);
+  EXPECT_EQ(unpack<FailedMessage>(failed).host, "");
+  EXPECT_EQ(unpack<FailedMessage>(failed).text, "no device (why); cure");
+  expect_whole_only(failed, [](std::span<const std::byte> cut) { static_cast<void>(unpack<FailedMessage>(cut)); });
 }
 
 TEST(Words, OfEndlessLengthTakeNoMemory) {
   Bytes bytes = pack(FailedMessage{1, "", ""});
   bytes.back() = std::byte{0x7F};  // the highest byte of the text's length
-  EXPECT_THROW(static_cast<void>(unpack_failed(bytes)), Error);
+  EXPECT_THROW(static_cast<void>(unpack<FailedMessage>(bytes)), Error);
 }
 
 class Replicates : public ::testing::Test {
