@@ -159,7 +159,7 @@ class Comparison {
 };
 
 TEST(EmbreeAgreement, OnTheSparsePlotsBeam) {
-  const RadiationModel model = maize_model({}, paper_sun());
+  const RadiationModel model = maize_model({}, beijing_sun());
   const Prepared prepared(model);
   const shared::BeamBlock beam = make_beam_block(model, prepared.layout, 2'000'000, 1, 0);
   Comparison comparison(prepared.bvh);

@@ -222,7 +222,7 @@ TEST(ExtremeQuanta, SplitToTheLastOneUpToTheEndOf63Bits) {
 
 // Light enclosed between mirrors lands again and again. Sums that would overflow fail the run.
 TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
-  RadiationModel model = scattering_model(quarter(), unit_plot, sun_at(60.0, 33.0), std::array{usual_nir});
+  RadiationModel model = leaf_model(quarter(), unit_plot, sun_at(60.0, 33.0), std::array{nir_band});
   const Prepared prepared(model);
   const Surfaces surfaces(model);
   const Conversion conversion(model, prepared.layout, surfaces, nullptr, {});

@@ -1,6 +1,7 @@
 // Tests scenes given leaf by leaf, whose light was also computed by independent programs: scene S1 of the validation table
 // (B12) and a whole maize stand, in PAR and NIR.
 #include "files/formats/mesh/mesh_reader.h"
+#include "programs/validate/known/canopy_scenes.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 
@@ -30,23 +31,20 @@ void expect_within(const Estimate& got, const Reference& reference, double large
 }
 
 TEST(ExplicitScene, IsTheOneOfTheTable) {
-  const ExplicitScene scene = explicit_scene();
-  const auto expect_near = [](const glm::dvec3& got, const glm::dvec3& expected) {
-    EXPECT_LE(glm::length(got - expected), 1e-6);
-  };
-  expect_near(scene.leaves[0].centre_m, {0.120885, 0.347903, 0.669735});
-  expect_near(scene.leaves[0].normal, {-0.322204, -0.385838, 0.864473});
-  expect_near(scene.leaves[1].centre_m, {0.376987, 0.680171, 0.494081});
-  const RadiationModel model = paper_model(scene.mesh, {}, paper_sun());
+  const Mesh mesh = explicit_leaves();
+  const auto middle_m = [&](std::size_t leaf) { return 0.5 * (mesh.vertices.at(6 * leaf) + mesh.vertices.at(6 * leaf + 2)); };
+  EXPECT_LE(glm::length(middle_m(0) - from_east_north_up(0.120885, 0.347903, 0.669735)), 1e-6);
+  EXPECT_LE(glm::length(middle_m(1) - from_east_north_up(0.376987, 0.680171, 0.494081)), 1e-6);
+  const RadiationModel model = paper_model(mesh, {}, beijing_sun());
   double area = 0.0;
   for (std::size_t e = 0; e < model.canopy.size(); ++e) area += area_m2(model.canopy.corners[e]);
   EXPECT_NEAR(area, 3.0, 1e-6);
-  const glm::dvec3 normal = scene.leaves[0].normal;
-  EXPECT_LE(glm::length(unit_normal(model.canopy.corners[0]) - from_enu(normal.x, normal.y, normal.z)), 1e-5);
+  const glm::dvec3 normal = from_east_north_up(-0.322204, -0.385838, 0.864473);
+  EXPECT_LE(glm::length(unit_normal(model.canopy.corners[0]) - normal), 1e-5);
 }
 
 TEST(ExplicitScene, TotalsAndLeavesUnderThePaperSun) {
-  const RadiationModel model = paper_model(explicit_scene().mesh, {}, paper_sun());
+  const RadiationModel model = paper_model(explicit_leaves(), {}, beijing_sun());
   const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 1.6e7, .packets = 120000}));
   struct Totals {
     Reference reflected, leaves, on_soil;
@@ -92,8 +90,8 @@ RadiationModel maize_stand() {
   }
   mesh.organs = {{1, "leaf", 0}, {1, "stem", 0}, {0, "soil", 0}};
   mesh.optics_names = {"leaf", "stem", "soil"};
-  const std::array bands = {BandOptics{"PAR", 0.12, 0.06, 0.15}, BandOptics{"NIR", 0.40, 0.45, 0.35}};
-  RadiationModel model = scattering_model(mesh, {3.0, 3.0, true}, sun_at(52.975, 120.70), bands);
+  const std::array bands = {LeafBand{"PAR", 0.12, 0.06, 0.15}, LeafBand{"NIR", 0.40, 0.45, 0.35}};
+  RadiationModel model = leaf_model(mesh, {3.0, 3.0, true}, sun_at(52.975, 120.70), bands);
   for (std::size_t b = 0; b < bands.size(); ++b) {
     model.optics[1].upper[b] = model.optics[1].lower[b] = {bands[b].reflectance, 0.0};
     model.optics[2].upper[b] = model.optics[2].lower[b] = {bands[b].soil_reflectance, 0.0};

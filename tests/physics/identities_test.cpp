@@ -82,7 +82,7 @@ void expect_closed(const RadiationModel& model, const RadiationResult& result) {
 TEST(Identities, LedgerClosesInEveryBand) {
   for (const bool periodic : {true, false}) {
     for (const bool has_soil : {true, false}) {
-      RadiationModel model = black_model(stand(), {plot.size_x_m, plot.size_z_m, periodic}, paper_sun());
+      RadiationModel model = black_model(stand(), {plot.size_x_m, plot.size_z_m, periodic}, beijing_sun());
       if (!has_soil) model.soil.reset();
       add_bands(model);
       expect_closed(model, simulate(model, fixed_work(model, 2e5, 8)));
@@ -92,7 +92,7 @@ TEST(Identities, LedgerClosesInEveryBand) {
 
 // The canopy absorbs the share of the landing light given by the absorptance: 0.82 times the organs' direct and indirect light.
 TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
-  RadiationModel model = black_model(stand(), plot, paper_sun());
+  RadiationModel model = black_model(stand(), plot, beijing_sun());
   add_bands(model);
   const RadiationResult result = simulate(model, fixed_work(model, 2e5, 8));
   double landed = 0.0;
@@ -106,9 +106,9 @@ TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
 // beside the plot (A3's plate, x east: the plot ends where the shadow of 0.4 m width still reaches 0.2187 m further west).
 TEST(Identities, IsolatedStandTakesWhatMeetsItOrItsPlot) {
   MeshMaker maker;
-  const auto corner = [](double x, double y) { return from_enu(x - 1.0, y - 1.0, 0.8); };
+  const auto corner = [](double x, double y) { return from_east_north_up(x - 1.0, y - 1.0, 0.8); };
   maker.quad(corner(0.3, 0.35), corner(0.7, 0.35), corner(0.7, 0.65), corner(0.3, 0.65));
-  const RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, beijing_sun());
   const RadiationResult result = simulate(model, fixed_work(model, 4e6, replicates));
   const double centre_x = 0.5 - 0.8 * 0.64840851;
   const double in_plot_m2 = (centre_x + 0.2) * 0.3;
@@ -139,14 +139,14 @@ RadiationModel placed_model(const Mesh& mesh, const Plot& ground, const SunPosit
 }
 
 TEST(Identities, ShiftOfTheStandChangesNothing) {
-  const RadiationModel model = black_model(stand(), plot, paper_sun());
+  const RadiationModel model = black_model(stand(), plot, beijing_sun());
   for (const glm::dvec3& shift_m : {glm::dvec3(0.37, 0.0, 1.21), glm::dvec3(-0.5, 0.0, 0.75)}) {
-    expect_same_aggregates(model, placed_model(stand(), plot, paper_sun(), {{shift_m, 0.0}}), "shifted");
+    expect_same_aggregates(model, placed_model(stand(), plot, beijing_sun(), {{shift_m, 0.0}}), "shifted");
   }
 }
 
 TEST(Identities, TurnOfStandAndSunChangesNothing) {
-  const SunPosition sun = paper_sun();
+  const SunPosition sun = beijing_sun();
   const RadiationModel model = black_model(stand(), plot, sun);
   const SunPosition turned_sun{sun.elevation_rad, sun.azimuth_rad + radians(90.0)};
   const Plot turned_plot{plot.size_z_m, plot.size_x_m, true};
@@ -154,11 +154,11 @@ TEST(Identities, TurnOfStandAndSunChangesNothing) {
 }
 
 TEST(Identities, PlotOfFourCopiesChangesNothing) {
-  const RadiationModel model = black_model(stand(), plot, paper_sun());
+  const RadiationModel model = black_model(stand(), plot, beijing_sun());
   const double x_m = plot.size_x_m;
   const double z_m = plot.size_z_m;
   const std::vector<Placement> copies = {{{0, 0, 0}, 0}, {{x_m, 0, 0}, 0}, {{0, 0, z_m}, 0}, {{x_m, 0, z_m}, 0}};
-  expect_same_aggregates(model, placed_model(stand(), {2 * x_m, 2 * z_m, true}, paper_sun(), copies), "four copies");
+  expect_same_aggregates(model, placed_model(stand(), {2 * x_m, 2 * z_m, true}, beijing_sun(), copies), "four copies");
 }
 
 TEST(Identities, TrianglesCutInFourChangeNothing) {
@@ -180,7 +180,7 @@ TEST(Identities, TrianglesCutInFourChangeNothing) {
       cut.organ_of.push_back(whole.organ_of[t]);
     }
   }
-  expect_same_aggregates(black_model(whole, plot, paper_sun()), black_model(cut, plot, paper_sun()), "cut in four");
+  expect_same_aggregates(black_model(whole, plot, beijing_sun()), black_model(cut, plot, beijing_sun()), "cut in four");
 }
 
 // Changes one counter of the last replicate by one.
@@ -233,7 +233,7 @@ void expect_found_out(const RadiationModel& model, CheatingTracer::Cheat cheat, 
 TEST(Identities, OneLostOrInventedLandingFailsTheRun) {
   constexpr std::size_t all = ~std::size_t{0};
   for (const bool periodic : {true, false}) {
-    RadiationModel model = black_model(stand(), {1.0, 1.5, periodic}, paper_sun());
+    RadiationModel model = black_model(stand(), {1.0, 1.5, periodic}, beijing_sun());
     const std::size_t first_bin = Prepared(model).layout.first_bin_word;
     for (const auto cheat : {CheatingTracer::Cheat::drop, CheatingTracer::Cheat::invent}) {
       expect_found_out(model, cheat, shared::counter_first_cell, first_bin);

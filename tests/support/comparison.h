@@ -2,6 +2,7 @@
 // Compares estimates with their known values.
 
 #include "physics/transport/model/statistics.h"
+#include "programs/validate/known/verdict.h"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +14,6 @@ namespace sunfleck::test {
 // Returns the standard error behind a half-width of the default confidence, 0.95.
 inline double standard_error(const Estimate& estimate, std::size_t replicates) {
   return estimate.half_width / t_quantile(0.95, replicates);
-}
-
-// Returns Student's t for `count` comparisons that together fail by chance once in a thousand times (Sidak).
-inline double table_quantile(std::size_t count, std::size_t replicates) {
-  const double each = std::pow(1.0 - 0.001, 1.0 / static_cast<double>(count));
-  return t_quantile(each, replicates);
 }
 
 // Returns the mean of independent runs in the form of a result's estimates.
