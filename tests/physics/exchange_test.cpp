@@ -2,6 +2,7 @@
 // their own copies in other periods.
 #include "programs/validate/known/exchange_scenes.h"
 #include "support/scattering.h"
+#include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
@@ -67,9 +68,9 @@ TEST(Exchange, TwoInfinitePlates) {
 }
 
 // Ignores a packet's own element in every period, including its copies: the mistake that the blind exposes.
-class ForgetfulTracer final : public Tracer {
+class ForgetfulTracer final : public WrappedTracer {
  public:
-  ForgetfulTracer(const RadiationModel& model, const Bvh& bvh) : honest_(bvh, tracer_scene(model)) {
+  ForgetfulTracer(const RadiationModel& model, const Bvh& bvh, CpuTracer& honest) : WrappedTracer(honest), honest_(honest) {
     without_.assign(model.canopy.size(), bvh);
     for (std::uint32_t e = 0; e < without_.size(); ++e) {
       std::erase_if(without_[e].triangles, [e](const BvhTriangle& reference) { return reference.element == e; });
@@ -77,11 +78,6 @@ class ForgetfulTracer final : public Tracer {
     }
   }
 
-  [[nodiscard]] TracerDevice device() const override { return honest_.device(); }
-  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                        const StopQuestion& stop) override {
-    return honest_.count_beam(beam, counters, stop);
-  }
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& /*stop*/) override {
     for (std::size_t k = 0; k < packets.size(); ++k) {
@@ -92,7 +88,7 @@ class ForgetfulTracer final : public Tracer {
   }
 
  private:
-  CpuTracer honest_;
+  CpuTracer& honest_;
   std::vector<Bvh> without_;        // [element], all references except its own
   std::vector<CpuTracer> tracers_;  // [element]
 };
@@ -111,7 +107,8 @@ TEST(Exchange, StripShadesItsOwnCopies) {
   expect_same(a.reflected, b.reflected, replicates, 1e-3, 3, "reflected");
 
   const Prepared prepared(one);
-  ForgetfulTracer forgetful(one, prepared.bvh);
+  CpuTracer honest(prepared.bvh, tracer_scene(one));
+  ForgetfulTracer forgetful(one, prepared.bvh, honest);
   const BandResult wrong = solve(one, prepared.layout, forgetful, settings, {}).bands[0];
   std::printf("without its own copies: strips %.5f instead of %.5f, reflected %.5f instead of %.5f\n",
               wrong.absorbed_vegetation.value, a.absorbed_vegetation.value, wrong.reflected.value, a.reflected.value);

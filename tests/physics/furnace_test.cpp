@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <map>
 #include <utility>
 #include <vector>
 

@@ -1,8 +1,8 @@
 // Tests light from the sky: the light that single faces receive, the light that canopies absorb (B12 and E of the validation
 // table), and the identities that hold with it.
-#include "files/formats/mesh/mesh_reader.h"
 #include "programs/validate/known/canopy_scenes.h"
 #include "support/comparison.h"
+#include "support/field_stand.h"
 #include "support/leaf_scenes.h"
 
 #include <gtest/gtest.h>
@@ -14,19 +14,6 @@ namespace sunfleck::test {
 namespace {
 
 constexpr int replicates = 32;
-
-struct Reference {
-  double value, error;  // error: that of the reference itself
-};
-
-void expect_within(const Estimate& got, const Reference& reference, double largest, const std::string& what) {
-  const double own = standard_error(got, replicates);
-  const double error = std::hypot(own, reference.error);
-  std::printf("%-28s expected %.6f(%.0e) got %.6f(%.1e) z %+.2f\n", what.c_str(), reference.value, reference.error, got.value,
-              own, (got.value - reference.value) / std::max(error, 1e-12));
-  EXPECT_LE(own, largest) << what;
-  EXPECT_LE(std::abs(got.value - reference.value), 3.0 * error + rounding) << what;
-}
 
 RadiationModel under_sky(RadiationModel model, const SkyModel& sky) {
   shine_from_sky(model, sky);
@@ -51,10 +38,10 @@ TEST(SkyLight, ExplicitSceneUnderUniformAndOvercastSkies) {
     model.sun.reset();
     const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 98304}));
     const BandResult& par = result.bands[0];
-    expect_within(par.reflected, row.reflected, 1e-4, "reflected");
-    expect_within(par.absorbed_vegetation, row.leaves, 2e-4, "absorbed by leaves");
-    expect_within(result.layers[0].down[0], row.on_soil, 2e-4, "on soil");
-    expect_within(par.absorbed_soil, {row.in_soil, 0.85 * row.on_soil.error}, 2e-4, "absorbed by soil");
+    expect_within(par.reflected, row.reflected, replicates, 1e-4, "reflected");
+    expect_within(par.absorbed_vegetation, row.leaves, replicates, 2e-4, "absorbed by leaves");
+    expect_within(result.layers[0].down[0], row.on_soil, replicates, 2e-4, "on soil");
+    expect_within(par.absorbed_soil, {row.in_soil, 0.85 * row.on_soil.error}, replicates, 2e-4, "absorbed by soil");
     const double passed_error = 3.0 * std::hypot(row.passed.error, standard_error(result.layers[0].down[0], replicates));
     EXPECT_NEAR(sky_on_soil_w_m2(model, result, 0), row.passed.value, passed_error);
     EXPECT_EQ(par.ledger.residual(), 0);
@@ -117,11 +104,7 @@ TEST(SkyLight, VerticalSquareSeesTheTables) {
 // Compares the light that leaves, stems and soil of a whole stand absorb from the overcast sky with a reference of 46
 // directions.
 TEST(SkyLight, StandUnderTheOvercastSky) {
-  Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
-  std::vector<std::uint32_t> kind_of;
-  for (const Organ& organ : mesh.organs) kind_of.push_back(is_leaf_name(organ.name) ? 0 : organ.name == "stem" ? 1 : 2);
-  for (std::uint32_t& organ : mesh.organ_of) organ = kind_of[organ];
-  mesh.organs = {{1, "leaf", 0}, {1, "stem", 0}, {0, "soil", 0}};
+  const Mesh mesh = stand_by_kind();
   RadiationModel model = under_sky(black_model(mesh, {3.0, 3.0, true}, beijing_sun()), {.kind = SkyKind::overcast});
   model.sun.reset();
   const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 32768}));

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "physics/light/sun_events.h"
+#include "support/error_text.h"
 
 namespace sunfleck {
 namespace {
@@ -113,13 +114,9 @@ TEST(sun_position, refuses_times_that_do_not_exist) {
                                       {2002, 4, 3, 1, 60},    {2002, 4, 3, 1, 2, 61.0},
                                       {2002, 4, 3, 1, 2, -1}, {2002, 4, 3, 1, 2, std::nan("")}};
   for (const UtcTime& time : wrong) {
-    try {
-      static_cast<void>(sun_position(time, field));
-      ADD_FAILURE() << time.year << '-' << time.month << '-' << time.day << ' ' << time.hour << ':' << time.minute;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(std::string(error.what()).find("); "), std::string::npos) << error.what();
-    }
+    const std::string message = refusal_of([&] { static_cast<void>(sun_position(time, field)); });
+    EXPECT_NE(message.find("); "), std::string::npos)
+        << message << time.year << '-' << time.month << '-' << time.day << ' ' << time.hour << ':' << time.minute;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "physics/light/weather.h"
 
 #include "base/error.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -162,14 +163,7 @@ TEST(Weather, IntervalsHoldTheirStartButNotTheirEnd) {
 }
 
 std::string refusal(const Weather& weather, const UtcTime& time) {
-  try {
-    static_cast<void>(weather_at(weather, time, paper_sun));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  ADD_FAILURE() << "not refused";
-  return "";
+  return refusal_of([&] { static_cast<void>(weather_at(weather, time, paper_sun)); });
 }
 
 TEST(Weather, TimesOutsideAreRefusedByName) {

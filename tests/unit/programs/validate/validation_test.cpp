@@ -5,6 +5,7 @@
 #include "programs/validate/known/known_formulas.h"
 #include "programs/validate/known_cases.h"
 #include "programs/validate/validate_report.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -99,13 +100,8 @@ TEST(CaseGroups, AreChosenByPartsOfTheirNames) {
   EXPECT_STREQ(chosen[0].name, "sun position");
   EXPECT_STREQ(chosen[1].name, "furnace");
   for (const char* wrong : {"nonsense", ""}) {
-    try {
-      (void)choose_case_groups({"furnace", wrong});
-      ADD_FAILURE() << wrong;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(std::string(error.what()).find("furnace"), std::string::npos) << error.what();
-    }
+    const std::string message = refusal_of([&] { (void)choose_case_groups({"furnace", wrong}); });
+    EXPECT_NE(message.find("furnace"), std::string::npos) << message;
   }
 }
 
