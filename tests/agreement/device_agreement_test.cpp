@@ -79,12 +79,12 @@ constexpr Plot unit_plot{1.0, 1.0, true};
 constexpr Plot unit_stand{1.0, 1.0, false};
 
 TEST_F(DeviceAgreement, OnTwoMaizePlants) {
-  expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, paper_sun()), 60'000, 1'000);
+  expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun()), 60'000, 1'000);
 }
 
 TEST_F(DeviceAgreement, OnALoneMaizePlant) {
   const Mesh plant = make_maize({1, 1, 0.6, 0.6, 5});
-  expect_agreement(black_model(plant, {0.6, 0.6, false}, paper_sun()), 60'000, 1'000);
+  expect_agreement(black_model(plant, {0.6, 0.6, false}, beijing_sun()), 60'000, 1'000);
 }
 
 TEST_F(DeviceAgreement, OnRandomLeaves) {
@@ -97,13 +97,13 @@ TEST_F(DeviceAgreement, OnRandomLeaves) {
 
 TEST_F(DeviceAgreement, WithoutSoil) {
   const Mesh leaves = random_leaves(60, 0.1, 2);
-  expect_agreement(without_soil(black_model(leaves, unit_plot, paper_sun())), 20'000, 4'000);
-  expect_agreement(without_soil(black_model(leaves, unit_stand, paper_sun())), 20'000, 4'000);
+  expect_agreement(without_soil(black_model(leaves, unit_plot, beijing_sun())), 20'000, 4'000);
+  expect_agreement(without_soil(black_model(leaves, unit_stand, beijing_sun())), 20'000, 4'000);
 }
 
 TEST_F(DeviceAgreement, WithoutElements) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
-    const RadiationModel empty = black_model({}, plot, paper_sun());
+    const RadiationModel empty = black_model({}, plot, beijing_sun());
     expect_agreement(empty, 5'000, 5'000);
     expect_agreement(without_soil(empty), 5'000, 5'000);
   }
@@ -216,14 +216,14 @@ class ViewAgreement : public DeviceAgreement {
 };
 
 TEST_F(ViewAgreement, OfAMaizePlot) {
-  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, paper_sun());
+  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun());
   expect_same_picture(model, {3.0, 2.5, 2.0}, {0.6, 0.9, 0.3});
   expect_same_picture(model, {0.6, 6.0, 0.3}, {0.6, 0.0, 0.3});
   expect_same_picture(without_soil(model), {-2.0, 0.5, -2.0}, {0.6, 1.5, 0.3});
 }
 
 TEST_F(ViewAgreement, OfAPlateAlongTheAxes) {
-  const RadiationModel model = black_model(gridded_plate(8), unit_stand, paper_sun());
+  const RadiationModel model = black_model(gridded_plate(8), unit_stand, beijing_sun());
   expect_same_picture(model, {0.5, 3.0, 0.5}, {0.5, 0.0, 0.5});
   expect_same_picture(model, {-2.0, 0.5, 0.5}, {0.0, 0.5, 0.5});
 }
@@ -231,7 +231,7 @@ TEST_F(ViewAgreement, OfAPlateAlongTheAxes) {
 TEST_F(ViewAgreement, OfAPileTooHighForOneDispatch) {
   MeshMaker maker;
   add_pile(maker, 70'000, 1.0, 0.5);
-  expect_same_picture(black_model(maker.mesh(), unit_stand, paper_sun()), {9.0, 20.0, 9.0}, {0.5, 0.0, 0.5});
+  expect_same_picture(black_model(maker.mesh(), unit_stand, beijing_sun()), {9.0, 20.0, 9.0}, {0.5, 0.0, 0.5});
 }
 
 }  // namespace

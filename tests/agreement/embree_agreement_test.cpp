@@ -51,19 +51,7 @@ class Judge {
   [[nodiscard]] JudgedHit nearest(const shared::Ray& ray, float limit) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query{};
-    query.ray = {ray.origin.x,
-                 ray.origin.y,
-                 ray.origin.z,
-                 0.0F,
-                 ray.direction.x,
-                 ray.direction.y,
-                 ray.direction.z,
-                 0.0F,
-                 limit,
-                 ~0U,
-                 0,
-                 0};
+    RTCRayHit query{ray_of(ray, limit), {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context, &query);
     return {query.hit.geomID != RTC_INVALID_GEOMETRY_ID, query.ray.tfar, query.hit.primID};
@@ -159,7 +147,7 @@ class Comparison {
 };
 
 TEST(EmbreeAgreement, OnTheSparsePlotsBeam) {
-  const RadiationModel model = maize_model({}, paper_sun());
+  const RadiationModel model = maize_model({}, beijing_sun());
   const Prepared prepared(model);
   const shared::BeamBlock beam = make_beam_block(model, prepared.layout, 2'000'000, 1, 0);
   Comparison comparison(prepared.bvh);

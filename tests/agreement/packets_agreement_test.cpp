@@ -121,31 +121,31 @@ class PacketsAgreement : public DeviceTest {
 TEST_F(PacketsAgreement, OnRandomLeaves) {
   const Mesh leaves = random_leaves(300, 0.1, 1);
   for (const Plot& plot : {unit_plot, unit_stand}) {
-    const RadiationModel model = black_model(leaves, plot, paper_sun());
+    const RadiationModel model = black_model(leaves, plot, beijing_sun());
     expect_agreement(model, 8'000, 1'000);
     expect_agreement(without_soil(model), 8'000, 1'000);
   }
 }
 
 TEST_F(PacketsAgreement, OnTwoMaizePlants) {
-  expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, paper_sun()), 8'000, 200);
+  expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun()), 8'000, 200);
 }
 
 TEST_F(PacketsAgreement, OnALeafLargerThanThePlot) {
   MeshMaker maker;
   maker.triangle({-1.3, 0.2, -0.4}, {2.1, 0.9, 0.3}, {0.2, 0.5, 3.7});
   maker.triangle({-2.0, 1.5, 0.5}, {4.0, 1.6, 0.5}, {-2.0, 1.4, 0.55});
-  expect_agreement(black_model(maker.mesh(), unit_plot, paper_sun()), 4'000, 2'000);
+  expect_agreement(black_model(maker.mesh(), unit_plot, beijing_sun()), 4'000, 2'000);
 }
 
 TEST_F(PacketsAgreement, OnDuplicatesCoplanarAndGriddedLeaves) {
-  expect_agreement(black_model(coplanar_leaves(), unit_plot, paper_sun()), 4'000, 2'000, 1e-3);
-  expect_agreement(black_model(gridded_plate(16), unit_plot, paper_sun()), 4'000, 2'000, 1e-3);
-  expect_agreement(black_model(gridded_plate(16), unit_stand, paper_sun()), 4'000, 2'000);
+  expect_agreement(black_model(coplanar_leaves(), unit_plot, beijing_sun()), 4'000, 2'000, 1e-3);
+  expect_agreement(black_model(gridded_plate(16), unit_plot, beijing_sun()), 4'000, 2'000, 1e-3);
+  expect_agreement(black_model(gridded_plate(16), unit_stand, beijing_sun()), 4'000, 2'000);
 }
 
 TEST_F(PacketsAgreement, WithoutElements) {
-  for (const Plot& plot : {unit_plot, unit_stand}) expect_agreement(black_model({}, plot, paper_sun()), 1'000, 1'000, 1e-3);
+  for (const Plot& plot : {unit_plot, unit_stand}) expect_agreement(black_model({}, plot, beijing_sun()), 1'000, 1'000, 1e-3);
 }
 
 // A period of 5 cm lies below a leaf 12 m high: level packets pass thousands of periods and pause between dispatches.
@@ -153,7 +153,7 @@ TEST_F(PacketsAgreement, OverATinyPlot) {
   MeshMaker maker;
   maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
   maker.level(0.01, 0.04, 0.01, 0.04, 0.01);
-  expect_agreement(black_model(maker.mesh(), {0.05, 0.05, true}, paper_sun()), 300, 100, 0.01);
+  expect_agreement(black_model(maker.mesh(), {0.05, 0.05, true}, beijing_sun()), 300, 100, 0.01);
 }
 
 TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
@@ -162,7 +162,7 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
   automatic.accuracy.direct = 0.02;
   automatic.accuracy.indirect = 0.05;
   for (const Plot& plot : {unit_plot, unit_stand}) {
-    const RadiationModel model = paper_model(leaves, plot, paper_sun());
+    const RadiationModel model = paper_model(leaves, plot, beijing_sun());
     SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8, .bound = 0.01});
     fixed.element_errors = ElementErrors::keep;
     expect_same_run(model, fixed);
@@ -174,7 +174,7 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
 TEST_F(PacketsAgreement, OfWholeRunsUnderTheSkyWithReceivers) {
   const Mesh leaves = random_leaves(100, 0.12, 5);
   for (const Plot& plot : {unit_plot, unit_stand}) {
-    RadiationModel model = paper_model(leaves, plot, paper_sun());
+    RadiationModel model = paper_model(leaves, plot, beijing_sun());
     model.sky = SkyModel{.kind = SkyKind::overcast};
     for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.4;
     model.planes = {{0.3, 20, 20}, {0.6, 7, 5}};

@@ -61,7 +61,7 @@ TEST(Picture, OfTwoSquaresIsExact) {
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
   maker.level(0.5, 1.5, 0.5, 1.5, 0.25);
-  const RadiationModel model = without_soil(black_model(maker.mesh(), square_stand, paper_sun()));
+  const RadiationModel model = without_soil(black_model(maker.mesh(), square_stand, beijing_sun()));
   const Prepared prepared(model);
   CanopyLook look = look_of(model, prepared.layout, above({0.75, 3.0, 0.75}, 1.0), {8, 8, 1});
   look.offsets = {{0.5F, 0.25F}};
@@ -93,7 +93,7 @@ TEST(Picture, OfTwoSquaresIsExact) {
 TEST(Picture, OfASquareAboveAFisheyeIsAsWideAsItsAngle) {
   MeshMaker maker;
   maker.level(0.0, 2.0, 0.0, 2.0, 2.0);
-  const RadiationModel model = black_model(maker.mesh(), square_stand, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), square_stand, beijing_sun());
   const Prepared prepared(model);
   Camera camera = fisheye_view({1.0, 1.0, 1.0}, 1.0);
   camera.circle_centre = {0.5, 0.5};
@@ -117,7 +117,7 @@ TEST(Picture, OfASquareAboveAFisheyeIsAsWideAsItsAngle) {
 TEST(Picture, HasEachNeighbourExactlyOnePeriodAway) {
   MeshMaker maker;
   maker.level(0.25, 0.6875, 0.3125, 0.75, 0.5);
-  const RadiationModel model = black_model(maker.mesh(), unit_plot, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), unit_plot, beijing_sun());
   const Prepared prepared(model);
   const CanopyLook look = look_of(model, prepared.layout, above({0.5, 4.0, 0.5}, 2.0), {256, 256, 1}, 3);
   const Seen seen = see_on_cpu(prepared, look);
@@ -144,7 +144,7 @@ TEST(Picture, HasEachNeighbourExactlyOnePeriodAway) {
 TEST(Picture, ShowsLeavesWholeAcrossTheBorder) {
   MeshMaker maker;
   maker.level(0.75, 1.25, 0.25, 0.75, 0.5);
-  const RadiationModel model = black_model(maker.mesh(), unit_plot, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), unit_plot, beijing_sun());
   const Prepared prepared(model);
   for (const int repeat : {1, 3}) {
     const CanopyLook look = look_of(model, prepared.layout, above({0.5, 4.0, 0.5}, 4.0), {256, 256, 1}, repeat);
@@ -162,7 +162,7 @@ TEST(Picture, ShowsLeavesWholeAcrossTheBorder) {
 
 // Seen from the side, the southern copies would hide the plot; without them it looks as if it stood alone.
 TEST(Picture, LeavesOutTheCopiesBeforeThePlot) {
-  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, paper_sun());
+  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun());
   const Prepared prepared(model);
   const glm::dvec3 hi(model.plot.size_x_m, 2.2, model.plot.size_z_m);
   CanopyLook look = look_of(model, prepared.layout, side_view({0.0, 0.0, 0.0}, hi, 1.0), {100, 100, 1});
@@ -192,7 +192,7 @@ TEST(Picture, LeavesOutTheCopiesBeforeThePlot) {
 TEST(Picture, ShowsALeafThatLiesInTheNeighboursGround) {
   MeshMaker maker;
   maker.level(0.75, 1.25, 0.25, 0.75, 0.0);
-  const RadiationModel model = black_model(maker.mesh(), unit_plot, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), unit_plot, beijing_sun());
   const Prepared prepared(model);
   const Camera camera = look_at({4.0, 3.0, 5.0}, {1.0, 0.0, 0.5}, 0.6, 1.0);
   Seen seen = see_on_cpu(prepared, look_of(model, prepared.layout, camera, {200, 200, 1}, 3));
@@ -216,7 +216,7 @@ std::vector<Camera> cameras(const RadiationModel& model, double height_m) {
 }
 
 TEST(Picture, IsTheSameHoweverItIsCutIntoRows) {
-  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, paper_sun());
+  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun());
   const Prepared prepared(model);
   const PictureSize size{80, 60, 3};
   for (const Camera& camera : cameras(model, 2.2)) {
@@ -253,34 +253,34 @@ class PictureAgreement : public DeviceTest {
 };
 
 TEST_F(PictureAgreement, OfAMaizePlot) {
-  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, paper_sun());
+  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun());
   expect_same_pictures(model, 2.2, 1);
   expect_same_pictures(without_soil(model), 2.2, 1);
 }
 
 TEST_F(PictureAgreement, OfAMaizePlotAmidstItsCopies) {
-  expect_same_pictures(maize_model({1, 2, 0.6, 0.6, 3}, paper_sun()), 2.2, 3);
+  expect_same_pictures(maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun()), 2.2, 3);
 }
 
 TEST_F(PictureAgreement, OfManyCopiesOfLeavesThatOverlap) {
-  expect_same_pictures(black_model(coplanar_leaves(), unit_plot, paper_sun()), 1.0, 9);
-  expect_same_pictures(black_model(random_leaves(300, 0.2, 5), unit_plot, paper_sun()), 1.0, 5);
+  expect_same_pictures(black_model(coplanar_leaves(), unit_plot, beijing_sun()), 1.0, 9);
+  expect_same_pictures(black_model(random_leaves(300, 0.2, 5), unit_plot, beijing_sun()), 1.0, 5);
 }
 
 TEST_F(PictureAgreement, OfAnEmptyStand) {
-  expect_same_pictures(black_model(MeshMaker().mesh(), square_stand, paper_sun()), 1.0, 1);
-  expect_same_pictures(without_soil(black_model(MeshMaker().mesh(), square_stand, paper_sun())), 1.0, 1);
+  expect_same_pictures(black_model(MeshMaker().mesh(), square_stand, beijing_sun()), 1.0, 1);
+  expect_same_pictures(without_soil(black_model(MeshMaker().mesh(), square_stand, beijing_sun())), 1.0, 1);
 }
 
 // The host repeats the search, over all copies, where the device ran out of steps.
 TEST_F(PictureAgreement, OfAPileTooHighForOneDispatchAmidstItsCopies) {
   MeshMaker maker;
   add_pile(maker, 10'000, 0.2, 0.5);
-  expect_same_pictures(black_model(maker.mesh(), unit_plot, paper_sun()), 1.0, 3);
+  expect_same_pictures(black_model(maker.mesh(), unit_plot, beijing_sun()), 1.0, 3);
 }
 
 TEST_F(PictureAgreement, StopsWhenAsked) {
-  const RadiationModel model = maize_model({1, 1, 0.6, 0.6, 3}, paper_sun());
+  const RadiationModel model = maize_model({1, 1, 0.6, 0.6, 3}, beijing_sun());
   const Prepared prepared(model);
   const GpuTree tree(context(), prepared.bvh, TreeFetch::texel_buffers);
   const CanopyLook look = look_of(model, prepared.layout, cameras(model, 2.2)[0], {40, 30, 1}, 3);

@@ -33,7 +33,8 @@ class SensorsAgreement : public DeviceTest {
 };
 
 TEST_F(SensorsAgreement, InMaize) {
-  RadiationModel model = scattering_model(maize_model({1, 2, 0.6, 0.6, 3}, paper_sun()), std::array{paper_par, usual_nir});
+  RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun());
+  set_leaf_bands(model, std::array{par_band, nir_band});
   model.sky = SkyModel{SkyKind::general, 12, 0.0, 0.0, {}};
   for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.3;
   Sensor line{"line", {}, SensorResponse::cosine, {0, 1, 0}}, ball{"ball", {{0.3, 1.0, 0.2}}, SensorResponse::spherical, {}};

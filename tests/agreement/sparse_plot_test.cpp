@@ -19,7 +19,7 @@ namespace {
 using namespace test;
 
 const RadiationModel& sparse_plot() {
-  static const RadiationModel model = maize_model({}, paper_sun());
+  static const RadiationModel model = maize_model({}, beijing_sun());
   return model;
 }
 

@@ -36,21 +36,6 @@ Leg leg_of(const shared::PacketBlock& scene, bool endless, const shared::Ray& ra
   return {std::min(end.limit, crossing.limit), end.t <= crossing.t, crossing};
 }
 
-RTCRay ray_of(const shared::Ray& ray, float limit) {
-  return {ray.origin.x,
-          ray.origin.y,
-          ray.origin.z,
-          0.0F,
-          ray.direction.x,
-          ray.direction.y,
-          ray.direction.z,
-          0.0F,
-          limit,
-          ~0U,
-          0,
-          0};
-}
-
 // Returns the sum of `count` over the packets of all tasks.
 template <class Count>
 std::uint64_t sum_over(std::span<const shared::Packet> packets, const Count& count) {
@@ -142,7 +127,7 @@ std::uint64_t Peer::follow_each(const shared::PacketBlock& scene, std::span<cons
       shared::Ray ray = shared::make_ray(packet.origin, packet.direction);
       while (true) {
         const Leg leg = leg_of(scene, endless, ray);
-        RTCRayHit query{ray_of(ray, leg.limit), {}};
+        RTCRayHit query{test::ray_of(ray, leg.limit), {}};
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(scene_, &context, &query);
         const bool hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;

@@ -4,6 +4,7 @@
 #include "physics/transport/model/beam_block.h"
 #include "physics/transport/solve/solve.h"
 #include "shared/beam.h"
+#include "support/wrapped_tracer.h"
 
 #include <algorithm>
 #include <random>
@@ -12,26 +13,20 @@ namespace sunfleck::bench {
 namespace {
 
 // Passes everything on to the CPU path, and keeps the first packets that leave elements.
-class Recorder final : public Tracer {
+class Recorder final : public test::WrappedTracer {
  public:
-  explicit Recorder(const Stand& stand) : tracer_(stand.prepared.bvh, stand.tracer_scene()) {}
+  using WrappedTracer::WrappedTracer;
 
-  [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
-  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                        const StopQuestion& stop) override {
-    return tracer_.count_beam(beam, counters, stop);
-  }
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {
     const bool leave = !packets.empty() && packets.front().element != shared::no_element;
     if (leave && kept_.empty()) kept_.assign(packets.begin(), packets.end());
-    return tracer_.trace(scene, packets, landings, stop);
+    return WrappedTracer::trace(scene, packets, landings, stop);
   }
   [[nodiscard]] std::vector<shared::Packet> kept() && { return std::move(kept_); }
   [[nodiscard]] bool done() const { return !kept_.empty(); }
 
  private:
-  CpuTracer tracer_;
   std::vector<shared::Packet> kept_;
 };
 
@@ -48,7 +43,8 @@ std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order
   settings.grid_m = std::sqrt(stand.model.plot.area_m2() / (packets * *settings.passes));
   settings.packets = packets;
   settings.replicates_at_once = 1;
-  Recorder recorder(stand);
+  CpuTracer tracer(stand.prepared.bvh, stand.tracer_scene());
+  Recorder recorder(tracer);
   Monitor until_recorded;
   until_recorded.interrupted = [&recorder] { return recorder.done(); };
   (void)solve(stand.model, stand.prepared.layout, recorder, settings, until_recorded);

@@ -21,7 +21,7 @@ MaizeStand field(int plants) {
 
 RadiationModel lit_maize(const MaizeStand& stand, Plots plots) {
   const Plot plot{stand.per_row * stand.spacing_in_row_m, stand.rows * stand.spacing_between_rows_m, plots == Plots::endless};
-  RadiationModel model = test::black_model(make_maize(stand), plot, test::paper_sun());
+  RadiationModel model = black_model(make_maize(stand), plot, beijing_sun());
   for (SurfaceOptics& optics : model.optics) {
     optics.upper = optics.lower = {FaceOptics{0.12, optics.name == "leaf" ? 0.06 : 0.0}};
   }

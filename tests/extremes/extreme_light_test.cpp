@@ -50,7 +50,7 @@ constexpr double left_out = 4e4 * 0x1p-47;
 // sky light.
 TEST_F(ExtremeLight, BeamAndSkyOfAnySizeInTwentyBands) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
-    RadiationModel model = black_model(leaves(), plot, paper_sun());
+    RadiationModel model = black_model(leaves(), plot, beijing_sun());
     std::vector<Waveband> lights = crossing_lights();
     lights.push_back({"sun", 1.0, 0.0});
     lights.push_back({"sky", 0.0, 1.0});
@@ -78,7 +78,7 @@ TEST_F(ExtremeLight, BeamAndSkyOfAnySizeInTwentyBands) {
 
 // With leaves that scatter, too, the ledgers close and reported shares stay shares.
 TEST_F(ExtremeLight, ScatteredLightOfAnySizeInTwentyBands) {
-  RadiationModel model = black_model(leaves(), unit_plot, paper_sun());
+  RadiationModel model = black_model(leaves(), unit_plot, beijing_sun());
   const std::vector<Waveband> lights = crossing_lights();
   set_lights(model, lights, {0.45, 0.45}, 0.2);
   const RadiationResult result = run(model, fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8}));
@@ -97,7 +97,7 @@ TEST_F(ExtremeLight, ScatteredLightOfAnySizeInTwentyBands) {
 
 // Light below 1e-290 W counts as none; above, every figure is in proportion.
 TEST_F(ExtremeLight, NextToNothingIsInProportionOrNothing) {
-  RadiationModel model = black_model(leaves(), unit_plot, paper_sun());
+  RadiationModel model = black_model(leaves(), unit_plot, beijing_sun());
   const std::vector<Waveband> lights{
       {"one", 1.0, 1.0}, {"faint", 1e-250, 1e-250}, {"none", 1e-305, 1e-305}, {"subnormal", 5e-324, 0.0}, {"dark", 0.0, 0.0}};
   set_lights(model, lights, {0.45, 0.45}, 0.2);
@@ -113,7 +113,7 @@ TEST_F(ExtremeLight, NextToNothingIsInProportionOrNothing) {
 // A sun on or below the horizon gives no beam: with a sky the run equals the one without a sun, without a sky every flux is
 // zero.
 TEST_F(ExtremeLight, SunOnOrBelowTheHorizon) {
-  RadiationModel model = scattering_model(leaves(), unit_plot, paper_sun(), std::array{paper_par});
+  RadiationModel model = leaf_model(leaves(), unit_plot, beijing_sun(), std::array{par_band});
   const SolveSettings settings = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8});
   for (const double elevation : {0.0, -1e-9, -5.0, -90.0}) {
     model.sun = sun_at(elevation, 77.0);
@@ -133,7 +133,7 @@ TEST_F(ExtremeLight, SunOnOrBelowTheHorizon) {
 // White and transparent leaves stand over white soil under sun and sky: nothing is absorbed, everything comes back out.
 TEST_F(ExtremeLight, NothingIsAbsorbedWhereNothingAbsorbs) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
-    RadiationModel model = black_model(leaves(), plot, paper_sun());
+    RadiationModel model = black_model(leaves(), plot, beijing_sun());
     const std::vector<Waveband> lights{{"sun", 1.0, 0.0}, {"sky", 0.0, 1.0}, {"both", 1e-12, 1e12}};
     set_lights(model, lights, {}, 1.0);
     for (SurfaceOptics& optics : model.optics) {
@@ -151,7 +151,7 @@ TEST_F(ExtremeLight, NothingIsAbsorbedWhereNothingAbsorbs) {
 }
 
 TEST_F(ExtremeLight, BlackScenesEndAtTheFirstLandingUnderTheSkyToo) {
-  RadiationModel model = black_model(leaves(), unit_plot, paper_sun());
+  RadiationModel model = black_model(leaves(), unit_plot, beijing_sun());
   const std::vector<Waveband> lights{{"both", 1.0, 1.0}};
   set_lights(model, lights, {}, 0.0);
   const RadiationResult result = run(model, fixed_scatter(model, {.rays = 4e4, .packets = 1000, .replicates = 8}));
@@ -163,7 +163,7 @@ TEST_F(ExtremeLight, BlackScenesEndAtTheFirstLandingUnderTheSkyToo) {
 RadiationModel scattering_stand(double scale) {
   Mesh mesh = random_leaves(40, 0.02, {1.0, 1.5, true}, 1.0, 3);
   for (glm::dvec3& vertex : mesh.vertices) vertex *= scale;
-  RadiationModel model = paper_model(mesh, {scale, 1.5 * scale, true}, paper_sun());
+  RadiationModel model = paper_model(mesh, {scale, 1.5 * scale, true}, beijing_sun());
   model.soil->patch_m *= scale;
   return model;
 }
@@ -191,8 +191,7 @@ TEST_F(ExtremeLight, OnePlateOverPlotsOfAnySize) {
     for (const double elevation : {0.1, 53.0}) {
       MeshMaker maker;
       maker.level(-0.5 * size_m, 1.5 * size_m, 0.0, size_m, 0.25 * size_m);
-      RadiationModel model =
-          scattering_model(maker.mesh(), {size_m, size_m, true}, sun_at(elevation, 30.0), std::array{paper_par});
+      RadiationModel model = leaf_model(maker.mesh(), {size_m, size_m, true}, sun_at(elevation, 30.0), std::array{par_band});
       model.soil->patch_m = 0.1 * size_m;
       const RadiationResult result = run(model, fixed_scatter(model, {.rays = 2e4, .packets = 1000, .replicates = 16}));
       expect_agrees(result.bands[0].reflected, 0.12054990, 16, 2e-4, 8, fmt::format("plot of {} m", size_m).c_str());

@@ -144,7 +144,7 @@ TEST_F(ExtremeRays, BelowAnIsolatedPlotMeetNoGround) {
 TEST_F(ExtremeRays, ALeafBelowAnIsolatedPlotLightsNoSoil) {
   MeshMaker maker;
   maker.quad({0.25, -0.875, 0.875}, {0.75, -0.875, 0.875}, {0.75, -0.25, 0.875}, {0.25, -0.25, 0.875});
-  const RadiationModel model = scattering_model(maker.mesh(), unit_stand, sun_at(45, 270), std::array{usual_nir});
+  const RadiationModel model = leaf_model(maker.mesh(), unit_stand, sun_at(45, 270), std::array{nir_band});
   const RadiationResult result = run(model, fixed_scatter(model, {.rays = 8e4, .packets = 2000, .replicates = 8}));
   const FluxLedger& ledger = result.bands[0].ledger;
   EXPECT_GT(ledger.absorbed_vegetation, 0);

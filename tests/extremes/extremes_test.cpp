@@ -129,14 +129,14 @@ void add_flat_triangles(MeshMaker& maker) {
 TEST(Extremes, TrianglesWithoutAreaStopNothing) {
   MeshMaker flat;
   add_flat_triangles(flat);
-  expect_bare(black_model(flat.mesh(), {}, paper_sun()));
+  expect_bare(black_model(flat.mesh(), {}, beijing_sun()));
   MeshMaker alone;
   alone.level(0.3, 0.7, 0.4, 0.7, 0.9);
   MeshMaker both;
   both.level(0.3, 0.7, 0.4, 0.7, 0.9);
   add_flat_triangles(both);
-  const RadiationModel a = black_model(alone.mesh(), {}, paper_sun());
-  const RadiationModel b = black_model(both.mesh(), {}, paper_sun());
+  const RadiationModel a = black_model(alone.mesh(), {}, beijing_sun());
+  const RadiationModel b = black_model(both.mesh(), {}, beijing_sun());
   const RadiationResult got_a = simulate(a, fixed_work(a, 1e5, 8));
   const RadiationResult got_b = simulate(b, fixed_work(b, 1e5, 8));
   EXPECT_EQ(got_a.bands[0].absorbed_vegetation.value, got_b.bands[0].absorbed_vegetation.value);
@@ -159,7 +159,7 @@ TEST(Extremes, CoplanarTrianglesShadeTheirUnion) {
   MeshMaker maker;
   maker.level(0.3, 0.7, 0.4, 0.7, 0.9);
   maker.level(0.3, 0.5, 0.4, 0.6, 0.9);
-  const RadiationModel model = black_model(maker.mesh(), {}, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), {}, beijing_sun());
   const RadiationResult result = simulate(model, fixed_work(model, 1e5, replicates));
   expect_agrees(result.bands[0].absorbed_vegetation, 0.12, replicates, 4e-4, 1, "union");
 }
@@ -168,7 +168,7 @@ RadiationModel scaled_leaves(double scale, const glm::dvec3& shift_m) {
   const Plot plot{1.0, 1.5, true};
   Mesh mesh = random_leaves(40, 0.02, plot, 1.0, 3);
   for (glm::dvec3& vertex : mesh.vertices) vertex = vertex * scale + shift_m;
-  RadiationModel model = black_model(mesh, {plot.size_x_m * scale, plot.size_z_m * scale, true}, paper_sun());
+  RadiationModel model = black_model(mesh, {plot.size_x_m * scale, plot.size_z_m * scale, true}, beijing_sun());
   model.soil->patch_m *= scale;
   return model;
 }
@@ -206,7 +206,7 @@ TEST(Extremes, MeshAKilometreUp) {
 // The mesh is isolated, a kilometre from the plot's corner: it receives the light of its own area.
 TEST(Extremes, IsolatedMeshAKilometreAway) {
   const RadiationModel model =
-      black_model(level_plate(1000.0, 1100.0, 1000.0, 1080.0, 3.0), {100.0, 100.0, false}, paper_sun());
+      black_model(level_plate(1000.0, 1100.0, 1000.0, 1080.0, 3.0), {100.0, 100.0, false}, beijing_sun());
   RadiationModel finer = model;
   finer.soil->patch_m = 5.0;
   const RadiationResult result = simulate(finer, fixed_work(finer, 4e6, replicates));
@@ -214,7 +214,7 @@ TEST(Extremes, IsolatedMeshAKilometreAway) {
 }
 
 TEST(Extremes, IrradianceOfAnySizeInTwentyBands) {
-  RadiationModel model = black_model(level_plate(0.313, 0.713, 0.459, 0.759, 0.8), {}, paper_sun());
+  RadiationModel model = black_model(level_plate(0.313, 0.713, 0.459, 0.759, 0.8), {}, beijing_sun());
   model.bands.clear();
   for (int band = 0; band < 20; ++band)
     model.bands.push_back({fmt::format("band{}", band), std::pow(10.0, 24.0 * band / 19.0 - 12.0), 0.0});

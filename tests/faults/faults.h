@@ -2,6 +2,7 @@
 // Runs the program while something around it fails.
 
 #include "regression/preload.h"
+#include "regression/small_scene.h"
 #include "support/table.h"
 
 #include <sys/resource.h>
@@ -38,8 +39,6 @@ inline const std::string day_scene =
     "[optics.leaf]\nreflectance = 0.3\ntransmittance = 0.2\n"
     "[[geometry]]\nfile = \"leaves.obj\"\n";
 
-inline const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
-
 // Returns the arguments with another value for an option that they contain.
 inline Arguments with(Arguments arguments, const std::string& option, const std::string& value) {
   *std::next(std::find(arguments.begin(), arguments.end(), option)) = value;
@@ -51,7 +50,7 @@ class FaultTest : public regression::PreloadTest {
   FaultTest() {
     folder_.write("scene.toml", small_scene);
     folder_.write("day.toml", day_scene);
-    folder_.write("leaves.obj", leaves);
+    folder_.write("leaves.obj", regression::leaves_obj);
   }
 
   // Asks for little work on the CPU path.
@@ -61,18 +60,6 @@ class FaultTest : public regression::PreloadTest {
                          quick_;
   const Arguments day_ =
       Arguments{"day", "day.toml", "-o", "out", "--from", "10:00", "--to", "13:00", "--images", "none"} + quick_;
-
-  // Returns all files of a folder and its subfolders, with their contents.
-  [[nodiscard]] std::map<std::string, std::string> files(const std::string& of = "out") const {
-    std::map<std::string, std::string> found;
-    if (!std::filesystem::exists(folder_ / of)) return found;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / of)) {
-      if (entry.is_regular_file()) {
-        found[std::filesystem::relative(entry.path(), folder_ / of).string()] = content(entry.path());
-      }
-    }
-    return found;
-  }
 
   // Expects every file to be as in an undisturbed run, and the summary to say that the run is not complete; ignores steps and
   // files that an undisturbed run does not have.

@@ -37,10 +37,10 @@ struct Stand {
   Mesh mesh;
   Plot plot;
   SunPosition sun;
-  BandOptics optics;
+  LeafBand optics;
 };
 RadiationResult run(const Stand& stand, double rays, double packets) {
-  RadiationModel model = scattering_model(stand.mesh, stand.plot, stand.sun, std::array{stand.optics});
+  RadiationModel model = leaf_model(stand.mesh, stand.plot, stand.sun, std::array{stand.optics});
   model.soil->patch_m = stand.plot.size_x_m / 100.0;
   const ScatterWork work{.rays = rays, .packets = packets, .replicates = replicates, .bound = 0.001};
   RadiationResult result = simulate(model, fixed_scatter(model, work));
@@ -81,7 +81,8 @@ TEST(Rami, FloatingSpheres) {
   Random random(1);
   MeshMaker maker;
   const Crown crown{10.0, 49'999, std::numbers::pi * 0.01, 4};
-  for (const glm::dvec3& centre : centres_enu_m) add_crown(maker, crown, from_enu(centre.x, centre.y, centre.z), random);
+  for (const glm::dvec3& centre : centres_enu_m)
+    add_crown(maker, crown, from_east_north_up(centre.x, centre.y, centre.z), random);
   stand.mesh = maker.mesh();
   const RadiationResult result = run(stand, 4e6, 60'000);
   expect_near(result.bands[0].reflected, 0.28852, 0.012 * 0.28852, "HET01 reflected");

@@ -22,7 +22,7 @@ std::vector<Estimate> fluxes_of(const RadiationResult& result) {
 }
 
 void expect_no_bias(double packets) {
-  RadiationModel model = paper_model(random_leaves(8, 0.08, {}, 0.6, 11), {}, paper_sun());
+  RadiationModel model = paper_model(random_leaves(8, 0.08, {}, 0.6, 11), {}, beijing_sun());
   const ScatterWork many{.rays = 4e7, .packets = 2e5, .replicates = 200, .seed = 1, .bound = 1e-5};
   static const std::vector<Estimate> truth = fluxes_of(simulate(model, fixed_scatter(model, many)));
   const std::array names = {"PAR leaves", "PAR soil", "PAR reflected", "NIR leaves", "NIR soil", "NIR reflected"};

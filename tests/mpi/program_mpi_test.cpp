@@ -1,6 +1,7 @@
 // Tests the program as the processes of an MPI job: any number of them gives the same bytes as one, even after one was killed.
 
 #include "regression/preload.h"
+#include "regression/small_scene.h"
 
 #include <algorithm>
 #include <map>
@@ -14,19 +15,6 @@ using regression::Outcome;
 using regression::operator+;
 namespace fs = std::filesystem;
 
-// Contains two bands that scatter, sun and sky, a facula map and a sensor.
-const std::string scene =
-    "[plot]\nsize = [1.0, 1.0]\n"
-    "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
-    "[sky]\nmodel = \"uniform\"\n"
-    "[[band]]\nname = \"PAR\"\ndirect = 100.0\ndiffuse = 20.0\n"
-    "[[band]]\nname = \"NIR\"\ndirect = 90.0\ndiffuse = 10.0\n"
-    "[soil]\nreflectance = { PAR = 0.1, NIR = 0.3 }\n"
-    "[optics.leaf]\nreflectance = { PAR = 0.1, NIR = 0.4 }\ntransmittance = { PAR = 0.1, NIR = 0.4 }\n"
-    "[[plane]]\nheight = 0.5\ncells = [4, 4]\n"
-    "[[sensor]]\nname = \"a\"\nfrom = [0.5, 0.2, 0.5]\n"
-    "[[geometry]]\nfile = \"leaves.obj\"\n";
-
 const std::string day_scene =
     "[plot]\nsize = [1.0, 1.0]\n"
     "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
@@ -37,16 +25,12 @@ const std::string day_scene =
     "[optics.leaf]\nreflectance = 0.3\ntransmittance = 0.2\n"
     "[[geometry]]\nfile = \"leaves.obj\"\n";
 
-const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
-
 class Mpi : public regression::PreloadTest {
  protected:
-  using Files = std::map<std::string, std::string>;
-
   Mpi() {
-    folder_.write("scene.toml", scene);
+    folder_.write("scene.toml", regression::two_band_scene);
     folder_.write("day.toml", day_scene);
-    folder_.write("leaves.obj", leaves);
+    folder_.write("leaves.obj", regression::leaves_obj);
     preload_nothing();
   }
   void preload_nothing() {
@@ -63,23 +47,14 @@ class Mpi : public regression::PreloadTest {
     return arguments + Arguments{"-o", out};
   }
 
-  // Returns the files whose bytes must be the same.
-  [[nodiscard]] Files tables(const std::string& of) const {
-    Files found;
-    for (const auto& entry : fs::directory_iterator(folder_ / of)) {
-      const std::string name = entry.path().filename().string();
-      if (entry.path().extension() == ".csv") found[name] = content(entry.path());
-    }
-    return found;
-  }
   // Returns the tables of a run without MPI.
   [[nodiscard]] Files plain(const Arguments& arguments) const {
     const Outcome outcome = run(alone(into("plain", arguments)));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return tables("plain");
+    return csv_files("plain");
   }
   void expect_same(const Files& expected, const std::string& of) const {
-    const Files found = tables(of);
+    const Files found = csv_files(of);
     EXPECT_EQ(found.size(), expected.size());
     for (const auto& [name, bytes] : expected)
       EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << of << ": " << name;
@@ -199,7 +174,7 @@ TEST_F(Mpi, EndsCleanlyWhenOneRankIsToldTo) {
   EXPECT_EQ(ended.status, 130) << ended.err;
   EXPECT_NE(ended.err.find("interrupted after "), std::string::npos) << ended.err;
   EXPECT_EQ(summary()["complete"], false);
-  EXPECT_EQ(tables("out").size(), 5U);  // a stopped run does not trace its sensors
+  EXPECT_EQ(csv_files("out").size(), 5U);  // a stopped run does not trace its sensors
 }
 
 // The launcher gives its processes a second; none of them may outlive it.
@@ -246,7 +221,7 @@ TEST_F(Mpi, LeavesOtherCommandsToTheFirstRank) {
 
 // Starts independent runs, one on each rank.
 TEST_F(Mpi, IsNotUsedWhereItIsSwitchedOff) {
-  folder_.write("other.toml", scene + "scale = 0.5\n");
+  folder_.write("other.toml", regression::two_band_scene + "scale = 0.5\n");
   const std::string task =
       "SUNFLECK_MPI=off exec \"$0\" run $([ $OMPI_COMM_WORLD_RANK = 0 ] && echo scene.toml || echo other.toml)"
       " --device cpu --images none --error 0.1 --quiet";

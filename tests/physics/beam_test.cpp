@@ -1,5 +1,6 @@
-// Tests beams with exact answers: the cases A1 to A5 of the validation table, and checkerboards. The cases use the coordinates
-// x east, y north, z up.
+// Tests beams with exact answers: the cases A1 to A5 of the validation table, and checkerboards.
+#include "programs/validate/known/beam_scenes.h"
+#include "programs/validate/known/known_formulas.h"
 #include "support/comparison.h"
 #include "support/models.h"
 
@@ -27,11 +28,6 @@ void expect_all(const std::vector<Answer>& answers) {
     expect_agrees(a.got, a.expected, replicates, a.largest_standard_error, answers.size(), a.what.c_str());
 }
 
-void add_plate(MeshMaker& maker, double x, double y, double size_x, double size_y, double z) {
-  maker.quad(from_enu(x - size_x / 2, y - size_y / 2, z), from_enu(x + size_x / 2, y - size_y / 2, z),
-             from_enu(x + size_x / 2, y + size_y / 2, z), from_enu(x - size_x / 2, y + size_y / 2, z));
-}
-
 // A1. One triangle, no occluders, in an isolated scene. It is 0.95 m lower than in the table, which changes only the share of
 // rays that meet it.
 struct TriangleRow {
@@ -48,17 +44,10 @@ constexpr std::array triangle_rows = {TriangleRow{90.0, 0.0, true, 0.83481207, 9
                                       TriangleRow{5.0, 120.569, false, 5.45415590, 6.206724e-3, 1e6},
                                       TriangleRow{20.0, 270.0, true, 2.16270157, 2.461113e-3, 1e6}};
 
-RadiationModel one_triangle(const TriangleRow& row) {
-  const glm::dvec3 shift_m(0.055, -0.95, 0.05);
-  MeshMaker maker;
-  maker.triangle(from_enu(0, 0, 1) + shift_m, from_enu(0.04, 0.01, 1.02) + shift_m, from_enu(0.01, 0.05, 0.99) + shift_m);
-  return black_model(maker.mesh(), {0.06, 0.06, false}, sun_at(row.elevation_deg, row.azimuth_deg));
-}
-
 std::vector<Answer> one_triangle_answers(std::uint64_t seed, double work) {
   std::vector<Answer> answers;
   for (const TriangleRow& row : triangle_rows) {
-    const RadiationModel model = one_triangle(row);
+    const RadiationModel model = triangle_under(sun_at(row.elevation_deg, row.azimuth_deg));
     const RadiationResult result = simulate(model, fixed_work(model, work * row.rays, replicates, seed));
     answers.push_back(
         {"A1 h " + std::to_string(row.elevation_deg), result.organs[0].direct[0], row.irradiance, 0.001 * row.irradiance});
@@ -72,7 +61,7 @@ TEST(Beam, OneTriangleTakesTheCosineOfTheSun) {
 
 TEST(Beam, OneTriangleIsLitOnOneSideOnly) {
   for (const TriangleRow& row : triangle_rows) {
-    const RadiationModel model = one_triangle(row);
+    const RadiationModel model = triangle_under(sun_at(row.elevation_deg, row.azimuth_deg));
     const RadiationResult result = simulate(model, fixed_work(model, 1e4, 8));
     const double area = area_m2(model.canopy.corners[0]);
     EXPECT_NEAR(area, 1.137980668e-3, 1e-9);
@@ -88,20 +77,9 @@ TEST(Beam, OneTriangleIsLitOnOneSideOnly) {
 
 // A3. Shadow of one plate on periodic soil.
 std::vector<Answer> plate_answers(std::uint64_t seed) {
-  MeshMaker level;
-  add_plate(level, 0.5, 0.5, 0.4, 0.3, 0.8);
-  const RadiationModel model = black_model(level.mesh(), {}, paper_sun());
+  const RadiationModel model = level_plate_case();
   const RadiationResult result = simulate(model, fixed_work(model, 4e5, replicates, seed));
-  // Half the sides of 0.3 x 0.2 m, along the plate's level line and along its steepest slope.
-  const double inclination = radians(50.0);
-  const double angle = radians(20.0);
-  const glm::dvec3 along = 0.15 * from_enu(-std::sin(angle), std::cos(angle), 0.0);
-  const glm::dvec3 up =
-      0.1 * from_enu(-std::cos(inclination) * std::cos(angle), -std::cos(inclination) * std::sin(angle), std::sin(inclination));
-  const glm::dvec3 centre = from_enu(0.5, 0.5, 0.8);
-  MeshMaker tilted;
-  tilted.quad(centre - along - up, centre + along - up, centre + along + up, centre - along + up);
-  const RadiationModel tilted_model = black_model(tilted.mesh(), {}, paper_sun());
+  const RadiationModel tilted_model = tilted_plate_case();
   const RadiationResult tilted_result = simulate(tilted_model, fixed_work(tilted_model, 4e5, replicates, seed));
   return {{"A3 sunlit soil", result.bands[0].absorbed_soil, 0.88, 2e-4},
           {"A3 lit share of the plate", result.sunlit_leaf_fraction, 1.0, 2e-3},
@@ -114,12 +92,7 @@ TEST(Beam, PlateShadesPeriodicSoil) {
 
 // A4. Plate over plate with partial overlap, wrapped around the plot's border.
 RadiationModel two_plates() {
-  MeshMaker maker;
-  maker.organ("leaf", 1, 2);
-  add_plate(maker, 0.5, 0.5, 0.4, 0.4, 1.0);
-  maker.organ("leaf", 1, 1);
-  add_plate(maker, 0.2, 0.6, 0.5, 0.3, 0.4);
-  RadiationModel model = black_model(maker.mesh(), {}, paper_sun());
+  RadiationModel model = two_plates_case();
   model.layers = 10;
   return model;
 }
@@ -160,26 +133,19 @@ struct BlindRow {
 constexpr std::array blind_rows = {BlindRow{0, 40, 90, 0.2}, BlindRow{30, 40, 90, 0.78388111}, BlindRow{30, 40, 270, 0.0},
                                    BlindRow{1, 2, 90, 0.59994}};
 
-RadiationModel blind(const BlindRow& row, double from_y, double to_y) {
-  const double across = 0.4 * std::cos(radians(row.tilt_deg));
-  const double rise = 0.4 * std::sin(radians(row.tilt_deg));
-  MeshMaker maker;
-  maker.quad(from_enu(-across, from_y, 0.5 - rise), from_enu(across, from_y, 0.5 + rise), from_enu(across, to_y, 0.5 + rise),
-             from_enu(-across, to_y, 0.5 - rise));
-  return black_model(maker.mesh(), {0.7, 1.0, true}, sun_at(row.elevation_deg, row.azimuth_deg));
+RadiationModel blind(const BlindRow& row, double beyond) {
+  return blind_under(sun_at(row.elevation_deg, row.azimuth_deg), row.tilt_deg, beyond);
 }
 
 std::vector<Answer> blind_answers(std::uint64_t seed) {
   std::vector<Answer> answers;
   for (const BlindRow& row : blind_rows) {
-    // The value 0.59994 is 1 - 0.8 |cos 1 - sin 1 cot 2|, rounded; the others have all their digits.
-    const double cot = 1.0 / std::tan(radians(row.elevation_deg));
-    const double ahead = row.azimuth_deg == 90.0 ? cot : -cot;
-    const double projected = std::abs(std::cos(radians(row.tilt_deg)) - std::sin(radians(row.tilt_deg)) * ahead);
-    const double expected = std::max(0.0, 1.0 - 0.8 * projected);
+    // The value 0.59994 is rounded; the others have all their digits.
+    const double towards = row.azimuth_deg == 90.0 ? 1.0 : -1.0;
+    const double expected = passed_by_blind(0.8, radians(row.tilt_deg), radians(row.elevation_deg), towards);
     EXPECT_NEAR(expected, row.transmittance, 5e-6);
     for (const double beyond : {0.0, 0.9}) {
-      const RadiationModel model = blind(row, -beyond, 0.7 + beyond);
+      const RadiationModel model = blind(row, beyond);
       const RadiationResult result = simulate(model, fixed_work(model, 4e5, replicates, seed));
       EXPECT_EQ(result.lost_rays, 0U);
       answers.push_back({"A5 tilt " + std::to_string(row.tilt_deg) + " h " + std::to_string(row.elevation_deg),
@@ -194,7 +160,7 @@ TEST(Beam, VenetianBlindIsEndless) {
 }
 
 TEST(Beam, FullyClosedBlindLetsNothingThrough) {
-  const RadiationModel model = blind(blind_rows[2], 0.0, 0.7);
+  const RadiationModel model = blind(blind_rows[2], 0.0);
   EXPECT_EQ(simulate(model, fixed_work(model, 1e6, replicates)).bands[0].ledger.absorbed_soil, 0);
 }
 
@@ -209,27 +175,11 @@ TEST(Beam, ErrorsOfTheWholeTableArePlausible) {
   scores.expect_plausible();
 }
 
-// Adds the squares of every second field of a board of `fields` x `fields` over a square plot.
-void add_checkerboard(MeshMaker& maker, int fields, double plot_m, double y_m) {
-  const double field_m = plot_m / fields;
-  for (int x = 0; x < fields; ++x) {
-    for (int z = x % 2; z < fields; z += 2) maker.level(x * field_m, (x + 1) * field_m, z * field_m, (z + 1) * field_m, y_m);
-  }
-}
-
-// A board alternates between +1 and -1, and a shift by half its period changes the sign; a board with twice as many fields
-// repeats after that shift. So the product of boards of doubled frequency is 0 on average, however they are shifted: from any
-// direction their shadows are independent.
 TEST(Beam, CheckerboardsHalveTheBeamFromAnyDirection) {
-  MeshMaker maker;
-  for (int layer = 1; layer <= 3; ++layer) {
-    maker.organ("leaf", 1, layer);
-    add_checkerboard(maker, 1 << layer, 2.0, 2.0 - 0.5 * layer);
-  }
   std::vector<Answer> answers;
   for (const auto& [elevation, azimuth] : {std::pair(90.0, 0.0), std::pair(60.0, 33.0), std::pair(53.0176, 120.569),
                                            std::pair(25.0, 270.0), std::pair(5.0, 200.0)}) {
-    const RadiationModel model = black_model(maker.mesh(), {2.0, 2.0, true}, sun_at(elevation, azimuth));
+    const RadiationModel model = checkerboards_under(sun_at(elevation, azimuth));
     const RadiationResult result = simulate(model, fixed_work(model, 8e5, replicates));
     for (std::size_t layer = 0; layer < 3; ++layer) {
       const double expected = std::ldexp(1.0, -1 - static_cast<int>(layer));

@@ -52,7 +52,7 @@ TEST(CopiedLeaf, HasNoSunlitShareAndItsOriginalTakesAllLight) {
     maker.organ("leaf", 1, rank);
     maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
   }
-  const RadiationModel model = black_model(maker.mesh(), endless, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), endless, beijing_sun());
   const RadiationResult result = run(model);
   expect_agrees(result.organs[0].sunlit_fraction, 1.0, replicates, 0.01, 3, "first leaf");
   expect_agrees(share_of_beam(model, result, 0), 0.16, replicates, 1e-3, 3, "flux on the first leaf");
@@ -69,7 +69,7 @@ TEST(BuriedLeaf, HasNoSunlitShare) {
     maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
     maker.organ("leaf", 1, 2);
     maker.level(0.4, 0.6, 0.4, 0.6, -0.1);
-    const RadiationResult result = run(black_model(maker.mesh(), plot, paper_sun()));
+    const RadiationResult result = run(black_model(maker.mesh(), plot, beijing_sun()));
     expect_none(result.organs[1].sunlit_fraction);
     expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 1, "all leaves");
   }

@@ -1,11 +1,11 @@
 // Tests cavities whose light is known exactly (B4 to B6 of the validation table), and how the error falls with the packets.
+#include "programs/validate/known/cavity_scenes.h"
 #include "support/scattering.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -13,64 +13,6 @@ namespace sunfleck::test {
 namespace {
 
 constexpr int replicates = 32;
-constexpr double pi = std::numbers::pi;
-
-// Adds a rectangle facing along u x v, cut into n x n cells.
-void wall(MeshMaker& maker, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int n) {
-  maker.organ(fmt::format("wall{}", maker.mesh().organs.size()));
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const auto at = [&](int a, int b) {
-        return corner + u * (static_cast<double>(a) / n) + v * (static_cast<double>(b) / n);
-      };
-      maker.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-    }
-  }
-}
-
-// Returns a closed box of 1 x 0.6 x 0.8 m whose upper faces look inwards.
-MeshMaker box(int n) {
-  const glm::dvec3 x(1.0, 0.0, 0.0);
-  const glm::dvec3 y(0.0, 0.6, 0.0);
-  const glm::dvec3 z(0.0, 0.0, 0.8);
-  const glm::dvec3 low(0.0, 0.1, 0.0);
-  MeshMaker maker;
-  wall(maker, low, z, x, n);
-  wall(maker, low + y, x, z, n);
-  wall(maker, low, y, z, n);
-  wall(maker, low + x, z, y, n);
-  wall(maker, low, x, y, n);
-  wall(maker, low + z, y, x, n);
-  return maker;
-}
-const Plot box_plot{1.0, 0.8, false};
-constexpr std::size_t walls = 6;
-
-// Returns the box with leaves, none of which cuts through a wall.
-Mesh furnished_box(int n) {
-  MeshMaker maker = box(n);
-  maker.organ("leaf");
-  maker.polygon({0.3, 0.35, 0.3}, inclined(0.3, 1.0), 0.04, 4);
-  maker.polygon({0.6, 0.4, 0.5}, inclined(1.2, 2.5), 0.06, 3, 0.4);
-  maker.polygon({0.51, 0.443, 0.567}, inclined(1.3, 2.5), 0.05, 5, 1.0);
-  maker.polygon({0.75, 0.25, 0.2}, inclined(1.5708, 4.0), 0.03, 4, 0.7);
-  return maker.mesh();
-}
-
-constexpr std::array reflectances = {0.1, 0.5, 0.9, 0.95};
-
-RadiationModel furnace(const Mesh& mesh) {
-  RadiationModel model = dark_model(mesh, box_plot, reflectances.size());
-  for (std::size_t o = 0; o < model.optics.size(); ++o) {
-    if (o < walls) {
-      model.optics[o].emission_w_m2.assign(reflectances.size(), 1.0);
-      for (std::size_t b = 0; b < reflectances.size(); ++b) model.optics[o].upper[b].reflectance = reflectances[b];
-    } else {
-      set_faces(model, o, {{0.5, 0.5}, {0.3, 0.7}, {1.0, 0.0}, {0.15, 0.85}});
-    }
-  }
-  return model;
-}
 
 // Largest share that may escape: light that leaves a point within the offset of a wall (2^-17 of the extent, 8 um) can slip out
 // beside it.
@@ -78,27 +20,28 @@ constexpr double escaping = 1e-5;
 
 TEST(Furnace, EveryWallSeesTheSame) {
   for (const bool furnished : {false, true}) {
-    const RadiationModel model = furnace(furnished ? furnished_box(4) : box(4).mesh());
+    const RadiationModel model = furnace(furnished ? furnished_box(4) : empty_box(4));
     SolveSettings settings = fixed_packets(model, 8192, replicates);
     settings.element_errors = ElementErrors::keep;
     const RadiationResult result = simulate_soundly(model, settings);
     std::printf("%s: %.1f million packets, %.1f s\n", furnished ? "with leaves" : "empty",
                 static_cast<double>(result.indirect.packets) * 1e-6, result.indirect.seconds);
     ZScores scores(replicates);
-    for (std::size_t b = 0; b < reflectances.size(); ++b) {
+    for (std::size_t b = 0; b < furnace_reflectances.size(); ++b) {
       const FluxLedger& ledger = result.bands[b].ledger;
       EXPECT_LE(static_cast<double>(ledger.reflected + ledger.transmitted), escaping * static_cast<double>(ledger.incident));
       if (furnished) {
-        EXPECT_NEAR(result.organs[walls].absorbed[b].value, 0.0, 1e-12);
+        EXPECT_NEAR(result.organs[box_walls].absorbed[b].value, 0.0, 1e-12);
       }
-      for (std::size_t o = 0; o < walls; ++o) {
-        expect_agrees(result.organs[o].absorbed[b], 1.0, replicates, 0.003, 2 * walls * reflectances.size(),
-                      fmt::format("rho {}, wall {}", reflectances[b], o).c_str());
+      for (std::size_t o = 0; o < box_walls; ++o) {
+        expect_agrees(result.organs[o].absorbed[b], 1.0, replicates, 0.003, 2 * box_walls * furnace_reflectances.size(),
+                      fmt::format("rho {}, wall {}", furnace_reflectances[b], o).c_str());
       }
       for (std::size_t e = 0; e < model.canopy.size(); ++e) {
-        if (model.canopy.organ_of[e] >= walls) continue;
-        const double got = result.side_indirect_w_m2(2 * e, area_m2(model.canopy.corners[e]), b) * (1.0 - reflectances[b]);
-        EXPECT_EQ(result.side_indirect[(2 * e + 1) * reflectances.size() + b], 0) << "the outside";
+        if (model.canopy.organ_of[e] >= box_walls) continue;
+        const double got =
+            result.side_indirect_w_m2(2 * e, area_m2(model.canopy.corners[e]), b) * (1.0 - furnace_reflectances[b]);
+        EXPECT_EQ(result.side_indirect[(2 * e + 1) * furnace_reflectances.size() + b], 0) << "the outside";
         scores.add({got, result.element_error[b * model.canopy.size() + e]}, 1.0, "triangle");
       }
     }
@@ -114,12 +57,12 @@ TEST(Furnace, BothSidesOfALeafSeeWhatTheWallsSee) {
   const SideIrradiance got(model, group_of, 16384, replicates, 500);
   ZScores scores(replicates);
   std::size_t first_leaf = 0;
-  while (model.canopy.organ_of[first_leaf] < walls) ++first_leaf;
-  const std::size_t comparisons = 2 * (group_of.size() - first_leaf) * reflectances.size();
+  while (model.canopy.organ_of[first_leaf] < box_walls) ++first_leaf;
+  const std::size_t comparisons = 2 * (group_of.size() - first_leaf) * furnace_reflectances.size();
   for (std::size_t e = first_leaf; e < group_of.size(); ++e) {
-    for (std::size_t b = 0; b < reflectances.size(); ++b) {
+    for (std::size_t b = 0; b < furnace_reflectances.size(); ++b) {
       for (const std::size_t side : {0U, 1U}) {
-        const Estimate share = got.of(e, side, b).scaled(1.0 - reflectances[b]);
+        const Estimate share = got.of(e, side, b).scaled(1.0 - furnace_reflectances[b]);
         expect_agrees(share, 1.0, replicates, 0.03, comparisons, side == 0 ? "upper side" : "lower side");
         scores.add(share, 1.0, "leaf side");
       }
@@ -168,7 +111,7 @@ Mesh icosphere(int times) {
 // One of the twenty faces emits: after the first landing the light is even, on that face as well.
 TEST(Furnace, IntegratingSphere) {
   constexpr std::array walls_reflect = {0.5, 0.8};
-  RadiationModel model = dark_model(icosphere(5), {2.0, 2.0, false}, walls_reflect.size());
+  RadiationModel model = lamp_model(icosphere(5), {2.0, 2.0, false}, walls_reflect.size());
   ASSERT_EQ(model.optics.size(), 20U);
   ASSERT_EQ(model.canopy.size(), 20480U);
   double sphere_m2 = 0.0;
@@ -198,49 +141,21 @@ TEST(Furnace, IntegratingSphere) {
   std::printf("largest deviation of a face: %.5f\n", largest);
 }
 
-// Returns half a sphere of radius 0.5, open upwards, in rings of trapezoids; the upper faces look inwards.
-Mesh bowl(int around, int rings) {
-  MeshMaker maker;
-  maker.organ("bowl");
-  const auto at = [&](int ring, int k) {
-    const double polar = 0.5 * pi * ring / rings;  // angle from the bottom
-    const double angle = 2.0 * pi * (k % around) / around;
-    return glm::dvec3(0.5 + 0.5 * std::sin(polar) * std::cos(angle), 0.6 - 0.5 * std::cos(polar),
-                      0.5 + 0.5 * std::sin(polar) * std::sin(angle));
-  };
-  for (int ring = 0; ring < rings; ++ring) {
-    for (int k = 0; k < around; ++k) {
-      if (ring > 0) maker.triangle(at(ring, k), at(ring, k + 1), at(ring + 1, k + 1));
-      maker.triangle(at(ring, k), at(ring + 1, k + 1), at(ring + 1, k));
-    }
-  }
-  return maker.mesh();
-}
-
-// The outside of the bowl and the ground are black, so all reflected light comes out of the opening. In a cavity of plane
-// facets a facet does not see itself: the share of light that stays is 1 - opening / inner area (reciprocity), slightly less
-// than a half.
 TEST(Furnace, HemisphericalBowl) {
   constexpr std::array inside = {0.2, 0.5, 0.8};
-  constexpr int around = 128;
   constexpr std::size_t comparisons = 4 * inside.size();
   ZScores scores(replicates);
   for (const double elevation : {90.0, 60.0, 35.0, 15.0}) {
-    RadiationModel model = black_model(bowl(around, around / 4), {1.0, 1.0, false}, sun_at(elevation, 40.0));
-    set_bands(model, inside.size());
-    double inner_m2 = 0.0;
+    const Bowl bowl = bowl_under(sun_at(elevation, 40.0), 128, inside);
+    const RadiationModel& model = bowl.model;
     for (const Triangle& corners : model.canopy.corners) {
-      inner_m2 += area_m2(corners);
       ASSERT_GT(glm::dot(unit_normal(corners), glm::dvec3(0.5, 0.6, 0.5) - model.canopy.origin_m - glm::dvec3(corners[0])),
                 0.0);
     }
-    const double opening_m2 = 0.5 * around * std::sin(2.0 * pi / around) * 0.25;
-    const double kept = 1.0 - opening_m2 / inner_m2;
-    for (std::size_t b = 0; b < inside.size(); ++b) model.optics[0].upper[b].reflectance = inside[b];
     const RadiationResult result = simulate_soundly(model, fixed_packets(model, 16384, replicates, 77));
     for (std::size_t b = 0; b < inside.size(); ++b) {
-      const double escaping_share = inside[b] * (1.0 - kept) / (1.0 - inside[b] * kept);
-      const Estimate got = result.bands[b].reflected.scaled(model.plot.area_m2() / opening_m2);
+      const double escaping_share = bowl.escaping_share(inside[b]);
+      const Estimate got = result.bands[b].reflected.scaled(model.plot.area_m2() / bowl.opening_m2);
       expect_agrees(got, escaping_share, replicates, 1e-3, comparisons,
                     fmt::format("beam at {}, rho {}, facets' part {:+.1e}", elevation, inside[b],
                                 escaping_share - inside[b] * 0.5 / (1.0 - inside[b] * 0.5))
@@ -252,11 +167,11 @@ TEST(Furnace, HemisphericalBowl) {
 
 // Compares the root-mean-square error of the light on the walls and leaf sides of a furnace with the number of packets traced.
 TEST(Furnace, ErrorFallsWithTheRootOfThePackets) {
-  RadiationModel model = dark_model(furnished_box(1), box_plot);
+  RadiationModel model = dark_box(furnished_box(1), 1);
   for (std::size_t o = 0; o < model.optics.size(); ++o) {
     model.optics[o].upper[0].reflectance = 0.5;
-    if (o < walls) model.optics[o].emission_w_m2 = {1.0};
-    if (o >= walls) set_faces(model, o, {{0.4, 0.6}});
+    if (o < box_walls) model.optics[o].emission_w_m2 = {1.0};
+    if (o >= box_walls) set_faces(model, o, {{0.4, 0.6}});
   }
   const Prepared prepared(model);
   constexpr int seeds = 12;
@@ -272,7 +187,7 @@ TEST(Furnace, ErrorFallsWithTheRootOfThePackets) {
       expect_sound(model, result);
       traced += static_cast<double>(result.indirect.packets) / seeds;
       for (std::size_t side = 0; side < 2 * model.canopy.size(); ++side) {
-        const bool outside = model.canopy.organ_of[side / 2] < walls && side % 2 == 1;
+        const bool outside = model.canopy.organ_of[side / 2] < box_walls && side % 2 == 1;
         if (outside) continue;
         const double got = result.side_indirect_w_m2(side, area_m2(model.canopy.corners[side / 2]), 0);
         squares += (got / 2.0 - 1.0) * (got / 2.0 - 1.0);

@@ -1,8 +1,9 @@
 // Tests what must hold in every scene (A8 and B14 of the validation table): the beam's flux and the ledger add up, and no
 // shift, turn, larger plot or finer mesh changes a result.
-#include "base/error.h"
 #include "support/comparison.h"
-#include "support/models.h"
+#include "support/error_text.h"
+#include "support/same_stands.h"
+#include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
@@ -13,16 +14,12 @@ namespace {
 
 constexpr int replicates = 32;
 constexpr double rays = 1e6;
-const Plot plot{1.0, 1.5, true};
-
-Mesh stand() {
-  return random_leaves(60, 0.02, plot, 1.0, 7);
-}
+const Plot& plot = stand_plot;
 
 // The sunlit areas, seen along the beam, and the sunlit soil fill the plot.
 TEST(Identities, SunlitAreasFillThePlot) {
   for (const double elevation : {90.0, 53.0176, 15.0}) {
-    const RadiationModel model = black_model(stand(), plot, sun_at(elevation, 120.569));
+    const RadiationModel model = black_model(leafy_stand(), plot, sun_at(elevation, 120.569));
     const RadiationResult result = simulate(model, fixed_work(model, rays, replicates));
     const glm::dvec3 to_sun = direction_to_sun(*model.sun);
     double filled_m2 = result.bands[0].absorbed_soil.value * plot.area_m2();
@@ -82,7 +79,7 @@ void expect_closed(const RadiationModel& model, const RadiationResult& result) {
 TEST(Identities, LedgerClosesInEveryBand) {
   for (const bool periodic : {true, false}) {
     for (const bool has_soil : {true, false}) {
-      RadiationModel model = black_model(stand(), {plot.size_x_m, plot.size_z_m, periodic}, paper_sun());
+      RadiationModel model = black_model(leafy_stand(), {plot.size_x_m, plot.size_z_m, periodic}, beijing_sun());
       if (!has_soil) model.soil.reset();
       add_bands(model);
       expect_closed(model, simulate(model, fixed_work(model, 2e5, 8)));
@@ -92,7 +89,7 @@ TEST(Identities, LedgerClosesInEveryBand) {
 
 // The canopy absorbs the share of the landing light given by the absorptance: 0.82 times the organs' direct and indirect light.
 TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
-  RadiationModel model = black_model(stand(), plot, paper_sun());
+  RadiationModel model = black_model(leafy_stand(), plot, beijing_sun());
   add_bands(model);
   const RadiationResult result = simulate(model, fixed_work(model, 2e5, 8));
   double landed = 0.0;
@@ -106,9 +103,9 @@ TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
 // beside the plot (A3's plate, x east: the plot ends where the shadow of 0.4 m width still reaches 0.2187 m further west).
 TEST(Identities, IsolatedStandTakesWhatMeetsItOrItsPlot) {
   MeshMaker maker;
-  const auto corner = [](double x, double y) { return from_enu(x - 1.0, y - 1.0, 0.8); };
+  const auto corner = [](double x, double y) { return from_east_north_up(x - 1.0, y - 1.0, 0.8); };
   maker.quad(corner(0.3, 0.35), corner(0.7, 0.35), corner(0.7, 0.65), corner(0.3, 0.65));
-  const RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, beijing_sun());
   const RadiationResult result = simulate(model, fixed_work(model, 4e6, replicates));
   const double centre_x = 0.5 - 0.8 * 0.64840851;
   const double in_plot_m2 = (centre_x + 0.2) * 0.3;
@@ -130,70 +127,48 @@ void expect_same_aggregates(const RadiationModel& a, const RadiationModel& b, co
   EXPECT_NEAR(got_a.leaf_area_index, got_b.leaf_area_index, 1e-6);
 }
 
-RadiationModel placed_model(const Mesh& mesh, const Plot& ground, const SunPosition& sun,
-                            const std::vector<Placement>& placements) {
-  RadiationModel model = black_model(mesh, ground, sun);
-  const PlacedMesh placed{mesh, placements};
-  model.canopy = assemble_canopy(std::span(&placed, 1), ground);
+RadiationModel placed_model(const Plot& ground, const SunPosition& sun, const std::vector<Placement>& placements) {
+  RadiationModel model = black_model(leafy_stand(), ground, sun);
+  place_stand(model, placements);
   return model;
 }
 
 TEST(Identities, ShiftOfTheStandChangesNothing) {
-  const RadiationModel model = black_model(stand(), plot, paper_sun());
+  const RadiationModel model = black_model(leafy_stand(), plot, beijing_sun());
   for (const glm::dvec3& shift_m : {glm::dvec3(0.37, 0.0, 1.21), glm::dvec3(-0.5, 0.0, 0.75)}) {
-    expect_same_aggregates(model, placed_model(stand(), plot, paper_sun(), {{shift_m, 0.0}}), "shifted");
+    expect_same_aggregates(model, placed_model(plot, beijing_sun(), {{shift_m, 0.0}}), "shifted");
   }
 }
 
 TEST(Identities, TurnOfStandAndSunChangesNothing) {
-  const SunPosition sun = paper_sun();
-  const RadiationModel model = black_model(stand(), plot, sun);
+  const SunPosition sun = beijing_sun();
+  const RadiationModel model = black_model(leafy_stand(), plot, sun);
   const SunPosition turned_sun{sun.elevation_rad, sun.azimuth_rad + radians(90.0)};
   const Plot turned_plot{plot.size_z_m, plot.size_x_m, true};
-  expect_same_aggregates(model, placed_model(stand(), turned_plot, turned_sun, {{glm::dvec3(0.0), radians(90.0)}}), "turned");
+  expect_same_aggregates(model, placed_model(turned_plot, turned_sun, {{glm::dvec3(0.0), radians(90.0)}}), "turned");
 }
 
 TEST(Identities, PlotOfFourCopiesChangesNothing) {
-  const RadiationModel model = black_model(stand(), plot, paper_sun());
-  const double x_m = plot.size_x_m;
-  const double z_m = plot.size_z_m;
-  const std::vector<Placement> copies = {{{0, 0, 0}, 0}, {{x_m, 0, 0}, 0}, {{0, 0, z_m}, 0}, {{x_m, 0, z_m}, 0}};
-  expect_same_aggregates(model, placed_model(stand(), {2 * x_m, 2 * z_m, true}, paper_sun(), copies), "four copies");
+  const RadiationModel model = black_model(leafy_stand(), plot, beijing_sun());
+  expect_same_aggregates(model, placed_model({2 * plot.size_x_m, 2 * plot.size_z_m, true}, beijing_sun(), four_copies()),
+                         "four copies");
 }
 
 TEST(Identities, TrianglesCutInFourChangeNothing) {
-  const Mesh whole = stand();
-  Mesh cut = whole;
-  cut.triangles.clear();
-  cut.optics_of.clear();
-  cut.organ_of.clear();
-  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
-    const glm::uvec3& corner = whole.triangles[t];
-    const auto first = static_cast<std::uint32_t>(cut.vertices.size());
-    for (int k = 0; k < 3; ++k) {
-      cut.vertices.push_back(0.5 * (whole.vertices[corner[k]] + whole.vertices[corner[(k + 1) % 3]]));
-    }
-    for (const glm::uvec3& part : {glm::uvec3(corner.x, first, first + 2), glm::uvec3(first, corner.y, first + 1),
-                                   glm::uvec3(first + 2, first + 1, corner.z), glm::uvec3(first, first + 1, first + 2)}) {
-      cut.triangles.push_back(part);
-      cut.optics_of.push_back(whole.optics_of[t]);
-      cut.organ_of.push_back(whole.organ_of[t]);
-    }
-  }
-  expect_same_aggregates(black_model(whole, plot, paper_sun()), black_model(cut, plot, paper_sun()), "cut in four");
+  expect_same_aggregates(black_model(leafy_stand(), plot, beijing_sun()),
+                         black_model(cut_in_four(leafy_stand()), plot, beijing_sun()), "cut in four");
 }
 
 // Changes one counter of the last replicate by one.
-class CheatingTracer final : public Tracer {
+class CheatingTracer final : public WrappedTracer {
  public:
   enum class Cheat { drop, invent };
   CheatingTracer(Tracer& honest, Cheat cheat, std::size_t first, std::size_t end)
-      : honest_(honest), cheat_(cheat), first_(first), end_(end) {}
+      : WrappedTracer(honest), cheat_(cheat), first_(first), end_(end) {}
 
-  [[nodiscard]] TracerDevice device() const override { return honest_.device(); }
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                         const StopQuestion& stop) override {
-    const TraceOutcome outcome = honest_.count_beam(beam, counters, stop);
+    const TraceOutcome outcome = WrappedTracer::count_beam(beam, counters, stop);
     if (++calls_ < 8) return outcome;
     for (std::size_t word = first_; word < end_; ++word) {
       if (counters[word] == 0) continue;
@@ -203,14 +178,9 @@ class CheatingTracer final : public Tracer {
     }
     return outcome;
   }
-  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
-                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
-    return honest_.trace(scene, packets, landings, stop);
-  }
   [[nodiscard]] int cheats() const { return cheats_; }
 
  private:
-  Tracer& honest_;
   Cheat cheat_;
   std::size_t first_, end_;
   int calls_ = 0;
@@ -221,19 +191,15 @@ void expect_found_out(const RadiationModel& model, CheatingTracer::Cheat cheat, 
   const Prepared prepared(model);
   CpuTracer honest(prepared.bvh, tracer_scene(model));
   CheatingTracer tracer(honest, cheat, first, std::min<std::size_t>(end, prepared.layout.words()));
-  try {
-    (void)solve(model, prepared.layout, tracer, fixed_work(model, 1e4, 8), {});
-    ADD_FAILURE() << "a landing was " << (cheat == CheatingTracer::Cheat::drop ? "lost" : "invented") << " unnoticed";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::failure) << error.what();
-  }
+  SCOPED_TRACE(cheat == CheatingTracer::Cheat::drop ? "a landing is lost" : "a landing is invented");
+  refusal_of([&] { (void)solve(model, prepared.layout, tracer, fixed_work(model, 1e4, 8), {}); }, ErrorKind::failure);
   EXPECT_EQ(tracer.cheats(), 1);
 }
 
 TEST(Identities, OneLostOrInventedLandingFailsTheRun) {
   constexpr std::size_t all = ~std::size_t{0};
   for (const bool periodic : {true, false}) {
-    RadiationModel model = black_model(stand(), {1.0, 1.5, periodic}, paper_sun());
+    RadiationModel model = black_model(leafy_stand(), {1.0, 1.5, periodic}, beijing_sun());
     const std::size_t first_bin = Prepared(model).layout.first_bin_word;
     for (const auto cheat : {CheatingTracer::Cheat::drop, CheatingTracer::Cheat::invent}) {
       expect_found_out(model, cheat, shared::counter_first_cell, first_bin);

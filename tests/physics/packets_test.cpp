@@ -230,7 +230,7 @@ TEST(Packets, DirectionsAreCosineDistributedAboutTheSide) {
   for (const glm::dvec3& normal : normals) {
     MeshMaker maker;
     maker.polygon({0.5, 0.5, 0.5}, normal, 0.01, 3);
-    const Canopy canopy = black_model(maker.mesh(), {1.0, 1.0, true}, paper_sun()).canopy;
+    const Canopy canopy = black_model(maker.mesh(), {1.0, 1.0, true}, beijing_sun()).canopy;
     const glm::dvec3 own = unit_normal(canopy.corners[0]);
     const glm::dvec3 u = glm::normalize(glm::dvec3(canopy.corners[0][1]) - glm::dvec3(canopy.corners[0][0]));
     const glm::dvec3 v = glm::cross(own, u);
@@ -261,7 +261,7 @@ TEST(Packets, DirectionsAreCosineDistributedAboutTheSide) {
 TEST(Packets, LampsGlowEvenly) {
   MeshMaker maker;
   maker.triangle({0.1, 0.5, 0.1}, {0.2, 0.5, 0.9}, {0.9, 0.5, 0.3});
-  const Canopy canopy = black_model(maker.mesh(), {1.0, 1.0, true}, paper_sun()).canopy;
+  const Canopy canopy = black_model(maker.mesh(), {1.0, 1.0, true}, beijing_sun()).canopy;
   Candidates candidates(1);
   candidates.add({0, 0, anywhere, 0.0F, 0}, std::array<std::int64_t, 1>{100});
   const glm::dvec3 a(canopy.corners[0][0]);
@@ -296,7 +296,7 @@ TEST(Packets, LampsGlowEvenly) {
 TEST(Packets, StartsAreWrappedIntoThePlot) {
   MeshMaker maker;
   maker.quad({-0.4, 0.3, -0.7}, {-0.4, 0.7, 0.5}, {0.5, 0.9, 0.5}, {0.5, 0.5, -0.7});
-  const RadiationModel model = black_model(maker.mesh(), {0.5, 0.75, true}, paper_sun());
+  const RadiationModel model = black_model(maker.mesh(), {0.5, 0.75, true}, beijing_sun());
   const Canopy& canopy = model.canopy;
   Random places(5);
   Candidates candidates(1);
@@ -338,7 +338,7 @@ TEST(Packets, StartsAreWrappedIntoThePlot) {
 
 // Packets from the ground rise.
 TEST(Packets, GroundSendsLightUp) {
-  const Canopy canopy = black_model(Mesh{}, {1.0, 1.0, true}, paper_sun()).canopy;
+  const Canopy canopy = black_model(Mesh{}, {1.0, 1.0, true}, beijing_sun()).canopy;
   Candidates candidates(1);
   candidates.add({shared::landed_on_ground, 0, 0.25F, 0.75F, -1}, std::array<std::int64_t, 1>{1});
   Draw draw;

@@ -14,7 +14,7 @@ const Plot plot{1.0, 1.0, true};
 
 // Returns leaves that scatter, under beam and sky; the bounds of the tests differ in how hard they are to reach.
 RadiationModel leafy_model() {
-  RadiationModel model = black_model(random_leaves(60, 0.01, plot, 1.0, 7), plot, paper_sun());
+  RadiationModel model = black_model(random_leaves(60, 0.01, plot, 1.0, 7), plot, beijing_sun());
   for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = {{0.45, 0.45}};
   model.soil->reflectance = {0.3};
   model.bands[0].diffuse_w_m2 = 0.5;

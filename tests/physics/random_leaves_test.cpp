@@ -73,7 +73,7 @@ Scatter simulate_scenes(const Leaves& leaves, const std::function<int(Random&)>&
   Scatter scatter;
   for (int scene = 0; scene < scenes; ++scene) {
     Random random(seed + static_cast<std::uint32_t>(scene));
-    const RadiationModel model = black_model(scattered(leaves, count(random), random), {}, paper_sun());
+    const RadiationModel model = black_model(scattered(leaves, count(random), random), {}, beijing_sun());
     const RadiationResult result = simulate(model, fixed_work(model, rays, 8, seed + static_cast<std::uint32_t>(scene)));
     scatter.passed.add(result.bands[0].absorbed_soil.value);
     scatter.sunlit_index.add(result.sunlit_leaf_fraction.value * result.leaf_area_index);

@@ -25,7 +25,7 @@ std::int64_t sum_band(const PlaneResult& plane, std::size_t bands, std::size_t b
 
 // Returns leaves of every orientation, most of which cross the edge of a layer.
 RadiationModel leafy(const Plot& plot, bool sky) {
-  RadiationModel model = paper_model(random_leaves(60, 0.04, plot, 1.0, 7), plot, paper_sun());
+  RadiationModel model = paper_model(random_leaves(60, 0.04, plot, 1.0, 7), plot, beijing_sun());
   model.layers = 10;
   if (!sky) return model;
   model.sky = SkyModel{.kind = SkyKind::overcast};
@@ -90,7 +90,7 @@ TEST(Receivers, PlaneTakesWhatIsAbsorbedBelow) {
   maker.organ("lower", 1, 2);
   maker.quad({0.3, 0.05, 0.1}, {0.2, 0.45, 0.6}, {0.9, 0.35, 0.7}, {0.8, 0.1, 0.2});
   const Plot plot{1.0, 1.0, true};
-  RadiationModel model = paper_model(maker.mesh(), plot, paper_sun());
+  RadiationModel model = paper_model(maker.mesh(), plot, beijing_sun());
   for (FaceOptics& face : model.optics[1].upper) face = {};
   for (FaceOptics& face : model.optics[1].lower) face = {};
   model.soil->reflectance = {0.0, 0.0};
@@ -178,7 +178,7 @@ TEST(Receivers, SoilElementsShadeNoPlane) {
   MeshMaker maker;
   maker.organ("soil", 0, 0);
   maker.level(0.2, 0.8, 0.2, 0.8, 0.5);
-  RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, true}, paper_sun());
+  RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, true}, beijing_sun());
   model.planes = {{0.3, 5, 5}};
   const RadiationResult result = simulate(model, fixed_work(model, 1e5, 8));
   EXPECT_EQ(result.planes[0].reached, result.planes[0].crossing);

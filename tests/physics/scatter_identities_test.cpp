@@ -3,6 +3,7 @@
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
+#include "support/same_stands.h"
 
 #include <gtest/gtest.h>
 
@@ -14,21 +15,15 @@ namespace sunfleck::test {
 namespace {
 
 constexpr int replicates = 32;
-const Plot plot{1.0, 1.5, true};
-
-Mesh stand() {
-  return random_leaves(60, 0.02, plot, 1.0, 7);
-}
+const Plot& plot = stand_plot;
 
 RadiationModel leafy_model(const Plot& ground = plot) {
-  return paper_model(stand(), ground, paper_sun());
+  return paper_model(leafy_stand(), ground, beijing_sun());
 }
 
 RadiationModel placed_model(const Plot& ground, const SunPosition& sun, const std::vector<Placement>& placements) {
-  RadiationModel model = paper_model(stand(), ground, sun);
-  const Mesh mesh = stand();
-  const PlacedMesh placed{mesh, placements};
-  model.canopy = assemble_canopy(std::span(&placed, 1), ground);
+  RadiationModel model = paper_model(leafy_stand(), ground, sun);
+  place_stand(model, placements);
   return model;
 }
 
@@ -43,17 +38,17 @@ const RadiationResult& usual_run() {
 
 // B14 (i), with bands that end after one landing, after several, and never.
 TEST(ScatterIdentities, LedgerClosesInIntegers) {
-  const std::array bands = {paper_par,
-                            usual_nir,
-                            BandOptics{"white", 0.6, 0.4, 1.0},
-                            BandOptics{"black", 0.0, 0.0, 0.0},
-                            BandOptics{"soil only", 0.0, 0.0, 0.3},
-                            BandOptics{"clear", 0.0, 1.0, 0.2}};
+  const std::array bands = {par_band,
+                            nir_band,
+                            LeafBand{"white", 0.6, 0.4, 1.0},
+                            LeafBand{"black", 0.0, 0.0, 0.0},
+                            LeafBand{"soil only", 0.0, 0.0, 0.3},
+                            LeafBand{"clear", 0.0, 1.0, 0.2}};
   for (const bool periodic : {true, false}) {
     for (const bool has_soil : {true, false}) {
-      RadiationModel black = black_model(stand(), {1.0, 1.5, periodic}, paper_sun());
-      if (!has_soil) black.soil.reset();
-      const RadiationModel model = scattering_model(black, bands);
+      RadiationModel model = black_model(leafy_stand(), {1.0, 1.5, periodic}, beijing_sun());
+      if (!has_soil) model.soil.reset();
+      set_leaf_bands(model, bands);
       const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 1e5, .packets = 2048, .replicates = 8}));
       EXPECT_EQ(result.lost_rays, 0U);
       for (std::size_t b = 0; b < bands.size(); ++b) {
@@ -117,41 +112,20 @@ void expect_same_fluxes(const RadiationResult& b, const char* what) {
 
 // B14 (v).
 TEST(ScatterIdentities, ShiftChangesNothing) {
-  expect_same_fluxes(run(placed_model(plot, paper_sun(), {{{0.37, 0.0, 1.21}, 0.0}}), 2), "shifted");
+  expect_same_fluxes(run(placed_model(plot, beijing_sun(), {{{0.37, 0.0, 1.21}, 0.0}}), 2), "shifted");
 }
 
 TEST(ScatterIdentities, TurnOfStandSunAndPlotChangesNothing) {
-  const SunPosition sun = paper_sun();
+  const SunPosition sun = beijing_sun();
   const SunPosition turned{sun.elevation_rad, sun.azimuth_rad + radians(90.0)};
   const Plot turned_plot{plot.size_z_m, plot.size_x_m, true};
   expect_same_fluxes(run(placed_model(turned_plot, turned, {{glm::dvec3(0.0), radians(90.0)}}), 3), "turned");
 }
 
-Mesh cut_in_four(const Mesh& whole) {
-  Mesh cut = whole;
-  cut.triangles.clear();
-  cut.optics_of.clear();
-  cut.organ_of.clear();
-  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
-    const glm::uvec3& corner = whole.triangles[t];
-    const auto first = static_cast<std::uint32_t>(cut.vertices.size());
-    for (int k = 0; k < 3; ++k) {
-      cut.vertices.push_back(0.5 * (whole.vertices[corner[k]] + whole.vertices[corner[(k + 1) % 3]]));
-    }
-    for (const glm::uvec3& part : {glm::uvec3(corner.x, first, first + 2), glm::uvec3(first, corner.y, first + 1),
-                                   glm::uvec3(first + 2, first + 1, corner.z), glm::uvec3(first, first + 1, first + 2)}) {
-      cut.triangles.push_back(part);
-      cut.optics_of.push_back(whole.optics_of[t]);
-      cut.organ_of.push_back(whole.organ_of[t]);
-    }
-  }
-  return cut;
-}
-
 // B14 (vii), with a leaf's own flux in addition to the aggregates: the place on a leaf where the light lands must be kept.
 TEST(ScatterIdentities, TrianglesCutInFourChangeNothing) {
   const RadiationResult& whole = usual_run();
-  const RadiationResult cut = run(paper_model(cut_in_four(cut_in_four(stand())), plot, paper_sun()), 4);
+  const RadiationResult cut = run(paper_model(cut_in_four(cut_in_four(leafy_stand())), plot, beijing_sun()), 4);
   expect_same_fluxes(cut, "cut in sixteen");
   for (std::size_t leaf = 0; leaf < 6; ++leaf) {
     expect_same(whole.organs[leaf].absorbed[1], cut.organs[leaf].absorbed[1], replicates, 3e-3, 24, "a leaf, NIR");
@@ -160,15 +134,13 @@ TEST(ScatterIdentities, TrianglesCutInFourChangeNothing) {
 
 // B14 (viii).
 TEST(ScatterIdentities, PlotOfFourCopiesChangesNothing) {
-  const double x_m = plot.size_x_m;
-  const double z_m = plot.size_z_m;
-  const std::vector<Placement> copies = {{{0, 0, 0}, 0}, {{x_m, 0, 0}, 0}, {{0, 0, z_m}, 0}, {{x_m, 0, z_m}, 0}};
-  expect_same_fluxes(run(placed_model({2 * x_m, 2 * z_m, true}, paper_sun(), copies), 5), "four copies");
+  expect_same_fluxes(run(placed_model({2 * plot.size_x_m, 2 * plot.size_z_m, true}, beijing_sun(), four_copies()), 5),
+                     "four copies");
 }
 
 // B14 (ix).
 TEST(ScatterIdentities, BlackScenesEndAtTheFirstLanding) {
-  const RadiationModel model = scattering_model(stand(), plot, paper_sun(), std::array{BandOptics{"black", 0.0, 0.0, 0.0}});
+  const RadiationModel model = leaf_model(leafy_stand(), plot, beijing_sun(), std::array{LeafBand{"black", 0.0, 0.0, 0.0}});
   const RadiationResult result = run(model);
   EXPECT_EQ(result.indirect.packets, 0U);
   EXPECT_EQ(result.bands[0].ledger.reflected, 0);

@@ -17,7 +17,7 @@ const glm::dvec3 up{0, 1, 0}, down{0, -1, 0};
 
 // Returns random leaves under sun and a clear sky, in PAR and NIR.
 RadiationModel leaves_in_the_open() {
-  RadiationModel model = paper_model(random_leaves(80, 0.03, plot, 1.0, 11), plot, paper_sun());
+  RadiationModel model = paper_model(random_leaves(80, 0.03, plot, 1.0, 11), plot, beijing_sun());
   model.sky = SkyModel{SkyKind::general, 12, 0.0, 0.0, {}};
   for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.5;
   model.layers = 4;

@@ -46,7 +46,7 @@ void give_sky(RadiationModel& model, double diffuse_w_m2, const SkyModel& sky = 
 }
 
 RadiationModel bare_ground(double soil_reflectance) {
-  RadiationModel model = black_model(MeshMaker().mesh(), plot, paper_sun());
+  RadiationModel model = black_model(MeshMaker().mesh(), plot, beijing_sun());
   model.soil->reflectance = {soil_reflectance};
   return model;
 }
@@ -66,14 +66,14 @@ void expect_agreed(const Estimate& got, double expected, double largest, const c
 
 TEST(Sensors, AboveABlackCanopyTheyReadWhatComesIn) {
   for (const bool periodic : {true, false}) {
-    RadiationModel model = black_model(random_leaves(60, 0.02, plot, 1.0, 3), {1.0, 1.0, periodic}, paper_sun());
+    RadiationModel model = black_model(random_leaves(60, 0.02, plot, 1.0, 3), {1.0, 1.0, periodic}, beijing_sun());
     give_sky(model, 0.7, {SkyKind::general, 12, 0.0, 0.0, {}});
-    const glm::dvec3 to_sun = direction_to_sun(paper_sun()), away = -to_sun;
+    const glm::dvec3 to_sun = direction_to_sun(beijing_sun()), away = -to_sun;
     model.sensors = {cosine_sensor({0.4, 1.5, 0.3}, up), cosine_sensor({0.4, 1.5, 0.3}, to_sun), sphere({0.4, 1.5, 0.3}),
                      cosine_sensor({0.4, 1.5, 0.3}, away)};
     const std::vector<SensorResult> got = read(model, settings_of(64));
     ASSERT_EQ(got.size(), 4U);
-    const double normal_w_m2 = 1.0 / std::sin(paper_sun().elevation_rad);
+    const double normal_w_m2 = 1.0 / std::sin(beijing_sun().elevation_rad);
     expect_exactly(got[0].direct[0], 1.0, "level");
     expect_agreed(got[0].sky[0], 0.7, 0.7 / 64.0, "sky on a level plane");
     expect_exactly(got[1].direct[0], normal_w_m2, "facing the sun");
@@ -88,13 +88,13 @@ TEST(Sensors, AboveABlackCanopyTheyReadWhatComesIn) {
 TEST(Sensors, UnderAPlateThatCoversAllTheyReadNothing) {
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
-  RadiationModel model = black_model(maker.mesh(), plot, paper_sun());
+  RadiationModel model = black_model(maker.mesh(), plot, beijing_sun());
   give_sky(model, 1.0);
   model.soil->reflectance = {0.5};
   model.sensors = {cosine_sensor({0.3, 0.2, 0.3}, up), sphere({0.3, 0.2, 0.3}), cosine_sensor({0.3, 0.2, 0.3}, down)};
   const std::vector<SensorResult> got = read(model, settings_of(256));
   const double spherical = Sky(*model.sky, *model.sun).spherical_irradiance();
-  const double brightest_w_m2 = 0.5 * (1.0 / std::sin(paper_sun().elevation_rad) + spherical);
+  const double brightest_w_m2 = 0.5 * (1.0 / std::sin(beijing_sun().elevation_rad) + spherical);
   for (const SensorResult& reading : got) {
     expect_exactly(reading.direct[0], 0.0, "dark");
     expect_agreed(reading.scattered[0], 0.0, 4.0 * brightest_w_m2 / 256.0, "dark");
@@ -123,7 +123,8 @@ TEST(Sensors, UprightOnesReadTheTableOfSkies) {  // validation.md E1 to E4
                                {general(14), {0.38965, 0.89532, 0.71540, 0.34382}},
                                {{SkyKind::all_weather, 1, 850, 100, {}}, {0.43355, 0.80890, 0.66418, 0.41844}}};
   RadiationModel model = bare_ground(0.0);
-  for (const glm::dvec3& normal : {from_enu(0, 1, 0), from_enu(1, 0, 0), from_enu(0, -1, 0), from_enu(-1, 0, 0)})
+  for (const glm::dvec3& normal :
+       {from_east_north_up(0, 1, 0), from_east_north_up(1, 0, 0), from_east_north_up(0, -1, 0), from_east_north_up(-1, 0, 0)})
     model.sensors.push_back(cosine_sensor({0.5, 0.5, 0.5}, normal));
   for (const Row& row : table) {
     give_sky(model, 1.0, row.sky);
@@ -149,7 +150,7 @@ TEST(Sensors, SunlitSoilShinesBack) {
   expect_agrees(got[0].scattered[0], 0.45, replicates, 1e-3, 4, "facing down");
   expect_agrees(got[1].scattered[0], 0.45 / 2.0, replicates, 1e-3, 4, "upright");
   expect_agrees(got[2].scattered[0], 0.45 * 2.0, replicates, 2e-3, 4, "sphere");
-  const double from_beam_w_m2 = 0.3 / std::sin(paper_sun().elevation_rad);
+  const double from_beam_w_m2 = 0.3 / std::sin(beijing_sun().elevation_rad);
   const double from_sky_w_m2 = 0.3 * 0.5 * Sky(*model.sky, *model.sun).spherical_irradiance();
   expect_agreed(got[3].scattered[0], 0.0, (from_beam_w_m2 + from_sky_w_m2) / 4096.0, "facing up");
   give_sky(model, 0.0);
@@ -159,7 +160,7 @@ TEST(Sensors, SunlitSoilShinesBack) {
 TEST(Sensors, BareSoilPlaneEndsAtAnIsolatedPlot) {
   RadiationModel model = bare_ground(0.4);
   model.plot.periodic = false;
-  model = black_model(MeshMaker().mesh(), model.plot, paper_sun());
+  model = black_model(MeshMaker().mesh(), model.plot, beijing_sun());
   model.soil->reflectance = {0.4};
   model.sensors = {cosine_sensor({0.5, 0.25, 0.5}, down)};
   // Four times the view factor from a point to a rectangle with a corner below it (Siegel & Howell); a side is twice the
@@ -179,7 +180,7 @@ TEST(Sensors, AboveAndBelowAPlate) {
       {{0.12, 0.06}, {0.12, 0.06}, 0.15}, {{0.45, 0.45}, {0.45, 0.45}, 0.20}, {{0.3, 0.1}, {0.05, 0.55}, 0.4}};
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
-  RadiationModel model = black_model(maker.mesh(), plot, paper_sun());
+  RadiationModel model = black_model(maker.mesh(), plot, beijing_sun());
   set_bands(model, cases.size());
   for (std::size_t b = 0; b < cases.size(); ++b) {
     model.optics[0].upper[b] = cases[b].top;
@@ -218,7 +219,7 @@ double rectangle_factor(double width_m, double depth_m, double distance_m) {  //
 TEST(Sensors, ASquareHidesItsViewFactorOfTheSkyAndALampFillsIt) {
   MeshMaker maker;
   maker.quad({0.3, 0.6, 0.35}, {0.7, 0.6, 0.35}, {0.7, 0.6, 0.65}, {0.3, 0.6, 0.65});  // facing down
-  RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, paper_sun());
+  RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, beijing_sun());
   model.sun.reset();
   model.soil.reset();
   give_sky(model, 2.0);
@@ -236,7 +237,7 @@ TEST(Sensors, ASquareHidesItsViewFactorOfTheSkyAndALampFillsIt) {
 TEST(Sensors, ListedLightsAreExact) {
   MeshMaker maker;
   maker.level(0.3, 0.7, 0.3, 0.7, 0.6);
-  RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, paper_sun());
+  RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, beijing_sun());
   model.sun.reset();
   SkyModel sky{SkyKind::lights, 1, 0, 0, {}};
   sky.lights = {{1.0, up}, {3.0, {0.6, 0.8, 0.0}}};
@@ -254,7 +255,7 @@ TEST(Sensors, ListedLightsAreExact) {
 }
 
 TEST(Sensors, AnEndlessPlotHasNoEdge) {
-  RadiationModel model = paper_model(random_leaves(60, 0.03, plot, 1.0, 5), plot, paper_sun());
+  RadiationModel model = paper_model(random_leaves(60, 0.03, plot, 1.0, 5), plot, beijing_sun());
   give_sky(model, 1.0);
   Sensor inside{"", {}, SensorResponse::cosine, up}, outside = inside;
   for (int i = 0; i < 64; ++i) {
@@ -294,7 +295,7 @@ TEST(Sensors, LieOnLeavesAndOnTheSoil) {
 }
 
 TEST(Sensors, SameBytesForEverySeedAndNumberOfThreads) {
-  RadiationModel model = paper_model(random_leaves(60, 0.03, plot, 1.0, 5), plot, paper_sun());
+  RadiationModel model = paper_model(random_leaves(60, 0.03, plot, 1.0, 5), plot, beijing_sun());
   give_sky(model, 1.0, {SkyKind::general, 12, 0, 0, {}});
   model.sensors = {cosine_sensor({0.4, 0.3, 0.3}, up), sphere({0.2, 0.6, 0.8})};
   const auto numbers = [&](std::uint64_t seed, CpuWalk walk) {
@@ -316,7 +317,7 @@ TEST(Sensors, IntervalsCoverTheTruth) {
   RadiationModel model = bare_ground(0.4);
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
-  model = scattering_model(maker.mesh(), plot, paper_sun(), std::array{usual_nir});
+  model = leaf_model(maker.mesh(), plot, beijing_sun(), std::array{nir_band});
   model.sensors = {cosine_sensor({0.3, 0.25, 0.6}, up)};
   ZScores scores(8);
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

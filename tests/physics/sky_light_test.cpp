@@ -1,7 +1,8 @@
 // Tests light from the sky: the light that single faces receive, the light that canopies absorb (B12 and E of the validation
 // table), and the identities that hold with it.
-#include "files/formats/mesh/mesh_reader.h"
+#include "programs/validate/known/canopy_scenes.h"
 #include "support/comparison.h"
+#include "support/field_stand.h"
 #include "support/leaf_scenes.h"
 
 #include <gtest/gtest.h>
@@ -13,19 +14,6 @@ namespace sunfleck::test {
 namespace {
 
 constexpr int replicates = 32;
-
-struct Reference {
-  double value, error;  // error: that of the reference itself
-};
-
-void expect_within(const Estimate& got, const Reference& reference, double largest, const std::string& what) {
-  const double own = standard_error(got, replicates);
-  const double error = std::hypot(own, reference.error);
-  std::printf("%-28s expected %.6f(%.0e) got %.6f(%.1e) z %+.2f\n", what.c_str(), reference.value, reference.error, got.value,
-              own, (got.value - reference.value) / std::max(error, 1e-12));
-  EXPECT_LE(own, largest) << what;
-  EXPECT_LE(std::abs(got.value - reference.value), 3.0 * error + rounding) << what;
-}
 
 RadiationModel under_sky(RadiationModel model, const SkyModel& sky) {
   shine_from_sky(model, sky);
@@ -46,14 +34,14 @@ TEST(SkyLight, ExplicitSceneUnderUniformAndOvercastSkies) {
       Row{SkyKind::uniform, {0.053482, 2e-5}, {0.837763, 5e-5}, {0.127951, 6e-5}, {0.113245, 6e-5}, 0.108758},
       Row{SkyKind::overcast, {0.052310, 1e-5}, {0.826358, 8e-5}, {0.142742, 9e-5}, {0.127740, 9e-5}, 0.121331}};
   for (const Row& row : rows) {
-    RadiationModel model = under_sky(paper_model(explicit_scene().mesh, {}, paper_sun()), {.kind = row.kind});
+    RadiationModel model = under_sky(paper_model(explicit_leaves(), {}, beijing_sun()), {.kind = row.kind});
     model.sun.reset();
     const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 98304}));
     const BandResult& par = result.bands[0];
-    expect_within(par.reflected, row.reflected, 1e-4, "reflected");
-    expect_within(par.absorbed_vegetation, row.leaves, 2e-4, "absorbed by leaves");
-    expect_within(result.layers[0].down[0], row.on_soil, 2e-4, "on soil");
-    expect_within(par.absorbed_soil, {row.in_soil, 0.85 * row.on_soil.error}, 2e-4, "absorbed by soil");
+    expect_within(par.reflected, row.reflected, replicates, 1e-4, "reflected");
+    expect_within(par.absorbed_vegetation, row.leaves, replicates, 2e-4, "absorbed by leaves");
+    expect_within(result.layers[0].down[0], row.on_soil, replicates, 2e-4, "on soil");
+    expect_within(par.absorbed_soil, {row.in_soil, 0.85 * row.on_soil.error}, replicates, 2e-4, "absorbed by soil");
     const double passed_error = 3.0 * std::hypot(row.passed.error, standard_error(result.layers[0].down[0], replicates));
     EXPECT_NEAR(sky_on_soil_w_m2(model, result, 0), row.passed.value, passed_error);
     EXPECT_EQ(par.ledger.residual(), 0);
@@ -88,7 +76,7 @@ TEST(SkyLight, VerticalSquareSeesTheTables) {
       MeshMaker maker;
       maker.polygon({0.05, 0.08, 0.05}, normals[pair], 0.01, 4);
       const Plot plot{0.1, 0.1, false};
-      RadiationModel model = under_sky(black_model(maker.mesh(), plot, paper_sun()), each.sky);
+      RadiationModel model = under_sky(black_model(maker.mesh(), plot, beijing_sun()), each.sky);
       const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 65536}));
       EXPECT_EQ(result.bands[0].ledger.residual(), 0);
       double area = 0.0;
@@ -116,12 +104,8 @@ TEST(SkyLight, VerticalSquareSeesTheTables) {
 // Compares the light that leaves, stems and soil of a whole stand absorb from the overcast sky with a reference of 46
 // directions.
 TEST(SkyLight, StandUnderTheOvercastSky) {
-  Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
-  std::vector<std::uint32_t> kind_of;
-  for (const Organ& organ : mesh.organs) kind_of.push_back(is_leaf_name(organ.name) ? 0 : organ.name == "stem" ? 1 : 2);
-  for (std::uint32_t& organ : mesh.organ_of) organ = kind_of[organ];
-  mesh.organs = {{1, "leaf", 0}, {1, "stem", 0}, {0, "soil", 0}};
-  RadiationModel model = under_sky(black_model(mesh, {3.0, 3.0, true}, paper_sun()), {.kind = SkyKind::overcast});
+  const Mesh mesh = stand_by_kind();
+  RadiationModel model = under_sky(black_model(mesh, {3.0, 3.0, true}, beijing_sun()), {.kind = SkyKind::overcast});
   model.sun.reset();
   const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 32768}));
   const std::array expected = {0.744, 0.029, 0.226};
@@ -137,9 +121,9 @@ TEST(SkyLight, StandUnderTheOvercastSky) {
 TEST(SkyLight, ALampListIsABeamFromEachDirection) {
   const Plot plot{1.0, 1.0, true};
   const Mesh leaves = random_leaves(40, 0.02, plot, 1.0, 3);
-  RadiationModel beam = paper_model(leaves, plot, paper_sun());
+  RadiationModel beam = paper_model(leaves, plot, beijing_sun());
   SkyModel sky{.kind = SkyKind::lights};
-  sky.lights = {{1.0, direction_to_sun(paper_sun())}};
+  sky.lights = {{1.0, direction_to_sun(beijing_sun())}};
   RadiationModel listed = under_sky(beam, sky);
   listed.sun.reset();
   const RadiationResult by_beam = simulate(beam, fixed_scatter(beam, {.rays = 2e6, .packets = 16384}));
@@ -154,7 +138,7 @@ TEST(SkyLight, ALampListIsABeamFromEachDirection) {
 // B14 (iii): sun and sky together give the sum of what each gives alone.
 TEST(SkyLight, SunAndSkyAddUp) {
   const Plot plot{1.0, 1.5, true};
-  const RadiationModel sun = paper_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, paper_sun());
+  const RadiationModel sun = paper_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, beijing_sun());
   const RadiationModel sky = under_sky(sun, general_sky(12));
   RadiationModel both = sun;
   both.sky = general_sky(12);
@@ -183,14 +167,14 @@ TEST(SkyLight, SunAndSkyAddUp) {
 
 // B14 (i) and (ix): the ledger closes in every kind of scene, and black surfaces reflect nothing.
 TEST(SkyLight, LedgerClosesInIntegers) {
-  const std::array bands = {paper_par, usual_nir, BandOptics{"white", 0.6, 0.4, 1.0}, BandOptics{"black", 0.0, 0.0, 0.0}};
+  const std::array bands = {par_band, nir_band, LeafBand{"white", 0.6, 0.4, 1.0}, LeafBand{"black", 0.0, 0.0, 0.0}};
   for (const bool periodic : {true, false}) {
     for (const bool has_soil : {true, false}) {
       for (const bool has_sun : {true, false}) {
         const Plot plot{1.0, 1.5, periodic};
-        RadiationModel black = black_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, paper_sun());
-        if (!has_soil) black.soil.reset();
-        RadiationModel model = scattering_model(black, bands);
+        RadiationModel model = black_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, beijing_sun());
+        if (!has_soil) model.soil.reset();
+        set_leaf_bands(model, bands);
         model.sky = SkyModel{.kind = SkyKind::overcast};
         for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.5;
         if (!has_sun) model = under_sky(model, *model.sky);
@@ -224,7 +208,7 @@ TEST(SkyLight, NothingPassesAFullRoof) {
   maker.organ("leaf", 1, 2);
   maker.level(0.2, 0.7, 0.1, 0.9, 0.5);
   const Plot plot{1.0, 1.0, true};
-  RadiationModel model = under_sky(black_model(maker.mesh(), plot, paper_sun()), general_sky(12));
+  RadiationModel model = under_sky(black_model(maker.mesh(), plot, beijing_sun()), general_sky(12));
   const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 4096, .replicates = 8}));
   EXPECT_NEAR(result.organs[0].indirect[0].value, 1.0, 1e-9);
   EXPECT_EQ(result.organs[1].indirect[0].value, 0.0);

@@ -1,7 +1,7 @@
 // Compares a whole maize stand with an independent Monte Carlo program: leaves, stems and soil are black, the plot is periodic,
 // 3 x 3 m.
-#include "files/formats/mesh/mesh_reader.h"
 #include "support/comparison.h"
+#include "support/field_stand.h"
 #include "support/models.h"
 
 #include <gtest/gtest.h>
@@ -13,20 +13,6 @@ namespace {
 
 constexpr int replicates = 32;
 
-// Makes the leaves, the stems and the soil one organ each, so that their shares come with an error.
-Mesh stand_by_kind() {
-  Mesh mesh = read_mesh(std::filesystem::path(SUNFLECK_SOURCE_DIR) / "tests/data/maize60x60_25plants.can.gz", {});
-  std::vector<std::uint32_t> kind_of;
-  for (const Organ& organ : mesh.organs) kind_of.push_back(is_leaf_name(organ.name) ? 0 : organ.name == "stem" ? 1 : 2);
-  for (std::uint32_t& organ : mesh.organ_of) organ = kind_of[organ];
-  mesh.organs = {{1, "leaf", 0}, {1, "stem", 0}, {0, "soil", 0}};
-  return mesh;
-}
-
-struct Reference {
-  double share;
-  double error;  // error of the reference itself
-};
 struct StandCase {
   SunPosition sun;
   std::array<Reference, 3> shares;  // leaf, stem, soil
@@ -44,9 +30,9 @@ void expect_shares(const StandCase& stand) {
   for (std::size_t organ = 0; organ < 3; ++organ) {
     const Reference& reference = stand.shares[organ];
     Estimate got = share_of_beam(model, result, organ);
-    EXPECT_NEAR(got.value, reference.share, stand.tolerance) << names[organ];
+    EXPECT_NEAR(got.value, reference.value, stand.tolerance) << names[organ];
     got.half_width = std::hypot(got.half_width, t_quantile(0.95, replicates) * reference.error);
-    expect_agrees(got, reference.share, replicates, stand.tolerance / 2.0, 6, names[organ]);
+    expect_agrees(got, reference.value, replicates, stand.tolerance / 2.0, 6, names[organ]);
   }
   // The soil's triangles lie in y = 0 and take precedence over the soil plane.
   EXPECT_EQ(result.bands[0].absorbed_vegetation.value + result.bands[0].absorbed_soil.value, result.bands[0].incident);

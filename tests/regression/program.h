@@ -16,6 +16,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -49,6 +50,7 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
 // Runs the tests of one program in one folder.
 class ProgramTest : public ::testing::Test {
  protected:
+  using Files = std::map<std::string, std::string>;
   using Watch = std::function<void(pid_t, const std::string& err)>;
 
   // Runs the program with the test's folder as the working directory; `watch` is called every few milliseconds.
@@ -94,6 +96,23 @@ class ProgramTest : public ::testing::Test {
   }
   [[nodiscard]] bool exists(const std::string& name, const std::string& of = "out") const {
     return std::filesystem::exists(folder_ / of / name);
+  }
+  // Returns all files of a folder and its subfolders, with their contents.
+  [[nodiscard]] Files files(const std::string& of = "out") const {
+    Files found;
+    if (!std::filesystem::exists(folder_ / of)) return found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / of)) {
+      if (entry.is_regular_file()) {
+        found[std::filesystem::relative(entry.path(), folder_ / of).string()] = content(entry.path());
+      }
+    }
+    return found;
+  }
+  // Returns the CSV files among them, whose bytes must not depend on how a run was made.
+  [[nodiscard]] Files csv_files(const std::string& of) const {
+    Files found = files(of);
+    std::erase_if(found, [](const auto& file) { return !file.first.ends_with(".csv"); });
+    return found;
   }
 
   TempFolder folder_;

@@ -1,9 +1,9 @@
 // Tests resuming runs that were stopped or killed.
 
 #include "regression/preload.h"
+#include "regression/small_scene.h"
 
 #include <algorithm>
-#include <map>
 
 namespace sunfleck {
 namespace {
@@ -15,39 +15,17 @@ using regression::Outcome;
 using regression::signal_at;
 using regression::operator+;
 
-// Contains two bands that scatter, sun and sky, a facula map and a sensor.
-const std::string scene =
-    "[plot]\nsize = [1.0, 1.0]\n"
-    "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n"
-    "[sky]\nmodel = \"uniform\"\n"
-    "[[band]]\nname = \"PAR\"\ndirect = 100.0\ndiffuse = 20.0\n"
-    "[[band]]\nname = \"NIR\"\ndirect = 90.0\ndiffuse = 10.0\n"
-    "[soil]\nreflectance = { PAR = 0.1, NIR = 0.3 }\n"
-    "[optics.leaf]\nreflectance = { PAR = 0.1, NIR = 0.4 }\ntransmittance = { PAR = 0.1, NIR = 0.4 }\n"
-    "[[plane]]\nheight = 0.5\ncells = [4, 4]\n"
-    "[[sensor]]\nname = \"a\"\nfrom = [0.5, 0.2, 0.5]\n"
-    "[[geometry]]\nfile = \"leaves.obj\"\n";
-
-const std::string leaves = "v 0 1 0\nv 0 1 1\nv 1 1 0\nv 0 0.4 0\nv 0 0.4 1\nv 1 0.4 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
-
 class Resume : public regression::PreloadTest {
  protected:
   Resume() {
-    folder_.write("scene.toml", scene);
-    folder_.write("leaves.obj", leaves);
+    folder_.write("scene.toml", regression::two_band_scene);
+    folder_.write("leaves.obj", regression::leaves_obj);
   }
 
-  [[nodiscard]] std::map<std::string, std::string> tables(const std::string& of) const {
-    std::map<std::string, std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / of)) {
-      if (entry.path().extension() == ".csv") found[entry.path().filename().string()] = content(entry.path());
-    }
-    return found;
-  }
   void expect_same_tables(const std::string& left, const std::string& right) const {
-    const auto expected = tables(left);
+    const auto expected = csv_files(left);
     EXPECT_GE(expected.size(), 6U);
-    const auto found = tables(right);
+    const auto found = csv_files(right);
     EXPECT_EQ(found.size(), expected.size());
     for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name;
   }
@@ -116,7 +94,7 @@ TEST_F(Resume, GoesOnWithTheSameSettingsOnly) {
   send_as_state_is_kept(SIGINT, 1);
   go({}, 130);
   preload_nothing();
-  const auto before = tables("out");
+  const auto before = csv_files("out");
   const std::string state = file("run_state.bin");
   const Arguments again = Arguments{"run", "scene.toml", "-o", "out", "--resume"} + work_;
   const auto changed = [&](const std::string& option, const std::string& value) {
@@ -131,15 +109,15 @@ TEST_F(Resume, GoesOnWithTheSameSettingsOnly) {
   const auto exports = std::find(coarse.begin(), coarse.end(), "--export");
   coarse.erase(exports, exports + 2);
   expect_one_error(run(coarse), 2, "of_triangles was true, now false");
-  folder_.write("leaves.obj", leaves + "f 1 2 4\n");
+  folder_.write("leaves.obj", regression::leaves_obj + "f 1 2 4\n");
   expect_one_error(run(again), 2, "scene_digest was ");
-  folder_.write("leaves.obj", leaves);
+  folder_.write("leaves.obj", regression::leaves_obj);
   std::string damaged = state;
   damaged[damaged.size() / 2] ^= 1;
   folder_.write("out/run_state.bin", damaged);
   expect_one_error(run(again), 2, "out/run_state.bin (it is damaged)");
   folder_.write("out/run_state.bin", state);
-  EXPECT_TRUE(tables("out") == before);
+  EXPECT_TRUE(csv_files("out") == before);
   // The resumed run may export another table of the triangles.
   EXPECT_EQ(run(changed("--export", "nc")).status, 0);
   EXPECT_TRUE(exists("results.nc"));

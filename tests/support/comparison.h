@@ -2,23 +2,20 @@
 // Compares estimates with their known values.
 
 #include "physics/transport/model/statistics.h"
+#include "programs/validate/known/verdict.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 namespace sunfleck::test {
 
 // Returns the standard error behind a half-width of the default confidence, 0.95.
 inline double standard_error(const Estimate& estimate, std::size_t replicates) {
   return estimate.half_width / t_quantile(0.95, replicates);
-}
-
-// Returns Student's t for `count` comparisons that together fail by chance once in a thousand times (Sidak).
-inline double table_quantile(std::size_t count, std::size_t replicates) {
-  const double each = std::pow(1.0 - 0.001, 1.0 / static_cast<double>(count));
-  return t_quantile(each, replicates);
 }
 
 // Returns the mean of independent runs in the form of a result's estimates.
@@ -46,6 +43,24 @@ inline void expect_same(const Estimate& a, const Estimate& b, std::size_t replic
                         std::size_t comparisons, const char* what) {
   const Estimate difference{a.value - b.value, std::hypot(a.half_width, b.half_width)};
   expect_agrees(difference, 0.0, replicates, largest_standard_error, comparisons, what);
+}
+
+// A value from an independent program.
+struct Reference {
+  double value;
+  double error;  // standard error of the reference itself
+};
+
+// Expects agreement within three standard errors of the difference, and our own error to be at most `largest`.
+inline void expect_within(const Estimate& got, const Reference& reference, std::size_t replicates, double largest,
+                          const std::string& what) {
+  const double own = standard_error(got, replicates);
+  const double error = std::hypot(own, reference.error);
+  const double difference = got.value - reference.value;
+  std::printf("%-28s expected %.6f(%.0e) got %.6f(%.1e) z %+.2f\n", what.c_str(), reference.value, reference.error, got.value,
+              own, difference / std::max(error, 1e-12));
+  EXPECT_LE(own, largest) << what;
+  EXPECT_LE(std::abs(difference), 3.0 * error + rounding) << what;
 }
 
 // Judges the reported errors by a whole table of independent comparisons: z must be distributed as Student's t.

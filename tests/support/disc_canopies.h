@@ -2,6 +2,7 @@
 // Homogeneous canopies of small flat leaves as in B11 of the validation table, where an explicit-disc ray tracer provides the
 // reference. Averages over many random scenes and removes the scene noise by regression.
 
+#include "programs/validate/known/canopy_scenes.h"
 #include "support/leaf_scenes.h"
 
 #include <gtest/gtest.h>
@@ -56,56 +57,20 @@ inline Mesh disc_leaves(const DiscCanopy& canopy, std::uint32_t seed) {
   return maker.mesh();
 }
 
-// Estimates the mean of y, using x with its known mean as a control variate; the slope is fitted.
-class Regression {
- public:
-  explicit Regression(double mean_x) : mean_x_(mean_x) {}
-  void add(double x, double y) {
-    x_.push_back(x);
-    y_.push_back(y);
-  }
-  struct Fit {
-    double value, error;  // the value and its standard error
-  };
-  [[nodiscard]] Fit fit() const {
-    const auto n = static_cast<double>(x_.size());
-    double x = 0.0;
-    double y = 0.0;
-    for (std::size_t k = 0; k < x_.size(); ++k) x += x_[k] / n, y += y_[k] / n;
-    double xx = 0.0;
-    double xy = 0.0;
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      xx += (x_[k] - x) * (x_[k] - x);
-      xy += (x_[k] - x) * (y_[k] - y);
-    }
-    const double slope = xy / xx;
-    double squares = 0.0;
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      const double residual = y_[k] - y - slope * (x_[k] - x);
-      squares += residual * residual;
-    }
-    const double moved = x - mean_x_;
-    return {y - slope * moved, std::sqrt(squares / (n - 2.0) * (1.0 / n + moved * moved / xx))};
-  }
-
- private:
-  double mean_x_;
-  std::vector<double> x_, y_;
-};
-
-// Fluxes of each band: reflected, on soil, and absorbed by leaves, over many random scenes. The regression removes the
+// Fluxes of each band, with standard errors in place of half-widths: reflected, on soil, and absorbed by leaves, over many
+// random scenes. The regression removes the
 // influence of each scene's own share of beam on soil.
 struct CanopyFluxes {
-  Regression::Fit reflected, on_soil, leaves;
+  Estimate reflected, on_soil, leaves;
 };
 inline std::vector<CanopyFluxes> disc_canopy_fluxes(const DiscCanopy& canopy, int scenes, double rays, double packets,
                                                     CanopyLight light = CanopyLight::paper_sun) {
   const bool sky = light == CanopyLight::uniform_sky;
-  const Regression empty(sky ? canopy.expected_sky_on_soil() : canopy.expected_beam_on_soil());
-  std::vector<std::array<Regression, 3>> sums(2, {empty, empty, empty});
+  const KnownMean empty(sky ? canopy.expected_sky_on_soil() : canopy.expected_beam_on_soil());
+  std::vector<std::array<KnownMean, 3>> sums(2, {empty, empty, empty});
   for (int scene = 1; scene <= scenes; ++scene) {
     const auto seed = static_cast<std::uint32_t>(scene);
-    RadiationModel model = paper_model(disc_leaves(canopy, seed), disc_plot, paper_sun());
+    RadiationModel model = paper_model(disc_leaves(canopy, seed), disc_plot, beijing_sun());
     if (sky) shine_from_sky(model, {});
     const ScatterWork work{.rays = rays, .packets = packets, .replicates = 8, .seed = seed, .bound = 0.003};
     const RadiationResult result = simulate(model, fixed_scatter(model, work));
@@ -124,8 +89,8 @@ inline std::vector<CanopyFluxes> disc_canopy_fluxes(const DiscCanopy& canopy, in
 // Extrapolates from two leaf sizes, the second half the first, to leaves of no size: the effect of finite leaves is nearly
 // linear (B11).
 inline CanopyFluxes without_leaf_size(const CanopyFluxes& large, const CanopyFluxes& half) {
-  const auto flux = [](const Regression::Fit& a, const Regression::Fit& b) {
-    return Regression::Fit{2.0 * b.value - a.value, std::hypot(a.error, 2.0 * b.error)};
+  const auto flux = [](const Estimate& a, const Estimate& b) {
+    return Estimate{2.0 * b.value - a.value, std::hypot(a.half_width, 2.0 * b.half_width)};
   };
   return {flux(large.reflected, half.reflected), flux(large.on_soil, half.on_soil), flux(large.leaves, half.leaves)};
 }
@@ -136,10 +101,10 @@ struct CanopyRow {
 
 // Checks a row by the rule of B11: 1 % on reflected flux, 0.002 on the rest, and errors small enough to make this a test.
 inline void expect_row(const CanopyFluxes& got, const CanopyRow& expected, const char* what) {
-  const auto expect_flux = [&](const Regression::Fit& flux, double value, double tolerance, const char* name) {
-    std::printf("%-24s %-10s expected %.5f got %.5f(%.1e), off by %+.5f of %.5f\n", what, name, value, flux.value, flux.error,
-                flux.value - value, tolerance);
-    EXPECT_LE(flux.error, 0.4 * tolerance) << what << ' ' << name;
+  const auto expect_flux = [&](const Estimate& flux, double value, double tolerance, const char* name) {
+    std::printf("%-24s %-10s expected %.5f got %.5f(%.1e), off by %+.5f of %.5f\n", what, name, value, flux.value,
+                flux.half_width, flux.value - value, tolerance);
+    EXPECT_LE(flux.half_width, 0.4 * tolerance) << what << ' ' << name;
     EXPECT_NEAR(flux.value, value, tolerance) << what << ' ' << name;
   };
   expect_flux(got.reflected, expected.reflected, 0.01 * expected.reflected, "reflected");

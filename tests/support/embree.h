@@ -2,6 +2,7 @@
 // Runs Embree, the independent reference for hits and speed, on the same triangles as our tree.
 
 #include "physics/bvh/bvh.h"
+#include "shared/beam.h"
 
 #include <embree3/rtcore.h>
 
@@ -24,6 +25,21 @@ inline void attach_references(RTCDevice device, RTCScene scene, const Bvh& bvh) 
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
+}
+
+inline RTCRay ray_of(const shared::Ray& ray, float limit) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          0.0F,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0.0F,
+          limit,
+          ~0U,
+          0,
+          0};
 }
 
 }  // namespace sunfleck::test

@@ -82,7 +82,7 @@ inline RadiationModel maize_on_soil() {
                                                              : std::vector<FaceOptics>{{0.12, 0.0}, {0.40, 0.0}};
     model.optics.push_back({name, faces, faces, {}});
   }
-  model.sun = paper_sun();
+  model.sun = beijing_sun();
   return model;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The two maize stands used by the tests, and sums over their triangles.
 
+#include "base/units.h"
 #include "physics/canopy/maize.h"
 
 #include <cstdint>
@@ -9,8 +10,6 @@
 #include <numbers>
 
 namespace sunfleck {
-
-inline constexpr double degree = std::numbers::pi / 180.0;
 
 inline MaizeStand sparse_stand(std::uint64_t seed) {
   return {.seed = seed};

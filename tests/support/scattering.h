@@ -12,23 +12,6 @@
 
 namespace sunfleck::test {
 
-// Sets `count` bands of 1 W m-2 on the horizontal; every surface is black in all of them.
-inline void set_bands(RadiationModel& model, std::size_t count) {
-  model.bands.clear();
-  for (std::size_t b = 0; b < count; ++b) model.bands.push_back({"band" + std::to_string(b), 1.0, 0.0});
-  for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = std::vector<FaceOptics>(count);
-  if (model.soil) model.soil->reflectance.assign(count, 0.0);
-}
-
-// Returns a model without sun and soil: only lamps emit light.
-inline RadiationModel dark_model(const Mesh& mesh, const Plot& plot, std::size_t bands = 1) {
-  RadiationModel model = black_model(mesh, plot, paper_sun());
-  model.sun.reset();
-  model.soil.reset();
-  set_bands(model, bands);
-  return model;
-}
-
 // Sets both faces to the same optics.
 inline void set_faces(RadiationModel& model, std::size_t optics, const std::vector<FaceOptics>& faces) {
   model.optics.at(optics).upper = model.optics.at(optics).lower = faces;
@@ -62,13 +45,6 @@ inline RadiationResult simulate_soundly(const RadiationModel& model, const Solve
   RadiationResult result = simulate(model, settings);
   expect_sound(model, result);
   return result;
-}
-
-// Returns the flux that an organ absorbs, per ground area of the plot.
-inline Estimate absorbed_by_organ(const RadiationModel& model, const RadiationResult& result, std::size_t organ,
-                                  std::size_t band) {
-  const OrganResult& got = result.organs.at(organ);
-  return got.absorbed.at(band).scaled(got.area_m2 / model.plot.area_m2());
 }
 
 // Estimates all light on the two sides of groups of elements and on the soil plane, with errors from independent runs of one

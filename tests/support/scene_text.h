@@ -1,16 +1,15 @@
 #pragma once
-// A scene file that contains everything, a folder for it, and a check of every error message about it.
+// A scene file that contains everything, and a folder for it.
 
-#include "base/error.h"
 #include "files/scene/scene_reader.h"
+#include "support/error_text.h"
+#include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <optional>
 #include <string>
 
 namespace sunfleck {
@@ -144,55 +143,21 @@ inline void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-// Creates a separate folder for each test, with plates.obj and station.csv in it.
+// Gives each test a folder with plates.obj and station.csv in it.
 class SceneFolder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("sunfleck_") + test->test_suite_name() + "_" + test->name();
-    std::replace(name.begin(), name.end(), '/', '_');
-    folder_ = std::filesystem::temp_directory_path() / name;
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    write(folder_ / "plates.obj", plates_obj);
-    write(folder_ / "station.csv", station_csv);
+  SceneFolder() {
+    folder_.write("plates.obj", plates_obj);
+    folder_.write("station.csv", station_csv);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::filesystem::path file() const { return folder_ / "scene.toml"; }
   [[nodiscard]] Scene read(const std::string& text, const SceneAccess& access = {}) const {
-    write(file(), text);
-    return read_scene(file(), access);
+    return read_scene(folder_.write("scene.toml", text), access);
   }
 
-  std::filesystem::path folder_;
+  TempFolder folder_;
 };
-
-// Returns the message of the only permitted kind of failure, or nothing if the text is a valid scene. Anything else fails the
-// test.
-inline std::optional<std::string> message_of(const std::function<void()>& work) {
-  try {
-    work();
-    return std::nullopt;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
-    return error.what();
-  } catch (const std::exception& other) {
-    ADD_FAILURE() << "not an Error: " << other.what();
-    return std::nullopt;
-  }
-}
-
-inline void expect_three_parts(const std::string& message) {
-  EXPECT_EQ(message.find_first_of("\n\r\t\x1b"), std::string::npos) << message;
-  EXPECT_EQ(message.find('\0'), std::string::npos) << message;
-  const std::size_t open = message.find(" (");
-  const std::size_t close = message.find("); ");
-  ASSERT_NE(open, std::string::npos) << message;
-  ASSERT_NE(close, std::string::npos) << message;
-  EXPECT_LT(open + 2, close) << message;
-  EXPECT_LT(close + 3, message.size()) << message;
-}
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

@@ -1,6 +1,7 @@
 #pragma once
 // Skies for tests, and integrals over them.
 
+#include "base/units.h"
 #include "physics/light/sky.h"
 
 #include <algorithm>
@@ -15,7 +16,6 @@
 namespace sunfleck::test {
 
 inline constexpr double pi = std::numbers::pi;
-inline constexpr double degree = pi / 180.0;
 inline constexpr double row_height = pi / 2.0 / Sky::rows, column_width = 2.0 * pi / Sky::columns;
 inline constexpr SunPosition paper_sun{(90.0 - 36.9824) * degree, 120.569 * degree};
 inline constexpr SunPosition low_sun{30.0 * degree, 180.0 * degree};

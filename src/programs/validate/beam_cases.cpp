@@ -1,7 +1,8 @@
 #include "programs/validate/beam_cases.h"
 
-#include "programs/validate/case_scenes.h"
-#include "programs/validate/known_formulas.h"
+#include "programs/validate/known/beam_scenes.h"
+#include "programs/validate/known/case_scenes.h"
+#include "programs/validate/known/known_formulas.h"
 
 #include <fmt/format.h>
 
@@ -14,11 +15,6 @@ namespace {
 
 constexpr Plot unit_plot{1.0, 1.0, true};
 
-void add_plate(CaseMesh& mesh, double x, double y, double size_x, double size_y, double z) {
-  mesh.quad(from_east_north_up(x - size_x / 2, y - size_y / 2, z), from_east_north_up(x + size_x / 2, y - size_y / 2, z),
-            from_east_north_up(x + size_x / 2, y + size_y / 2, z), from_east_north_up(x - size_x / 2, y + size_y / 2, z));
-}
-
 // The irradiance of a single triangle is |n . s| / sin h of the horizontal irradiance, on the side that faces the sun.
 void triangle_under_the_sun(CaseBench& bench) {
   struct Row {
@@ -29,12 +25,8 @@ void triangle_under_the_sun(CaseBench& bench) {
                                Row{5.0, 120.569, 5.45415590, 1e6},  Row{20.0, 270.0, 2.16270157, 1e6}};
   std::uint64_t on_dark_side = 0;
   for (const Row& row : rows) {
-    const glm::dvec3 shift_m(0.055, -0.95, 0.05);
-    CaseMesh mesh;
-    mesh.triangle(from_east_north_up(0, 0, 1) + shift_m, from_east_north_up(0.04, 0.01, 1.02) + shift_m,
-                  from_east_north_up(0.01, 0.05, 0.99) + shift_m);
-    const SunPosition sun = case_sun(row.elevation_deg, row.azimuth_deg);
-    const RadiationModel model = black_case(mesh.mesh(), {0.06, 0.06, false}, sun);
+    const SunPosition sun = sun_at(row.elevation_deg, row.azimuth_deg);
+    const RadiationModel model = triangle_under(sun);
     const RadiationResult result = bench.simulate(model, case_work(model, row.rays));
     bench.compare(fmt::format("triangle, sun {:g} degrees high in {:g}", row.elevation_deg, row.azimuth_deg),
                   result.organs[0].direct[0], row.irradiance, {.largest_error = 0.003 * row.irradiance});
@@ -46,47 +38,21 @@ void triangle_under_the_sun(CaseBench& bench) {
 
 // The shadows of horizontal plates are as large as the plates, those of tilted ones area * |n . s| / sin h.
 void plates_under_the_sun(CaseBench& bench) {
-  CaseMesh level;
-  add_plate(level, 0.5, 0.5, 0.4, 0.3, 0.8);
-  const RadiationModel one = black_case(level.mesh(), unit_plot, beijing_sun());
+  const RadiationModel one = level_plate_case();
   const RadiationResult of_one = bench.simulate(one, case_work(one, 4e5));
   bench.compare("sunlit soil beside a level plate's shadow", of_one.bands[0].absorbed_soil, 0.88, {.largest_error = 2e-4});
   bench.compare("sunlit share of that plate", of_one.sunlit_leaf_fraction, 1.0, {.largest_error = 2e-3});
 
-  const double inclination = 50.0 * degree;
-  const double angle = 20.0 * degree;
-  const glm::dvec3 along = 0.15 * from_east_north_up(-std::sin(angle), std::cos(angle), 0.0);
-  const glm::dvec3 up = 0.1 * from_east_north_up(-std::cos(inclination) * std::cos(angle),
-                                                 -std::cos(inclination) * std::sin(angle), std::sin(inclination));
-  const glm::dvec3 centre = from_east_north_up(0.5, 0.5, 0.8);
-  CaseMesh tilted;
-  tilted.quad(centre - along - up, centre + along - up, centre + along + up, centre - along + up);
-  const RadiationModel model = black_case(tilted.mesh(), unit_plot, beijing_sun());
+  const RadiationModel model = tilted_plate_case();
   const RadiationResult result = bench.simulate(model, case_work(model, 4e5));
   bench.compare("shadow of a tilted plate", result.bands[0].absorbed_vegetation, 0.0605517934, {.largest_error = 2e-4});
 
-  // The upper plate's shadow falls across the plot's border onto the lower one.
-  CaseMesh two;
-  two.organ("leaf", 2);
-  add_plate(two, 0.5, 0.5, 0.4, 0.4, 1.0);
-  two.organ("leaf", 1);
-  add_plate(two, 0.2, 0.6, 0.5, 0.3, 0.4);
-  const RadiationModel both = black_case(two.mesh(), unit_plot, beijing_sun());
+  const RadiationModel both = two_plates_case();
   const RadiationResult of_both = bench.simulate(both, case_work(both, 4e5));
   bench.compare("sunlit share of a plate below a plate", of_both.organs[1].sunlit_fraction, 0.47011006,
                 {.largest_error = 2e-3});
   bench.compare("sunlit share of the plate above", of_both.organs[0].sunlit_fraction, 1.0, {.largest_error = 2e-3});
   bench.compare("sunlit soil below both", of_both.bands[0].absorbed_soil, 0.76948351, {.largest_error = 2e-4});
-}
-
-// Builds endless strips across the sun's direction, which span the plot or extend `beyond` its border on both sides.
-RadiationModel blind(double tilt_deg, double elevation_deg, double azimuth_deg, double beyond) {
-  const double across = 0.4 * std::cos(tilt_deg * degree);
-  const double rise = 0.4 * std::sin(tilt_deg * degree);
-  CaseMesh mesh;
-  mesh.quad(from_east_north_up(-across, -beyond, 0.5 - rise), from_east_north_up(across, -beyond, 0.5 + rise),
-            from_east_north_up(across, 0.7 + beyond, 0.5 + rise), from_east_north_up(-across, 0.7 + beyond, 0.5 - rise));
-  return black_case(mesh.mesh(), {0.7, 1.0, true}, case_sun(elevation_deg, azimuth_deg));
 }
 
 void blinds(CaseBench& bench) {
@@ -95,7 +61,7 @@ void blinds(CaseBench& bench) {
   };
   for (const Row& row : {Row{30.0, 40.0, 90.0}, Row{1.0, 2.0, 90.0}}) {
     for (const double beyond : {0.0, 0.9}) {
-      const RadiationModel model = blind(row.tilt_deg, row.elevation_deg, row.azimuth_deg, beyond);
+      const RadiationModel model = blind_under(sun_at(row.elevation_deg, row.azimuth_deg), row.tilt_deg, beyond);
       const RadiationResult result = bench.simulate(model, case_work(model, 4e5));
       const double expected = passed_by_blind(0.8, row.tilt_deg * degree, row.elevation_deg * degree, 1.0);
       bench.compare(fmt::format("blind tilted by {:g}, sun {:g} degrees high{}", row.tilt_deg, row.elevation_deg,
@@ -103,30 +69,14 @@ void blinds(CaseBench& bench) {
                     result.bands[0].absorbed_soil, expected, {.largest_error = 3e-4});
     }
   }
-  const RadiationModel closed = blind(30.0, 40.0, 270.0, 0.0);
+  const RadiationModel closed = blind_under(sun_at(40.0, 270.0), 30.0, 0.0);
   const RadiationResult result = bench.simulate(closed, case_work(closed, 4e5));
   bench.equal("closed blind, quanta on soil", static_cast<double>(result.bands[0].ledger.absorbed_soil), 0.0, 0.0);
 }
 
-// Adds squares on every second field of a board over a plot of 2 x 2 m.
-void add_board(CaseMesh& mesh, int fields, double y_m) {
-  const double field_m = 2.0 / fields;
-  for (int x = 0; x < fields; ++x) {
-    for (int z = x % 2; z < fields; z += 2) mesh.level(x * field_m, (x + 1) * field_m, z * field_m, (z + 1) * field_m, y_m);
-  }
-}
-
-// A board shifted by half a period is its own negative, while one with twice as many fields repeats there. The product of
-// boards of doubled frequency therefore has mean 0 however they are shifted: from any direction, each board halves what reaches
-// it.
 void checkerboards(CaseBench& bench) {
-  CaseMesh mesh;
-  for (int layer = 1; layer <= 3; ++layer) {
-    mesh.organ("leaf", layer);
-    add_board(mesh, 1 << layer, 2.0 - 0.5 * layer);
-  }
   for (const auto& [elevation, azimuth] : {std::pair(60.0, 33.0), std::pair(5.0, 200.0)}) {
-    const RadiationModel model = black_case(mesh.mesh(), {2.0, 2.0, true}, case_sun(elevation, azimuth));
+    const RadiationModel model = checkerboards_under(sun_at(elevation, azimuth));
     const RadiationResult result = bench.simulate(model, case_work(model, 8e5));
     for (std::size_t layer = 0; layer < 3; ++layer) {
       const OrganResult& board = result.organs[layer];
@@ -143,12 +93,12 @@ void checkerboards(CaseBench& bench) {
 // that is shaded by the upper ones' copies some 170 periods away.
 void far_shadow(CaseBench& bench) {
   constexpr double period_m = 0.1, width_m = 0.05, top_m = 3.0, low_m = 0.01, elevation_deg = 10.0;
-  CaseMesh mesh;
-  mesh.organ("leaf", 1);
+  MeshMaker mesh;
+  mesh.organ("leaf", 1, 1);
   mesh.level(0.0, width_m, 0.0, 0.3, top_m);
-  mesh.organ("leaf", 2);
+  mesh.organ("leaf", 1, 2);
   mesh.level(0.0, width_m, 0.0, 0.3, low_m);
-  const RadiationModel model = black_case(mesh.mesh(), {period_m, 0.3, true}, case_sun(elevation_deg, 180.0));
+  const RadiationModel model = black_model(mesh.mesh(), {period_m, 0.3, true}, sun_at(elevation_deg, 180.0));
   const RadiationResult result = bench.simulate(model, case_work(model, 4e5));
   const double tangent = std::tan(elevation_deg * degree);
   const double shift_m = (top_m - low_m) / tangent;
@@ -163,9 +113,9 @@ void far_shadow(CaseBench& bench) {
 void across_the_corner(CaseBench& bench) {
   for (const bool at_corner : {true, false}) {
     const double middle = at_corner ? 0.0 : 0.5;
-    CaseMesh mesh;
+    MeshMaker mesh;
     mesh.level(middle - 0.3, middle + 0.2, middle - 0.15, middle + 0.3, 0.7);
-    const RadiationModel model = black_case(mesh.mesh(), unit_plot, case_sun(20.0, 215.0));
+    const RadiationModel model = black_model(mesh.mesh(), unit_plot, sun_at(20.0, 215.0));
     const RadiationResult result = bench.simulate(model, case_work(model, 4e5));
     bench.compare(at_corner ? "plate across the plot's corner" : "plate in the plot's middle",
                   result.bands[0].absorbed_vegetation, 0.225, {.largest_error = 2e-4});

@@ -1,15 +1,14 @@
 #include "programs/validate/canopy_cases.h"
 
 #include "base/random.h"
-#include "programs/validate/case_scenes.h"
-#include "programs/validate/known_formulas.h"
+#include "programs/validate/known/canopy_scenes.h"
+#include "programs/validate/known/case_scenes.h"
+#include "programs/validate/known/known_formulas.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -35,39 +34,16 @@ int poisson(double mean, RandomStream& random) {
 // Builds square leaves over a square plot, with centres uniformly distributed from `low_m` to `high_m` above the ground.
 Mesh scattered_leaves(int count, double leaf_m2, double plot_m, double low_m, double high_m, LeafAngles angles,
                       RandomStream& random) {
-  CaseMesh mesh;
+  MeshMaker mesh;
   for (int leaf = 0; leaf < count; ++leaf) {
     const double x_m = plot_m * random.unit();
     const double y_m = low_m + (high_m - low_m) * random.unit();
     const double z_m = plot_m * random.unit();
-    const glm::dvec3 normal = inclined_normal(inclination_rad(angles, random), 2.0 * pi * random.unit());
+    const glm::dvec3 normal = inclined(inclination_rad(angles, random), 2.0 * pi * random.unit());
     mesh.polygon({x_m, y_m, z_m}, normal, leaf_m2, 4, 2.0 * pi * random.unit());
   }
   return mesh.mesh();
 }
-
-// Mean of y over random scenes, given that x has a known mean: uses x as a control variate with a fitted slope.
-class KnownMean {
- public:
-  explicit KnownMean(double mean_x) : mean_x_(mean_x) {}
-  void add(double x, double y) { points_.emplace_back(x, y); }
-
-  // Returns the estimate with its standard error in place of the half-width.
-  [[nodiscard]] Estimate fit() const {
-    const auto n = static_cast<double>(points_.size());
-    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
-    for (const auto& [px, py] : points_) x += px / n, y += py / n;
-    for (const auto& [px, py] : points_) xx += (px - x) * (px - x), xy += (px - x) * (py - y);
-    const double slope = xy / xx;
-    for (const auto& [px, py] : points_) squares += std::pow(py - y - slope * (px - x), 2.0);
-    const double moved = x - mean_x_;
-    return {y - slope * moved, std::sqrt(squares / (n - 2.0) * (1.0 / n + moved * moved / xx))};
-  }
-
- private:
-  double mean_x_;
-  std::vector<std::pair<double, double>> points_;
-};
 
 // Converts an estimate whose half-width is a standard error with `replicates` - 1 degrees of freedom.
 Estimate with_half_width(const Estimate& estimate, std::size_t replicates) {
@@ -111,7 +87,7 @@ void random_leaf_cases(CaseBench& bench) {
       RandomStream random(seed, 0);
       const int count = poisson(row.index * plot_m * plot_m / leaf_m2, random);
       const Mesh mesh = scattered_leaves(count, leaf_m2, plot_m, 0.1, 0.1 + height_m, row.angles, random);
-      const RadiationModel model = black_case(mesh, {plot_m, plot_m, true}, beijing_sun());
+      const RadiationModel model = black_model(mesh, {plot_m, plot_m, true}, beijing_sun());
       SolveSettings settings = case_work(model, 65536, 0.0, 8);
       settings.seed = seed;
       const RadiationResult result = bench.simulate(model, settings);
@@ -138,7 +114,7 @@ void two_stream_cases(CaseBench& bench) {
   for (std::uint64_t scene = 1; scene <= scenes; ++scene) {
     RandomStream random(scene, 1);
     const Mesh mesh = scattered_leaves(count, level_leaf_m2, 1.0, 0.1, 0.1 + level_height_m, LeafAngles::horizontal, random);
-    const RadiationModel model = leaf_case(mesh, {1.0, 1.0, true}, beijing_sun(), bands);
+    const RadiationModel model = leaf_model(mesh, {1.0, 1.0, true}, beijing_sun(), bands);
     SolveSettings settings = case_work(model, 8 * 8192, 2048, 8);
     settings.seed = scene;
     settings.accuracy.indirect = 1e-4;
@@ -170,37 +146,6 @@ void two_stream_cases(CaseBench& bench) {
 
 namespace {
 
-// 300 square leaves of 0.1 m over 1 m2, from a generator that is easy to reproduce in other programs: SplitMix64, six numbers
-// per leaf.
-Mesh explicit_leaves() {
-  std::uint64_t state = 20020808;
-  const auto unit = [&] {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  };
-  CaseMesh mesh;
-  for (int leaf = 0; leaf < 300; ++leaf) {
-    const double x = unit();
-    const double y = unit();
-    const double z = 0.1 + 0.9 * unit();
-    const double c = unit();
-    const double phi = 2.0 * pi * unit();
-    const double psi = 2.0 * pi * unit();
-    const double s = std::sqrt(1.0 - c * c);
-    const glm::dvec3 e1(c * std::cos(phi), c * std::sin(phi), -s);
-    const glm::dvec3 e2(-std::sin(phi), std::cos(phi), 0.0);
-    const glm::dvec3 a = 0.05 * (std::cos(psi) * e1 + std::sin(psi) * e2);
-    const glm::dvec3 b = 0.05 * (-std::sin(psi) * e1 + std::cos(psi) * e2);
-    const glm::dvec3 centre(x, y, z);
-    const auto placed = [](const glm::dvec3& at) { return from_east_north_up(at.x, at.y, at.z); };
-    mesh.organ("leaf", leaf + 1);
-    mesh.quad(placed(centre - a - b), placed(centre + a - b), placed(centre + a + b), placed(centre - a + b));
-  }
-  return mesh.mesh();
-}
-
 struct TracedFlux {
   double value, error;
 };
@@ -223,14 +168,14 @@ void explicit_scene_cases(CaseBench& bench) {
     flux("absorbed by leaves", result.bands[b].absorbed_vegetation, row.leaves);
     flux("on soil", result.layers[0].down[b], row.on_soil);
   };
-  const RadiationModel beam = leaf_case(explicit_leaves(), {1.0, 1.0, true}, beijing_sun(), std::array{par_band, nir_band});
+  const RadiationModel beam = leaf_model(explicit_leaves(), {1.0, 1.0, true}, beijing_sun(), std::array{par_band, nir_band});
   const RadiationResult of_beam = bench.simulate(beam, case_work(beam, 1e6, 16384));
   compare(of_beam, 0, {"PAR beam", {0.051649, 9e-6}, {0.788413, 4e-5}, {0.188160, 4e-5}});
   compare(of_beam, 1, {"NIR beam", {0.405730, 9e-5}, {0.241976, 3e-5}, {0.440377, 1.1e-4}});
   bench.compare("beam on soil at its first hit", of_beam.ground_sunfleck_ratio, 0.172756,
                 {.largest_error = 2e-4, .reference_error = 5e-5});
-  RadiationModel sky = leaf_case(explicit_leaves(), {1.0, 1.0, true}, beijing_sun(), std::array{par_band});
-  shine_from_sky_only(sky, {.kind = SkyKind::uniform});
+  RadiationModel sky = leaf_model(explicit_leaves(), {1.0, 1.0, true}, beijing_sun(), std::array{par_band});
+  shine_from_sky(sky, {.kind = SkyKind::uniform});
   compare(bench.simulate(sky, case_work(sky, 1.0, 32768)), 0,
           {"PAR uniform sky", {0.053482, 2e-5}, {0.837763, 5e-5}, {0.127951, 6e-5}});
 }

@@ -8,7 +8,7 @@
 #include "physics/transport/model/result.h"
 #include "physics/transport/model/tracer.h"
 #include "physics/transport/solve/solve.h"
-#include "programs/validate/verdict.h"
+#include "programs/validate/known/verdict.h"
 
 #include <exception>
 #include <functional>

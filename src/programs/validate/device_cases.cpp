@@ -4,7 +4,7 @@
 #include "devices/tracers/cpu_tracer.h"
 #include "physics/transport/indirect/indirect.h"
 #include "physics/transport/model/beam_block.h"
-#include "programs/validate/case_scenes.h"
+#include "programs/validate/known/case_scenes.h"
 
 #include <fmt/format.h>
 
@@ -94,7 +94,7 @@ std::vector<std::int64_t> integers_of(const RadiationResult& result) {
 // Builds a plot of random leaves in PAR and NIR, in sun and sky.
 RadiationModel leaves_in_sun_and_sky(const Plot& plot) {
   RadiationModel model =
-      leaf_case(random_leaf_mesh(150, 0.02, plot, 1.0, 5), plot, beijing_sun(), std::array{par_band, nir_band});
+      leaf_model(random_leaf_mesh(150, 0.02, plot, 1.0, 5), plot, beijing_sun(), std::array{par_band, nir_band});
   model.sky = SkyModel{.kind = SkyKind::overcast};
   for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.4;
   return model;
@@ -155,14 +155,14 @@ void device_cases(CaseBench& bench) {
 
 void counter_cases(CaseBench& bench) {
   std::uint32_t rays = 0;
-  RadiationModel bare = black_case({}, {1.0, 1.0, true}, beijing_sun());
+  RadiationModel bare = black_model({}, {1.0, 1.0, true}, beijing_sun());
   bare.soil->patch_m = 1.0;
   const double on_soil = counted(bench, bare, rays, false);
   bench.equal("2^24 and more rays on one cell of the soil", on_soil, rays, 0.0);
   // One horizontal triangle that covers the plot together with its copies.
-  CaseMesh mesh;
+  MeshMaker mesh;
   mesh.triangle({-0.5, 0.5, -0.5}, {-0.5, 0.5, 3.0}, {3.0, 0.5, -0.5});
-  RadiationModel covered = black_case(mesh.mesh(), {1.0, 1.0, true}, beijing_sun());
+  RadiationModel covered = black_model(mesh.mesh(), {1.0, 1.0, true}, beijing_sun());
   covered.layers = 1;
   const double on_leaf = counted(bench, covered, rays, true);
   bench.equal("2^24 and more rays on one leaf", on_leaf, rays, 0.0);
@@ -173,13 +173,13 @@ namespace {
 // Compares the ledger of black surfaces with the tallies by side and by cell of the soil's map.
 void black_tallies(CaseBench& bench) {
   const Plot plot{1.0, 1.0, true};
-  RadiationModel model = black_case(random_leaf_mesh(150, 0.02, plot, 1.0, 5), plot, beijing_sun());
+  RadiationModel model = black_model(random_leaf_mesh(150, 0.02, plot, 1.0, 5), plot, beijing_sun());
   const RadiationResult sun = bench.simulate(model, case_work(model, 3e5, 0.0, 8));
   std::uint64_t landed = std::accumulate(sun.soil_cells.begin(), sun.soil_cells.end(), std::uint64_t{0});
   for (const BeamLandings& element : sun.elements) landed += element.upper + element.lower;
   bench.equal("rays of the beam less their landings", static_cast<double>(sun.direct.rays) - static_cast<double>(landed), 0.0,
               0.0);
-  shine_from_sky_only(model, {.kind = SkyKind::overcast});
+  shine_from_sky(model, {.kind = SkyKind::overcast});
   const RadiationResult sky = bench.simulate(model, case_work(model, 1.0, 32768, 8));
   const auto sum = [](const std::vector<std::int64_t>& quanta) { return std::accumulate(quanta.begin(), quanta.end(), 0LL); };
   const FluxLedger& ledger = sky.bands[0].ledger;
@@ -194,7 +194,7 @@ void nothing_absorbed(CaseBench& bench) {
   const Plot plot{1.0, 1.0, true};
   constexpr std::array bands = {LeafBand{"even", 0.5, 0.5, 1.0}, LeafBand{"uneven", 0.7, 0.3, 1.0},
                                 LeafBand{"through", 0.1, 0.9, 1.0}};
-  const RadiationModel model = leaf_case(random_leaf_mesh(60, 0.02, plot, 1.0, 7), plot, beijing_sun(), bands);
+  const RadiationModel model = leaf_model(random_leaf_mesh(60, 0.02, plot, 1.0, 7), plot, beijing_sun(), bands);
   const RadiationResult result = bench.simulate(model, case_work(model, 3e4, 4096, 8));
   for (const BandResult& band : result.bands) {
     const FluxLedger& ledger = band.ledger;

@@ -1,7 +1,7 @@
 #include "programs/validate/light_cases.h"
 
 #include "physics/light/sky.h"
-#include "programs/validate/case_scenes.h"
+#include "programs/validate/known/case_scenes.h"
 
 #include <fmt/format.h>
 
@@ -156,10 +156,10 @@ void sky_light_cases(CaseBench& bench) {
   const std::array normals = {glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1)};
   for (const Row& row : rows) {
     for (const std::size_t pair : {0U, 1U}) {
-      CaseMesh mesh;
+      MeshMaker mesh;
       mesh.polygon({0.05, 0.08, 0.05}, normals[pair], 0.01, 4);
-      RadiationModel model = black_case(mesh.mesh(), {0.1, 0.1, false}, beijing_sun());
-      shine_from_sky_only(model, row.sky);
+      RadiationModel model = black_model(mesh.mesh(), {0.1, 0.1, false}, beijing_sun());
+      shine_from_sky(model, row.sky);
       const RadiationResult result = bench.simulate(model, case_work(model, 1.0, 16384));
       const double both = row.walls[pair] + row.walls[pair + 2];
       bench.compare(fmt::format("{}, upright square facing {} and {}", row.name, quarters[pair], quarters[pair + 2]),

@@ -1,9 +1,10 @@
 #include "programs/validate/sun_cases.h"
 
+#include "base/units.h"
 #include "physics/light/sun.h"
 #include "physics/light/sun_events.h"
 #include "physics/light/weather.h"
-#include "programs/validate/case_scenes.h"
+#include "programs/validate/known/case_scenes.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ Place place_deg(double latitude, double longitude, double altitude_m = 0.0) {
 
 double great_circle_deg(const SunPosition& sun, double elevation_deg, double azimuth_deg) {
   const glm::dvec3 a = direction_to_sun(sun);
-  const glm::dvec3 b = direction_to_sun(case_sun(elevation_deg, azimuth_deg));
+  const glm::dvec3 b = direction_to_sun(sun_at(elevation_deg, azimuth_deg));
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / degree;
 }
 

@@ -1,12 +1,19 @@
 #pragma once
 // Letters between the ranks of a job. Rank 0 leads, the others help.
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace sunfleck {
+
+// Time between two signs of life sent to the other ranks.
+inline constexpr std::chrono::seconds alive_pause{10};
+// Limits the silence counted per step: a process that was stopped for a while (by a debugger, or in a suspended job) finds the
+// letters of the others when it resumes.
+inline constexpr std::chrono::seconds longest_step{1};
 
 enum class LetterKind : std::uint8_t {
   // from rank 0

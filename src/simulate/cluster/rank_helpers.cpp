@@ -10,18 +10,6 @@
 #include <algorithm>
 
 namespace sunfleck {
-namespace {
-
-using namespace std::chrono_literals;
-
-// Time between two signs of life sent to the other ranks.
-constexpr auto alive_pause = 10s;
-// Limits the silence counted per step: a process that was stopped for a while (by a debugger, or in a suspended job) finds the
-// letters of the others when it resumes.
-constexpr auto longest_step = 1s;
-
-}  // namespace
-
 RankHelpers::RankHelpers(Mailbox& mailbox, std::chrono::milliseconds silence)
     : mailbox_(mailbox), silence_(silence), ranks_(static_cast<std::size_t>(mailbox.ranks() - 1)) {
   for (std::size_t k = 0; k < ranks_.size(); ++k) ranks_[k].name = fmt::format("rank {}", k + 1);

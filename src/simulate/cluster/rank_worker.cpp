@@ -19,9 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto alive_pause = 10s;
-constexpr auto longest_step = 1s;  // as in RankHelpers
-
 class Worker {
  public:
   Worker(Mailbox& mailbox, const RankService& service) : mailbox_(mailbox), service_(service) {}

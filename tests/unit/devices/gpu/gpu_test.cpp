@@ -14,6 +14,7 @@
 #include "devices/gpu/handles.h"
 #include "gpu_test.spirv.h"
 #include "support/device.h"
+#include "support/error_text.h"
 
 namespace sunfleck {
 namespace {
@@ -55,17 +56,10 @@ std::vector<std::uint32_t> noise(std::size_t count) {
 }
 
 // Expects `call` to throw an error with this one line and kind.
-template <class Call>
-std::string device_error(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::device);
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
+std::string device_error(const std::function<void()>& call) {
+  const std::string line = refusal_of(call, ErrorKind::device);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  return line;
 }
 
 void open_device(DeviceSelector::Kind kind, int index, const std::string& name) {

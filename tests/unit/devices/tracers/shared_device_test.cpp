@@ -74,9 +74,9 @@ TEST(DeviceTurn, LetsDrawingsInBetweenDispatches) {
 
 struct Stand {
   Stand() {
-    test::MeshMaker maker;
+    MeshMaker maker;
     for (int k = 0; k < 20; ++k) maker.polygon({0.05 * k, 0.02 * k, 0.5}, {0.3, 1.0, 0.1 * k}, 0.02, 6);
-    model = test::black_model(maker.mesh(), {1.0, 1.0, true}, test::sun_at(50, 130));
+    model = black_model(maker.mesh(), {1.0, 1.0, true}, sun_at(50, 130));
     layout = make_counter_layout(model);
     bvh = build_bvh(model.canopy, box_padding_m(model));
     number_counters(layout, model.canopy, bvh);
@@ -96,14 +96,14 @@ TEST(RememberedBeams, CountTheSameWithoutTracing) {
   Stand stand;
   CpuTracer cpu(stand.bvh, {true, true});
   RememberedBeams remembered(cpu, 1U << 20U);
-  const SunPosition sun = test::sun_at(50, 130);
+  const SunPosition sun = sun_at(50, 130);
   for (const std::uint64_t spared : {0, 0, 2}) {
     EXPECT_EQ(remembered.spared(), spared);
     for (const std::uint64_t replicate : {0, 1})
       EXPECT_EQ(stand.trace(remembered, replicate, sun), stand.trace(cpu, replicate, sun));
   }
   EXPECT_EQ(remembered.spared(), 4U);
-  const SunPosition other = test::sun_at(51, 130);
+  const SunPosition other = sun_at(51, 130);
   EXPECT_EQ(stand.trace(remembered, 0, other), stand.trace(cpu, 0, other));
   EXPECT_EQ(remembered.spared(), 4U) << "another sun is another beam";
   EXPECT_EQ(stand.trace(remembered, 0, sun), stand.trace(cpu, 0, sun));
@@ -114,7 +114,7 @@ TEST(RememberedBeams, WithoutRoomAreTracedEachTime) {
   Stand stand;
   CpuTracer cpu(stand.bvh, {true, true});
   RememberedBeams remembered(cpu, 16);
-  const SunPosition sun = test::sun_at(50, 130);
+  const SunPosition sun = sun_at(50, 130);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(stand.trace(remembered, 0, sun), stand.trace(cpu, 0, sun));
   EXPECT_EQ(remembered.spared(), 0U);
 }

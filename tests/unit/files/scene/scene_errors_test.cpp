@@ -209,7 +209,7 @@ TEST_F(BrokenSceneFile, RefusesWhatIsNoScene) {
     EXPECT_NE(message->find(path.filename().string()), std::string::npos) << *message;
   };
   refused(folder_ / "missing.toml");
-  refused(folder_);
+  refused(folder_.path());
   const std::vector<std::string> texts = {"",
                                           " \n\n",
                                           "# only a comment\n",

@@ -1,5 +1,6 @@
 #include "files/scene/scene_reader.h"
 
+#include "base/units.h"
 #include "physics/canopy/maize.h"
 #include "support/scene_text.h"
 
@@ -13,8 +14,6 @@ namespace sunfleck {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 using SceneReader = SceneFolder;
 

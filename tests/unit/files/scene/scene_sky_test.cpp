@@ -82,11 +82,11 @@ TEST_F(SceneSky, RefusesWhatIsNoSky) {
   expect_refused(head + "model = \"lights\"\n", "[sky]", "sky.file", "add file");
   expect_refused(head + "model = \"lights\"\nfile = \"no.light\"\n", "file", "sky.file", "no such file");
   expect_refused(head + "modle = \"uniform\"\n", "modle", "sky.modle", "did you mean model?");
-  write(folder_.parent_path() / "sunfleck_outside.light", "1 0 0 -1\n");
+  write(folder_.path().parent_path() / "sunfleck_outside.light", "1 0 0 -1\n");
   const std::string outside = head + "model = \"lights\"\nfile = \"../sunfleck_outside.light\"\n";
   expect_refused(outside, "file", "sky.file", "--allow-outside");
   EXPECT_EQ(read(outside, {.allow_outside = true}).model.sky->lights.size(), 1U);
-  std::filesystem::remove(folder_.parent_path() / "sunfleck_outside.light");
+  std::filesystem::remove(folder_.path().parent_path() / "sunfleck_outside.light");
   write(folder_ / "bad.light", "1 0 0 -1\n1 0 0 1\n");
   const auto message = message_of([&] { static_cast<void>(read(head + "model = \"lights\"\nfile = \"bad.light\"\n")); });
   ASSERT_TRUE(message);

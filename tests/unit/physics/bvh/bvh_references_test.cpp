@@ -3,6 +3,7 @@
 #include "physics/bvh/bvh.h"
 #include "physics/bvh/references.h"
 #include "support/bvh_check.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 #include <string>
@@ -102,13 +103,7 @@ TEST(References, StandInAPeriodicTree) {
 }
 
 std::string refusal(const Canopy& canopy) {
-  try {
-    static_cast<void>(make_references(canopy));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  return {};
+  return refusal_of([&] { static_cast<void>(make_references(canopy)); });
 }
 
 TEST(References, RefuseTooManyPeriods) {

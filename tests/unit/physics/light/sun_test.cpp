@@ -1,5 +1,7 @@
 #include "physics/light/sun.h"
 
+#include "base/units.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,11 +14,10 @@
 
 #include "base/error.h"
 #include "physics/light/sun_events.h"
+#include "support/error_text.h"
 
 namespace sunfleck {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 Place place_deg(double latitude, double longitude, double altitude_m = 0.0) {
   return {latitude * degree, longitude * degree, altitude_m};
@@ -113,13 +114,9 @@ TEST(sun_position, refuses_times_that_do_not_exist) {
                                       {2002, 4, 3, 1, 60},    {2002, 4, 3, 1, 2, 61.0},
                                       {2002, 4, 3, 1, 2, -1}, {2002, 4, 3, 1, 2, std::nan("")}};
   for (const UtcTime& time : wrong) {
-    try {
-      static_cast<void>(sun_position(time, field));
-      ADD_FAILURE() << time.year << '-' << time.month << '-' << time.day << ' ' << time.hour << ':' << time.minute;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(std::string(error.what()).find("); "), std::string::npos) << error.what();
-    }
+    const std::string message = refusal_of([&] { static_cast<void>(sun_position(time, field)); });
+    EXPECT_NE(message.find("); "), std::string::npos)
+        << message << time.year << '-' << time.month << '-' << time.day << ' ' << time.hour << ':' << time.minute;
   }
 }
 

@@ -1,6 +1,8 @@
 #include "physics/light/weather.h"
 
 #include "base/error.h"
+#include "base/units.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +13,6 @@
 namespace sunfleck {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr SunPosition paper_sun{53.0176 * degree, 120.569 * degree};
 constexpr int paper_day = 220;  // 8 August
 
@@ -162,14 +163,7 @@ TEST(Weather, IntervalsHoldTheirStartButNotTheirEnd) {
 }
 
 std::string refusal(const Weather& weather, const UtcTime& time) {
-  try {
-    static_cast<void>(weather_at(weather, time, paper_sun));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  ADD_FAILURE() << "not refused";
-  return "";
+  return refusal_of([&] { static_cast<void>(weather_at(weather, time, paper_sun)); });
 }
 
 TEST(Weather, TimesOutsideAreRefusedByName) {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -83,12 +84,7 @@ TEST(ExrWriter, WritesWhatAReaderGetsBack) {
 
 TEST(ExrWriter, SaysWhenTheFolderIsMissing) {
   const TempFolder folder;
-  try {
-    write_exr(pattern(2, 2), folder.path() / "missing" / "values.exr");
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::failure);
-  }
+  refusal_of([&] { write_exr(pattern(2, 2), folder.path() / "missing" / "values.exr"); }, ErrorKind::failure);
 }
 
 TEST(ExrWriter, RefusesAnImageWithoutAllItsPixels) {

@@ -1,6 +1,7 @@
 #include "pictures/drawing/image_writer.h"
 
 #include "base/error.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -55,12 +56,7 @@ TEST_F(ImageWriter, WritesWhatAReaderGetsBack) {
 }
 
 TEST_F(ImageWriter, SaysWhenTheFolderIsMissing) {
-  try {
-    write_png(pattern(2, 2), folder_ / "missing" / "picture.png");
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::failure);
-  }
+  refusal_of([&] { write_png(pattern(2, 2), folder_ / "missing" / "picture.png"); }, ErrorKind::failure);
 }
 
 TEST_F(ImageWriter, RefusesAnImageWithoutAllItsPixels) {

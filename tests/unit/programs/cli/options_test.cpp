@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -26,14 +27,7 @@ RunOptions parse_run(std::initializer_list<const char*> words) {
 }
 
 std::string refusal(std::initializer_list<const char*> words) {
-  try {
-    static_cast<void>(parse(words));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return "";
+  return refusal_of([&] { static_cast<void>(parse(words)); });
 }
 
 TEST(Options, OfARunStandBesideTheirNames) {

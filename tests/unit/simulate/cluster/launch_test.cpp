@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "simulate/cluster/no_job.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 
@@ -79,16 +80,9 @@ TEST_F(NoJobTest, RefusesToBeOneOfSeveral) {
   for (const char* rank : {"0", "1"}) {
     ::setenv("OMPI_COMM_WORLD_RANK", rank, 1);
     EXPECT_EQ(is_worker_rank(), rank[0] == '1');
-    try {
-      ASSERT_TRUE(launch_by_mpi());
-      static_cast<void>(join_no_job(*launch_by_mpi()));
-      FAIL() << rank;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(std::string(error.what()).find("2 processes started by MPI (this program was built without MPI); "),
-                std::string::npos)
-          << error.what();
-    }
+    ASSERT_TRUE(launch_by_mpi());
+    const std::string message = refusal_of([] { static_cast<void>(join_no_job(*launch_by_mpi())); });
+    EXPECT_NE(message.find("2 processes started by MPI (this program was built without MPI); "), std::string::npos) << message;
   }
 }
 

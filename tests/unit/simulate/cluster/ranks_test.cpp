@@ -5,6 +5,7 @@
 #include "simulate/cluster/rank_helpers.h"
 #include "simulate/cluster/rank_worker.h"
 #include "simulate/cluster/replicate_message.h"
+#include "support/error_text.h"
 #include "support/light_mix.h"
 #include "support/result_numbers.h"
 
@@ -197,21 +198,11 @@ TEST_F(RanksTest, TellOfASignal) {
   EXPECT_TRUE(helpers_->interrupted());
 }
 
-std::string message_of(const std::function<void()>& task, ErrorKind kind) {
-  try {
-    task();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind);
-    return error.what();
-  }
-  return "";
-}
-
 TEST_F(RanksTest, ThatFailEndTheRun) {
   start_all([](ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&) -> std::optional<Replicate> {
     throw_device("its card", "gone", "get another");
   });
-  const std::string message = message_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::device);
+  const std::string message = refusal_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::device);
   EXPECT_NE(message.find("on here: its card (gone); get another"), std::string::npos) << message;
   EXPECT_EQ(message.find("rank "), 0U);
 }
@@ -223,16 +214,16 @@ TEST_F(RanksTest, ThatCannotBeginEndTheRun) {
     EXPECT_TRUE(report_failure(mailbox, "there", 2, "a.toml (missing); give another"));
   });
   helpers_ = std::make_unique<RankHelpers>(lead_, 60s);
-  EXPECT_EQ(message_of([this] { helpers_->wait_until_ready("the scene"); }, ErrorKind::input),
-            "rank 2 on there: a.toml (missing); give another");
+  EXPECT_EQ(refusal_of([this] { helpers_->wait_until_ready("the scene"); }), "rank 2 on there: a.toml (missing); give another");
 }
 
 TEST_F(RanksTest, WithAnotherSceneAreRefused) {
   start(1, usual_);
   start(2, usual_);
   helpers_ = std::make_unique<RankHelpers>(lead_, 60s);
-  EXPECT_NE(message_of([this] { helpers_->wait_until_ready("another"); }, ErrorKind::input)
-                .find("rank 1 on here (it was given the scene, rank 0 has another); "),
+  EXPECT_NE(refusal_of([this] {
+              helpers_->wait_until_ready("another");
+            }).find("rank 1 on here (it was given the scene, rank 0 has another); "),
             std::string::npos);
 }
 
@@ -242,7 +233,7 @@ TEST_F(RanksTest, ThatFallSilentAreLost) {
   }
   helpers_ = std::make_unique<RankHelpers>(lead_, 100ms);
   helpers_->wait_until_ready("the scene");
-  const std::string message = message_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::failure);
+  const std::string message = refusal_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::failure);
   EXPECT_NE(message.find(" on nowhere (nothing heard from it for 0"), std::string::npos) << message;
   EXPECT_FALSE(helpers_->wait_until_gone());
 }
@@ -253,7 +244,7 @@ TEST_F(RanksTest, ThatLeaveEarlyAreMissed) {
   helpers_ = std::make_unique<RankHelpers>(lead_, 60s);
   helpers_->wait_until_ready("the scene");
   for (const int rank : {1, 2}) LocalMailbox(post_, rank).post(0, LetterKind::gone, {});
-  EXPECT_NE(message_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::failure).find("ended early"),
+  EXPECT_NE(refusal_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::failure).find("ended early"),
             std::string::npos);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "physics/light/sky.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -15,17 +16,9 @@ namespace sunfleck {
 namespace {
 
 std::string refusal(const std::filesystem::path& file) {
-  try {
-    static_cast<void>(read_lights(file));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    const std::string message = error.what();
-    EXPECT_EQ(message.find('\n'), std::string::npos);
-    EXPECT_NE(message.find(" ("), std::string::npos) << message;
-    EXPECT_NE(message.find("); "), std::string::npos) << message;
-    return message.substr(file.parent_path().string().size() + 1);
-  }
-  return "accepted";
+  const std::string message = refusal_of([&] { static_cast<void>(read_lights(file)); });
+  expect_three_parts(message);
+  return message.substr(file.parent_path().string().size() + 1);
 }
 
 TEST(LightReader, TurnsTheAxesAndTheDirection) {

@@ -1,6 +1,7 @@
 #include "files/formats/measured/measured_reader.h"
 
 #include "base/error.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -16,15 +17,10 @@ class Measured : public testing::Test {
 
   // Returns the message without the folder's path.
   [[nodiscard]] std::string message(const std::string& text) const {
-    try {
-      static_cast<void>(read(text));
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      const std::string what = error.what();
-      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-      return what.substr(what.find("field.csv"));
-    }
-    return "no error";
+    const auto what = message_of([&] { static_cast<void>(read(text)); });
+    if (!what) return "no error";
+    EXPECT_EQ(what->find('\n'), std::string::npos) << *what;
+    return what->substr(what->find("field.csv"));
   }
 
   TempFolder folder_;

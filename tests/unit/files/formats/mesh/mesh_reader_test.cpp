@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "files/formats/mesh/organ_name.h"
+#include "support/error_text.h"
 #include "support/mesh_files.h"
 #include "support/temp_folder.h"
 
@@ -182,14 +183,8 @@ TEST(File, IsWrittenWholeAndReadBack) {
 
 TEST(File, SaysWhyItCannotWrite) {
   const TempFolder folder;
-  try {
-    write_file(folder / "nowhere/x.csv", "a");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::failure);
-    EXPECT_NE(std::string(error.what()).find("x.csv: cannot be written (No such file or directory); create its folder first"),
-              std::string::npos);
-  }
+  const std::string message = refusal_of([&] { write_file(folder / "nowhere/x.csv", "a"); }, ErrorKind::failure);
+  EXPECT_NE(message.find("x.csv: cannot be written (No such file or directory); create its folder first"), std::string::npos);
   std::filesystem::create_directory(folder / "taken");
   EXPECT_THROW(write_file(folder / "taken", "a"), Error);
   std::size_t entries = 0;

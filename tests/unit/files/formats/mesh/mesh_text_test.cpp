@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/formats/mesh/mesh_writer.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -119,22 +120,17 @@ TEST(MeshText, ACanKnowsLeavesAndStems) {
 
 TEST(MeshText, RefusesWhatHasNoPlace) {
   const TempFolder folder;
-  const auto message = [&](const Mesh& mesh, const char* name) -> std::string {
-    try {
-      write_mesh(mesh, folder / name);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto message = [&](const Mesh& mesh, const char* name, ErrorKind kind = ErrorKind::input) {
+    return refusal_of([&] { write_mesh(mesh, folder / name); }, kind);
   };
   EXPECT_NE(message(random_mesh(), "a.stl")
                 .find("a.stl: unknown kind of mesh (its name ends in '.stl'); use a name that ends in .glb"),
             std::string::npos);
   EXPECT_FALSE(is_writable_mesh("a.can.gz"));
-  EXPECT_NE(message(random_mesh(), "gone/a.obj").find("gone/a.obj"), std::string::npos);
+  EXPECT_NE(message(random_mesh(), "gone/a.obj", ErrorKind::failure).find("gone/a.obj"), std::string::npos);
   Mesh mesh = random_mesh();
   mesh.organs[1].plant = 100'000;
-  EXPECT_NE(message(mesh, "a.can").find("plant 100000 has no label ("), std::string::npos);
+  EXPECT_NE(message(mesh, "a.can", ErrorKind::failure).find("plant 100000 has no label ("), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.can"));
 }
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "files/formats/mesh/mesh_reader.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -98,28 +99,19 @@ TEST(MeshWriter, EmptyMeshMakesAFileWithoutTriangles) {
   const TempFolder folder;
   for (const char* name : {"a.glb", "a.gltf"}) {
     write_gltf({}, folder / name);
-    try {
-      static_cast<void>(read_mesh(folder / name, {}));
-      FAIL();
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("no triangles found"), std::string::npos) << error.what();
-    }
+    const std::string message = refusal_of([&] { static_cast<void>(read_mesh(folder / name, {})); });
+    EXPECT_NE(message.find("no triangles found"), std::string::npos) << message;
   }
 }
 
 TEST(MeshWriter, RefusesOtherEndingsAndFoldersThatAreNotThere) {
   const TempFolder folder;
-  const auto kind = [&](const char* name) {
-    try {
-      write_gltf(random_mesh(), folder / name);
-    } catch (const Error& error) {
-      return error.kind();
-    }
-    return ErrorKind::device;
+  const auto expect_refused = [&](const char* name, ErrorKind kind) {
+    refusal_of([&] { write_gltf(random_mesh(), folder / name); }, kind);
   };
-  EXPECT_EQ(kind("a.obj"), ErrorKind::input);
-  EXPECT_EQ(kind("glb"), ErrorKind::input);
-  EXPECT_EQ(kind("gone/a.glb"), ErrorKind::failure);
+  expect_refused("a.obj", ErrorKind::input);
+  expect_refused("glb", ErrorKind::input);
+  expect_refused("gone/a.glb", ErrorKind::failure);
 }
 
 }  // namespace

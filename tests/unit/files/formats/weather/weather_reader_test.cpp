@@ -1,7 +1,6 @@
 #include "files/formats/weather/weather_reader.h"
 
-#include "support/scene_text.h"
-#include "support/temp_folder.h"
+#include "support/broken_files.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -40,12 +39,6 @@ std::string epw(bool leap = false) {
     }
   }
   return text;
-}
-
-std::string swapped(std::string text, std::string_view from, std::string_view to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, text.npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(StationReader, ReadsIntervals) {
@@ -166,25 +159,8 @@ TEST(EpwReader, MissingValuesAreRefusedWhenUsed) {
   expect_three_parts(*message);
 }
 
-struct Broken {
-  const char* what;
-  const char* name;
-  std::string bytes;
-  const char* place;  // after the file's name
-  const char* words;  // part of the message
-};
-
 void expect_refused(const std::vector<Broken>& files) {
-  const TempFolder folder;
-  for (const Broken& broken : files) {
-    SCOPED_TRACE(broken.what);
-    const std::filesystem::path file = folder.write(broken.name, broken.bytes);
-    const auto message = message_of([&] { static_cast<void>(read_weather(file)); });
-    ASSERT_TRUE(message);
-    EXPECT_TRUE(message->starts_with(file.string() + broken.place)) << *message;
-    EXPECT_NE(message->find(broken.words), std::string::npos) << *message;
-    expect_three_parts(*message);
-  }
+  expect_refused(files, [](const std::filesystem::path& file) { static_cast<void>(read_weather(file)); });
 }
 
 TEST(WeatherAttack, BrokenStations) {

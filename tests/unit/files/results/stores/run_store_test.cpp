@@ -1,13 +1,14 @@
 #include "files/results/stores/run_store.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/sealed_file.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -41,18 +42,9 @@ class RunStoreTest : public ::testing::Test {
  protected:
   // Returns the message that rejects the state, or an empty text if it is accepted.
   [[nodiscard]] std::string refusal(const ordered_json& now = settings) const {
-    try {
-      static_cast<void>(RunStore(folder_.path(), now).read(blank_));
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.what();
-    }
-    return "";
+    return message_of([&] { static_cast<void>(RunStore(folder_.path(), now).read(blank_)); }).value_or("");
   }
-  [[nodiscard]] std::string bytes() const {
-    std::ifstream stream(folder_ / run_state_file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  [[nodiscard]] std::string bytes() const { return read_file(folder_ / run_state_file); }
 
   const SolveState state_ = some_state();
   const SolveState blank_ = blank_of(state_);

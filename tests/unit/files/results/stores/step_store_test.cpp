@@ -1,13 +1,14 @@
 #include "files/results/stores/step_store.h"
 
 #include "base/error.h"
+#include "base/file.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -53,11 +54,6 @@ const ordered_json settings{{"scene_digest", "0123"}, {"seed", 1}, {"step_min", 
 
 bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 class StepStoreTest : public ::testing::Test {
@@ -112,7 +108,7 @@ TEST_F(StepStoreTest, WritesMeanwhileWhatItWasGiven) {
 TEST_F(StepStoreTest, ReadsNoStepThatIsDamaged) {
   store_.begin();
   store_.write(7, some_step(model_));
-  const std::string good = content(folder_ / step_file_);
+  const std::string good = read_file(folder_ / step_file_);
   for (std::size_t length = 0; length < good.size(); length += 1 + length / 8) {
     folder_.write(step_file_, good.substr(0, length));
     EXPECT_FALSE(store_.read(7)) << length << " bytes of " << good.size();
@@ -163,14 +159,8 @@ TEST_F(StepStoreTest, NamesTheFirstSettingThatDiffers) {
   store_.begin();
   ordered_json other = settings;
   other["seed"] = 2;
-  const auto message = [&](const ordered_json& now) -> std::string {
-    try {
-      static_cast<void>(StepStore(folder_.path(), model_, now).find());
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.what();
-    }
-    return "";
+  const auto message = [&](const ordered_json& now) {
+    return refusal_of([&] { static_cast<void>(StepStore(folder_.path(), model_, now).find()); });
   };
   EXPECT_NE(message(other).find("seed was 1, now 2"), std::string::npos);
   other = settings;

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "files/results/tables/result_writer.h"
+#include "support/error_text.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -34,14 +35,8 @@ RadiationResult two_layers() {
 class Profile : public testing::Test {
  protected:
   [[nodiscard]] std::string message(const std::string& text) const {
-    try {
-      static_cast<void>(read_profile_csv(folder_.write("profile.csv", text)));
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      const std::string what = error.what();
-      return what.substr(what.find("profile.csv"));
-    }
-    return "no error";
+    const std::string what = refusal_of([&] { static_cast<void>(read_profile_csv(folder_.write("profile.csv", text))); });
+    return what.substr(what.find("profile.csv"));
   }
   TempFolder folder_;
 };

@@ -23,7 +23,7 @@ RadiationModel layered_model() {
   maker.triangle({0.3, 0.25, 0.1}, {0.3, 0.3, 0.2}, {0.4, 0.45, 0.1});
   maker.triangle({0.5, 0.0, 0.1}, {0.5, 0.0, 0.2}, {0.6, 1.0, 0.1});
   maker.triangle({0.7, -0.2, 0.1}, {0.7, -0.1, 0.2}, {0.8, -0.2, 0.1});
-  RadiationModel model = black_model(maker.mesh(), {1.0, 0.5, true}, paper_sun());
+  RadiationModel model = black_model(maker.mesh(), {1.0, 0.5, true}, beijing_sun());
   model.layers = 10;
   return model;
 }
@@ -43,13 +43,13 @@ TEST(CounterLayout, GivesAnElementOneBinALayer) {
 }
 
 TEST(CounterLayout, OfAnEmptyOrFlatScene) {
-  RadiationModel empty = black_model({}, {1.0, 1.0, true}, paper_sun());
+  RadiationModel empty = black_model({}, {1.0, 1.0, true}, beijing_sun());
   EXPECT_EQ(make_counter_layout(empty).words(), shared::counter_first_cell + 400U);
   empty.soil.reset();
   EXPECT_EQ(make_counter_layout(empty).words(), shared::counter_first_cell);
   MeshMaker maker;
   maker.level(0.0, 0.5, 0.0, 0.5, 0.0);
-  const CounterLayout flat = make_counter_layout(black_model(maker.mesh(), {1.0, 1.0, true}, paper_sun()));
+  const CounterLayout flat = make_counter_layout(black_model(maker.mesh(), {1.0, 1.0, true}, beijing_sun()));
   EXPECT_EQ(flat.layers.per_metre, 0.0F);
   EXPECT_EQ(flat.first_bin, (std::vector<std::uint32_t>{0, 1, 2}));
 }

@@ -1,4 +1,4 @@
-#include "programs/validate/known_formulas.h"
+#include "programs/validate/known/known_formulas.h"
 
 #include <algorithm>
 #include <cmath>

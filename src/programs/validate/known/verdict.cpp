@@ -1,4 +1,4 @@
-#include "programs/validate/verdict.h"
+#include "programs/validate/known/verdict.h"
 
 #include "physics/transport/model/statistics.h"
 

@@ -1,35 +1,36 @@
-#include "programs/validate/case_scenes.h"
+#include "programs/validate/known/case_scenes.h"
 
 #include "base/random.h"
+#include "base/units.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace sunfleck {
 
-SunPosition case_sun(double elevation_deg, double azimuth_deg) {
+SunPosition sun_at(double elevation_deg, double azimuth_deg) {
   return {elevation_deg * degree, azimuth_deg * degree};
 }
 
 SunPosition beijing_sun() {
-  return case_sun(53.0176, 120.569);
+  return sun_at(53.0176, 120.569);
 }
 
 glm::dvec3 from_east_north_up(double x, double y, double z) {
   return {-y, z, -x};
 }
 
-glm::dvec3 inclined_normal(double inclination_rad, double angle_rad) {
+glm::dvec3 inclined(double inclination_rad, double angle_rad) {
   return {std::sin(inclination_rad) * std::cos(angle_rad), std::cos(inclination_rad),
           std::sin(inclination_rad) * std::sin(angle_rad)};
 }
 
-void CaseMesh::organ(const std::string& name, int rank) {
-  mesh_.organs.push_back({1, name, rank});
+void MeshMaker::organ(const std::string& name, int plant, int rank) {
+  mesh_.organs.push_back({static_cast<std::uint32_t>(plant), name, rank});
   mesh_.optics_names.push_back(name);
 }
 
-void CaseMesh::triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+void MeshMaker::triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   if (mesh_.organs.empty()) organ("leaf");
   const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
   mesh_.vertices.insert(mesh_.vertices.end(), {a, b, c});
@@ -38,20 +39,20 @@ void CaseMesh::triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dve
   mesh_.optics_of.push_back(static_cast<std::uint32_t>(mesh_.organs.size() - 1));
 }
 
-void CaseMesh::quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+void MeshMaker::quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   triangle(a, b, c);
   triangle(a, c, d);
 }
 
-void CaseMesh::level(double x0, double x1, double z0, double z1, double y) {
+void MeshMaker::level(double x0, double x1, double z0, double z1, double y) {
   quad({x0, y, z0}, {x0, y, z1}, {x1, y, z1}, {x1, y, z0});
 }
 
-void CaseMesh::ceiling(double x0, double x1, double z0, double z1, double y) {
+void MeshMaker::ceiling(double x0, double x1, double z0, double z1, double y) {
   quad({x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1});
 }
 
-void CaseMesh::polygon(const glm::dvec3& centre, const glm::dvec3& normal, double area_m2, int corners, double spin_rad) {
+void MeshMaker::polygon(const glm::dvec3& centre, const glm::dvec3& normal, double area_m2, int corners, double spin_rad) {
   const double step = 2.0 * std::numbers::pi / corners;
   const double radius_m = std::sqrt(2.0 * area_m2 / (corners * std::sin(step)));
   const glm::dvec3 other = std::abs(normal.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -65,20 +66,20 @@ void CaseMesh::polygon(const glm::dvec3& centre, const glm::dvec3& normal, doubl
 
 Mesh random_leaf_mesh(int count, double area_m2, const Plot& plot, double height_m, std::uint64_t seed) {
   RandomStream random(seed, 0);
-  CaseMesh mesh;
+  MeshMaker mesh;
   for (int leaf = 1; leaf <= count; ++leaf) {
-    mesh.organ("leaf", leaf);
+    mesh.organ("leaf", 1, leaf);
     const double x_m = plot.size_x_m * random.unit();
     const double y_m = height_m * (0.1 + 0.9 * random.unit());
     const double z_m = plot.size_z_m * random.unit();
     const double inclination = std::acos(2.0 * random.unit() - 1.0);
-    const glm::dvec3 normal = inclined_normal(inclination, 2.0 * std::numbers::pi * random.unit());
+    const glm::dvec3 normal = inclined(inclination, 2.0 * std::numbers::pi * random.unit());
     mesh.polygon({x_m, y_m, z_m}, normal, area_m2, 4, 1.5 * random.unit());
   }
   return mesh.mesh();
 }
 
-RadiationModel black_case(const Mesh& mesh, const Plot& plot, const SunPosition& sun) {
+RadiationModel black_model(const Mesh& mesh, const Plot& plot, const SunPosition& sun) {
   RadiationModel model;
   model.plot = plot;
   const PlacedMesh placed{mesh, {Placement{}}};
@@ -86,38 +87,42 @@ RadiationModel black_case(const Mesh& mesh, const Plot& plot, const SunPosition&
   for (const std::string& name : model.canopy.optics_names) model.optics.push_back({name, {}, {}, {}, {}});
   model.soil = Soil{};
   model.sun = sun;
-  set_case_bands(model, 1);
+  set_bands(model, 1);
   return model;
 }
 
-void set_case_bands(RadiationModel& model, std::size_t count) {
+void set_bands(RadiationModel& model, std::size_t count) {
   model.bands.clear();
   for (std::size_t b = 0; b < count; ++b) model.bands.push_back({"band" + std::to_string(b), 1.0, 0.0});
   for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = std::vector<FaceOptics>(count);
   if (model.soil) model.soil->reflectance.assign(count, 0.0);
 }
 
-RadiationModel lamp_case(const Mesh& mesh, const Plot& plot, std::size_t bands) {
-  RadiationModel model = black_case(mesh, plot, {});
+RadiationModel lamp_model(const Mesh& mesh, const Plot& plot, std::size_t bands) {
+  RadiationModel model = black_model(mesh, plot, {});
   model.sun.reset();
   model.soil.reset();
-  set_case_bands(model, bands);
+  set_bands(model, bands);
   return model;
 }
 
-RadiationModel leaf_case(const Mesh& mesh, const Plot& plot, const SunPosition& sun, std::span<const LeafBand> bands) {
-  RadiationModel model = black_case(mesh, plot, sun);
-  set_case_bands(model, bands.size());
+void set_leaf_bands(RadiationModel& model, std::span<const LeafBand> bands) {
+  set_bands(model, bands.size());
   for (std::size_t b = 0; b < bands.size(); ++b) {
     model.bands[b].name = bands[b].name;
-    model.soil->reflectance[b] = bands[b].soil_reflectance;
+    if (model.soil) model.soil->reflectance[b] = bands[b].soil_reflectance;
     const FaceOptics face{bands[b].reflectance, bands[b].transmittance};
     for (SurfaceOptics& optics : model.optics) optics.upper[b] = optics.lower[b] = face;
   }
+}
+
+RadiationModel leaf_model(const Mesh& mesh, const Plot& plot, const SunPosition& sun, std::span<const LeafBand> bands) {
+  RadiationModel model = black_model(mesh, plot, sun);
+  set_leaf_bands(model, bands);
   return model;
 }
 
-void shine_from_sky_only(RadiationModel& model, const SkyModel& sky) {
+void shine_from_sky(RadiationModel& model, const SkyModel& sky) {
   for (Waveband& band : model.bands) {
     band.diffuse_w_m2 = band.direct_w_m2;
     band.direct_w_m2 = 0.0;

@@ -14,7 +14,7 @@
 
 namespace sunfleck {
 
-[[nodiscard]] SunPosition case_sun(double elevation_deg, double azimuth_deg);
+[[nodiscard]] SunPosition sun_at(double elevation_deg, double azimuth_deg);
 
 // Returns the sun's position on 8 August 2002, 10:10 China Standard Time, at 40.02 N 116.28 E.
 [[nodiscard]] SunPosition beijing_sun();
@@ -23,13 +23,13 @@ namespace sunfleck {
 [[nodiscard]] glm::dvec3 from_east_north_up(double x, double y, double z);
 
 // Returns a unit vector with that inclination from the vertical, whose horizontal part points at that angle from X towards Z.
-[[nodiscard]] glm::dvec3 inclined_normal(double inclination_rad, double angle_rad);
+[[nodiscard]] glm::dvec3 inclined(double inclination_rad, double angle_rad);
 
 // Collects triangles. Each call of organ() begins a new organ with its own optics, to which the following triangles belong.
 // Corners run counter-clockwise about the upper face's normal.
-class CaseMesh {
+class MeshMaker {
  public:
-  void organ(const std::string& name, int rank = 0);
+  void organ(const std::string& name, int plant = 1, int rank = 0);
   void triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
   void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
   // Add horizontal rectangles, X from x0 to x1 and Z from z0 to z1, facing up and facing down.
@@ -56,16 +56,18 @@ inline constexpr LeafBand par_band{"PAR", 0.12, 0.06, 0.15};
 inline constexpr LeafBand nir_band{"NIR", 0.45, 0.45, 0.20};
 
 // Returns a model with one band of 1 W m-2 of beam on the horizontal; every surface is black, including the soil.
-[[nodiscard]] RadiationModel black_case(const Mesh& mesh, const Plot& plot, const SunPosition& sun);
+[[nodiscard]] RadiationModel black_model(const Mesh& mesh, const Plot& plot, const SunPosition& sun);
 // Sets `count` bands of 1 W m-2, with every surface black in all of them.
-void set_case_bands(RadiationModel& model, std::size_t count);
+void set_bands(RadiationModel& model, std::size_t count);
 // Returns a model without sun and soil, lit only by lamps.
-[[nodiscard]] RadiationModel lamp_case(const Mesh& mesh, const Plot& plot, std::size_t bands = 1);
+[[nodiscard]] RadiationModel lamp_model(const Mesh& mesh, const Plot& plot, std::size_t bands = 1);
+// Sets such bands of 1 W m-2, in which every surface is a leaf.
+void set_leaf_bands(RadiationModel& model, std::span<const LeafBand> bands);
 // Returns a model in which every surface is such a leaf, with 1 W m-2 of beam in each band.
-[[nodiscard]] RadiationModel leaf_case(const Mesh& mesh, const Plot& plot, const SunPosition& sun,
-                                       std::span<const LeafBand> bands);
+[[nodiscard]] RadiationModel leaf_model(const Mesh& mesh, const Plot& plot, const SunPosition& sun,
+                                        std::span<const LeafBand> bands);
 // Replaces the beam by the same amount of sky light.
-void shine_from_sky_only(RadiationModel& model, const SkyModel& sky);
+void shine_from_sky(RadiationModel& model, const SkyModel& sky);
 
 inline constexpr int case_replicates = 32;
 
