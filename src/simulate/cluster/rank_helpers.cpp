@@ -10,6 +10,7 @@
 #include <algorithm>
 
 namespace sunfleck {
+
 RankHelpers::RankHelpers(Mailbox& mailbox, std::chrono::milliseconds silence)
     : mailbox_(mailbox), silence_(silence), ranks_(static_cast<std::size_t>(mailbox.ranks() - 1)) {
   for (std::size_t k = 0; k < ranks_.size(); ++k) ranks_[k].name = fmt::format("rank {}", k + 1);

@@ -17,6 +17,7 @@ namespace sunfleck {
 namespace {
 
 using namespace std::chrono_literals;
+
 using Clock = std::chrono::steady_clock;
 
 class Worker {

@@ -24,7 +24,6 @@ using nlohmann::json;
 
 static_assert(std::endian::native == std::endian::little, "glTF numbers are read as stored in memory");
 
-constexpr std::string_view write_again = "export the file again";
 // Limits all buffers together to 2^28 positions and their indices.
 constexpr std::uint64_t most_buffer_bytes = std::uint64_t{8} << 30U;
 

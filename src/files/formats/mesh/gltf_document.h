@@ -11,6 +11,9 @@
 
 namespace sunfleck {
 
+// The advice of messages about files that their program wrote wrongly.
+inline constexpr std::string_view write_again = "export the file again";
+
 // An object of the JSON. Each function throws Error (input) if the value is of another type.
 class GltfObject {
  public:

@@ -31,8 +31,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view write_again = "export the file again";
-
 // glTF 2.0, sections 3.6.2.2 and 3.7.2.1. The integers are unsigned.
 constexpr std::size_t byte_type = 5121, short_type = 5123, int_type = 5125, float_type = 5126;
 constexpr int triangles_mode = 4, strip_mode = 5, fan_mode = 6;
