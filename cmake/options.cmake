@@ -43,4 +43,8 @@ function(sunfleck_folder)
   add_library(${target} STATIC ${ARG_SOURCES})
   target_link_libraries(${target} PUBLIC ${used} PRIVATE sunfleck_options)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SUNFLECK_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+  if(SUNFLECK_UNITY)
+    # GCC takes sources that are compiled together for headers, which must not name types of an anonymous namespace.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
 endfunction()

@@ -124,11 +124,11 @@ void draw_entries(const LegendPen& pen, const std::vector<LegendEntry>& entries)
 // Returns the colour at `share` of the way from the first to the last.
 Colour colour_at(const std::vector<Colour>& colours, double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(colours.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), colours.size() - 1);
-  const std::size_t above = std::min(below + 1, colours.size() - 1);
-  Colour mixed = colours[below];
-  const double rest = place - static_cast<double>(below);
-  for (std::size_t i = 0; i < 3; ++i) mixed[i] += rest * (colours[above][i] - mixed[i]);
+  const auto lower = std::min(static_cast<std::size_t>(place), colours.size() - 1);
+  const std::size_t upper = std::min(lower + 1, colours.size() - 1);
+  Colour mixed = colours[lower];
+  const double rest = place - static_cast<double>(lower);
+  for (std::size_t i = 0; i < 3; ++i) mixed[i] += rest * (colours[upper][i] - mixed[i]);
   return mixed;
 }
 

@@ -17,14 +17,14 @@ struct Cells {
 
 Cells cells_of(const JudgedAnswer& judged) {
   const KnownAnswer& answer = judged.answer;
-  Cells cells{"", "", "", "", judged.passed ? "pass" : "fail"};
-  if (!answer.trouble.empty()) return cells;
-  cells.expected = fmt::format("{:.8g}", answer.expected);
-  cells.got = fmt::format("{:.8g}", answer.got);
-  cells.standard_error = fmt::format("{:.1e}", answer.standard_error);
-  if (answer.standard_error == 0.0) cells.standard_error = "0";
-  if (const auto z = answer.z()) cells.z = fmt::format("{:+.2f}", *z);
-  return cells;
+  Cells shown{"", "", "", "", judged.passed ? "pass" : "fail"};
+  if (!answer.trouble.empty()) return shown;
+  shown.expected = fmt::format("{:.8g}", answer.expected);
+  shown.got = fmt::format("{:.8g}", answer.got);
+  shown.standard_error = fmt::format("{:.1e}", answer.standard_error);
+  if (answer.standard_error == 0.0) shown.standard_error = "0";
+  if (const auto z = answer.z()) shown.z = fmt::format("{:+.2f}", *z);
+  return shown;
 }
 
 // Returns what a reader needs to know about a failed case besides its numbers.

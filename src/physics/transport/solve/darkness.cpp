@@ -14,7 +14,7 @@ namespace sunfleck {
 namespace {
 
 // A confidence interval needs several replicates.
-constexpr int replicates = 8;
+constexpr int darkness_replicates = 8;
 
 bool has_lamps(const RadiationModel& model) {
   const std::vector<BandQuanta> quanta = make_band_quanta(model, {});
@@ -36,7 +36,7 @@ RadiationResult dark_result(const RadiationModel& model, const CounterLayout& la
   Replicate nothing;
   nothing.counters.resize(layout.words());
   nothing.direct = conversion.sum(nothing.counters);
-  for (int k = 0; k < replicates; ++k) sums.add(nothing);
+  for (int k = 0; k < darkness_replicates; ++k) sums.add(nothing);
   RadiationResult result = result_of(sums, settings.accuracy.confidence);
   result.stop = StopReason::bound_reached;
   result.direct.relative_error = 0.0;
