@@ -1,4 +1,5 @@
-# Fails if a file of src/ includes a header that its folder must not know, or lies in no folder of the ground plan.
+# Fails if a file of src/ includes a header that its folder must not know, lies in no folder of the ground plan, or is a source
+# without a header of its name.
 #   cmake -D ROOT=<project> -P cmake/check_layers.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -59,6 +60,9 @@ set(users_of_pybind11 programs/python)
 set(users_of_Python programs/python)
 set(users_of_mpi simulate/cluster)
 
+# Sources that declare nothing for others.
+set(without_header src/programs/main.cpp src/programs/python/module.cpp src/files/formats/mesh/third_party.cpp)
+
 set(breaches 0)
 function(breach file line why cure)
   math(EXPR count "${breaches} + 1")
@@ -89,6 +93,10 @@ foreach(file IN LISTS files)
   if(NOT DEFINED below_${folder})
     breach(${file} "folder ${folder}" "unknown to this check" "add it to the ground plan in cmake/check_layers.cmake")
     continue()
+  endif()
+  string(REGEX REPLACE "\\.cpp$" ".h" header ${file})
+  if(NOT header IN_LIST files AND NOT file IN_LIST without_header)
+    breach(${file} "no header" "each source has a header of its name beside it" "declare there what the source offers")
   endif()
   file(STRINGS ${ROOT}/${file} includes REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS includes)
