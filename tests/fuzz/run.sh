@@ -24,7 +24,7 @@ else
 fi
 targets=${*:-$all}
 
-CC=clang CXX=clang++ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_FUZZ=ON > /dev/null
+CC=clang CXX=clang++ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUNFLECK_FUZZ=ON -DSUNFLECK_UNITY=ON > /dev/null
 # shellcheck disable=SC2046,SC2086
 cmake --build "$build" --target fuzz_corpus $(printf 'fuzz_%s ' $targets)
 
