@@ -26,8 +26,8 @@ constexpr double fisheye_height_m = 0.1;
 std::string subtitle_line(const RadiationModel& model, const RadiationResult& result) {
   std::string line;
   if (model.has_beam()) {
-    line = fmt::format("Sun at elevation {:.2f}°, azimuth {:.2f}°; ", model.sun->elevation_rad / degree,
-                       model.sun->azimuth_rad / degree);
+    line = fmt::format("Sun at elevation {:.2f}°, azimuth {:.2f}°; ", in_degrees(model.sun->elevation_rad),
+                       in_degrees(model.sun->azimuth_rad));
   }
   return line + fmt::format("{} triangles, leaf area index {:.2f}", model.canopy.size(), result.leaf_area_index);
 }

@@ -70,7 +70,8 @@ struct ChartSource {
 [[nodiscard]] ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
                                          const SurfaceColours& surfaces);
 
-// Returns the bytes that draw_charts needs for so many pictures of these sizes, in addition to the result and the tree.
+// Returns the bytes that draw_charts needs to draw `pictures` charts of the size in `options`, in addition to the result and
+// the tree.
 [[nodiscard]] double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
                                    std::size_t pictures);
 

@@ -43,7 +43,7 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
-// Fills values from such bytes. Arrays must have the length of those that were written; texts may have any.
+// Fills values from such bytes. An array must have the length of the one that was written; a text may have any length.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -17,7 +17,7 @@ constexpr const char* store_format = "sunfleck pictures";
 constexpr int store_version = 1;
 
 // Largest coordinate of a scene, such as a mesh of up to 1e7 m, turned and placed as far from zero.
-constexpr double farthest_m = 1e8;
+constexpr double farthest_stored_m = 1e8;
 constexpr double most_patches = 64e6;
 constexpr std::size_t deepest = 6;  // nesting depth of lists and maps; a valid file has four levels
 constexpr double brightest_w_m2 = 1e15;
@@ -40,8 +40,8 @@ void visit_vector(const Archive& archive, double largest, Vector& vector) {
 template <class Archive, class Camera>
 void visit_camera(const Archive& archive, Camera& camera) {
   constexpr double widest_rad = 3.1;
-  visit_vector(archive["position_m"], farthest_m, camera.position_m);
-  visit_vector(archive["look_at_m"], farthest_m, camera.look_at_m);
+  visit_vector(archive["position_m"], farthest_stored_m, camera.position_m);
+  visit_vector(archive["look_at_m"], farthest_stored_m, camera.look_at_m);
   archive["fov_rad"].value(camera.fov_rad, 1e-6, widest_rad);
 }
 
@@ -62,7 +62,7 @@ void visit_surfaces(const Archive& archive, Model& model) {
   });
   archive["soil"].part(model.soil, [](const auto& to, auto& soil) {
     to["reflectance"].value(soil.reflectance, 0.0, 1.0);
-    to["patch_m"].value(soil.patch_m, 0.0, farthest_m);
+    to["patch_m"].value(soil.patch_m, 0.0, farthest_stored_m);
     visit_vector(to["rgb"], 1.0, soil.rgb);
   });
 }
@@ -76,8 +76,8 @@ void visit_canopy(const Archive& archive, Canopy& canopy) {
   });
   std::size_t triangles = canopy.size();
   archive["triangles"].value(triangles);
-  visit_vector(archive["origin_m"], farthest_m, canopy.origin_m);
-  archive["period_m"].row(0.0, farthest_m, canopy.period_m.x, canopy.period_m.y);
+  visit_vector(archive["origin_m"], farthest_stored_m, canopy.origin_m);
+  archive["period_m"].row(0.0, farthest_stored_m, canopy.period_m.x, canopy.period_m.y);
   archive["corners_m"].packed(canopy.corners, triangles);
   archive["organ_of"].packed(canopy.organ_of, triangles);
   archive["optics_of"].packed(canopy.optics_of, triangles);
@@ -88,8 +88,8 @@ void visit_model(const Archive& archive, Model& model) {
   constexpr double least_m = 1e-6;
   constexpr double most_layers = 100000;
   constexpr double most_rad = 7.0;  // more than a full turn
-  archive["plot"]["size_x_m"].value(model.plot.size_x_m, least_m, farthest_m);
-  archive["plot"]["size_z_m"].value(model.plot.size_z_m, least_m, farthest_m);
+  archive["plot"]["size_x_m"].value(model.plot.size_x_m, least_m, farthest_stored_m);
+  archive["plot"]["size_z_m"].value(model.plot.size_z_m, least_m, farthest_stored_m);
   archive["plot"]["periodic"].value(model.plot.periodic);
   archive["layers"].value(model.layers, 1, most_layers);
   archive["sun"].part(model.sun, [](const auto& to, auto& sun) {
@@ -163,7 +163,7 @@ void check_canopy(const RadiationModel& model) {
   const Canopy& canopy = model.canopy;
   for (const Triangle& corners : canopy.corners) {
     for (const glm::vec3& corner : corners) {
-      for (int i = 0; i < 3; ++i) require(std::abs(corner[i]) <= farthest_m, "corners_m");
+      for (int i = 0; i < 3; ++i) require(std::abs(corner[i]) <= farthest_stored_m, "corners_m");
     }
   }
   for (const std::uint32_t organ : canopy.organ_of) require(organ < canopy.organs.size(), "organ_of");
