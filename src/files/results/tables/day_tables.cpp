@@ -43,6 +43,8 @@ Table steps_table(const RadiationModel& model, const DayCourse& course, std::spa
               [&](std::size_t i) { return lights[i].bands[b].incident; });
     table.add({band + "_absorbed_vegetation", "W m-2", "flux absorbed by vegetation per ground area"},
               [&](std::size_t i) { return lights[i].bands[b].absorbed_vegetation; });
+    table.add({band + "_absorbed_structure", "W m-2", "flux absorbed by structures and lamps per ground area"},
+              [&](std::size_t i) { return lights[i].bands[b].absorbed_structure; });
     table.add({band + "_absorbed_soil", "W m-2", "flux absorbed by soil per ground area"},
               [&](std::size_t i) { return lights[i].bands[b].absorbed_soil; });
     table.add({band + "_reflected", "W m-2", "flux that leaves upwards per ground area"},
@@ -70,7 +72,7 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
               {dates.size(), organs.size()},
               {}};
   table.add({"date", "", "local date", outputs, by_date}, [&](std::size_t d) { return course.dates[dates[d]]; });
-  add_organ_names(table, organs, 1);
+  add_organ_names(table, model, 1);
   table.add({"area_m2", "m2", "one-sided area", outputs, by_organ}, organ_areas_m2(model.canopy));
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const std::string& band = model.bands[b].name;

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "physics/transport/model/surfaces.h"
 
 namespace sunfleck {
 namespace {
@@ -48,7 +49,9 @@ Table table_of_sensors(const RadiationModel& model, const RadiationResult& resul
 
 }  // namespace
 
-void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t axis) {
+void add_organ_names(Table& table, const RadiationModel& model, std::size_t axis) {
+  const std::vector<Organ>& organs = model.canopy.organs;
+  const std::vector<Role> roles = organ_roles(model);
   const std::vector<std::size_t> along{axis};
   const auto add = [&](const char* name, const char* unit, const char* meaning, const auto part) {
     table.add({name, unit, meaning, in_csv | in_arrays, along}, [&](std::size_t o) { return organs[o].*part; });
@@ -56,6 +59,8 @@ void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t
   add("plant", "1", "number of the plant, 0 for soil", &Organ::plant);
   add("organ", "", "name of the organ", &Organ::name);
   add("rank", "1", "leaf number from the ground, 0 for organs without one", &Organ::rank);
+  table.add({"role", "", "leaf, stem, fruit, structure, lamp or soil", in_csv | in_arrays, along},
+            [&](std::size_t o) { return std::string(role_name(roles[o])); });
 }
 
 Table organs_table(const RadiationModel& model, const RadiationResult& result) {
@@ -68,7 +73,7 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
       {},
       {organs.size()},
       {}};
-  add_organ_names(table, organs, 0);
+  add_organ_names(table, model, 0);
   table.add({"area_m2", "m2", "one-sided area"}, [&](std::size_t o) { return light[o].area_m2; });
   table.add({"sunlit_fraction", "1", "share of the area in direct sun"},
             [&](std::size_t o) { return as_share(light[o].sunlit_fraction); });
@@ -113,8 +118,10 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
               [&](std::size_t i) { return layers[i].down[b]; });
     table.add({band + "_up", "W m-2", "flux through the plane, upwards", everywhere_but_meshes},
               [&](std::size_t i) { return layers[i].up[b]; });
-    table.add({band + "_absorbed", "W m-2", "flux absorbed in the layer per ground area"},
+    table.add({band + "_absorbed", "W m-2", "flux absorbed by vegetation in the layer per ground area"},
               [&](std::size_t i) { return is_top_plane(i) ? Estimate{no_value} : layers[i].absorbed[b]; });
+    table.add({band + "_absorbed_structure", "W m-2", "flux absorbed by structures and lamps in the layer per ground area"},
+              [&](std::size_t i) { return is_top_plane(i) ? Estimate{no_value} : layers[i].absorbed_structure[b]; });
   }
   return table;
 }
@@ -127,6 +134,7 @@ Table balance_table(const RadiationResult& result) {
   };
   add("incident", "incident flux per ground area", &BandResult::incident);
   add("absorbed_vegetation", "flux absorbed by vegetation per ground area", &BandResult::absorbed_vegetation);
+  add("absorbed_structure", "flux absorbed by structures and lamps per ground area", &BandResult::absorbed_structure);
   add("absorbed_soil", "flux absorbed by soil per ground area", &BandResult::absorbed_soil);
   add("reflected", "flux that leaves upwards per ground area", &BandResult::reflected);
   add("transmitted", "flux that leaves downwards per ground area", &BandResult::transmitted);
