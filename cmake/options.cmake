@@ -33,6 +33,15 @@ function(sunfleck_targets targets)
   set(${targets} ${names} PARENT_SCOPE)
 endfunction()
 
+# Has the sources of a target compiled together, `batch` at a time, if SUNFLECK_UNITY is on: sunfleck_unity(<target> <batch>)
+function(sunfleck_unity target batch)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SUNFLECK_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
+  if(SUNFLECK_UNITY)
+    # GCC takes sources that are compiled together for headers, which must not name types of an anonymous namespace.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 # Adds the static library of this folder of src, which links what it uses and no more:
 # sunfleck_folder(SOURCES <files> USES <folders and libraries>)
 function(sunfleck_folder)
@@ -42,9 +51,5 @@ function(sunfleck_folder)
   sunfleck_targets(used ${ARG_USES})
   add_library(${target} STATIC ${ARG_SOURCES})
   target_link_libraries(${target} PUBLIC ${used} PRIVATE sunfleck_options)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SUNFLECK_UNITY} UNITY_BUILD_BATCH_SIZE 12)
-  if(SUNFLECK_UNITY)
-    # GCC takes sources that are compiled together for headers, which must not name types of an anonymous namespace.
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  endif()
+  sunfleck_unity(${target} 12)
 endfunction()

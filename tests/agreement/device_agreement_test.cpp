@@ -13,10 +13,8 @@
 #include <numeric>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
-
-using namespace test;
 
 using Counters = std::vector<std::uint32_t>;
 
@@ -74,9 +72,6 @@ class DeviceAgreement : public DeviceTest {
     EXPECT_EQ(words_apart(count(cpu, few, prepared.layout), count(doubter, few, prepared.layout)), 0U);
   }
 };
-
-constexpr Plot unit_plot{1.0, 1.0, true};
-constexpr Plot unit_stand{1.0, 1.0, false};
 
 TEST_F(DeviceAgreement, OnTwoMaizePlants) {
   expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun()), 60'000, 1'000);
@@ -235,4 +230,4 @@ TEST_F(ViewAgreement, OfAPileTooHighForOneDispatch) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

@@ -16,10 +16,8 @@
 #include <string>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
-
-using namespace test;
 
 glm::dvec3 corner_m(const std::array<float, 3>& at) {
   return {at[0], at[1], at[2]};
@@ -180,4 +178,4 @@ TEST(EmbreeAgreement, OnRandomTrianglesFromAllSides) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

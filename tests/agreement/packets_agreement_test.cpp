@@ -13,13 +13,8 @@
 #include <cstring>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
-
-using namespace test;
-
-constexpr Plot unit_plot{1.0, 1.0, true};
-constexpr Plot unit_stand{1.0, 1.0, false};
 
 // Returns packets from random points on the elements, on the ground and between them, in all directions; every fourth is nearly
 // level, with a slope of about `least_slope`.
@@ -69,7 +64,7 @@ Landings follow(Tracer& tracer, const shared::PacketBlock& scene, const std::vec
   return landings;
 }
 
-std::size_t apart(const Landings& a, const Landings& b) {
+std::size_t landings_apart(const Landings& a, const Landings& b) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < a.size(); ++k) count += std::memcmp(&a[k], &b[k], sizeof a[k]) == 0 ? 0 : 1;
   return count;
@@ -93,17 +88,17 @@ class PacketsAgreement : public DeviceTest {
     for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {
       const GpuTree tree(context(), prepared.bvh, fetch);
       VulkanTracer whole(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
-      EXPECT_EQ(apart(follow(whole, scene, packets), expected), 0U);
+      EXPECT_EQ(landings_apart(follow(whole, scene, packets), expected), 0U);
       for (const VulkanChoices cut : {VulkanChoices{64, 32}, VulkanChoices{1000, 128}}) {
         VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), cut);
-        EXPECT_EQ(apart(follow(tracer, scene, packets), expected), 0U) << "in dispatches of " << cut.rays_per_dispatch;
+        EXPECT_EQ(landings_apart(follow(tracer, scene, packets), expected), 0U) << "in dispatches of " << cut.rays_per_dispatch;
       }
     }
     const std::vector<shared::Packet> few(packets.begin(), packets.begin() + static_cast<std::ptrdiff_t>(doubted));
     CpuTracer doubter(prepared.bvh, tracer_scene(model), CpuWalk::every_element);
-    EXPECT_EQ(
-        apart(follow(doubter, scene, few), Landings(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(doubted))),
-        0U);
+    EXPECT_EQ(landings_apart(follow(doubter, scene, few),
+                             Landings(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(doubted))),
+              0U);
   }
 
   void expect_same_run(const RadiationModel& model, const SolveSettings& settings) const {
@@ -188,4 +183,4 @@ TEST_F(PacketsAgreement, OfWholeRunsUnderTheSkyWithReceivers) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

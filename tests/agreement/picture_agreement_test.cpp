@@ -11,13 +11,11 @@
 #include <cstring>
 #include <string>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
 
-using namespace test;
 using Seen = std::vector<shared::SeenSurface>;
 
-const Plot unit_plot{1.0, 1.0, true};
 const Plot square_stand{2.0, 2.0, false};
 
 CanopyLook look_of(const RadiationModel& model, const CounterLayout& layout, const Camera& camera, const PictureSize& size,
@@ -31,7 +29,7 @@ CanopyLook look_of(const RadiationModel& model, const CounterLayout& layout, con
   return look;
 }
 
-std::size_t apart(const Seen& a, const Seen& b) {
+std::size_t surfaces_apart(const Seen& a, const Seen& b) {
   EXPECT_EQ(a.size(), b.size());
   std::size_t count = 0;
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) count += std::memcmp(&a[k], &b[k], sizeof a[k]) == 0 ? 0 : 1;
@@ -227,7 +225,7 @@ TEST(Picture, IsTheSameHoweverItIsCutIntoRows) {
       const Seen piece = viewer->see(first, rows, {});
       pieces.insert(pieces.end(), piece.begin(), piece.end());
     }
-    EXPECT_EQ(apart(whole, pieces), 0U);
+    EXPECT_EQ(surfaces_apart(whole, pieces), 0U);
   }
 }
 
@@ -243,10 +241,10 @@ class PictureAgreement : public DeviceTest {
       const Seen expected = see_on_cpu(prepared, look);
       for (const GpuTree* tree : {&texels, &storage}) {
         const auto viewer = view_with_gpu(context(), *tree, prepared.bvh, look);
-        EXPECT_EQ(apart(see_whole(*viewer, size), expected), 0U);
+        EXPECT_EQ(surfaces_apart(see_whole(*viewer, size), expected), 0U);
         const Seen some = viewer->see(31, 17, {});
         const auto from = expected.begin() + 31 * 120 * 3;
-        EXPECT_EQ(apart(some, Seen(from, from + 17 * 120 * 3)), 0U);
+        EXPECT_EQ(surfaces_apart(some, Seen(from, from + 17 * 120 * 3)), 0U);
       }
     }
   }
@@ -289,4 +287,4 @@ TEST_F(PictureAgreement, StopsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

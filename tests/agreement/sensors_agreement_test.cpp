@@ -11,10 +11,8 @@
 #include <array>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
-
-using namespace test;
 
 class SensorsAgreement : public DeviceTest {
  protected:
@@ -54,4 +52,4 @@ TEST_F(SensorsAgreement, InMaize) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

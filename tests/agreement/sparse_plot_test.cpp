@@ -13,10 +13,8 @@
 #include <cstdlib>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
-
-using namespace test;
 
 const RadiationModel& sparse_plot() {
   static const RadiationModel model = maize_model({}, beijing_sun());
@@ -130,4 +128,4 @@ TEST_F(SparsePlot, AMillionRaysMeetTheSameOnTheirWholeWay) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

@@ -21,7 +21,6 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr Plot unit_plot{1.0, 1.0, true};
 constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
 
 Mesh quarter() {

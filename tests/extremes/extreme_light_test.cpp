@@ -14,9 +14,6 @@ namespace {
 
 class ExtremeLight : public EveryTracer {};
 
-constexpr Plot unit_plot{1.0, 1.0, true};
-constexpr Plot unit_stand{1.0, 1.0, false};
-
 Mesh leaves() {
   return random_leaves(60, 0.02, unit_plot, 1.0, 7);
 }

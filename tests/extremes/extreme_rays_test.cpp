@@ -15,9 +15,6 @@ namespace {
 
 class ExtremeRays : public EveryTracer {};
 
-constexpr Plot unit_plot{1.0, 1.0, true};
-constexpr Plot unit_stand{1.0, 1.0, false};
-
 // Returns a square of 1 m in cells x cells squares, perpendicular to an axis at `place`.
 Mesh gridded_square(int axis, int cells, double place) {
   MeshMaker maker;

@@ -10,7 +10,7 @@ namespace sunfleck::test::differential {
 namespace {
 
 // As the guide states, a leaf whose plane is this close to the beam has no sunlit share.
-constexpr double edge_on = 1e-5;
+constexpr double edge_on_cosine = 1e-5;
 
 // Returns the area of the part of a triangle below a height, by clipping.
 double area_below_m2(const Triangle& corners, double y_m) {
@@ -64,7 +64,7 @@ void Survey::find_roles(const RadiationModel& model) {
 void Survey::find_facing(const RadiationModel& model, const World& world, const Light& light) {
   for (std::size_t e = 0; e < lit_per_ground_.size(); ++e) {
     const double cosine = std::abs(glm::dot(world.normal(e), light.to_sun()));
-    if (cosine > edge_on && !world.is_copy(e) && !is_under_soil(model, model.canopy.corners[e], light.to_sun())) {
+    if (cosine > edge_on_cosine && !world.is_copy(e) && !is_under_soil(model, model.canopy.corners[e], light.to_sun())) {
       lit_per_ground_[e] = light.to_sun().y / cosine;
     }
   }

@@ -27,15 +27,19 @@ inline void PrintTo(const SceneKind& kind, std::ostream* out) {
 namespace {
 
 constexpr int runs = 5;  // of the program on each scene, with different seeds
-constexpr int replicates = 64;
+constexpr int differential_replicates = 64;
 
 RadiationResult run(const RadiationModel& model, const Prepared& prepared, std::uint64_t seed) {
-  const ScatterWork work{.rays = 1500.0 * replicates, .packets = 1000, .replicates = replicates, .seed = seed, .bound = 1e-4};
+  const ScatterWork work{.rays = 1500.0 * differential_replicates,
+                         .packets = 1000,
+                         .replicates = differential_replicates,
+                         .seed = seed,
+                         .bound = 1e-4};
   SolveSettings settings = fixed_scatter(model, work);
   settings.element_errors = ElementErrors::keep_sides;
   CpuTracer tracer(prepared.bvh, tracer_scene(model));
   RadiationResult result = solve(model, prepared.layout, tracer, settings, {});
-  const SensorSettings sensors{.rays = 128, .replicates = replicates, .seed = seed};
+  const SensorSettings sensors{.rays = 128, .replicates = differential_replicates, .seed = seed};
   result.sensors = measure_sensors(model, prepared.layout, tracer, sensors, {}).value();
   EXPECT_EQ(result.lost_rays, 0U);
   return result;
@@ -45,13 +49,13 @@ class Differential : public testing::TestWithParam<SceneKind> {};
 
 TEST_P(Differential, AgreesWithAnIndependentTracer) {
   const SceneKind& kind = GetParam();
-  const double quantile = t_quantile(SolveSettings{}.accuracy.confidence, replicates);
-  Comparison comparison(replicates, quantile);
+  const double quantile = t_quantile(SolveSettings{}.accuracy.confidence, differential_replicates);
+  Comparison comparison(differential_replicates, quantile);
   for (int scene = 0; scene < kind.scenes; ++scene) {
     const RadiationModel model = make_scene(kind, scene);
     const std::vector<Figure> figures = figures_of(model);
     const std::vector<Stated> traced =
-        trace_figures(model, figures, {.batches = replicates, .cells = 64, .sensor_paths = 512, .seed = 1});
+        trace_figures(model, figures, {.batches = differential_replicates, .cells = 64, .sensor_paths = 512, .seed = 1});
     const Prepared prepared(model);
     for (int number = 1; number <= runs; ++number) {
       const RadiationResult result = run(model, prepared, static_cast<std::uint64_t>(number));

@@ -8,7 +8,7 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 16;
+constexpr int rami_replicates = 16;
 
 glm::dvec3 any_direction(Random& random) {
   return inclined(std::acos(random.uniform(-1.0, 1.0)), random.uniform(0.0, 2.0 * std::numbers::pi));
@@ -42,7 +42,7 @@ struct Stand {
 RadiationResult run(const Stand& stand, double rays, double packets) {
   RadiationModel model = leaf_model(stand.mesh, stand.plot, stand.sun, std::array{stand.optics});
   model.soil->patch_m = stand.plot.size_x_m / 100.0;
-  const ScatterWork work{.rays = rays, .packets = packets, .replicates = replicates, .bound = 0.001};
+  const ScatterWork work{.rays = rays, .packets = packets, .replicates = rami_replicates, .bound = 0.001};
   RadiationResult result = simulate(model, fixed_scatter(model, work));
   EXPECT_EQ(result.lost_rays, 0U);
   EXPECT_EQ(result.bands[0].ledger.residual(), 0);
@@ -52,7 +52,7 @@ RadiationResult run(const Stand& stand, double rays, double packets) {
 }
 
 void expect_near(const Estimate& got, double expected, double tolerance, const char* what) {
-  const double error = standard_error(got, replicates);
+  const double error = standard_error(got, rami_replicates);
   std::printf("%-28s expected %.5f got %.5f(%.1e), off by %+.5f of %.5f\n", what, expected, got.value, error,
               got.value - expected, tolerance);
   EXPECT_LE(error, tolerance / 4.0) << what;

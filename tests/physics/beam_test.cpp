@@ -14,8 +14,6 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-
 struct Answer {
   std::string what;
   Estimate got;
@@ -25,7 +23,7 @@ struct Answer {
 
 void expect_all(const std::vector<Answer>& answers) {
   for (const Answer& a : answers)
-    expect_agrees(a.got, a.expected, replicates, a.largest_standard_error, answers.size(), a.what.c_str());
+    expect_agrees(a.got, a.expected, usual_replicates, a.largest_standard_error, answers.size(), a.what.c_str());
 }
 
 // A1. One triangle, no occluders, in an isolated scene. It is 0.95 m lower than in the table, which changes only the share of
@@ -48,7 +46,7 @@ std::vector<Answer> one_triangle_answers(std::uint64_t seed, double work) {
   std::vector<Answer> answers;
   for (const TriangleRow& row : triangle_rows) {
     const RadiationModel model = triangle_under(sun_at(row.elevation_deg, row.azimuth_deg));
-    const RadiationResult result = simulate(model, fixed_work(model, work * row.rays, replicates, seed));
+    const RadiationResult result = simulate(model, fixed_work(model, work * row.rays, usual_replicates, seed));
     answers.push_back(
         {"A1 h " + std::to_string(row.elevation_deg), result.organs[0].direct[0], row.irradiance, 0.001 * row.irradiance});
   }
@@ -78,9 +76,9 @@ TEST(Beam, OneTriangleIsLitOnOneSideOnly) {
 // A3. Shadow of one plate on periodic soil.
 std::vector<Answer> plate_answers(std::uint64_t seed) {
   const RadiationModel model = level_plate_case();
-  const RadiationResult result = simulate(model, fixed_work(model, 4e5, replicates, seed));
+  const RadiationResult result = simulate(model, fixed_work(model, 4e5, usual_replicates, seed));
   const RadiationModel tilted_model = tilted_plate_case();
-  const RadiationResult tilted_result = simulate(tilted_model, fixed_work(tilted_model, 4e5, replicates, seed));
+  const RadiationResult tilted_result = simulate(tilted_model, fixed_work(tilted_model, 4e5, usual_replicates, seed));
   return {{"A3 sunlit soil", result.bands[0].absorbed_soil, 0.88, 2e-4},
           {"A3 lit share of the plate", result.sunlit_leaf_fraction, 1.0, 2e-3},
           {"A3 shadow of a tilted plate", tilted_result.bands[0].absorbed_vegetation, 0.0605517934, 2e-4}};
@@ -99,7 +97,7 @@ RadiationModel two_plates() {
 
 std::vector<Answer> two_plates_answers(std::uint64_t seed) {
   const RadiationModel model = two_plates();
-  const RadiationResult result = simulate(model, fixed_work(model, 4e5, replicates, seed));
+  const RadiationResult result = simulate(model, fixed_work(model, 4e5, usual_replicates, seed));
   return {{"A4 lit share of the lower plate", result.organs[1].sunlit_fraction, 0.47011006, 2e-3},
           {"A4 sunlit soil", result.bands[0].absorbed_soil, 0.76948351, 2e-4},
           {"A4 lit share of the upper plate", result.organs[0].sunlit_fraction, 1.0, 2e-3}};
@@ -111,7 +109,7 @@ TEST(Beam, PlateShadesPlateAcrossTheBorder) {
 
 TEST(Beam, ProfileShowsWhatPassesEachHeight) {
   const RadiationModel model = two_plates();
-  const RadiationResult result = simulate(model, fixed_work(model, 4e5, replicates));
+  const RadiationResult result = simulate(model, fixed_work(model, 4e5, usual_replicates));
   EXPECT_EQ(result.layers[10].sunfleck_ratio.value, 1.0);
   std::vector<Answer> answers;
   for (std::size_t k = 0; k <= 8; ++k) {
@@ -146,7 +144,7 @@ std::vector<Answer> blind_answers(std::uint64_t seed) {
     EXPECT_NEAR(expected, row.transmittance, 5e-6);
     for (const double beyond : {0.0, 0.9}) {
       const RadiationModel model = blind(row, beyond);
-      const RadiationResult result = simulate(model, fixed_work(model, 4e5, replicates, seed));
+      const RadiationResult result = simulate(model, fixed_work(model, 4e5, usual_replicates, seed));
       EXPECT_EQ(result.lost_rays, 0U);
       answers.push_back({"A5 tilt " + std::to_string(row.tilt_deg) + " h " + std::to_string(row.elevation_deg),
                          result.bands[0].absorbed_soil, expected, 2e-4});
@@ -161,12 +159,12 @@ TEST(Beam, VenetianBlindIsEndless) {
 
 TEST(Beam, FullyClosedBlindLetsNothingThrough) {
   const RadiationModel model = blind(blind_rows[2], 0.0);
-  EXPECT_EQ(simulate(model, fixed_work(model, 1e6, replicates)).bands[0].ledger.absorbed_soil, 0);
+  EXPECT_EQ(simulate(model, fixed_work(model, 1e6, usual_replicates)).bands[0].ledger.absorbed_soil, 0);
 }
 
 // Judges the reported errors by the whole table, with separate seeds.
 TEST(Beam, ErrorsOfTheWholeTableArePlausible) {
-  ZScores scores(replicates);
+  ZScores scores(usual_replicates);
   for (std::uint64_t seed = 11; seed < 15; ++seed) {
     for (const auto& answers :
          {one_triangle_answers(seed, 0.1), plate_answers(seed), two_plates_answers(seed), blind_answers(seed)})
@@ -180,7 +178,7 @@ TEST(Beam, CheckerboardsHalveTheBeamFromAnyDirection) {
   for (const auto& [elevation, azimuth] : {std::pair(90.0, 0.0), std::pair(60.0, 33.0), std::pair(53.0176, 120.569),
                                            std::pair(25.0, 270.0), std::pair(5.0, 200.0)}) {
     const RadiationModel model = checkerboards_under(sun_at(elevation, azimuth));
-    const RadiationResult result = simulate(model, fixed_work(model, 8e5, replicates));
+    const RadiationResult result = simulate(model, fixed_work(model, 8e5, usual_replicates));
     for (std::size_t layer = 0; layer < 3; ++layer) {
       const double expected = std::ldexp(1.0, -1 - static_cast<int>(layer));
       answers.push_back({"board " + std::to_string(layer) + " h " + std::to_string(elevation),

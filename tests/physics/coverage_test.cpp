@@ -1,6 +1,6 @@
 // Tests whether the reported errors are true, with seeds 1 to 400 on a small scene whose answer is known (G2 of the validation
 // table).
-#include "support/comparison.h"
+#include "support/coverage.h"
 #include "support/models.h"
 
 #include <gtest/gtest.h>
@@ -11,12 +11,7 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int seeds = 400;
-// Bounds that the number of covering intervals, out of 400 with probability 0.95 each, misses once in a thousand times.
-constexpr int least_covered = 366;
-constexpr int most_covered = 394;
-
-const SunPosition sun = sun_at(60.0, 75.0);
+const SunPosition high_sun = sun_at(60.0, 75.0);
 
 // Returns four tilted leaves whose shadows do not overlap, one organ each.
 RadiationModel tilted_leaves() {
@@ -27,13 +22,13 @@ RadiationModel tilted_leaves() {
     maker.organ("leaf", 1, rank++);
     maker.polygon({x, 0.3, z}, inclined(radians(inclination), radians(angle)), 0.1, 4, radians(10.0 * rank));
   }
-  return black_model(maker.mesh(), {}, sun);
+  return black_model(maker.mesh(), {}, high_sun);
 }
 
 // Returns the area that a leaf in full sun shades on level ground.
 double shadow_m2(const Canopy& canopy, std::uint32_t organ) {
   double sum = 0.0;
-  const glm::dvec3 to_sun = direction_to_sun(sun);
+  const glm::dvec3 to_sun = direction_to_sun(high_sun);
   for (std::size_t e = 0; e < canopy.size(); ++e) {
     if (canopy.organ_of[e] != organ) continue;
     sum += area_m2(canopy.corners[e]) * std::abs(glm::dot(unit_normal(canopy.corners[e]), to_sun)) / to_sun.y;
@@ -69,7 +64,7 @@ void expect_covered(const char* mode, const std::function<SolveSettings(const Ra
   const Prepared prepared(model);
   std::vector<Counted> counted = counted_aggregates(model);
   ReplicateMean replicates;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= coverage_seeds; ++seed) {
     SolveSettings settings = settings_of(model);
     settings.seed = seed;
     const RadiationResult result = simulate(model, prepared, settings);
@@ -81,7 +76,7 @@ void expect_covered(const char* mode, const std::function<SolveSettings(const Ra
   }
   for (const Counted& aggregate : counted) {
     std::printf("%s, %.1f replicates on average: %s covered %d of %d times\n", mode, replicates.mean(), aggregate.what,
-                aggregate.covered, seeds);
+                aggregate.covered, coverage_seeds);
     EXPECT_GE(aggregate.covered, least_covered) << mode << ", " << aggregate.what;
     EXPECT_LE(aggregate.covered, most_covered) << mode << ", " << aggregate.what;
   }

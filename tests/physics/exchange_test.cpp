@@ -12,13 +12,11 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-
 // Returns the share of the light emitted by one surface of the pair that lands on the other.
 Estimate view_factor(const FacingPair& pair, std::size_t from, std::uint64_t seed) {
   RadiationModel model = lamp_model(pair.mesh, {1.0, 1.0, false});
   model.optics.at(from).emission_w_m2 = {3.0};
-  const RadiationResult result = simulate_soundly(model, fixed_packets(model, 2048, replicates, seed));
+  const RadiationResult result = simulate_soundly(model, fixed_packets(model, 2048, usual_replicates, seed));
   EXPECT_EQ(result.bands[0].ledger.unshot, 0);
   return absorbed_by_organ(model, result, 1 - from, 0).scaled(model.plot.area_m2() / (3.0 * pair.area_m2[from]));
 }
@@ -26,7 +24,7 @@ Estimate view_factor(const FacingPair& pair, std::size_t from, std::uint64_t see
 TEST(Exchange, ViewFactors) {
   const std::vector<FacingPair> pairs = facing_pairs();
   constexpr int seeds = 8;
-  ZScores scores(replicates);
+  ZScores scores(usual_replicates);
   for (const FacingPair& pair : pairs) {
     Estimate exchange[2];
     for (const std::size_t from : {0U, 1U}) {
@@ -40,10 +38,10 @@ TEST(Exchange, ViewFactors) {
         squares += got.half_width * got.half_width;
       }
       const Estimate mean{sum / seeds, std::sqrt(squares) / seeds};
-      expect_agrees(mean, expected, replicates, 3e-4, 2 * pairs.size(), pair.what);
+      expect_agrees(mean, expected, usual_replicates, 3e-4, 2 * pairs.size(), pair.what);
       exchange[from] = mean.scaled(pair.area_m2[from]);
     }
-    expect_same(exchange[0], exchange[1], replicates, 3e-4 * (pair.area_m2[0] + pair.area_m2[1]), pairs.size(),
+    expect_same(exchange[0], exchange[1], usual_replicates, 3e-4 * (pair.area_m2[0] + pair.area_m2[1]), pairs.size(),
                 "  reciprocity");
   }
   scores.expect_plausible();
@@ -58,7 +56,7 @@ TEST(Exchange, TwoInfinitePlates) {
   constexpr std::array absorbed = {Absorbed{0.33333333, 0.66666667}, Absorbed{0.13441955, 0.86558045}};
   for (const double gap_m : {0.02, 1.0, 30.0}) {
     const RadiationModel model = lamp_below_plate(gap_m, rows);
-    const RadiationResult result = simulate_soundly(model, fixed_packets(model, 2048, replicates));
+    const RadiationResult result = simulate_soundly(model, fixed_packets(model, 2048, usual_replicates));
     for (std::size_t b = 0; b < rows.size(); ++b) {
       EXPECT_NEAR(result.organs[0].absorbed[b].value, absorbed[b].lamp, 2e-8) << gap_m;
       EXPECT_NEAR(result.organs[1].absorbed[b].value, absorbed[b].other, 2e-8) << gap_m;
@@ -97,14 +95,14 @@ class ForgetfulTracer final : public WrappedTracer {
 TEST(Exchange, StripShadesItsOwnCopies) {
   const RadiationModel one = leaning_strips(1);
   const RadiationModel two = leaning_strips(2);
-  const SolveSettings settings = fixed_packets(one, 8192, replicates, 1);
+  const SolveSettings settings = fixed_packets(one, 8192, usual_replicates, 1);
   const RadiationResult got_one = simulate_soundly(one, settings);
-  const RadiationResult got_two = simulate_soundly(two, fixed_packets(two, 8192, replicates, 2));
+  const RadiationResult got_two = simulate_soundly(two, fixed_packets(two, 8192, usual_replicates, 2));
   const BandResult& a = got_one.bands[0];
   const BandResult& b = got_two.bands[0];
-  expect_same(a.absorbed_vegetation, b.absorbed_vegetation, replicates, 1e-3, 3, "strips");
-  expect_same(a.absorbed_soil, b.absorbed_soil, replicates, 1e-3, 3, "soil");
-  expect_same(a.reflected, b.reflected, replicates, 1e-3, 3, "reflected");
+  expect_same(a.absorbed_vegetation, b.absorbed_vegetation, usual_replicates, 1e-3, 3, "strips");
+  expect_same(a.absorbed_soil, b.absorbed_soil, usual_replicates, 1e-3, 3, "soil");
+  expect_same(a.reflected, b.reflected, usual_replicates, 1e-3, 3, "reflected");
 
   const Prepared prepared(one);
   CpuTracer honest(prepared.bvh, tracer_scene(one));
@@ -112,7 +110,7 @@ TEST(Exchange, StripShadesItsOwnCopies) {
   const BandResult wrong = solve(one, prepared.layout, forgetful, settings, {}).bands[0];
   std::printf("without its own copies: strips %.5f instead of %.5f, reflected %.5f instead of %.5f\n",
               wrong.absorbed_vegetation.value, a.absorbed_vegetation.value, wrong.reflected.value, a.reflected.value);
-  const double error = standard_error(a.absorbed_vegetation, replicates);
+  const double error = standard_error(a.absorbed_vegetation, usual_replicates);
   EXPECT_GT(std::abs(wrong.absorbed_vegetation.value - a.absorbed_vegetation.value), 20.0 * error);
 }
 

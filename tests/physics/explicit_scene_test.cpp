@@ -12,8 +12,6 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-
 TEST(ExplicitScene, IsTheOneOfTheTable) {
   const Mesh mesh = explicit_leaves();
   const auto middle_m = [&](std::size_t leaf) { return 0.5 * (mesh.vertices.at(6 * leaf) + mesh.vertices.at(6 * leaf + 2)); };
@@ -39,14 +37,14 @@ TEST(ExplicitScene, TotalsAndLeavesUnderThePaperSun) {
   for (std::size_t b = 0; b < 2; ++b) {
     const BandResult& band = result.bands[b];
     const double largest = b == 0 ? 1e-4 : 2e-4;
-    expect_within(band.reflected, totals[b].reflected, replicates, largest, band.name + " reflected");
-    expect_within(band.absorbed_vegetation, totals[b].leaves, replicates, largest, band.name + " absorbed by leaves");
-    expect_within(result.layers[0].down[b], totals[b].on_soil, replicates, largest, band.name + " on soil");
+    expect_within(band.reflected, totals[b].reflected, usual_replicates, largest, band.name + " reflected");
+    expect_within(band.absorbed_vegetation, totals[b].leaves, usual_replicates, largest, band.name + " absorbed by leaves");
+    expect_within(result.layers[0].down[b], totals[b].on_soil, usual_replicates, largest, band.name + " on soil");
     const double soil_absorptance = 1.0 - model.soil->reflectance[b];
-    expect_within(band.absorbed_soil, {totals[b].in_soil, soil_absorptance * totals[b].on_soil.error}, replicates, largest,
-                  band.name + " absorbed by soil");
+    expect_within(band.absorbed_soil, {totals[b].in_soil, soil_absorptance * totals[b].on_soil.error}, usual_replicates,
+                  largest, band.name + " absorbed by soil");
   }
-  expect_within(result.ground_sunfleck_ratio, {0.172756, 5e-5}, replicates, 1e-4, "beam on soil");
+  expect_within(result.ground_sunfleck_ratio, {0.172756, 5e-5}, usual_replicates, 1e-4, "beam on soil");
   struct Leaf {
     Reference first_hit, par, nir;
   };
@@ -57,9 +55,9 @@ TEST(ExplicitScene, TotalsAndLeavesUnderThePaperSun) {
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
     const OrganResult& organ = result.organs[leaf];
     const std::string name = "leaf " + std::to_string(leaf);
-    expect_within(organ.direct[0], leaves[leaf].first_hit, replicates, 1e-3, name + " first hit");
-    expect_within(organ.absorbed[0], leaves[leaf].par, replicates, 1e-3, name + " absorbed PAR");
-    expect_within(organ.absorbed[1], leaves[leaf].nir, replicates, 1e-3, name + " absorbed NIR");
+    expect_within(organ.direct[0], leaves[leaf].first_hit, usual_replicates, 1e-3, name + " first hit");
+    expect_within(organ.absorbed[0], leaves[leaf].par, usual_replicates, 1e-3, name + " absorbed PAR");
+    expect_within(organ.absorbed[1], leaves[leaf].nir, usual_replicates, 1e-3, name + " absorbed NIR");
   }
   for (const BandResult& band : result.bands) EXPECT_EQ(band.ledger.residual(), 0) << band.name;
   EXPECT_EQ(result.lost_rays, 0U);
@@ -97,7 +95,7 @@ TEST(ExplicitScene, MaizeStandInParAndNir) {
     const std::array names = {"leaf", "stem", "soil", "reflected"};
     for (std::size_t k = 0; k < got.size(); ++k) {
       EXPECT_NEAR(got[k].value, references[k].value, band.tolerance) << name << ' ' << names[k];
-      expect_within(got[k], references[k], replicates, band.tolerance / 2.0, name + ' ' + names[k]);
+      expect_within(got[k], references[k], usual_replicates, band.tolerance / 2.0, name + ' ' + names[k]);
     }
     EXPECT_EQ(result.bands[b].ledger.residual(), 0);
   }

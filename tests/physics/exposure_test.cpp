@@ -8,15 +8,15 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 16;
+constexpr int exposure_replicates = 16;
 const Plot endless{1.0, 1.0, true};
 const Plot isolated{1.0, 1.0, false};
 
 // Upper 95 % limit of a Poisson mean when no event was seen.
 constexpr double unseen = 3.6888794541139363;
 
-RadiationResult run(const RadiationModel& model, double rays = 160'000.0) {
-  return simulate(model, fixed_work(model, rays, replicates));
+RadiationResult run_beam(const RadiationModel& model, double rays = 160'000.0) {
+  return simulate(model, fixed_work(model, rays, exposure_replicates));
 }
 
 void expect_none(const Estimate& estimate) {
@@ -36,10 +36,10 @@ RadiationModel edge_on_model(const Plot& plot) {
 
 TEST(EdgeOnLeaf, HasNoSunlitShareAndIsLeftOutOfTheTotals) {
   for (const Plot& plot : {endless, isolated}) {
-    const RadiationResult result = run(edge_on_model(plot));
-    expect_agrees(result.organs[0].sunlit_fraction, 1.0, replicates, 0.01, 2, "level leaf");
+    const RadiationResult result = run_beam(edge_on_model(plot));
+    expect_agrees(result.organs[0].sunlit_fraction, 1.0, exposure_replicates, 0.01, 2, "level leaf");
     expect_none(result.organs[1].sunlit_fraction);
-    expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 2, "all leaves");
+    expect_agrees(result.sunlit_leaf_fraction, 1.0, exposure_replicates, 0.01, 2, "all leaves");
     EXPECT_NEAR(result.leaf_area_index, 0.16 + 0.24, 1e-6);
     // This one of the 20 layers up to 0.8 m holds only the standing leaf.
     expect_none(result.layers[5].sunlit_leaf_fraction);
@@ -53,13 +53,13 @@ TEST(CopiedLeaf, HasNoSunlitShareAndItsOriginalTakesAllLight) {
     maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
   }
   const RadiationModel model = black_model(maker.mesh(), endless, beijing_sun());
-  const RadiationResult result = run(model);
-  expect_agrees(result.organs[0].sunlit_fraction, 1.0, replicates, 0.01, 3, "first leaf");
-  expect_agrees(share_of_beam(model, result, 0), 0.16, replicates, 1e-3, 3, "flux on the first leaf");
+  const RadiationResult result = run_beam(model);
+  expect_agrees(result.organs[0].sunlit_fraction, 1.0, exposure_replicates, 0.01, 3, "first leaf");
+  expect_agrees(share_of_beam(model, result, 0), 0.16, exposure_replicates, 1e-3, 3, "flux on the first leaf");
   expect_none(result.organs[1].sunlit_fraction);
   EXPECT_EQ(result.organs[1].absorbed[0].value, 0.0);
   EXPECT_EQ(result.organs[1].absorbed[0].half_width, 0.0) << "that nothing reaches it is known";
-  expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 3, "all leaves");
+  expect_agrees(result.sunlit_leaf_fraction, 1.0, exposure_replicates, 0.01, 3, "all leaves");
 }
 
 TEST(BuriedLeaf, HasNoSunlitShare) {
@@ -69,9 +69,9 @@ TEST(BuriedLeaf, HasNoSunlitShare) {
     maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
     maker.organ("leaf", 1, 2);
     maker.level(0.4, 0.6, 0.4, 0.6, -0.1);
-    const RadiationResult result = run(black_model(maker.mesh(), plot, beijing_sun()));
+    const RadiationResult result = run_beam(black_model(maker.mesh(), plot, beijing_sun()));
     expect_none(result.organs[1].sunlit_fraction);
-    expect_agrees(result.sunlit_leaf_fraction, 1.0, replicates, 0.01, 1, "all leaves");
+    expect_agrees(result.sunlit_leaf_fraction, 1.0, exposure_replicates, 0.01, 1, "all leaves");
   }
 }
 
@@ -79,8 +79,8 @@ TEST(BuriedLeaf, HasNoSunlitShare) {
 TEST(BuriedLeaf, IsLitBesideThePlot) {
   MeshMaker maker;
   maker.level(1.1, 1.3, 0.4, 0.6, -0.05);
-  const RadiationResult result = run(black_model(maker.mesh(), isolated, sun_at(90.0, 0.0)));
-  expect_agrees(result.organs[0].sunlit_fraction, 1.0, replicates, 0.01, 1, "leaf beside the plot");
+  const RadiationResult result = run_beam(black_model(maker.mesh(), isolated, sun_at(90.0, 0.0)));
+  expect_agrees(result.organs[0].sunlit_fraction, 1.0, exposure_replicates, 0.01, 1, "leaf beside the plot");
 }
 
 TEST(ShareWithoutABeam, IsNone) {
@@ -88,7 +88,7 @@ TEST(ShareWithoutABeam, IsNone) {
   model.bands[0].direct_w_m2 = 0.0;
   model.bands[0].diffuse_w_m2 = 1.0;
   model.sky = SkyModel{};
-  const RadiationResult result = run(model, 16'000.0);
+  const RadiationResult result = run_beam(model, 16'000.0);
   for (const OrganResult& organ : result.organs) expect_none(organ.sunlit_fraction);
   expect_none(result.sunlit_leaf_fraction);
   expect_none(result.ground_sunfleck_ratio);
@@ -109,7 +109,7 @@ class FullShade : public ::testing::Test {
 };
 
 TEST_F(FullShade, HasTheIntervalThatTheRaysAllow) {
-  const RadiationResult result = run(model());
+  const RadiationResult result = run_beam(model());
   const auto rays = static_cast<double>(result.direct.rays);
   const OrganResult& leaf = result.organs[1];
   EXPECT_EQ(leaf.sunlit_fraction.value, 0.0);
@@ -132,19 +132,19 @@ TEST_F(FullShade, IsCertainWhereNothingCouldBeOtherwise) {
   RadiationModel open = model();
   open.canopy = {};
   open.canopy.period_m = {1.0, 1.0};
-  const RadiationResult result = run(open, 16'000.0);
+  const RadiationResult result = run_beam(open, 16'000.0);
   EXPECT_EQ(result.ground_sunfleck_ratio.value, 1.0);
   EXPECT_EQ(result.ground_sunfleck_ratio.half_width, 0.0);
   EXPECT_EQ(result.bands[0].absorbed_vegetation.half_width, 0.0);
   EXPECT_EQ(result.bands[0].reflected.half_width, 0.0);  // because the soil is black
-  const RadiationResult below = run(model(), 16'000.0);
+  const RadiationResult below = run_beam(model(), 16'000.0);
   EXPECT_EQ(below.layers.back().sunfleck_ratio.value, 1.0);
   EXPECT_EQ(below.layers.back().sunfleck_ratio.half_width, 0.0);
 }
 
 // Uses so few rays that any share is compatible with none of them landing on the leaf.
 TEST_F(FullShade, IsUnknownWhereTooFewRaysCouldTell) {
-  const RadiationResult result = run(model(), 64.0);  // 2.6 rays would land on the leaf in full sun
+  const RadiationResult result = run_beam(model(), 64.0);  // 2.6 rays would land on the leaf in full sun
   expect_none(result.organs[1].sunlit_fraction);
 }
 

@@ -12,8 +12,6 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-
 // Largest share that may escape: light that leaves a point within the offset of a wall (2^-17 of the extent, 8 um) can slip out
 // beside it.
 constexpr double escaping = 1e-5;
@@ -21,12 +19,12 @@ constexpr double escaping = 1e-5;
 TEST(Furnace, EveryWallSeesTheSame) {
   for (const bool furnished : {false, true}) {
     const RadiationModel model = furnace(furnished ? furnished_box(4) : empty_box(4));
-    SolveSettings settings = fixed_packets(model, 8192, replicates);
+    SolveSettings settings = fixed_packets(model, 8192, usual_replicates);
     settings.element_errors = ElementErrors::keep;
     const RadiationResult result = simulate_soundly(model, settings);
     std::printf("%s: %.1f million packets, %.1f s\n", furnished ? "with leaves" : "empty",
                 static_cast<double>(result.indirect.packets) * 1e-6, result.indirect.seconds);
-    ZScores scores(replicates);
+    ZScores scores(usual_replicates);
     for (std::size_t b = 0; b < furnace_reflectances.size(); ++b) {
       const FluxLedger& ledger = result.bands[b].ledger;
       EXPECT_LE(static_cast<double>(ledger.reflected + ledger.transmitted), escaping * static_cast<double>(ledger.incident));
@@ -34,7 +32,7 @@ TEST(Furnace, EveryWallSeesTheSame) {
         EXPECT_NEAR(result.organs[box_walls].absorbed[b].value, 0.0, 1e-12);
       }
       for (std::size_t o = 0; o < box_walls; ++o) {
-        expect_agrees(result.organs[o].absorbed[b], 1.0, replicates, 0.003, 2 * box_walls * furnace_reflectances.size(),
+        expect_agrees(result.organs[o].absorbed[b], 1.0, usual_replicates, 0.003, 2 * box_walls * furnace_reflectances.size(),
                       fmt::format("rho {}, wall {}", furnace_reflectances[b], o).c_str());
       }
       for (std::size_t e = 0; e < model.canopy.size(); ++e) {
@@ -54,8 +52,8 @@ TEST(Furnace, BothSidesOfALeafSeeWhatTheWallsSee) {
   const RadiationModel model = furnace(furnished_box(1));
   std::vector<std::uint32_t> group_of(model.canopy.size());
   for (std::uint32_t e = 0; e < group_of.size(); ++e) group_of[e] = e;
-  const SideIrradiance got(model, group_of, 16384, replicates, 500);
-  ZScores scores(replicates);
+  const SideIrradiance got(model, group_of, 16384, usual_replicates, 500);
+  ZScores scores(usual_replicates);
   std::size_t first_leaf = 0;
   while (model.canopy.organ_of[first_leaf] < box_walls) ++first_leaf;
   const std::size_t comparisons = 2 * (group_of.size() - first_leaf) * furnace_reflectances.size();
@@ -63,7 +61,7 @@ TEST(Furnace, BothSidesOfALeafSeeWhatTheWallsSee) {
     for (std::size_t b = 0; b < furnace_reflectances.size(); ++b) {
       for (const std::size_t side : {0U, 1U}) {
         const Estimate share = got.of(e, side, b).scaled(1.0 - furnace_reflectances[b]);
-        expect_agrees(share, 1.0, replicates, 0.03, comparisons, side == 0 ? "upper side" : "lower side");
+        expect_agrees(share, 1.0, usual_replicates, 0.03, comparisons, side == 0 ? "upper side" : "lower side");
         scores.add(share, 1.0, "leaf side");
       }
     }
@@ -120,7 +118,7 @@ TEST(Furnace, IntegratingSphere) {
   }
   for (const Triangle& corners : model.canopy.corners) sphere_m2 += area_m2(corners);
   model.optics[0].emission_w_m2.assign(walls_reflect.size(), 1.0);
-  const RadiationResult result = simulate_soundly(model, fixed_packets(model, 65536, replicates));
+  const RadiationResult result = simulate_soundly(model, fixed_packets(model, 65536, usual_replicates));
   std::printf("%.1f million packets, %.1f s\n", static_cast<double>(result.indirect.packets) * 1e-6, result.indirect.seconds);
   double largest = 0.0;
   for (std::size_t b = 0; b < walls_reflect.size(); ++b) {
@@ -129,14 +127,14 @@ TEST(Furnace, IntegratingSphere) {
               escaping * static_cast<double>(result.bands[b].ledger.incident));
     for (const OrganResult& face : result.organs) {
       const Estimate got = face.indirect[b].scaled(1.0 / irradiance);
-      const double error = standard_error(got, replicates);
+      const double error = standard_error(got, usual_replicates);
       EXPECT_LE(error, 0.0015);
-      EXPECT_LE(std::abs(got.value - 1.0), 0.003 + table_quantile(40, replicates) * error);
+      EXPECT_LE(std::abs(got.value - 1.0), 0.003 + table_quantile(40, usual_replicates) * error);
       largest = std::max(largest, std::abs(got.value - 1.0));
     }
     std::printf("reflectance %.1f: glowing face %.5f of the even light, error %.1e\n", walls_reflect[b],
                 result.organs[0].indirect[b].value / irradiance,
-                standard_error(result.organs[0].indirect[b], replicates) / irradiance);
+                standard_error(result.organs[0].indirect[b], usual_replicates) / irradiance);
   }
   std::printf("largest deviation of a face: %.5f\n", largest);
 }
@@ -144,7 +142,7 @@ TEST(Furnace, IntegratingSphere) {
 TEST(Furnace, HemisphericalBowl) {
   constexpr std::array inside = {0.2, 0.5, 0.8};
   constexpr std::size_t comparisons = 4 * inside.size();
-  ZScores scores(replicates);
+  ZScores scores(usual_replicates);
   for (const double elevation : {90.0, 60.0, 35.0, 15.0}) {
     const Bowl bowl = bowl_under(sun_at(elevation, 40.0), 128, inside);
     const RadiationModel& model = bowl.model;
@@ -152,11 +150,11 @@ TEST(Furnace, HemisphericalBowl) {
       ASSERT_GT(glm::dot(unit_normal(corners), glm::dvec3(0.5, 0.6, 0.5) - model.canopy.origin_m - glm::dvec3(corners[0])),
                 0.0);
     }
-    const RadiationResult result = simulate_soundly(model, fixed_packets(model, 16384, replicates, 77));
+    const RadiationResult result = simulate_soundly(model, fixed_packets(model, 16384, usual_replicates, 77));
     for (std::size_t b = 0; b < inside.size(); ++b) {
       const double escaping_share = bowl.escaping_share(inside[b]);
       const Estimate got = result.bands[b].reflected.scaled(model.plot.area_m2() / bowl.opening_m2);
-      expect_agrees(got, escaping_share, replicates, 1e-3, comparisons,
+      expect_agrees(got, escaping_share, usual_replicates, 1e-3, comparisons,
                     fmt::format("beam at {}, rho {}, facets' part {:+.1e}", elevation, inside[b],
                                 escaping_share - inside[b] * 0.5 / (1.0 - inside[b] * 0.5))
                         .c_str());

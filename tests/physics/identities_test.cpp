@@ -12,17 +12,15 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-constexpr double rays = 1e6;
-const Plot& plot = stand_plot;
+constexpr double identity_rays = 1e6;
 
 // The sunlit areas, seen along the beam, and the sunlit soil fill the plot.
 TEST(Identities, SunlitAreasFillThePlot) {
   for (const double elevation : {90.0, 53.0176, 15.0}) {
-    const RadiationModel model = black_model(leafy_stand(), plot, sun_at(elevation, 120.569));
-    const RadiationResult result = simulate(model, fixed_work(model, rays, replicates));
+    const RadiationModel model = black_model(leafy_stand(), stand_plot, sun_at(elevation, 120.569));
+    const RadiationResult result = simulate(model, fixed_work(model, identity_rays, usual_replicates));
     const glm::dvec3 to_sun = direction_to_sun(*model.sun);
-    double filled_m2 = result.bands[0].absorbed_soil.value * plot.area_m2();
+    double filled_m2 = result.bands[0].absorbed_soil.value * stand_plot.area_m2();
     double landed_m2 = 0.0;
     // Each leaf is flat, so both of its triangles have its normal.
     for (std::size_t e = 0; e < model.canopy.size(); ++e) {
@@ -34,9 +32,9 @@ TEST(Identities, SunlitAreasFillThePlot) {
                    std::abs(glm::dot(unit_normal(model.canopy.corners[e]), to_sun)) / to_sun.y;
     }
     for (const std::uint64_t cell : result.soil_cells) landed_m2 += static_cast<double>(cell) * result.ground_per_ray_m2;
-    EXPECT_NEAR(filled_m2, plot.area_m2(), 1e-5 * plot.area_m2());
-    EXPECT_NEAR(landed_m2, plot.area_m2(), 1e-6 * plot.area_m2());
-    EXPECT_LE(standard_error(result.bands[0].absorbed_soil, replicates), 2e-4);
+    EXPECT_NEAR(filled_m2, stand_plot.area_m2(), 1e-5 * stand_plot.area_m2());
+    EXPECT_NEAR(landed_m2, stand_plot.area_m2(), 1e-6 * stand_plot.area_m2());
+    EXPECT_LE(standard_error(result.bands[0].absorbed_soil, usual_replicates), 2e-4);
   }
 }
 
@@ -79,7 +77,7 @@ void expect_closed(const RadiationModel& model, const RadiationResult& result) {
 TEST(Identities, LedgerClosesInEveryBand) {
   for (const bool periodic : {true, false}) {
     for (const bool has_soil : {true, false}) {
-      RadiationModel model = black_model(leafy_stand(), {plot.size_x_m, plot.size_z_m, periodic}, beijing_sun());
+      RadiationModel model = black_model(leafy_stand(), {stand_plot.size_x_m, stand_plot.size_z_m, periodic}, beijing_sun());
       if (!has_soil) model.soil.reset();
       add_bands(model);
       expect_closed(model, simulate(model, fixed_work(model, 2e5, 8)));
@@ -89,12 +87,12 @@ TEST(Identities, LedgerClosesInEveryBand) {
 
 // The canopy absorbs the share of the landing light given by the absorptance: 0.82 times the organs' direct and indirect light.
 TEST(Identities, AbsorbedIsTheAbsorptanceOfWhatLands) {
-  RadiationModel model = black_model(leafy_stand(), plot, beijing_sun());
+  RadiationModel model = black_model(leafy_stand(), stand_plot, beijing_sun());
   add_bands(model);
   const RadiationResult result = simulate(model, fixed_work(model, 2e5, 8));
   double landed = 0.0;
   for (const OrganResult& organ : result.organs) {
-    landed += (organ.direct[1].value + organ.indirect[1].value) * organ.area_m2 / plot.area_m2();
+    landed += (organ.direct[1].value + organ.indirect[1].value) * organ.area_m2 / stand_plot.area_m2();
   }
   EXPECT_NEAR(result.bands[1].absorbed_vegetation.value, 0.82 * landed, 1e-9 * 350.0);
 }
@@ -106,57 +104,59 @@ TEST(Identities, IsolatedStandTakesWhatMeetsItOrItsPlot) {
   const auto corner = [](double x, double y) { return from_east_north_up(x - 1.0, y - 1.0, 0.8); };
   maker.quad(corner(0.3, 0.35), corner(0.7, 0.35), corner(0.7, 0.65), corner(0.3, 0.65));
   const RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, beijing_sun());
-  const RadiationResult result = simulate(model, fixed_work(model, 4e6, replicates));
+  const RadiationResult result = simulate(model, fixed_work(model, 4e6, usual_replicates));
   const double centre_x = 0.5 - 0.8 * 0.64840851;
   const double in_plot_m2 = (centre_x + 0.2) * 0.3;
   const double incident = 1.0 - in_plot_m2 + 0.12;
   const Estimate all{result.bands[0].incident,
                      result.bands[0].absorbed_soil.half_width + result.bands[0].absorbed_vegetation.half_width};
-  expect_agrees(all, incident, replicates, 5e-4, 3, "incident");
-  expect_agrees(result.bands[0].absorbed_vegetation, 0.12, replicates, 2e-4, 3, "plate");
-  expect_agrees(result.bands[0].absorbed_soil, 1.0 - in_plot_m2, replicates, 3e-4, 3, "soil");
+  expect_agrees(all, incident, usual_replicates, 5e-4, 3, "incident");
+  expect_agrees(result.bands[0].absorbed_vegetation, 0.12, usual_replicates, 2e-4, 3, "plate");
+  expect_agrees(result.bands[0].absorbed_soil, 1.0 - in_plot_m2, usual_replicates, 3e-4, 3, "soil");
 }
 
 void expect_same_aggregates(const RadiationModel& a, const RadiationModel& b, const char* what) {
-  const RadiationResult got_a = simulate(a, fixed_work(a, rays, replicates, 1));
-  const RadiationResult got_b = simulate(b, fixed_work(b, rays, replicates, 2));
+  const RadiationResult got_a = simulate(a, fixed_work(a, identity_rays, usual_replicates, 1));
+  const RadiationResult got_b = simulate(b, fixed_work(b, identity_rays, usual_replicates, 2));
   constexpr std::size_t comparisons = 20;
-  expect_same(got_a.bands[0].absorbed_vegetation, got_b.bands[0].absorbed_vegetation, replicates, 3e-4, comparisons, what);
-  expect_same(got_a.sunlit_leaf_fraction, got_b.sunlit_leaf_fraction, replicates, 3e-3, comparisons, what);
-  expect_same(got_a.ground_sunfleck_ratio, got_b.ground_sunfleck_ratio, replicates, 3e-4, comparisons, what);
+  expect_same(got_a.bands[0].absorbed_vegetation, got_b.bands[0].absorbed_vegetation, usual_replicates, 3e-4, comparisons,
+              what);
+  expect_same(got_a.sunlit_leaf_fraction, got_b.sunlit_leaf_fraction, usual_replicates, 3e-3, comparisons, what);
+  expect_same(got_a.ground_sunfleck_ratio, got_b.ground_sunfleck_ratio, usual_replicates, 3e-4, comparisons, what);
   EXPECT_NEAR(got_a.leaf_area_index, got_b.leaf_area_index, 1e-6);
 }
 
-RadiationModel placed_model(const Plot& ground, const SunPosition& sun, const std::vector<Placement>& placements) {
+RadiationModel placed_black_model(const Plot& ground, const SunPosition& sun, const std::vector<Placement>& placements) {
   RadiationModel model = black_model(leafy_stand(), ground, sun);
   place_stand(model, placements);
   return model;
 }
 
 TEST(Identities, ShiftOfTheStandChangesNothing) {
-  const RadiationModel model = black_model(leafy_stand(), plot, beijing_sun());
+  const RadiationModel model = black_model(leafy_stand(), stand_plot, beijing_sun());
   for (const glm::dvec3& shift_m : {glm::dvec3(0.37, 0.0, 1.21), glm::dvec3(-0.5, 0.0, 0.75)}) {
-    expect_same_aggregates(model, placed_model(plot, beijing_sun(), {{shift_m, 0.0}}), "shifted");
+    expect_same_aggregates(model, placed_black_model(stand_plot, beijing_sun(), {{shift_m, 0.0}}), "shifted");
   }
 }
 
 TEST(Identities, TurnOfStandAndSunChangesNothing) {
   const SunPosition sun = beijing_sun();
-  const RadiationModel model = black_model(leafy_stand(), plot, sun);
+  const RadiationModel model = black_model(leafy_stand(), stand_plot, sun);
   const SunPosition turned_sun{sun.elevation_rad, sun.azimuth_rad + radians(90.0)};
-  const Plot turned_plot{plot.size_z_m, plot.size_x_m, true};
-  expect_same_aggregates(model, placed_model(turned_plot, turned_sun, {{glm::dvec3(0.0), radians(90.0)}}), "turned");
+  const Plot turned_plot{stand_plot.size_z_m, stand_plot.size_x_m, true};
+  expect_same_aggregates(model, placed_black_model(turned_plot, turned_sun, {{glm::dvec3(0.0), radians(90.0)}}), "turned");
 }
 
 TEST(Identities, PlotOfFourCopiesChangesNothing) {
-  const RadiationModel model = black_model(leafy_stand(), plot, beijing_sun());
-  expect_same_aggregates(model, placed_model({2 * plot.size_x_m, 2 * plot.size_z_m, true}, beijing_sun(), four_copies()),
-                         "four copies");
+  const RadiationModel model = black_model(leafy_stand(), stand_plot, beijing_sun());
+  expect_same_aggregates(
+      model, placed_black_model({2 * stand_plot.size_x_m, 2 * stand_plot.size_z_m, true}, beijing_sun(), four_copies()),
+      "four copies");
 }
 
 TEST(Identities, TrianglesCutInFourChangeNothing) {
-  expect_same_aggregates(black_model(leafy_stand(), plot, beijing_sun()),
-                         black_model(cut_in_four(leafy_stand()), plot, beijing_sun()), "cut in four");
+  expect_same_aggregates(black_model(leafy_stand(), stand_plot, beijing_sun()),
+                         black_model(cut_in_four(leafy_stand()), stand_plot, beijing_sun()), "cut in four");
 }
 
 // Changes one counter of the last replicate by one.

@@ -14,9 +14,6 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-const Plot plot{1.0, 1.0, true};
-
 constexpr double ask = 1e-4;
 
 // Compares fluxes within the errors that the run reports.
@@ -25,15 +22,16 @@ TEST(Plates, FluxesOfOneAndTwoPlates) {
   constexpr std::size_t comparisons = 21;
   for (const std::size_t count : {1U, 2U}) {
     const RadiationModel model = plates_over_soil(count, bands);
-    const RadiationResult result = simulate_soundly(model, fixed_packets(model, 2048, replicates));
+    const RadiationResult result = simulate_soundly(model, fixed_packets(model, 2048, usual_replicates));
     for (std::size_t b = 0; b < bands.size(); ++b) {
       const PlateLight exact = light_on_plates(count, bands[b]);
       const std::string what = fmt::format("{} plates, rho {}", count, bands[b].top.reflectance);
-      expect_agrees(result.bands[b].reflected, exact.reflected, replicates, ask, comparisons, (what + ": reflected").c_str());
-      expect_agrees(result.bands[b].absorbed_soil, (1.0 - bands[b].soil_reflectance) * exact.on_soil, replicates, ask,
+      expect_agrees(result.bands[b].reflected, exact.reflected, usual_replicates, ask, comparisons,
+                    (what + ": reflected").c_str());
+      expect_agrees(result.bands[b].absorbed_soil, (1.0 - bands[b].soil_reflectance) * exact.on_soil, usual_replicates, ask,
                     comparisons, (what + ": soil").c_str());
       for (std::size_t k = 0; k < exact.down.size(); ++k) {
-        expect_agrees(result.organs[k].absorbed[b], absorbed_by_plate(exact, bands[b], k), replicates, ask, comparisons,
+        expect_agrees(result.organs[k].absorbed[b], absorbed_by_plate(exact, bands[b], k), usual_replicates, ask, comparisons,
                       fmt::format("{}: plate {}", what, k + 1).c_str());
       }
     }
@@ -44,14 +42,14 @@ TEST(Plates, FluxesOfOneAndTwoPlates) {
 // same information: one flux of a plate and soil, and three of two plates and soil, count as independent.
 TEST(Plates, ReportedErrorsAreTrue) {
   const std::vector<PlateStack> bands = {par_plates, nir_plates};
-  ZScores scores(replicates);
+  ZScores scores(usual_replicates);
   for (const std::size_t count : {1U, 2U}) {
     const RadiationModel model = plates_over_soil(count, bands);
     const Prepared prepared(model);
     const PlateLight exact_par = light_on_plates(count, par_plates);
     const PlateLight exact_nir = light_on_plates(count, nir_plates);
     for (std::uint64_t seed = 1; seed <= 32; ++seed) {
-      const RadiationResult result = simulate(model, prepared, fixed_packets(model, 512, replicates, 100 * seed));
+      const RadiationResult result = simulate(model, prepared, fixed_packets(model, 512, usual_replicates, 100 * seed));
       expect_sound(model, result);
       scores.add(result.bands[1].reflected, exact_nir.reflected, "NIR reflected");
       if (count == 1) continue;
@@ -69,15 +67,15 @@ TEST(Plates, LightOnBothSides) {
     const std::size_t top = face == SkyFace::upper ? 0 : 1;
     for (const std::size_t count : {1U, 2U}) {
       const RadiationModel model = plates_over_soil(count, bands, face);
-      const SideIrradiance got(model, model.canopy.organ_of, 4096, replicates, 1000);
+      const SideIrradiance got(model, model.canopy.organ_of, 4096, usual_replicates, 1000);
       for (std::size_t b = 0; b < bands.size(); ++b) {
         const PlateLight exact = light_on_plates(count, bands[b]);
         for (std::size_t k = 0; k < exact.down.size(); ++k) {
           const std::string what = fmt::format("{} plates, rho {}, plate {}", count, bands[b].top.reflectance, k + 1);
-          expect_agrees(got.of(k, top, b), exact.down[k], replicates, ask, 60, (what + ": D").c_str());
-          expect_agrees(got.of(k, 1 - top, b), exact.up[k], replicates, ask, 60, (what + ": U").c_str());
+          expect_agrees(got.of(k, top, b), exact.down[k], usual_replicates, ask, 60, (what + ": D").c_str());
+          expect_agrees(got.of(k, 1 - top, b), exact.up[k], usual_replicates, ask, 60, (what + ": U").c_str());
         }
-        expect_agrees(got.of_soil(b), exact.on_soil, replicates, ask, 60, "  on soil");
+        expect_agrees(got.of_soil(b), exact.on_soil, usual_replicates, ask, 60, "  on soil");
       }
     }
   }
@@ -107,12 +105,12 @@ TEST(Plates, FewPacketsAreUnbiased) {
 
 // The leaves have rho + tau = 1 and stand over white soil: everything comes back out.
 TEST(Plates, NothingIsAbsorbedWhereNothingAbsorbs) {
-  RadiationModel model = black_model(random_leaves(60, 0.02, plot, 1.0, 7), plot, beijing_sun());
+  RadiationModel model = black_model(random_leaves(60, 0.02, unit_plot, 1.0, 7), unit_plot, beijing_sun());
   const std::vector<FaceOptics> faces = {{0.5, 0.5}, {0.7, 0.3}, {1.0, 0.0}, {0.0, 1.0}, {0.1, 0.9}};
   set_bands(model, faces.size());
   for (std::size_t o = 0; o < model.optics.size(); ++o) set_faces(model, o, faces);
   model.soil->reflectance.assign(faces.size(), 1.0);
-  const RadiationResult result = simulate_soundly(model, fixed_packets(model, 4096, replicates));
+  const RadiationResult result = simulate_soundly(model, fixed_packets(model, 4096, usual_replicates));
   for (const BandResult& band : result.bands) {
     EXPECT_EQ(band.ledger.absorbed_vegetation, 0) << band.name;
     EXPECT_EQ(band.ledger.absorbed_soil, 0) << band.name;
@@ -123,7 +121,7 @@ TEST(Plates, NothingIsAbsorbedWhereNothingAbsorbs) {
 
 RadiationModel twenty_bands(bool periodic) {
   constexpr std::size_t count = 20;
-  RadiationModel model = black_model(random_leaves(60, 0.02, plot, 1.0, 7), {1.0, 1.0, periodic}, beijing_sun());
+  RadiationModel model = black_model(random_leaves(60, 0.02, unit_plot, 1.0, 7), {1.0, 1.0, periodic}, beijing_sun());
   model.optics.push_back({"lamp", {}, {}, {}});
   model.canopy.optics_names.emplace_back("lamp");
   model.canopy.optics_of[10] = model.canopy.optics_of[11] = static_cast<std::uint16_t>(model.optics.size() - 1);

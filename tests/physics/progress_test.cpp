@@ -10,11 +10,9 @@
 namespace sunfleck::test {
 namespace {
 
-const Plot plot{1.0, 1.0, true};
-
 // Returns leaves that scatter, under beam and sky; the bounds of the tests differ in how hard they are to reach.
-RadiationModel leafy_model() {
-  RadiationModel model = black_model(random_leaves(60, 0.01, plot, 1.0, 7), plot, beijing_sun());
+RadiationModel scattering_leaves() {
+  RadiationModel model = black_model(random_leaves(60, 0.01, unit_plot, 1.0, 7), unit_plot, beijing_sun());
   for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = {{0.45, 0.45}};
   model.soil->reflectance = {0.3};
   model.bands[0].diffuse_w_m2 = 0.5;
@@ -62,7 +60,7 @@ TEST(Progress, OfARunToItsBoundsNeverGoesBack) {
     settings.accuracy.direct = 0.004;
     settings.accuracy.indirect = 0.01;
     settings.seed = seed;
-    const Told told = told_by(leafy_model(), settings);
+    const Told told = told_by(scattering_leaves(), settings);
     ASSERT_EQ(told.result.stop, StopReason::bound_reached);
     EXPECT_EQ(told.news.front().stage, Progress::Stage::pilot);
     expect_one_way(told.news);
@@ -75,7 +73,7 @@ TEST(Progress, OfARunThatTakesFarLongerThanPlannedNeverGoesBack) {
   settings.accuracy.direct = 0.004;
   settings.accuracy.indirect = 0.006;
   settings.begin_with = Work{16384.0, 4096.0};
-  const Told told = told_by(leafy_model(), settings);
+  const Told told = told_by(scattering_leaves(), settings);
   ASSERT_EQ(told.result.stop, StopReason::bound_reached);
   ASSERT_GE(told.result.direct.replicates, 40U);
   expect_one_way(told.news);
@@ -85,9 +83,9 @@ TEST(Progress, OfARunThatTakesFarLongerThanPlannedNeverGoesBack) {
 }
 
 TEST(Progress, OfFixedWorkIsTheShareOfItsReplicates) {
-  SolveSettings settings = fixed_work(leafy_model(), 40'000.0, 8);
+  SolveSettings settings = fixed_work(scattering_leaves(), 40'000.0, 8);
   settings.packets = 1000.0;
-  const Told told = told_by(leafy_model(), settings);
+  const Told told = told_by(scattering_leaves(), settings);
   ASSERT_EQ(told.news.size(), 8U);
   for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(told.news[k].fraction, static_cast<double>(k + 1) / 8.0, 1e-12);
 }
@@ -96,7 +94,7 @@ TEST(Progress, OfARunThatRaysWillStopEndsThere) {
   SolveSettings settings;
   settings.accuracy.indirect = 1e-6;
   settings.max_rays = 3'000'000;
-  const Told told = told_by(leafy_model(), settings);
+  const Told told = told_by(scattering_leaves(), settings);
   ASSERT_EQ(told.result.stop, StopReason::rays_spent);
   EXPECT_GT(told.news.back().fraction, 0.8);
   EXPECT_LE(told.news.back().fraction, 1.0);
@@ -104,7 +102,7 @@ TEST(Progress, OfARunThatRaysWillStopEndsThere) {
 
 // The progress names the pass that lags, with its error; the result names the figure that was judged.
 TEST(Progress, NamesThePassThatLagsAndTheFigure) {
-  RadiationModel model = leafy_model();
+  RadiationModel model = scattering_leaves();
   SolveSettings settings;
   settings.accuracy.direct = 0.5;
   settings.accuracy.indirect = 0.01;

@@ -12,12 +12,9 @@
 namespace sunfleck::test {
 namespace {
 
-const Plot plot{1.0, 1.0, true};
-const glm::dvec3 up{0, 1, 0}, down{0, -1, 0};
-
 // Returns random leaves under sun and a clear sky, in PAR and NIR.
 RadiationModel leaves_in_the_open() {
-  RadiationModel model = paper_model(random_leaves(80, 0.03, plot, 1.0, 11), plot, beijing_sun());
+  RadiationModel model = paper_model(random_leaves(80, 0.03, unit_plot, 1.0, 11), unit_plot, beijing_sun());
   model.sky = SkyModel{SkyKind::general, 12, 0.0, 0.0, {}};
   for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.5;
   model.layers = 4;
@@ -28,7 +25,7 @@ RadiationModel leaves_in_the_open() {
 struct Readings {
   ReplicateMean direct, sky, indirect;  // indirect: sky and scattered light
 };
-std::vector<Readings> read(const RadiationModel& model, const Prepared& prepared, std::uint64_t seed) {
+std::vector<Readings> mean_readings(const RadiationModel& model, const Prepared& prepared, std::uint64_t seed) {
   CpuTracer tracer(prepared.bvh, tracer_scene(model));
   const auto got = measure_sensors(model, prepared.layout, tracer, {64, 8, seed, 0.95}, {});
   std::vector<Readings> readings(model.bands.size());
@@ -61,7 +58,7 @@ TEST(SensorsForward, ReadTheProfile) {
   constexpr int across = 20;
   for (std::size_t layer = 0; layer < 4; ++layer) {
     const LayerResult& plane = forward.layers[layer];
-    for (const glm::dvec3& normal : {up, down}) {
+    for (const glm::dvec3& normal : {glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
       // Just above the soil each point would see a single point of it.
       if (layer == 0 && normal.y < 0.0) continue;
       Sensor grid{"", {}, SensorResponse::cosine, normal};
@@ -73,7 +70,7 @@ TEST(SensorsForward, ReadTheProfile) {
       }
       model.sensors = {grid};
       const bool downward = normal.y > 0.0;
-      const std::vector<Readings> readings = read(model, prepared, layer + 1);
+      const std::vector<Readings> readings = mean_readings(model, prepared, layer + 1);
       for (std::size_t b = 0; b < model.bands.size(); ++b) {
         const std::string what = fmt::format("{:.2f} m, {}, band {}", plane.height_m, downward ? "down" : "up", b);
         Estimate indirect = downward ? plane.down[b] : plane.up[b];
@@ -129,7 +126,7 @@ TEST(SensorsForward, OnALeafReadWhatItReceives) {
   for (std::size_t l = 0; l < leaves.size(); ++l) {
     for (std::size_t side = 0; side < 2; ++side) {
       model.sensors = sensors_on(model.canopy, leaves[l], side, 150, random);
-      const Readings readings = read(model, prepared, 10 * l + side)[nir];
+      const Readings readings = mean_readings(model, prepared, 10 * l + side)[nir];
       const std::string what = fmt::format("leaf {}, side {}", leaves[l], side);
       expect_equal(readings.sky, estimate_of(sky[l][side]), runs, 12, 0.005, what + ", sky");
       expect_equal(readings.indirect, estimate_of(indirect[l][side]), runs, 12, 0.01, what + ", indirect");

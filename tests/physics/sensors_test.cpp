@@ -14,12 +14,11 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 16;
-const Plot plot{1.0, 1.0, true};
+constexpr int sensor_replicates = 16;
 const glm::dvec3 up{0, 1, 0}, down{0, -1, 0};
 
 SensorSettings settings_of(std::uint32_t rays, std::uint64_t seed = 1) {
-  return {rays, replicates, seed, 0.95};
+  return {rays, sensor_replicates, seed, 0.95};
 }
 
 Sensor cosine_sensor(const glm::dvec3& point_m, const glm::dvec3& normal) {
@@ -46,7 +45,7 @@ void give_sky(RadiationModel& model, double diffuse_w_m2, const SkyModel& sky = 
 }
 
 RadiationModel bare_ground(double soil_reflectance) {
-  RadiationModel model = black_model(MeshMaker().mesh(), plot, beijing_sun());
+  RadiationModel model = black_model(MeshMaker().mesh(), unit_plot, beijing_sun());
   model.soil->reflectance = {soil_reflectance};
   return model;
 }
@@ -61,12 +60,12 @@ void expect_exactly(const Estimate& got, double expected, const char* what) {
 void expect_agreed(const Estimate& got, double expected, double largest, const char* what) {
   EXPECT_NEAR(got.value, expected, 1e-12 * (1.0 + expected)) << what;
   EXPECT_GT(got.half_width, 0.0) << what;
-  EXPECT_LE(got.half_width, unseen_events(0.95) * largest / replicates * (1.0 + 1e-9)) << what;
+  EXPECT_LE(got.half_width, unseen_events(0.95) * largest / sensor_replicates * (1.0 + 1e-9)) << what;
 }
 
 TEST(Sensors, AboveABlackCanopyTheyReadWhatComesIn) {
   for (const bool periodic : {true, false}) {
-    RadiationModel model = black_model(random_leaves(60, 0.02, plot, 1.0, 3), {1.0, 1.0, periodic}, beijing_sun());
+    RadiationModel model = black_model(random_leaves(60, 0.02, unit_plot, 1.0, 3), {1.0, 1.0, periodic}, beijing_sun());
     give_sky(model, 0.7, {SkyKind::general, 12, 0.0, 0.0, {}});
     const glm::dvec3 to_sun = direction_to_sun(beijing_sun()), away = -to_sun;
     model.sensors = {cosine_sensor({0.4, 1.5, 0.3}, up), cosine_sensor({0.4, 1.5, 0.3}, to_sun), sphere({0.4, 1.5, 0.3}),
@@ -88,7 +87,7 @@ TEST(Sensors, AboveABlackCanopyTheyReadWhatComesIn) {
 TEST(Sensors, UnderAPlateThatCoversAllTheyReadNothing) {
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
-  RadiationModel model = black_model(maker.mesh(), plot, beijing_sun());
+  RadiationModel model = black_model(maker.mesh(), unit_plot, beijing_sun());
   give_sky(model, 1.0);
   model.soil->reflectance = {0.5};
   model.sensors = {cosine_sensor({0.3, 0.2, 0.3}, up), sphere({0.3, 0.2, 0.3}), cosine_sensor({0.3, 0.2, 0.3}, down)};
@@ -130,11 +129,11 @@ TEST(Sensors, UprightOnesReadTheTableOfSkies) {  // validation.md E1 to E4
     give_sky(model, 1.0, row.sky);
     const std::vector<SensorResult> got = read(model, settings_of(4096));
     for (std::size_t side = 0; side < 4; ++side) {
-      const double error = standard_error(got[side].sky[0], replicates);
+      const double error = standard_error(got[side].sky[0], sensor_replicates);
       EXPECT_LE(error, 3e-4);
       // Tolerates 1e-4 for the sky's cells and the table's last digit.
       EXPECT_NEAR(got[side].sky[0].value, row.north_east_south_west[side],
-                  table_quantile(4 * table.size(), replicates) * error + 1e-4)
+                  table_quantile(4 * table.size(), sensor_replicates) * error + 1e-4)
           << row.sky.cie_type << ' ' << side;
     }
   }
@@ -147,9 +146,9 @@ TEST(Sensors, SunlitSoilShinesBack) {
   model.sensors = {cosine_sensor({0.4, 0.7, 0.3}, down), cosine_sensor({0.4, 0.7, 0.3}, {0, 0, 1}), sphere({0.4, 0.7, 0.3}),
                    cosine_sensor({0.4, 0.7, 0.3}, up)};
   const std::vector<SensorResult> got = read(model, settings_of(4096));
-  expect_agrees(got[0].scattered[0], 0.45, replicates, 1e-3, 4, "facing down");
-  expect_agrees(got[1].scattered[0], 0.45 / 2.0, replicates, 1e-3, 4, "upright");
-  expect_agrees(got[2].scattered[0], 0.45 * 2.0, replicates, 2e-3, 4, "sphere");
+  expect_agrees(got[0].scattered[0], 0.45, sensor_replicates, 1e-3, 4, "facing down");
+  expect_agrees(got[1].scattered[0], 0.45 / 2.0, sensor_replicates, 1e-3, 4, "upright");
+  expect_agrees(got[2].scattered[0], 0.45 * 2.0, sensor_replicates, 2e-3, 4, "sphere");
   const double from_beam_w_m2 = 0.3 / std::sin(beijing_sun().elevation_rad);
   const double from_sky_w_m2 = 0.3 * 0.5 * Sky(*model.sky, *model.sun).spherical_irradiance();
   expect_agreed(got[3].scattered[0], 0.0, (from_beam_w_m2 + from_sky_w_m2) / 4096.0, "facing up");
@@ -167,7 +166,7 @@ TEST(Sensors, BareSoilPlaneEndsAtAnIsolatedPlot) {
   // height.
   const double x = 2.0, root = std::sqrt(1.0 + x * x);
   const double factor = 4.0 / (2.0 * std::numbers::pi) * 2.0 * (x / root * std::atan(x / root));
-  expect_agrees(read(model, settings_of(4096))[0].scattered[0], 0.4 * factor, replicates, 1e-3, 1, "ground seen");
+  expect_agrees(read(model, settings_of(4096))[0].scattered[0], 0.4 * factor, sensor_replicates, 1e-3, 1, "ground seen");
 }
 
 // A plate with two different faces lies over soil: light goes to and fro below it.
@@ -180,7 +179,7 @@ TEST(Sensors, AboveAndBelowAPlate) {
       {{0.12, 0.06}, {0.12, 0.06}, 0.15}, {{0.45, 0.45}, {0.45, 0.45}, 0.20}, {{0.3, 0.1}, {0.05, 0.55}, 0.4}};
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
-  RadiationModel model = black_model(maker.mesh(), plot, beijing_sun());
+  RadiationModel model = black_model(maker.mesh(), unit_plot, beijing_sun());
   set_bands(model, cases.size());
   for (std::size_t b = 0; b < cases.size(); ++b) {
     model.optics[0].upper[b] = cases[b].top;
@@ -198,7 +197,7 @@ TEST(Sensors, AboveAndBelowAPlate) {
       const double below = (1.0 + diffuse) * top.transmittance / (1.0 - soil * bottom.reflectance);
       const double back = (1.0 + diffuse) * top.reflectance + soil * below * bottom.transmittance;
       const auto agrees = [&](std::size_t sensor, double expected, const char* what) {
-        expect_agrees(got[sensor].scattered[b], expected, replicates, 3e-3, 30, what);
+        expect_agrees(got[sensor].scattered[b], expected, sensor_replicates, 3e-3, 30, what);
         expect_exactly(got[sensor].direct[b], 0.0, what);
       };
       agrees(0, below, "below the plate, facing up");
@@ -228,8 +227,8 @@ TEST(Sensors, ASquareHidesItsViewFactorOfTheSkyAndALampFillsIt) {
                    cosine_sensor({0.5, 0.8, 0.5}, up)};
   const std::vector<SensorResult> got = read(model, settings_of(8192));
   const double factor = rectangle_factor(0.4, 0.3, 0.2);
-  expect_agrees(got[0].sky[0], 2.0 * (1.0 - factor), replicates, 1e-3, 2, "sky beside the square");
-  expect_agrees(got[0].scattered[0], 10.0 * factor, replicates, 1e-2, 2, "lamp overhead");
+  expect_agrees(got[0].sky[0], 2.0 * (1.0 - factor), sensor_replicates, 1e-3, 2, "sky beside the square");
+  expect_agrees(got[0].scattered[0], 10.0 * factor, sensor_replicates, 1e-2, 2, "lamp overhead");
   expect_agreed(got[1].scattered[0], 0.0, 10.0 / 8192.0, "a lamp's lower side is dark");
   expect_agreed(got[2].sky[0], 2.0, 2.0 / 8192.0, "above the square");
 }
@@ -251,11 +250,11 @@ TEST(Sensors, ListedLightsAreExact) {
   expect_exactly(got[3].sky[0], 2.0 + 6.0 / 0.8, "sphere");
   model.soil->reflectance = {0.5};
   model.sensors = {cosine_sensor({0.95, 0.001, 0.05}, down)};  // the shadows are far away
-  expect_agrees(read(model, settings_of(4096))[0].scattered[0], 4.0, replicates, 2e-2, 1, "soil under listed lights");
+  expect_agrees(read(model, settings_of(4096))[0].scattered[0], 4.0, sensor_replicates, 2e-2, 1, "soil under listed lights");
 }
 
 TEST(Sensors, AnEndlessPlotHasNoEdge) {
-  RadiationModel model = paper_model(random_leaves(60, 0.03, plot, 1.0, 5), plot, beijing_sun());
+  RadiationModel model = paper_model(random_leaves(60, 0.03, unit_plot, 1.0, 5), unit_plot, beijing_sun());
   give_sky(model, 1.0);
   Sensor inside{"", {}, SensorResponse::cosine, up}, outside = inside;
   for (int i = 0; i < 64; ++i) {
@@ -270,7 +269,8 @@ TEST(Sensors, AnEndlessPlotHasNoEdge) {
   ReplicateMean scores;
   for (std::size_t i = 0; i < 64; ++i) {
     agreeing += got[i].direct[0].value == got[64 + i].direct[0].value ? 1 : 0;
-    const double error = std::hypot(standard_error(got[i].sky[0], replicates), standard_error(got[64 + i].sky[0], replicates));
+    const double error =
+        std::hypot(standard_error(got[i].sky[0], sensor_replicates), standard_error(got[64 + i].sky[0], sensor_replicates));
     scores.add(error > 0.0 ? (got[i].sky[0].value - got[64 + i].sky[0].value) / error : 0.0);
   }
   EXPECT_GE(agreeing, 63);  // a point on a shadow's very edge may round to either side
@@ -288,14 +288,14 @@ TEST(Sensors, LieOnLeavesAndOnTheSoil) {
   const std::vector<SensorResult> got = read(model, settings_of(1024));
   const double facing = glm::dot(normal, direction_to_sun(*model.sun)) / std::sin(model.sun->elevation_rad);
   expect_exactly(got[0].direct[0], facing, "on the leaf");
-  expect_agrees(got[0].sky[0], (1.0 + std::cos(0.6)) / 2.0, replicates, 2e-3, 1, "a leaf's upper side sees the sky");
+  expect_agrees(got[0].sky[0], (1.0 + std::cos(0.6)) / 2.0, sensor_replicates, 2e-3, 1, "a leaf's upper side sees the sky");
   expect_exactly(got[1].direct[0], 1.0, "on the soil");
   EXPECT_EQ(got[1].sky[0].value > 0.9, true);
   EXPECT_EQ(got[2].direct[0].value, got[1].direct[0].value);
 }
 
 TEST(Sensors, SameBytesForEverySeedAndNumberOfThreads) {
-  RadiationModel model = paper_model(random_leaves(60, 0.03, plot, 1.0, 5), plot, beijing_sun());
+  RadiationModel model = paper_model(random_leaves(60, 0.03, unit_plot, 1.0, 5), unit_plot, beijing_sun());
   give_sky(model, 1.0, {SkyKind::general, 12, 0, 0, {}});
   model.sensors = {cosine_sensor({0.4, 0.3, 0.3}, up), sphere({0.2, 0.6, 0.8})};
   const auto numbers = [&](std::uint64_t seed, CpuWalk walk) {
@@ -317,7 +317,7 @@ TEST(Sensors, IntervalsCoverTheTruth) {
   RadiationModel model = bare_ground(0.4);
   MeshMaker maker;
   maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
-  model = leaf_model(maker.mesh(), plot, beijing_sun(), std::array{nir_band});
+  model = leaf_model(maker.mesh(), unit_plot, beijing_sun(), std::array{nir_band});
   model.sensors = {cosine_sensor({0.3, 0.25, 0.6}, up)};
   ZScores scores(8);
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

@@ -13,8 +13,6 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-
 RadiationModel under_sky(RadiationModel model, const SkyModel& sky) {
   shine_from_sky(model, sky);
   return model;
@@ -38,11 +36,11 @@ TEST(SkyLight, ExplicitSceneUnderUniformAndOvercastSkies) {
     model.sun.reset();
     const RadiationResult result = simulate(model, fixed_scatter(model, {.packets = 98304}));
     const BandResult& par = result.bands[0];
-    expect_within(par.reflected, row.reflected, replicates, 1e-4, "reflected");
-    expect_within(par.absorbed_vegetation, row.leaves, replicates, 2e-4, "absorbed by leaves");
-    expect_within(result.layers[0].down[0], row.on_soil, replicates, 2e-4, "on soil");
-    expect_within(par.absorbed_soil, {row.in_soil, 0.85 * row.on_soil.error}, replicates, 2e-4, "absorbed by soil");
-    const double passed_error = 3.0 * std::hypot(row.passed.error, standard_error(result.layers[0].down[0], replicates));
+    expect_within(par.reflected, row.reflected, usual_replicates, 1e-4, "reflected");
+    expect_within(par.absorbed_vegetation, row.leaves, usual_replicates, 2e-4, "absorbed by leaves");
+    expect_within(result.layers[0].down[0], row.on_soil, usual_replicates, 2e-4, "on soil");
+    expect_within(par.absorbed_soil, {row.in_soil, 0.85 * row.on_soil.error}, usual_replicates, 2e-4, "absorbed by soil");
+    const double passed_error = 3.0 * std::hypot(row.passed.error, standard_error(result.layers[0].down[0], usual_replicates));
     EXPECT_NEAR(sky_on_soil_w_m2(model, result, 0), row.passed.value, passed_error);
     EXPECT_EQ(par.ledger.residual(), 0);
     EXPECT_NEAR(par.incident, 1.0, 1e-12);
@@ -89,7 +87,7 @@ TEST(SkyLight, VerticalSquareSeesTheTables) {
         }
       }
       // Only both faces together have an error of their own; the error of each face is at most about as large.
-      const double error = standard_error(result.organs[0].indirect[0], replicates);
+      const double error = standard_error(result.organs[0].indirect[0], usual_replicates);
       EXPECT_LE(error, 0.0015) << each.what;
       for (std::size_t side = 0; side < 2; ++side) {
         const double expected = each.toward[pair + 2 * side];
@@ -112,8 +110,8 @@ TEST(SkyLight, StandUnderTheOvercastSky) {
   for (std::size_t organ = 0; organ < expected.size(); ++organ) {
     const Estimate share = result.organs[organ].indirect[0].scaled(result.organs[organ].area_m2 / 9.0);
     std::printf("%s: expected %.3f got %.5f(%.1e)\n", mesh.organs[organ].name.c_str(), expected[organ], share.value,
-                standard_error(share, replicates));
-    EXPECT_LE(standard_error(share, replicates), 4e-4);
+                standard_error(share, usual_replicates));
+    EXPECT_LE(standard_error(share, usual_replicates), 4e-4);
     EXPECT_NEAR(share.value, expected[organ], 0.003);
   }
 }
@@ -129,9 +127,9 @@ TEST(SkyLight, ALampListIsABeamFromEachDirection) {
   const RadiationResult by_beam = simulate(beam, fixed_scatter(beam, {.rays = 2e6, .packets = 16384}));
   const RadiationResult by_sky = simulate(listed, fixed_scatter(listed, {.packets = 32768}));
   for (std::size_t b = 0; b < 2; ++b) {
-    expect_same(by_sky.bands[b].absorbed_vegetation, by_beam.bands[b].absorbed_vegetation, replicates, 1e-3, 6, "leaves");
-    expect_same(by_sky.bands[b].absorbed_soil, by_beam.bands[b].absorbed_soil, replicates, 1e-3, 6, "soil");
-    expect_same(by_sky.bands[b].reflected, by_beam.bands[b].reflected, replicates, 1e-3, 6, "reflected");
+    expect_same(by_sky.bands[b].absorbed_vegetation, by_beam.bands[b].absorbed_vegetation, usual_replicates, 1e-3, 6, "leaves");
+    expect_same(by_sky.bands[b].absorbed_soil, by_beam.bands[b].absorbed_soil, usual_replicates, 1e-3, 6, "soil");
+    expect_same(by_sky.bands[b].reflected, by_beam.bands[b].reflected, usual_replicates, 1e-3, 6, "reflected");
   }
 }
 
@@ -157,7 +155,7 @@ TEST(SkyLight, SunAndSkyAddUp) {
       const Estimate a = (by_sun.bands[b].*part).scaled(0.7);
       const Estimate c = (by_sky.bands[b].*part).scaled(0.3);
       const Estimate sum{a.value + c.value, std::hypot(a.half_width, c.half_width)};
-      expect_same(by_both.bands[b].*part, sum, replicates, 1e-3, 6, what);
+      expect_same(by_both.bands[b].*part, sum, usual_replicates, 1e-3, 6, what);
     };
     expect_sum(&BandResult::absorbed_vegetation, "leaves");
     expect_sum(&BandResult::absorbed_soil, "soil");

@@ -11,8 +11,6 @@
 namespace sunfleck::test {
 namespace {
 
-constexpr int replicates = 32;
-
 struct StandCase {
   SunPosition sun;
   std::array<Reference, 3> shares;  // leaf, stem, soil
@@ -22,7 +20,7 @@ struct StandCase {
 void expect_shares(const StandCase& stand) {
   const RadiationModel model = black_model(stand_by_kind(), {3.0, 3.0, true}, stand.sun);
   ASSERT_EQ(model.canopy.size(), 97400U);
-  const RadiationResult result = simulate(model, fixed_work(model, 4e6, replicates));
+  const RadiationResult result = simulate(model, fixed_work(model, 4e6, usual_replicates));
   EXPECT_NEAR(result.leaf_area_index, 1.666, 5e-4);
   EXPECT_EQ(result.lost_rays, 0U);
   EXPECT_EQ(result.bands[0].ledger.residual(), 0);
@@ -31,8 +29,8 @@ void expect_shares(const StandCase& stand) {
     const Reference& reference = stand.shares[organ];
     Estimate got = share_of_beam(model, result, organ);
     EXPECT_NEAR(got.value, reference.value, stand.tolerance) << names[organ];
-    got.half_width = std::hypot(got.half_width, t_quantile(0.95, replicates) * reference.error);
-    expect_agrees(got, reference.value, replicates, stand.tolerance / 2.0, 6, names[organ]);
+    got.half_width = std::hypot(got.half_width, t_quantile(0.95, usual_replicates) * reference.error);
+    expect_agrees(got, reference.value, usual_replicates, stand.tolerance / 2.0, 6, names[organ]);
   }
   // The soil's triangles lie in y = 0 and take precedence over the soil plane.
   EXPECT_EQ(result.bands[0].absorbed_vegetation.value + result.bands[0].absorbed_soil.value, result.bands[0].incident);

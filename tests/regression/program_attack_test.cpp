@@ -9,11 +9,11 @@
 namespace sunfleck::regression {
 namespace {
 
-const std::string plot = "[plot]\nsize = [1.0, 1.0]\n";
-const std::string sun = "[sun]\nelevation = 30.0\nazimuth = 90.0\n";
-const std::string band = "[[band]]\nname = \"PAR\"\ndirect = 100.0\n";
-const std::string leaf = "[optics.leaf]\nreflectance = 0.1\n";
-const std::string head = plot + sun + band + leaf;
+const std::string plot_table = "[plot]\nsize = [1.0, 1.0]\n";
+const std::string sun_table = "[sun]\nelevation = 30.0\nazimuth = 90.0\n";
+const std::string band_table = "[[band]]\nname = \"PAR\"\ndirect = 100.0\n";
+const std::string leaf_table = "[optics.leaf]\nreflectance = 0.1\n";
+const std::string head = plot_table + sun_table + band_table + leaf_table;
 const std::string good_obj = "v 0 1 0\nv 0 1 1\nv 1 1 0\nusemtl leaf\nf 1 2 3\n";
 
 std::string mesh(const std::string& name) {
@@ -52,19 +52,22 @@ TEST_F(Attacks, BrokenScenes) {
       {head + std::string("\xff\xfe"), "UTF-8", {}, {}},
       {"", "plot", {}, {}},
       {head + "[canopy]\nheight = 2.0\n", "canopy", {}, {}},
-      {plot + "colour = 3\n" + sun + band, "scene.toml:3", {}, {}},
-      {"[plot]\nsize = \"large\"\n" + sun + band, "scene.toml:2", {}, {}},
-      {"[plot]\nsize = [0.0, 1.0]\n" + sun + band, "scene.toml:2", {}, {}},
-      {"[plot]\nsize = [1.0, nan]\n" + sun + band, "scene.toml:2", {}, {}},
-      {plot + sun + "[[band]]\nname = \"PAR\"\ndirect = -1.0\n", "scene.toml:8", {}, {}},
-      {plot + sun + "[[band]]\nname = \"PAR\"\ndirect = nan\n", "scene.toml:8", {}, {}},
-      {plot + band, "direct", {}, {}},
-      {plot + sun, "band", {}, {}},
-      {plot + sun + band + "[optics.leaf]\nreflectance = 0.7\ntransmittance = 0.4\n", "optics.leaf", {}, {}},
-      {plot + sun + band + "[optics.leaf]\nreflectance = 12\n", "scene.toml:10", {}, {}},
-      {plot + sun + band + "[optics.leaf]\nreflectance = { NIR = 0.4 }\n", "scene.toml:10", {}, {}},
-      {plot + "[sun]\nelevation = 95.0\nazimuth = 0.0\n" + band, "scene.toml:4", {}, {}},
-      {plot + "[sun]\ntime = 2002-08-08T10:10:00\nlatitude = 40.0\nlongitude = 116.0\n" + band, "scene.toml:4", {}, {}},
+      {plot_table + "colour = 3\n" + sun_table + band_table, "scene.toml:3", {}, {}},
+      {"[plot]\nsize = \"large\"\n" + sun_table + band_table, "scene.toml:2", {}, {}},
+      {"[plot]\nsize = [0.0, 1.0]\n" + sun_table + band_table, "scene.toml:2", {}, {}},
+      {"[plot]\nsize = [1.0, nan]\n" + sun_table + band_table, "scene.toml:2", {}, {}},
+      {plot_table + sun_table + "[[band]]\nname = \"PAR\"\ndirect = -1.0\n", "scene.toml:8", {}, {}},
+      {plot_table + sun_table + "[[band]]\nname = \"PAR\"\ndirect = nan\n", "scene.toml:8", {}, {}},
+      {plot_table + band_table, "direct", {}, {}},
+      {plot_table + sun_table, "band", {}, {}},
+      {plot_table + sun_table + band_table + "[optics.leaf]\nreflectance = 0.7\ntransmittance = 0.4\n", "optics.leaf", {}, {}},
+      {plot_table + sun_table + band_table + "[optics.leaf]\nreflectance = 12\n", "scene.toml:10", {}, {}},
+      {plot_table + sun_table + band_table + "[optics.leaf]\nreflectance = { NIR = 0.4 }\n", "scene.toml:10", {}, {}},
+      {plot_table + "[sun]\nelevation = 95.0\nazimuth = 0.0\n" + band_table, "scene.toml:4", {}, {}},
+      {plot_table + "[sun]\ntime = 2002-08-08T10:10:00\nlatitude = 40.0\nlongitude = 116.0\n" + band_table,
+       "scene.toml:4",
+       {},
+       {}},
       {head + "[sky]\nmodel = \"blue\"\n", "scene.toml:12: sky.model", {}, {}},
       {head + "[sky]\nmodel = \"lights\"\nfile = \"absent.light\"\n", "scene.toml:13: sky.file", {}, {}},
       {head + "[sky]\nmodel = \"lights\"\nfile = \"../a.light\"\n", "outside the scene's folder", {}, {}},
@@ -74,7 +77,7 @@ TEST_F(Attacks, BrokenScenes) {
       {head + "[[sensor]]\nname = \"a\"\n", "scene.toml:11: sensor.from", {}, {}},
       {head + "[weather]\nghi = 80000.0\n", "scene.toml:12: weather.ghi", {}, {}},
       {head + "[weather]\nfile = \"a.csv\"\n", "time", "a.csv", "time,ghi\n"},
-      {plot + "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n[[band]]\nname = \"PAR\"\n" +
+      {plot_table + "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n[[band]]\nname = \"PAR\"\n" +
            "[sky]\nmodel = \"uniform\"\n[weather]\nfile = \"a.csv\"\n",
        "a.csv:2: ghi 'NaN'", "a.csv", "time,ghi\n2002-08-08T10:00Z,NaN\n"},
       {head + "emission = -1.0\n", "emission", {}, {}},
@@ -94,7 +97,7 @@ TEST_F(Attacks, BrokenGeometry) {
       {head + mesh("../outside.obj"), "../outside.obj", {}, {}},
       {head + mesh("/etc/passwd"), "/etc/passwd", {}, {}},
       {head + mesh("stand.xyz"), "stand.xyz", "stand.xyz", "1 2 3\n"},
-      {plot + sun + band + mesh("good.obj"), "\"leaf\"", {}, {}},
+      {plot_table + sun_table + band_table + mesh("good.obj"), "\"leaf\"", {}, {}},
       {head + mesh("good.obj") + "scale = 0.0\n", "scene.toml:13", {}, {}},
       {head + mesh("good.obj") + "at = [[0.0, nan, 0.0]]\n", "scene.toml:13", {}, {}},
   };
@@ -145,11 +148,12 @@ TEST_F(Attacks, EveryFileOfASceneStaysInItsFolder) {
   fs::create_symlink("../station.csv", folder_ / "inner/link.csv");
   fs::create_symlink("../good.obj", folder_ / "inner/link.obj");
   fs::create_directory_symlink("..", folder_ / "inner/up");
-  const std::string noon = "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n";
+  const std::string noon_table = "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.0\nlongitude = 116.0\n";
   const Arguments quick{"--device", "cpu", "--grid", "0.05", "--images", "none"};
-  const std::string lights = plot + sun + band + "diffuse = 10.0\n" + leaf + "[sky]\nmodel = \"lights\"\nfile = ";
+  const std::string lights =
+      plot_table + sun_table + band_table + "diffuse = 10.0\n" + leaf_table + "[sky]\nmodel = \"lights\"\nfile = ";
   const std::string station =
-      plot + noon + "[[band]]\nname = \"PAR\"\n" + leaf + "[sky]\nmodel = \"uniform\"\n[weather]\nfile = ";
+      plot_table + noon_table + "[[band]]\nname = \"PAR\"\n" + leaf_table + "[sky]\nmodel = \"uniform\"\n[weather]\nfile = ";
   const std::string geometry = head + "[[geometry]]\nfile = ";
   for (const std::string& scene :
        {lights + "\"link.light\"\n", lights + "\"../sky.light\"\n", lights + "\"up/sky.light\"\n", station + "\"link.csv\"\n",
@@ -169,7 +173,7 @@ TEST_F(Attacks, WhatIsNoFileEndsAtOnce) {
   std::filesystem::create_directories(folder_ / "result");
   ASSERT_EQ(::mkfifo((folder_ / "result/pictures.cbor").c_str(), 0600), 0);
   folder_.write("empty.toml", "");
-  folder_.write("good.toml", plot + sun + band);
+  folder_.write("good.toml", plot_table + sun_table + band_table);
   for (const char* name : {"scene.toml", "folder.toml", "empty.toml", "gone.toml", "/dev/null", "/dev/zero"})
     expect_one_error(run({"run", name, "--device", "cpu", "-o", "out"}), 2, name);
   expect_one_error(run({"render", "result", "--device", "cpu", "-o", "a.png"}), 2, "pictures.cbor");

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 // The sun is overhead, and nothing shades the leaves.
-const std::string scene = R"(title = "Leaves of two skins"
+const std::string copies_scene = R"(title = "Leaves of two skins"
 [plot]
 size = [1.0, 1.0]
 [sun]
@@ -51,7 +51,7 @@ constexpr double second_m2 = 0.045;
 class Copies : public ProgramTest {
  protected:
   Copies() {
-    folder_.write("scene.toml", scene);
+    folder_.write("scene.toml", copies_scene);
     folder_.write("leaves.obj", corners + originals + copies);
   }
   // Allows twice the half-width of the 95 % interval, about four standard errors.

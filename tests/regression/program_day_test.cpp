@@ -54,7 +54,7 @@ f 1 2 3
 f 2 4 3
 )";
 
-constexpr double plot_m2 = 1.25;
+constexpr double day_plot_m2 = 1.25;
 const std::array<const char*, 2> bands{"PAR", "NIR"};
 const std::array<const char*, 4> terms{"incident", "absorbed_vegetation", "absorbed_soil", "reflected"};
 const std::array<const char*, 3> tables{"day.csv", "organs_day.csv", "day.nc"};
@@ -183,7 +183,7 @@ TEST_F(Day, IntegralsAreSumsOverTheStepsOfEachDate) {
     for (const char* band : bands) {
       double mj = 0.0, organs_mj = 0.0;
       for (std::size_t row = 3 * date; row < 3 * date + 3; ++row) {
-        mj += 1e-6 * day.number(row, "step_s") * day.number(row, column(band, "absorbed_vegetation")) * plot_m2;
+        mj += 1e-6 * day.number(row, "step_s") * day.number(row, column(band, "absorbed_vegetation")) * day_plot_m2;
       }
       for (std::size_t row = 2 * date; row < 2 * date + 2; ++row) {
         organs_mj += organs.number(row, column(band, "absorbed_mj_m2")) * organs.number(row, "area_m2");
@@ -192,7 +192,7 @@ TEST_F(Day, IntegralsAreSumsOverTheStepsOfEachDate) {
       }
       EXPECT_NEAR(organs_mj / mj, 1.0, 1e-7) << band;
       const json sums = summary()["dates"][date]["bands"][band == bands[0] ? 0 : 1];
-      EXPECT_NEAR(sums["absorbed_vegetation_mj_m2"].get<double>() * plot_m2 / mj, 1.0, 1e-7);
+      EXPECT_NEAR(sums["absorbed_vegetation_mj_m2"].get<double>() * day_plot_m2 / mj, 1.0, 1e-7);
     }
     const double mol = organs.number(2 * date, "PAR_absorbed_mol_m2");
     EXPECT_NEAR(mol / organs.number(2 * date, "PAR_absorbed_mj_m2"), 4.57, 1e-6);
@@ -212,7 +212,7 @@ TEST_F(Day, FieldsAreReadByXarray) {
   for (const char* band : bands) {
     for (std::size_t step = 0; step < day.size(); ++step) {
       const double absorbed = day.number(step, column(band, "absorbed_vegetation"));
-      EXPECT_NEAR(found["absorbed_w"][band][step].get<double>() / plot_m2, absorbed, 1e-5 * absorbed);
+      EXPECT_NEAR(found["absorbed_w"][band][step].get<double>() / day_plot_m2, absorbed, 1e-5 * absorbed);
     }
     EXPECT_EQ(found["columns"][band], json({"absorbed", "direct_lower", "direct_upper", "error", "indirect_lower",
                                             "indirect_upper", "sky_lower", "sky_upper"}));

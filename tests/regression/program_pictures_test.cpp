@@ -68,7 +68,7 @@ reflectance = 0.5
 file = "plates.obj"
 )";
 
-const Arguments quick{"--device", "cpu", "--passes", "8", "--grid", "0.02", "--size", "320x240"};
+const Arguments quick_picture{"--device", "cpu", "--passes", "8", "--grid", "0.02", "--size", "320x240"};
 
 class Pictures : public ProgramTest {
  protected:
@@ -101,7 +101,8 @@ unsigned char srgb(double linear) {
 // Computes the manual's formulas (src/pictures/drawing/tone_map.h) from the table of triangles. Only upper faces are lit; each triangle is
 // more than 0.5 % of the total area, so L995 is the largest luminance.
 TEST_F(Pictures, OfHueMappingHaveColoursWorkedOutByHand) {
-  simulate("plates.toml", quick + Arguments{"--samples", "1", "--view", "top", "--images", "hue_direct", "--export", "csv"});
+  simulate("plates.toml",
+           quick_picture + Arguments{"--samples", "1", "--view", "top", "--images", "hue_direct", "--export", "csv"});
   const Table triangles(file("triangles.csv"));
   ASSERT_EQ(triangles.size(), 4U);
   std::array<double, 4> irradiance{};
@@ -135,7 +136,7 @@ TEST_F(Pictures, OfHueMappingHaveColoursWorkedOutByHand) {
 }
 
 TEST_F(Pictures, FromAFolderAreThoseOfTheRun) {
-  simulate("bright.toml", quick + Arguments{"--images", "all,map_absorbed,rank-interval_total", "--repeat", "3"});
+  simulate("bright.toml", quick_picture + Arguments{"--images", "all,map_absorbed,rank-interval_total", "--repeat", "3"});
   for (const char* chart : {"rank", "hue"}) {
     for (const char* field : {"direct", "indirect", "total"}) {
       draw({"out", "--chart", chart, "--field", field, "--repeat", "3", "-o", "again.png"});
@@ -157,7 +158,7 @@ TEST_F(Pictures, OfSkyLightFromAFolderAreThoseOfTheRun) {
     sky_scene.replace(sky_scene.find(beam), std::strlen(beam), std::string(beam) + "diffuse = 40.0\n");
   }
   folder_.write("sky.toml", sky_scene + "[sky]\nmodel = \"uniform\"\n");
-  simulate("sky.toml", quick + Arguments{"--images", "all,rank_sky,map_scattered,hue_absorbed"});
+  simulate("sky.toml", quick_picture + Arguments{"--images", "all,rank_sky,map_scattered,hue_absorbed"});
   EXPECT_GT(summary()["indirect"]["sky_rays"], 0);
   const std::vector<std::pair<std::string, std::string>> pictures = {
       {"rank", "direct"}, {"rank", "indirect"}, {"hue", "total"}, {"rank", "sky"}, {"map", "scattered"}, {"hue", "absorbed"}};
@@ -170,34 +171,34 @@ TEST_F(Pictures, OfSkyLightFromAFolderAreThoseOfTheRun) {
 }
 
 TEST_F(Pictures, FromASceneAreThoseOfTheRun) {
-  simulate("bright.toml", quick + Arguments{"--seed", "5", "--images", "rank_total", "--band", "NIR"});
-  const Outcome outcome = run(Arguments{"render", "bright.toml", "--seed", "5", "--band", "NIR"} + quick);
+  simulate("bright.toml", quick_picture + Arguments{"--seed", "5", "--images", "rank_total", "--band", "NIR"});
+  const Outcome outcome = run(Arguments{"render", "bright.toml", "--seed", "5", "--band", "NIR"} + quick_picture);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "bright_rank_total.png\n");
   EXPECT_EQ(content(folder_ / "bright_rank_total.png"), file("rank_total.png"));
 }
 
 TEST_F(Pictures, HaveNamesAndPlacesAsInTheManual) {
-  simulate("bright.toml", quick + Arguments{"--images", "none"});
+  simulate("bright.toml", quick_picture + Arguments{"--images", "none"});
   EXPECT_FALSE(exists("rank_total.png"));
   draw({"out"});
   EXPECT_TRUE(exists("rank_total.png"));
   for (const char* view : {"top", "side", "fisheye"}) draw({"out", "--chart", "map", "--field", "direct", "--view", view});
   EXPECT_TRUE(exists("map_direct.png"));
-  simulate("bright.toml", quick + Arguments{"--images", "none"});
+  simulate("bright.toml", quick_picture + Arguments{"--images", "none"});
   EXPECT_FALSE(exists("rank_total.png")) << "of the earlier run";
-  simulate("bright.toml", quick + Arguments{"--chart", "map", "--field", "absorbed"});
+  simulate("bright.toml", quick_picture + Arguments{"--chart", "map", "--field", "absorbed"});
   EXPECT_TRUE(exists("map_absorbed.png") && exists("hue_indirect.png"));
 }
 
 TEST_F(Pictures, OfLightThatIsNotThereAreLeftOut) {
-  simulate("plates.toml", quick);
+  simulate("plates.toml", quick_picture);
   EXPECT_TRUE(exists("rank_direct.png") && exists("hue_direct.png"));
   EXPECT_FALSE(exists("rank_indirect.png") || exists("hue_total.png"));
 }
 
 TEST_F(Pictures, AsExrHoldTheValuesThemselves) {
-  simulate("plates.toml", quick + Arguments{"--images", "none", "--export", "csv"});
+  simulate("plates.toml", quick_picture + Arguments{"--images", "none", "--export", "csv"});
   draw({"out", "--field", "direct", "--view", "top", "-o", "values.exr"});
   EXRVersion version;
   EXRHeader header;
@@ -234,7 +235,7 @@ TEST_F(Pictures, AsExrHoldTheValuesThemselves) {
 }
 
 TEST_F(Pictures, ThatCannotBeDrawnAreRefused) {
-  simulate("plates.toml", quick + Arguments{"--images", "none"});
+  simulate("plates.toml", quick_picture + Arguments{"--images", "none"});
   const auto refused = [&](const Arguments& more, const std::string& names, int status = 2) {
     SCOPED_TRACE(::testing::PrintToString(more));
     expect_one_error(run(Arguments{"render", "--device", "cpu"} + more), status, names);

@@ -25,20 +25,20 @@ std::vector<std::string> markdown_rows(const std::string& text) {
   return rows;
 }
 
-const Arguments quick{"validate", "--cases", "sun", "--cases", "view", "--cases", "plates", "--cases", "strips"};
+const Arguments quick_cases{"validate", "--cases", "sun", "--cases", "view", "--cases", "plates", "--cases", "strips"};
 
 TEST_F(Validate, OnTheCpuPath) {
-  const Outcome outcome = run(quick + Arguments{"--device", "cpu", "-o", "out"});
+  const Outcome outcome = run(quick_cases + Arguments{"--device", "cpu", "-o", "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  const nlohmann::json json = table();
-  EXPECT_EQ(json["complete"], true);
-  EXPECT_EQ(json["failed"], 0);
-  EXPECT_EQ(json["device"]["kind"], "cpu");
+  const nlohmann::json report = table();
+  EXPECT_EQ(report["complete"], true);
+  EXPECT_EQ(report["failed"], 0);
+  EXPECT_EQ(report["device"]["kind"], "cpu");
   const std::vector<std::string> rows = markdown_rows(file("validate.md"));
-  ASSERT_EQ(rows.size(), json["cases"].size());
+  ASSERT_EQ(rows.size(), report["cases"].size());
   EXPECT_GT(rows.size(), 50U);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const nlohmann::json& each = json["cases"][k];
+    const nlohmann::json& each = report["cases"][k];
     EXPECT_EQ(each["verdict"], "pass");
     EXPECT_EQ(each["z"].is_null(), each["standard_error"] == 0.0) << each;
     EXPECT_EQ(rows[k].rfind("| " + each["case"].get<std::string>() + " |", 0), 0U) << rows[k];

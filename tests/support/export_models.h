@@ -1,17 +1,15 @@
 #pragma once
 // Models that the tests of the exports write: two triangles with results chosen by hand, and a simulated maize plant on soil.
 
+#include "base/units.h"
 #include "files/results/exports/exports.h"
 #include "physics/canopy/maize.h"
 #include "support/models.h"
 
-#include <limits>
 #include <string>
 #include <vector>
 
 namespace sunfleck::test {
-
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // Contains characters that end a string, a line, a tag, a number or a field in some format, and a byte that is not UTF-8.
 inline const std::string awkward_name = "a \"tip\", <dry> & 'x'\n\x01#;\\\xff\xc3\xa9";

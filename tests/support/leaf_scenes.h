@@ -20,7 +20,7 @@ inline RadiationModel paper_model(const Mesh& mesh, const Plot& plot, const SunP
 struct ScatterWork {
   double rays = 1e6;     // of all replicates together
   double packets = 1e4;  // of each replicate's first round
-  int replicates = 32;
+  int replicates = usual_replicates;
   std::uint64_t seed = 1;
   double bound = 1e-4;  // a tenth of it stays unshot, far below the errors tested
 };

@@ -6,8 +6,10 @@
 #include "simulate/simulation.h"
 #include "support/temp_folder.h"
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 namespace sunfleck::test {
 
@@ -74,5 +76,16 @@ struct LiveScene {
   const Scene scene;  // the scene as it was read
   Simulation simulation;
 };
+
+// Waits until the condition holds; returns false after a long time.
+template <class Condition>
+bool wait_for(const Condition& condition) {
+  const auto start = std::chrono::steady_clock::now();
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() - start > std::chrono::minutes(10)) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
 
 }  // namespace sunfleck::test

@@ -67,8 +67,15 @@ inline TraceDomain tracer_scene(const RadiationModel& model) {
   return {model.plot.periodic, model.soil.has_value()};
 }
 
+inline constexpr Plot unit_plot{1.0, 1.0, true};
+inline constexpr Plot unit_stand{1.0, 1.0, false};
+
+// Replicates of a run whose test needs no other number.
+inline constexpr int usual_replicates = 32;
+
 // Returns settings for `total_rays` rays in `replicates` replicates.
-inline SolveSettings fixed_work(const RadiationModel& model, double total_rays, int replicates = 32, std::uint64_t seed = 1) {
+inline SolveSettings fixed_work(const RadiationModel& model, double total_rays, int replicates = usual_replicates,
+                                std::uint64_t seed = 1) {
   SolveSettings settings;
   settings.grid_m = std::sqrt(model.plot.area_m2() / total_rays);
   settings.passes = replicates;

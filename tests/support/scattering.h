@@ -19,7 +19,8 @@ inline void set_faces(RadiationModel& model, std::size_t optics, const std::vect
 
 // Returns settings with this many beam rays and first packets in each replicate; the unshot flux, below 1e-9 of the incident,
 // does not matter.
-inline SolveSettings fixed_packets(const RadiationModel& model, double packets, int replicates = 32, std::uint64_t seed = 1) {
+inline SolveSettings fixed_packets(const RadiationModel& model, double packets, int replicates = usual_replicates,
+                                   std::uint64_t seed = 1) {
   SolveSettings settings = fixed_work(model, packets * replicates, replicates, seed);
   settings.packets = packets;
   settings.accuracy.indirect = 1e-6;

@@ -139,6 +139,11 @@ inline const std::string station_csv =
 // The smallest scene.
 inline const std::string bare_scene = "[plot]\nsize = [1.0, 1.0]\n[[band]]\nname = \"PAR\"\n";
 
+// Parts of small scenes.
+inline const std::string plot_table = "[plot]\nsize = [1, 1]\n";
+inline const std::string moment_table = "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.02\nlongitude = 116.28\n";
+inline const std::string par_table = "[[band]]\nname = \"PAR\"\n";
+
 inline void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }

@@ -70,6 +70,9 @@ struct DateSums {
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], J m-2 of the organ's one-sided area
 };
 
+// From J to MJ, in which tables and summaries state these sums.
+inline constexpr double per_mega = 1e-6;
+
 // Returns one entry per date. `lights` holds the light of the first steps of the course.
 [[nodiscard]] std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& course,
                                               std::span<const StepLight> lights);

@@ -14,8 +14,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double per_mega = 1e-6;
-
 constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 6> named_terms = {
     {{"incident", &StepBand::incident},
      {"absorbed_vegetation", &StepBand::absorbed_vegetation},

@@ -56,7 +56,6 @@ Table steps_table(const RadiationModel& model, const DayCourse& course, std::spa
 }
 
 Table organs_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
-  constexpr double per_mega = 1e-6;
   const std::vector<std::size_t> by_date{0}, by_organ{1};
   constexpr unsigned outputs = in_csv | in_arrays;
   const std::vector<Organ>& organs = model.canopy.organs;

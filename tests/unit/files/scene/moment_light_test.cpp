@@ -10,17 +10,16 @@
 namespace sunfleck {
 namespace {
 
-const std::string plot = "[plot]\nsize = [1, 1]\n";
-const std::string moment = "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.02\nlongitude = 116.28\n";
-const std::string par = "[[band]]\nname = \"PAR\"\n";
-const std::string perez = "[sky]\nmodel = \"perez\"\n";
-const std::string clear = "[weather]\nclear_sky = \"ineichen\"\n";
+const std::string perez_table = "[sky]\nmodel = \"perez\"\n";
+const std::string clear_table = "[weather]\nclear_sky = \"ineichen\"\n";
 
 using MomentLightTest = SceneFolder;
 
 TEST_F(MomentLightTest, IsTheScenesOwnAtItsMoment) {
-  for (const std::string& text : {lit_scene, plot + moment + perez + clear + par, plot + moment + par + "direct = 350\n",
-                                  plot + moment + par + "direct_normal = 350\ndiffuse = 3\n[sky]\nmodel = \"uniform\"\n"}) {
+  for (const std::string& text :
+       {lit_scene, plot_table + moment_table + perez_table + clear_table + par_table,
+        plot_table + moment_table + par_table + "direct = 350\n",
+        plot_table + moment_table + par_table + "direct_normal = 350\ndiffuse = 3\n[sky]\nmodel = \"uniform\"\n"}) {
     const Scene scene = read(text);
     const MomentLight light = light_at(scene, scene.moment->time);
     EXPECT_EQ(light.sun.elevation_rad, scene.model.sun->elevation_rad);
@@ -40,7 +39,8 @@ TEST_F(MomentLightTest, IsTheScenesOwnAtItsMoment) {
 }
 
 TEST_F(MomentLightTest, FollowsSunAndWeather) {
-  const Scene scene = read(plot + moment + perez + clear + par + "[[band]]\nname = \"B\"\ndirect_normal = 100\ndiffuse = 5\n");
+  const Scene scene = read(plot_table + moment_table + perez_table + clear_table + par_table +
+                           "[[band]]\nname = \"B\"\ndirect_normal = 100\ndiffuse = 5\n");
   double last_w_m2 = 0.0;
   for (const int hour : {22, 23}) {  // 6 and 7 o'clock local time
     const UtcTime time{2002, 8, 7, hour};
@@ -58,8 +58,9 @@ TEST_F(MomentLightTest, FollowsSunAndWeather) {
 }
 
 TEST_F(MomentLightTest, NightHasNoBeam) {
-  const Scene scene = read(plot + moment + perez + clear + par + "[[band]]\nname = \"B\"\ndirect_normal = 100\ndiffuse = 5\n" +
-                           "[[band]]\nname = \"C\"\ndirect = 100\n");
+  const Scene scene =
+      read(plot_table + moment_table + perez_table + clear_table + par_table +
+           "[[band]]\nname = \"B\"\ndirect_normal = 100\ndiffuse = 5\n" + "[[band]]\nname = \"C\"\ndirect = 100\n");
   const MomentLight night = light_at(scene, {2002, 8, 7, 17});
   EXPECT_LT(night.sun.elevation_rad, 0.0);
   for (const Waveband& band : night.bands) EXPECT_EQ(band.direct_w_m2, 0.0);
@@ -70,7 +71,8 @@ TEST_F(MomentLightTest, NightHasNoBeam) {
 
 TEST_F(MomentLightTest, MeasuredTwilightIsDiffuse) {
   write(folder_ / "station.csv", "time,ghi\n2002-08-07T17:00Z,4\n2002-08-07T18:00Z,0\n");
-  const Scene scene = read(plot + moment + perez + "[weather]\nfile = \"station.csv\"\n" + par, {.purpose = ScenePurpose::day});
+  const Scene scene = read(plot_table + moment_table + perez_table + "[weather]\nfile = \"station.csv\"\n" + par_table,
+                           {.purpose = ScenePurpose::day});
   EXPECT_EQ(scene.model.bands[0].diffuse_w_m2, 0.0);
   EXPECT_EQ(light_at(scene, {2002, 8, 7, 17, 30}).bands[0].diffuse_w_m2, 2.0);
   EXPECT_TRUE(message_of([&] { static_cast<void>(light_at(scene, {2002, 8, 7, 19, 0})); }));
@@ -95,22 +97,25 @@ class DayRules : public SceneFolder {
 TEST_F(DayRules, ADayNeedsLightThatFollowsIt) {
   const std::string uniform = "[sky]\nmodel = \"uniform\"\n";
   EXPECT_EQ(refusal(lit_scene), std::nullopt);
-  EXPECT_EQ(refusal(plot + moment + par + "direct_normal = 300\n"), std::nullopt);
-  EXPECT_EQ(refusal(plot + moment + par + "direct_normal = 300\n[[band]]\nname = \"B\"\ndirect = 0\n"), std::nullopt);
-  EXPECT_EQ(refusal(plot + moment + perez + clear + par), std::nullopt);
-  EXPECT_EQ(refusal(plot + moment + uniform + "[weather]\ndni = 600\ndhi = 90\n" + par), std::nullopt);
-  EXPECT_EQ(refusal(plot + moment + uniform + "[weather]\nfile = \"station.csv\"\n" + par), std::nullopt);
-  expect_refused(plot + moment + par + "direct = 300\n", ":9: band.direct", "give direct_normal");
-  expect_refused(plot + moment + perez + clear + par + "[[band]]\nname = \"B\"\ndirect = 300\n", ":15: band.direct",
-                 "or [weather]");
-  expect_refused(plot + moment + uniform + par + "diffuse = 300\n", ": band", "add [weather], or direct_normal");
-  expect_refused(plot + moment + uniform + "[weather]\nghi = 600\n" + par, ":9: weather", "clear_sky");
-  expect_refused(plot + "[sun]\nelevation = 30\nazimuth = 9\n" + par + "direct_normal = 300\n", ": sun", "latitude");
-  expect_refused(plot + uniform + par + "diffuse = 300\n", ": sun", "latitude");
+  EXPECT_EQ(refusal(plot_table + moment_table + par_table + "direct_normal = 300\n"), std::nullopt);
+  EXPECT_EQ(refusal(plot_table + moment_table + par_table + "direct_normal = 300\n[[band]]\nname = \"B\"\ndirect = 0\n"),
+            std::nullopt);
+  EXPECT_EQ(refusal(plot_table + moment_table + perez_table + clear_table + par_table), std::nullopt);
+  EXPECT_EQ(refusal(plot_table + moment_table + uniform + "[weather]\ndni = 600\ndhi = 90\n" + par_table), std::nullopt);
+  EXPECT_EQ(refusal(plot_table + moment_table + uniform + "[weather]\nfile = \"station.csv\"\n" + par_table), std::nullopt);
+  expect_refused(plot_table + moment_table + par_table + "direct = 300\n", ":9: band.direct", "give direct_normal");
+  expect_refused(plot_table + moment_table + perez_table + clear_table + par_table + "[[band]]\nname = \"B\"\ndirect = 300\n",
+                 ":15: band.direct", "or [weather]");
+  expect_refused(plot_table + moment_table + uniform + par_table + "diffuse = 300\n", ": band",
+                 "add [weather], or direct_normal");
+  expect_refused(plot_table + moment_table + uniform + "[weather]\nghi = 600\n" + par_table, ":9: weather", "clear_sky");
+  expect_refused(plot_table + "[sun]\nelevation = 30\nazimuth = 9\n" + par_table + "direct_normal = 300\n", ": sun",
+                 "latitude");
+  expect_refused(plot_table + uniform + par_table + "diffuse = 300\n", ": sun", "latitude");
 }
 
 TEST_F(DayRules, TheScenesOwnNightIsNotSaid) {
-  const std::string text = replaced(plot + moment + par + "direct_normal = 300\n", "T10:10", "T01:10");
+  const std::string text = replaced(plot_table + moment_table + par_table + "direct_normal = 300\n", "T10:10", "T01:10");
   EXPECT_EQ(read(text).warnings.size(), 1U);
   EXPECT_TRUE(read(text, {.purpose = ScenePurpose::day}).warnings.empty());
 }

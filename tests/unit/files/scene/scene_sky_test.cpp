@@ -14,10 +14,7 @@
 namespace sunfleck {
 namespace {
 
-const std::string plot = "[plot]\nsize = [1, 1]\n";
 const std::string angles = "[sun]\nelevation = 30\nazimuth = 120\n";
-const std::string moment = "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40.02\nlongitude = 116.28\n";
-const std::string par = "[[band]]\nname = \"PAR\"\n";
 const std::string uniform = "[sky]\nmodel = \"uniform\"\n";
 
 std::string epw_of_one_value() {
@@ -44,7 +41,9 @@ class SceneSky : public SceneFolder {
 };
 
 TEST_F(SceneSky, NamesItsModel) {
-  const auto sky = [&](const std::string& lines) { return *read(plot + angles + par + "[sky]\n" + lines).model.sky; };
+  const auto sky = [&](const std::string& lines) {
+    return *read(plot_table + angles + par_table + "[sky]\n" + lines).model.sky;
+  };
   EXPECT_EQ(sky("model = \"uniform\"").kind, SkyKind::uniform);
   EXPECT_EQ(sky("model = \"cie-overcast\"").kind, SkyKind::overcast);
   EXPECT_EQ(sky("model = \"cie-clear\"").kind, SkyKind::general);
@@ -60,11 +59,11 @@ TEST_F(SceneSky, NamesItsModel) {
   EXPECT_EQ(lights.kind, SkyKind::lights);
   ASSERT_EQ(lights.lights.size(), 2U);
   EXPECT_EQ(lights.lights[0].weight, 0.75);
-  EXPECT_FALSE(read(plot + par).model.sky);
+  EXPECT_FALSE(read(plot_table + par_table).model.sky);
 }
 
 TEST_F(SceneSky, RefusesWhatIsNoSky) {
-  const std::string head = plot + angles + par + "[sky]\n";
+  const std::string head = plot_table + angles + par_table + "[sky]\n";
   expect_refused(head, "[sky]", "sky.model", "add model");
   expect_refused(head + "model = \"overcast\"\n", "model", "sky.model = \"overcast\"", "must be one of uniform, cie-overcast");
   expect_refused(head + "model = \"cie-clera\"\n", "model", "sky.model", "did you mean cie-clear?");
@@ -94,7 +93,7 @@ TEST_F(SceneSky, RefusesWhatIsNoSky) {
 }
 
 TEST_F(SceneSky, SomeSkiesNeedASun) {
-  const std::string head = plot + par + "[sky]\n";
+  const std::string head = plot_table + par_table + "[sky]\n";
   for (int type = 1; type <= 15; ++type) {
     const std::string text = head + fmt::format("model = \"cie\"\ntype = {}\n", type);
     if (type == 1 || type == 3 || type == 5) {
@@ -107,30 +106,32 @@ TEST_F(SceneSky, SomeSkiesNeedASun) {
   expect_refused(head + "model = \"perez\"\ndni = 1\ndhi = 9\n", "model", "sky.model", "add [sun]");
   EXPECT_TRUE(read(head + "model = \"cie-overcast\"\n").model.sky);
   // A sun below the horizon still counts as a sun.
-  EXPECT_TRUE(read(plot + "[sun]\nelevation = -3\nazimuth = 0\n" + par + "[sky]\nmodel = \"cie-clear\"\n").model.sky);
+  EXPECT_TRUE(
+      read(plot_table + "[sun]\nelevation = -3\nazimuth = 0\n" + par_table + "[sky]\nmodel = \"cie-clear\"\n").model.sky);
 }
 
 TEST_F(SceneSky, BandsTakeTheirDiffuseLightFromIt) {
-  const Scene scene = read(plot + uniform + par + "diffuse = 60\numol_per_joule = 4.57\n[[band]]\nname = \"NIR\"\n");
+  const Scene scene =
+      read(plot_table + uniform + par_table + "diffuse = 60\numol_per_joule = 4.57\n[[band]]\nname = \"NIR\"\n");
   EXPECT_EQ(scene.model.bands[0].diffuse_w_m2, 60.0);
   EXPECT_EQ(scene.model.bands[0].direct_w_m2, 0.0);
   EXPECT_EQ(scene.model.bands[0].umol_per_joule, 4.57);
   EXPECT_EQ(scene.model.bands[1].diffuse_w_m2, 0.0);
   EXPECT_EQ(scene.model.bands[1].umol_per_joule, 0.0);
   EXPECT_FALSE(scene.model.sun);
-  expect_refused(plot + par + "diffuse = 60\n", "diffuse", "band.diffuse = 60", "add [sky]");
-  EXPECT_EQ(read(plot + par + "diffuse = 0\ndirect = 0\n").model.bands[0].diffuse_w_m2, 0.0);
+  expect_refused(plot_table + par_table + "diffuse = 60\n", "diffuse", "band.diffuse = 60", "add [sky]");
+  EXPECT_EQ(read(plot_table + par_table + "diffuse = 0\ndirect = 0\n").model.bands[0].diffuse_w_m2, 0.0);
 }
 
 TEST_F(SceneSky, WeatherIsSplitAndShared) {
-  const std::string ghi = plot + moment + uniform + "[weather]\nghi = 800\n";
+  const std::string ghi = plot_table + moment_table + uniform + "[weather]\nghi = 800\n";
   // In the E5 example: 310.19 and 89.82 W m-2, half of the split global irradiance.
-  const Scene scene = read(ghi + par);
+  const Scene scene = read(ghi + par_table);
   EXPECT_NEAR(scene.model.bands[0].direct_w_m2, 310.19, 0.01);
   EXPECT_NEAR(scene.model.bands[0].diffuse_w_m2, 89.82, 0.01);
   EXPECT_TRUE(scene.warnings.empty());
   const Scene shares =
-      read(ghi + par + "share = 0.4\n[[band]]\nname = \"NIR\"\nshare = 0\n[[band]]\nname = \"LAMP\"\ndiffuse = 7\n");
+      read(ghi + par_table + "share = 0.4\n[[band]]\nname = \"NIR\"\nshare = 0\n[[band]]\nname = \"LAMP\"\ndiffuse = 7\n");
   EXPECT_NEAR(shares.model.bands[0].direct_w_m2 + shares.model.bands[0].diffuse_w_m2, 320.0, 1e-10);
   EXPECT_EQ(shares.model.bands[1].direct_w_m2 + shares.model.bands[1].diffuse_w_m2, 0.0);
   EXPECT_EQ(shares.model.bands[2].direct_w_m2, 0.0);
@@ -138,14 +139,14 @@ TEST_F(SceneSky, WeatherIsSplitAndShared) {
   ASSERT_EQ(shares.warnings.size(), 1U);
   EXPECT_NE(shares.warnings[0].find("it has its own irradiance"), std::string::npos) << shares.warnings[0];
   const SunPosition sun = *scene.model.sun;
-  const Scene erbs = read(plot + moment + uniform + "[weather]\nghi = 800\nsplit = \"erbs\"\n" + par);
+  const Scene erbs = read(plot_table + moment_table + uniform + "[weather]\nghi = 800\nsplit = \"erbs\"\n" + par_table);
   EXPECT_NEAR(erbs.model.bands[0].diffuse_w_m2, 400.0 * erbs_diffuse_share(800.0, sun, 220), 1e-10);
-  const Scene parts = read(plot + angles + uniform + "[weather]\ndni = 600\ndhi = 90\n" + par);
+  const Scene parts = read(plot_table + angles + uniform + "[weather]\ndni = 600\ndhi = 90\n" + par_table);
   EXPECT_NEAR(parts.model.bands[0].direct_w_m2, 150.0, 1e-10);
   EXPECT_EQ(parts.model.bands[0].diffuse_w_m2, 45.0);
   EXPECT_TRUE(parts.warnings.empty());
-  const Scene clear =
-      read(plot + moment + uniform + "[weather]\nclear_sky = \"ineichen\"\nlinke_turbidity = 4.5\naltitude = 1200\n" + par);
+  const Scene clear = read(plot_table + moment_table + uniform +
+                           "[weather]\nclear_sky = \"ineichen\"\nlinke_turbidity = 4.5\naltitude = 1200\n" + par_table);
   const Broadband sky = clear_sky({4.5, 1200.0}, sun, 220);
   EXPECT_NEAR(clear.model.bands[0].direct_w_m2, 0.5 * sky.direct_horizontal_w_m2(sun), 1e-10);
   EXPECT_NEAR(clear.model.bands[0].diffuse_w_m2, 0.5 * sky.diffuse_w_m2, 1e-10);
@@ -153,17 +154,17 @@ TEST_F(SceneSky, WeatherIsSplitAndShared) {
 
 TEST_F(SceneSky, WithoutADateTheMeanDistanceCountsAndIsSaid) {
   for (const char* weather : {"ghi = 800\n", "clear_sky = \"ineichen\"\n"}) {
-    const Scene scene = read(plot + angles + uniform + "[weather]\n" + weather + par);
+    const Scene scene = read(plot_table + angles + uniform + "[weather]\n" + weather + par_table);
     ASSERT_EQ(scene.warnings.size(), 1U) << weather;
     EXPECT_NE(scene.warnings[0].find("scene.toml:8: weather"), std::string::npos) << scene.warnings[0];
     EXPECT_NE(scene.warnings[0].find("mean distance"), std::string::npos) << scene.warnings[0];
   }
-  EXPECT_NEAR(read(plot + angles + uniform + "[weather]\nghi = 400\n" + par).model.bands[0].diffuse_w_m2,
+  EXPECT_NEAR(read(plot_table + angles + uniform + "[weather]\nghi = 400\n" + par_table).model.bands[0].diffuse_w_m2,
               200.0 * spitters_diffuse_share(400.0, {0.5235987755982988, 0.0}, {}), 1e-9);
 }
 
 TEST_F(SceneSky, WeatherComesFromItsFile) {
-  const std::string head = plot + moment + uniform + "[weather]\nfile = \"station.csv\"\n" + par;
+  const std::string head = plot_table + moment_table + uniform + "[weather]\nfile = \"station.csv\"\n" + par_table;
   const Scene scene = read(head);
   EXPECT_NEAR(scene.model.bands[0].direct_w_m2 + scene.model.bands[0].diffuse_w_m2, 200.0, 1e-10);
   EXPECT_NEAR(scene.model.bands[0].diffuse_w_m2, 200.0 * 0.84684, 2e-3);
@@ -182,7 +183,7 @@ TEST_F(SceneSky, WeatherComesFromItsFile) {
 }
 
 TEST_F(SceneSky, RefusesWhatIsNoWeather) {
-  const std::string head = plot + moment + uniform + par + "[weather]\n";
+  const std::string head = plot_table + moment_table + uniform + par_table + "[weather]\n";
   expect_refused(head, "[weather]", "weather", "add ghi");
   expect_refused(head + "ghi = -1\n", "ghi", "weather.ghi = -1", "0..3000");
   expect_refused(head + "ghi = 80000\n", "ghi", "weather.ghi", "0..3000");
@@ -205,13 +206,13 @@ TEST_F(SceneSky, RefusesWhatIsNoWeather) {
   expect_refused(head + "file = \".\"\n", "file", "weather.file", "name a .csv or .epw file");
   expect_refused(head + "file = \"/etc/passwd\"\n", "file", "weather.file", "--allow-outside");
   expect_refused(head + "turbidity = 3\n", "turbidity", "weather.turbidity", "remove it, or use one of");
-  expect_refused(plot + uniform + par + "[weather]\nghi = 3\n", "[weather]", "weather", "add [sun]");
-  expect_refused(plot + angles + uniform + par + "[weather]\nfile = \"station.csv\"\n", "file", "weather.file",
+  expect_refused(plot_table + uniform + par_table + "[weather]\nghi = 3\n", "[weather]", "weather", "add [sun]");
+  expect_refused(plot_table + angles + uniform + par_table + "[weather]\nfile = \"station.csv\"\n", "file", "weather.file",
                  "[sun] has no time");
 }
 
 TEST_F(SceneSky, RefusesWeatherThatDoesNotHoldTheMoment) {
-  const std::string text = plot + moment + uniform + par + "[weather]\nfile = \"station.csv\"\n";
+  const std::string text = plot_table + moment_table + uniform + par_table + "[weather]\nfile = \"station.csv\"\n";
   const std::string late = replaced(text, "T10:10", "T10:30");
   const auto message = message_of([&] { static_cast<void>(read(late)); });
   ASSERT_TRUE(message);
@@ -223,27 +224,28 @@ TEST_F(SceneSky, RefusesWeatherThatDoesNotHoldTheMoment) {
 }
 
 TEST_F(SceneSky, RefusesBandsAtOddsWithTheWeather) {
-  const std::string head = plot + moment + uniform + "[weather]\nghi = 800\n" + par + "share = 0.5\n";
+  const std::string head = plot_table + moment_table + uniform + "[weather]\nghi = 800\n" + par_table + "share = 0.5\n";
   expect_refused(head + "direct = 3\n", "direct", "band.direct", "share is also given");
   expect_refused(head + "direct = 0\n", "direct", "band.direct", "share is also given");
   expect_refused(head + "direct_normal = 3\n", "direct_normal", "band.direct_normal", "share is also given");
   expect_refused(head + "diffuse = 3\n", "diffuse", "band.diffuse", "share is also given");
   expect_refused(replaced(head, "0.5", "1.5"), "share", "band.share = 1.5", "percent");
-  expect_refused(plot + moment + "[weather]\nghi = 800\n" + par, "[weather]", "weather", "add [sky]");
-  expect_refused(plot + moment + "[weather]\ndni = 800\ndhi = 1\n" + par, "[weather]", "weather", "add [sky]");
-  EXPECT_EQ(read(plot + angles + "[weather]\ndni = 800\ndhi = 0\n" + par).model.bands[0].diffuse_w_m2, 0.0);
+  expect_refused(plot_table + moment_table + "[weather]\nghi = 800\n" + par_table, "[weather]", "weather", "add [sky]");
+  expect_refused(plot_table + moment_table + "[weather]\ndni = 800\ndhi = 1\n" + par_table, "[weather]", "weather",
+                 "add [sky]");
+  EXPECT_EQ(read(plot_table + angles + "[weather]\ndni = 800\ndhi = 0\n" + par_table).model.bands[0].diffuse_w_m2, 0.0);
 }
 
 TEST_F(SceneSky, PerezTakesTheWeathersParts) {
   const std::string perez = "[sky]\nmodel = \"perez\"\n";
-  const Scene scene = read(plot + moment + perez + "[weather]\nghi = 800\n" + par);
+  const Scene scene = read(plot_table + moment_table + perez + "[weather]\nghi = 800\n" + par_table);
   const Broadband parts = split_global(800.0, SplitRule::spitters, *scene.model.sun, 220);
   EXPECT_DOUBLE_EQ(scene.model.sky->dni_w_m2, parts.direct_normal_w_m2);
   EXPECT_DOUBLE_EQ(scene.model.sky->dhi_w_m2, parts.diffuse_w_m2);
-  const Scene own = read(plot + moment + perez + "dni = 1\ndhi = 2\n[weather]\nghi = 800\n" + par);
+  const Scene own = read(plot_table + moment_table + perez + "dni = 1\ndhi = 2\n[weather]\nghi = 800\n" + par_table);
   EXPECT_EQ(own.model.sky->dni_w_m2, 1.0);
   EXPECT_EQ(own.model.sky->dhi_w_m2, 2.0);
-  const Scene dark = read(plot + moment + perez + "[weather]\nghi = 0\n" + par);
+  const Scene dark = read(plot_table + moment_table + perez + "[weather]\nghi = 0\n" + par_table);
   EXPECT_GT(dark.model.sky->dhi_w_m2, 0.0);
   EXPECT_EQ(dark.model.bands[0].diffuse_w_m2, 0.0);
 }

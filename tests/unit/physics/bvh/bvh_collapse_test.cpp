@@ -8,10 +8,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace sunfleck {
+namespace sunfleck::testing_bvh {
 namespace {
 
-using namespace testing_bvh;
 using detail::BinaryTree;
 using detail::Subtree;
 
@@ -235,4 +234,4 @@ TEST(Statistics, AreWhatUniformLinesMeet) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::testing_bvh

@@ -8,10 +8,8 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace sunfleck {
+namespace sunfleck::testing_bvh {
 namespace {
-
-using namespace testing_bvh;
 
 Canopy periodic(std::vector<Triangle> corners) {
   Canopy canopy = isolated(std::move(corners));
@@ -119,4 +117,4 @@ TEST(References, RefuseMoreThanATreeHolds) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::testing_bvh

@@ -9,10 +9,8 @@
 #include <functional>
 #include <string>
 
-namespace sunfleck {
+namespace sunfleck::testing_bvh {
 namespace {
-
-using namespace testing_bvh;
 
 // Traces rays towards the triangles' middles and corners, along the axes and askew. Returns the number of hits found.
 std::size_t expect_no_hit_lost(const Bvh& bvh, std::size_t rays, double size_m) {
@@ -155,4 +153,4 @@ TEST(Bvh, OfNothingIsEmpty) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::testing_bvh

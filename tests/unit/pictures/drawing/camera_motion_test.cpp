@@ -11,13 +11,13 @@ namespace sunfleck {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-const glm::dvec3 centre(1.0, 0.5, -2.0);
+const glm::dvec3 scene_middle(1.0, 0.5, -2.0);
 
-HandCamera oblique() {
-  return in_hand(look_at({4.0, 3.0, 1.0}, centre, 0.7, 1.5), centre);
+HandCamera hand_aslant() {
+  return in_hand(look_at({4.0, 3.0, 1.0}, scene_middle, 0.7, 1.5), scene_middle);
 }
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
+void expect_same_point(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
   EXPECT_NEAR(a.x, b.x, tolerance);
   EXPECT_NEAR(a.y, b.y, tolerance);
   EXPECT_NEAR(a.z, b.z, tolerance);
@@ -31,57 +31,57 @@ void expect_upright(const Camera& camera) {
   EXPECT_NEAR(glm::length(camera.forward), 1.0, 1e-12);
   EXPECT_NEAR(glm::dot(camera.forward, camera.up), 0.0, 1e-12);
   EXPECT_NEAR(glm::dot(camera.forward, camera.right), 0.0, 1e-12);
-  expect_near(glm::cross(camera.right, camera.up), -camera.forward, 1e-12);
+  expect_same_point(glm::cross(camera.right, camera.up), -camera.forward, 1e-12);
   EXPECT_NEAR(camera.right.y, 0.0, 1e-12) << "the horizon is level";
   EXPECT_GE(camera.up.y, -1e-12);
 }
 
 TEST(CameraInHand, TurnsAboutTheMiddleOfTheScene) {
-  const HandCamera hand = oblique();
-  expect_near(pivot(hand), centre, 1e-12);
+  const HandCamera hand = hand_aslant();
+  expect_same_point(pivot(hand), scene_middle, 1e-12);
 }
 
 TEST(Orbit, KeepsPointDistanceAndHorizon) {
-  HandCamera hand = oblique();
+  HandCamera hand = hand_aslant();
   for (int k = 0; k < 40; ++k) {
     orbit(hand, 0.31, k % 3 == 0 ? 0.4 : -0.23);
-    expect_near(pivot(hand), centre, 1e-9);
+    expect_same_point(pivot(hand), scene_middle, 1e-9);
     expect_upright(hand.camera);
   }
 }
 
 TEST(Orbit, ByAFullTurnComesBack) {
-  HandCamera hand = oblique();
+  HandCamera hand = hand_aslant();
   const HandCamera before = hand;
   for (int k = 0; k < 8; ++k) orbit(hand, pi / 4, 0.0);
-  expect_near(hand.camera.position_m, before.camera.position_m, 1e-9);
-  expect_near(hand.camera.forward, before.camera.forward, 1e-12);
+  expect_same_point(hand.camera.position_m, before.camera.position_m, 1e-9);
+  expect_same_point(hand.camera.forward, before.camera.forward, 1e-12);
 }
 
 TEST(Orbit, StopsStraightAboveAndBelow) {
-  HandCamera hand = oblique();
+  HandCamera hand = hand_aslant();
   orbit(hand, 0.0, 10.0);
-  expect_near(hand.camera.forward, {0, -1, 0}, 1e-9);
-  expect_near(hand.camera.position_m, centre + glm::dvec3(0, hand.distance_m, 0), 1e-9);
+  expect_same_point(hand.camera.forward, {0, -1, 0}, 1e-9);
+  expect_same_point(hand.camera.position_m, scene_middle + glm::dvec3(0, hand.distance_m, 0), 1e-9);
   expect_upright(hand.camera);
   orbit(hand, 0.0, -20.0);
-  expect_near(hand.camera.forward, {0, 1, 0}, 1e-9);
+  expect_same_point(hand.camera.forward, {0, 1, 0}, 1e-9);
 }
 
 TEST(Orbit, LeavesATopViewSideways) {
   HandCamera hand = in_hand(top_view({0, 0, 0}, {2, 1, 2}, 1.0), {1, 0.5, 1});
   const glm::dvec3 right = hand.camera.right;
   orbit(hand, 0.0, -0.5);
-  expect_near(hand.camera.right, right, 1e-12);
+  expect_same_point(hand.camera.right, right, 1e-12);
   expect_upright(hand.camera);
   EXPECT_NEAR(hand.camera.forward.y, -std::cos(0.5), 1e-12);
 }
 
 TEST(Pan, MovesThePictureByAShareOfItsHeight) {
-  HandCamera hand = oblique();
+  HandCamera hand = hand_aslant();
   const Camera before = hand.camera;
   pan(hand, {0.25, -0.1}, 0.0);
-  const auto seen = project(hand.camera, centre);
+  const auto seen = project(hand.camera, scene_middle);
   ASSERT_TRUE(seen);
   EXPECT_NEAR(seen->at.x, 0.5 - 0.25 / before.aspect, 1e-12);
   EXPECT_NEAR(seen->at.y, 0.5 - 0.1, 1e-12);
@@ -89,14 +89,14 @@ TEST(Pan, MovesThePictureByAShareOfItsHeight) {
 }
 
 TEST(Zoom, ComesNearerToThePoint) {
-  HandCamera hand = oblique();
+  HandCamera hand = hand_aslant();
   const double distance_m = hand.distance_m;
   zoom(hand, 0.5);
   EXPECT_NEAR(hand.distance_m, 0.5 * distance_m, 1e-12);
-  expect_near(pivot(hand), centre, 1e-12);
+  expect_same_point(pivot(hand), scene_middle, 1e-12);
   for (int k = 0; k < 100; ++k) zoom(hand, 0.5);
   EXPECT_GT(hand.distance_m, 0.0);
-  expect_near(pivot(hand), centre, 1e-9);
+  expect_same_point(pivot(hand), scene_middle, 1e-9);
 }
 
 TEST(Zoom, OfParallelRaysShowsLess) {
@@ -110,7 +110,7 @@ TEST(Zoom, OfParallelRaysShowsLess) {
 TEST(Fit, ShowsTheWholeBoxInTheSameDirection) {
   const glm::dvec3 lo(-1, 0, -4);
   const glm::dvec3 hi(3, 2, 1);
-  for (HandCamera hand : {oblique(), in_hand(top_view({0, 0, 0}, {1, 1, 1}, 0.6), {0, 0, 0})}) {
+  for (HandCamera hand : {hand_aslant(), in_hand(top_view({0, 0, 0}, {1, 1, 1}, 0.6), {0, 0, 0})}) {
     const glm::dvec3 forward = hand.camera.forward;
     fit(hand, lo, hi);
     EXPECT_EQ(hand.camera.forward, forward);
@@ -124,10 +124,10 @@ TEST(Fit, ShowsTheWholeBoxInTheSameDirection) {
 }
 
 TEST(Fly, GoesWhereTheCameraLooks) {
-  HandCamera hand = oblique();
+  HandCamera hand = hand_aslant();
   const Camera before = hand.camera;
   fly(hand, {0, 0, 2});
-  expect_near(hand.camera.position_m, before.position_m + 2.0 * before.forward, 1e-12);
+  expect_same_point(hand.camera.position_m, before.position_m + 2.0 * before.forward, 1e-12);
 }
 
 TEST(Fisheye, StaysUprightAndMovesOverTheGround) {
@@ -139,13 +139,13 @@ TEST(Fisheye, StaysUprightAndMovesOverTheGround) {
   EXPECT_EQ(hand.camera.forward, before.forward);
   EXPECT_EQ(hand.camera.position_m, before.position_m);
   pan(hand, {0.5, 0.0}, 0.0);
-  expect_near(hand.camera.position_m, before.position_m + glm::dvec3(0, 0, -0.5), 1e-12);  // moves east
+  expect_same_point(hand.camera.position_m, before.position_m + glm::dvec3(0, 0, -0.5), 1e-12);  // moves east
   fly(hand, {0, 0.3, 0});
   EXPECT_NEAR(hand.camera.position_m.y, 0.4, 1e-12);
 }
 
 TEST(CameraToml, GivesTheSameCameraBack) {
-  const HandCamera hand = oblique();
+  const HandCamera hand = hand_aslant();
   glm::dvec3 position(0);
   glm::dvec3 at(0);
   double fov = 0.0;
@@ -154,8 +154,8 @@ TEST(CameraToml, GivesTheSameCameraBack) {
                   &position.x, &position.y, &position.z, &at.x, &at.y, &at.z, &fov),
       7);
   const Camera again = look_at(position, at, fov * pi / 180.0, hand.camera.aspect);
-  expect_near(again.position_m, hand.camera.position_m, 1e-4);
-  expect_near(again.forward, hand.camera.forward, 1e-4);
+  expect_same_point(again.position_m, hand.camera.position_m, 1e-4);
+  expect_same_point(again.forward, hand.camera.forward, 1e-4);
   EXPECT_NEAR(again.tan_half_fov, hand.camera.tan_half_fov, 1e-5);
   EXPECT_EQ(camera_toml(in_hand(top_view({0, 0, 0}, {1, 1, 1}, 1.0), {0, 0, 0})), "") << "a scene's camera is a pinhole";
 }

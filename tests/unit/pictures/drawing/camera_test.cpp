@@ -1,4 +1,5 @@
 #include "pictures/drawing/camera.h"
+#include "support/viewed_box.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +15,10 @@ namespace {
 
 // Covers about ten operations in double precision on numbers of order one: 10 x 2^-53 is 1e-15. The other three digits allow
 // for differences of coordinates that are larger than the result.
-constexpr double tolerance = 1e-12;
+constexpr double camera_tolerance = 1e-12;
 
 void expect_near(glm::dvec3 a, glm::dvec3 b) {
-  EXPECT_LT(glm::distance(a, b), tolerance);
+  EXPECT_LT(glm::distance(a, b), camera_tolerance);
 }
 
 Camera oblique(double aspect = 4.0 / 3.0) {
@@ -28,18 +29,18 @@ TEST(LookAt, GivesARightHandedFrameWithYUp) {
   const Camera camera = oblique();
   expect_near(camera.forward, glm::normalize(glm::dvec3(-2.1, -1.5, -1.8)));
   expect_near(glm::cross(camera.right, camera.up), -camera.forward);
-  EXPECT_NEAR(glm::length(camera.right), 1.0, tolerance);
-  EXPECT_NEAR(camera.right.y, 0.0, tolerance);
+  EXPECT_NEAR(glm::length(camera.right), 1.0, camera_tolerance);
+  EXPECT_NEAR(camera.right.y, 0.0, camera_tolerance);
   EXPECT_GT(camera.up.y, 0.0);
-  EXPECT_NEAR(camera.tan_half_fov, std::tan(0.35), tolerance);
+  EXPECT_NEAR(camera.tan_half_fov, std::tan(0.35), camera_tolerance);
 }
 
 TEST(LookAt, PutsThePointLookedAtInTheMiddle) {
   const auto projection = project(oblique(), {0.9, 1.0, 1.2});
   ASSERT_TRUE(projection);
-  EXPECT_NEAR(projection->at.x, 0.5, tolerance);
-  EXPECT_NEAR(projection->at.y, 0.5, tolerance);
-  EXPECT_NEAR(projection->depth_m, std::sqrt(2.1 * 2.1 + 1.5 * 1.5 + 1.8 * 1.8), tolerance);
+  EXPECT_NEAR(projection->at.x, 0.5, camera_tolerance);
+  EXPECT_NEAR(projection->at.y, 0.5, camera_tolerance);
+  EXPECT_NEAR(projection->depth_m, std::sqrt(2.1 * 2.1 + 1.5 * 1.5 + 1.8 * 1.8), camera_tolerance);
 }
 
 TEST(LookAt, TakesXAsUpWhenItLooksDownOrUp) {
@@ -61,12 +62,12 @@ TEST(Project, UndoesRayDirection) {
     for (double y = 0.0; y <= 1.0; y += 0.125) {
       for (double x = 0.0; x <= 1.0; x += 0.125) {
         const glm::dvec3 direction = ray_direction(camera, {x, y});
-        EXPECT_NEAR(glm::length(direction), 1.0, tolerance);
+        EXPECT_NEAR(glm::length(direction), 1.0, camera_tolerance);
         const auto projection = project(camera, camera.position_m + 7.0 * direction);
         ASSERT_TRUE(projection);
-        EXPECT_NEAR(projection->at.x, x, tolerance);
-        EXPECT_NEAR(projection->at.y, y, tolerance);
-        EXPECT_NEAR(projection->depth_m, 7.0 * glm::dot(direction, camera.forward), 7.0 * tolerance);
+        EXPECT_NEAR(projection->at.x, x, camera_tolerance);
+        EXPECT_NEAR(projection->at.y, y, camera_tolerance);
+        EXPECT_NEAR(projection->depth_m, 7.0 * glm::dot(direction, camera.forward), 7.0 * camera_tolerance);
       }
     }
   }
@@ -75,7 +76,7 @@ TEST(Project, UndoesRayDirection) {
 TEST(Project, SpansTheFieldOfViewFromTopToBottom) {
   const Camera camera = oblique();
   const double angle = std::acos(glm::dot(ray_direction(camera, {0.5, 0.0}), ray_direction(camera, {0.5, 1.0})));
-  EXPECT_NEAR(angle, 0.7, tolerance);
+  EXPECT_NEAR(angle, 0.7, camera_tolerance);
 }
 
 TEST(Project, HasNothingBehindTheCamera) {
@@ -84,11 +85,7 @@ TEST(Project, HasNothingBehindTheCamera) {
   EXPECT_FALSE(project(camera, camera.position_m));
 }
 
-struct Box {
-  glm::dvec3 lo_m, hi_m;
-};
-
-std::vector<glm::dvec3> corners(const Box& box) {
+std::vector<glm::dvec3> corners(const test::ViewedBox& box) {
   std::vector<glm::dvec3> points_m;
   for (unsigned i = 0; i < 8; ++i) {
     points_m.emplace_back((i & 1U) != 0 ? box.hi_m.x : box.lo_m.x, (i & 2U) != 0 ? box.hi_m.y : box.lo_m.y,
@@ -97,12 +94,12 @@ std::vector<glm::dvec3> corners(const Box& box) {
   return points_m;
 }
 
-const std::vector<Box> boxes = {{{0.0, 0.0, 0.0}, {1.8, 2.4, 2.4}},   {{0.0, 0.0, 0.0}, {30.0, 0.3, 2.0}},
-                                {{0.0, 0.0, 0.0}, {0.5, 12.0, 0.5}},  {{0.0, 0.0, 0.0}, {1.0, 0.0, 1.0}},
-                                {{-4.0, -1.0, 5.0}, {1.0, 2.0, 9.0}}, {{0.0, 0.0, 0.0}, {1e-3, 2e-3, 1e-3}}};
+const std::vector<test::ViewedBox> camera_boxes = {{{0.0, 0.0, 0.0}, {1.8, 2.4, 2.4}},   {{0.0, 0.0, 0.0}, {30.0, 0.3, 2.0}},
+                                                   {{0.0, 0.0, 0.0}, {0.5, 12.0, 0.5}},  {{0.0, 0.0, 0.0}, {1.0, 0.0, 1.0}},
+                                                   {{-4.0, -1.0, 5.0}, {1.0, 2.0, 9.0}}, {{0.0, 0.0, 0.0}, {1e-3, 2e-3, 1e-3}}};
 
 TEST(ThreeQuarterView, ShowsTheWholeBoxWithAMarginAndRoomForTitleAndLegend) {
-  for (const Box& box : boxes) {
+  for (const test::ViewedBox& box : camera_boxes) {
     for (const double aspect : {0.5, 1.0, 4.0 / 3.0, 16.0 / 9.0, 2.4}) {
       const Camera camera = three_quarter_view(box.lo_m, box.hi_m, aspect);
       EXPECT_EQ(camera.aspect, aspect);
@@ -119,7 +116,7 @@ TEST(ThreeQuarterView, ShowsTheWholeBoxWithAMarginAndRoomForTitleAndLegend) {
 }
 
 TEST(ThreeQuarterView, ShowsAxesThatReachBeyondTheBox) {
-  for (const Box& box : boxes) {
+  for (const test::ViewedBox& box : camera_boxes) {
     const glm::dvec3 extent_m = box.hi_m - box.lo_m;
     const double overhang_m = axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
     const Camera camera = three_quarter_view(box.lo_m, box.hi_m, 4.0 / 3.0);
@@ -135,7 +132,7 @@ TEST(ThreeQuarterView, ShowsAxesThatReachBeyondTheBox) {
 }
 
 TEST(ThreeQuarterView, StandsSouthWestAndAbove) {
-  for (const Box& box : boxes) {
+  for (const test::ViewedBox& box : camera_boxes) {
     const Camera camera = three_quarter_view(box.lo_m, box.hi_m, 4.0 / 3.0);
     EXPECT_LT(camera.forward.x, 0.0);
     EXPECT_LT(camera.forward.y, 0.0);
@@ -146,7 +143,7 @@ TEST(ThreeQuarterView, StandsSouthWestAndAbove) {
 
 // No closer position would do: in one of the picture's two directions, points touch both sides of the window.
 TEST(ThreeQuarterView, IsAsCloseAsTheMarginAllows) {
-  const Box box = boxes.front();
+  const test::ViewedBox box = camera_boxes.front();
   Camera camera = three_quarter_view(box.lo_m, box.hi_m, 4.0 / 3.0);
   std::vector<glm::dvec3> points_m = corners(box);
   points_m.emplace_back(0.0, box.hi_m.y + axis_overhang * 2.4, 0.0);
@@ -157,8 +154,8 @@ TEST(ThreeQuarterView, IsAsCloseAsTheMarginAllows) {
     top = std::min(top, projection->at.y);
     bottom = std::max(bottom, projection->at.y);
   }
-  EXPECT_NEAR(top, 0.15, tolerance);
-  EXPECT_NEAR(bottom, 1.0 - 0.085, tolerance);
+  EXPECT_NEAR(top, 0.15, camera_tolerance);
+  EXPECT_NEAR(bottom, 1.0 - 0.085, camera_tolerance);
 }
 
 TEST(ThreeQuarterView, ScalesWithTheBox) {

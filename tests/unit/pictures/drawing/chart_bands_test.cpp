@@ -1,5 +1,9 @@
 // Tests charts painted band by band, in every projection, with copies of the plot.
 
+#include "pictures/drawing/chart.h"
+#include "support/chart_scenes.h"
+#include "support/pixels.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,14 +11,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "pictures/drawing/chart.h"
-
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
 
-using Pixel = std::array<std::uint8_t, 3>;
-const Plot plot{1.8, 2.4, true};
-constexpr double height_m = 2.2;
 const std::vector<Colour> colours = {{0.1, 0.4, 0.1}, {0.6, 0.5, 0.2}, {0.3, 0.2, 0.1}};
 
 // Returns random surfaces and depths, about as far away as the plot, in blobs of 8 x 8 pixels.
@@ -22,7 +21,7 @@ SurfaceImage noise(const Camera& camera, int width, int height, int samples) {
   std::mt19937 random(7);
   const std::size_t count = static_cast<std::size_t>(width) * height * samples;
   SurfaceImage seen{width, height, samples, {}, {}, {}, 0};
-  const auto middle = project(camera, {0.5 * plot.size_x_m, 1.0, 0.5 * plot.size_z_m});
+  const auto middle = project(camera, {0.5 * chart_plot.size_x_m, 1.0, 0.5 * chart_plot.size_z_m});
   const double depth_m = middle ? middle->depth_m : 1.0;
   for (std::size_t i = 0; i < count; ++i) {
     seen.surface.push_back(random() % 4 == 0 ? SurfaceImage::nothing : static_cast<std::uint32_t>(random() % 3));
@@ -47,7 +46,7 @@ SurfaceImage rows_of(const SurfaceImage& whole, RowBand band) {
 
 std::vector<Camera> all_cameras(double aspect) {
   const glm::dvec3 lo(0.0);
-  const glm::dvec3 hi(plot.size_x_m, height_m, plot.size_z_m);
+  const glm::dvec3 hi(chart_plot.size_x_m, chart_height_m, chart_plot.size_z_m);
   return {three_quarter_view(lo, hi, aspect), top_view(lo, hi, aspect), side_view(lo, hi, aspect),
           fisheye_view({0.9, 0.1, 1.2}, aspect)};
 }
@@ -62,9 +61,9 @@ TEST(ChartCanvas, PaintsTheSameHoweverTheRowsAreCut) {
   constexpr int width = 320, height = 240;
   for (const Camera& camera : all_cameras(4.0 / 3.0)) {
     const SurfaceImage whole = noise(camera, width, height, 3);
-    const Image expected = draw_chart(whole, colours, camera, plot, height_m, some_text());
+    const Image expected = draw_chart(whole, colours, camera, chart_plot, chart_height_m, some_text());
     for (const int rows : {1, 7, 64, 239}) {
-      ChartCanvas canvas({width, height, camera, plot, height_m}, colours);
+      ChartCanvas canvas({width, height, camera, chart_plot, chart_height_m}, colours);
       std::vector<RowBand> bands;
       for (int first = 0; first < height; first += rows) bands.push_back({first, std::min(rows, height - first)});
       std::shuffle(bands.begin(), bands.end(), std::mt19937(3));
@@ -79,13 +78,13 @@ TEST(ChartCanvas, DimsNeighboursHalfwayToTheBackground) {
   constexpr int size = 10;
   SurfaceImage seen{size, size, 1, std::vector<std::uint32_t>(100, SurfaceImage::nothing), std::vector<float>(100, 1.0F),
                     {},   0};
-  const Image sky = draw_chart(seen, colours, camera, plot, height_m, {});
+  const Image sky = draw_chart(seen, colours, camera, chart_plot, chart_height_m, {});
   seen.surface.assign(100, 1);
-  const Image plain = draw_chart(seen, colours, camera, plot, height_m, {});
+  const Image plain = draw_chart(seen, colours, camera, chart_plot, chart_height_m, {});
   seen.neighbour.assign(100, 0);
-  EXPECT_EQ(draw_chart(seen, colours, camera, plot, height_m, {}).pixels, plain.pixels);
+  EXPECT_EQ(draw_chart(seen, colours, camera, chart_plot, chart_height_m, {}).pixels, plain.pixels);
   seen.neighbour.assign(100, 1);
-  const Image dimmed = draw_chart(seen, colours, camera, plot, height_m, {});
+  const Image dimmed = draw_chart(seen, colours, camera, chart_plot, chart_height_m, {});
   for (std::size_t i = 0; i < 100; ++i) {
     const Colour background = from_srgb(sky.pixels[i]);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -100,26 +99,21 @@ bool is_coloured(const Pixel& pixel) {
   return std::max({pixel[0], pixel[1], pixel[2]}) - std::min({pixel[0], pixel[1], pixel[2]}) > 100;
 }
 
-SurfaceImage empty_scene(int width, int height) {
-  const std::size_t count = static_cast<std::size_t>(width) * height;
-  return {width, height, 1, std::vector<std::uint32_t>(count, SurfaceImage::nothing), std::vector<float>(count, 1e9F), {}, 0};
-}
-
-Pixel pixel_at(const Image& image, glm::dvec2 at) {
+Pixel pixel_in(const Image& image, glm::dvec2 at) {
   return image
       .pixels[static_cast<std::size_t>(at.y * image.height) * image.width + static_cast<std::size_t>(at.x * image.width)];
 }
 
 TEST(ChartCanvas, DrawsTheHorizonOfAFisheyeInsteadOfAxes) {
   const Camera camera = fisheye_view({0.9, 0.1, 1.2}, 4.0 / 3.0);
-  const Image image = draw_chart(empty_scene(1600, 1200), colours, camera, plot, height_m, {});
+  const Image image = draw_chart(empty_scene(1600, 1200), colours, camera, chart_plot, chart_height_m, {});
   EXPECT_EQ(std::count_if(image.pixels.begin(), image.pixels.end(), is_coloured), 0);
   const double radius = camera.circle_radius + 0.5 * 0.0022;  // in picture heights; the line lies on the circle's outer side
   for (const double angle : {0.1, 0.9, 2.2, 3.0, 4.4, 5.5}) {
     const glm::dvec2 out(std::cos(angle) / camera.aspect, std::sin(angle));
-    EXPECT_LT(pixel_at(image, camera.circle_centre + radius * out)[0], 130);
-    EXPECT_GT(pixel_at(image, camera.circle_centre + (radius - 0.01) * out)[0], 225);
-    EXPECT_GT(pixel_at(image, camera.circle_centre + (radius + 0.01) * out)[0], 225);
+    EXPECT_LT(pixel_in(image, camera.circle_centre + radius * out)[0], 130);
+    EXPECT_GT(pixel_in(image, camera.circle_centre + (radius - 0.01) * out)[0], 225);
+    EXPECT_GT(pixel_in(image, camera.circle_centre + (radius + 0.01) * out)[0], 225);
   }
 }
 
@@ -130,13 +124,13 @@ TEST(ChartCanvas, DrawsAxesInOrthographicPictures) {
     return most;
   };
   const std::vector<Camera> cameras = all_cameras(4.0 / 3.0);
-  const Image top = draw_chart(empty_scene(1600, 1200), colours, cameras[1], plot, height_m, {});
-  EXPECT_TRUE(mostly(pixel_at(top, project(cameras[1], {0.9, 0.0, 0.0})->at), 0));
-  EXPECT_TRUE(mostly(pixel_at(top, project(cameras[1], {0.0, 0.0, 1.2})->at), 2));
-  EXPECT_EQ(pixel_at(top, project(cameras[1], {0.9, 0.0, 2.4})->at), (Pixel{0, 0, 0}));
-  const Image side = draw_chart(empty_scene(1600, 1200), colours, cameras[2], plot, height_m, {});
-  EXPECT_TRUE(mostly(pixel_at(side, project(cameras[2], {0.0, 1.1, 0.0})->at), 1));
-  EXPECT_TRUE(mostly(pixel_at(side, project(cameras[2], {0.0, 0.0, 1.2})->at), 2));
+  const Image top = draw_chart(empty_scene(1600, 1200), colours, cameras[1], chart_plot, chart_height_m, {});
+  EXPECT_TRUE(mostly(pixel_in(top, project(cameras[1], {0.9, 0.0, 0.0})->at), 0));
+  EXPECT_TRUE(mostly(pixel_in(top, project(cameras[1], {0.0, 0.0, 1.2})->at), 2));
+  EXPECT_EQ(pixel_in(top, project(cameras[1], {0.9, 0.0, 2.4})->at), (Pixel{0, 0, 0}));
+  const Image side = draw_chart(empty_scene(1600, 1200), colours, cameras[2], chart_plot, chart_height_m, {});
+  EXPECT_TRUE(mostly(pixel_in(side, project(cameras[2], {0.0, 1.1, 0.0})->at), 1));
+  EXPECT_TRUE(mostly(pixel_in(side, project(cameras[2], {0.0, 0.0, 1.2})->at), 2));
 }
 
 TEST(ChartCanvas, HidesLinesInOrthographicPicturesByDepth) {
@@ -145,14 +139,14 @@ TEST(ChartCanvas, HidesLinesInOrthographicPicturesByDepth) {
   SurfaceImage seen = empty_scene(1600, 1200);
   seen.surface.assign(seen.surface.size(), 1);
   seen.depth_m.assign(seen.depth_m.size(), static_cast<float>(point->depth_m - 0.5));
-  EXPECT_EQ(pixel_at(draw_chart(seen, colours, camera, plot, height_m, {}), point->at), to_srgb(colours[1]));
+  EXPECT_EQ(pixel_in(draw_chart(seen, colours, camera, chart_plot, chart_height_m, {}), point->at), to_srgb(colours[1]));
   seen.depth_m.assign(seen.depth_m.size(), static_cast<float>(point->depth_m));
-  EXPECT_EQ(pixel_at(draw_chart(seen, colours, camera, plot, height_m, {}), point->at)[1], 0);
+  EXPECT_EQ(pixel_in(draw_chart(seen, colours, camera, chart_plot, chart_height_m, {}), point->at)[1], 0);
 }
 
 TEST(ChartCanvas, RefusesRowsOutsideThePicture) {
   const Camera camera = all_cameras(1.0)[0];
-  ChartCanvas canvas({10, 10, camera, plot, height_m}, colours);
+  ChartCanvas canvas({10, 10, camera, chart_plot, chart_height_m}, colours);
   SurfaceImage seen = empty_scene(10, 5);
   seen.first_row = 6;
   EXPECT_THROW(canvas.paint(seen), std::logic_error);
@@ -173,4 +167,4 @@ TEST(RowBands, CoverThePictureInBoundedPieces) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

@@ -1,4 +1,6 @@
 #include "pictures/drawing/chart.h"
+#include "support/chart_scenes.h"
+#include "support/pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -10,23 +12,14 @@
 #include <stdexcept>
 #include <string>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
 
-using Pixel = std::array<std::uint8_t, 3>;
-constexpr float endless = std::numeric_limits<float>::infinity();
 constexpr int full_width = 1600, full_height = 1200;
-const Plot plot{1.8, 2.4, true};
-constexpr double height_m = 2.2;
 const std::vector<Colour> leaf_colours = {rank_colour(2), rank_colour(4)};
 
-SurfaceImage empty_scene(int width, int height, int samples = 1) {
-  const std::size_t count = static_cast<std::size_t>(width) * height * samples;
-  return {width, height, samples, std::vector<std::uint32_t>(count, SurfaceImage::nothing), std::vector<float>(count, endless)};
-}
-
 Camera quarter_view() {
-  return three_quarter_view({0.0, 0.0, 0.0}, {plot.size_x_m, height_m, plot.size_z_m}, 4.0 / 3.0);
+  return three_quarter_view({0.0, 0.0, 0.0}, {chart_plot.size_x_m, chart_height_m, chart_plot.size_z_m}, 4.0 / 3.0);
 }
 
 // Returns a view that shows nothing of the plot, so that a chart consists of surfaces alone.
@@ -34,14 +27,10 @@ Camera averted_view() {
   return look_at({0.0, 50.0, 0.0}, {0.0, 100.0, 1.0}, 0.5, 4.0 / 3.0);
 }
 
-Pixel at(const Image& image, int x, int y) {
-  return image.pixels[static_cast<std::size_t>(y) * image.width + x];
-}
-
 // Returns the pixel that shows a point.
-Pixel at(const Image& image, const Camera& camera, glm::dvec3 point_m) {
+Pixel pixel_showing(const Image& image, const Camera& camera, glm::dvec3 point_m) {
   const auto projection = project(camera, point_m);
-  return at(image, static_cast<int>(projection->at.x * image.width), static_cast<int>(projection->at.y * image.height));
+  return pixel_at(image, static_cast<int>(projection->at.x * image.width), static_cast<int>(projection->at.y * image.height));
 }
 
 bool mostly(const Pixel& pixel, std::size_t channel) {
@@ -55,7 +44,7 @@ bool pale(const Pixel& pixel) {
 }
 
 Image bare_chart(const SurfaceImage& seen, const Camera& camera = quarter_view()) {
-  return draw_chart(seen, leaf_colours, camera, plot, height_m, {});
+  return draw_chart(seen, leaf_colours, camera, chart_plot, chart_height_m, {});
 }
 
 TEST(DrawChart, ShowsSurfacesInExactlyTheirColours) {
@@ -76,12 +65,12 @@ TEST(DrawChart, ShowsSurfacesInExactlyTheirColours) {
     for (int x = 0; x < 160; ++x) {
       const bool row = y >= 30 && y < 70;
       if (row && x >= 20 && x < 60) {
-        ASSERT_EQ(at(image, x, y), to_srgb(leaf_colours[0]));
+        ASSERT_EQ(pixel_at(image, x, y), to_srgb(leaf_colours[0]));
       } else if (row && x >= 90 && x < 130) {
-        ASSERT_EQ(at(image, x, y), to_srgb(leaf_colours[1]));
+        ASSERT_EQ(pixel_at(image, x, y), to_srgb(leaf_colours[1]));
       } else {
-        ASSERT_TRUE(pale(at(image, x, y)));
-        ASSERT_EQ(at(image, x, y), at(image, 0, y));  // the background changes only from top to bottom
+        ASSERT_TRUE(pale(pixel_at(image, x, y)));
+        ASSERT_EQ(pixel_at(image, x, y), pixel_at(image, 0, y));  // the background changes only from top to bottom
       }
     }
   }
@@ -93,45 +82,45 @@ TEST(DrawChart, AveragesTheLightOfAPixelsSamples) {
   std::copy(samples.begin(), samples.end(), seen.surface.begin());
   Colour mean{};
   for (std::size_t i = 0; i < 3; ++i) mean[i] = 0.25 * leaf_colours[0][i] + 0.75 * leaf_colours[1][i];
-  EXPECT_EQ(at(bare_chart(seen, averted_view()), 0, 0), to_srgb(mean));
+  EXPECT_EQ(pixel_at(bare_chart(seen, averted_view()), 0, 0), to_srgb(mean));
 }
 
 TEST(DrawChart, DrawsTheAxesInRedGreenAndBlue) {
   const Camera camera = quarter_view();
   const Image image = bare_chart(empty_scene(full_width, full_height));
-  EXPECT_TRUE(mostly(at(image, camera, {0.5 * plot.size_x_m, 0.0, 0.0}), 0));
-  EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.5 * height_m, 0.0}), 1));
-  EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.0, 0.5 * plot.size_z_m}), 2));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {0.5 * chart_plot.size_x_m, 0.0, 0.0}), 0));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {0.0, 0.5 * chart_height_m, 0.0}), 1));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {0.0, 0.0, 0.5 * chart_plot.size_z_m}), 2));
   // This point lies beyond the plot, where the arrow heads are.
-  EXPECT_TRUE(mostly(at(image, camera, {1.04 * plot.size_x_m, 0.0, 0.0}), 0));
-  EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.0, 1.04 * plot.size_z_m}), 2));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {1.04 * chart_plot.size_x_m, 0.0, 0.0}), 0));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {0.0, 0.0, 1.04 * chart_plot.size_z_m}), 2));
 }
 
 TEST(DrawChart, DrawsThePlotsBorderInBlack) {
   const Camera camera = quarter_view();
   const Image image = bare_chart(empty_scene(full_width, full_height));
-  EXPECT_EQ(at(image, camera, {plot.size_x_m, 0.0, 0.3 * plot.size_z_m}), (Pixel{0, 0, 0}));
-  EXPECT_EQ(at(image, camera, {0.3 * plot.size_x_m, 0.0, plot.size_z_m}), (Pixel{0, 0, 0}));
+  EXPECT_EQ(pixel_showing(image, camera, {chart_plot.size_x_m, 0.0, 0.3 * chart_plot.size_z_m}), (Pixel{0, 0, 0}));
+  EXPECT_EQ(pixel_showing(image, camera, {0.3 * chart_plot.size_x_m, 0.0, chart_plot.size_z_m}), (Pixel{0, 0, 0}));
 }
 
-const std::vector<glm::dvec3> line_points = {{0.5 * plot.size_x_m, 0.0, 0.0},
-                                             {0.0, 0.5 * height_m, 0.0},
-                                             {0.0, 0.0, 0.5 * plot.size_z_m},
-                                             {plot.size_x_m, 0.0, 0.3 * plot.size_z_m},
-                                             {0.3 * plot.size_x_m, 0.0, plot.size_z_m}};
+const std::vector<glm::dvec3> line_points = {{0.5 * chart_plot.size_x_m, 0.0, 0.0},
+                                             {0.0, 0.5 * chart_height_m, 0.0},
+                                             {0.0, 0.0, 0.5 * chart_plot.size_z_m},
+                                             {chart_plot.size_x_m, 0.0, 0.3 * chart_plot.size_z_m},
+                                             {0.3 * chart_plot.size_x_m, 0.0, chart_plot.size_z_m}};
 
 TEST(DrawChart, HidesLinesBehindSurfaces) {
   const Camera camera = quarter_view();
   SurfaceImage seen = empty_scene(full_width, full_height);
   std::fill(seen.surface.begin(), seen.surface.end(), 0);
-  const double nearest_m = project(camera, {plot.size_x_m, height_m, plot.size_z_m})->depth_m;
+  const double nearest_m = project(camera, {chart_plot.size_x_m, chart_height_m, chart_plot.size_z_m})->depth_m;
   std::fill(seen.depth_m.begin(), seen.depth_m.end(), static_cast<float>(0.9 * nearest_m));
   const Image hidden = bare_chart(seen);
   std::fill(seen.depth_m.begin(), seen.depth_m.end(), static_cast<float>(10.0 * nearest_m));
   const Image before = bare_chart(seen);
   for (const glm::dvec3& point : line_points) {
-    EXPECT_EQ(at(hidden, camera, point), to_srgb(leaf_colours[0]));
-    EXPECT_NE(at(before, camera, point), to_srgb(leaf_colours[0]));
+    EXPECT_EQ(pixel_showing(hidden, camera, point), to_srgb(leaf_colours[0]));
+    EXPECT_NE(pixel_showing(before, camera, point), to_srgb(leaf_colours[0]));
   }
 }
 
@@ -146,7 +135,7 @@ TEST(DrawChart, HidesTheShareOfALineThatSamplesSeeHidden) {
   }
   Colour half = leaf_colours[1];  // the other half is black
   for (double& channel : half) channel *= 0.5;
-  const Pixel got = at(bare_chart(seen), camera, point_m);
+  const Pixel got = pixel_showing(bare_chart(seen), camera, point_m);
   // The leaf's colour is rounded to 1/255 before the line is mixed in, and once more afterwards.
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(std::abs(got[i] - to_srgb(half)[i]), 1);
 }
@@ -168,7 +157,7 @@ TEST(DrawChart, LaysLinesOnTheGround) {
       }
     }
     const Image on_ground = bare_chart(seen);
-    std::fill(seen.depth_m.begin(), seen.depth_m.end(), endless);
+    std::fill(seen.depth_m.begin(), seen.depth_m.end(), endless_m);
     EXPECT_EQ(on_ground.pixels, bare_chart(seen).pixels) << height;
   }
 }
@@ -181,7 +170,7 @@ ChartText full_text() {
 TEST(DrawChart, PrintsTheLegendInExactlyTheClassColours) {
   const ChartText text = full_text();
   const SurfaceImage seen = empty_scene(full_width, full_height);
-  const Image image = draw_chart(seen, leaf_colours, averted_view(), plot, height_m, text);
+  const Image image = draw_chart(seen, leaf_colours, averted_view(), chart_plot, chart_height_m, text);
   for (const LegendEntry& entry : text.legend) {
     const auto count = std::count(image.pixels.begin(), image.pixels.end(), to_srgb(entry.colour));
     EXPECT_GT(count, 1000);  // a swatch measures 49 x 27 pixels, its outline included
@@ -193,7 +182,7 @@ std::array<int, 4> changed_box(const Image& a, const Image& b) {
   std::array<int, 4> box = {a.width, 0, a.height, 0};
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
-      if (at(a, x, y) == at(b, x, y)) continue;
+      if (pixel_at(a, x, y) == pixel_at(b, x, y)) continue;
       box = {std::min(box[0], x), std::max(box[1], x + 1), std::min(box[2], y), std::max(box[3], y + 1)};
     }
   }
@@ -205,8 +194,8 @@ TEST(DrawChart, KeepsTextOfAnyLengthWithinTheMargins) {
     ChartText text = full_text();
     for (int repeat = 0; repeat < 2; ++repeat) {
       const SurfaceImage seen = empty_scene(width, height);
-      const Image plain = draw_chart(seen, leaf_colours, averted_view(), plot, height_m, {});
-      const Image written = draw_chart(seen, leaf_colours, averted_view(), plot, height_m, text);
+      const Image plain = draw_chart(seen, leaf_colours, averted_view(), chart_plot, chart_height_m, {});
+      const Image written = draw_chart(seen, leaf_colours, averted_view(), chart_plot, chart_height_m, text);
       const auto [left, right, top, bottom] = changed_box(plain, written);
       const double margin = 0.035 * height - 2.5;  // allows for bearings and rounding to whole pixels
       EXPECT_GE(left, margin);
@@ -220,7 +209,8 @@ TEST(DrawChart, KeepsTextOfAnyLengthWithinTheMargins) {
 
 TEST(DrawChart, CopesWithTinyPictures) {
   for (const int size : {1, 2, 7, 40}) {
-    const Image image = draw_chart(empty_scene(size, size, 3), leaf_colours, quarter_view(), plot, height_m, full_text());
+    const Image image =
+        draw_chart(empty_scene(size, size, 3), leaf_colours, quarter_view(), chart_plot, chart_height_m, full_text());
     EXPECT_EQ(image.pixels.size(), static_cast<std::size_t>(size) * size);
   }
 }
@@ -228,9 +218,9 @@ TEST(DrawChart, CopesWithTinyPictures) {
 TEST(DrawChart, DrawsWhatLiesBeforeACameraWithinTheScene) {
   const Camera camera = look_at({0.9, 0.4, 1.2}, {0.0, 0.3, 0.3}, 0.9, 4.0 / 3.0);  // parts of all lines are behind the camera
   const Image image = bare_chart(empty_scene(full_width, full_height), camera);
-  EXPECT_TRUE(mostly(at(image, camera, {0.2, 0.0, 0.0}), 0));
-  EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.3, 0.0}), 1));
-  EXPECT_TRUE(mostly(at(image, camera, {0.0, 0.0, 0.2}), 2));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {0.2, 0.0, 0.0}), 0));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {0.0, 0.3, 0.0}), 1));
+  EXPECT_TRUE(mostly(pixel_showing(image, camera, {0.0, 0.0, 0.2}), 2));
 }
 
 TEST(DrawChart, RefusesImagesOfAnotherSize) {
@@ -267,4 +257,4 @@ TEST(RankLegend, LeavesOutEmptyClasses) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

@@ -15,7 +15,7 @@
 namespace sunfleck {
 namespace {
 
-ExrImage pattern(int width, int height) {
+ExrImage exr_pattern(int width, int height) {
   std::vector<float> values;
   std::vector<float> coverage;
   std::vector<std::uint32_t> elements;
@@ -62,7 +62,7 @@ void expect_channel(const ReadBack& read, int channel, const std::string& name, 
 TEST(ExrWriter, WritesWhatAReaderGetsBack) {
   const TempFolder folder;
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(37, 23), std::pair(300, 40)}) {
-    const ExrImage image = pattern(width, height);
+    const ExrImage image = exr_pattern(width, height);
     write_exr(image, folder / "values.exr");
     const std::string bytes = read_file(folder / "values.exr");
     EXPECT_EQ(bytes.substr(0, 4), "\x76\x2f\x31\x01");
@@ -84,12 +84,12 @@ TEST(ExrWriter, WritesWhatAReaderGetsBack) {
 
 TEST(ExrWriter, SaysWhenTheFolderIsMissing) {
   const TempFolder folder;
-  refusal_of([&] { write_exr(pattern(2, 2), folder.path() / "missing" / "values.exr"); }, ErrorKind::failure);
+  refusal_of([&] { write_exr(exr_pattern(2, 2), folder.path() / "missing" / "values.exr"); }, ErrorKind::failure);
 }
 
 TEST(ExrWriter, RefusesAnImageWithoutAllItsPixels) {
   const TempFolder folder;
-  ExrImage image = pattern(4, 4);
+  ExrImage image = exr_pattern(4, 4);
   std::get<0>(image.channels[0].values).pop_back();
   EXPECT_THROW(write_exr(image, folder / "values.exr"), std::logic_error);
 }

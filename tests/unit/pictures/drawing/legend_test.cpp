@@ -1,4 +1,5 @@
 #include "pictures/drawing/legend.h"
+#include "support/pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +9,8 @@
 #include <string>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
-
-using Pixel = std::array<std::uint8_t, 3>;
 
 std::vector<std::string> labels(double lo, double hi) {
   std::vector<std::string> result;
@@ -62,15 +61,11 @@ TEST(RoundTicks, MarkTheOneValueOfAScaleWithoutExtent) {
 constexpr double type_px = 20.0;
 const LegendRoom room = {{390.0, 10.0}, 380.0, 380.0};
 
-Image white() {
-  return {400, 400, std::vector<Pixel>(160'000, Pixel{255, 255, 255})};
-}
-
 // The bar is blue from 0 to 1 in the lower half, then red from 0 to 1.
 const ColourBar bar = {0.0, 400.0, {{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}}};
 
 TEST(DrawLegend, PaintsTheBarFromItsFirstColourUpToItsLast) {
-  Image image = white();
+  Image image = white_image(400, 400);
   const Typeface face;
   draw_legend(image, face, {"Total PAR irradiance, W m⁻²", bar, {}}, room, type_px);
   // The title is the widest line: the bar begins 0.9 em from the panel's left edge, below two lines of title.
@@ -89,7 +84,7 @@ TEST(DrawLegend, PaintsTheBarFromItsFirstColourUpToItsLast) {
 }
 
 TEST(DrawLegend, HasATickAtEachRoundNumber) {
-  Image image = white();
+  Image image = white_image(400, 400);
   const Typeface face;
   draw_legend(image, face, {"", bar, {}}, room, type_px);
   // Without a title the bar begins 0.9 em below the panel's edge; the ticks are right of it.
@@ -110,7 +105,7 @@ TEST(DrawLegend, HasATickAtEachRoundNumber) {
 
 TEST(DrawLegend, HasEntriesAboveTheBar) {
   const Colour green{0.0, 0.6, 0.1};
-  Image image = white();
+  Image image = white_image(400, 400);
   draw_legend(image, Typeface(), {"", bar, {{green, "> 400"}}}, room, type_px);
   int last_row = 0;
   int count = 0;
@@ -126,7 +121,7 @@ TEST(DrawLegend, HasEntriesAboveTheBar) {
 TEST(DrawLegend, KeepsToItsRoom) {
   for (const double size_px : {5.0, 20.0, 80.0}) {
     for (const LegendRoom& tight : {LegendRoom{{300.0, 50.0}, 100.0, 300.0}, LegendRoom{{300.0, 50.0}, 280.0, 90.0}}) {
-      Image image = white();
+      Image image = white_image(400, 400);
       draw_legend(image, Typeface(), {"Absorbed PAR, W m⁻²", bar, {{Colour{}, "0 – 10"}}}, tight, size_px);
       for (int y = 0; y < 400; ++y) {
         for (int x = 0; x < 400; ++x) {
@@ -140,10 +135,10 @@ TEST(DrawLegend, KeepsToItsRoom) {
 }
 
 TEST(DrawLegend, IsNothingWithoutContent) {
-  Image image = white();
+  Image image = white_image(400, 400);
   draw_legend(image, Typeface(), {"Title", {}, {}}, room, type_px);
-  EXPECT_EQ(image.pixels, white().pixels);
+  EXPECT_EQ(image.pixels, white_image(400, 400).pixels);
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

@@ -1,21 +1,12 @@
 #include "pictures/drawing/overlay.h"
+#include "support/pixels.h"
 
 #include <gtest/gtest.h>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
 
-using Pixel = std::array<std::uint8_t, 3>;
-constexpr Pixel white = {255, 255, 255};
 constexpr Pixel red = {220, 20, 30};
-
-Image blank() {
-  return {20, 10, std::vector<Pixel>(200, white)};
-}
-
-Pixel at(const Image& image, int x, int y) {
-  return image.pixels[static_cast<std::size_t>(y) * image.width + x];
-}
 
 // Returns light of `red` over white in the given share.
 Pixel mixed(double share) {
@@ -25,7 +16,7 @@ Pixel mixed(double share) {
 }
 
 TEST(Blend, MixesLight) {
-  Pixel pixel = white;
+  Pixel pixel = white_pixel;
   blend(pixel, {from_srgb(red), 0.5}, 0.5);
   EXPECT_EQ(pixel, mixed(0.25));
   blend(pixel, {from_srgb(red)}, 0.0);
@@ -35,45 +26,45 @@ TEST(Blend, MixesLight) {
 }
 
 TEST(FillRectangle, FillsWholePixelsWhollyAndHalvesByHalf) {
-  Image image = blank();
+  Image image = white_image(20, 10);
   fill_rectangle(image, {{2.0, 3.0}, {6.5, 7.0}}, {}, {from_srgb(red)});
   for (int y = 0; y < 10; ++y) {
     for (int x = 0; x < 20; ++x) {
       const bool row_inside = y >= 3 && y < 7;
-      const Pixel expected = row_inside && x >= 2 && x < 6 ? red : row_inside && x == 6 ? mixed(0.5) : white;
-      EXPECT_EQ(at(image, x, y), expected) << x << ", " << y;
+      const Pixel expected = row_inside && x >= 2 && x < 6 ? red : row_inside && x == 6 ? mixed(0.5) : white_pixel;
+      EXPECT_EQ(pixel_at(image, x, y), expected) << x << ", " << y;
     }
   }
 }
 
 TEST(FillRectangle, RoundsCorners) {
-  Image image = blank();
+  Image image = white_image(20, 10);
   fill_rectangle(image, {{2.0, 1.0}, {12.0, 9.0}}, {3.0}, {from_srgb(red)});
-  EXPECT_EQ(at(image, 2, 1), white);  // 0.54 px beyond the arc
-  EXPECT_EQ(at(image, 11, 8), white);
-  EXPECT_EQ(at(image, 7, 1), red);
-  EXPECT_EQ(at(image, 2, 5), red);
+  EXPECT_EQ(pixel_at(image, 2, 1), white_pixel);  // 0.54 px beyond the arc
+  EXPECT_EQ(pixel_at(image, 11, 8), white_pixel);
+  EXPECT_EQ(pixel_at(image, 7, 1), red);
+  EXPECT_EQ(pixel_at(image, 2, 5), red);
 }
 
 TEST(FillRectangle, IsCutOffAtThePicturesEdges) {
-  Image image = blank();
+  Image image = white_image(20, 10);
   fill_rectangle(image, {{-5.0, -5.0}, {50.0, 50.0}}, {}, {from_srgb(red)});
   EXPECT_EQ(image.pixels, std::vector<Pixel>(200, red));
-  fill_rectangle(image, {{30.0, 30.0}, {50.0, 50.0}}, {}, {from_srgb(white)});
+  fill_rectangle(image, {{30.0, 30.0}, {50.0, 50.0}}, {}, {from_srgb(white_pixel)});
   EXPECT_EQ(image.pixels, std::vector<Pixel>(200, red));
 }
 
 TEST(OutlineRectangle, LeavesTheMiddleAlone) {
-  Image image = blank();
+  Image image = white_image(20, 10);
   outline_rectangle(image, {{2.0, 2.0}, {12.0, 8.0}}, {}, 1.0, {from_srgb(red)});
   for (int y = 0; y < 10; ++y) {
     for (int x = 0; x < 20; ++x) {
       const bool in = x >= 2 && x < 12 && y >= 2 && y < 8;
       const bool middle = x >= 3 && x < 11 && y >= 3 && y < 7;
-      EXPECT_EQ(at(image, x, y), in && !middle ? red : white) << x << ", " << y;
+      EXPECT_EQ(pixel_at(image, x, y), in && !middle ? red : white_pixel) << x << ", " << y;
     }
   }
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

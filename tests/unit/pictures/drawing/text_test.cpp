@@ -1,4 +1,5 @@
 #include "pictures/drawing/text.h"
+#include "support/pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +10,13 @@
 #include <string_view>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
 
-constexpr std::array<std::uint8_t, 3> white = {255, 255, 255};
 constexpr double size_px = 24.0;
 
-Image blank(int width = 400, int height = 80) {
-  return {width, height, std::vector<std::array<std::uint8_t, 3>>(static_cast<std::size_t>(width) * height, white)};
-}
-
 Image drawn(std::string_view line, glm::dvec2 baseline_px = {20.0, 50.0}) {
-  Image image = blank();
+  Image image = white_image(400, 80);
   Typeface().draw(image, line, baseline_px, size_px, {0.0, 0.0, 0.0});
   return image;
 }
@@ -41,7 +37,7 @@ TEST(Typeface, DrawsWithinTheLineItMeasuresAndNowhereElse) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       if (x + 1 > left && x < right && y + 1 > top && y < bottom) continue;
-      ASSERT_EQ(image.pixels[static_cast<std::size_t>(y) * image.width + x], white) << x << ", " << y;
+      ASSERT_EQ(image.pixels[static_cast<std::size_t>(y) * image.width + x], white_pixel) << x << ", " << y;
     }
   }
   EXPECT_GT(ink(image), 100.0);
@@ -120,11 +116,11 @@ TEST(Typeface, IsCutOffAtThePicturesEdges) {
 }
 
 TEST(Typeface, DrawsInTheColourGiven) {
-  Image image = blank(60, 60);
+  Image image = white_image(60, 60);
   const Colour colour = from_srgb({200, 30, 40});
   Typeface().draw(image, "█", {10.0, 50.0}, 40.0, colour);
   EXPECT_EQ(image.pixels[30U * 60U + 20U], (std::array<std::uint8_t, 3>{200, 30, 40}));
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test

@@ -1,3 +1,4 @@
+#include "base/units.h"
 #include "files/results/tables/tradeoff_table.h"
 #include "programs/tradeoff/tradeoff_fit.h"
 #include "support/gnuplot.h"
@@ -8,12 +9,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <limits>
 
 namespace sunfleck {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr test::Picture::Pixel blue{0x00, 0x72, 0xB2}, vermilion{0xD5, 0x5E, 0x00}, green{0x00, 0x9E, 0x73},
     purple{0xCC, 0x79, 0xA7}, black{0, 0, 0};
 
@@ -112,7 +111,7 @@ TEST_F(TradeoffPlot, FitsTheSlopesThatTheProgramPrints) {
 TEST_F(TradeoffPlot, WholeRunsAndCoarserMeshesAreDrawnToo) {
   TradeoffReport report = maize_report();
   const std::size_t all = picture(report).count(green);
-  report.levels.push_back(level(TradeoffSeries::meshes, 0.5, 5.0, 5000000, {0.001, 0.02, 0.05, none}));
+  report.levels.push_back(level(TradeoffSeries::meshes, 0.5, 5.0, 5000000, {0.001, 0.02, 0.05, no_value}));
   const std::size_t with_mesh = picture(report).count(green);
   EXPECT_GT(with_mesh, all);
   report.levels.resize(11);
@@ -124,7 +123,7 @@ TEST_F(TradeoffPlot, OfAnythingThatCanBeMeasured) {
   TradeoffReport report;
   report.record.title = "it's `touch x` \"@x\" {a}_b^2 \\ \xff";
   EXPECT_EQ(picture(report).width, 1600);
-  report.levels.push_back(level(TradeoffSeries::bounds, 0.02, 1.0, 100, {none, none, none, none}));
+  report.levels.push_back(level(TradeoffSeries::bounds, 0.02, 1.0, 100, {no_value, no_value, no_value, no_value}));
   report.levels.push_back(level(TradeoffSeries::grids, 0.02, 0.0, 100, {0.0, 0.0, 0.0, 0.0}));
   EXPECT_EQ(picture(report).width, 1600);
   report.levels = {whole.levels.front()};

@@ -1,3 +1,4 @@
+#include "base/units.h"
 #include "files/results/tables/tradeoff_table.h"
 #include "programs/tradeoff/tradeoff_error.h"
 #include "programs/tradeoff/tradeoff_fit.h"
@@ -7,12 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t number(Quantity quantity) {
   return static_cast<std::size_t>(quantity);
@@ -45,10 +43,10 @@ TEST(TradeoffError, IsTheRootMeanSquareOfRelativeErrors) {
 
 TEST(TradeoffError, ValuesWithoutIntervalsAreNeitherReportedNorCovered) {
   const TradeoffReference reference = organ_reference(0.0);
-  const QuantityError some = reference.error(Quantity::organ, {{10.3, 38.4, 5.0}, {0.5, none, none}}, 0.95, 8);
+  const QuantityError some = reference.error(Quantity::organ, {{10.3, 38.4, 5.0}, {0.5, no_value, no_value}}, 0.95, 8);
   EXPECT_NEAR(some.reported, 0.05, 1e-12);
   EXPECT_EQ(some.covered, 1.0);
-  const QuantityError no = reference.error(Quantity::organ, {{10.3, 38.4, 5.0}, {none, none, none}}, 0.95, 8);
+  const QuantityError no = reference.error(Quantity::organ, {{10.3, 38.4, 5.0}, {no_value, no_value, no_value}}, 0.95, 8);
   EXPECT_GT(no.true_error, 0.0);
   EXPECT_TRUE(std::isnan(no.reported));
   EXPECT_TRUE(std::isnan(no.covered));
@@ -61,8 +59,8 @@ TEST(TradeoffError, TheReferencesOwnErrorIsKnownAndWidensIntervals) {
   EXPECT_TRUE(std::isnan(reference.own_error(Quantity::canopy)));
   // Student's t for 8 replicates at 95 % is 2.365: a value 2.3 away is covered though the half-width is nearly 0, one 2.4 away
   // is not.
-  EXPECT_EQ(reference.error(Quantity::organ, {{12.3, 40.0, 0.0}, {1e-6, 0.1, none}}, 0.95, 8).covered, 1.0);
-  EXPECT_EQ(reference.error(Quantity::organ, {{12.4, 40.0, 0.0}, {1e-6, 0.1, none}}, 0.95, 8).covered, 0.5);
+  EXPECT_EQ(reference.error(Quantity::organ, {{12.3, 40.0, 0.0}, {1e-6, 0.1, no_value}}, 0.95, 8).covered, 1.0);
+  EXPECT_EQ(reference.error(Quantity::organ, {{12.4, 40.0, 0.0}, {1e-6, 0.1, no_value}}, 0.95, 8).covered, 0.5);
 }
 
 TEST(TradeoffError, OtherNumbersOfValuesHaveNone) {
@@ -72,14 +70,14 @@ TEST(TradeoffError, OtherNumbersOfValuesHaveNone) {
 TEST(TradeoffError, TypicalErrorLeavesTheReferencesOut) {
   // The squares are 9 and 41, with mean 25; without 9 it is 16.
   EXPECT_NEAR(typical_error({3.0, std::sqrt(41.0)}, 3.0), 4.0, 1e-12);
-  EXPECT_NEAR(typical_error({3.0, 4.0}, none), std::sqrt(12.5), 1e-12);
+  EXPECT_NEAR(typical_error({3.0, 4.0}, no_value), std::sqrt(12.5), 1e-12);
   EXPECT_TRUE(std::isnan(typical_error({3.0, 4.0}, 3.0))) << "most of it would be the reference's";
   EXPECT_TRUE(std::isnan(typical_error({}, 0.0)));
-  EXPECT_TRUE(std::isnan(typical_error({none}, 0.0)));
+  EXPECT_TRUE(std::isnan(typical_error({no_value}, 0.0)));
 }
 
 TEST(TradeoffFit, PowerLawGoesThroughItsPoints) {
-  const std::vector<WorkAndError> points{{1.0, 8.0}, {16.0, 1.0}, {256.0, 0.125}, {4.0, none}, {0.0, 1.0}};
+  const std::vector<WorkAndError> points{{1.0, 8.0}, {16.0, 1.0}, {256.0, 0.125}, {4.0, no_value}, {0.0, 1.0}};
   const auto law = fit_power_law(points);
   ASSERT_TRUE(law);
   EXPECT_NEAR(law->exponent, -0.75, 1e-12);
@@ -111,7 +109,7 @@ TradeoffLevel bound_level(double bound, double seconds, const std::vector<double
     run.errors[number(Quantity::organ)].true_error = error;
     level.runs.push_back(run);
   }
-  level.error[number(Quantity::organ)] = typical_error(errors, none);
+  level.error[number(Quantity::organ)] = typical_error(errors, no_value);
   return level;
 }
 
@@ -179,7 +177,7 @@ TEST(Recommendation, NeedsErrorsOfBounds) {
   EXPECT_FALSE(recommend({grid}, 0.01, Quantity::organ));
   EXPECT_FALSE(recommend({bound_level(0.04, 1.0, {0.0})}, 0.01, Quantity::organ));
   TradeoffLevel untold = bound_level(0.04, 1.0, {0.01});
-  untold.error[number(Quantity::organ)] = none;
+  untold.error[number(Quantity::organ)] = no_value;
   EXPECT_FALSE(recommend({untold}, 0.01, Quantity::organ)) << "the reference is too coarse";
 }
 

@@ -14,21 +14,8 @@
 namespace sunfleck {
 namespace {
 
-constexpr double patience_s = 600.0;
-
-// Waits until the condition holds; returns false after a long time.
-template <class Condition>
-bool wait_for(const Condition& condition) {
-  const auto start = std::chrono::steady_clock::now();
-  while (!condition()) {
-    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > patience_s) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
-
 bool wait_until_done(const LiveLight& light, std::uint64_t request) {
-  return wait_for([&] {
+  return test::wait_for([&] {
     const LightNews news = light.news();
     return news.result_request == request && news.complete;
   });
@@ -120,7 +107,7 @@ TEST(LiveLight, ContinuesAfterARequestThatCannotBeMet) {
   request.sun.shines = false;
   request.sky.kind = SkyRequestKind::clear;
   light.ask(request);
-  ASSERT_TRUE(wait_for([&] { return !light.news().problem.empty(); }));
+  ASSERT_TRUE(test::wait_for([&] { return !light.news().problem.empty(); }));
   EXPECT_NE(light.news().problem.find("sky"), std::string::npos);
   request.sky.kind = SkyRequestKind::uniform;
   const std::uint64_t number = light.ask(request);
@@ -135,16 +122,16 @@ TEST(LiveLight, SavesWhatRunWrites) {
   live.options.images = {"none"};
   LiveLight light(live.simulation, live.options, [] {});
   light.save(folder / "out");
-  ASSERT_TRUE(wait_for([&] { return light.news().saved.has_value(); }));
+  ASSERT_TRUE(test::wait_for([&] { return light.news().saved.has_value(); }));
   EXPECT_TRUE(light.news().saved->done) << light.news().saved->text;
   ASSERT_TRUE(wait_until_done(light, 1));
   light.save(folder / "out");
-  ASSERT_TRUE(wait_for([&] { return light.news().saved.has_value(); }));
+  ASSERT_TRUE(test::wait_for([&] { return light.news().saved.has_value(); }));
   EXPECT_EQ(light.news().saved->text, "saved in " + (folder / "out").string());
   for (const char* name : {"summary.json", "profile.csv", "organs.csv", "pictures.cbor"})
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
   light.save("/proc/no/folder");
-  ASSERT_TRUE(wait_for([&] { return light.news().saved.has_value(); }));
+  ASSERT_TRUE(test::wait_for([&] { return light.news().saved.has_value(); }));
   EXPECT_FALSE(light.news().saved->done);
 }
 

@@ -11,16 +11,6 @@
 namespace sunfleck {
 namespace {
 
-template <class Condition>
-bool wait_for(const Condition& condition) {
-  const auto start = std::chrono::steady_clock::now();
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() - start > std::chrono::minutes(10)) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
-
 // Provides finished light and a picture of it.
 class LivePictures : public testing::Test {
  protected:
@@ -29,12 +19,12 @@ class LivePictures : public testing::Test {
     request_.options.height = 120;
     request_.options.samples = 4;
     request_.camera = picture_camera(live_.scene, live_.simulation.layout(), request_.options);
-    EXPECT_TRUE(wait_for([&] { return light_.news().complete; }));
+    EXPECT_TRUE(test::wait_for([&] { return light_.news().complete; }));
     picture_.emplace(light_, live_.simulation.tracing(), [] {});
   }
 
   std::shared_ptr<const LivePictureFrame> finished(std::uint64_t look) {
-    EXPECT_TRUE(wait_for([&] {
+    EXPECT_TRUE(test::wait_for([&] {
       const auto frame = picture_->frame();
       return frame && frame->look == look && frame->fineness == Fineness::full;
     }));
@@ -68,7 +58,7 @@ TEST_F(LivePictures, EndAsRenderDrawsThem) {
       }
       return frame->fineness == Fineness::full;
     };
-    EXPECT_TRUE(wait_for(same)) << stem_of(picture);
+    EXPECT_TRUE(test::wait_for(same)) << stem_of(picture);
   }
 }
 
@@ -94,7 +84,7 @@ TEST_F(LivePictures, TellWhatEachPixelSeesAndWhatIsPicked) {
   ASSERT_LT(element, 3U);
   request_.picked = element;
   static_cast<void>(picture_->ask(request_));
-  ASSERT_TRUE(wait_for([&] { return picture_->frame()->picked.has_value(); }));
+  ASSERT_TRUE(test::wait_for([&] { return picture_->frame()->picked.has_value(); }));
   const PickedElement picked = *picture_->frame()->picked;
   EXPECT_EQ(picked.organ, "leaf");
   EXPECT_EQ(picked.plant, 1);

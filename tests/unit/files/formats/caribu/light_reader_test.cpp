@@ -15,7 +15,7 @@
 namespace sunfleck {
 namespace {
 
-std::string refusal(const std::filesystem::path& file) {
+std::string lights_refusal(const std::filesystem::path& file) {
   const std::string message = refusal_of([&] { static_cast<void>(read_lights(file)); });
   expect_three_parts(message);
   return message.substr(file.parent_path().string().size() + 1);
@@ -52,7 +52,7 @@ TEST(LightReader, ExtremeLengthsKeepTheirDirection) {
 
 TEST(LightReader, RefusesWithFileAndLine) {
   const TempFolder folder;
-  const auto refused = [&](std::string_view text) { return refusal(folder.write("x.light", text)); };
+  const auto refused = [&](std::string_view text) { return lights_refusal(folder.write("x.light", text)); };
   EXPECT_EQ(refused(""), "x.light: no directions (a sky needs at least one); write: weight dx dy dz");
   EXPECT_TRUE(refused("# only\n\n").starts_with("x.light: no direction"));
   EXPECT_EQ(refused("1 0 0 -1\n1 0 0 1\n"), "x.light:2: direction 0 0 1 (light must travel downwards, dz < 0); reverse it");
@@ -66,7 +66,7 @@ TEST(LightReader, RefusesWithFileAndLine) {
   EXPECT_TRUE(refused("1 0 0 -1 5\n").starts_with("x.light:1: '5' after dz ("));
   EXPECT_TRUE(refused("-1 0 0 -1\n").starts_with("x.light:1: weight = -1 ("));
   EXPECT_TRUE(refused("0 0 0 -1\n0 1 0 -1\n").starts_with("x.light: all weights are 0 ("));
-  EXPECT_TRUE(refusal(folder / "none.light").starts_with("none.light: cannot be read ("));
+  EXPECT_TRUE(lights_refusal(folder / "none.light").starts_with("none.light: cannot be read ("));
 }
 
 TEST(LightReader, RefusesMoreThanAHundredThousand) {
@@ -74,7 +74,8 @@ TEST(LightReader, RefusesMoreThanAHundredThousand) {
   std::string text;
   for (std::size_t i = 0; i < most_lights; ++i) text += "1 0 0 -1\n";
   EXPECT_EQ(read_lights(folder.write("full.light", text)).size(), most_lights);
-  EXPECT_TRUE(refusal(folder.write("more.light", text + "1 0 0 -1\n")).starts_with("more.light:100001: too many directions"));
+  EXPECT_TRUE(
+      lights_refusal(folder.write("more.light", text + "1 0 0 -1\n")).starts_with("more.light:100001: too many directions"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "files/formats/mesh/organ_name.h"
 #include "support/error_text.h"
+#include "support/mesh_corners.h"
 #include "support/mesh_files.h"
 #include "support/temp_folder.h"
 
@@ -15,15 +16,6 @@
 
 namespace sunfleck {
 namespace {
-
-using Corners = std::vector<glm::dvec3>;
-
-Corners corners_of(const Mesh& mesh) {
-  Corners corners;
-  for (const glm::uvec3& triangle : mesh.triangles)
-    for (int i = 0; i < 3; ++i) corners.push_back(mesh.vertices[triangle[i]]);
-  return corners;
-}
 
 const Corners square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 

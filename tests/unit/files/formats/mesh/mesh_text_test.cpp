@@ -7,6 +7,7 @@
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/formats/mesh/mesh_writer.h"
 #include "support/error_text.h"
+#include "support/mesh_corners.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -18,18 +19,9 @@
 namespace sunfleck {
 namespace {
 
-using Corners = std::vector<glm::dvec3>;
-
-Corners corners_of(const Mesh& mesh) {
-  Corners corners;
-  for (const glm::uvec3& triangle : mesh.triangles)
-    for (int i = 0; i < 3; ++i) corners.push_back(mesh.vertices[triangle[i]]);
-  return corners;
-}
-
 // Returns 200 triangles over 100 shared vertices, with digits that only double precision holds and optics that labels can
 // express.
-Mesh random_mesh() {
+Mesh labelled_mesh() {
   std::mt19937 random(20261122);
   const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
   Mesh mesh;
@@ -58,7 +50,7 @@ std::vector<Organ> organs_in_order(const Mesh& mesh) {
 
 TEST(MeshText, RoundTripsAreExact) {
   const TempFolder folder;
-  const Mesh mesh = random_mesh();
+  const Mesh mesh = labelled_mesh();
   for (const char* name : {"a.obj", "a.can", "a.CAN", "a.Obj"}) {
     SCOPED_TRACE(name);
     EXPECT_TRUE(is_writable_mesh(name));
@@ -92,7 +84,7 @@ TEST(MeshText, PlyNamesOrgansAndOptics) {
 }
 
 TEST(MeshText, CanLabelsAreTheMeshsOwn) {
-  Mesh mesh = random_mesh();
+  Mesh mesh = labelled_mesh();
   mesh.labels.assign(mesh.triangles.size(), no_label);
   mesh.organ_of[0] = mesh.optics_of[0] = 1;
   mesh.labels[0] = 100001007456;
@@ -103,7 +95,7 @@ TEST(MeshText, CanLabelsAreTheMeshsOwn) {
 }
 
 TEST(MeshText, ACanKnowsLeavesAndStems) {
-  Mesh mesh = random_mesh();
+  Mesh mesh = labelled_mesh();
   EXPECT_TRUE(optics_lost_in_can(mesh).empty());
   mesh.optics_names = {"soil2", "leaf", "leaf10", "green", "stem"};
   EXPECT_EQ(optics_lost_in_can(mesh), (std::vector<std::string>{"soil2", "leaf10", "green"}));
@@ -123,12 +115,12 @@ TEST(MeshText, RefusesWhatHasNoPlace) {
   const auto message = [&](const Mesh& mesh, const char* name, ErrorKind kind = ErrorKind::input) {
     return refusal_of([&] { write_mesh(mesh, folder / name); }, kind);
   };
-  EXPECT_NE(message(random_mesh(), "a.stl")
+  EXPECT_NE(message(labelled_mesh(), "a.stl")
                 .find("a.stl: unknown kind of mesh (its name ends in '.stl'); use a name that ends in .glb"),
             std::string::npos);
   EXPECT_FALSE(is_writable_mesh("a.can.gz"));
-  EXPECT_NE(message(random_mesh(), "gone/a.obj", ErrorKind::failure).find("gone/a.obj"), std::string::npos);
-  Mesh mesh = random_mesh();
+  EXPECT_NE(message(labelled_mesh(), "gone/a.obj", ErrorKind::failure).find("gone/a.obj"), std::string::npos);
+  Mesh mesh = labelled_mesh();
   mesh.organs[1].plant = 100'000;
   EXPECT_NE(message(mesh, "a.can", ErrorKind::failure).find("plant 100000 has no label ("), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.can"));

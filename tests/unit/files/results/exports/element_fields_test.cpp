@@ -17,7 +17,6 @@
 namespace sunfleck {
 namespace {
 
-using regression::Table;
 using test::awkward_record;
 using test::two_triangles;
 using test::two_triangles_result;
@@ -68,13 +67,13 @@ TEST(ElementFields, SkyColumnsOnlyWithASky) {
   RadiationModel model = two_triangles();
   model.canopy.organs[1].name = "a \"tip\", dry";
   RadiationResult result = two_triangles_result();
-  const Table with(triangles_csv(awkward_record(), model, result));
+  const regression::Table with(triangles_csv(awkward_record(), model, result));
   EXPECT_NEAR(with.number(0, "B-2_sky_upper"), 1.0, 1e-9);
   EXPECT_EQ(with.cell(0, "B-2_sky_lower"), "0");
   EXPECT_EQ(with.cell(0, "A_total"), "no such column");
   result.side_sky.clear();
   EXPECT_EQ(with.cell(1, "organ"), "a \"tip\", dry");
-  const Table without(triangles_csv(awkward_record(), model, result));
+  const regression::Table without(triangles_csv(awkward_record(), model, result));
   EXPECT_EQ(without.cell(0, "B-2_sky_upper"), "no such column");
   EXPECT_EQ(without.columns().size() + 4, with.columns().size());
   EXPECT_EQ(without.cell(0, "B-2_absorbed"), with.cell(0, "B-2_absorbed"));
@@ -143,7 +142,7 @@ TEST(Caribu, LabelsOfTheFile) {
   model.canopy.labels = {no_label, 100001007042};
   const RadiationResult result = two_triangles_result();
   const ElementFields fields = make_element_fields(model, result);
-  const Table table(caribu_csv({awkward_record(), model, result, fields, {}}));
+  const regression::Table table(caribu_csv({awkward_record(), model, result, fields, {}}));
   EXPECT_EQ(table.cell(0, "label"), "100001007000");
   EXPECT_EQ(table.cell(1, "label"), "100002007042") << "the plant is the element's, which may be a copy's";
 }
@@ -153,7 +152,7 @@ TEST(Caribu, Table) {
   const RadiationResult result = two_triangles_result();
   const ElementFields fields = make_element_fields(model, result);
   const RunRecord record = awkward_record();
-  const Table table(caribu_csv({record, model, result, fields, {}}));
+  const regression::Table table(caribu_csv({record, model, result, fields, {}}));
   EXPECT_EQ(table.header(), "band,index,label,area,Eabs,Ei,Ei_sup,Ei_inf");
   ASSERT_EQ(table.size(), 4U) << "a row for each band and triangle";
   EXPECT_EQ(table.cell(2, "band"), "B-2");

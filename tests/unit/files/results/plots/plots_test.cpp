@@ -1,5 +1,6 @@
 #include "files/results/plots/plots.h"
 
+#include "base/units.h"
 #include "files/results/tables/day_tables.h"
 #include "files/results/tables/plane_writer.h"
 #include "support/gnuplot.h"
@@ -9,7 +10,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <random>
 #include <string>
 
@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr test::Picture::Pixel blue{0x00, 0x72, 0xB2}, vermilion{0xD5, 0x5E, 0x00}, green{0x00, 0x9E, 0x73}, black{0, 0, 0},
     white{255, 255, 255};
 const std::string hostile = "it's `touch x` \"@x\" {a}_b^2 \\ \xff";
@@ -127,7 +126,7 @@ TEST_F(Plots, AProfileHasBothPanels) {
   EXPECT_EQ(in_half(other_band, false), in_half(both, false));
   EXPECT_EQ(in_half(other_band, true), 0U);
   std::vector<LayerResult> dark = layers(0.2);
-  for (LayerResult& layer : dark) layer.sunfleck_ratio = {none, none};
+  for (LayerResult& layer : dark) layer.sunfleck_ratio = {no_value, no_value};
   const test::Picture no_beam = draw("profile.gp", profiles({profile("A stand", dark)}));
   EXPECT_EQ(in_half(no_beam, false), 0U);
   EXPECT_EQ(in_half(no_beam, true), in_half(both, true));
@@ -135,10 +134,10 @@ TEST_F(Plots, AProfileHasBothPanels) {
 
 TEST_F(Plots, ProfilesOfAnythingASimulationGives) {
   std::vector<LayerResult> dark = layers(0.2), unsure = layers(0.2);
-  for (LayerResult& layer : dark) layer.sunfleck_ratio = {none, none};
+  for (LayerResult& layer : dark) layer.sunfleck_ratio = {no_value, no_value};
   for (LayerResult& layer : unsure) {
-    layer.sunfleck_ratio.half_width = none;
-    for (Estimate& absorbed : layer.absorbed) absorbed = {0.0, none};
+    layer.sunfleck_ratio.half_width = no_value;
+    for (Estimate& absorbed : layer.absorbed) absorbed = {0.0, no_value};
   }
   std::vector<LayerResult> flat{layers(1.0).front(), layers(1.0).back()};
   flat[1].height_m = 0.0;
@@ -335,7 +334,7 @@ TEST_F(Plots, MapsOfAnythingASimulationGives) {
   EXPECT_EQ(plane("All shade", model, result, 0).width, 1600);
   result.planes[0].reached.clear();
   result.planes[0].crossing.clear();
-  result.planes[0].sunfleck_ratio = {none, none};
+  result.planes[0].sunfleck_ratio = {no_value, no_value};
   EXPECT_EQ(plane("No beam", model, result, 0).width, 1600);
   for (const auto& [x, z] : {std::pair{1U, 1U}, {1U, 5U}, {1700U, 3U}}) {
     PlaneResult& map = result.planes[0];
@@ -410,7 +409,7 @@ TEST_F(Plots, ManyDaysAreDrawn) {
 TEST_F(Plots, DaysOfAnythingASimulationGives) {
   EXPECT_EQ(day("Night", {step_at(0, 0.0), step_at(0, 0.5)}, {light(0.0), light(0.0)}).width, 1600);
   StepLight one = light(100.0);
-  one.bands[0].incident.half_width = one.sunlit_leaf_fraction.half_width = none;
+  one.bands[0].incident.half_width = one.sunlit_leaf_fraction.half_width = no_value;
   EXPECT_EQ(day("One step, no errors", {step_at(0, 12.0)}, {one}).width, 1600);
 }
 

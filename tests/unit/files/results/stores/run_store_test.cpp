@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-const ordered_json settings{{"scene_digest", "0123"}, {"seed", 1}, {"grid_m", nullptr}};
+const ordered_json run_settings{{"scene_digest", "0123"}, {"seed", 1}, {"grid_m", nullptr}};
 
 SolveState some_state() {
   SolveState state;
@@ -41,7 +41,7 @@ SolveState blank_of(const SolveState& state) {
 class RunStoreTest : public ::testing::Test {
  protected:
   // Returns the message that rejects the state, or an empty text if it is accepted.
-  [[nodiscard]] std::string refusal(const ordered_json& now = settings) const {
+  [[nodiscard]] std::string refusal(const ordered_json& now = run_settings) const {
     return message_of([&] { static_cast<void>(RunStore(folder_.path(), now).read(blank_)); }).value_or("");
   }
   [[nodiscard]] std::string bytes() const { return read_file(folder_ / run_state_file); }
@@ -49,7 +49,7 @@ class RunStoreTest : public ::testing::Test {
   const SolveState state_ = some_state();
   const SolveState blank_ = blank_of(state_);
   TempFolder folder_;
-  RunStore store_{folder_.path(), settings};
+  RunStore store_{folder_.path(), run_settings};
 };
 
 TEST_F(RunStoreTest, GivesBackWhatWasWritten) {
@@ -128,19 +128,19 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherSize) {
 
 TEST_F(RunStoreTest, NamesTheFirstSettingThatDiffers) {
   store_.write(state_);
-  ordered_json other = settings;
+  ordered_json other = run_settings;
   other["seed"] = 2;
   EXPECT_NE(refusal(other).find("that run has other settings: seed was 1, now 2"), std::string::npos) << refusal(other);
-  other = settings;
+  other = run_settings;
   other["grid_m"] = 0.01;
   EXPECT_NE(refusal(other).find("grid_m was null, now 0.01"), std::string::npos);
-  other = settings;
+  other = run_settings;
   other.erase("scene_digest");
   EXPECT_NE(refusal(other).find("scene_digest was \"0123\", now not given"), std::string::npos);
 }
 
 TEST_F(RunStoreTest, FailsInOneLineWhereNothingCanBeWritten) {
-  const RunStore nowhere(folder_ / "absent", settings);
+  const RunStore nowhere(folder_ / "absent", run_settings);
   EXPECT_THROW(nowhere.write(state_), Error);
 }
 

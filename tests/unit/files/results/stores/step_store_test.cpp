@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/units.h"
 #include "support/error_text.h"
 #include "support/temp_folder.h"
 
@@ -16,8 +17,6 @@ namespace sunfleck {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 RadiationModel two_bands() {
   RadiationModel model;
@@ -34,10 +33,10 @@ RadiationModel two_bands() {
 StoredStep some_step(const RadiationModel& model) {
   StoredStep step;
   step.light = night_light(model);
-  step.light.bands[1].reflected = {1.0 / 3.0, none};
+  step.light.bands[1].reflected = {1.0 / 3.0, no_value};
   step.light.bands[1].unshot = 1e-300;
   step.light.organ_absorbed[3] = {0.1, std::numeric_limits<double>::denorm_min()};
-  step.light.sunlit_leaf_fraction = {none, none};
+  step.light.sunlit_leaf_fraction = {no_value, no_value};
   step.fields.assign(2 * 8 * 3, 0.1F);
   step.fields[7] = std::numeric_limits<float>::quiet_NaN();
   step.next_work = {1e6 / 7.0, 0.1};
@@ -50,7 +49,7 @@ StoredStep some_step(const RadiationModel& model) {
   return step;
 }
 
-const ordered_json settings{{"scene_digest", "0123"}, {"seed", 1}, {"step_min", 10}};
+const ordered_json day_settings{{"scene_digest", "0123"}, {"seed", 1}, {"step_min", 10}};
 
 bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
@@ -60,7 +59,7 @@ class StepStoreTest : public ::testing::Test {
  protected:
   const RadiationModel model_ = two_bands();
   TempFolder folder_;
-  StepStore store_{folder_.path(), model_, settings};
+  StepStore store_{folder_.path(), model_, day_settings};
   const std::string step_file_ = "steps/step_00007.bin";
 };
 
@@ -128,12 +127,12 @@ TEST_F(StepStoreTest, ReadsNoStepThatIsDamaged) {
 TEST_F(StepStoreTest, ReadsNoStepOfAnotherDayOrNumber) {
   store_.begin();
   store_.write(7, some_step(model_));
-  ordered_json other = settings;
+  ordered_json other = day_settings;
   other["seed"] = 2;
   EXPECT_FALSE(StepStore(folder_.path(), model_, other).read(7));
   RadiationModel larger = model_;
   larger.canopy.corners.resize(4);
-  EXPECT_FALSE(StepStore(folder_.path(), larger, settings).read(7));
+  EXPECT_FALSE(StepStore(folder_.path(), larger, day_settings).read(7));
   std::filesystem::rename(folder_ / step_file_, folder_ / "steps/step_00008.bin");
   EXPECT_FALSE(store_.read(8));
 }
@@ -145,7 +144,7 @@ TEST_F(StepStoreTest, TellsWhatAnEarlierDayLeft) {
   store_.write(0, some_step(model_));
   folder_.write("steps/step_fields.tmp", "half a file");
   folder_.write("steps/notes.txt", "of the user");
-  EXPECT_EQ(StepStore(folder_.path(), model_, settings).find(), StepStore::Found::begun);
+  EXPECT_EQ(StepStore(folder_.path(), model_, day_settings).find(), StepStore::Found::begun);
   store_.finish();
   EXPECT_EQ(store_.find(), StepStore::Found::finished);
   EXPECT_FALSE(store_.read(0));
@@ -157,20 +156,20 @@ TEST_F(StepStoreTest, TellsWhatAnEarlierDayLeft) {
 
 TEST_F(StepStoreTest, NamesTheFirstSettingThatDiffers) {
   store_.begin();
-  ordered_json other = settings;
+  ordered_json other = day_settings;
   other["seed"] = 2;
   const auto message = [&](const ordered_json& now) {
     return refusal_of([&] { static_cast<void>(StepStore(folder_.path(), model_, now).find()); });
   };
   EXPECT_NE(message(other).find("seed was 1, now 2"), std::string::npos);
-  other = settings;
+  other = day_settings;
   other["max_rays"] = 5;
   EXPECT_NE(message(other).find("max_rays was not given, now 5"), std::string::npos);
-  other = settings;
+  other = day_settings;
   other.erase("step_min");
   EXPECT_NE(message(other).find("step_min was 10, now not given"), std::string::npos);
   folder_.write("steps/settings.json", "{\"seed\": 1");
-  EXPECT_NE(message(settings).find("it is damaged"), std::string::npos);
+  EXPECT_NE(message(day_settings).find("it is damaged"), std::string::npos);
 }
 
 }  // namespace

@@ -1,22 +1,18 @@
 #include "files/results/tables/day_tables.h"
 
+#include "base/units.h"
 #include "support/table.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace sunfleck {
 namespace {
 
-using regression::Table;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 // Returns two triangles of 0.5 and 4.5 m2, each an organ; photons are requested for band A.
-RadiationModel small_model(bool periodic = true) {
+RadiationModel two_organs(bool periodic = true) {
   RadiationModel model;
   model.plot = {2.0, 3.0, periodic};
   model.canopy.corners = {{{{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}}},
@@ -47,7 +43,7 @@ StepLight light(double w_m2, double half_width, double unshot) {
                       {0.125 * w_m2, half_width},
                       {0.0, half_width},
                       unshot};
-  return {{band, band}, {{w_m2, half_width}, {2.0 * w_m2, half_width}, {0.0, 0.0}, {3.0 * w_m2, none}}, {0.5, 0.01}};
+  return {{band, band}, {{w_m2, half_width}, {2.0 * w_m2, half_width}, {0.0, 0.0}, {3.0 * w_m2, no_value}}, {0.5, 0.01}};
 }
 
 TEST(DayTables, LocalTimeCarriesItsOffset) {
@@ -59,16 +55,16 @@ TEST(DayTables, LocalTimeCarriesItsOffset) {
 TEST(DayTables, IncidentFluxOfAnIsolatedPlotHasAnError) {
   RadiationResult result;
   result.bands = {{"A", {}, 100.0, 1.0, {60.0, 1.5}, {30.0, 2.0}, {0.0, 1.0}, {9.0, 3.0}}};
-  const StepLight endless = step_light(small_model(), result);
+  const StepLight endless = step_light(two_organs(), result);
   EXPECT_EQ(endless.bands[0].incident.value, 100.0);
   EXPECT_EQ(endless.bands[0].incident.half_width, 0.0);
   EXPECT_EQ(endless.bands[0].unshot, 1.0);
-  EXPECT_EQ(step_light(small_model(false), result).bands[0].incident.half_width, 7.5);
+  EXPECT_EQ(step_light(two_organs(false), result).bands[0].incident.half_width, 7.5);
 }
 
 TEST(DayTables, RandomErrorsAddAsSquaresAndUnshotFluxAsItIs) {
   const std::vector<StepLight> lights{light(100.0, 3.0, 1.0), light(200.0, 13.0, 1.0), light(10.0, 5.0, 0.0)};
-  const std::vector<DateSums> dates = sum_dates(small_model(), three_steps(), lights);
+  const std::vector<DateSums> dates = sum_dates(two_organs(), three_steps(), lights);
   ASSERT_EQ(dates.size(), 2U);
   EXPECT_EQ(dates[0].steps, 2U);
   const StepBand& band = dates[0].bands[1];
@@ -84,9 +80,9 @@ TEST(DayTables, RandomErrorsAddAsSquaresAndUnshotFluxAsItIs) {
 }
 
 TEST(DayTables, DayIsWrittenStepByStep) {
-  const RadiationModel model = small_model();
-  const std::vector<StepLight> lights{light(100.0, 3.0, 1.0), night_light(model), light(10.0, none, 0.0)};
-  const Table table(day_csv({}, model, three_steps(), lights));
+  const RadiationModel model = two_organs();
+  const std::vector<StepLight> lights{light(100.0, 3.0, 1.0), night_light(model), light(10.0, no_value, 0.0)};
+  const regression::Table table(day_csv({}, model, three_steps(), lights));
   ASSERT_EQ(table.size(), 3U);
   EXPECT_EQ(table.comments().size(), 4U);
   EXPECT_EQ(table.cell(0, "time"), "2002-12-31T22:30:00-03:30");
@@ -101,9 +97,9 @@ TEST(DayTables, DayIsWrittenStepByStep) {
 }
 
 TEST(DayTables, OrgansHaveSumsOfEachDate) {
-  const RadiationModel model = small_model();
+  const RadiationModel model = two_organs();
   const std::vector<StepLight> lights{light(100.0, 3.0, 0.0), night_light(model), light(10.0, 5.0, 0.0)};
-  const Table table(organs_day_csv({}, model, three_steps(), lights));
+  const regression::Table table(organs_day_csv({}, model, three_steps(), lights));
   EXPECT_EQ(table.header(),
             "date,plant,organ,rank,area_m2,A_absorbed_mj_m2,A_error,A_absorbed_mol_m2,B_absorbed_mj_m2,B_error");
   ASSERT_EQ(table.size(), 4U);
@@ -121,14 +117,14 @@ TEST(DayTables, OrgansHaveSumsOfEachDate) {
 }
 
 TEST(DayTables, SaysWhatIsMissing) {
-  const RadiationModel model = small_model();
+  const RadiationModel model = two_organs();
   const std::vector<StepLight> lights{light(100.0, 3.0, 0.0)};
   for (const std::string& text :
        {day_csv({}, model, three_steps(), lights), organs_day_csv({}, model, three_steps(), lights)}) {
-    EXPECT_EQ(Table(text).comments().back(), "# incomplete: the first 1 of 3 steps");
+    EXPECT_EQ(regression::Table(text).comments().back(), "# incomplete: the first 1 of 3 steps");
   }
-  EXPECT_EQ(Table(organs_day_csv({}, model, three_steps(), lights)).size(), 2U);
-  EXPECT_EQ(Table(day_csv({}, model, three_steps(), {})).size(), 0U);
+  EXPECT_EQ(regression::Table(organs_day_csv({}, model, three_steps(), lights)).size(), 2U);
+  EXPECT_EQ(regression::Table(day_csv({}, model, three_steps(), {})).size(), 0U);
 }
 
 }  // namespace

@@ -11,9 +11,7 @@
 namespace sunfleck {
 namespace {
 
-using regression::Table;
-
-RunRecord small_record() {
+RunRecord plane_record() {
   RunRecord record;
   record.title = "A\nplane";
   record.seed = 7;
@@ -29,7 +27,7 @@ TEST(PlaneWriter, NamesItsFilesByHeight) {
 
 TEST(PlaneWriter, ACellARow) {
   const auto [model, result] = test::small_plane();
-  const Table table(plane_csv(small_record(), model, result, 0));
+  const regression::Table table(plane_csv(plane_record(), model, result, 0));
   ASSERT_EQ(table.comments().size(), 6U);
   EXPECT_EQ(table.comments()[0], "# A plane");
   EXPECT_EQ(table.comments()[2], "# seed 7, confidence 0.95");
@@ -58,7 +56,7 @@ TEST(PlaneWriter, ACellARow) {
 
 TEST(PlaneWriter, AClassOfFlecksARow) {
   const auto [model, result] = test::small_plane();
-  const Table table(plane_flecks_csv(small_record(), model, result, 0));
+  const regression::Table table(plane_flecks_csv(plane_record(), model, result, 0));
   EXPECT_EQ(table.header(), "lower_cm2,upper_cm2,flecks,area_share");
   ASSERT_EQ(table.size(), 1U);
   EXPECT_EQ(table.cell(0, "lower_cm2"), "10000");
@@ -73,19 +71,19 @@ TEST(PlaneWriter, WithoutABeamTheSunfleckCellsAreEmpty) {
   result.planes[0].reached.clear();
   result.planes[0].crossing.clear();
   result.planes[0].sunfleck_ratio.value = std::numeric_limits<double>::quiet_NaN();
-  const Table table(plane_csv(small_record(), model, result, 0));
+  const regression::Table table(plane_csv(plane_record(), model, result, 0));
   EXPECT_EQ(table.comments().back(), "# no direct beam");
   ASSERT_EQ(table.size(), 6U);
   EXPECT_EQ(table.cell(0, "sunfleck"), "");
   EXPECT_EQ(table.cell(0, "PAR_direct"), "0");
   EXPECT_NEAR(table.number(0, "PAR_total"), 10.0, 1e-6);
-  EXPECT_EQ(Table(plane_flecks_csv(small_record(), model, result, 0)).size(), 0U);
+  EXPECT_EQ(regression::Table(plane_flecks_csv(plane_record(), model, result, 0)).size(), 0U);
 }
 
 TEST(PlaneWriter, WithoutOtherLightTotalIsDirect) {
   auto [model, result] = test::small_plane();
   result.planes[0].down.clear();
-  const Table table(plane_csv(small_record(), model, result, 0));
+  const regression::Table table(plane_csv(plane_record(), model, result, 0));
   EXPECT_EQ(table.cell(0, "PAR_total"), table.cell(0, "PAR_direct"));
 }
 

@@ -1,6 +1,7 @@
 #include "files/results/tables/profile_table.h"
 
 #include "base/error.h"
+#include "base/units.h"
 #include "files/results/tables/result_writer.h"
 #include "support/error_text.h"
 #include "support/temp_folder.h"
@@ -8,13 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Returns planes at 0, 1 and 2 m, of which 0.2, 0.6 and 1 are in the sun.
 RadiationModel model_of_two_bands() {
@@ -26,9 +24,9 @@ RadiationModel model_of_two_bands() {
 RadiationResult two_layers() {
   const std::vector<Estimate> through{{1.0, 0.1}, {2.0, 0.2}};
   RadiationResult result;
-  result.layers = {{0.0, 1.0, {0.2, 0.01}, {none, none}, through, through, {{10.0, 1.0}, {20.0, none}}},
+  result.layers = {{0.0, 1.0, {0.2, 0.01}, {no_value, no_value}, through, through, {{10.0, 1.0}, {20.0, no_value}}},
                    {1.0, 2.0, {0.6, 0.02}, {0.5, 0.1}, through, through, {{30.0, 3.0}, {40.0, 4.0}}},
-                   {2.0, 0.0, {1.0, 0.0}, {none, none}, through, through, {}}};
+                   {2.0, 0.0, {1.0, 0.0}, {no_value, no_value}, through, through, {}}};
   return result;
 }
 
@@ -97,7 +95,7 @@ TEST(SunfleckRatioAt, ComparesWithFieldData) {
   EXPECT_NEAR(exact.r2, 1.0, 1e-12);
   EXPECT_NEAR(exact.slope, 1.0, 1e-12);
   EXPECT_NEAR(exact.rmse, 0.0, 1e-12);
-  for (ProfileTable::Row& row : profile.rows) row.sunfleck_ratio.value = none;
+  for (ProfileTable::Row& row : profile.rows) row.sunfleck_ratio.value = no_value;
   EXPECT_THROW(static_cast<void>(agreement(profile, measured)), Error);
 }
 

@@ -1,10 +1,10 @@
 #include "files/results/tables/result_writer.h"
 
+#include "base/units.h"
 #include "support/table.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -12,10 +12,6 @@ namespace sunfleck {
 namespace {
 
 using nlohmann::json;
-using regression::Table;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 // Returns two triangles of two organs and two bands: A is black, B scatters.
 RadiationModel small_model() {
   RadiationModel model;
@@ -36,21 +32,27 @@ RadiationModel small_model() {
 
 RadiationResult small_result() {
   RadiationResult result;
-  BandResult a{"A", {100, 60, 30, 0, 10, 0}, 100.0, 0.0, {60.0, 1.0}, {30.0, 2.0}, {0.0, 0.0}, {10.0, none}};
+  BandResult a{"A", {100, 60, 30, 0, 10, 0}, 100.0, 0.0, {60.0, 1.0}, {30.0, 2.0}, {0.0, 0.0}, {10.0, no_value}};
   BandResult b{"B", {100, 50, 30, 0, 10, 10}, 200.0, 20.0, {100.0, 21.0}, {60.0, 22.0}, {0.0, 20.0}, {20.0, 20.0}};
   result.bands = {a, b};
-  OrganResult leaf{0.5, {0.25, none}, {{1.0 / 3.0, 0.1}, {2.0, 0.1}}, {{0.0, 0.0}, {0.75, 0.01}}, {{0.0, 0.0}, {1.5, 0.03}}};
+  OrganResult leaf{
+      0.5, {0.25, no_value}, {{1.0 / 3.0, 0.1}, {2.0, 0.1}}, {{0.0, 0.0}, {0.75, 0.01}}, {{0.0, 0.0}, {1.5, 0.03}}};
   result.organs = {leaf, leaf};
-  LayerResult layer{
-      0.0, 0.5, {0.4, 0.01}, {none, none}, {{40.0, 1.0}, {80.0, 2.0}}, {{0.0, 0.0}, {7.0, 0.5}}, {{60.0, 1.0}, {90.0, 2.0}}};
+  LayerResult layer{0.0,
+                    0.5,
+                    {0.4, 0.01},
+                    {no_value, no_value},
+                    {{40.0, 1.0}, {80.0, 2.0}},
+                    {{0.0, 0.0}, {7.0, 0.5}},
+                    {{60.0, 1.0}, {90.0, 2.0}}};
   LayerResult top = layer;
   top.height_m = 3.0;
   top.absorbed.clear();
   result.layers = {layer, top};
   result.elements = {{20, 4}, {0, 0}};
-  result.element_error = {0.5, none, 0.75, none};
-  result.sunlit_leaf_fraction = {0.5, none};
-  result.ground_sunfleck_ratio = {none, none};
+  result.element_error = {0.5, no_value, 0.75, no_value};
+  result.sunlit_leaf_fraction = {0.5, no_value};
+  result.ground_sunfleck_ratio = {no_value, no_value};
   result.ground_per_ray_m2 = 0.01;
   result.side_indirect = {0, 100, 0, 300, 0, 0, 0, 0};
   result.w_per_quantum = {0.5, 0.01};
@@ -66,7 +68,7 @@ RunRecord small_record() {
   return record;
 }
 
-void expect_head(const Table& table) {
+void expect_head(const regression::Table& table) {
   ASSERT_EQ(table.comments().size(), 4U);
   EXPECT_EQ(table.comments()[0], "# Two lines");
   EXPECT_EQ(table.comments()[2], "# seed 42, confidence 0.95");
@@ -74,7 +76,7 @@ void expect_head(const Table& table) {
 }
 
 TEST(ResultWriter, ProfileHasALayerARowAndTheTopPlane) {
-  const Table table(profile_csv(small_record(), small_model(), small_result()));
+  const regression::Table table(profile_csv(small_record(), small_model(), small_result()));
   expect_head(table);
   ASSERT_EQ(table.size(), 2U);
   EXPECT_EQ(table.cell(0, "leaf_area_index"), "0.5");
@@ -91,7 +93,7 @@ TEST(ResultWriter, ProfileHasALayerARowAndTheTopPlane) {
 
 TEST(ResultWriter, OrgansAreQuotedAndUnknownsEmpty) {
   const std::string text = organs_csv(small_record(), small_model(), small_result());
-  const Table table(text);
+  const regression::Table table(text);
   expect_head(table);
   ASSERT_EQ(table.size(), 2U);
   EXPECT_NE(text.find("2,\"a \"\"tip\"\", dry\",0,"), std::string::npos) << text;
@@ -105,7 +107,7 @@ TEST(ResultWriter, OrgansAreQuotedAndUnknownsEmpty) {
 }
 
 TEST(ResultWriter, TrianglesStandInTheScenesFrame) {
-  const Table table(triangles_csv(small_record(), small_model(), small_result()));
+  const regression::Table table(triangles_csv(small_record(), small_model(), small_result()));
   expect_head(table);
   ASSERT_EQ(table.size(), 2U);
   EXPECT_EQ(table.cell(1, "triangle"), "1");
@@ -130,7 +132,7 @@ TEST(ResultWriter, TrianglesStandInTheScenesFrame) {
 TEST(ResultWriter, TrianglesWithoutIntervals) {
   RadiationResult result = small_result();
   result.element_error.clear();
-  const Table table(triangles_csv(small_record(), small_model(), result));
+  const regression::Table table(triangles_csv(small_record(), small_model(), result));
   EXPECT_EQ(table.cell(0, "A_error"), "");
   EXPECT_EQ(table.cell(0, "B_error"), "");
 }

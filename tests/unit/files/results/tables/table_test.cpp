@@ -1,16 +1,13 @@
 #include "files/results/tables/table.h"
 
+#include "base/units.h"
 #include "files/results/tables/result_tables.h"
 #include "files/results/tables/table_text.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace sunfleck {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::string below_head(const std::string& text) {
   return text.substr(text.find("# the units\n") + std::string("# the units\n").size());
@@ -28,7 +25,7 @@ TEST(Table, WritesEveryKindOfValue) {
   table.columns.push_back({.name = "row", .values = RowNumbers{3}});
   table.add_view({"number", "1", ""}, numbers);
   table.add_view({"kind", "1", "", in_csv, {}, kind_names}, kinds);
-  table.add({"share", "1", ""}, [](std::size_t i) { return i == 1 ? none : 1.0 / 3.0; });
+  table.add({"share", "1", ""}, [](std::size_t i) { return i == 1 ? no_value : 1.0 / 3.0; });
   table.add({"plant", "1", ""}, [](std::size_t i) { return static_cast<std::uint32_t>(i) + 4000000000U; });
   table.add({"text", "", ""}, [](std::size_t i) { return std::string(i, '"'); });
   EXPECT_EQ(below_head(csv_text({}, table)),

@@ -10,10 +10,8 @@
 #include <set>
 #include <vector>
 
-namespace sunfleck {
+namespace sunfleck::test {
 namespace {
-
-using namespace test;
 
 // Returns ten layers of 0.1 m with a leaf in one of them, one across three, one from the ground to the top, and one below the
 // ground.
@@ -139,4 +137,4 @@ TEST(AddAreaByLayer, PutsALevelTriangleIntoOneLayer) {
 }
 
 }  // namespace
-}  // namespace sunfleck
+}  // namespace sunfleck::test
