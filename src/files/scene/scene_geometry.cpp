@@ -82,7 +82,7 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
   MeshImport import;
   import.optics = table.text("optics");
   import.allow_outside = access.allow_outside;
-  if (const auto up = table.word("up", {"y", "z"})) import.up = *up == 0 ? UpAxis::y : UpAxis::z;
+  if (const auto up = table.word("up", {"y", "z", "x"})) import.up = static_cast<UpAxis>(*up);
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
   std::vector<Placement> placements = read_placements(table);

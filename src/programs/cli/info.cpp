@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "devices/gpu/context.h"
 #include "physics/light/sun_events.h"
+#include "programs/cli/info_mesh.h"
 #include "programs/cli/terminal.h"
 #include "simulate/memory_forecast.h"
 #include "simulate/scene_source.h"
@@ -165,6 +166,7 @@ void print_lines(const ordered_json& info) {
 }  // namespace
 
 int show_info(const InfoOptions& options) {
+  if (!options.meshes.empty()) return show_meshes(options);
   start_at_terminal(options.run);
   ordered_json info;
   info["devices"] = ordered_json::array();

@@ -62,6 +62,7 @@ Mesh read_format(const MeshSource& source, MeshFormat format) {
 void place(const std::string& where, Mesh& mesh, UpAxis up, double scale) {
   for (glm::dvec3& v : mesh.vertices) {
     if (up == UpAxis::z) v = {-v.y, v.z, -v.x};
+    if (up == UpAxis::x) v = {-v.z, v.x, -v.y};
     v *= scale;
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (std::isnan(v.x + v.y + v.z) || largest > std::numeric_limits<float>::max())

@@ -10,7 +10,7 @@
 
 namespace sunfleck {
 
-enum class UpAxis { y, z };
+enum class UpAxis { y, z, x };
 
 struct MeshImport {
   std::optional<std::string> optics;  // for triangles whose file names no material
@@ -19,7 +19,8 @@ struct MeshImport {
   bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
 };
 
-// Returns the triangles of the file in the scene's axes (a z-up file has x east, y north: X = -y, Y = z, Z = -x), scaled, with
+// Returns the triangles of the file in the scene's axes (a z-up file has x east, y north: X = -y, Y = z, Z = -x; an
+// x-up file has y east, z north: X = -z, Y = x, Z = -y), scaled, with
 // polygons cut into fans. The organs come from `.can` labels, or from the glTF node extras {"plant", "organ", "rank"}, or from
 // node names like plant1_leaf7; otherwise there is one plant (number 1), whose organs are named after the optics, with rank 0.
 // Throws Error (input), one line with the file and, if known, the line, for a missing or empty file, an unknown format,
