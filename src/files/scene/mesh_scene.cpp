@@ -123,12 +123,13 @@ class MeshSceneText {
         const bool unnamed = share.name == no_material;
         const std::string name = unnamed ? std::string(default_optics) : share.name;
         if (!written.emplace(name, true).second) continue;
-        if (is_soil_name(name)) continue;  // [soil] describes it
+        if (share.role == Role::soil && share.role_from == RoleSource::name) continue;  // [soil] describes it
         const TypicalOptics& optics = *std::find_if(std::begin(typical), std::end(typical),
                                                     [&](const TypicalOptics& known) { return known.role == share.role; });
         text_ += fmt::format("\n[optics.{}]   # {} by its {}\nreflectance   = {:.2f}\n", toml_key(name), role_name(share.role),
-                             share.named_role ? "name" : "shape", optics.reflectance);
+                             role_source_name(share.role_from), optics.reflectance);
         if (optics.transmittance > 0.0) text_ += fmt::format("transmittance = {:.2f}\n", optics.transmittance);
+        if (share.role_from == RoleSource::shape) text_ += fmt::format("role          = \"{}\"\n", role_name(share.role));
       }
     }
   }

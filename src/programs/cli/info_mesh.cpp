@@ -34,7 +34,7 @@ ordered_json share_json(const MeshShare& share, double unit_m2) {
           {"pieces", share.pieces},
           {"flatness", share.flatness},
           {"role", role_name(share.role)},
-          {"role_from", share.named_role ? "name" : "shape"}};
+          {"role_from", role_source_name(share.role_from)}};
 }
 
 ordered_json shares_json(const std::vector<MeshShare>& shares, double unit_m2) {
@@ -91,7 +91,7 @@ void print_shares(const char* heading, const std::vector<MeshShare>& shares, dou
     fmt::print("    {}: {}, {}, {:.5g} m2 in {}; counts as {} by its {}\n", printable(share.name),
                counted(share.organs, "organ", "organs"), counted(share.triangles, "triangle", "triangles"),
                share.area * unit_m2, counted(share.pieces, "piece", "pieces"), role_name(share.role),
-               share.named_role ? "name" : "shape");
+               role_source_name(share.role_from));
   }
   if (shares.size() > most_lines) fmt::print("    and {} more (--json lists them all)\n", shares.size() - most_lines);
 }

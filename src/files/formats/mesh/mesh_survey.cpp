@@ -12,7 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -20,6 +20,7 @@ namespace sunfleck {
 
 namespace {
 
+using AreaByRole = std::array<double, role_names.size()>;
 using Corners = std::array<glm::dvec3, 3>;
 
 Corners corners_of(const Mesh& mesh, std::size_t t) {
@@ -113,6 +114,7 @@ class Surveyor {
     }
     found_.organs = organs.size();
     found_.plants = plants.size() - plants.count(0);
+    for (const Organ& organ : mesh_.organs) organ_roles_.push_back(role_from_name(organ.name));
   }
 
   // Returns the shares by a property of the triangles, which `name_of` gives.
@@ -121,6 +123,7 @@ class Surveyor {
     std::vector<MeshShare> shares;
     std::map<std::string, std::size_t, std::less<>> numbers;
     std::vector<std::set<std::uint32_t>> organs, pieces;
+    std::vector<AreaByRole> named_areas;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const std::string_view name = name_of(t);
       auto number = numbers.find(name);
@@ -129,10 +132,13 @@ class Surveyor {
         shares.push_back({.name = std::string(name)});
         organs.emplace_back();
         pieces.emplace_back();
+        named_areas.push_back({});
       }
       MeshShare& share = shares[number->second];
       ++share.triangles;
       share.area += areas_[t];
+      if (const auto& role = organ_roles_[mesh_.organ_of[t]])
+        named_areas[number->second][static_cast<std::size_t>(*role)] += areas_[t];
       organs[number->second].insert(mesh_.organ_of[t]);
       pieces[number->second].insert(pieces_.piece_of[t]);
     }
@@ -143,20 +149,29 @@ class Surveyor {
       for (const std::uint32_t piece : pieces[i]) net += glm::length(piece_vectors_[piece]);
       shares[i].flatness = shares[i].area > 0.0 ? net / shares[i].area : 0.0;
     }
-    find_roles(shares);
+    find_roles(shares, named_areas);
     return shares;
   }
 
-  static void find_roles(std::vector<MeshShare>& shares) {
+  // `named_areas` has the area by role of the organs of each share whose names suggest one.
+  static void find_roles(std::vector<MeshShare>& shares, const std::vector<AreaByRole>& named_areas) {
     constexpr double flatness_of_sheets = 0.3;
-    for (MeshShare& share : shares) {
-      const std::optional<Role> named = role_from_name(share.name);
-      share.named_role = named.has_value();
-      share.role = named.value_or(share.flatness > flatness_of_sheets ? Role::leaf : Role::stem);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      MeshShare& share = shares[i];
+      const auto largest = std::max_element(named_areas[i].begin(), named_areas[i].end());
+      if (const auto named = role_from_name(share.name)) {
+        share.role = *named;
+        share.role_from = RoleSource::name;
+      } else if (*largest > 0.0) {
+        share.role = static_cast<Role>(largest - named_areas[i].begin());
+        share.role_from = RoleSource::organs;
+      } else {
+        share.role = share.flatness > flatness_of_sheets ? Role::leaf : Role::stem;
+      }
     }
     if (std::any_of(shares.begin(), shares.end(), [](const MeshShare& share) { return share.role == Role::leaf; })) return;
     for (MeshShare& share : shares)
-      if (!share.named_role) share.role = Role::leaf;
+      if (share.role_from == RoleSource::shape) share.role = Role::leaf;
   }
 
   void count_shares() {
@@ -230,13 +245,19 @@ class Surveyor {
   const KnownFrame& known_;
   const std::vector<std::uint32_t> places_;
   const ConnectedPieces pieces_;
-  std::vector<double> areas_;              // [triangle]
-  std::vector<glm::dvec3> piece_vectors_;  // [piece]
-  std::vector<double> piece_areas_;        // [piece]
+  std::vector<double> areas_;                     // [triangle]
+  std::vector<glm::dvec3> piece_vectors_;         // [piece]
+  std::vector<double> piece_areas_;               // [piece]
+  std::vector<std::optional<Role>> organ_roles_;  // [organ], as far as their names suggest one
   MeshSurvey found_;
 };
 
 }  // namespace
+
+std::string_view role_source_name(RoleSource source) {
+  constexpr std::array<std::string_view, 3> names = {"name", "organs", "shape"};
+  return names[static_cast<std::size_t>(source)];
+}
 
 KnownFrame frame_of_format(const std::filesystem::path& file) {
   const std::string name = lower_case(file.filename().string());

@@ -19,6 +19,9 @@ namespace sunfleck {
 // Stands for the material of triangles to which the file gives none.
 inline constexpr std::string_view no_material = "(no material)";
 
+enum class RoleSource { name, organs, shape };
+[[nodiscard]] std::string_view role_source_name(RoleSource source);  // name, organs, shape
+
 // A part of the mesh: the triangles of one material, or of the organs whose names differ only in their numbers.
 struct MeshShare {
   std::string name;
@@ -29,7 +32,7 @@ struct MeshShare {
   // |sum of area * normal| of each piece, added up, divided by the area: about 1 for flat sheets, 0 for tubes and closed bodies.
   double flatness = 0.0;
   Role role = Role::leaf;
-  bool named_role = false;  // the name says so; otherwise the shape does
+  RoleSource role_from = RoleSource::shape;
 };
 
 struct MeshDefects {
@@ -64,9 +67,9 @@ struct MeshSurvey {
 
 // Surveys a mesh in the axes and units of its file, with at least one triangle.
 //
-// Roles: a share has the role that its name suggests (role_from_name). Of those without such a name, a share is a leaf if its
-// pieces are sheets (flatness above 0.3) and a stem if they are tubes or closed bodies. If no share is a leaf then, all without
-// such a name are, since a plant has leaves.
+// Roles: a share has the role that its name suggests (role_from_name), or else the role of the largest area among its organs whose
+// names suggest one. Of the others, a share is a leaf if its pieces are sheets (flatness above 0.3) and a stem if they are tubes or
+// closed bodies. If no share is a leaf then, all whose shape decided are, since a plant has leaves.
 [[nodiscard]] MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known);
 
 // Reads a file as read_mesh does, but leaves its axes and unit as they are. Triangles without a material have no_material.
