@@ -4,6 +4,7 @@
 #include "files/formats/caribu/light_reader.h"
 #include "files/formats/measured/measured_reader.h"
 #include "files/formats/mesh/mesh_reader.h"
+#include "files/formats/spectra/spectrum_reader.h"
 #include "files/formats/weather/weather_reader.h"
 #include "files/results/stores/result_store.h"
 #include "files/scene/scene_reader.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace sunfleck::fuzz {
 
@@ -106,6 +108,20 @@ void feed_measured(std::string_view bytes) {
   });
 }
 
+void check_spectrum(const Spectrum& spectrum, double most) {
+  promise(spectrum.values.size() == spectrum.wavelength_nm.size() && spectrum.values.size() > 1, "at least two values");
+  for (std::size_t k = 0; k < spectrum.values.size(); ++k) {
+    promise(spectrum.values[k] >= 0.0 && spectrum.values[k] <= most, "values in range");
+    promise(k == 0 || spectrum.wavelength_nm[k] > spectrum.wavelength_nm[k - 1], "ascending wavelengths");
+  }
+}
+
+void feed_spectrum(std::string_view bytes) {
+  const std::filesystem::path file = write("leaf.csv", bytes);
+  read_or_refuse([&] { check_spectrum(read_surface_spectra(file).reflectance, 1.0 + 1e-6); });
+  read_or_refuse([&] { check_spectrum(read_light_spectrum(file), std::numeric_limits<double>::max()); });
+}
+
 void feed_pictures(std::string_view bytes) {
   read_or_refuse([&] {
     const StoredResult stored = read_result_store(write(result_store_file, bytes));
@@ -114,12 +130,13 @@ void feed_pictures(std::string_view bytes) {
 }
 
 constexpr std::array all_targets{
-    Target{"scene", feed_scene},       Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
-    Target{"obj", feed_mesh<2>},       Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
-    Target{"can", feed_mesh<5>},       Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
-    Target{"station", feed_station},   Target{"epw", feed_epw},        Target{"measured", feed_measured},
-    Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
-    Target{"opt", feed_opt},           Target{"domain", feed_domain},  Target{"run_state", feed_run_state}};
+    Target{"scene", feed_scene},        Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
+    Target{"obj", feed_mesh<2>},        Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
+    Target{"can", feed_mesh<5>},        Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
+    Target{"station", feed_station},    Target{"epw", feed_epw},        Target{"measured", feed_measured},
+    Target{"pictures", feed_pictures},  Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
+    Target{"spectrum", feed_spectrum},  Target{"opt", feed_opt},        Target{"domain", feed_domain},
+    Target{"run_state", feed_run_state}};
 
 }  // namespace
 

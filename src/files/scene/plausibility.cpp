@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -79,6 +81,26 @@ void warn_of_copies(const Canopy& canopy, const std::string& file, std::vector<s
                   file, canopy.copies.size(), element_name(canopy, first.element), element_name(canopy, first.original)));
 }
 
+// Warns of plants all of whose organs are recognised, none of them as a leaf.
+void warn_of_leafless_plants(const RadiationModel& model, const std::string& file, std::vector<std::string>& warnings) {
+  std::map<std::uint32_t, std::pair<bool, std::string>> plants;  // has leaves, name of one of its organs
+  for (const Surface& surface : Surfaces(model).of) {
+    const Organ& organ = model.canopy.organs[surface.organ];
+    if (!is_vegetation(surface.role)) continue;
+    auto& [has_leaves, name] = plants[organ.plant];
+    has_leaves = has_leaves || surface.role == Role::leaf;
+    name = organ.name;
+  }
+  const auto leafless = [](const auto& plant) { return !plant.second.first; };
+  const auto count = std::count_if(plants.begin(), plants.end(), leafless);
+  if (count == 0) return;
+  const auto& [plant, found] = *std::find_if(plants.begin(), plants.end(), leafless);
+  warnings.push_back(
+      fmt::format("{}: {} of {} plants have no leaf, e.g. plant {} with {}, so they do not count in the leaf area "
+                  "index; add role = \"leaf\" to the [optics.NAME] or the [[geometry]] of their leaves",
+                  file, count, plants.size(), plant, printable(found.second)));
+}
+
 }  // namespace
 
 std::vector<std::string> plausibility_warnings(const Scene& scene) {
@@ -86,6 +108,7 @@ std::vector<std::string> plausibility_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   warn_of_missing_light(scene, file, warnings);
   warn_of_copies(scene.model.canopy, file, warnings);
+  warn_of_leafless_plants(scene.model, file, warnings);
   const Stand stand = stand_of(scene.model);
   if (stand.top_m > tallest_m) {
     warnings.push_back(fmt::format(

@@ -1,10 +1,12 @@
 #include "files/scene/scene_bands.h"
 
 #include "files/scene/plain_name.h"
+#include "files/scene/scene_spectra.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace sunfleck {
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double largest_irradiance_w_m2 = 1e15;
 constexpr std::size_t most_bands = 1000;
+constexpr NumberRange wavelength_nm{.lo = 100.0, .hi = 1e6, .cure = "give nm, e.g. [400, 700]"};
 constexpr double default_share = 0.5;  // share of PAR in solar radiation
 
 std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& earlier) {
@@ -63,21 +66,98 @@ BandLight read_band_light(const TomlTable& band, bool has_sun, bool has_sky, con
   return light;
 }
 
+std::optional<WavelengthRange> read_range(const TomlTable& band) {
+  const auto range = band.numbers("range_nm", 2, wavelength_nm);
+  if (!range) return std::nullopt;
+  if ((*range)[0] >= (*range)[1]) {
+    band.refuse("range_nm", "it must ascend", "give the shorter wavelength first, e.g. [400, 700]");
+  }
+  return WavelengthRange{(*range)[0], (*range)[1]};
+}
+
+// Returns the photons per energy of the band's light, 0 if they are not asked for.
+double read_photons(const TomlTable& table, const Waveband& band, const Spectrum* spectrum) {
+  const NumberRange photons{
+      .lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give 4.57 for PAR from sun and sky, or \"spectrum\""};
+  if (!table.is_text("umol_per_joule")) return table.number("umol_per_joule", photons).value_or(0.0);
+  static_cast<void>(table.word("umol_per_joule", {"spectrum"}));
+  const WavelengthRange range{band.from_nm, band.to_nm};
+  if (!(band.to_nm > 0.0)) {
+    table.refuse("umol_per_joule", "the band has no wavelengths", "add range_nm = [400, 700], or give a number");
+  }
+  check_light_covers(table, range, spectrum);
+  return umol_per_joule_in(range, spectrum);
+}
+
+BandLight scaled(BandLight light, double share) {
+  if (light.share) *light.share *= share;
+  light.direct_w_m2 *= share;
+  light.direct_normal_w_m2 *= share;
+  light.diffuse_w_m2 *= share;
+  return light;
+}
+
+// Reads `bands`: bands of equal width, among which the light is shared out by its spectrum.
+BandsInput read_equal_bands(const TomlTable& root, bool has_sun, bool has_sky, const std::optional<WeatherInput>& weather,
+                            const Spectrum* spectrum) {
+  if (root.has("band")) root.refuse("bands", "[[band]] is also given", "keep one of the two");
+  if (!root.is_table("bands")) root.refuse("bands", "it must be a table", "write bands = { from = 400, to = 700, step = 10 }");
+  const TomlTable table = *root.table("bands");
+  table.allow({"from", "to", "step", "direct", "direct_normal", "diffuse", "share", "umol_per_joule"});
+  for (const char* key : {"from", "to", "step"}) table.require(key, fmt::format("{}, in nm", key));
+  const WavelengthRange all{*table.number("from", wavelength_nm), *table.number("to", wavelength_nm)};
+  const double step_nm =
+      *table.number("step", {.lo = 0.0, .hi = wavelength_nm.hi, .lo_open = true, .cure = "give the width of a band in nm"});
+  const double count = (all.to_nm - all.from_nm) / step_nm;
+  const double whole = std::round(count);
+  if (!(whole >= 1.0) || whole > static_cast<double>(most_bands) || std::abs(count - whole) > 1e-6) {
+    table.refuse("step",
+                 fmt::format("{:g} to {:g} nm gives {:g} bands, but 1 to {} whole ones are possible", all.from_nm, all.to_nm,
+                             count, most_bands),
+                 "choose a step that divides the range");
+  }
+  check_light_covers(table, all, spectrum);
+  const double energy = energy_in(spectrum, all);
+  if (!(energy > 0.0)) table.refuse_table("the light spectrum is dark in its range", "correct the range or the file");
+  const BandLight light = read_band_light(table, has_sun, has_sky, weather);
+  BandsInput input;
+  for (int k = 0; k < static_cast<int>(whole); ++k) {
+    const WavelengthRange range{all.from_nm + k * step_nm,
+                                k + 1 < static_cast<int>(whole) ? all.from_nm + (k + 1) * step_nm : all.to_nm};
+    Waveband band;
+    band.name = fmt::format("{:g}_{:g}", range.from_nm, range.to_nm);
+    band.from_nm = range.from_nm;
+    band.to_nm = range.to_nm;
+    band.umol_per_joule = read_photons(table, band, spectrum);
+    if (!is_plain_name(band.name)) {
+      table.refuse("step", fmt::format("a band would be named {}", band.name), "use wavelengths in whole nm");
+    }
+    input.bands.push_back(std::move(band));
+    input.lights.push_back(scaled(light, energy_in(spectrum, range) / energy));
+  }
+  return input;
+}
+
 }  // namespace
 
 BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun, const std::optional<SkyInput>& sky,
-                      const std::optional<WeatherInput>& weather, std::vector<std::string>& warnings) {
+                      const std::optional<WeatherInput>& weather, const Spectrum* spectrum,
+                      std::vector<std::string>& warnings) {
+  if (root.has("bands")) return read_equal_bands(root, sun.has_value(), sky.has_value(), weather, spectrum);
   const std::vector<TomlTable> tables = root.tables("band");
   if (tables.empty()) root.require("band", "[[band]] with name = \"PAR\" and direct = 350.0");
   if (tables.empty()) root.refuse("band", "at least one is required", "add [[band]] with name = \"PAR\" and direct = 350.0");
   if (tables.size() > most_bands) root.refuse("band", fmt::format("at most {} are allowed", most_bands), "split the scene");
   BandsInput input;
   for (const TomlTable& table : tables) {
-    table.allow({"name", "direct", "direct_normal", "diffuse", "share", "umol_per_joule"});
+    table.allow({"name", "range_nm", "direct", "direct_normal", "diffuse", "share", "umol_per_joule"});
     Waveband band;
     band.name = read_band_name(table, input.bands);
-    const NumberRange photons{.lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give 4.57 for PAR from sun and sky"};
-    band.umol_per_joule = table.number("umol_per_joule", photons).value_or(0.0);
+    if (const auto range = read_range(table)) {
+      band.from_nm = range->from_nm;
+      band.to_nm = range->to_nm;
+    }
+    band.umol_per_joule = read_photons(table, band, spectrum);
     input.bands.push_back(std::move(band));
     input.lights.push_back(read_band_light(table, sun.has_value(), sky.has_value(), weather));
     if (weather && !input.lights.back().share) {

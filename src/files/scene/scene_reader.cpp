@@ -131,7 +131,7 @@ std::string digest_of(std::string_view text, std::span<const SourceFile> files, 
 }
 
 // Reads [sun], [sky], [weather] and [[band]].
-void read_light(const TomlTable& root, const SceneAccess& access, Scene& scene) {
+void read_light(const TomlTable& root, const SceneAccess& access, const SpectralLight& spectrum, Scene& scene) {
   const std::optional<SunInput> sun = read_sun(root);
   if (sun) {
     scene.model.sun = sun->position;
@@ -140,7 +140,7 @@ void read_light(const TomlTable& root, const SceneAccess& access, Scene& scene) 
   }
   std::optional<WeatherInput> weather = read_weather_table(root, scene.file, access, sun, scene.warnings);
   const std::optional<SkyInput> sky = read_sky(root, scene.file, access, sun, weather);
-  BandsInput bands = read_bands(root, sun, sky, weather, scene.warnings);
+  BandsInput bands = read_bands(root, sun, sky, weather, spectrum.pointer(), scene.warnings);
   scene.model.bands = std::move(bands.bands);
   scene.light.bands = std::move(bands.lights);
   if (weather) {
@@ -167,8 +167,8 @@ SceneAccess noting_access(SceneAccess access, SourceFiles& own) {
 
 TomlTable parse_scene(const SceneText& source) {
   TomlTable root = TomlTable::parse(source.file.string(), source.text);
-  root.allow({"title", "plot", "sun", "sky", "band", "weather", "soil", "optics", "geometry", "accuracy", "camera", "output",
-              "plane", "sensor"});
+  root.allow({"title", "plot", "sun", "sky", "band", "bands", "light_spectrum", "weather", "soil", "optics", "geometry",
+              "accuracy", "camera", "output", "plane", "sensor"});
   return root;
 }
 
@@ -177,9 +177,11 @@ OpticsByName read_all_but_geometry(const TomlTable& root, const SceneText& sourc
   scene.file = source.file;
   scene.title = read_title(root, source.file);
   scene.model.plot = read_plot(root);
-  read_light(root, access, scene);
-  scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, scene.warnings);
-  OpticsByName optics = read_optics(root, scene.model.bands);
+  const SpectralLight light = read_spectral_light(root, source.file, access);
+  read_light(root, access, light, scene);
+  const SpectraAccess spectra{source.file, access, light};
+  scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, spectra, scene.warnings);
+  OpticsByName optics = read_optics(root, scene.model.bands, spectra);
   scene.accuracy = read_accuracy(root);
   scene.camera = read_camera(root);
   scene.model.layers = read_layers(root, scene.model.layers);

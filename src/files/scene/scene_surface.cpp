@@ -52,7 +52,8 @@ glm::dvec3 read_rgb(const TomlTable& table, const glm::dvec3& fallback) {
       .value_or(fallback);
 }
 
-std::vector<FaceOptics> read_face(const TomlTable& table, const std::vector<Waveband>& bands) {
+std::vector<FaceOptics> read_face(const TomlTable& table, std::vector<Waveband>& bands, const SpectraAccess& spectra) {
+  if (table.has("spectrum")) return read_spectral_face(table, bands, spectra);
   table.require("reflectance", fmt::format("reflectance = {{ {} = 0.12 }}", bands.front().name));
   const std::vector<double> reflectance = *read_by_band(table, "reflectance", bands);
   const std::vector<double> transmittance =
@@ -70,29 +71,30 @@ std::vector<FaceOptics> read_face(const TomlTable& table, const std::vector<Wave
   return face;
 }
 
-SurfaceOptics read_surface(const TomlTable& table, const std::string& name, const std::vector<Waveband>& bands) {
-  table.allow({"reflectance", "transmittance", "rgb", "upper", "lower", "emission", "role"});
+SurfaceOptics read_surface(const TomlTable& table, const std::string& name, std::vector<Waveband>& bands,
+                           const SpectraAccess& spectra) {
+  table.allow({"reflectance", "transmittance", "spectrum", "rgb", "upper", "lower", "emission", "role"});
   SurfaceOptics optics;
   optics.name = name;
   optics.rgb = read_rgb(table, optics.rgb);
   optics.role = read_role(table);
   optics.emission_w_m2 = read_by_band(table, "emission", bands, exitance).value_or(std::vector<double>());
   if (!table.has("upper") && !table.has("lower")) {
-    optics.upper = read_face(table, bands);
+    optics.upper = read_face(table, bands, spectra);
     optics.lower = optics.upper;
     return optics;
   }
-  for (const char* key : {"reflectance", "transmittance"}) {
+  for (const char* key : {"reflectance", "transmittance", "spectrum"}) {
     if (table.has(key)) table.refuse(key, "upper and lower give it for each face", "remove it, or upper and lower");
   }
   table.require("upper", fmt::format("[optics.{}.upper] with reflectance", printable(name)));
   table.require("lower", fmt::format("[optics.{}.lower] with reflectance", printable(name)));
   const TomlTable upper = *table.table("upper");
   const TomlTable lower = *table.table("lower");
-  upper.allow({"reflectance", "transmittance"});
-  lower.allow({"reflectance", "transmittance"});
-  optics.upper = read_face(upper, bands);
-  optics.lower = read_face(lower, bands);
+  upper.allow({"reflectance", "transmittance", "spectrum"});
+  lower.allow({"reflectance", "transmittance", "spectrum"});
+  optics.upper = read_face(upper, bands, spectra);
+  optics.lower = read_face(lower, bands, spectra);
   return optics;
 }
 
@@ -108,14 +110,18 @@ std::optional<Role> read_role(const TomlTable& table) {
   return static_cast<Role>(*number);
 }
 
-std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,
-                              std::vector<std::string>& warnings) {
+std::optional<Soil> read_soil(const TomlTable& root, std::vector<Waveband>& bands, const Plot& plot,
+                              const SpectraAccess& spectra, std::vector<std::string>& warnings) {
   const auto table = root.table("soil");
   if (!table) return std::nullopt;
-  table->allow({"reflectance", "patch", "rgb"});
-  table->require("reflectance", fmt::format("reflectance = {{ {} = 0.15 }}", bands.front().name));
+  table->allow({"reflectance", "spectrum", "patch", "rgb"});
   Soil soil;
-  soil.reflectance = *read_by_band(*table, "reflectance", bands);
+  if (table->has("spectrum")) {
+    for (const FaceOptics& face : read_spectral_face(*table, bands, spectra)) soil.reflectance.push_back(face.reflectance);
+  } else {
+    table->require("reflectance", fmt::format("reflectance = {{ {} = 0.15 }}", bands.front().name));
+    soil.reflectance = *read_by_band(*table, "reflectance", bands);
+  }
   soil.rgb = read_rgb(*table, soil.rgb);
   const auto patch_m = table->number("patch", {.lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give metres"});
   soil.patch_m = patch_m.value_or(soil.patch_m);
@@ -131,7 +137,7 @@ std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>
   return soil;
 }
 
-OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& bands) {
+OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, const SpectraAccess& spectra) {
   const auto all = root.table("optics");
   if (!all) return {};
   const std::size_t names = all->keys().size();
@@ -149,7 +155,7 @@ OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& ban
     }
     if (name.empty()) all->refuse(name, "a name must not be empty", "give the name of a mesh's material");
     const TomlTable table = *all->table(name);
-    optics.emplace(name, OpticsInput{read_surface(table, name, bands), table.place()});
+    optics.emplace(name, OpticsInput{read_surface(table, name, bands, spectra), table.place()});
   }
   return optics;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Reads the optical properties of surfaces: [soil] and [optics.NAME].
 
+#include "files/scene/scene_spectra.h"
 #include "files/scene/toml_view.h"
 #include "physics/canopy/optics.h"
 #include "physics/canopy/plot.h"
@@ -17,8 +18,8 @@ namespace sunfleck {
 
 // Returns nothing for a scene without [soil]. The default of `patch` is 0.05 m, or more, with a warning, if the plot would have
 // too many such cells.
-[[nodiscard]] std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,
-                                            std::vector<std::string>& warnings);
+[[nodiscard]] std::optional<Soil> read_soil(const TomlTable& root, std::vector<Waveband>& bands, const Plot& plot,
+                                            const SpectraAccess& spectra, std::vector<std::string>& warnings);
 
 struct OpticsInput {
   SurfaceOptics optics;
@@ -27,6 +28,6 @@ struct OpticsInput {
 using OpticsByName = std::map<std::string, OpticsInput>;
 
 // Returns the entries of [optics] by name, with values for each band.
-[[nodiscard]] OpticsByName read_optics(const TomlTable& root, const std::vector<Waveband>& bands);
+[[nodiscard]] OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, const SpectraAccess& spectra);
 
 }  // namespace sunfleck

@@ -195,6 +195,11 @@ bool TomlTable::is_table(std::string_view key) const {
   return node != nullptr && node->is_table();
 }
 
+bool TomlTable::is_text(std::string_view key) const {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_string();
+}
+
 std::vector<std::string> TomlTable::keys() const {
   std::vector<std::string> names;
   for (const auto& [key, node] : *table_) names.emplace_back(key.str());

@@ -59,6 +59,7 @@ class TomlTable {
 
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const;
+  [[nodiscard]] bool is_text(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> keys() const;  // in alphabetical order
 
   [[nodiscard]] std::optional<double> number(std::string_view key, const NumberRange& range) const;

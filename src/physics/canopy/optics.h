@@ -13,9 +13,11 @@ namespace sunfleck {
 // A spectral interval and its irradiance on a horizontal plane above the canopy.
 struct Waveband {
   std::string name;
-  double direct_w_m2 = 0.0;     // beam irradiance on a horizontal plane
-  double diffuse_w_m2 = 0.0;    // sky irradiance on a horizontal plane
-  double umol_per_joule = 0.0;  // photons of the band's light; 0: not requested in photon units
+  double direct_w_m2 = 0.0;           // beam irradiance on a horizontal plane
+  double diffuse_w_m2 = 0.0;          // sky irradiance on a horizontal plane
+  double umol_per_joule = 0.0;        // photons of the band's light; 0: not requested in photon units
+  double from_nm = 0.0, to_nm = 0.0;  // its wavelengths; both 0 if they are not given
+  std::string weighted_by;            // the light by which spectra were averaged over the band, if any were
 };
 
 // Lambertian coefficients for light that arrives on one face: reflected to that face, transmitted to the other.

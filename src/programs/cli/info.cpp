@@ -6,7 +6,11 @@
 #include "base/units.h"
 #include "devices/gpu/context.h"
 #include "physics/light/sun_events.h"
+<<<<<<< HEAD
 #include "programs/cli/info_mesh.h"
+=======
+#include "physics/transport/model/surfaces.h"
+>>>>>>> core
 #include "programs/cli/terminal.h"
 #include "simulate/memory_forecast.h"
 #include "simulate/scene_source.h"
@@ -14,10 +18,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -94,6 +101,21 @@ void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
   info["replicate_bytes"] = static_cast<std::uint64_t>(memory->run.replicate_bytes);
 }
 
+// Returns the area of each role, m2, and the names of the organs that have it.
+ordered_json roles_json(const RadiationModel& model) {
+  const Surfaces surfaces(model);
+  const auto areas_m2 = area_of_roles_m2(model);
+  std::array<std::set<std::string>, role_names.size()> names;
+  for (const Surface& surface : surfaces.of) {
+    names[static_cast<std::size_t>(surface.role)].insert(model.canopy.organs[surface.organ].name);
+  }
+  ordered_json roles = ordered_json::object();
+  for (std::size_t role = 0; role < areas_m2.size(); ++role) {
+    if (!names[role].empty()) roles[std::string(role_names[role])] = {{"area_m2", areas_m2[role]}, {"organs", names[role]}};
+  }
+  return roles;
+}
+
 void add_scene(ordered_json& info, const Scene& scene) {
   double area = 0.0;
   ordered_json by_optics = ordered_json::object();
@@ -109,6 +131,7 @@ void add_scene(ordered_json& info, const Scene& scene) {
   info["organs"] = scene.model.canopy.organs.size();
   info["area_m2"] = area;
   info["area_by_optics_m2"] = by_optics;
+  info["roles"] = roles_json(scene.model);
   info["coincident_triangles"] = scene.model.canopy.copies.size();
   info["coincident_organs"] = copies_json(scene.model.canopy);
   info["plot_area_m2"] = scene.model.plot.area_m2();
@@ -132,6 +155,17 @@ void print_copies(const ordered_json& info) {
     fmt::print("  and those of {} more organs (--json lists them all)\n", organs.size() - most_lines);
 }
 
+void print_roles(const ordered_json& info) {
+  constexpr std::size_t most_names = 6;
+  for (const auto& [role, entry] : info["roles"].items()) {
+    const auto names = entry["organs"].get<std::vector<std::string>>();
+    std::vector<std::string> first;
+    for (std::size_t k = 0; k < std::min(names.size(), most_names); ++k) first.push_back(printable(names[k]));
+    const std::string more = names.size() > most_names ? fmt::format(" and {} more", names.size() - most_names) : "";
+    fmt::print("counted as {}: {:.5g} m2 ({}{})\n", role, entry["area_m2"].get<double>(), fmt::join(first, ", "), more);
+  }
+}
+
 void print_lines(const ordered_json& info) {
   if (info["devices"].empty()) fmt::print("no Vulkan device: the CPU path is used\n");
   int index = 0;
@@ -145,6 +179,7 @@ void print_lines(const ordered_json& info) {
              info["triangles"].get<std::size_t>(), info["organs"].get<std::size_t>(), info["area_m2"].get<double>(),
              info["plot_area_m2"].get<double>());
   for (const auto& [name, area] : info["area_by_optics_m2"].items()) fmt::print("  {}: {:.5g} m2\n", name, area.get<double>());
+  print_roles(info);
   print_copies(info);
   constexpr double mib = 1048576.0;
   fmt::print(

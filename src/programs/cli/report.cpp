@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -16,9 +18,19 @@ std::string with_error(const Estimate& estimate) {
                                          : fmt::format("{:.4g} ± {:.2g}", estimate.value, estimate.half_width);
 }
 
-double structure_area_m2(const RadiationModel& model) {
-  const auto areas_m2 = area_of_roles_m2(model);
-  return areas_m2[static_cast<std::size_t>(Role::structure)] + areas_m2[static_cast<std::size_t>(Role::lamp)];
+using RoleAreas = std::array<double, role_names.size()>;
+
+bool has_structures(const RoleAreas& areas_m2) {
+  return areas_m2[static_cast<std::size_t>(Role::structure)] + areas_m2[static_cast<std::size_t>(Role::lamp)] > 0.0;
+}
+
+// Returns e.g. "leaf 9.11 m2, stem 1.485 m2".
+std::string areas_text(const RoleAreas& areas_m2) {
+  std::vector<std::string> areas;
+  for (std::size_t role = 0; role < areas_m2.size(); ++role) {
+    if (areas_m2[role] > 0.0) areas.push_back(fmt::format("{} {:.4g} m2", role_names[role], areas_m2[role]));
+  }
+  return fmt::format("{}", fmt::join(areas, ", "));
 }
 
 }  // namespace
@@ -27,15 +39,16 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
   std::string text = fmt::format("{}\n", record.title);
   text += fmt::format("  {} triangles, {} organs, leaf area index {:.3f}\n", model.canopy.size(), model.canopy.organs.size(),
                       result.leaf_area_index);
+  const RoleAreas areas_m2 = area_of_roles_m2(model);
+  if (model.canopy.size() > 0) text += fmt::format("  one-sided areas: {}\n", areas_text(areas_m2));
   if (model.sun) {
     text += fmt::format("  sun: elevation {:.4f} deg, azimuth {:.4f} deg\n", model.sun->elevation_rad / degree,
                         model.sun->azimuth_rad / degree);
   }
   text += fmt::format("  device: {}{}\n", record.device.name,
                       record.device.kind == "vulkan" && record.device.software ? " (software Vulkan)" : "");
-  const bool has_structures = structure_area_m2(model) > 0.0;
   for (const BandResult& band : result.bands) {
-    const std::string by_structures = has_structures ? ", by structures " + with_error(band.absorbed_structure) : "";
+    const std::string by_structures = has_structures(areas_m2) ? ", by structures " + with_error(band.absorbed_structure) : "";
     text += fmt::format(
         "  {}: incident {:.4g} W m-2, absorbed by vegetation {}{}, by soil {}, reflected {}, transmitted {}, "
         "unshot {:.2g}\n",

@@ -57,6 +57,9 @@ ordered_json bands_json(const RadiationModel& model, const RadiationResult& resu
   ordered_json bands = ordered_json::array();
   for (std::size_t b = 0; b < result.bands.size(); ++b) {
     bands.push_back(band_json(result.bands[b]));
+    const Waveband& band = model.bands[b];
+    if (band.to_nm > 0.0) bands.back()["range_nm"] = {band.from_nm, band.to_nm};
+    if (!band.weighted_by.empty()) bands.back()["spectra_weighted_by"] = band.weighted_by;
     const double umol_per_joule = model.bands[b].umol_per_joule;
     if (umol_per_joule > 0.0) bands.back()["umol_m2_s"] = photons_json(result.bands[b], umol_per_joule);
   }
