@@ -144,13 +144,24 @@ class MeshSceneText {
     const bool unnamed = std::any_of(mesh.survey.materials.begin(), mesh.survey.materials.end(),
                                      [](const MeshShare& share) { return share.name == no_material; });
     if (unnamed) text_ += fmt::format("optics = \"{}\"   # for triangles without a material\n", default_optics);
-    text_ += fmt::format("# {}: {}\n", certainty_name(frame.up_certainty), frame.up_reason);
-    text_ += fmt::format("up    = \"{}\"{}\n", axis_name(frame.up), alternative_up(frame));
-    text_ += fmt::format("# {}: {}\n", certainty_name(frame.unit_certainty), frame.unit_reason);
-    text_ += fmt::format("scale = {:.6g}   # metres per unit{}\n", frame.metres_per_unit, alternative_unit(frame));
+    if (mesh.survey.needs_split())
+      text_ += fmt::format("split = \"parts\"   # {} connected pieces become organs of their own\n", mesh.survey.shape.pieces);
+    add_frame(frame);
     text_ += fmt::format("at    = [[{:.5f}, {:.5f}, {:.5f}]]   # moves the middle of the mesh there\n",
                          centre_m.x - 0.5 * (mesh.lo_m.x + mesh.hi_m.x), lift_m(mesh),
                          centre_m.y - 0.5 * (mesh.lo_m.z + mesh.hi_m.z));
+  }
+
+  // What the format defines needs no keys.
+  void add_frame(const FrameGuess& frame) {
+    if (frame.up_certainty != Certainty::known) {
+      text_ += fmt::format("# {}: {}\n", certainty_name(frame.up_certainty), frame.up_reason);
+      text_ += fmt::format("up    = \"{}\"{}\n", axis_name(frame.up), alternative_up(frame));
+    }
+    if (frame.unit_certainty != Certainty::known) {
+      text_ += fmt::format("# {}: {}\n", certainty_name(frame.unit_certainty), frame.unit_reason);
+      text_ += fmt::format("scale = {:.6g}   # metres per unit{}\n", frame.metres_per_unit, alternative_unit(frame));
+    }
   }
 
   static std::string alternative_up(const FrameGuess& frame) {

@@ -68,6 +68,7 @@ ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& su
           {"organs", survey.organs},
           {"organ_names", shares_json(survey.families, unit_m2)},
           {"materials", survey.has_materials() ? shares_json(survey.materials, unit_m2) : ordered_json::array()},
+          {"split_in_parts", survey.needs_split()},
           {"pieces", survey.shape.pieces},
           {"closed_pieces", survey.closed_pieces},
           {"usual_piece_m2", survey.shape.usual_piece * unit_m2},
@@ -125,6 +126,7 @@ void print_survey(const std::filesystem::path& file, const MeshSurvey& survey) {
   fmt::print("  {}, {}, {}, {} of them closed\n", counted(survey.plants, "plant", "plants"),
              counted(survey.organs, "organ", "organs"), counted(shape.pieces, "connected piece", "connected pieces"),
              survey.closed_pieces);
+  if (survey.needs_split()) fmt::print("  split = \"parts\" in a scene makes an organ of each piece\n");
   print_shares("organs by name:", survey.families, unit_m2);
   if (survey.has_materials())
     print_shares("materials:", survey.materials, unit_m2);

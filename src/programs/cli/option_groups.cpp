@@ -1,6 +1,7 @@
 #include "programs/cli/option_groups.h"
 
 #include "base/version.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "files/results/exports/exports.h"
 #include "programs/cli/option_checks.h"
 
@@ -305,7 +306,7 @@ void add_convert(CLI::App& app, ConvertOptions& options) {
   CLI::App& convert = *app.add_subcommand(
       "convert", "Convert a mesh with CARIBU's files to a scene, or a mesh or scene to another mesh format");
   add_version(convert);
-  convert.add_option("in", options.input, "Mesh (.glb, .gltf, .obj, .ply, .stl, .can, .can.gz) or scene file (.toml)")
+  convert.add_option("in", options.input, fmt::format("Mesh ({}) or scene file (.toml)", readable_meshes))
       ->required()
       ->check(not_empty());
   convert

@@ -254,15 +254,29 @@ class Surveyor {
 
 }  // namespace
 
+namespace {
+
+bool is_collada(const std::filesystem::path& file) {
+  return lower_case(file.extension().string()) == ".dae";
+}
+
+}  // namespace
+
 std::string_view role_source_name(RoleSource source) {
   constexpr std::array<std::string_view, 3> names = {"name", "organs", "shape"};
   return names[static_cast<std::size_t>(source)];
+}
+
+bool MeshSurvey::needs_split() const {
+  return organs == families.size() && shape.pieces > organs && triangles >= 2 * shape.pieces;
 }
 
 KnownFrame frame_of_format(const std::filesystem::path& file) {
   const std::string name = lower_case(file.filename().string());
   if (name.ends_with(".glb") || name.ends_with(".gltf")) return {FileAxis::y, 1.0, "glTF defines metres and y up"};
   if (is_can_file(file)) return {FileAxis::z, std::nullopt, "a .can has z up"};
+  if (name.ends_with(".opf")) return {FileAxis::z, 1.0, "an .opf has z up and centimetres, which are read as metres"};
+  if (is_collada(file)) return {FileAxis::y, 1.0, "a .dae names its axis and unit; it is read with y up, in metres"};
   return {};
 }
 
@@ -281,8 +295,9 @@ MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known) {
 }
 
 Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files) {
-  return read_mesh(file, {.optics = std::string(no_material), .up = UpAxis::y, .scale = 1.0, .allow_outside = allow_outside},
-                   files);
+  MeshImport import{.optics = std::string(no_material), .up = UpAxis::y, .scale = 1.0, .allow_outside = allow_outside};
+  if (is_collada(file)) import.up.reset();
+  return read_mesh(file, import, files);
 }
 
 }  // namespace sunfleck

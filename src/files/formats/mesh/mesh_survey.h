@@ -54,11 +54,15 @@ struct MeshSurvey {
   MeshDefects defects;
   double area_below_ground = 0.0;  // of triangles whose centroid is below 0 along the guessed up axis
 
+  // Returns whether the file names so few organs that its connected pieces are better ones: no family has two organs, and the pieces
+  // are more than the organs and of two triangles and more on average.
+  [[nodiscard]] bool needs_split() const;
   [[nodiscard]] bool has_materials() const { return materials.size() > 1 || materials.front().name != no_material; }
   [[nodiscard]] double area_m2() const { return area * frame.metres_per_unit * frame.metres_per_unit; }
 };
 
-// Returns what the format of a file of this name defines: axis and unit of glTF, the axis of .can.
+// Returns what the format of a file of this name defines, for the mesh that read_mesh_as_is returns: axis and unit of glTF, .dae and
+// .opf, the axis of .can.
 [[nodiscard]] KnownFrame frame_of_format(const std::filesystem::path& file);
 
 // Returns the name without the number at its end and the characters that separate it: `leaf` for leaf.012, leaf_12 and leaf 12.
@@ -72,7 +76,8 @@ struct MeshSurvey {
 // closed bodies. If no share is a leaf then, all whose shape decided are, since a plant has leaves.
 [[nodiscard]] MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known);
 
-// Reads a file as read_mesh does, but leaves its axes and unit as they are. Triangles without a material have no_material.
+// Reads a file as read_mesh does, but leaves its axes and unit as they are. Only a .dae comes in the scene's axes, since the file
+// itself says how it is to be turned; it and an .opf come in metres. Triangles without a material have no_material.
 [[nodiscard]] Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files = nullptr);
 
 }  // namespace sunfleck
