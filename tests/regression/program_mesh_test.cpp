@@ -67,6 +67,26 @@ TEST_F(ProgramMesh, NewWritesAnythingReadableAsASceneThatRuns) {
   }
 }
 
+// Two leaves in one colour and a stalk in another; nothing is named.
+const std::string coloured_ply =
+    "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\nelement face 3\n"
+    "property list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+    "0 0 0.3\n0.2 0 0.3\n0 0.1 0.3\n0 0 0.2\n-0.2 0 0.2\n0 -0.1 0.2\n0 0 0\n0.01 0 0\n0 0 0.3\n"
+    "3 0 1 2 30 60 10\n3 3 4 5 30 60 10\n3 6 7 8 65 45 15\n";
+
+TEST_F(ProgramMesh, ColoursAreMaterialsAndPiecesAreOrgans) {
+  folder_.write("plant.ply", coloured_ply);
+  const json found = survey("plant.ply");
+  ASSERT_EQ(found["materials"].size(), 2U);
+  EXPECT_EQ(found["materials"][0]["name"], "colour_1e3c0a");
+  EXPECT_EQ(found["materials"][0]["pieces"], 2);
+
+  folder_.write("plant.obj", plant_in_centimetres());
+  EXPECT_EQ(run({"new", "plant.obj", "-o", "stand.toml"}).status, 0);
+  simulate("stand.toml", {"--images", "none", "--device", "cpu", "--error", "0.05"});
+  EXPECT_EQ(summary()["organs"], 9);  // eight leaves and a stem
+}
+
 TEST_F(ProgramMesh, NewWritesToStandardOutputAndNeverReplacesAFile) {
   folder_.write("plant.obj", plant_in_centimetres());
   const Outcome text = run({"new", "plant.obj"});

@@ -252,9 +252,7 @@ class Surveyor {
   MeshSurvey found_;
 };
 
-}  // namespace
-
-namespace {
+constexpr std::string_view colour_prefix = "colour_";  // see ply_colours.h
 
 bool is_collada(const std::filesystem::path& file) {
   return lower_case(file.extension().string()) == ".dae";
@@ -283,6 +281,7 @@ KnownFrame frame_of_format(const std::filesystem::path& file) {
 std::string_view family_of(std::string_view name) {
   constexpr std::string_view digits = "0123456789", separators = "._- #";
   std::string_view family = name;
+  if (name.starts_with(colour_prefix)) return name;  // its digits are the colour
   const std::size_t last = family.find_last_not_of(digits);
   if (last == family.npos) return name;
   if (last + 1 == family.size()) return name;
@@ -297,6 +296,12 @@ MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known) {
 Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files) {
   MeshImport import{.optics = std::string(no_material), .up = UpAxis::y, .scale = 1.0, .allow_outside = allow_outside};
   if (is_collada(file)) import.up.reset();
+  Mesh mesh = read_mesh(file, import, files);
+  // The colours of a .ply are its materials unless the scene gives optics.
+  const bool coloured = std::all_of(mesh.organs.begin(), mesh.organs.end(),
+                                    [](const Organ& organ) { return organ.name.starts_with(colour_prefix); });
+  if (!coloured || mesh.optics_names != std::vector<std::string>{std::string(no_material)}) return mesh;
+  import.optics.reset();
   return read_mesh(file, import, files);
 }
 

@@ -1,25 +1,21 @@
 #include "files/formats/mesh/organ_split.h"
 
+#include "files/formats/mesh/connected_pieces.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 #include <string>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace sunfleck {
 
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 using OrganKey = std::tuple<std::uint32_t, std::string, int>;
 
@@ -51,59 +47,13 @@ Grouping surfaces_of(const Mesh& mesh) {
   return result;
 }
 
-// Returns for each vertex the lowest number in the order of positions; vertices at one position have the same number.
-std::vector<std::uint32_t> numbers_of_positions(const Mesh& mesh) {
-  const auto key = [&](std::uint32_t v) { return std::tie(mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z); };
-  std::vector<std::uint32_t> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  std::vector<std::uint32_t> numbers(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && key(order[i]) == key(order[i - 1]);
-    numbers[order[i]] = is_same ? numbers[order[i - 1]] : static_cast<std::uint32_t>(i);
-  }
-  return numbers;
-}
-
-// Sets of triangles, each represented by its first one.
-class TriangleSets {
- public:
-  explicit TriangleSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::uint32_t first(std::uint32_t triangle) {
-    while (parent_[triangle] != triangle) triangle = parent_[triangle] = parent_[parent_[triangle]];
-    return triangle;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax({first(a), first(b)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 // Returns the triangles grouped by connected pieces of one organ and optics.
 Grouping pieces_of(const Mesh& mesh) {
-  const std::vector<std::uint32_t> surface_of = surfaces_of(mesh).group_of;
-  const std::vector<std::uint32_t> position_of = numbers_of_positions(mesh);
-  TriangleSets sets(mesh.triangles.size());
-  std::unordered_map<std::uint64_t, std::uint32_t> triangle_at;  // by surface and position
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int corner = 0; corner < 3; ++corner) {
-      const std::uint64_t place = std::uint64_t{surface_of[t]} << 32U | position_of[mesh.triangles[t][corner]];
-      sets.join(t, triangle_at.try_emplace(place, t).first->second);
-    }
-  Grouping result;
-  std::vector<std::uint32_t> number(mesh.triangles.size(), none);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::uint32_t& group = number[sets.first(t)];
-    if (group == none) {
-      group = static_cast<std::uint32_t>(result.groups.size());
-      result.groups.push_back({mesh.organ_of[t], mesh.optics_of[t]});
-    }
-    result.group_of.push_back(group);
+  ConnectedPieces pieces = connected_pieces(mesh, places_of_vertices(mesh));
+  Grouping result{std::move(pieces.piece_of), {}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    // Pieces are numbered by their first triangles.
+    if (result.group_of[t] == result.groups.size()) result.groups.push_back({mesh.organ_of[t], mesh.optics_of[t]});
   }
   return result;
 }

@@ -156,6 +156,14 @@ TEST(MeshSurvey, RolesComeFromNamesThenOrgansThenShapes) {
   EXPECT_EQ(roles(), (Roles{{Role::leaf, RoleSource::name}, {Role::stem, RoleSource::name}}));
 }
 
+TEST(MeshSurvey, SplitsWhatNamesDoNotTellApart) {
+  Mesh mesh = plant_mesh(maize);
+  EXPECT_TRUE(survey_mesh(mesh, {}).needs_split());
+  mesh.organs = {{1, "leaf.001", 0}, {1, "leaf.002", 0}};
+  mesh.organ_of[0] = 1;
+  EXPECT_FALSE(survey_mesh(mesh, {}).needs_split());  // the file numbers its organs itself
+}
+
 TEST(MeshSurvey, FamiliesAreNamesWithoutNumbers) {
   for (const auto& [name, family] :
        std::vector<std::pair<std::string, std::string>>{{"leaf.012", "leaf"},
@@ -164,6 +172,7 @@ TEST(MeshSurvey, FamiliesAreNamesWithoutNumbers) {
                                                         {"Circle.166_Circle.168", "Circle.166_Circle"},
                                                         {"leaf", "leaf"},
                                                         {"12", "12"},
+                                                        {"colour_102030", "colour_102030"},
                                                         {"", ""},
                                                         {"_7", "_7"},
                                                         {"a-", "a-"}})
