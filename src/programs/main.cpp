@@ -2,6 +2,7 @@
 #include "programs/cli/convert.h"
 #include "programs/cli/day.h"
 #include "programs/cli/info.h"
+#include "programs/cli/new.h"
 #include "programs/cli/options.h"
 #include "programs/cli/process.h"
 #include "programs/cli/render.h"
@@ -41,6 +42,7 @@ struct Dispatch {
   int operator()(const sunfleck::TradeoffOptions& options) const { return sunfleck::tradeoff(options); }
   int operator()(const sunfleck::MaizeOptions& options) const { return sunfleck::write_maize(options); }
   int operator()(const sunfleck::ConvertOptions& options) const { return sunfleck::convert(options); }
+  int operator()(const sunfleck::NewOptions& options) const { return sunfleck::write_new_scene(options); }
   int operator()(const sunfleck::InfoOptions& options) const { return sunfleck::show_info(options); }
 };
 

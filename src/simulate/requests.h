@@ -25,6 +25,7 @@ struct SceneRequest {
   std::filesystem::path scene;  // scene file, or a mesh that `stand` completes
   StandFiles stand;
   bool allow_outside = false;  // the scene may name files outside its folder
+  bool mesh_alone = false;     // a mesh without CARIBU's files gets the scene that mesh_scene.h writes, instead of an error
 };
 
 struct DeviceRequest {

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "files/formats/mesh/mesh_reader.h"
+#include "files/scene/mesh_scene.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,8 @@ void refuse_stand(const fs::path& scene, const StandFiles& stand) {
 CaribuSet caribu_set(const fs::path& mesh, const StandFiles& stand, bool allow_outside) {
   if (stand.optics.empty() || stand.light.empty()) {
     throw_input(printable(mesh.string()), "a mesh alone has neither optics nor light",
-                "give --optics FILE.opt and --light FILE.light, or a scene file");
+                fmt::format("write a scene for it: sunfleck new {} -o stand.toml; or give --optics FILE.opt and --light FILE.light",
+                            printable(mesh.filename().string())));
   }
   CaribuSet set{mesh, {}, stand.light, std::nullopt, stand.scale.value_or(1.0), allow_outside};
   for (const std::string& word : stand.optics) set.bands.push_back(caribu_band(word));
@@ -55,10 +57,15 @@ Scene load_scene(const SceneRequest& request, ScenePurpose purpose, SourceFiles*
     throw_input(printable(scene.string()), "a mesh file has no place, date or weather, which a day needs",
                 "convert it to a scene with sunfleck convert and add them");
   }
-  const CaribuSet set = caribu_set(scene, stand, request.allow_outside);
   const fs::path folder = scene.parent_path();
   SourceFiles own;
   if (files == nullptr) files = &own;
+  if (request.mesh_alone && stand.first_given().empty()) {
+    const MeshToShow mesh{scene, name_from(folder, scene).generic_string()};
+    return read_scene(SceneText{scene, mesh_scene_text({&mesh, 1}, request.allow_outside, files), {}},
+                      {.allow_outside = request.allow_outside, .files = files});
+  }
+  const CaribuSet set = caribu_set(scene, stand, request.allow_outside);
   const CaribuScene made =
       caribu_scene(set, {name_from(folder, scene).generic_string(), name_from(folder, stand.light).generic_string()}, files);
   // The user named every file; a .can refers to no other files.

@@ -1,5 +1,5 @@
 #pragma once
-// Reads a command's scene: a scene file, or a mesh with CARIBU's files beside it.
+// Reads a command's scene: a scene file, a mesh with CARIBU's files beside it, or a mesh alone.
 
 #include "files/scene/caribu_scene.h"
 #include "files/scene/scene_reader.h"
@@ -10,8 +10,8 @@
 
 namespace sunfleck {
 
-// Reads the scene, whichever of the two it is; `files`, if given, receives every file that is tried, even if reading fails.
-// Throws Error (input) also for a mesh without optics or light, for the options of a mesh beside a scene file, and for the day
+// Reads the scene, whichever of these it is; `files`, if given, receives every file that is tried, even if reading fails.
+// Throws Error (input) also for a mesh without optics or light unless `request.mesh_alone`, for the options of a mesh beside a scene file, and for the day
 // of a mesh, which has no place. Scene::files includes CARIBU's files; the digest covers them by the values that the scene's
 // text takes from them.
 [[nodiscard]] Scene load_scene(const SceneRequest& request, ScenePurpose purpose = ScenePurpose::moment,

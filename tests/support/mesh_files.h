@@ -31,6 +31,39 @@ inline std::string can_square() {
   return "# CARIBU\n\np 1 100012007001 3 0 0 0 1 0 0 1 1 0\np 2 100012007002 9 3 0 0 0 1 1 0 0 1 0\n";
 }
 
+inline std::string dae_square() {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+<library_materials><material id="green" name="leaf"/></library_materials>
+<library_geometries><geometry id="shape" name="Shape"><mesh>
+<source id="p"><float_array id="a" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array>
+<technique_common><accessor source="#a" count="4" stride="3"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist material="m" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="NORMAL" source="#n" offset="1"/><vcount>4</vcount><p>0 9 1 9 2 9 3 9</p></polylist>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n1" name="blade"><instance_geometry url="#shape"><bind_material>
+<technique_common><instance_material symbol="m" target="#green"/></technique_common></bind_material></instance_geometry>
+</node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+)";
+}
+
+// Returns the square as one organ of 1 m, in centimetres with z up: x east, y north.
+inline std::string opf_square() {
+  return R"(<?xml version="1.0"?>
+<opf version="2.0">
+<meshBDD><mesh Id="0" enableScale="true"><points>0 0 0 0 1 0 1 1 0 1 0 0</points>
+<faces><face Id="0">0 1 2</face><face Id="1">0 2 3</face></faces></mesh></meshBDD>
+<shapeBDD><shape Id="5"><name>blade</name><meshIndex>0</meshIndex></shape></shapeBDD>
+<topology class="Individual" scale="1" id="1"><geometry class="Mesh"><mat>0 0 0 0 0 0 0 0 0 0 0 0</mat><dUp>NaN</dUp></geometry>
+<decomp class="leaf" scale="2" id="7"><Length>1</Length><geometry class="Mesh"><shapeIndex>5</shapeIndex>
+<mat>0 0 0 0 0 -100 0 0 100 0 0 0</mat><dUp>1</dUp><dDwn>1</dDwn></geometry></decomp></topology>
+</opf>
+)";
+}
+
 inline std::string stl_text_square() {
   return "solid my leaf\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n"
          "  FACET NORMAL 0 0 1\n  OUTER LOOP\n  VERTEX 0 0 0\n  VERTEX 1 1 0\n  VERTEX 0 1 0\n  ENDLOOP\n  "

@@ -369,6 +369,14 @@ class WindowTest(unittest.TestCase):
         window.wait_for("picture", wish=1)
         self.expect_clean_end(window)
 
+    def test_a_mesh_alone_is_shown(self):
+        window = self.open("--error", "0.02", scene="leaves.obj")
+        self.assertEqual([event["triangles"] for event in window.events if event["event"] == "loaded"], [4])
+        self.write("leaves.obj", MESH + "o plant3_leaf1\nv 0.1 0.7 0.7\nv 0.1 0.7 0.9\nv 0.4 0.7 0.9\nf 9 10 11\n")
+        window.wait_for("loaded", triangles=5)
+        window.wait_for("picture", wish=1)
+        self.expect_clean_end(window)
+
     def test_changed_files_of_caribu_are_loaded_again(self):
         self.write("stand.can", CAN)
         self.write("par.opt", OPT)

@@ -7,6 +7,7 @@
 #include "files/formats/caribu/light_reader.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/scene/plain_name.h"
+#include "files/scene/toml_text.h"
 #include "files/scene/toml_view.h"
 #include "physics/canopy/canopy.h"
 
@@ -42,21 +43,6 @@ std::string shown(const std::filesystem::path& file) {
   return printable(file.filename().string());
 }
 
-// Returns a basic string of TOML.
-std::string toml_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
-}
-
-void check_file_name(const std::string& name) {
-  if (is_utf8(name) && printable(name) == name) return;
-  throw_input(printable(name), "a scene file cannot name it: names must be UTF-8 without control characters", "rename it");
-}
-
 // Returns the surface and species that optics of this name belong to; nothing for soil.
 struct CaribuSurface {
   enum class Kind { leaf, stem } kind = Kind::leaf;
@@ -84,7 +70,7 @@ class CaribuSceneText {
       : set_(set), names_(names), files_(files), canopy_(printable(set.canopy.string())) {}
 
   CaribuScene write() {
-    for (const std::string& name : {names_.canopy, names_.light}) check_file_name(name);
+    for (const std::string& name : {names_.canopy, names_.light}) check_nameable(name);
     read_bands();
     const std::vector<SkyLight> lights = read_lights(set_.light, files_);
     std::optional<CaribuDomain> domain;

@@ -25,7 +25,7 @@ constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the gener
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only generator
-  for (const char* key : {"optics", "up", "scale", "heading", "at", "role"}) {
+  for (const char* key : {"optics", "up", "scale", "heading", "at", "role", "split"}) {
     if (table.has(key))
       table.refuse(key, "it is only for files; a generated stand fills the plot from its corner", "remove it");
   }
@@ -53,7 +53,7 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
 fs::path find_mesh(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
   fs::path file = find_scene_file(table, scene_file, access, "name a mesh file");
   if (!is_mesh_file(file)) {
-    table.refuse("file", "its format is unknown", "use .glb, .gltf, .obj, .ply, .stl, .can or .can.gz");
+    table.refuse("file", "its format is unknown", fmt::format("use {}", readable_meshes));
   }
   return file;
 }
@@ -82,9 +82,10 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
   MeshImport import;
   import.optics = table.text("optics");
   import.allow_outside = access.allow_outside;
-  if (const auto up = table.word("up", {"y", "z"})) import.up = *up == 0 ? UpAxis::y : UpAxis::z;
+  if (const auto up = table.word("up", {"y", "z", "x"})) import.up = static_cast<UpAxis>(*up);
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
+  if (const auto split = table.word("split", {"names", "materials", "parts"})) import.split = static_cast<OrganSplit>(*split);
   std::vector<Placement> placements = read_placements(table);
   const bool given = table.has("mesh");
   return GeometryPart{.table = table,
@@ -164,10 +165,11 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
 
 void allow_keys(const TomlTable& table, const SceneText& source) {
   if (source.meshes.empty()) {
-    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at", "role"});
-  } else {
     table.allow(
-        {"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at", "role"});
+        {"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at", "role", "split"});
+  } else {
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at",
+                 "role", "split"});
   }
 }
 

@@ -219,7 +219,7 @@ void check_same_roles(const TomlTable& root, const RadiationModel& model, const 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
   if (is_mesh_file(file)) {
     throw_input(fmt::format("{}: not a scene", printable(file.string())), "this is a mesh",
-                "name it under [[geometry]] of a scene file");
+                "write a scene for it: sunfleck new FILE -o stand.toml");
   }
   SourceFiles own;
   const SceneAccess noting = noting_access(access, own);

@@ -40,7 +40,7 @@ void check(const ConvertOptions& options) {
   const std::string out = printable(options.output.string());
   const bool to_scene = is_scene_file(options.output);
   if (!is_mesh_file(options.input) && !is_scene_file(options.input))
-    throw_input(in, "unknown file ending, none of .glb .gltf .obj .ply .stl .can .can.gz .toml", "give a mesh or a scene file");
+    throw_input(in, "unknown file ending", fmt::format("give a mesh, {}, or a scene, .toml", readable_meshes));
   if (!to_scene && !is_writable_mesh(options.output))
     throw_input(out, "unknown file ending", fmt::format("use {}, or .toml", writable_meshes));
   if (to_scene && is_scene_file(options.input))

@@ -6,7 +6,11 @@
 #include "base/units.h"
 #include "devices/gpu/context.h"
 #include "physics/light/sun_events.h"
+<<<<<<< HEAD
+#include "programs/cli/info_mesh.h"
+=======
 #include "physics/transport/model/surfaces.h"
+>>>>>>> core
 #include "programs/cli/terminal.h"
 #include "simulate/memory_forecast.h"
 #include "simulate/scene_source.h"
@@ -197,6 +201,7 @@ void print_lines(const ordered_json& info) {
 }  // namespace
 
 int show_info(const InfoOptions& options) {
+  if (!options.meshes.empty()) return show_meshes(options);
   start_at_terminal(options.run);
   ordered_json info;
   info["devices"] = ordered_json::array();

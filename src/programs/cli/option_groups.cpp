@@ -1,6 +1,7 @@
 #include "programs/cli/option_groups.h"
 
 #include "base/version.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "files/results/exports/exports.h"
 #include "programs/cli/option_checks.h"
 
@@ -210,9 +211,10 @@ void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
 }
 
 void add_view(CLI::App& app, ViewOptions& options, OptionWords& words) {
-  CLI::App& view = *app.add_subcommand("view", "Open a scene in a window: move the sun and watch the light change");
+  CLI::App& view = *app.add_subcommand("view", "Open a scene or a mesh in a window: move the sun and watch the light change");
   add_version(view);
-  view.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")
+  view.add_option("scene", options.run.scene,
+                  "Scene file (TOML), or a .can with CARIBU's files, or a mesh in the scene that `new` would write for it")
       ->required()
       ->check(not_empty());
   view.add_option("-o,--output", options.run.output, "Folder for saved pictures and results (default: results/<scene>_view)")
@@ -304,7 +306,7 @@ void add_convert(CLI::App& app, ConvertOptions& options) {
   CLI::App& convert = *app.add_subcommand(
       "convert", "Convert a mesh with CARIBU's files to a scene, or a mesh or scene to another mesh format");
   add_version(convert);
-  convert.add_option("in", options.input, "Mesh (.glb, .gltf, .obj, .ply, .stl, .can, .can.gz) or scene file (.toml)")
+  convert.add_option("in", options.input, fmt::format("Mesh ({}) or scene file (.toml)", readable_meshes))
       ->required()
       ->check(not_empty());
   convert
@@ -317,10 +319,24 @@ void add_convert(CLI::App& app, ConvertOptions& options) {
   convert.add_flag("--allow-outside", options.allow_outside, "Accept files outside the folder of the scene or glTF");
 }
 
+void add_new(CLI::App& app, NewOptions& options) {
+  CLI::App& command = *app.add_subcommand("new", "Write a commented scene for meshes, which runs as it is");
+  add_version(command);
+  command.add_option("meshes", options.meshes, "Mesh files, placed side by side; see also sunfleck info MESH")
+      ->required()
+      ->check(not_empty());
+  command.add_option("-o,--output", options.output, "Scene file, .toml (default: standard output)")->check(not_empty());
+  command.add_flag("--force", options.force, "Replace the scene file if it exists");
+  command.add_flag("--allow-outside", options.allow_outside, "Accept buffers outside the folder of a glTF");
+}
+
 void add_info(CLI::App& app, InfoOptions& options, OptionWords& words) {
-  CLI::App& info = *app.add_subcommand("info", "Show the devices, the contents of a scene and the memory its run needs");
+  CLI::App& info =
+      *app.add_subcommand("info", "Describe meshes; or show the devices, the contents of a scene and the memory its run needs");
   add_version(info);
-  info.add_option("scene", options.run.scene, "Scene file (TOML), or a .can with CARIBU's files")->check(not_empty());
+  info.add_option("files", options.meshes,
+                  "Meshes; or a scene file (TOML), or a .can with CARIBU's files; or nothing: only the devices")
+      ->check(not_empty());
   add_stand(info, options.run.stand);
   add_device(info, options.run);
   CLI::Option_group& group = *info.add_option_group("The run whose memory is forecast");

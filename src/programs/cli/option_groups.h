@@ -29,6 +29,7 @@ void add_validate(CLI::App& app, ValidateOptions& options);
 void add_tradeoff(CLI::App& app, TradeoffOptions& options);
 void add_maize(CLI::App& app, MaizeOptions& options);
 void add_convert(CLI::App& app, ConvertOptions& options);
+void add_new(CLI::App& app, NewOptions& options);
 void add_info(CLI::App& app, InfoOptions& options, OptionWords& words);
 
 }  // namespace sunfleck

@@ -87,7 +87,21 @@ DayOptions finished(DayOptions options, const OptionWords& words) {
   return options;
 }
 
+// Sorts the files that `info` was given into one scene or meshes. CARIBU's files make a scene of a mesh.
+void sort_files(InfoOptions& options) {
+  std::vector<std::filesystem::path>& files = options.meshes;
+  const bool all_meshes = std::all_of(files.begin(), files.end(), is_mesh_file);
+  if (all_meshes && options.run.stand.first_given().empty()) return;
+  if (files.size() > 1) {
+    throw_input(fmt::format("info: {} files", files.size()), "only meshes can be described together",
+                "give one scene at a time");
+  }
+  options.run.scene = files.front();
+  files.clear();
+}
+
 InfoOptions finished(InfoOptions options, const OptionWords& words) {
+  if (!options.meshes.empty()) sort_files(options);
   read_errors(words, options.run);
   add_caribu_table(options.run);
   options.run.triangle_errors = needs_triangle_errors(options.run.exports);
@@ -132,7 +146,7 @@ void check_stand(const MaizeOptions& options) {
   const auto chosen = app.get_subcommands();
   if (chosen.empty() && (first.empty() || first[0] != '-')) {
     throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "unknown command",
-                "use run, day, render, view, validate, tradeoff, maize, convert or info; see sunfleck --help");
+                "use run, day, render, view, validate, tradeoff, maize, convert, new or info; see sunfleck --help");
   }
   const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
   const std::vector<std::string> unknown = app.remaining(true);
@@ -159,6 +173,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   MaizeOptions maize;
   ConvertOptions convert;
   InfoOptions info;
+  NewOptions new_scene;
   RenderOptions render;
   ViewOptions view;
   ValidateOptions validate;
@@ -172,6 +187,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   add_tradeoff(app, tradeoff);
   add_maize(app, maize);
   add_convert(app, convert);
+  add_new(app, new_scene);
   add_info(app, info, words);
   try {
     app.parse(argc, argv);
@@ -187,6 +203,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     return maize;
   }
   if (app.got_subcommand("convert")) return convert;
+  if (app.got_subcommand("new")) return new_scene;
   if (app.got_subcommand("info")) return finished(info, words);
   if (app.got_subcommand("validate")) return validate;
   if (app.got_subcommand("tradeoff")) return tradeoff;

@@ -73,7 +73,16 @@ struct ConvertOptions {
 };
 
 struct InfoOptions {
-  RunOptions run;  // the run whose memory is forecast; without a scene only the devices are listed
+  RunOptions run;                             // the run whose memory is forecast; without a scene only the devices are listed
+  std::vector<std::filesystem::path> meshes;  // described instead; only run.allow_outside and run.json matter then
+};
+
+// Options of `new`.
+struct NewOptions {
+  std::vector<std::filesystem::path> meshes;
+  std::filesystem::path output;  // empty: standard output
+  bool force = false;            // the output may exist
+  bool allow_outside = false;    // the buffers of a glTF file may lie outside its folder
 };
 
 // The parsed command with its options, or the text to print for --help and --version.
@@ -81,7 +90,7 @@ struct TextToPrint {
   std::string text;
 };
 using Command = std::variant<TextToPrint, RunOptions, DayOptions, RenderOptions, ViewOptions, ValidateOptions, TradeoffOptions,
-                             MaizeOptions, ConvertOptions, InfoOptions>;
+                             MaizeOptions, ConvertOptions, InfoOptions, NewOptions>;
 
 // Parses the command line. Throws Error (input) on bad usage.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);

@@ -8,9 +8,9 @@ namespace sunfleck {
 namespace {
 
 Scene checked_scene(const ViewOptions& options, const std::filesystem::path& file, SourceFiles& files) {
-  // A file dropped on the window is a scene file.
+  // CARIBU's files belong to the file of the command line, not to one that was dropped on the window.
   const StandFiles stand = file == options.run.scene ? options.run.stand : StandFiles{};
-  Scene scene = load_scene({file, stand, options.run.allow_outside}, ScenePurpose::moment, &files);
+  Scene scene = load_scene({file, stand, options.run.allow_outside, true}, ScenePurpose::moment, &files);
   check_view(scene.model, options.run.pictures);
   check_grid(options.run, scene);
   return scene;

@@ -178,5 +178,15 @@ TEST_F(SceneSources, StampsTellWritesAndLinksApart) {
   EXPECT_NE(stamp_of(folder_ / "link.obj"), stamp);
 }
 
+TEST_F(SceneSources, AMeshAloneGetsASceneWhereItIsAllowed) {
+  const Scene made = load_scene({.scene = folder_ / "stand.gltf", .mesh_alone = true});
+  EXPECT_EQ(made.model.canopy.size(), 2U);
+  EXPECT_EQ(made.title, "stand");
+  std::set<std::string> files;
+  for (const SourceFile& file : made.files) files.insert(file.path.filename().string());
+  EXPECT_EQ(files, (std::set<std::string>{"stand.gltf", "stand.bin"}));  // the window watches both
+  EXPECT_THROW(static_cast<void>(load_scene({.scene = folder_ / "stand.gltf"})), Error);
+}
+
 }  // namespace
 }  // namespace sunfleck

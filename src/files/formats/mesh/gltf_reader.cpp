@@ -43,6 +43,7 @@ struct OrganHint {
   std::optional<std::uint32_t> plant;
   std::optional<std::string> name;
   std::optional<int> rank;
+  std::optional<std::uint32_t> object;  // the builder's object of the nearest name that is none like plant1_leaf7
 };
 
 struct NodeVisit {
@@ -122,6 +123,8 @@ class GltfReader {
     if (node.find("mesh") != nullptr) {
       const GltfObject mesh = file_.item("meshes", node.get("mesh", -1), "mesh");
       positions_.clear();
+      if (const auto name = mesh.get<std::string>("name"); node.get<std::string>("name").empty() && !name.empty())
+        visit.organ.object = builder_.add_object(name);
       for (std::size_t i = 0; i < mesh.count("primitives"); ++i)
         read_primitive(mesh.item("primitives", static_cast<int>(i), "primitive"), visit);
     }
@@ -153,7 +156,7 @@ class GltfReader {
   }
 
   // Reads the organ from the extras, or from the node's name if there are none.
-  void read_organ(const GltfObject& node, NodeVisit& visit) const {
+  void read_organ(const GltfObject& node, NodeVisit& visit) {
     const json* extras = node.find("extras");
     bool found = false;
     if (extras != nullptr && extras->is_object()) {
@@ -182,9 +185,10 @@ class GltfReader {
         found = true;
       }
     }
-    if (found) return;
-    if (const std::optional<Organ> named = organ_from_name(node.get<std::string>("name")))
-      visit.organ = {named->plant, named->name, named->rank};
+    const auto name = node.get<std::string>("name");
+    const std::optional<Organ> named = organ_from_name(name);
+    if (named && !found) visit.organ = {named->plant, named->name, named->rank, std::nullopt};
+    if (!named && !name.empty()) visit.organ.object = builder_.add_object(name);
   }
 
   struct Numbers {
@@ -295,12 +299,7 @@ class GltfReader {
   // glTF 2.0, section 3.7.4: a mirroring transform (negative determinant) reverses the winding, so that the front stays the
   // front.
   void add_triangles(int mode, std::span<const std::uint32_t> corners, std::uint32_t optics, const NodeVisit& visit) {
-    const OrganHint& hint = visit.organ;
-    const bool is_named = hint.plant || hint.name || hint.rank;
-    const std::uint32_t organ =
-        is_named
-            ? builder_.organ({hint.plant.value_or(1), hint.name.value_or(builder_.optics_name(optics)), hint.rank.value_or(0)})
-            : builder_.default_organ(optics);
+    const std::uint32_t organ = organ_of(visit.organ, optics);
     const bool mirrored = glm::determinant(glm::dmat3(visit.to_scene)) < 0.0;
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       const std::uint32_t triangle[] = {a, mirrored ? c : b, mirrored ? b : c};
@@ -312,6 +311,14 @@ class GltfReader {
       for (std::size_t i = 0; i + 2 < corners.size(); ++i) add(corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]);
     else
       for (std::size_t i = 1; i + 1 < corners.size(); ++i) add(corners[0], corners[i], corners[i + 1]);
+  }
+
+  std::uint32_t organ_of(const OrganHint& hint, std::uint32_t optics) {
+    const std::uint32_t plant = hint.plant.value_or(1);
+    const int rank = hint.rank.value_or(0);
+    if (!hint.name && hint.object) return builder_.object_organ(*hint.object, optics, plant, rank);
+    if (!hint.name && !hint.plant && !hint.rank) return builder_.default_organ(optics);
+    return builder_.organ({plant, hint.name.value_or(builder_.optics_name(optics)), rank});
   }
 
   const MeshSource& source_;

@@ -3,6 +3,8 @@
 #include "base/check.h"
 #include "base/file.h"
 #include "base/text_reader.h"
+#include "files/formats/mesh/organ_name.h"
+#include "files/formats/mesh/organ_split.h"
 
 #include <fmt/format.h>
 
@@ -48,6 +50,11 @@ std::uint32_t MeshBuilder::default_optics(std::size_t line) {
 }
 
 std::uint32_t MeshBuilder::organ(const Organ& organ) {
+  has_given_organs_ = true;
+  return find_organ(organ);
+}
+
+std::uint32_t MeshBuilder::find_organ(const Organ& organ) {
   if (last_organ_ < mesh_.organs.size() && mesh_.organs[last_organ_] == organ) return last_organ_;
   const auto [entry, is_new] =
       organs_.try_emplace({organ.plant, organ.name, organ.rank}, static_cast<std::uint32_t>(mesh_.organs.size()));
@@ -68,7 +75,46 @@ void MeshBuilder::check_name(std::string_view kind, std::string_view name) const
 }
 
 std::uint32_t MeshBuilder::default_organ(std::uint32_t optics) {
-  return organ({1, mesh_.optics_names[optics], 0});
+  return find_organ({1, mesh_.optics_names[optics], 0});
+}
+
+std::uint32_t MeshBuilder::add_object(std::string_view name) {
+  objects_.push_back({is_utf8(name) && printable(name) == name ? std::string(name) : printable(name), std::nullopt});
+  return static_cast<std::uint32_t>(objects_.size() - 1);
+}
+
+std::uint32_t MeshBuilder::object_organ(std::uint32_t object, std::uint32_t optics, std::uint32_t plant, int rank) {
+  Object& known = objects_.at(object);
+  if (known.name.empty()) return default_organ(optics);
+  if (!known.organ) {
+    if (const std::optional<Organ> given = organ_from_name(known.name)) {
+      known.organ = organ(*given);
+    } else {
+      known.organ = find_organ({plant, free_name(plant, known.name), rank});
+      only_object_ = known.organ;
+      ++named_organs_;
+    }
+  }
+  return *known.organ;
+}
+
+std::string MeshBuilder::free_name(std::uint32_t plant, const std::string& name) {
+  const auto [entry, is_new] = objects_named_.try_emplace({plant, name}, 1);
+  if (is_new) return name;
+  for (;;) {
+    std::string numbered = fmt::format("{} {}", name, ++entry->second);
+    if (objects_named_.try_emplace({plant, numbered}, 1).second) return numbered;
+  }
+}
+
+void MeshBuilder::set_surface(std::size_t triangle, std::uint32_t optics, std::uint32_t organ) {
+  mesh_.optics_of.at(triangle) = optics;
+  mesh_.organ_of.at(triangle) = organ;
+}
+
+Mesh MeshBuilder::take() {
+  if (named_organs_ == 1 && !has_given_organs_) name_after_materials(mesh_, *only_object_);
+  return std::move(mesh_);
 }
 
 void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ,

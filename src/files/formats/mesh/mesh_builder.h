@@ -14,6 +14,7 @@
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace sunfleck {
 
@@ -37,20 +38,44 @@ class MeshBuilder {
   // Returns the organ of triangles that have none: plant 1, named after the optics, rank 0.
   [[nodiscard]] std::uint32_t default_organ(std::uint32_t optics);
 
+  // Returns the number of a further object of the file, for object_organ. The name may be empty.
+  [[nodiscard]] std::uint32_t add_object(std::string_view name);
+  // Returns the organ of an object: what organ_from_name reads from its name, or else the plant, the name itself and the rank; the
+  // default organ if it has no name. The second object of one name and plant gets the name `leaf 2`, and so on. Characters that a
+  // table cannot hold become `?`.
+  [[nodiscard]] std::uint32_t object_organ(std::uint32_t object, std::uint32_t optics, std::uint32_t plant = 1, int rank = 0);
+
   // Adds a polygon, cut into the triangle fan about its first corner. It needs at least three valid vertex numbers. Either all
   // polygons of a file have labels or none has.
   void add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ,
                    std::optional<std::uint64_t> label = std::nullopt);
 
-  [[nodiscard]] Mesh take() { return std::move(mesh_); }
+  [[nodiscard]] std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  // Replaces the optics and the organ of a triangle.
+  void set_surface(std::size_t triangle, std::uint32_t optics, std::uint32_t organ);
+
+  // Returns the mesh. If the file names a single object that has several materials, its organs are named after them.
+  [[nodiscard]] Mesh take();
 
  private:
+  struct Object {
+    std::string name;
+    std::optional<std::uint32_t> organ;  // set once it is used
+  };
+
+  [[nodiscard]] std::uint32_t find_organ(const Organ& organ);
+  [[nodiscard]] std::string free_name(std::uint32_t plant, const std::string& name);
   void check_name(std::string_view kind, std::string_view name) const;
 
   const MeshSource& source_;
   Mesh mesh_;
   std::map<std::string, std::uint32_t, std::less<>> optics_;
   std::map<std::tuple<std::uint32_t, std::string, int>, std::uint32_t> organs_;
+  std::vector<Object> objects_;
+  std::map<std::pair<std::uint32_t, std::string>, int> objects_named_;  // the highest number behind each name
+  std::optional<std::uint32_t> only_object_;                            // the organ of the last object with a name of its own
+  std::size_t named_organs_ = 0;                                        // objects with names of their own that have an organ
+  bool has_given_organs_ = false;
   std::uint32_t last_optics_ = 0, last_organ_ = 0;  // most triangles share those of the one before
 };
 

@@ -5,9 +5,11 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "files/formats/mesh/can_reader.h"
+#include "files/formats/mesh/dae_reader.h"
 #include "files/formats/mesh/gltf_reader.h"
 #include "files/formats/mesh/mesh_source.h"
 #include "files/formats/mesh/obj_reader.h"
+#include "files/formats/mesh/opf_reader.h"
 #include "files/formats/mesh/ply_reader.h"
 #include "files/formats/mesh/stl_reader.h"
 
@@ -27,34 +29,48 @@ namespace sunfleck {
 
 namespace {
 
-enum class MeshFormat { can, gltf, obj, ply, stl, unknown };
+enum class MeshFormat { can, dae, gltf, obj, opf, ply, stl, unknown };
+
+// A mesh in the frame of its file.
+struct FileMesh {
+  Mesh mesh;
+  UpAxis up = UpAxis::y;
+  double unit_m = 1.0;
+};
 
 MeshFormat format_of(const std::filesystem::path& file) {
   const std::string name = lower_case(file.filename().string());
   constexpr std::pair<std::string_view, MeshFormat> endings[] = {
-      {".can", MeshFormat::can}, {".can.gz", MeshFormat::can}, {".glb", MeshFormat::gltf}, {".gltf", MeshFormat::gltf},
-      {".obj", MeshFormat::obj}, {".ply", MeshFormat::ply},    {".stl", MeshFormat::stl}};
+      {".can", MeshFormat::can},  {".can.gz", MeshFormat::can}, {".dae", MeshFormat::dae},
+      {".glb", MeshFormat::gltf}, {".gltf", MeshFormat::gltf},  {".obj", MeshFormat::obj},
+      {".opf", MeshFormat::opf},  {".ply", MeshFormat::ply},    {".stl", MeshFormat::stl}};
   for (const auto& [ending, format] : endings)
     if (name.ends_with(ending)) return format;
   return MeshFormat::unknown;
 }
 
-Mesh read_format(const MeshSource& source, MeshFormat format) {
+FileMesh read_format(const MeshSource& source, MeshFormat format) {
   switch (format) {
     case MeshFormat::can:
-      return read_can(source);
+      return {read_can(source), UpAxis::z};
+    case MeshFormat::dae: {
+      DaeMesh read = read_dae(source);
+      return {std::move(read.mesh), read.is_z_up ? UpAxis::z : UpAxis::y};
+    }
     case MeshFormat::gltf:
-      return read_gltf(source);
+      return {read_gltf(source)};
     case MeshFormat::obj:
-      return read_obj(source);
+      return {read_obj(source)};
+    case MeshFormat::opf:
+      return {read_opf(source), UpAxis::z, 0.01};  // centimetres
     case MeshFormat::ply:
-      return read_ply(source);
+      return {read_ply(source)};
     case MeshFormat::stl:
-      return read_stl(source);
+      return {read_stl(source)};
     case MeshFormat::unknown:
       break;
   }
-  refuse(source, 0, "unknown kind of mesh", "the name must end in .glb, .gltf, .obj, .ply, .stl, .can or .can.gz",
+  refuse(source, 0, "unknown kind of mesh", fmt::format("the name must end in {}", readable_meshes),
          "convert it, or rename it to match its format");
 }
 
@@ -62,6 +78,7 @@ Mesh read_format(const MeshSource& source, MeshFormat format) {
 void place(const std::string& where, Mesh& mesh, UpAxis up, double scale) {
   for (glm::dvec3& v : mesh.vertices) {
     if (up == UpAxis::z) v = {-v.y, v.z, -v.x};
+    if (up == UpAxis::x) v = {-v.z, v.x, -v.y};
     v *= scale;
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (std::isnan(v.x + v.y + v.z) || largest > std::numeric_limits<float>::max())
@@ -117,11 +134,13 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import, Sour
     source.bytes = without_mark(bytes);
     if (source.bytes.empty() && format != MeshFormat::unknown)
       refuse(source, 0, "the file is empty", "a mesh needs at least one triangle", "export it again");
-    Mesh mesh = read_format(source, format);
+    FileMesh read = read_format(source, format);
+    Mesh& mesh = read.mesh;
     if (mesh.triangles.empty())
       refuse(source, 0, "no triangles found", "a mesh needs at least one", "check that surfaces were exported");
-    place(printable(file.string()), mesh, import.up.value_or(format == MeshFormat::can ? UpAxis::z : UpAxis::y), import.scale);
-    return mesh;
+    place(printable(file.string()), mesh, import.up.value_or(read.up), import.scale * read.unit_m);
+    split_organs(mesh, import.split);
+    return std::move(mesh);
   } catch (const std::bad_alloc&) {
     throw_failure(fmt::format("{}: does not fit into memory", printable(file.string())), "out of memory", "use a smaller mesh");
   } catch (const std::length_error&) {
@@ -140,6 +159,7 @@ Mesh import_mesh(Mesh mesh, const std::string& place_of_mesh, const MeshImport& 
     throw_input(fmt::format("{}: {} labels", place_of_mesh, mesh.labels.size()),
                 fmt::format("there are {} triangles", mesh.triangles.size()), "give one for each triangle, or none");
   place(place_of_mesh, mesh, import.up.value_or(UpAxis::y), import.scale);
+  split_organs(mesh, import.split);
   return mesh;
 }
 

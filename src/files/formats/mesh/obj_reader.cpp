@@ -6,21 +6,29 @@
 #include "files/formats/mesh/organ_name.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tiny_obj_loader.h>
 
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace sunfleck {
 
 namespace {
+
+// "default" is the group of all that is in no group.
+bool is_group_name(std::string_view name) {
+  return !name.empty() && name != "default";
+}
 
 // Checks the text before tinyobjloader parses it: that library replaces an unreadable number by 0, reports no line numbers, and
 // lets exponents overflow. The positions are also taken from here, in double precision and correctly rounded.
@@ -33,6 +41,7 @@ class ObjText {
     // The lines left for tinyobjloader: faces with corners in range, their materials, objects and groups, and, for negative
     // corners, one dummy position per position.
     std::string faces;
+    bool groups_are_organs = false;  // otherwise objects are, for faces that have both
   };
 
   Checked check() {
@@ -44,7 +53,7 @@ class ObjText {
     LineReader lines(source_.bytes);
     while (lines.next()) check_line(lines.number(), lines.line());
     if (highest_ > static_cast<std::int64_t>(positions_.size())) refuse_corner(highest_line_, fmt::to_string(highest_));
-    return {std::move(positions_), std::move(faces_)};
+    return {std::move(positions_), std::move(faces_), groups_.size() >= objects_.size()};
   }
 
  private:
@@ -61,12 +70,16 @@ class ObjText {
     } else if (key == "f" || key == "usemtl" || key == "o" || key == "g") {
       if (key == "f") check_face(line, rest);
       if (key == "usemtl") has_material_ = !trimmed(rest).empty();
+      if (key == "o") object_ = trimmed(rest);
+      if (key == "g") group_ = trimmed(rest);
       faces_.append(key).append(" ").append(trimmed(rest)).append("\n");
     }
   }
 
   void check_face(std::size_t line, std::string_view rest) {
     if (!has_material_ && !source_.optics) static_cast<void>(MeshBuilder(source_).default_optics(line));
+    if (!object_.empty()) objects_.insert(object_);
+    if (is_group_name(group_)) groups_.insert(group_);
     int corners = 0;
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++corners) {
       const std::optional<std::int64_t> number = vertex_number(word);
@@ -107,12 +120,15 @@ class ObjText {
   std::int64_t highest_ = 0;  // the highest corner number; the corner may precede its vertex
   std::size_t highest_line_ = 0;
   bool has_material_ = false;
+  std::string_view object_, group_;
+  std::set<std::string_view> objects_, groups_;  // names that faces have
 };
 
 // Adds faces with their state: the last material, object and group.
 class ObjFaces {
  public:
-  ObjFaces(const MeshSource& source, std::span<const glm::dvec3> positions) : builder_(source) {
+  ObjFaces(const MeshSource& source, std::span<const glm::dvec3> positions, bool groups_are_organs)
+      : builder_(source), groups_are_organs_(groups_are_organs) {
     builder_.reserve_vertices(positions.size());
     for (const glm::dvec3& position : positions) static_cast<void>(builder_.add_vertex(position));
   }
@@ -128,31 +144,56 @@ class ObjFaces {
       ENSURE(corners_.back(), <, builder_.vertex_count());
     }
     const std::uint32_t optics = material_.empty() ? builder_.default_optics(0) : builder_.optics(material_);
-    const std::optional<Organ>& named = group_ ? group_ : object_;
-    builder_.add_polygon(corners_, optics, named ? builder_.organ(*named) : builder_.default_organ(optics));
+    builder_.add_polygon(corners_, optics, organ(optics));
   }
 
   void use_material(std::string_view name) { material_ = trimmed(name); }
 
   void begin_object(std::string_view name) {
-    object_ = organ_from_name(trimmed(name));
-    group_.reset();
+    object_ = named(trimmed(name));
+    group_ = {};
   }
 
   void begin_group(std::span<const char*> names) {
-    group_.reset();
+    group_ = named(fmt::format("{}", fmt::join(names, " ")));
+    if (!is_group_name(group_.name)) group_ = {};
+    group_.organ.reset();
     for (const char* name : names)
-      if (!group_) group_ = organ_from_name(name);
+      if (!group_.organ) group_.organ = organ_from_name(name);
   }
 
   Mesh take() { return builder_.take(); }
 
  private:
+  struct Named {
+    std::string name;
+    std::optional<Organ> organ;           // of a name like plant1_leaf7
+    std::optional<std::uint32_t> number;  // of the builder's object
+  };
+
+  static Named named(std::string_view name) { return {std::string(name), organ_from_name(name), std::nullopt}; }
+
+  // Names like plant1_leaf7 come first. Of two other names, the one of the kind that distinguishes more faces counts.
+  std::uint32_t organ(std::uint32_t optics) {
+    if (group_.organ || object_.organ) return builder_.organ(group_.organ ? *group_.organ : *object_.organ);
+    const bool takes_group = object_.name.empty() || (groups_are_organs_ && !group_.name.empty());
+    Named& chosen = takes_group ? group_ : object_;
+    if (chosen.name.empty()) return builder_.default_organ(optics);
+    if (!chosen.number) {
+      const auto [entry, is_new] = numbers_.try_emplace(chosen.name, 0);
+      if (is_new) entry->second = builder_.add_object(chosen.name);
+      chosen.number = entry->second;
+    }
+    return builder_.object_organ(*chosen.number, optics);
+  }
+
   MeshBuilder builder_;
+  bool groups_are_organs_;
   std::int64_t vertices_ = 0;
   std::vector<std::uint32_t> corners_;
   std::string material_;
-  std::optional<Organ> object_, group_;
+  Named object_, group_;
+  std::unordered_map<std::string, std::uint32_t> numbers_;  // objects and groups of one name are one organ
 };
 
 ObjFaces& faces(void* user) {
@@ -165,7 +206,7 @@ ObjFaces& faces(void* user) {
 // polygons and faces unchanged in file order.
 Mesh read_obj(const MeshSource& source) {
   ObjText::Checked text = ObjText(source).check();
-  ObjFaces mesh(source, text.positions);
+  ObjFaces mesh(source, text.positions, text.groups_are_organs);
   tinyobj::callback_t callback;
   callback.vertex_cb = [](void* user, float, float, float, float) { faces(user).count_vertex(); };
   callback.index_cb = [](void* user, tinyobj::index_t* indices, int count) {

@@ -28,18 +28,22 @@ std::optional<Organ> organ_from_name(std::string_view name) {
   if (last == name.npos) return std::nullopt;
   Organ organ{static_cast<std::uint32_t>(*plant), std::string(name.substr(0, last + 1)), 0};
   if (last + 1 < name.size()) {
-    if (last > 0 && name[last] == '_') organ.name.pop_back();
+    const bool is_negative = organ.name.ends_with("_-");
+    if (is_negative) organ.name.pop_back();
+    if (organ.name.size() > 1 && organ.name.ends_with('_')) organ.name.pop_back();
     const auto rank = parse_integer(name.substr(last + 1));
     if (!rank || *rank > std::numeric_limits<int>::max()) return std::nullopt;
-    organ.rank = static_cast<int>(*rank);
+    organ.rank = static_cast<int>(is_negative ? -*rank : *rank);
   }
   return organ;
 }
 
 std::string node_name(const Organ& organ) {
-  const bool ends_in_digit = !organ.name.empty() && std::isdigit(static_cast<unsigned char>(organ.name.back())) != 0;
-  const std::string rank = organ.rank == 0 && !ends_in_digit ? "" : fmt::format("{}{}", ends_in_digit ? "_" : "", organ.rank);
-  return fmt::format("plant{}_{}{}", organ.plant, organ.name, rank);
+  constexpr std::string_view joining = "0123456789_.-";  // characters that would run into the rank
+  const bool joins = !organ.name.empty() && joining.find(organ.name.back()) != joining.npos;
+  const bool ends_in_digit = joins && std::isdigit(static_cast<unsigned char>(organ.name.back())) != 0;
+  if (organ.rank == 0 && !ends_in_digit) return fmt::format("plant{}_{}", organ.plant, organ.name);
+  return fmt::format("plant{}_{}{}{}", organ.plant, organ.name, joins || organ.rank < 0 ? "_" : "", organ.rank);
 }
 
 }  // namespace sunfleck

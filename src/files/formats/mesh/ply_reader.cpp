@@ -1,7 +1,11 @@
 #include "files/formats/mesh/ply_reader.h"
 
+#include "base/file.h"
+#include "base/log.h"
 #include "base/text_reader.h"
 #include "files/formats/mesh/mesh_builder.h"
+#include "files/formats/mesh/ply_colours.h"
+#include "files/formats/mesh/ply_header.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +15,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -22,126 +29,17 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary PLY numbers are read as stored in memory");
 
-enum class PlyEncoding { ascii, little_endian, big_endian };
-
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-struct PlyProperty {
-  std::string_view name;
-  PlyType type = PlyType::float32;   // type of the value, or of a list's entries
-  std::optional<PlyType> list_size;  // set for a list
-};
-
-struct PlyElement {
-  std::string_view name;
-  std::size_t count = 0;
-  std::vector<PlyProperty> properties;
-};
-
-struct PlyHeader {
-  PlyEncoding encoding = PlyEncoding::ascii;
-  std::vector<PlyElement> elements;
-  std::string_view body;
-  std::size_t lines = 0;  // lines of the header
-};
-
-std::optional<PlyType> type_named(std::string_view name) {
-  struct Names {
-    std::string_view old_name, new_name;
-    PlyType type;
-  };
-  static constexpr Names names[] = {{"char", "int8", PlyType::int8},        {"uchar", "uint8", PlyType::uint8},
-                                    {"short", "int16", PlyType::int16},     {"ushort", "uint16", PlyType::uint16},
-                                    {"int", "int32", PlyType::int32},       {"uint", "uint32", PlyType::uint32},
-                                    {"float", "float32", PlyType::float32}, {"double", "float64", PlyType::float64}};
-  for (const Names& known : names)
-    if (name == known.old_name || name == known.new_name) return known.type;
-  return std::nullopt;
-}
-
 std::size_t size_of(PlyType type) {
   constexpr std::array<std::size_t, 8> sizes{1, 1, 2, 2, 4, 4, 4, 8};
   return sizes[static_cast<std::size_t>(type)];
 }
 
-class PlyHeaderReader {
- public:
-  explicit PlyHeaderReader(const MeshSource& source) : source_(source), lines_(source.bytes) {}
-
-  PlyHeader read() {
-    if (!lines_.next() || trimmed(lines_.line()) != "ply")
-      refuse(source_, 1, "does not begin with ply", "every PLY file must", "export the file again");
-    bool has_format = false;
-    while (lines_.next()) {
-      std::string_view rest = lines_.line();
-      const std::string_view key = next_word(rest);
-      if (key == "end_header") {
-        if (!has_format) bad_line("the format line is missing");
-        header_.body = lines_.rest();
-        header_.lines = lines_.number();
-        return std::move(header_);
-      }
-      if (key == "format") {
-        read_format(rest);
-        has_format = true;
-      } else if (key == "element") {
-        read_element(rest);
-      } else if (key == "property") {
-        read_property(rest);
-      } else if (!key.empty() && key != "comment" && key != "obj_info") {
-        bad_line("not a word of a PLY header");
-      }
-    }
-    refuse(source_, lines_.number(), "the header does not end", "end_header is missing", "export the file again");
-  }
-
- private:
-  [[noreturn]] void bad_line(std::string_view why) {
-    refuse(source_, lines_.number(), fmt::format("header line {}", in_quotes(lines_.line())), why, "export the file again");
-  }
-
-  void read_format(std::string_view rest) {
-    const std::string_view name = next_word(rest);
-    if (name == "ascii")
-      header_.encoding = PlyEncoding::ascii;
-    else if (name == "binary_little_endian")
-      header_.encoding = PlyEncoding::little_endian;
-    else if (name == "binary_big_endian")
-      header_.encoding = PlyEncoding::big_endian;
-    else
-      bad_line("must be ascii, binary_little_endian or binary_big_endian");
-    if (next_word(rest) != "1.0") bad_line("the version must be 1.0");
-  }
-
-  void read_element(std::string_view rest) {
-    PlyElement element;
-    element.name = next_word(rest);
-    const std::optional<std::int64_t> count = parse_integer(next_word(rest));
-    if (element.name.empty() || !count || *count < 0) bad_line("must be element NAME COUNT");
-    element.count = static_cast<std::size_t>(*count);
-    header_.elements.push_back(std::move(element));
-  }
-
-  void read_property(std::string_view rest) {
-    if (header_.elements.empty()) bad_line("a property must follow an element");
-    PlyProperty property;
-    std::string_view type = next_word(rest);
-    if (type == "list") {
-      property.list_size = type_named(next_word(rest));
-      if (!property.list_size || *property.list_size >= PlyType::float32) bad_line("the size of a list needs an integer type");
-      type = next_word(rest);
-    }
-    const std::optional<PlyType> known = type_named(type);
-    property.name = next_word(rest);
-    if (!known || property.name.empty()) bad_line("must be property TYPE NAME or property list TYPE TYPE NAME");
-    property.type = *known;
-    header_.elements.back().properties.push_back(property);
-  }
-
-  const MeshSource& source_;
-  LineReader lines_;
-  PlyHeader header_;
-};
+// Returns a component of a colour, given as a whole number in 0..255 or 0..65535 or as a fraction, in 0..255.
+std::uint32_t colour_component(double value, PlyType type) {
+  const bool is_fraction = type == PlyType::float32 || type == PlyType::float64;
+  const double scaled = is_fraction ? 255.0 * value : type == PlyType::uint16 ? value / 257.0 : value;
+  return std::isnan(scaled) ? 0U : static_cast<std::uint32_t>(std::lround(std::clamp(scaled, 0.0, 255.0)));
+}
 
 // The numbers of the body in order, in any encoding. In a text file, numbers may be spread over lines freely.
 class PlyBody {
@@ -218,23 +116,50 @@ class PlyBody {
   std::string_view rest_;
 };
 
+// The numbers of a vertex or a face that say which organ it belongs to.
+struct PlyNames {
+  static constexpr std::uint32_t no_name = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t colour = 0;  // red, green, blue in 8 bits each
+  std::uint32_t organ = no_name, optics = no_name;
+
+  void read(const PlyProperty& property, double value) {
+    if (property.use == PlyUse::organ) organ = whole(value);
+    if (property.use == PlyUse::optics) optics = whole(value);
+    if (property.use == PlyUse::red) colour |= colour_component(value, property.type) << 16U;
+    if (property.use == PlyUse::green) colour |= colour_component(value, property.type) << 8U;
+    if (property.use == PlyUse::blue) colour |= colour_component(value, property.type);
+  }
+
+ private:
+  static std::uint32_t whole(double value) {
+    return value >= 0.0 && value < no_name ? static_cast<std::uint32_t>(value) : no_name;
+  }
+};
+
 class PlyReader {
  public:
   explicit PlyReader(const MeshSource& source)
-      : source_(source), header_(PlyHeaderReader(source).read()), body_(source, header_), builder_(source) {}
+      : source_(source), header_(read_ply_header(source)), body_(source, header_), builder_(source) {}
 
   Mesh read() {
     for (const PlyElement& element : header_.elements) check_element(element);
     builder_.reserve_vertices(vertices_);
+    for (const auto& [number, name] : header_.organs) objects_.emplace(number, builder_.add_object(name));
+    takes_colours_ = header_.organs.empty() && header_.optics.empty() &&
+                     std::any_of(header_.elements.begin(), header_.elements.end(),
+                                 [](const PlyElement& element) { return element.has_colour(); });
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;
+      const bool coloured = element.has_colour();
       for (std::size_t i = 0; i < element.count; ++i) {
         if (element.name == "vertex")
-          read_vertex(element, i);
+          read_vertex(element, i, coloured);
         else
-          read_lists(element);
+          read_face(element, coloured);
       }
     }
+    if (takes_colours_) name_by_colour();
     return builder_.take();
   }
 
@@ -265,31 +190,76 @@ class PlyReader {
         refuse(source_, 0, fmt::format("vertices without {}", axis), "every vertex needs x, y and z", "export the file again");
   }
 
-  void read_vertex(const PlyElement& element, std::size_t number) {
+  void read_vertex(const PlyElement& element, std::size_t number, bool coloured) {
     glm::dvec3 position(0.0);
+    PlyNames names;
     for (const PlyProperty& property : element.properties) {
       if (property.list_size) {
         skip_list(property);
         continue;
       }
       const double value = body_.next(property.type);
-      if (property.name.size() != 1 || property.name[0] < 'x' || property.name[0] > 'z') continue;
+      names.read(property, value);
+      if (property.use < PlyUse::x || property.use > PlyUse::z) continue;
       if (!std::isfinite(value))
         refuse(source_, body_.line(), fmt::format("vertex {}: {} = {}", number, property.name, value), "not a finite number",
                "export the file again");
-      position[property.name[0] - 'x'] = value;
+      position[static_cast<int>(property.use) - static_cast<int>(PlyUse::x)] = value;
     }
     static_cast<void>(builder_.add_vertex(position));
+    if (coloured) colours_.add_vertex(names.colour);
   }
 
-  void read_lists(const PlyElement& element) {
+  void read_face(const PlyElement& element, bool coloured) {
+    PlyNames names;
+    corners_.clear();
     for (const PlyProperty& property : element.properties) {
-      if (!property.list_size)
-        static_cast<void>(body_.next(property.type));
-      else if (element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index"))
-        read_polygon(property);
-      else
+      if (property.use == PlyUse::corners)
+        read_corners(property);
+      else if (property.list_size)
         skip_list(property);
+      else
+        names.read(property, body_.next(property.type));
+    }
+    if (corners_.empty()) return;
+    if (takes_colours_) {
+      builder_.add_polygon(corners_, 0, 0);  // until all colours are known
+      colours_.add_face(corners_, coloured ? std::optional(names.colour) : std::nullopt);
+      if (first_face_line_ == 0) first_face_line_ = body_.line();
+      return;
+    }
+    const auto material = header_.optics.find(names.optics);
+    const std::uint32_t optics =
+        material == header_.optics.end() ? builder_.default_optics(body_.line()) : builder_.optics(material->second);
+    const auto object = objects_.find(names.organ);
+    builder_.add_polygon(
+        corners_, optics,
+        object == objects_.end() ? builder_.default_organ(optics) : builder_.object_organ(object->second, optics));
+  }
+
+  // Gives the triangles the names of their colours, or the default names if the colours name nothing.
+  void name_by_colour() {
+    const std::vector<std::string> names = colours_.names();
+    if (colours_.mixed_faces() > 0)
+      warn(
+          printable(fmt::format("{}: its vertex colours name no organs ({} faces have corners of different colours); give each "
+                                "face one colour, or split = \"parts\"",
+                                source_.file.string(), colours_.mixed_faces())));
+    if (names.empty() && builder_.triangle_count() == 0) return;
+    if (names.empty()) {
+      const std::uint32_t optics = builder_.default_optics(first_face_line_);
+      const std::uint32_t organ = builder_.default_organ(optics);
+      for (std::size_t t = 0; t < builder_.triangle_count(); ++t) builder_.set_surface(t, optics, organ);
+      return;
+    }
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> surfaces;  // [colour]
+    for (const std::string& name : names) {
+      const std::uint32_t optics = builder_.optics(source_.optics.value_or(name));
+      surfaces.emplace_back(optics, builder_.organ({1, name, 0}));
+    }
+    for (std::size_t t = 0; t < builder_.triangle_count(); ++t) {
+      const auto [optics, organ] = surfaces[colours_.of_triangle()[t]];
+      builder_.set_surface(t, optics, organ);
     }
   }
 
@@ -305,7 +275,7 @@ class PlyReader {
     for (std::size_t left = list_size(property); left > 0; --left) static_cast<void>(body_.next(property.type));
   }
 
-  void read_polygon(const PlyProperty& property) {
+  void read_corners(const PlyProperty& property) {
     const std::size_t size = list_size(property);
     if (size < 3)
       refuse(source_, body_.line(), fmt::format("a face of {} corners", size), "a face needs at least 3",
@@ -318,16 +288,18 @@ class PlyReader {
                fmt::format("must be a vertex number below {}", vertices_), "export the file again");
       corners_.push_back(static_cast<std::uint32_t>(corner));
     }
-    const std::uint32_t optics = builder_.default_optics(body_.line());
-    builder_.add_polygon(corners_, optics, builder_.default_organ(optics));
   }
 
   const MeshSource& source_;
   PlyHeader header_;
   PlyBody body_;
   MeshBuilder builder_;
-  std::size_t vertices_ = 0;        // vertices in the whole file
-  std::size_t promised_bytes_ = 0;  // fewest bytes that the header has announced so far
+  PlyColours colours_;
+  bool takes_colours_ = false;
+  std::size_t first_face_line_ = 0;
+  std::map<std::uint32_t, std::uint32_t> objects_;  // the builder's objects, by organ number of the header
+  std::size_t vertices_ = 0;                        // vertices in the whole file
+  std::size_t promised_bytes_ = 0;                  // fewest bytes that the header has announced so far
   std::vector<std::uint32_t> corners_;
 };
 

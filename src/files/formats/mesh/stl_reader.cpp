@@ -106,6 +106,7 @@ class StlReader {
     if (step == std::end(steps))
       refuse(source_, line, in_quotes(key), "not expected here in an STL file", "export the file again");
     state_ = step->to;
+    if (key == "solid") solid_ = builder_.add_object(trimmed(rest));
     if (key == "endloop") end_loop(line);
   }
 
@@ -114,13 +115,14 @@ class StlReader {
       refuse(source_, line, fmt::format("a facet of {} corners", corners_.size()), "an STL facet has 3",
              "export the file again");
     const std::uint32_t optics = builder_.default_optics(line);
-    builder_.add_polygon(corners_, optics, builder_.default_organ(optics));
+    builder_.add_polygon(corners_, optics, builder_.object_organ(solid_, optics));
     corners_.clear();
   }
 
   const MeshSource& source_;
   MeshBuilder builder_;
   State state_ = State::outside;
+  std::uint32_t solid_ = 0;  // the builder's object
   std::vector<std::uint32_t> corners_;
 };
 

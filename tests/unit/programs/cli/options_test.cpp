@@ -194,6 +194,25 @@ TEST(Options, OfInfo) {
   EXPECT_EQ(asked.run.device, "cpu");
 }
 
+TEST(Options, OfInfoAboutMeshes) {
+  const InfoOptions meshes = std::get<InfoOptions>(parse({"info", "a.obj", "b.PLY", "c.can", "--json"}));
+  EXPECT_EQ(meshes.meshes.size(), 3U);
+  EXPECT_TRUE(meshes.run.scene.empty());
+  const InfoOptions stand = std::get<InfoOptions>(parse({"info", "a.can", "--optics", "par.opt", "--light", "a.light"}));
+  EXPECT_TRUE(stand.meshes.empty());
+  EXPECT_EQ(stand.run.scene, "a.can");
+  EXPECT_NE(refusal({"info", "a.obj", "a.toml"}).find("one scene at a time"), std::string::npos);
+}
+
+TEST(Options, OfANewScene) {
+  const NewOptions options = std::get<NewOptions>(parse({"new", "a.obj", "b.ply", "-o", "stand.toml", "--force"}));
+  EXPECT_EQ(options.meshes, (std::vector<std::filesystem::path>{"a.obj", "b.ply"}));
+  EXPECT_EQ(options.output, "stand.toml");
+  EXPECT_TRUE(options.force);
+  EXPECT_TRUE(std::get<NewOptions>(parse({"new", "a.obj"})).output.empty());
+  EXPECT_NE(refusal({"new"}).find("meshes"), std::string::npos);
+}
+
 TEST(Options, HelpAndVersionAreTexts) {
   EXPECT_NE(std::get<TextToPrint>(parse({"--help"})).text.find("run"), std::string::npos);
   EXPECT_NE(std::get<TextToPrint>(parse({"run", "--help"})).text.find("--grid"), std::string::npos);
@@ -253,11 +272,11 @@ TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}),
             "command line: --bogus (unknown option or argument); see sunfleck run --help");
   EXPECT_EQ(refusal({"ran"}),
-            "ran (unknown command); use run, day, render, view, validate, tradeoff, maize, convert or info; see "
+            "ran (unknown command); use run, day, render, view, validate, tradeoff, maize, convert, new or info; see "
             "sunfleck --help");
-  EXPECT_EQ(
-      refusal({}),
-      "command line (no command); use run, day, render, view, validate, tradeoff, maize, convert or info; see sunfleck --help");
+  EXPECT_EQ(refusal({}),
+            "command line (no command); use run, day, render, view, validate, tradeoff, maize, convert, new or info; see "
+            "sunfleck --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--size", "3\nx"}),
             "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
 }

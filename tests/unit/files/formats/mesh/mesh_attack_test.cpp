@@ -153,12 +153,12 @@ TEST(MeshAttack, NoFilesToRead) {
   std::filesystem::create_directory(folder / "folder.obj");
   ASSERT_EQ(::mkfifo((folder / "pipe.obj").c_str(), 0600), 0);
   static_cast<void>(folder.write("empty.obj", ""));
-  static_cast<void>(folder.write("a.dae", "<COLLADA/>"));
+  static_cast<void>(folder.write("a.fbx", "Kaydara"));
   for (const auto& [name, words] : {std::pair{"gone.obj", "no such file"},
                                     {"folder.obj", "is a directory"},
                                     {"pipe.obj", "not a regular file"},
                                     {"empty.obj", "the file is empty"},
-                                    {"a.dae", "unknown kind of mesh"},
+                                    {"a.fbx", "must end in .glb, .gltf, .obj, .ply, .stl, .dae, .opf, .can or .can.gz"},
                                     {"two\nlines.obj", "no such file"}}) {
     const std::string message = refusal(folder / name, {});
     EXPECT_NE(message.find(words), std::string::npos) << message;
@@ -189,6 +189,8 @@ TEST(MeshAttack, CutAtEveryLength) {
                                                          {"text.ply", ply_text_square()},
                                                          {"little.ply", ply_binary_square(ByteOrder::little)},
                                                          {"big.ply", ply_binary_square(ByteOrder::big)},
+                                                         {"a.dae", dae_square()},
+                                                         {"a.opf", opf_square()},
                                                          {"a.glb", glb(gltf_document(), gltf_binary())}};
   const Mesh square = read_mesh(folder.write("a.glb", files.back().second), {});
   write_gltf(square, folder / "embedded.gltf");
@@ -209,6 +211,8 @@ TEST(MeshAttack, OneByteChangedEverywhere) {
                                    {"a.stl", stl_binary_square()},
                                    {"a.ply", ply_binary_square(ByteOrder::little)},
                                    {"b.ply", ply_text_square()},
+                                   {"a.dae", dae_square()},
+                                   {"a.opf", opf_square()},
                                    {"a.obj", obj_square()}}) {
     SCOPED_TRACE(name);
     for (std::size_t place = 0; place < good.size(); ++place)

@@ -37,6 +37,7 @@ TEST(MeshReader, EveryFormatGivesTheSameSquare) {
                                                                {"text.ply", ply_text_square()},
                                                                {"little.PLY", ply_binary_square(ByteOrder::little)},
                                                                {"big.ply", ply_binary_square(ByteOrder::big)},
+                                                               {"a.dae", dae_square()},
                                                                {"a.glb", glb(gltf_document(), gltf_binary())}};
   for (const auto& [name, bytes] : files) {
     SCOPED_TRACE(name);
@@ -48,7 +49,7 @@ TEST(MeshReader, EveryFormatGivesTheSameSquare) {
     EXPECT_EQ(mesh.organs.size(), 1U);
     EXPECT_EQ(mesh.organ_of, (std::vector<std::uint32_t>{0, 0}));
   }
-  EXPECT_FALSE(is_mesh_file("a.dae"));
+  EXPECT_FALSE(is_mesh_file("a.fbx"));
   EXPECT_FALSE(is_mesh_file("a.gz"));
 }
 
@@ -122,7 +123,7 @@ TEST(MeshReader, ObjMaterialsAndGroups) {
                               "g odd plant2_leaf4\nf 1 2 3\ng other\nf 1 2 3\no thing\nf 1 2 3\n",
                               as_it_stands("plain"));
   EXPECT_EQ(mesh.optics_names, (std::vector<std::string>{"plain", "green bark"}));
-  EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "plain", 0}, {2, "stem", 0}, {2, "leaf", 4}, {1, "green bark", 0}}));
+  EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "plain", 0}, {2, "stem", 0}, {2, "leaf", 4}, {1, "thing", 0}}));
   EXPECT_EQ(mesh.organ_of, (std::vector<std::uint32_t>{0, 1, 2, 1, 3}));
 }
 
@@ -130,6 +131,7 @@ TEST(MeshReader, NodeNamesGiveOrgans) {
   EXPECT_EQ(organ_from_name("plant1_leaf7"), (Organ{1, "leaf", 7}));
   EXPECT_EQ(organ_from_name("plant12_leaf7.001"), (Organ{12, "leaf", 7}));
   EXPECT_EQ(organ_from_name("plant1_leaf2_7"), (Organ{1, "leaf2", 7}));
+  EXPECT_EQ(organ_from_name("plant1_scar_-2"), (Organ{1, "scar", -2}));
   EXPECT_EQ(organ_from_name("plant0_soil"), (Organ{0, "soil", 0}));
   for (const char* name : {"", "leaf7", "plant_leaf7", "plant1", "plant1_", "plant1_7", "plantx_leaf", "plant-1_leaf7",
                            "plant99999999999_leaf", "plant1_leaf99999999999"})

@@ -1,0 +1,308 @@
+#include "files/formats/mesh/mesh_survey.h"
+
+#include "base/check.h"
+#include "base/text.h"
+#include "files/formats/mesh/connected_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace sunfleck {
+
+namespace {
+
+using AreaByRole = std::array<double, role_names.size()>;
+using Corners = std::array<glm::dvec3, 3>;
+
+Corners corners_of(const Mesh& mesh, std::size_t t) {
+  const glm::uvec3& c = mesh.triangles[t];
+  return {mesh.vertices[c.x], mesh.vertices[c.y], mesh.vertices[c.z]};
+}
+
+// Returns area times normal.
+glm::dvec3 area_vector(const Corners& c) {
+  return 0.5 * glm::cross(c[1] - c[0], c[2] - c[0]);
+}
+
+double longest_edge(const Corners& c) {
+  return std::max({glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
+}
+
+// The number of triangles at each edge, as pairs of places.
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+struct EdgeUse {
+  Edge edge;
+  std::uint32_t triangle = 0;
+
+  friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+};
+
+class Surveyor {
+ public:
+  Surveyor(const Mesh& mesh, const KnownFrame& known)
+      : mesh_(mesh), known_(known), places_(places_of_vertices(mesh)), pieces_(connected_pieces(mesh, places_)) {}
+
+  MeshSurvey survey() {
+    EXPECT(mesh_.triangles.empty(), ==, false);
+    found_.vertices = mesh_.vertices.size();
+    found_.triangles = mesh_.triangles.size();
+    measure_shape();
+    found_.frame = guess_frame(found_.shape, known_);
+    count_organs();
+    count_shares();
+    count_defects();
+    count_edges();
+    measure_below_ground();
+    return std::move(found_);
+  }
+
+ private:
+  void measure_shape() {
+    ShapeFigures& shape = found_.shape;
+    shape.lo = shape.hi = corners_of(mesh_, 0)[0];
+    glm::dvec3 net{0.0};
+    piece_vectors_.assign(pieces_.count, glm::dvec3(0.0));
+    piece_areas_.assign(pieces_.count, 0.0);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const Corners corners = corners_of(mesh_, t);
+      for (const glm::dvec3& corner : corners) {
+        shape.lo = glm::min(shape.lo, corner);
+        shape.hi = glm::max(shape.hi, corner);
+      }
+      const glm::dvec3 vector = area_vector(corners);
+      areas_.push_back(glm::length(vector));
+      found_.area += areas_.back();
+      net += vector;
+      shape.facing += glm::abs(vector);
+      piece_vectors_[pieces_.piece_of[t]] += vector;
+      piece_areas_[pieces_.piece_of[t]] += areas_.back();
+    }
+    if (found_.area > 0.0) {
+      shape.net_facing = glm::abs(net) / found_.area;
+      shape.facing /= found_.area;
+    }
+    shape.pieces = pieces_.count;
+    shape.usual_piece = usual_piece();
+  }
+
+  [[nodiscard]] double usual_piece() const {
+    std::vector<double> areas = piece_areas_;
+    std::sort(areas.begin(), areas.end());
+    double sum = 0.0;
+    for (const double area : areas) {
+      sum += area;
+      if (2.0 * sum >= found_.area) return area;
+    }
+    return areas.back();
+  }
+
+  void count_organs() {
+    std::set<std::uint32_t> plants, organs;
+    for (const std::uint32_t organ : mesh_.organ_of) {
+      organs.insert(organ);
+      plants.insert(mesh_.organs[organ].plant);
+    }
+    found_.organs = organs.size();
+    found_.plants = plants.size() - plants.count(0);
+    for (const Organ& organ : mesh_.organs) organ_roles_.push_back(role_from_name(organ.name));
+  }
+
+  // Returns the shares by a property of the triangles, which `name_of` gives.
+  template <class NameOf>
+  [[nodiscard]] std::vector<MeshShare> shares_by(const NameOf& name_of) const {
+    std::vector<MeshShare> shares;
+    std::map<std::string, std::size_t, std::less<>> numbers;
+    std::vector<std::set<std::uint32_t>> organs, pieces;
+    std::vector<AreaByRole> named_areas;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const std::string_view name = name_of(t);
+      auto number = numbers.find(name);
+      if (number == numbers.end()) {
+        number = numbers.emplace(name, shares.size()).first;
+        shares.push_back({.name = std::string(name)});
+        organs.emplace_back();
+        pieces.emplace_back();
+        named_areas.push_back({});
+      }
+      MeshShare& share = shares[number->second];
+      ++share.triangles;
+      share.area += areas_[t];
+      if (const auto& role = organ_roles_[mesh_.organ_of[t]])
+        named_areas[number->second][static_cast<std::size_t>(*role)] += areas_[t];
+      organs[number->second].insert(mesh_.organ_of[t]);
+      pieces[number->second].insert(pieces_.piece_of[t]);
+    }
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      shares[i].organs = organs[i].size();
+      shares[i].pieces = pieces[i].size();
+      double net = 0.0;
+      for (const std::uint32_t piece : pieces[i]) net += glm::length(piece_vectors_[piece]);
+      shares[i].flatness = shares[i].area > 0.0 ? net / shares[i].area : 0.0;
+    }
+    find_roles(shares, named_areas);
+    return shares;
+  }
+
+  // `named_areas` has the area by role of the organs of each share whose names suggest one.
+  static void find_roles(std::vector<MeshShare>& shares, const std::vector<AreaByRole>& named_areas) {
+    constexpr double flatness_of_sheets = 0.3;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      MeshShare& share = shares[i];
+      const auto largest = std::max_element(named_areas[i].begin(), named_areas[i].end());
+      if (const auto named = role_from_name(share.name)) {
+        share.role = *named;
+        share.role_from = RoleSource::name;
+      } else if (*largest > 0.0) {
+        share.role = static_cast<Role>(largest - named_areas[i].begin());
+        share.role_from = RoleSource::organs;
+      } else {
+        share.role = share.flatness > flatness_of_sheets ? Role::leaf : Role::stem;
+      }
+    }
+    if (std::any_of(shares.begin(), shares.end(), [](const MeshShare& share) { return share.role == Role::leaf; })) return;
+    for (MeshShare& share : shares)
+      if (share.role_from == RoleSource::shape) share.role = Role::leaf;
+  }
+
+  void count_shares() {
+    found_.materials = shares_by([&](std::size_t t) -> std::string_view { return mesh_.optics_names[mesh_.optics_of[t]]; });
+    found_.families = shares_by([&](std::size_t t) { return family_of(mesh_.organs[mesh_.organ_of[t]].name); });
+  }
+
+  [[nodiscard]] bool is_flat(std::size_t t) const {
+    constexpr double least_share = 1e-12;
+    const glm::dvec3 extent = found_.shape.hi - found_.shape.lo;
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    return areas_[t] <= least_share * largest * largest;
+  }
+
+  [[nodiscard]] std::array<std::uint32_t, 3> sorted_places(std::size_t t) const {
+    const glm::uvec3& c = mesh_.triangles[t];
+    std::array<std::uint32_t, 3> places = {places_[c.x], places_[c.y], places_[c.z]};
+    std::sort(places.begin(), places.end());
+    return places;
+  }
+
+  void count_defects() {
+    constexpr double slenderness = 100.0;
+    std::vector<std::array<std::uint32_t, 3>> seen;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (is_flat(t)) {
+        ++found_.defects.flat_triangles;
+        continue;
+      }
+      seen.push_back(sorted_places(t));
+      const double longest = longest_edge(corners_of(mesh_, t));
+      if (longest * longest > slenderness * 2.0 * areas_[t]) ++found_.defects.slivers;
+    }
+    std::sort(seen.begin(), seen.end());
+    const auto unique_end = std::unique(seen.begin(), seen.end());
+    found_.defects.coincident = static_cast<std::size_t>(seen.end() - unique_end);
+  }
+
+  // Counts crowded edges and closed pieces.
+  void count_edges() {
+    std::vector<EdgeUse> uses;
+    uses.reserve(3 * mesh_.triangles.size());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (is_flat(t)) continue;
+      const auto [a, b, c] = sorted_places(t);
+      for (const Edge& edge : {Edge(a, b), Edge(b, c), Edge(a, c)}) uses.push_back({edge, t});
+    }
+    std::sort(uses.begin(), uses.end());
+    std::vector<bool> closed(pieces_.count, false);
+    for (const EdgeUse& use : uses) closed[pieces_.piece_of[use.triangle]] = true;
+    for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
+      while (next < uses.size() && uses[next].edge == uses[first].edge) ++next;
+      if (next - first > 2) ++found_.defects.crowded_edges;
+      std::map<std::uint32_t, std::size_t> by_piece;
+      for (std::size_t i = first; i < next; ++i) ++by_piece[pieces_.piece_of[uses[i].triangle]];
+      for (const auto& [piece, count] : by_piece)
+        if (count != 2) closed[piece] = false;
+    }
+    found_.closed_pieces = static_cast<std::size_t>(std::count(closed.begin(), closed.end(), true));
+  }
+
+  void measure_below_ground() {
+    const int up = static_cast<int>(found_.frame.up);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const Corners corners = corners_of(mesh_, t);
+      if (corners[0][up] + corners[1][up] + corners[2][up] < 0.0) found_.area_below_ground += areas_[t];
+    }
+  }
+
+  const Mesh& mesh_;
+  const KnownFrame& known_;
+  const std::vector<std::uint32_t> places_;
+  const ConnectedPieces pieces_;
+  std::vector<double> areas_;                     // [triangle]
+  std::vector<glm::dvec3> piece_vectors_;         // [piece]
+  std::vector<double> piece_areas_;               // [piece]
+  std::vector<std::optional<Role>> organ_roles_;  // [organ], as far as their names suggest one
+  MeshSurvey found_;
+};
+
+constexpr std::string_view colour_prefix = "colour_";  // see ply_colours.h
+
+bool is_collada(const std::filesystem::path& file) {
+  return lower_case(file.extension().string()) == ".dae";
+}
+
+}  // namespace
+
+std::string_view role_source_name(RoleSource source) {
+  constexpr std::array<std::string_view, 3> names = {"name", "organs", "shape"};
+  return names[static_cast<std::size_t>(source)];
+}
+
+bool MeshSurvey::needs_split() const {
+  return organs == families.size() && shape.pieces > organs && triangles >= 2 * shape.pieces;
+}
+
+KnownFrame frame_of_format(const std::filesystem::path& file) {
+  const std::string name = lower_case(file.filename().string());
+  if (name.ends_with(".glb") || name.ends_with(".gltf")) return {FileAxis::y, 1.0, "glTF defines metres and y up"};
+  if (is_can_file(file)) return {FileAxis::z, std::nullopt, "a .can has z up"};
+  if (name.ends_with(".opf")) return {FileAxis::z, 1.0, "an .opf has z up and centimetres, which are read as metres"};
+  if (is_collada(file)) return {FileAxis::y, 1.0, "a .dae names its axis and unit; it is read with y up, in metres"};
+  return {};
+}
+
+std::string_view family_of(std::string_view name) {
+  constexpr std::string_view digits = "0123456789", separators = "._- #";
+  std::string_view family = name;
+  if (name.starts_with(colour_prefix)) return name;  // its digits are the colour
+  const std::size_t last = family.find_last_not_of(digits);
+  if (last == family.npos) return name;
+  if (last + 1 == family.size()) return name;
+  const std::size_t end = family.find_last_not_of(separators, last);
+  return end == family.npos ? name : family.substr(0, end + 1);
+}
+
+MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known) {
+  return Surveyor(mesh, known).survey();
+}
+
+Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files) {
+  MeshImport import{.optics = std::string(no_material), .up = UpAxis::y, .scale = 1.0, .allow_outside = allow_outside};
+  if (is_collada(file)) import.up.reset();
+  Mesh mesh = read_mesh(file, import, files);
+  // The colours of a .ply are its materials unless the scene gives optics.
+  const bool coloured = std::all_of(mesh.organs.begin(), mesh.organs.end(),
+                                    [](const Organ& organ) { return organ.name.starts_with(colour_prefix); });
+  if (!coloured || mesh.optics_names != std::vector<std::string>{std::string(no_material)}) return mesh;
+  import.optics.reset();
+  return read_mesh(file, import, files);
+}
+
+}  // namespace sunfleck

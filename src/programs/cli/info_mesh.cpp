@@ -1,0 +1,157 @@
+#include "programs/cli/info_mesh.h"
+
+#include "base/file.h"
+#include "files/formats/mesh/mesh_survey.h"
+#include "physics/canopy/role.h"
+#include "programs/cli/terminal.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+using nlohmann::ordered_json;
+
+double squared(double x) {
+  return x * x;
+}
+
+ordered_json triple(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+ordered_json share_json(const MeshShare& share, double unit_m2) {
+  return {{"name", share.name},
+          {"triangles", share.triangles},
+          {"area_m2", share.area * unit_m2},
+          {"organs", share.organs},
+          {"pieces", share.pieces},
+          {"flatness", share.flatness},
+          {"role", role_name(share.role)},
+          {"role_from", role_source_name(share.role_from)}};
+}
+
+ordered_json shares_json(const std::vector<MeshShare>& shares, double unit_m2) {
+  ordered_json list = ordered_json::array();
+  for (const MeshShare& share : shares) list.push_back(share_json(share, unit_m2));
+  return list;
+}
+
+ordered_json frame_json(const FrameGuess& frame) {
+  return {{"summary", frame.summary()},
+          {"up", axis_name(frame.up)},
+          {"up_certainty", certainty_name(frame.up_certainty)},
+          {"up_reason", frame.up_reason},
+          {"other_up", axis_name(frame.other_up)},
+          {"metres_per_unit", frame.metres_per_unit},
+          {"unit_certainty", certainty_name(frame.unit_certainty)},
+          {"unit_reason", frame.unit_reason},
+          {"other_metres_per_unit", frame.other_metres_per_unit}};
+}
+
+ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& survey) {
+  const double unit_m2 = squared(survey.frame.metres_per_unit);
+  return {{"file", file.string()},
+          {"frame", frame_json(survey.frame)},
+          {"box", {{"lo", triple(survey.shape.lo)}, {"hi", triple(survey.shape.hi)}}},
+          {"vertices", survey.vertices},
+          {"triangles", survey.triangles},
+          {"area_units2", survey.area},
+          {"area_m2", survey.area_m2()},
+          {"plants", survey.plants},
+          {"organs", survey.organs},
+          {"organ_names", shares_json(survey.families, unit_m2)},
+          {"materials", survey.has_materials() ? shares_json(survey.materials, unit_m2) : ordered_json::array()},
+          {"split_in_parts", survey.needs_split()},
+          {"pieces", survey.shape.pieces},
+          {"closed_pieces", survey.closed_pieces},
+          {"usual_piece_m2", survey.shape.usual_piece * unit_m2},
+          {"area_below_ground_m2", survey.area_below_ground * unit_m2},
+          {"defects",
+           {{"zero_area", survey.defects.flat_triangles},
+            {"slivers", survey.defects.slivers},
+            {"coincident", survey.defects.coincident},
+            {"non_manifold_edges", survey.defects.crowded_edges}}}};
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+void print_shares(const char* heading, const std::vector<MeshShare>& shares, double unit_m2) {
+  constexpr std::size_t most_lines = 20;
+  fmt::print("  {}\n", heading);
+  for (std::size_t i = 0; i < std::min(shares.size(), most_lines); ++i) {
+    const MeshShare& share = shares[i];
+    fmt::print("    {}: {}, {}, {:.5g} m2 in {}; counts as {} by its {}\n", printable(share.name),
+               counted(share.organs, "organ", "organs"), counted(share.triangles, "triangle", "triangles"),
+               share.area * unit_m2, counted(share.pieces, "piece", "pieces"), role_name(share.role),
+               role_source_name(share.role_from));
+  }
+  if (shares.size() > most_lines) fmt::print("    and {} more (--json lists them all)\n", shares.size() - most_lines);
+}
+
+void print_defects(const MeshDefects& defects) {
+  std::vector<std::string> found;
+  const auto add = [&](std::size_t count, const char* one, const char* many) {
+    if (count > 0) found.push_back(counted(count, one, many));
+  };
+  add(defects.flat_triangles, "triangle without area", "triangles without area");
+  add(defects.slivers, "sliver", "slivers");
+  add(defects.coincident, "triangle that coincides with an earlier one", "triangles that coincide with earlier ones");
+  add(defects.crowded_edges, "edge of three or more triangles", "edges of three or more triangles");
+  std::string line;
+  for (const std::string& defect : found) line += (line.empty() ? "" : ", ") + defect;
+  fmt::print("  defects: {}\n", line.empty() ? "none" : line);
+}
+
+void print_survey(const std::filesystem::path& file, const MeshSurvey& survey) {
+  const ShapeFigures& shape = survey.shape;
+  const double unit_m2 = squared(survey.frame.metres_per_unit);
+  fmt::print("{}: {}\n", printable(file.string()), survey.frame.summary());
+  fmt::print("  up: {} ({}: {})\n", axis_name(survey.frame.up), certainty_name(survey.frame.up_certainty),
+             survey.frame.up_reason);
+  fmt::print("  unit: {} ({}: {})\n", unit_name(survey.frame.metres_per_unit), certainty_name(survey.frame.unit_certainty),
+             survey.frame.unit_reason);
+  fmt::print("  box: x {:.5g}..{:.5g}, y {:.5g}..{:.5g}, z {:.5g}..{:.5g}\n", shape.lo.x, shape.hi.x, shape.lo.y, shape.hi.y,
+             shape.lo.z, shape.hi.z);
+  fmt::print("  {}, one-sided area {:.5g} m2{}\n", counted(survey.triangles, "triangle", "triangles"), survey.area_m2(),
+             survey.frame.metres_per_unit == 1.0 ? "" : fmt::format(" ({:.5g} square units)", survey.area));
+  fmt::print("  {}, {}, {}, {} of them closed\n", counted(survey.plants, "plant", "plants"),
+             counted(survey.organs, "organ", "organs"), counted(shape.pieces, "connected piece", "connected pieces"),
+             survey.closed_pieces);
+  if (survey.needs_split()) fmt::print("  split = \"parts\" in a scene makes an organ of each piece\n");
+  print_shares("organs by name:", survey.families, unit_m2);
+  if (survey.has_materials())
+    print_shares("materials:", survey.materials, unit_m2);
+  else
+    fmt::print("  materials: none\n");
+  print_defects(survey.defects);
+  if (survey.area_below_ground > 0.0)
+    fmt::print("  below the ground ({} < 0): {:.5g} m2\n", axis_name(survey.frame.up), survey.area_below_ground * unit_m2);
+}
+
+}  // namespace
+
+int show_meshes(const InfoOptions& options) {
+  start_at_terminal(options.run);
+  ordered_json meshes = ordered_json::array();
+  for (const std::filesystem::path& file : options.meshes) {
+    const MeshSurvey survey = survey_mesh(read_mesh_as_is(file, options.run.allow_outside), frame_of_format(file));
+    if (options.run.json)
+      meshes.push_back(survey_json(file, survey));
+    else
+      print_survey(file, survey);
+  }
+  if (options.run.json)
+    fmt::print("{}\n", ordered_json{{"meshes", meshes}}.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  return exit_done;
+}
+
+}  // namespace sunfleck
