@@ -58,18 +58,18 @@ void check_file_name(const std::string& name) {
 }
 
 // Returns the surface and species that optics of this name belong to; nothing for soil.
-struct Surface {
+struct CaribuSurface {
   enum class Kind { leaf, stem } kind = Kind::leaf;
   std::size_t species = 1;
 };
 
-std::optional<Surface> surface_named(const std::string& canopy, const std::string& name) {
-  if (is_soil_name(name)) return std::nullopt;
-  for (const auto& [prefix, kind] :
-       {std::pair<std::string_view, Surface::Kind>{"leaf", Surface::Kind::leaf}, {"stem", Surface::Kind::stem}}) {
+std::optional<CaribuSurface> surface_named(const std::string& canopy, const std::string& name) {
+  if (role_from_name(name) == Role::soil) return std::nullopt;
+  for (const auto& [prefix, kind] : {std::pair<std::string_view, CaribuSurface::Kind>{"leaf", CaribuSurface::Kind::leaf},
+                                     {"stem", CaribuSurface::Kind::stem}}) {
     if (!name.starts_with(prefix)) continue;
     const std::string_view digits = std::string_view(name).substr(prefix.size());
-    Surface surface{kind, 1};
+    CaribuSurface surface{kind, 1};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), surface.species);
     if (digits.empty() || (error == std::errc() && end == digits.data() + digits.size() && surface.species > 0)) return surface;
   }
@@ -197,12 +197,12 @@ class CaribuSceneText {
     text_ += fmt::format("\n[soil]\nreflectance = {}\n",
                          by_band([](const NamedOptics& band) { return band.optics.soil_reflectance; }));
     for (const std::string& name : mesh_.optics_names) {
-      const std::optional<Surface> surface = surface_named(canopy_, name);
+      const std::optional<CaribuSurface> surface = surface_named(canopy_, name);
       if (!surface) continue;
       const std::size_t index = surface->species - 1;
       for (const NamedOptics& band : bands_) check_species(name, surface->species, band);
       const auto species = [index](const NamedOptics& band) -> const SpeciesOptics& { return band.optics.species[index]; };
-      if (surface->kind == Surface::Kind::stem) {
+      if (surface->kind == CaribuSurface::Kind::stem) {
         text_ += fmt::format("\n[optics.{}]\nreflectance = {}\n", name,
                              by_band([&](const NamedOptics& band) { return species(band).stem_reflectance; }));
       } else {

@@ -1,6 +1,7 @@
 #include "files/scene/plausibility.h"
 
 #include "base/file.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
 
@@ -21,11 +22,13 @@ struct Stand {
   double top_m = -std::numeric_limits<double>::infinity();
 };
 
-Stand stand_of(const Canopy& canopy) {
-  const ElementRoles roles = element_roles(canopy);
+// Returns the extent of everything but soil.
+Stand stand_of(const RadiationModel& model) {
+  const Canopy& canopy = model.canopy;
+  const Surfaces surfaces(model);
   Stand stand;
   for (std::size_t e = 0; e < canopy.size(); ++e) {
-    if (roles.soil[e]) continue;
+    if (surfaces.at(e).soil()) continue;
     const Triangle& corners = canopy.corners[e];
     const double area = area_m2(corners);
     const double middle_m = (double{corners[0].y} + corners[1].y + corners[2].y) / 3.0 + canopy.origin_m.y;
@@ -83,7 +86,7 @@ std::vector<std::string> plausibility_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   warn_of_missing_light(scene, file, warnings);
   warn_of_copies(scene.model.canopy, file, warnings);
-  const Stand stand = stand_of(scene.model.canopy);
+  const Stand stand = stand_of(scene.model);
   if (stand.top_m > tallest_m) {
     warnings.push_back(fmt::format(
         "{}: the highest element is {:.4g} m above the ground; for a mesh in centimetres add scale = 0.01", file, stand.top_m));

@@ -25,7 +25,7 @@ constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the gener
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only generator
-  for (const char* key : {"optics", "up", "scale", "heading", "at"}) {
+  for (const char* key : {"optics", "up", "scale", "heading", "at", "role"}) {
     if (table.has(key))
       table.refuse(key, "it is only for files; a generated stand fills the plot from its corner", "remove it");
   }
@@ -92,7 +92,8 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
                       .mesh = given ? find_given_mesh(table, source) : nullptr,
                       .file = given ? fs::path() : find_mesh(table, source.file, access),
                       .import = import,
-                      .placements = std::move(placements)};
+                      .placements = std::move(placements),
+                      .role = read_role(table)};
 }
 
 void refuse_many(const GeometryPart& part, std::size_t triangles) {
@@ -133,12 +134,16 @@ std::string key_of(const std::string& name) {
   return is_plain_name(name) ? name : fmt::format("\"{}\"", printable(name));
 }
 
+bool is_soil(std::string_view optics_name) {
+  return role_from_name(optics_name) == Role::soil;
+}
+
 // Returns advice about an undefined name.
 std::string cure_of_undefined(const std::string& name, const OpticsByName& defined) {
   std::vector<std::string> names;
   for (const auto& [known, input] : defined) names.push_back(known);
-  const std::string add = is_soil_name(name) ? fmt::format("add [optics.{}] or [soil]", key_of(name))
-                                             : fmt::format("add [optics.{}] with reflectance", key_of(name));
+  const std::string add = is_soil(name) ? fmt::format("add [optics.{}] or [soil]", key_of(name))
+                                        : fmt::format("add [optics.{}] with reflectance", key_of(name));
   const auto nearest = nearest_word(name, names);
   return nearest ? fmt::format("did you mean {}? Otherwise {}", printable(*nearest), add) : add;
 }
@@ -159,9 +164,10 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
 
 void allow_keys(const TomlTable& table, const SceneText& source) {
   if (source.meshes.empty()) {
-    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at"});
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at", "role"});
   } else {
-    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at"});
+    table.allow(
+        {"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at", "role"});
   }
 }
 
@@ -200,7 +206,7 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, Sourc
       const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
       refuse_many(part, triangles + plants * least_of_plant);
     }
-    meshes.push_back({load_mesh(part, files), part.placements});
+    meshes.push_back({load_mesh(part, files), part.placements, part.role});
     const Mesh& mesh = meshes.back().mesh;
     refuse_far(part, mesh);
     triangles += mesh.triangles.size() * part.placements.size();
@@ -213,11 +219,11 @@ void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMes
                   const Scene& scene) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (const std::string& name : meshes[i].mesh.optics_names) {
-      const bool known = find_optics(defined, name) != nullptr || (is_soil_name(name) && scene.model.soil);
+      const bool known = find_optics(defined, name) != nullptr || (is_soil(name) && scene.model.soil);
       if (!known) refuse_undefined(parts[i], name, defined);
     }
     const auto& own = parts[i].import.optics;
-    if (own && find_optics(defined, *own) == nullptr && !(is_soil_name(*own) && scene.model.soil)) {
+    if (own && find_optics(defined, *own) == nullptr && !(is_soil(*own) && scene.model.soil)) {
       refuse_undefined(parts[i], *own, defined);
     }
   }
@@ -228,7 +234,7 @@ std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<cons
   std::vector<SurfaceOptics> chosen;
   for (const std::string& name : names) {
     const OpticsInput* input = find_optics(defined, name);
-    if (input == nullptr && !(is_soil_name(name) && soil)) {
+    if (input == nullptr && !(is_soil(name) && soil)) {
       root.refuse_table(fmt::format("the canopy uses optics \"{}\", which is not defined", printable(name)),
                         cure_of_undefined(name, defined));
     }

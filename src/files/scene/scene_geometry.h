@@ -26,6 +26,7 @@ struct GeometryPart {
   std::filesystem::path file;       // location of the file, symbolic links resolved
   MeshImport import;
   std::vector<Placement> placements;
+  std::optional<Role> role = std::nullopt;
 
   [[nodiscard]] std::string_view source_key() const { return maize ? "generator" : mesh != nullptr ? "mesh" : "file"; }
 };

@@ -14,6 +14,7 @@
 #include "files/scene/scene_surface.h"
 #include "files/scene/scene_weather.h"
 #include "files/scene/toml_view.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
 
@@ -201,6 +202,16 @@ void check_same_ground(const TomlTable& root, const RadiationModel& model, const
   if (model.layers != other.layers) refuse("output.layers");
 }
 
+// Refuses a change of the roles by which the counters were assigned.
+void check_same_roles(const TomlTable& root, const RadiationModel& model, const RadiationModel& other) {
+  for (std::size_t o = 0; o < model.optics.size(); ++o) {
+    if (model.optics[o].role == other.optics[o].role) continue;
+    root.refuse_table(fmt::format("the role of optics \"{}\" differs from the scene for which the counters were built",
+                                  printable(model.optics[o].name)),
+                      "change only light and optics, or load the whole scene again");
+  }
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
@@ -226,6 +237,7 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
   check_optics(parts, meshes, optics, scene);
   scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, scene.model.soil);
+  separate_structures(scene.model);
   scene.files = noting.files->list();
   scene.digest = digest_of(source.text, std::span(scene.files).subspan(before), parts);
   warn_of_unused(optics, scene, scene.warnings);
@@ -243,6 +255,7 @@ void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
   const OpticsByName optics = read_all_but_geometry(root, source, noting, other);
   check_same_ground(root, scene.model, other.model);
   other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, other.model.soil);
+  check_same_roles(root, scene.model, other.model);
   const std::span<const SourceFile> read = std::span(noting.files->list()).subspan(before);
   Digest digest;
   digest.add(scene.digest);

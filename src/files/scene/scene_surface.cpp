@@ -71,10 +71,11 @@ std::vector<FaceOptics> read_face(const TomlTable& table, const std::vector<Wave
 }
 
 SurfaceOptics read_surface(const TomlTable& table, const std::string& name, const std::vector<Waveband>& bands) {
-  table.allow({"reflectance", "transmittance", "rgb", "upper", "lower", "emission"});
+  table.allow({"reflectance", "transmittance", "rgb", "upper", "lower", "emission", "role"});
   SurfaceOptics optics;
   optics.name = name;
   optics.rgb = read_rgb(table, optics.rgb);
+  optics.role = read_role(table);
   optics.emission_w_m2 = read_by_band(table, "emission", bands, exitance).value_or(std::vector<double>());
   if (!table.has("upper") && !table.has("lower")) {
     optics.upper = read_face(table, bands);
@@ -100,6 +101,12 @@ double cells(const Plot& plot, double patch_m) {
 }
 
 }  // namespace
+
+std::optional<Role> read_role(const TomlTable& table) {
+  const auto number = table.word("role", {role_names.begin(), role_names.end()});
+  if (!number) return std::nullopt;
+  return static_cast<Role>(*number);
+}
 
 std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,
                               std::vector<std::string>& warnings) {

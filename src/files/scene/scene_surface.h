@@ -12,6 +12,9 @@
 
 namespace sunfleck {
 
+// Returns the role of surfaces that the table gives, if any.
+[[nodiscard]] std::optional<Role> read_role(const TomlTable& table);
+
 // Returns nothing for a scene without [soil]. The default of `patch` is 0.05 m, or more, with a warning, if the plot would have
 // too many such cells.
 [[nodiscard]] std::optional<Soil> read_soil(const TomlTable& root, const std::vector<Waveband>& bands, const Plot& plot,

@@ -105,9 +105,10 @@ std::vector<std::uint16_t> merge_optics_names(Canopy& canopy, const Mesh& mesh) 
 }
 
 // Appends the organs of one copy, its plants numbered from `offset`; returns the highest plant number in use.
-std::uint32_t add_organs(Canopy& canopy, const Mesh& mesh, std::uint32_t offset) {
+std::uint32_t add_organs(Canopy& canopy, const PlacedMesh& part, std::uint32_t offset) {
   std::uint32_t highest = offset;
-  for (Organ organ : mesh.organs) {
+  for (Organ organ : part.mesh.organs) {
+    if (part.role) organ.role = part.role;
     if (organ.plant > std::numeric_limits<std::uint32_t>::max() - offset) {
       throw_input(fmt::format("plant {} of a mesh", organ.plant), fmt::format("{} plants come before it, too many", offset),
                   "number a mesh's plants from 1");
@@ -153,7 +154,7 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
     const std::vector<std::uint16_t> optics = merge_optics_names(canopy, mesh);
     for (const Placement& placement : part.placements) {
       const auto first_organ = static_cast<std::uint32_t>(canopy.organs.size());
-      highest_plant = add_organs(canopy, mesh, highest_plant);
+      highest_plant = add_organs(canopy, part, highest_plant);
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         std::array<glm::dvec3, 3> corners_m;
         for (int k = 0; k < 3; ++k) corners_m[k] = place(mesh.vertices[mesh.triangles[t][k]], placement) - canopy.origin_m;
@@ -179,32 +180,6 @@ Box bounds(const Canopy& canopy) {
     }
   }
   return box;
-}
-
-bool is_soil_name(std::string_view name) {
-  if (!name.starts_with("soil")) return false;
-  return std::all_of(name.begin() + 4, name.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-bool is_leaf_name(std::string_view name) {
-  return name.starts_with("leaf");
-}
-
-ElementRoles element_roles(const Canopy& canopy) {
-  std::vector<bool> soil_optics;
-  for (const std::string& name : canopy.optics_names) soil_optics.push_back(is_soil_name(name));
-  ElementRoles roles{std::vector<bool>(canopy.size()), std::vector<bool>(canopy.size())};
-  bool has_leaves = false;
-  for (std::size_t e = 0; e < canopy.size(); ++e) {
-    const Organ& organ = canopy.organs[canopy.organ_of[e]];
-    roles.soil[e] = soil_optics[canopy.optics_of[e]] || is_soil_name(organ.name);
-    roles.foliage[e] = !roles.soil[e] && is_leaf_name(organ.name);
-    has_leaves = has_leaves || roles.foliage[e];
-  }
-  if (!has_leaves) {
-    for (std::size_t e = 0; e < canopy.size(); ++e) roles.foliage[e] = !roles.soil[e];
-  }
-  return roles;
 }
 
 }  // namespace sunfleck

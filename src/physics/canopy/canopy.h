@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace sunfleck {
@@ -44,17 +43,5 @@ struct Canopy {
 
 // Returns the bounds of all elements in the local frame; lo = hi = 0 without elements.
 [[nodiscard]] Box bounds(const Canopy& canopy);
-
-// Return whether an organ of this name counts as soil (soil, soil2, ...) or as a leaf (any name that starts with `leaf`).
-[[nodiscard]] bool is_soil_name(std::string_view name);
-[[nodiscard]] bool is_leaf_name(std::string_view name);
-
-// The role of each element, from the names of its organ and its optics. `foliage` marks the elements to which leaf area
-// index and sunlit leaf fraction refer: leaves, or every element but soil if no organ of the canopy has such a name.
-struct ElementRoles {
-  std::vector<bool> soil;     // [element]
-  std::vector<bool> foliage;  // [element]
-};
-[[nodiscard]] ElementRoles element_roles(const Canopy& canopy);
 
 }  // namespace sunfleck

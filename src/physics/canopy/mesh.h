@@ -2,9 +2,12 @@
 // Triangles as a file or a generator supplies them: indexed, in double precision, in the scene's axes (X south, Y up, Z
 // west, metres), before they are placed in the plot.
 
+#include "physics/canopy/role.h"
+
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +15,10 @@ namespace sunfleck {
 
 // One organ of one plant, the unit of organs.csv.
 struct Organ {
-  std::uint32_t plant = 1;  // 0 for soil
-  std::string name;         // leaf, stem, ear, soil, leaf2, ...
-  int rank = 0;             // leaf number from the ground; 0 if there is none
+  std::uint32_t plant = 1;   // 0 for soil
+  std::string name;          // leaf, stem, ear, soil, leaf2, ...
+  int rank = 0;              // leaf number from the ground; 0 if there is none
+  std::optional<Role> role;  // if given; otherwise the names of the organ and of its optics suggest it
 
   friend bool operator==(const Organ&, const Organ&) = default;
 };
@@ -42,6 +46,7 @@ struct Placement {
 struct PlacedMesh {
   Mesh mesh;
   std::vector<Placement> placements;
+  std::optional<Role> role;  // of all its organs, if given
 };
 
 }  // namespace sunfleck

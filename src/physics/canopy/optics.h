@@ -1,7 +1,10 @@
 #pragma once
 // Reflection and transmission of surfaces, by waveband.
 
+#include "physics/canopy/role.h"
+
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +33,7 @@ struct SurfaceOptics {
   std::vector<FaceOptics> lower;      // [waveband]
   glm::dvec3 rgb{0.06, 0.12, 0.05};   // reflectance in red, green and blue, for pictures only
   std::vector<double> emission_w_m2;  // [waveband], exitance of the upper face, cosine-distributed; empty if it is no lamp
+  std::optional<Role> role;           // if given
 };
 
 struct Soil {

@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "files/results/tables/table_text.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,11 @@ namespace {
 std::string with_error(const Estimate& estimate) {
   return std::isnan(estimate.half_width) ? fmt::format("{:.4g}", estimate.value)
                                          : fmt::format("{:.4g} ± {:.2g}", estimate.value, estimate.half_width);
+}
+
+double structure_area_m2(const RadiationModel& model) {
+  const auto areas_m2 = area_of_roles_m2(model);
+  return areas_m2[static_cast<std::size_t>(Role::structure)] + areas_m2[static_cast<std::size_t>(Role::lamp)];
 }
 
 }  // namespace
@@ -27,11 +33,13 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
   }
   text += fmt::format("  device: {}{}\n", record.device.name,
                       record.device.kind == "vulkan" && record.device.software ? " (software Vulkan)" : "");
+  const bool has_structures = structure_area_m2(model) > 0.0;
   for (const BandResult& band : result.bands) {
+    const std::string by_structures = has_structures ? ", by structures " + with_error(band.absorbed_structure) : "";
     text += fmt::format(
-        "  {}: incident {:.4g} W m-2, absorbed by vegetation {}, by soil {}, reflected {}, transmitted {}, "
+        "  {}: incident {:.4g} W m-2, absorbed by vegetation {}{}, by soil {}, reflected {}, transmitted {}, "
         "unshot {:.2g}\n",
-        band.name, band.incident, with_error(band.absorbed_vegetation), with_error(band.absorbed_soil),
+        band.name, band.incident, with_error(band.absorbed_vegetation), by_structures, with_error(band.absorbed_soil),
         with_error(band.reflected), with_error(band.transmitted), band.unshot);
   }
   if (model.has_beam()) {

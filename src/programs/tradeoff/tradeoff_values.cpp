@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "files/results/tables/irradiance.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <algorithm>
 
@@ -22,19 +23,22 @@ void add(QuantityValues& values, const Estimate& estimate) {
   values.half_width.push_back(estimate.half_width);
 }
 
-// Flux that vegetation and soil absorb where the beam first lands, W per m2 of ground.
+// Flux absorbed where the beam first lands, W per m2 of ground.
 struct DirectAbsorbed {
-  double vegetation = 0.0, soil = 0.0;
+  double vegetation = 0.0, structure = 0.0, soil = 0.0;
 };
 
-DirectAbsorbed direct_absorbed(const RadiationModel& model, const RadiationResult& result, const std::vector<bool>& soil,
+DirectAbsorbed direct_absorbed(const RadiationModel& model, const RadiationResult& result, const Surfaces& surfaces,
                                std::size_t band) {
   const double per_landing = result.ground_per_ray_m2 * model.bands[band].direct_w_m2 / model.plot.area_m2();
   DirectAbsorbed absorbed;
   if (!model.has_beam()) return absorbed;
   for (std::size_t e = 0; e < result.elements.size(); ++e) {
     const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
-    (soil[e] ? absorbed.soil : absorbed.vegetation) +=
+    const Role role = surfaces.at(e).role;
+    (role == Role::soil    ? absorbed.soil
+     : is_vegetation(role) ? absorbed.vegetation
+                           : absorbed.structure) +=
         per_landing * (static_cast<double>(result.elements[e].upper) * optics.upper[band].absorptance() +
                        static_cast<double>(result.elements[e].lower) * optics.lower[band].absorptance());
   }
@@ -70,14 +74,17 @@ QuantityNorm against_incident(const std::vector<double>& values, const std::vect
 
 struct Area {
   double m2 = 0.0;
-  bool soil = false;
+  bool vegetation = true;
 };
 
-std::vector<Area> element_areas(const Canopy& elements) {
-  const std::vector<bool> soil = element_roles(elements).soil;
+std::vector<Area> element_areas(const RadiationModel& model) {
+  const Surfaces surfaces(model);
+  const Canopy& elements = model.canopy;
   std::vector<Area> areas;
   areas.reserve(elements.size());
-  for (std::size_t e = 0; e < elements.size(); ++e) areas.push_back({area_m2(elements.corners[e]), soil[e]});
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    areas.push_back({area_m2(elements.corners[e]), is_vegetation(surfaces.at(e).role)});
+  }
   return areas;
 }
 
@@ -87,20 +94,20 @@ QuantityNorm organ_norm(const Canopy& elements, const std::vector<Area>& areas, 
   for (std::size_t e = 0; e < elements.size(); ++e) {
     Area& of_organ = organs[elements.organ_of[e]];
     of_organ.m2 += areas[e].m2;
-    of_organ.soil = of_organ.soil || areas[e].soil;
+    of_organ.vegetation = of_organ.vegetation && areas[e].vegetation;
   }
   QuantityNorm norm{std::vector<double>(values.size()), values};
   for (std::size_t b = 0; b < bands; ++b) {
     double flux_w = 0.0;
     double count = 0.0;
     for (std::size_t o = 0; o < organs.size(); ++o) {
-      if (organs[o].soil) continue;
+      if (!organs[o].vegetation) continue;
       flux_w += values[o * bands + b] * organs[o].m2;
       count += 1.0;
     }
     for (std::size_t o = 0; o < organs.size(); ++o) {
       const double organ_w = values[o * bands + b] * organs[o].m2;
-      const bool judged = !organs[o].soil && organ_w > 0.0 && organ_w >= least_judged_organ * flux_w / count;
+      const bool judged = organs[o].vegetation && organ_w > 0.0 && organ_w >= least_judged_organ * flux_w / count;
       norm.weight[o * bands + b] = judged ? 1.0 : 0.0;
     }
   }
@@ -115,13 +122,13 @@ QuantityNorm triangle_norm(const std::vector<Area>& areas, const std::vector<dou
     double area_sum_m2 = 0.0;
     double flux_w = 0.0;
     for (std::size_t e = 0; e < areas.size(); ++e) {
-      if (areas[e].soil) continue;
+      if (!areas[e].vegetation) continue;
       area_sum_m2 += areas[e].m2;
       flux_w += areas[e].m2 * values[first + e];
     }
     if (!(flux_w > 0.0)) continue;
     for (std::size_t e = 0; e < areas.size(); ++e) {
-      norm.weight[first + e] = areas[e].soil ? 0.0 : areas[e].m2;
+      norm.weight[first + e] = areas[e].vegetation ? areas[e].m2 : 0.0;
       norm.scale[first + e] = flux_w / area_sum_m2;
     }
   }
@@ -162,10 +169,10 @@ RunValues absorbed_values(const RadiationModel& model, const RadiationResult& re
 
 RunValues indirect_values(const RadiationModel& model, const RadiationResult& result) {
   RunValues values;
-  const std::vector<bool> soil = element_roles(model.canopy).soil;
+  const Surfaces surfaces(model);
   const double relative = result.indirect.relative_error.value_or(no_value);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const DirectAbsorbed direct = direct_absorbed(model, result, soil, b);
+    const DirectAbsorbed direct = direct_absorbed(model, result, surfaces, b);
     const double least = least_judged_share * result.bands[b].incident;
     for (const double value :
          {result.bands[b].absorbed_vegetation.value - direct.vegetation, result.bands[b].absorbed_soil.value - direct.soil}) {
@@ -190,7 +197,7 @@ RunValues indirect_values(const RadiationModel& model, const RadiationResult& re
 
 RunNorms make_norms(const RadiationModel& model, const RunValues& values, const std::vector<double>& incident) {
   const std::size_t bands = model.bands.size();
-  const std::vector<Area> areas = element_areas(model.canopy);
+  const std::vector<Area> areas = element_areas(model);
   RunNorms norms;
   norms[canopy] = against_incident(values[canopy].value, incident, [](std::size_t i) { return i / 2; });
   norms[layer] = against_incident(values[layer].value, incident, [bands](std::size_t i) { return i % bands; });

@@ -78,8 +78,8 @@ std::vector<std::int64_t> integers_of(const RadiationResult& result) {
   };
   for (const BandResult& band : result.bands) {
     const FluxLedger& ledger = band.ledger;
-    append(std::array{ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected, ledger.transmitted,
-                      ledger.unshot});
+    append(std::array{ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_structure, ledger.absorbed_soil,
+                      ledger.reflected, ledger.transmitted, ledger.unshot});
   }
   for (const BeamLandings& element : result.elements) append(std::array{element.upper, element.lower});
   append(result.soil_cells);

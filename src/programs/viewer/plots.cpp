@@ -82,7 +82,8 @@ void draw_balance(const BandResult& band, float width_px) {
     Estimate value;
     ImU32 colour;
   };
-  const std::array<Part, 5> parts{{{"vegetation", band.absorbed_vegetation, IM_COL32(60, 140, 60, 255)},
+  const std::array<Part, 6> parts{{{"vegetation", band.absorbed_vegetation, IM_COL32(60, 140, 60, 255)},
+                                   {"structures", band.absorbed_structure, IM_COL32(120, 120, 140, 255)},
                                    {"soil", band.absorbed_soil, IM_COL32(140, 100, 60, 255)},
                                    {"reflected", band.reflected, IM_COL32(230, 190, 60, 255)},
                                    {"transmitted", band.transmitted, IM_COL32(90, 150, 200, 255)},

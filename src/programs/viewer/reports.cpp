@@ -30,6 +30,7 @@ json converged_fields(const LightNews& news, std::size_t band) {
           {"band", light.name},
           {"incident", light.incident},
           {"absorbed_vegetation", light.absorbed_vegetation.value},
+          {"absorbed_structure", light.absorbed_structure.value},
           {"absorbed_soil", light.absorbed_soil.value},
           {"reflected", light.reflected.value}};
 }

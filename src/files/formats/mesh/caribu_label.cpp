@@ -35,8 +35,9 @@ std::string caribu_label(const Organ& organ, std::size_t number_in_organ) {
   constexpr std::size_t element_numbers = 1000;
   if (organ.plant > most_plant) refuse("plant", organ.plant, most_plant);
   if (organ.rank < 0 || organ.rank > most_leaf) refuse("leaf", organ.rank, most_leaf);
-  const unsigned species = is_soil_name(organ.name) ? 0 : species_of(organ.name);
-  const int leaf = is_leaf_name(organ.name) ? std::max(organ.rank, 1) : 0;
+  const std::optional<Role> role = role_from_name(organ.name);
+  const unsigned species = role == Role::soil ? 0 : species_of(organ.name);
+  const int leaf = role == Role::leaf ? std::max(organ.rank, 1) : 0;
   return fmt::format("{}{:05}{:03}{:03}", species, organ.plant, leaf, number_in_organ % element_numbers);
 }
 

@@ -15,8 +15,9 @@ namespace {
 
 constexpr Estimate zero{0.0, 0.0};
 
-constexpr Estimate StepBand::*terms[] = {&StepBand::incident, &StepBand::absorbed_vegetation, &StepBand::absorbed_soil,
-                                         &StepBand::reflected, &StepBand::transmitted};
+constexpr Estimate StepBand::*terms[] = {&StepBand::incident,           &StepBand::absorbed_vegetation,
+                                         &StepBand::absorbed_structure, &StepBand::absorbed_soil,
+                                         &StepBand::reflected,          &StepBand::transmitted};
 
 // A sum of fluxes; the half-width of `random` holds only the random errors.
 struct Sum {
@@ -46,7 +47,7 @@ struct Sums {
         const Estimate& flux = band.*terms[t];
         bands[b][t].add(flux, std::min(flux.half_width, band.unshot), length_s);
       }
-      const double absorbed = band.absorbed_vegetation.value + band.absorbed_soil.value;
+      const double absorbed = band.absorbed_vegetation.value + band.absorbed_structure.value + band.absorbed_soil.value;
       const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
       for (std::size_t i = b; i < organs.size(); i += bands.size()) {
         const Estimate& flux = light.organ_absorbed[i];
@@ -81,11 +82,12 @@ std::string local_time_text(const UtcTime& time, int offset_minutes) {
 StepLight step_light(const RadiationModel& model, const RadiationResult& result) {
   StepLight light;
   for (const BandResult& band : result.bands) {
-    StepBand step{{band.incident, 0.0}, band.absorbed_vegetation, band.absorbed_soil,
-                  band.reflected,       band.transmitted,         band.unshot};
+    StepBand step{{band.incident, 0.0}, band.absorbed_vegetation, band.absorbed_structure,
+                  band.absorbed_soil,   band.reflected,           band.transmitted,
+                  band.unshot};
     if (!model.plot.periodic) {
-      step.incident.half_width = band.absorbed_vegetation.half_width + band.absorbed_soil.half_width +
-                                 band.reflected.half_width + band.transmitted.half_width;
+      step.incident.half_width = band.absorbed_vegetation.half_width + band.absorbed_structure.half_width +
+                                 band.absorbed_soil.half_width + band.reflected.half_width + band.transmitted.half_width;
     }
     light.bands.push_back(step);
   }
@@ -98,7 +100,7 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
 
 StepLight night_light(const RadiationModel& model) {
   const std::size_t bands = model.bands.size();
-  return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, 0.0}),
+  return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
           std::vector<Estimate>(model.canopy.organs.size() * bands, zero), zero};
 }
 

@@ -35,12 +35,13 @@ struct DayCourse {
 
 // Fluxes of a step in one band, W m-2 of ground.
 struct StepBand {
-  Estimate incident, absorbed_vegetation, absorbed_soil, reflected, transmitted;
+  Estimate incident, absorbed_vegetation, absorbed_structure, absorbed_soil, reflected, transmitted;
   double unshot = 0.0;  // included in the half-widths, as in BandResult
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.incident, self.absorbed_vegetation, self.absorbed_soil, self.reflected, self.transmitted, self.unshot);
+    archive(self.incident, self.absorbed_vegetation, self.absorbed_structure, self.absorbed_soil, self.reflected,
+            self.transmitted, self.unshot);
   }
 };
 

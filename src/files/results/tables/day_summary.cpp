@@ -16,9 +16,10 @@ using nlohmann::ordered_json;
 
 constexpr double per_mega = 1e-6;
 
-constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 5> named_terms = {
+constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 6> named_terms = {
     {{"incident", &StepBand::incident},
      {"absorbed_vegetation", &StepBand::absorbed_vegetation},
+     {"absorbed_structure", &StepBand::absorbed_structure},
      {"absorbed_soil", &StepBand::absorbed_soil},
      {"reflected", &StepBand::reflected},
      {"transmitted", &StepBand::transmitted}}};
@@ -45,10 +46,7 @@ ordered_json date_json(const DaySummary& day, const std::string& name, const Dat
 }
 
 double leaf_area_index(const RadiationModel& model) {
-  const ElementRoles roles = element_roles(model.canopy);
-  double leaf_m2 = 0.0;
-  for (std::size_t e = 0; e < model.canopy.size(); ++e) leaf_m2 += roles.foliage[e] ? area_m2(model.canopy.corners[e]) : 0.0;
-  return leaf_m2 / model.plot.area_m2();
+  return area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)] / model.plot.area_m2();
 }
 
 }  // namespace
@@ -83,6 +81,7 @@ std::string day_summary_json(const DaySummary& day) {
       {"organs", day.model.canopy.organs.size()},
       {"plants", plant_count(day.model.canopy)},
       {"plot_area_m2", day.model.plot.area_m2()},
+      {"area_by_role_m2", area_by_role_json(day.model)},
       {"leaf_area_index", leaf_area_index(day.model)},
       {"steps",
        {{"asked", day.course.steps.size()},

@@ -43,6 +43,8 @@ Table steps_table(const RadiationModel& model, const DayCourse& course, std::spa
               [&](std::size_t i) { return lights[i].bands[b].incident; });
     table.add({band + "_absorbed_vegetation", "W m-2", "flux absorbed by vegetation per ground area"},
               [&](std::size_t i) { return lights[i].bands[b].absorbed_vegetation; });
+    table.add({band + "_absorbed_structure", "W m-2", "flux absorbed by structures and lamps per ground area"},
+              [&](std::size_t i) { return lights[i].bands[b].absorbed_structure; });
     table.add({band + "_absorbed_soil", "W m-2", "flux absorbed by soil per ground area"},
               [&](std::size_t i) { return lights[i].bands[b].absorbed_soil; });
     table.add({band + "_reflected", "W m-2", "flux that leaves upwards per ground area"},
@@ -86,6 +88,7 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
     table.add({band + "_absorbed_mol_m2", "mol m-2", "photons absorbed by both faces per one-sided area"},
               [&](std::size_t row) { return joules(row).value * umol_per_joule * per_mega; });
   }
+  add_organ_roles(table, model, 1);
   return table;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "physics/transport/model/surfaces.h"
 
 namespace sunfleck {
 namespace {
@@ -58,6 +59,12 @@ void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t
   add("rank", "1", "leaf number from the ground, 0 for organs without one", &Organ::rank);
 }
 
+void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis) {
+  const std::vector<Role> roles = organ_roles(model);
+  table.add({"role", "", "leaf, stem, fruit, structure, lamp or soil", in_csv | in_arrays, std::vector<std::size_t>{axis}},
+            [&](std::size_t o) { return std::string(role_name(roles[o])); });
+}
+
 Table organs_table(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<Organ>& organs = model.canopy.organs;
   const std::vector<OrganResult>& light = result.organs;
@@ -87,6 +94,7 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
     table.add({band + "_absorbed_umol_m2_s", "umol m-2 s-1", "photons absorbed by both faces per one-sided area"},
               [&](std::size_t o) { return light[o].absorbed[b].value * umol_per_joule; });
   }
+  add_organ_roles(table, model, 0);
   return table;
 }
 
@@ -113,8 +121,10 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
               [&](std::size_t i) { return layers[i].down[b]; });
     table.add({band + "_up", "W m-2", "flux through the plane, upwards", everywhere_but_meshes},
               [&](std::size_t i) { return layers[i].up[b]; });
-    table.add({band + "_absorbed", "W m-2", "flux absorbed in the layer per ground area"},
+    table.add({band + "_absorbed", "W m-2", "flux absorbed by vegetation in the layer per ground area"},
               [&](std::size_t i) { return is_top_plane(i) ? Estimate{no_value} : layers[i].absorbed[b]; });
+    table.add({band + "_absorbed_structure", "W m-2", "flux absorbed by structures and lamps in the layer per ground area"},
+              [&](std::size_t i) { return is_top_plane(i) ? Estimate{no_value} : layers[i].absorbed_structure[b]; });
   }
   return table;
 }
@@ -127,6 +137,7 @@ Table balance_table(const RadiationResult& result) {
   };
   add("incident", "incident flux per ground area", &BandResult::incident);
   add("absorbed_vegetation", "flux absorbed by vegetation per ground area", &BandResult::absorbed_vegetation);
+  add("absorbed_structure", "flux absorbed by structures and lamps per ground area", &BandResult::absorbed_structure);
   add("absorbed_soil", "flux absorbed by soil per ground area", &BandResult::absorbed_soil);
   add("reflected", "flux that leaves upwards per ground area", &BandResult::reflected);
   add("transmitted", "flux that leaves downwards per ground area", &BandResult::transmitted);

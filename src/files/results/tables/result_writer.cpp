@@ -21,6 +21,7 @@ ordered_json band_json(const BandResult& band) {
   return {{"name", band.name},
           {"incident", band.incident},
           {"absorbed_vegetation", band.absorbed_vegetation.value},
+          {"absorbed_structure", band.absorbed_structure.value},
           {"absorbed_soil", band.absorbed_soil.value},
           {"reflected", band.reflected.value},
           {"transmitted", band.transmitted.value},
@@ -29,12 +30,14 @@ ordered_json band_json(const BandResult& band) {
           {"quanta",
            {{"incident", band.ledger.incident},
             {"absorbed_vegetation", band.ledger.absorbed_vegetation},
+            {"absorbed_structure", band.ledger.absorbed_structure},
             {"absorbed_soil", band.ledger.absorbed_soil},
             {"reflected", band.ledger.reflected},
             {"transmitted", band.ledger.transmitted},
             {"unshot", band.ledger.unshot}}},
           {"error",
            {{"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width)},
+            {"absorbed_structure", number_or_null(band.absorbed_structure.half_width)},
             {"absorbed_soil", number_or_null(band.absorbed_soil.half_width)},
             {"reflected", number_or_null(band.reflected.half_width)},
             {"transmitted", number_or_null(band.transmitted.half_width)}}}};
@@ -44,6 +47,7 @@ ordered_json band_json(const BandResult& band) {
 ordered_json photons_json(const BandResult& band, double umol_per_joule) {
   return {{"incident", band.incident * umol_per_joule},
           {"absorbed_vegetation", band.absorbed_vegetation.value * umol_per_joule},
+          {"absorbed_structure", band.absorbed_structure.value * umol_per_joule},
           {"absorbed_soil", band.absorbed_soil.value * umol_per_joule},
           {"reflected", band.reflected.value * umol_per_joule},
           {"transmitted", band.transmitted.value * umol_per_joule}};
@@ -144,6 +148,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"organs", model.canopy.organs.size()},
       {"plants", plant_count(model.canopy)},
       {"plot_area_m2", model.plot.area_m2()},
+      {"area_by_role_m2", area_by_role_json(model)},
       {"leaf_area_index", result.leaf_area_index},
       {"sun", sun_json(model)},
       {"bands", bands_json(model, result)},

@@ -1,13 +1,14 @@
 #pragma once
 // Parts of the summaries in JSON.
 
-#include "physics/canopy/canopy.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <string>
 
 namespace sunfleck {
 
@@ -18,6 +19,16 @@ namespace sunfleck {
 template <class T>
 [[nodiscard]] nlohmann::ordered_json value_or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+// Returns the one-sided area of each role, m2, without roles that no surface has.
+[[nodiscard]] inline nlohmann::ordered_json area_by_role_json(const RadiationModel& model) {
+  const auto areas_m2 = area_of_roles_m2(model);
+  nlohmann::ordered_json by_role = nlohmann::ordered_json::object();
+  for (std::size_t role = 0; role < areas_m2.size(); ++role) {
+    if (areas_m2[role] > 0.0) by_role[std::string(role_names[role])] = areas_m2[role];
+  }
+  return by_role;
 }
 
 // Returns the number of plants; plant 0 is soil.

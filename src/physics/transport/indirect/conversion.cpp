@@ -63,7 +63,7 @@ DirectSums Conversion::sum(std::span<const std::uint32_t> counters) const {
   sum_elements(counters, sums);
   sums.met = model.plot.periodic ? rays : counters[shared::counter_met];
   sums.ground = sums.soil_plane + sums.transmitted;
-  for (std::size_t s = 0; s < surfaces.of.size(); ++s) sums.ground += surfaces.of[s].soil ? sums.surface[s].both() : 0;
+  for (std::size_t s = 0; s < surfaces.of.size(); ++s) sums.ground += surfaces.of[s].soil() ? sums.surface[s].both() : 0;
   check(sums);
   return sums;
 }
@@ -77,7 +77,7 @@ void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSum
     sums.surface[number].upper += element.upper;
     sums.surface[number].lower += element.lower;
     sums.organ_lit_m2[surface.organ] += static_cast<double>(element.both()) * double{exposure.lit_m2_per_landing(e)};
-    if (surface.soil) continue;
+    if (surface.soil()) continue;
     std::size_t layer = first_layer(layout, model.canopy.corners[e]);
     for (std::uint32_t bin = layout.first_bin[e]; bin < layout.first_bin[e + 1]; ++bin, ++layer) {
       const std::uint32_t upper = counters[layout.first_bin_word + 2 * bin];
@@ -126,7 +126,7 @@ std::vector<std::int64_t> Conversion::scattered(const DirectSums& sums) const {
   std::vector<std::int64_t> scattered = scattered_by_place(sums.layer_optics, 1, levels, sums.soil_plane);
   for (std::size_t s = 0; s < surfaces.of.size(); ++s) {
     const Surface& surface = surfaces.of[s];
-    for (std::size_t b = 0; surface.soil && b < quanta.size(); ++b) {
+    for (std::size_t b = 0; surface.soil() && b < quanta.size(); ++b) {
       scattered[b] += scattered_of(sums.surface[s], surface.optics, b);
     }
   }

@@ -200,7 +200,7 @@ class IndirectPass {
       place.surface = static_cast<std::uint32_t>(2 * e);
       place.order = static_cast<std::uint32_t>(e);
       place.a = anywhere;
-      if (scene_.surfaces.at(e).soil) place.level = -1;
+      if (scene_.surfaces.at(e).soil()) place.level = -1;
       waiting_.add(place, own);
     }
   }
@@ -333,13 +333,13 @@ class IndirectPass {
     for (std::size_t b = 0; b < bands; ++b) {
       if (quanta[b] == 0) continue;
       sums_.surface_landed[(surface_number * 2 + side) * bands + b] += quanta[b];
-      if (!surface.soil) {
+      if (!surface.soil()) {
         const std::size_t layer = static_cast<std::size_t>(place.level);
         sums_.layer_landed[((layer * scene_.model.optics.size() + surface.optics) * 2 + side) * bands + b] += quanta[b];
       }
       const QuantaSplit split = split_quanta(quanta[b], face[b].reflectance, face[b].transmittance, random_.unit());
       FluxLedger& ledger = sums_.ledger[b];
-      (surface.soil ? ledger.absorbed_soil : ledger.absorbed_vegetation) += split.absorbed;
+      ledger.absorbed_by(surface.role) += split.absorbed;
       reflected_[b] = split.reflected;
       transmitted_[b] = split.transmitted;
     }
@@ -396,7 +396,7 @@ class IndirectPass {
     EmissionPoint place{landing.surface, landing.triangle, landing.place_a, landing.place_b, -1};
     if (landing.surface < shared::landed_on_ground) {
       const std::uint32_t element = landing.surface / 2;
-      if (scene_.surfaces.at(element).soil) return place;
+      if (scene_.surfaces.at(element).soil()) return place;
       const Triangle& corners = scene_.model.canopy.corners[element];
       const float y_m = shared::landing_y(corners[0].y, corners[1].y, corners[2].y, landing.place_a, landing.place_b);
       place.level = static_cast<int>(layer_at(scene_.layout.layers, y_m));

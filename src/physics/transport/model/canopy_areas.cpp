@@ -6,14 +6,17 @@ namespace sunfleck {
 
 CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
                          const BeamExposure& exposure)
-    : foliage(element_roles(model.canopy).foliage),
+    : foliage(model.canopy.size()),
       organ_m2(model.canopy.organs.size()),
       organ_facing_m2(organ_m2),
       layer_foliage_m2(static_cast<std::size_t>(layout.layers.count)),
       layer_facing_m2(layer_foliage_m2),
       layer_holds_vegetation(layer_foliage_m2.size()),
+      layer_holds_structure(layer_foliage_m2.size()),
+      on_structures(model.optics.size()),
       organ_absorptance(organ_m2.size() * model.bands.size()),
       vegetation_absorptance(model.bands.size()),
+      structure_absorptance(model.bands.size()),
       soil_absorptance(model.bands.size()) {
   const Canopy& canopy = model.canopy;
   const std::size_t bands = model.bands.size();
@@ -24,19 +27,25 @@ CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layou
     const std::size_t organ = canopy.organ_of[e];
     organ_m2[organ] += area;
     if (exposure.can_hit(e)) organ_facing_m2[organ] += area;
-    const bool soil = surfaces.at(e).soil;
-    beam_meets_vegetation = beam_meets_vegetation || (!soil && exposure.can_hit(e));
+    const Role role = surfaces.at(e).role;
+    const bool soil = role == Role::soil;
+    const bool plant = is_vegetation(role);
+    foliage[e] = role == Role::leaf;
+    if (!soil && !plant) on_structures[canopy.optics_of[e]] = true;
+    beam_meets_vegetation = beam_meets_vegetation || (plant && exposure.can_hit(e));
+    beam_meets_structure = beam_meets_structure || (!plant && !soil && exposure.can_hit(e));
+    std::vector<double>& of_role = soil ? soil_absorptance : plant ? vegetation_absorptance : structure_absorptance;
     for (std::size_t b = 0; b < bands && !hidden[e] && area > 0.0; ++b) {
       const SurfaceOptics& optics = model.optics[canopy.optics_of[e]];
       const double absorptance = std::max(optics.upper[b].absorptance(), optics.lower[b].absorptance());
-      for (double* largest : {&organ_absorptance[organ * bands + b], &(soil ? soil_absorptance : vegetation_absorptance)[b]}) {
+      for (double* largest : {&organ_absorptance[organ * bands + b], &of_role[b]}) {
         *largest = std::max(*largest, absorptance);
       }
     }
     if (!soil && !hidden[e] && area > 0.0) {
       const std::size_t first = first_layer(layout, canopy.corners[e]);
       const std::size_t end = first + layout.first_bin[e + 1] - layout.first_bin[e];
-      for (std::size_t k = first; k < end; ++k) layer_holds_vegetation[k] = true;
+      for (std::size_t k = first; k < end; ++k) (plant ? layer_holds_vegetation : layer_holds_structure)[k] = true;
     }
     if (!foliage[e]) continue;
     foliage_m2 += area;

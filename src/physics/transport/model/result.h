@@ -2,6 +2,7 @@
 // The results of a simulation. Fluxes are per ground area of the plot unless stated otherwise; every estimate carries the
 // half-width of its confidence interval.
 
+#include "physics/canopy/role.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/statistics.h"
 #include "physics/transport/model/tracer.h"
@@ -18,31 +19,38 @@ namespace sunfleck {
 struct FluxLedger {
   std::int64_t incident = 0;
   std::int64_t absorbed_vegetation = 0;
+  std::int64_t absorbed_structure = 0;  // by structures and lamps
   std::int64_t absorbed_soil = 0;
   std::int64_t reflected = 0;
   std::int64_t transmitted = 0;
   std::int64_t unshot = 0;
 
-  // Returns the part of `incident` that the other terms do not account for.
-  [[nodiscard]] std::int64_t residual() const {
-    return incident - (absorbed_vegetation + absorbed_soil + reflected + transmitted + unshot);
+  // Returns the term of what surfaces of that role absorb.
+  [[nodiscard]] std::int64_t& absorbed_by(Role role) {
+    if (role == Role::soil) return absorbed_soil;
+    return is_vegetation(role) ? absorbed_vegetation : absorbed_structure;
   }
+
+  [[nodiscard]] std::int64_t absorbed() const { return absorbed_vegetation + absorbed_structure + absorbed_soil; }
+
+  // Returns the part of `incident` that the other terms do not account for.
+  [[nodiscard]] std::int64_t residual() const { return incident - (absorbed() + reflected + transmitted + unshot); }
 
   // Returns the flux that may still be absorbed, relative to the flux absorbed.
   [[nodiscard]] double unshot_share() const {
-    const auto absorbed = static_cast<double>(absorbed_vegetation + absorbed_soil);
-    return absorbed > 0.0 ? static_cast<double>(unshot) / absorbed : 0.0;
+    return absorbed() > 0 ? static_cast<double>(unshot) / static_cast<double>(absorbed()) : 0.0;
   }
 };
 
 // The flux balance of one band, W m-2 of ground. The half-widths include the unshot flux, which could still end up in any of
-// the four terms.
+// the five terms.
 struct BandResult {
   std::string name;
   FluxLedger ledger;
   double incident = 0.0;
   double unshot = 0.0;
   Estimate absorbed_vegetation, absorbed_soil, reflected, transmitted;
+  Estimate absorbed_structure{0.0, 0.0};  // by structures and lamps; exactly 0 without any
 };
 
 // The light of one organ, W m-2 of its one-sided area. Here and in all finer figures the half-width of `absorbed` includes
@@ -62,7 +70,8 @@ struct LayerResult {
   Estimate sunfleck_ratio;         // share of the plane that the direct beam reaches
   Estimate sunlit_leaf_fraction;   // NaN without leaf area in the layer
   std::vector<Estimate> down, up;  // [waveband], W m-2 through the plane
-  std::vector<Estimate> absorbed;  // [waveband], W m-2 of ground, by elements other than soil
+  // [waveband], W m-2 of ground, by the vegetation and by the structures and lamps in the layer
+  std::vector<Estimate> absorbed, absorbed_structure;
 };
 
 // Landings of beam rays on the two sides of an element or a surface.

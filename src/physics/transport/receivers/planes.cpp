@@ -56,7 +56,7 @@ std::size_t PlaneReceivers::zone_at(float y_m) const {
 std::size_t PlaneReceivers::zone_of(const shared::Landing& landing) const {
   if (landing.surface == shared::left_upwards) return planes_.size();
   if (landing.surface >= shared::landed_on_ground) return 0;
-  if (surfaces_.at(landing.surface / 2).soil) return 0;
+  if (surfaces_.at(landing.surface / 2).soil()) return 0;
   const Triangle& corners = model_.canopy.corners[landing.surface / 2];
   return zone_at(shared::landing_y(corners[0].y, corners[1].y, corners[2].y, landing.place_a, landing.place_b));
 }

@@ -18,8 +18,10 @@ constexpr double least_judged_organ = 0.1;
 // Returns the largest relative half-width of the organs' beam landings, or of their absorption of all other light.
 JudgedError organ_error(const RunSums& sums, double quantile, bool indirect) {
   const Conversion& conversion = sums.conversion;
-  std::vector<bool> soil(sums.organs.size());
-  for (const Surface& surface : conversion.surfaces.of) soil[surface.organ] = soil[surface.organ] || surface.soil;
+  std::vector<bool> other(sums.organs.size());  // holds something that is no vegetation
+  for (const Surface& surface : conversion.surfaces.of) {
+    if (!is_vegetation(surface.role)) other[surface.organ] = true;
+  }
   JudgedError largest;
   for (std::size_t b = 0; b < (indirect ? sums.bands.size() : 1); ++b) {
     const auto mean_of = [&](std::size_t o) -> const ReplicateMean& {
@@ -28,13 +30,13 @@ JudgedError organ_error(const RunSums& sums, double quantile, bool indirect) {
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t o = 0; o < sums.organs.size(); ++o) {
-      if (soil[o]) continue;
+      if (other[o]) continue;
       sum += mean_of(o).mean() * conversion.areas.organ_m2[o];
       count += 1.0;
     }
     for (std::size_t o = 0; o < sums.organs.size(); ++o) {
       const double flux = mean_of(o).mean() * conversion.areas.organ_m2[o];
-      if (soil[o] || flux <= 0.0 || flux < least_judged_organ * sum / count) continue;
+      if (other[o] || flux <= 0.0 || flux < least_judged_organ * sum / count) continue;
       const double error = quantile * mean_of(o).standard_error() / mean_of(o).mean();
       JudgedFigure figure{.of = JudgedFigure::Of::organ, .organ = o};
       if (indirect) figure.band = b;
@@ -55,7 +57,7 @@ double element_rms_error(const RunSums& sums, double quantile, const std::vector
   double squares = 0.0;
   for (std::size_t e = 0; e < sums.elements.size(); ++e) {
     const double element_m2 = area_m2(conversion.model.canopy.corners[e]);
-    if (conversion.surfaces.at(e).soil || element_m2 <= 0.0) continue;
+    if (!is_vegetation(conversion.surfaces.at(e).role) || element_m2 <= 0.0) continue;
     const double to_flux = landings ? 1.0 : element_m2;
     const double half = spreads[first + e].half_width(quantile, sums.replicates) * to_flux;
     area += element_m2;
@@ -78,14 +80,13 @@ JudgedError direct_error(const RunSums& sums, const Accuracy& accuracy) {
   JudgedError largest;
   const double least = least_judged_share * sums.met.mean();
   if (!(least > 0.0)) return largest;
-  // Without vegetation in its way the whole beam is known to reach the ground.
-  const double one_ray =
-      conversion.areas.beam_meets_vegetation ? sums.unseen(conversion.events.beam_share, accuracy.confidence) : 0.0;
-  const auto judge = [&](const ReplicateMean& mean, JudgedFigure::Of of) {
-    largest.raise({mean.estimate(quantile, one_ray).half_width / std::max(mean.mean(), least), {.of = of}});
+  const double one_ray = sums.unseen(conversion.events.beam_share, accuracy.confidence);
+  const auto judge = [&](const ReplicateMean& mean, bool can_vary, JudgedFigure::Of of) {
+    largest.raise({mean.estimate(quantile, can_vary ? one_ray : 0.0).half_width / std::max(mean.mean(), least), {.of = of}});
   };
-  judge(sums.first_vegetation, JudgedFigure::Of::vegetation);
-  judge(sums.first_ground, JudgedFigure::Of::soil);
+  judge(sums.first_vegetation, conversion.areas.beam_meets_vegetation, JudgedFigure::Of::vegetation);
+  // With nothing in its way the whole beam is known to reach the ground.
+  judge(sums.first_ground, conversion.areas.beam_meets_canopy(), JudgedFigure::Of::soil);
   if (accuracy.of == ErrorTarget::organ) {
     largest.raise(organ_error(sums, quantile, false));
   }

@@ -83,10 +83,14 @@ class ResultMaker {
     };
     const double any = events_.largest_w_m2(band);
     const double packet = scatters(model_, band) ? events_.other_w_m2[band] : 0.0;
-    const double beam = areas_.beam_meets_vegetation ? events_.beam_w_m2[band] : 0.0;
+    const double beam = areas_.beam_meets_canopy() ? events_.beam_w_m2[band] : 0.0;
     const double fallen = !model_.soil ? std::max(beam, events_.other_w_m2[band]) : !model_.plot.periodic ? packet : 0.0;
     result.absorbed_vegetation =
         estimate(ledger.absorbed_vegetation, sums_.bands[band].vegetation, any * areas_.vegetation_absorptance[band]);
+    if (std::find(areas_.on_structures.begin(), areas_.on_structures.end(), true) != areas_.on_structures.end()) {
+      result.absorbed_structure =
+          estimate(ledger.absorbed_structure, sums_.bands[band].structure, any * areas_.structure_absorptance[band]);
+    }
     result.absorbed_soil = estimate(ledger.absorbed_soil, sums_.bands[band].soil, any * areas_.soil_absorptance[band]);
     result.reflected = estimate(ledger.reflected, sums_.bands[band].reflected, packet);
     result.transmitted = estimate(ledger.transmitted, sums_.bands[band].transmitted, fallen);
@@ -150,7 +154,7 @@ class ResultMaker {
 
   // Returns how much one beam ray changes a share of the rays that meet the scene, in one replicate.
   [[nodiscard]] double share_of_one_ray() const {
-    return areas_.beam_meets_vegetation && sums_.met.mean() > 0.0 ? events_.beam_share / sums_.met.mean() : 0.0;
+    return areas_.beam_meets_canopy() && sums_.met.mean() > 0.0 ? events_.beam_share / sums_.met.mean() : 0.0;
   }
 
   [[nodiscard]] std::vector<OrganResult> organ_results() const {
@@ -168,12 +172,19 @@ class ResultMaker {
         const auto one = [&](double event_w_m2) { return unseen(event_w_m2 * per_area); };
         result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, one(beam)));
         result.indirect.push_back(sums_.organs[o].indirect[b].estimate(quantile_, one(other)));
-        result.absorbed.push_back(sums_.organs[o].absorbed[b].estimate(quantile_, one(std::max(beam, other) * absorptance)));
-        result.absorbed.back().half_width += result.absorbed.back().value * sums_.ledgers[b].unshot_share();
+        const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
+        result.absorbed.push_back(absorbed_estimate(sums_.organs[o].absorbed[b], event_w_m2, b));
       }
       results.push_back(std::move(result));
     }
     return results;
+  }
+
+  // Returns the mean with its interval, which includes unshot flux in proportion; one event changes it by `event_w_m2`.
+  [[nodiscard]] Estimate absorbed_estimate(const ReplicateMean& mean, double event_w_m2, std::size_t band) const {
+    Estimate absorbed = mean.estimate(quantile_, unseen(event_w_m2));
+    absorbed.half_width += absorbed.value * sums_.ledgers[band].unshot_share();
+    return absorbed;
   }
 
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
@@ -194,14 +205,15 @@ class ResultMaker {
         result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], std::move(parts[k]));
       }
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
-        const double any = std::max(areas_.beam_meets_vegetation ? events_.beam_w_m2[b] : 0.0, events_.other_w_m2[b]);
+        const double any = std::max(areas_.beam_meets_canopy() ? events_.beam_w_m2[b] : 0.0, events_.other_w_m2[b]);
         const double packet = scatters(model_, b) ? events_.other_w_m2[b] : 0.0;
         result.down.push_back(means.down[b].estimate(quantile_, unseen(below_top ? any : 0.0)));
         result.up.push_back(means.up[b].estimate(quantile_, unseen(packet)));
         if (!below_top) continue;
-        const double absorbed = areas_.layer_holds_vegetation[k] ? any * areas_.vegetation_absorptance[b] : 0.0;
-        result.absorbed.push_back(means.absorbed[b].estimate(quantile_, unseen(absorbed)));
-        result.absorbed.back().half_width += result.absorbed.back().value * sums_.ledgers[b].unshot_share();
+        const double by_plants = areas_.layer_holds_vegetation[k] ? any * areas_.vegetation_absorptance[b] : 0.0;
+        const double by_structures = areas_.layer_holds_structure[k] ? any * areas_.structure_absorptance[b] : 0.0;
+        result.absorbed.push_back(absorbed_estimate(means.absorbed[b], by_plants, b));
+        result.absorbed_structure.push_back(absorbed_estimate(means.absorbed_structure[b], by_structures, b));
       }
       results.push_back(std::move(result));
     }

@@ -95,7 +95,7 @@ class Addition {
           static_cast<std::int64_t>(model_.plot.periodic ? conversion_.rays : direct_.met + direct_.lost) * per_ray;
       for (std::size_t s = 0; s < surfaces_.of.size(); ++s) {
         const Surface& surface = surfaces_.of[s];
-        (surface.soil ? ledger.absorbed_soil : ledger.absorbed_vegetation) +=
+        ledger.absorbed_by(surface.role) +=
             static_cast<std::int64_t>(direct_.surface[s].upper) * conversion_.split(surface.optics, 0, b).absorbed +
             static_cast<std::int64_t>(direct_.surface[s].lower) * conversion_.split(surface.optics, 1, b).absorbed;
       }
@@ -114,6 +114,7 @@ class Addition {
       const FluxLedger& packets = indirect_->ledger[b];
       ledger.incident += packets.incident;
       ledger.absorbed_vegetation += packets.absorbed_vegetation;
+      ledger.absorbed_structure += packets.absorbed_structure;
       ledger.absorbed_soil += packets.absorbed_soil;
       ledger.reflected += packets.reflected;
       ledger.transmitted += packets.transmitted;
@@ -123,17 +124,22 @@ class Addition {
 
   void add_to_band_means() {
     std::uint64_t vegetation = 0;
-    for (std::size_t s = 0; s < surfaces_.of.size(); ++s) vegetation += surfaces_.of[s].soil ? 0 : direct_.surface[s].both();
+    for (std::size_t s = 0; s < surfaces_.of.size(); ++s) {
+      if (is_vegetation(surfaces_.of[s].role)) vegetation += direct_.surface[s].both();
+    }
     sums_.first_vegetation.add(static_cast<double>(vegetation) * share_);
     sums_.first_ground.add(static_cast<double>(direct_.ground) * share_);
     sums_.met.add(static_cast<double>(direct_.met) * share_);
     sums_.ground_ratio.add(direct_.met > 0 ? static_cast<double>(direct_.ground) / static_cast<double>(direct_.met) : 0.0);
     for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
       double first_vegetation = 0.0;
+      double first_structure = 0.0;
       double first_soil = model_.soil ? (1.0 - model_.soil->reflectance[b]) * static_cast<double>(direct_.soil_plane) : 0.0;
       for (std::size_t s = 0; s < surfaces_.of.size(); ++s) {
         const Surface& surface = surfaces_.of[s];
-        (surface.soil ? first_soil : first_vegetation) +=
+        (surface.soil()                ? first_soil
+         : is_vegetation(surface.role) ? first_vegetation
+                                       : first_structure) +=
             static_cast<double>(direct_.surface[s].upper) * conversion_.absorptance(surface.optics, 0, b) +
             static_cast<double>(direct_.surface[s].lower) * conversion_.absorptance(surface.optics, 1, b);
       }
@@ -143,6 +149,7 @@ class Addition {
       const double indirect_soil = static_cast<double>(packets.absorbed_soil) * per_quantum;
       const double direct = share_ * conversion_.beam_w_m2(b);
       sums_.bands[b].vegetation.add(first_vegetation * direct + indirect_vegetation);
+      sums_.bands[b].structure.add(first_structure * direct + static_cast<double>(packets.absorbed_structure) * per_quantum);
       sums_.bands[b].soil.add(first_soil * direct + indirect_soil);
       sums_.bands[b].indirect_vegetation.add(indirect_vegetation);
       sums_.bands[b].indirect_soil.add(indirect_soil);
@@ -208,6 +215,7 @@ class Addition {
         layer.up[b].add(indirect_ != nullptr ? passed(indirect_->up) : 0.0);
         if (k == count) continue;
         double absorbed = 0.0;
+        double absorbed_structure = 0.0;
         for (std::size_t o = 0; o < optics_count; ++o) {
           const BeamLandings& landings = direct_.layer_optics[k * optics_count + o];
           const double sides[2] = {static_cast<double>(landings.upper), static_cast<double>(landings.lower)};
@@ -217,10 +225,11 @@ class Addition {
               flux +=
                   static_cast<double>(indirect_->layer_landed[((k * optics_count + o) * 2 + side) * bands + b]) * per_quantum;
             }
-            absorbed += flux * conversion_.absorptance(o, side, b);
+            (areas_.on_structures[o] ? absorbed_structure : absorbed) += flux * conversion_.absorptance(o, side, b);
           }
         }
         layer.absorbed[b].add(absorbed);
+        layer.absorbed_structure[b].add(absorbed_structure);
       }
       if (k == count) break;
       lit_m2 += direct_.layer_lit_m2[k];
@@ -304,7 +313,7 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors)
   for (auto* means : {&organ.direct, &organ.indirect, &organ.absorbed, &organ.indirect_absorbed}) means->resize(bands.size());
   organs.assign(model.canopy.organs.size(), organ);
   LayerMeans layer;
-  for (auto* means : {&layer.down, &layer.up, &layer.absorbed}) means->resize(bands.size());
+  for (auto* means : {&layer.down, &layer.up, &layer.absorbed, &layer.absorbed_structure}) means->resize(bands.size());
   layers.assign(static_cast<std::size_t>(of.layout.layers.count) + 1, layer);
   if (of.receivers != nullptr) planes.emplace(*of.receivers, model);
   if (element_errors == ElementErrors::skip) return;

@@ -15,9 +15,9 @@
 
 namespace sunfleck {
 
-struct BandMeans {                                         // W m-2 of ground
-  ReplicateMean vegetation, soil, reflected, transmitted;  // total flux absorbed or leaving
-  ReplicateMean indirect_vegetation, indirect_soil;        // absorbed flux except from the beam's first landings
+struct BandMeans {                                                    // W m-2 of ground
+  ReplicateMean vegetation, structure, soil, reflected, transmitted;  // total flux absorbed or leaving
+  ReplicateMean indirect_vegetation, indirect_soil;                   // absorbed flux except from the beam's first landings
 };
 
 struct OrganMeans {
@@ -27,7 +27,7 @@ struct OrganMeans {
 
 struct LayerMeans {
   ReplicateMean ratio, sunlit;
-  std::vector<ReplicateMean> down, up, absorbed;  // [band], W m-2 of ground
+  std::vector<ReplicateMean> down, up, absorbed, absorbed_structure;  // [band], W m-2 of ground
 };
 
 // The sum of one value per replicate, and of its squares.
@@ -86,16 +86,18 @@ void RunSums::visit(Self& self, Archive& archive) {
   archive(self.replicates, self.lost, self.sky_rays, self.packets, self.rounds, self.landed, self.first_vegetation,
           self.first_ground, self.met, self.ground_ratio, self.sunlit);
   for (auto& ledger : self.ledgers) {
-    archive(ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected, ledger.transmitted,
-            ledger.unshot);
+    archive(ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_structure, ledger.absorbed_soil, ledger.reflected,
+            ledger.transmitted, ledger.unshot);
   }
   for (auto& band : self.bands) {
-    archive(band.vegetation, band.soil, band.reflected, band.transmitted, band.indirect_vegetation, band.indirect_soil);
+    archive(band.vegetation, band.structure, band.soil, band.reflected, band.transmitted, band.indirect_vegetation,
+            band.indirect_soil);
   }
   for (auto& organ : self.organs) {
     archive(organ.landed, organ.sunlit, organ.direct, organ.indirect, organ.absorbed, organ.indirect_absorbed);
   }
-  for (auto& layer : self.layers) archive(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed);
+  for (auto& layer : self.layers)
+    archive(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed, layer.absorbed_structure);
   for (auto& element : self.elements) archive(element.upper, element.lower);
   const auto visit_late = [&](auto& values, std::size_t size) {
     if constexpr (!std::is_const_v<Self>) values.resize(size);

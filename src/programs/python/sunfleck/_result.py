@@ -41,7 +41,7 @@ class Result:
 
     @property
     def bands(self) -> dict[str, dict[str, Any]]:
-        """The energy balance of each band by name, W m-2 of ground: incident, absorbed_vegetation, absorbed_soil, reflected,
+        """The energy balance of each band by name, W m-2 of ground: incident, absorbed_vegetation, absorbed_structure, absorbed_soil, reflected,
         transmitted, unshot; their half-widths are in `error`; `residual`, the quanta missing from the sum, is 0."""
         return {band["name"]: band for band in self.summary["bands"]}
 
