@@ -58,6 +58,10 @@ class StoreWriter {
   void packed(const std::vector<T>& values, std::size_t /*count*/) const {
     to_ = pack(values);
   }
+  template <class T>
+  void packed(const NumberPieces<T>& values, std::size_t /*count*/) const {
+    to_ = pack(values);
+  }
 
   // Writes a list, each part by `visit(archive, part)`.
   template <class Part, class Visit>

@@ -38,6 +38,45 @@ Bytef* bytes_of(const void* data) {
   return static_cast<Bytef*>(const_cast<void*>(data));
 }
 
+class Deflater {
+ public:
+  Deflater() {
+    if (deflateInit(&stream_, Z_BEST_SPEED) != Z_OK) throw std::bad_alloc();
+  }
+  ~Deflater() { deflateEnd(&stream_); }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  void add(std::span<const std::byte> bytes) {
+    for (std::size_t given = 0; given < bytes.size();) {
+      const std::size_t next = std::min(most_at_once, bytes.size() - given);
+      stream_.next_in = bytes_of(bytes.data() + given);
+      stream_.avail_in = static_cast<uInt>(next);
+      given += next;
+      deflate_into_packed(Z_NO_FLUSH);
+    }
+  }
+
+  json::binary_t finish() {
+    deflate_into_packed(Z_FINISH);
+    return std::move(packed_);
+  }
+
+ private:
+  void deflate_into_packed(int flush) {
+    do {
+      stream_.next_out = chunk_.data();
+      stream_.avail_out = static_cast<uInt>(chunk_.size());
+      deflate(&stream_, flush);
+      packed_.insert(packed_.end(), chunk_.data(), stream_.next_out);
+    } while (stream_.avail_out == 0);
+  }
+
+  z_stream stream_{};
+  json::binary_t packed_{std::vector<std::uint8_t>{}};
+  std::vector<std::uint8_t> chunk_ = std::vector<std::uint8_t>(std::size_t{1} << 18U);
+};
+
 }  // namespace
 
 json read_cbor(std::string_view bytes, std::size_t deepest) {
@@ -46,27 +85,10 @@ json read_cbor(std::string_view bytes, std::size_t deepest) {
   return json::from_cbor(bytes);
 }
 
-nlohmann::json::binary_t deflated(std::span<const std::byte> bytes) {
-  z_stream stream{};
-  if (deflateInit(&stream, Z_BEST_SPEED) != Z_OK) throw std::bad_alloc();
-  nlohmann::json::binary_t packed(std::vector<std::uint8_t>{});
-  std::vector<std::uint8_t> chunk(std::size_t{1} << 18U);
-  std::size_t given = 0;
-  int status = Z_OK;
-  while (status != Z_STREAM_END) {
-    if (stream.avail_in == 0) {
-      const std::size_t next = std::min(most_at_once, bytes.size() - given);
-      stream.next_in = bytes_of(bytes.data() + given);
-      stream.avail_in = static_cast<uInt>(next);
-      given += next;
-    }
-    stream.next_out = chunk.data();
-    stream.avail_out = static_cast<uInt>(chunk.size());
-    status = deflate(&stream, given == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
-    packed.insert(packed.end(), chunk.data(), stream.next_out);
-  }
-  deflateEnd(&stream);
-  return packed;
+json::binary_t deflated(const NumberPieces<std::byte>& pieces) {
+  Deflater deflater;
+  pieces([&](std::span<const std::byte> piece) { deflater.add(piece); });
+  return deflater.finish();
 }
 
 bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes) {

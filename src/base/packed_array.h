@@ -2,6 +2,7 @@
 // Stores long arrays of numbers as CBOR byte strings, little-endian and deflated (zlib), and reads CBOR from untrusted files.
 
 #include "base/error.h"
+#include "base/number_pieces.h"
 
 #include <bit>
 #include <cstddef>
@@ -35,7 +36,8 @@ template <class T>
   throw std::runtime_error("what should be a whole number is none");
 }
 
-[[nodiscard]] nlohmann::json::binary_t deflated(std::span<const std::byte> bytes);
+// Returns the deflated bytes of all pieces together.
+[[nodiscard]] nlohmann::json::binary_t deflated(const NumberPieces<std::byte>& pieces);
 
 // Fills `bytes`. Returns false if the packed bytes are damaged or hold a different number of bytes.
 [[nodiscard]] bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes);
@@ -47,7 +49,13 @@ template <class T>
 template <class T>
 [[nodiscard]] nlohmann::json pack(const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
-  return nlohmann::json::binary(deflated(std::as_bytes(std::span(values))));
+  return nlohmann::json::binary(deflated([&](const auto& take) { take(std::as_bytes(std::span(values))); }));
+}
+
+template <class T>
+[[nodiscard]] nlohmann::json pack(const NumberPieces<T>& pieces) {
+  return nlohmann::json::binary(
+      deflated([&](const auto& take) { pieces([&](std::span<const T> piece) { take(std::as_bytes(piece)); }); }));
 }
 
 // Returns `count` values. Throws std::runtime_error if a different number was packed.

@@ -86,7 +86,7 @@ std::string Checkpoint::resume_line() const {
 void Checkpoint::attend(Monitor& monitor) {
   begin_ = last_ = Clock::now();
   monitor.wants_state = [this] { return is_due(); };
-  monitor.receive_state = [this](const SolveState& state) { keep(state); };
+  monitor.receive_state = [this](const SolveStateView& state) { keep(state); };
 }
 
 bool Checkpoint::is_due() {
@@ -94,7 +94,7 @@ bool Checkpoint::is_due() {
   return !failed_ && begin_ - last_ >= pause_;
 }
 
-void Checkpoint::keep(const SolveState& state) {
+void Checkpoint::keep(const SolveStateView& state) {
   if (failed_) return;
   try {
     store_.write(state);

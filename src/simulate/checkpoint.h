@@ -46,7 +46,7 @@ class Checkpoint {
 
   [[nodiscard]] bool is_finished() const;
   [[nodiscard]] bool is_due();
-  void keep(const SolveState& state);
+  void keep(const SolveStateView& state);
 
   std::filesystem::path folder_;
   std::vector<std::string> exports_;

@@ -2,7 +2,9 @@
 
 #include "devices/tracers/cpu_tracer.h"
 #include "physics/bvh/references.h"
+#include "physics/transport/indirect/place_sums.h"
 #include "physics/transport/model/surfaces.h"
+#include "physics/transport/solve/work_planner.h"
 #include "pictures/charts/fields.h"
 #include "pictures/charts/pictures.h"
 
@@ -15,7 +17,6 @@ namespace {
 constexpr double mib = 1048576.0;
 // Replicates that run side by side seldom reach their peaks at the same time.
 constexpr double at_their_peak = 0.7;
-constexpr double tallies = 3.0;  // those of the run, of its pilot and of the result, which alone is left to be drawn
 
 // Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
 double program_bytes(const TracerDevice& device) {
@@ -30,17 +31,35 @@ double tree_bytes(const Bvh& bvh) {
   return static_cast<double>(bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(BvhTriangle));
 }
 
-// Returns the memory of the solver's results of all replicates: the sums and the result made from them.
-double sum_bytes(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings) {
-  constexpr double numbering = 3.0 * sizeof(std::uint32_t);
+// The memory of the sums over replicates.
+struct SumBytes {
+  double tracing = 0.0;  // those of the run, and of its pilot until the run has two replicates
+  double ending = 0.0;   // those of the run, and the result made from them
+  double result = 0.0;   // the result alone
+};
+
+SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings,
+                   const RunForecast& run) {
   const auto elements = static_cast<double>(model.canopy.size());
   const auto bands = static_cast<double>(model.bands.size());
-  double bytes = elements * numbering + tallies * (elements * sizeof(BeamLandings) + layout.cells() * sizeof(std::uint64_t));
+  const double numbering = elements * 2.0 * sizeof(std::uint32_t);  // surfaces and layers
+  const double exposure = elements * sizeof(float);
+  const double landings = elements * sizeof(BeamLandings) + layout.cells() * sizeof(std::uint64_t);
+  double sides = 0.0, cells = 0.0;
   if (scatters(model) || model.has_sky()) {
-    const double places = (2.0 * elements + layout.cells()) * bands * (model.has_sky() ? 2.0 : 1.0);
-    bytes += tallies * places * sizeof(std::int64_t);
+    const double kinds = bands * (model.has_sky() ? 2.0 : 1.0);
+    sides = 2.0 * elements * kinds * sizeof(std::int64_t);
+    cells = layout.cells() * kinds * sizeof(std::int64_t);
   }
-  if (settings.element_errors != ElementErrors::skip) bytes += 2.0 * elements * (16.0 + 32.0 * bands);
+  const double of_run = PlaceSums::likely_bytes(planned_replicates * run.side_bytes, sides);
+  const double of_pilot = PlaceSums::likely_bytes(pilot_replicates * run.side_bytes, sides);
+  double spreads = 0.0;
+  if (settings.element_errors != ElementErrors::skip) spreads = 2.0 * elements * (16.0 + 32.0 * bands);
+  SumBytes bytes;
+  bytes.tracing = numbering + 2.0 * (exposure + landings + cells) + of_run + of_pilot + spreads;
+  bytes.ending = numbering + exposure + landings + cells + sides + spreads;
+  if (of_run < sides) bytes.ending += of_run;
+  bytes.result = elements * sizeof(std::uint32_t) + landings + cells + sides + 0.5 * spreads;
   return bytes;
 }
 
@@ -55,7 +74,7 @@ double picture_bytes(const RadiationModel& model, const CounterLayout& layout) {
 
 std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const SolveSettings& settings, const Monitor& monitor) {
   // Bytes of one tree reference while the tree is built, in addition to its place in the finished tree.
-  constexpr double building = 64.0 + sizeof(Reference);
+  constexpr double building = 40.0 + sizeof(Reference);
   // Bytes of one element packed for the store in the result folder, including its copy in the file's text.
   constexpr double stored = 100.0;
   const RadiationModel& model = simulation.model();
@@ -66,12 +85,13 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   if (!run) return std::nullopt;
   const auto elements = static_cast<double>(model.canopy.size());
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
-  const double sums = sum_bytes(model, tree.layout, settings);
+  const SumBytes sums = sum_bytes(model, tree.layout, settings, *run);
   const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
   const double throughout = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
-  const double computing = std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
-                                     sums + in_the_making * run->replicate_bytes, elements * stored});
-  const double drawing = sums / tallies + picture_bytes(model, tree.layout);
+  const double computing =
+      std::max({static_cast<double>(tree.bvh.triangles.size()) * building, sums.tracing + in_the_making * run->replicate_bytes,
+                sums.ending, sums.result + elements * stored});
+  const double drawing = sums.result + picture_bytes(model, tree.layout);
   return MemoryForecast{static_cast<std::uint64_t>(throughout + std::max(computing, drawing)),
                         static_cast<std::uint64_t>(throughout + computing), *run};
 }

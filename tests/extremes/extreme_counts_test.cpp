@@ -231,7 +231,9 @@ TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
   replicate.counters.resize(prepared.layout.words());
   replicate.direct = conversion.sum(replicate.counters);
   IndirectSums& indirect = replicate.packets.emplace(model, prepared.layout, surfaces);
-  indirect.surface_landed[0] = indirect.side_landed[0] = std::int64_t{20000} << 46U;  // most_rounds times the whole flux
+  const std::int64_t whole = std::int64_t{20000} << 46U;  // most_rounds times the whole flux
+  indirect.surface_landed[0] = whole;
+  indirect.side_landed.add(0, {&whole, 1});
   int added = 0;
   const std::string message = refusal_of(
       [&] {

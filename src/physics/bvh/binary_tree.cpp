@@ -78,12 +78,7 @@ class BinaryBuilder {
     if (range.subtree.count < 2) return;
     DCHECK(ceil_log2(range.subtree.count), <=, levels);
     const auto [left, right] = divide(range, levels - 1);
-    BinaryNode& node = nodes_[range.subtree.node];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      node.lo[axis] = range.box.lo[axis];
-      node.hi[axis] = range.box.hi[axis];
-    }
-    node.left_count = left.subtree.count;
+    nodes_[range.subtree.node].left_count = left.subtree.count;
     build(left, levels - 1);
     build(right, levels - 1);
   }

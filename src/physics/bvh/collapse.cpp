@@ -38,8 +38,9 @@ class Plan {
   std::uint32_t bits_;
 };
 
-// The least cost of representing a subtree by at most j nodes, leaves or inner ones: cost[j], j = 1..7.
+// The box of a subtree, and the least cost of representing it by at most j nodes, leaves or inner ones: cost[j], j = 1..7.
 struct Costs {
+  Bounds box = nothing;
   std::array<float, 8> cost{};
   int height = 0;
 };
@@ -56,10 +57,6 @@ Distribution distribute(const Costs& left, const Costs& right, int roots) {
     if (cost < best.cost) best = {cost, k};
   }
   return best;
-}
-
-Bounds box_of(const BinaryNode& node) {
-  return {Float4{node.lo[0], node.lo[1], node.lo[2], 0.0F}, Float4{node.hi[0], node.hi[1], node.hi[2], 0.0F}};
 }
 
 class Collapser {
@@ -96,20 +93,27 @@ class Collapser {
     const std::uint32_t left_count = node_of(s).left_count;
     return {s.node + left_count, s.first + left_count, s.count - left_count};
   }
-  [[nodiscard]] Bounds box(const Subtree& s) const { return s.count == 1 ? tree_.items[s.first].box : box_of(node_of(s)); }
+  [[nodiscard]] Bounds box(const Subtree& s) const {
+    Bounds box = nothing;
+    for (std::uint32_t i = s.first; i < s.first + s.count; ++i) box.grow(tree_.items[i].box);
+    return box;
+  }
   [[nodiscard]] bool is_leaf(const Subtree& s) const { return s.count == 1 || plan_of(s).leaf(); }
   [[nodiscard]] int height(const Subtree& s) const { return s.count == 1 ? 0 : plan_of(s).height(); }
 
   // Ylitie et al. 2017, equations 2 to 5. The recursion is at most max_binary_height deep.
   Costs solve(const Subtree& subtree) {
-    const float area = box(subtree).half_area();
     Costs costs;
     if (subtree.count == 1) {
-      costs.cost.fill(area * triangle_cost);
+      costs.box = box(subtree);
+      costs.cost.fill(costs.box.half_area() * triangle_cost);
       return costs;
     }
     const Costs left = solve(left_of(subtree));
     const Costs right = solve(right_of(subtree));
+    costs.box.grow(left.box);
+    costs.box.grow(right.box);
+    const float area = costs.box.half_area();
     Plan plan;
     const Distribution all = distribute(left, right, 8);
     plan.set_split(8, all.left);

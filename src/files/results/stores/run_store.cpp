@@ -58,9 +58,9 @@ std::optional<SolveState> RunStore::read(const SolveState& blank) const {
   throw_damaged(file_);
 }
 
-void RunStore::write(const SolveState& state) const {
+void RunStore::write(const SolveStateView& state) const {
   json content = {{"settings", settings_}};
-  visit(StoreWriter(content), state, state);
+  visit(StoreWriter(content), state, SolveState());
   write_file(file_, sealed(state_mark, content));
 }
 

@@ -23,7 +23,7 @@ class RunStore {
   [[nodiscard]] std::optional<SolveState> read(const SolveState& blank) const;
 
   // Writes the file aside and renames it. Throws Error (failure).
-  void write(const SolveState& state) const;
+  void write(const SolveStateView& state) const;
 
   void remove() const;  // throws Error (failure)
 

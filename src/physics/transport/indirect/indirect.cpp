@@ -327,11 +327,11 @@ class IndirectPass {
     const std::vector<FaceOptics>& face = side == 0 ? optics.upper : optics.lower;
     const EmissionPoint place = place_of(landing);
     ++sums_.element_hits[element];
+    sums_.side_landed.add(landing.surface, quanta);
     std::fill(reflected_.begin(), reflected_.end(), 0);
     std::fill(transmitted_.begin(), transmitted_.end(), 0);
     for (std::size_t b = 0; b < bands; ++b) {
       if (quanta[b] == 0) continue;
-      sums_.side_landed[landing.surface * bands + b] += quanta[b];
       sums_.surface_landed[(surface_number * 2 + side) * bands + b] += quanta[b];
       if (!surface.soil()) {
         const std::size_t layer = static_cast<std::size_t>(place.level);

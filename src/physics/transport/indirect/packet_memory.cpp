@@ -34,7 +34,15 @@ void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
   const double per_packet = counts.packets > 0.0 ? static_cast<double>(sums.most_candidates) / counts.packets : 0.0;
   per_landing_ = learned_ ? std::max(per_landing_, per_landing) : per_landing;
   per_packet_ = learned_ ? std::max(per_packet_, per_packet) : per_packet;
+  if (counts.packets > 0.0) {
+    const auto side_bytes = static_cast<double>(sums.side_landed.bytes() + sums.side_sky.bytes());
+    side_bytes_per_packet_ = std::max(side_bytes_per_packet_, side_bytes / counts.packets);
+  }
   learned_ = true;
+}
+
+double PacketMemory::side_bytes(const RayCounts& counts, double most) const {
+  return learned_ ? PlaceSums::likely_bytes(side_bytes_per_packet_ * counts.packets, most) : most;
 }
 
 // Returns the larger of two peaks: while candidates are copied into their order, and when packets have landed and left new

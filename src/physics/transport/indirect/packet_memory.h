@@ -19,12 +19,16 @@ class PacketMemory {
  public:
   explicit PacketMemory(const RadiationModel& model);
 
-  // Records how many candidates a replicate with these rays had.
+  // Records how many candidates a replicate with these rays had, and the memory of its sums by side.
   void learn(const RayCounts& counts, const IndirectSums& sums);
 
   // Returns the peak memory of such a replicate, in bytes: an upper limit until something has been learned, then an
   // estimate from earlier replicates. It grows with the number of packets.
   [[nodiscard]] double bytes(const RayCounts& counts) const;
+
+  // Returns the memory of its sums by side, of `most` bytes if they were all kept: an upper limit until something has been
+  // learned. See PlaceSums.
+  [[nodiscard]] double side_bytes(const RayCounts& counts, double most) const;
 
  private:
   std::size_t bands_;
@@ -32,6 +36,7 @@ class PacketMemory {
   bool learned_ = false;
   double per_landing_ = 2.0;  // candidates per first landing
   double per_packet_ = 2.0;   // candidates per packet
+  double side_bytes_per_packet_ = 0.0;
 };
 
 }  // namespace sunfleck

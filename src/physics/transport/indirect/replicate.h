@@ -1,6 +1,7 @@
 #pragma once
 // One replicate: its order, and the sums that it contributes to the result.
 
+#include "physics/transport/indirect/place_sums.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
@@ -38,10 +39,10 @@ struct IndirectSums {
   std::size_t bands;
   std::vector<std::int64_t> surface_landed;  // [(surface * 2 + side) * bands + band]
   std::vector<std::int64_t> layer_landed;    // [((layer * optics + optics) * 2 + side) * bands + band], without soil
-  std::vector<std::int64_t> side_landed;     // [(2 * element + side) * bands + band]
+  PlaceSums side_landed;                     // [(2 * element + side) * bands + band]
   std::vector<std::uint32_t> element_hits;   // [element], packets that landed on either side
   std::vector<std::int64_t> cell_landed;     // [cell of the soil's map * bands + band]
-  std::vector<std::int64_t> side_sky;        // as side_landed, sky rays only; empty without a sky
+  PlaceSums side_sky;                        // as side_landed, sky rays only; empty without a sky
   std::vector<std::int64_t> cell_sky;        // as cell_landed, sky rays only
   std::vector<std::int64_t> down, up;        // [plane * bands + band], through the planes of the layers, top plane last
   std::vector<FluxLedger> ledger;            // [band]; `incident` holds flux from the lamps and the sky

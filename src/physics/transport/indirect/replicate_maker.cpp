@@ -59,7 +59,7 @@ Replicate ReplicateMaker::blank(const ReplicateOrder& order) const {
   blank.packets.emplace(model_, layout_, surfaces_);
   if (receivers_) blank.packets->receivers = blank.passed;
   if (!sky_) return blank;
-  blank.packets->side_sky.resize(blank.packets->side_landed.size());
+  blank.packets->side_sky = blank.packets->side_landed;
   blank.packets->cell_sky.resize(blank.packets->cell_landed.size());
   return blank;
 }
@@ -67,10 +67,15 @@ Replicate ReplicateMaker::blank(const ReplicateOrder& order) const {
 double ReplicateMaker::sum_bytes() const {
   double bytes = static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
   if (!indirect_) return bytes;
-  const double places =
-      (2.0 * static_cast<double>(model_.canopy.size()) + layout_.cells()) * static_cast<double>(model_.bands.size());
-  bytes += places * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
+  const double cells = static_cast<double>(layout_.cells()) * static_cast<double>(model_.bands.size());
+  bytes += cells * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0) + most_side_bytes();
   return bytes + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
+}
+
+double ReplicateMaker::most_side_bytes() const {
+  if (!indirect_) return 0.0;
+  const double sides = 2.0 * static_cast<double>(model_.canopy.size()) * static_cast<double>(model_.bands.size());
+  return sides * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
 }
 
 TraceOutcome ReplicateMaker::count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop) {

@@ -37,6 +37,9 @@ class ReplicateMaker {
   // Returns the size of a replicate's counters and sums in bytes; it does not depend on the numbers of rays and packets.
   [[nodiscard]] double sum_bytes() const;
 
+  // Returns the part of it that sums by side take if light lands on many of them; see PlaceSums.
+  [[nodiscard]] double most_side_bytes() const;
+
   // Makes a replicate of the conversion's incidence; returns nothing if stopped. Several threads may call this at the same
   // time; all of them call `stop`.
   [[nodiscard]] std::optional<Replicate> make(const ReplicateOrder& order, const Conversion& conversion,

@@ -32,7 +32,7 @@ class ResultMaker {
         confidence_(confidence),
         quantile_(t_quantile(confidence, sums.replicates)) {}
 
-  [[nodiscard]] RadiationResult result() const {
+  [[nodiscard]] RadiationResult figures() const {
     RadiationResult result;
     for (std::size_t b = 0; b < model_.bands.size(); ++b) {
       result.bands.push_back(band_result(b));
@@ -41,14 +41,8 @@ class ResultMaker {
     }
     result.organs = organ_results();
     result.layers = layer_results();
-    result.elements = sums_.elements;
     result.element_error = element_errors();
     result.side_error = side_errors();
-    result.soil_cells = sums_.soil_cells;
-    result.side_indirect = sums_.side_landed;
-    result.cell_indirect = sums_.cell_landed;
-    result.side_sky = sums_.side_sky;
-    result.cell_sky = sums_.cell_sky;
     if (sums_.planes) {
       std::vector<double> events_w_m2;
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) events_w_m2.push_back(events_.largest_w_m2(b));
@@ -268,8 +262,32 @@ class ResultMaker {
 
 }  // namespace
 
+RadiationResult figures_of(const RunSums& sums, double confidence) {
+  return ResultMaker(sums, confidence).figures();
+}
+
+void copy_arrays(const RunSums& sums, RadiationResult& result) {
+  result.elements = sums.elements;
+  result.soil_cells = sums.soil_cells;
+  result.side_indirect = sums.side_landed.all();
+  result.cell_indirect = sums.cell_landed;
+  result.side_sky = sums.side_sky.all();
+  result.cell_sky = sums.cell_sky;
+}
+
+void move_arrays(RunSums& sums, RadiationResult& result) {
+  result.elements = std::move(sums.elements);
+  result.soil_cells = std::move(sums.soil_cells);
+  result.side_indirect = sums.side_landed.take_all();
+  result.cell_indirect = std::move(sums.cell_landed);
+  result.side_sky = sums.side_sky.take_all();
+  result.cell_sky = std::move(sums.cell_sky);
+}
+
 RadiationResult result_of(const RunSums& sums, double confidence) {
-  return ResultMaker(sums, confidence).result();
+  RadiationResult result = figures_of(sums, confidence);
+  copy_arrays(sums, result);
+  return result;
 }
 
 }  // namespace sunfleck

@@ -10,4 +10,10 @@ namespace sunfleck {
 // Throws Error (failure) if a ledger does not close.
 [[nodiscard]] RadiationResult result_of(const RunSums& sums, double confidence);
 
+// Returns the same without the arrays of elements and cells, which `copy_arrays` and `move_arrays` fill in; the latter leaves
+// sums that must not be used again.
+[[nodiscard]] RadiationResult figures_of(const RunSums& sums, double confidence);
+void copy_arrays(const RunSums& sums, RadiationResult& result);
+void move_arrays(RunSums& sums, RadiationResult& result);
+
 }  // namespace sunfleck

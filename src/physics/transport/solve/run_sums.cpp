@@ -242,14 +242,16 @@ class Addition {
   void add_arrays() {
     add_up(std::span(replicate_.counters).subspan(shared::counter_first_cell, sums_.soil_cells.size()), sums_.soil_cells);
     if (indirect_ == nullptr) return;
-    add_up(indirect_->side_landed, sums_.side_landed);
+    sums_.side_landed.add(indirect_->side_landed);
     add_up(indirect_->cell_landed, sums_.cell_landed);
-    add_up(indirect_->side_sky, sums_.side_sky);
+    sums_.side_sky.add(indirect_->side_sky);
     add_up(indirect_->cell_sky, sums_.cell_sky);
   }
 
   void add_elements() {
     const std::size_t bands = sums_.bands.size();
+    std::vector<std::int64_t> side_landed;
+    if (indirect_ != nullptr && !sums_.direct_spread.empty()) side_landed = indirect_->side_landed.all();
     for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
       const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
       sums_.elements[e].upper += landings.upper;
@@ -266,7 +268,7 @@ class Addition {
         for (std::size_t side = 0; side < 2; ++side) {
           double other = 0.0;
           if (indirect_ != nullptr) {
-            other = static_cast<double>(indirect_->side_landed[(2 * e + side) * bands + b]) * quanta_[b].w_m2_per_quantum *
+            other = static_cast<double>(side_landed[(2 * e + side) * bands + b]) * quanta_[b].w_m2_per_quantum *
                     model_.plot.area_m2() * per_area;
           }
           landed += other;

@@ -68,10 +68,10 @@ struct RunSums {
   std::vector<FluxLedger> ledgers;  // [band]
   std::vector<BandMeans> bands;
   std::vector<OrganMeans> organs;
-  std::vector<LayerMeans> layers;         // [layer, + 1 for the top plane]
-  std::vector<BeamLandings> elements;     // [element]
-  std::vector<std::int64_t> side_landed;  // as IndirectSums::side_landed, over all replicates; empty before the first
-  std::vector<std::int64_t> cell_landed, side_sky, cell_sky;
+  std::vector<LayerMeans> layers;      // [layer, + 1 for the top plane]
+  std::vector<BeamLandings> elements;  // [element]
+  PlaceSums side_landed, side_sky;     // as in IndirectSums, over all replicates; empty before the first
+  std::vector<std::int64_t> cell_landed, cell_sky;
   std::vector<std::uint64_t> soil_cells;
   std::vector<std::uint64_t> element_hits;  // [element], rays and packets; empty if errors are skipped
   std::vector<Spread> direct_spread;        // [element], landings; this and the next two are empty if errors are skipped
@@ -106,12 +106,18 @@ void RunSums::visit(Self& self, Archive& archive) {
     for (std::size_t k = values.size(); k < size; ++k) archive(none);
   };
   const RadiationModel& model = self.conversion.model;
+  const auto visit_sides = [&](auto& sums, std::size_t size) {
+    if constexpr (!std::is_const_v<Self>) sums = PlaceSums(size / model.bands.size(), model.bands.size());
+    archive(sums);
+    std::int64_t none = 0;
+    for (std::size_t k = sums.size(); k < size; ++k) archive(none);
+  };
   const bool packets = scatters(model) || model.has_sky();
   const std::size_t sides = 2 * self.elements.size() * model.bands.size();
   const std::size_t cells = self.soil_cells.size() * model.bands.size();
-  visit_late(self.side_landed, packets ? sides : 0);
+  visit_sides(self.side_landed, packets ? sides : 0);
   visit_late(self.cell_landed, packets ? cells : 0);
-  visit_late(self.side_sky, model.has_sky() ? sides : 0);
+  visit_sides(self.side_sky, model.has_sky() ? sides : 0);
   visit_late(self.cell_sky, model.has_sky() ? cells : 0);
   archive(self.soil_cells, self.element_hits);
   for (auto* spreads : {&self.direct_spread, &self.absorbed_spread, &self.indirect_spread, &self.side_spread}) {

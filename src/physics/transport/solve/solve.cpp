@@ -64,7 +64,7 @@ class Solver {
   std::optional<RunForecast> forecast() {
     const std::optional<Work> work = choose_work();
     if (!work) return std::nullopt;
-    return RunForecast{*work, planner_.replicate_bytes(*work), planner_.at_once(*work)};
+    return RunForecast{*work, planner_.replicate_bytes(*work), planner_.side_bytes(*work), planner_.at_once(*work)};
   }
 
  private:
@@ -133,6 +133,7 @@ class Solver {
         queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
     if (!replicate) return false;
     series_->sums.add(*replicate);
+    release_fallback();
     traced_ += series_->grid_rays;
     if (replicate->packets) {
       traced_ += replicate->packets->packets + replicate->packets->sky_rays;
@@ -148,7 +149,10 @@ class Solver {
   void hand_over() {
     if (!monitor_.wants_result || !monitor_.wants_result()) return;
     const bool use_fallback = fallback_ && series_->traced() < fallback_->traced();
-    monitor_.receive_result(result_of_series(use_fallback ? *fallback_ : *series_, StopReason::interrupted));
+    const Series& shown = use_fallback ? *fallback_ : *series_;
+    RadiationResult result = figures_of_series(shown, StopReason::interrupted);
+    copy_arrays(shown.sums, result);
+    monitor_.receive_result(std::move(result));
   }
 
   // The two errors are empty for a pass without any light in the scene.
@@ -219,6 +223,11 @@ class Solver {
     return check_after(check);
   }
 
+  // Frees the pilots' sums as soon as no result will be made from them.
+  void release_fallback() {
+    if (fallback_ && series_->sums.replicates >= 2 && series_->traced() >= fallback_->traced()) fallback_.reset();
+  }
+
   void keep_fallback() {
     if (series_ && series_->sums.replicates >= 2) {
       fallback_ = std::move(series_);
@@ -270,7 +279,7 @@ class Solver {
 
   void keep_state() const {
     if (!monitor_.receive_state || series_->sums.replicates < 2 || planner_.fitted_to_time()) return;
-    monitor_.receive_state({work_, next_check_, good_checks_, plain_sums(series_->sums)});
+    monitor_.receive_state({work_, next_check_, good_checks_, pieces_of(series_->sums)});
   }
 
   // Returns true if the next replicate would need more rays than are left.
@@ -294,14 +303,15 @@ class Solver {
     } else if (!series_) {
       begin(first_pilot);
     }
-    RadiationResult result = result_of_series(*series_, reason);
+    RadiationResult result = figures_of_series(*series_, reason);
     result.work = work_;
     result.next_work = planner_.next(work_, outcome());
+    move_arrays(series_->sums, result);
     return result;
   }
 
-  [[nodiscard]] RadiationResult result_of_series(const Series& series, StopReason reason) const {
-    RadiationResult result = result_of(series.sums, settings_.accuracy.confidence);
+  [[nodiscard]] RadiationResult figures_of_series(const Series& series, StopReason reason) const {
+    RadiationResult result = figures_of(series.sums, settings_.accuracy.confidence);
     result.stop = reason;
     result.direct.replicates = series.sums.replicates;
     result.direct.rays = series.sums.replicates * series.grid_rays;

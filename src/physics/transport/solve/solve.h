@@ -67,7 +67,7 @@ struct Monitor {
   // stopped run it is handed over in any case. There is no state before the second replicate, nor for a run whose work was
   // fitted to max_seconds.
   std::function<bool()> wants_state;
-  std::function<void(const SolveState&)> receive_state;
+  std::function<void(const SolveStateView&)> receive_state;
   std::function<double()> clock_s;  // called by several threads; empty: the steady clock
 };
 
@@ -75,6 +75,7 @@ struct Monitor {
 struct RunForecast {
   Work work;                     // of one replicate
   double replicate_bytes = 0.0;  // memory of one replicate while it is made
+  double side_bytes = 0.0;       // the part of it that its sums by side take
   std::size_t at_once = 1;       // replicates made at the same time
 };
 

@@ -7,21 +7,68 @@
 #include "physics/transport/solve/run_sums.h"
 
 #include <optional>
+#include <span>
 #include <type_traits>
+#include <utility>
 
 namespace sunfleck {
+namespace {
+
+// Returns the integers of the sums, or their other numbers.
+template <class T>
+NumberPieces<T> numbers_of(const RunSums& sums) {
+  return [&sums](const std::function<void(std::span<const T>)>& take) {
+    constexpr std::size_t most = 8192;
+    std::vector<T> piece;
+    piece.reserve(most);
+    const EachNumber collect([&](auto number) {
+      if constexpr (std::is_integral_v<decltype(number)> == std::is_integral_v<T>) {
+        piece.push_back(static_cast<T>(number));
+        if (piece.size() < most) return;
+        take(piece);
+        piece.clear();
+      }
+    });
+    RunSums::visit(sums, collect);
+    take(piece);
+  };
+}
+
+template <class T>
+NumberPieces<T> one_piece(const std::vector<T>& values) {
+  return [&values](const std::function<void(std::span<const T>)>& take) { take(values); };
+}
+
+template <class T>
+std::vector<T> all_of(const NumberPieces<T>& pieces) {
+  std::vector<T> values;
+  pieces([&](std::span<const T> piece) { values.insert(values.end(), piece.begin(), piece.end()); });
+  return values;
+}
+
+PlainSums copied(const SumPieces& pieces) {
+  return {all_of(pieces.integers), all_of(pieces.reals)};
+}
+
+}  // namespace
+
+SumPieces pieces_of(const RunSums& sums) {
+  return {numbers_of<std::int64_t>(sums), numbers_of<double>(sums)};
+}
 
 PlainSums plain_sums(const RunSums& sums) {
-  PlainSums plain;
-  const EachNumber write([&](auto number) {
-    if constexpr (std::is_integral_v<decltype(number)>) {
-      plain.integers.push_back(static_cast<std::int64_t>(number));
-    } else {
-      plain.reals.push_back(number);
-    }
-  });
-  RunSums::visit(sums, write);
-  return plain;
+  return copied(pieces_of(sums));
+}
+
+SolveStateView::SolveStateView(Work of_work, std::size_t check, std::size_t good, SumPieces pieces)
+    : work(of_work), next_check(check), good_checks(good), sums(std::move(pieces)) {}
+
+SolveStateView::SolveStateView(const SolveState& state)
+    : SolveStateView(state.work, state.next_check, state.good_checks,
+                     {one_piece(state.sums.integers), one_piece(state.sums.reals)}) {}
+
+SolveStateView::operator SolveState() const {
+  return {work, next_check, good_checks, copied(sums)};
 }
 
 bool restore(RunSums& sums, const PlainSums& plain) {

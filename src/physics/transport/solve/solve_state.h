@@ -1,6 +1,7 @@
 #pragma once
 // The state of a run between two replicates: everything needed to resume it as if it had never stopped.
 
+#include "base/number_pieces.h"
 #include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/model.h"
@@ -25,9 +26,16 @@ struct PlainSums {
   std::vector<double> reals;
 };
 
-// Returns everything that other sums with the same conversion need to continue. The number of values depends only on the
-// model and on the element errors.
+// The same numbers, read where they are: a copy of them all would be the largest array of a run.
+struct SumPieces {
+  NumberPieces<std::int64_t> integers;
+  NumberPieces<double> reals;
+};
+
+// Return everything that other sums with the same conversion need to continue. The number of values depends only on the
+// model and on the element errors. The sums must outlive their pieces.
 [[nodiscard]] PlainSums plain_sums(const RunSums& sums);
+[[nodiscard]] SumPieces pieces_of(const RunSums& sums);
 
 // Takes them over. Returns false if there are too few or too many.
 [[nodiscard]] bool restore(RunSums& sums, const PlainSums& plain);
@@ -40,6 +48,18 @@ struct SolveState {
   PlainSums sums;
 
   [[nodiscard]] std::size_t replicates() const;
+};
+
+// A state as it is handed over and written; what it is made of must outlive it.
+struct SolveStateView {
+  SolveStateView(Work of_work, std::size_t check, std::size_t good, SumPieces pieces);
+  SolveStateView(const SolveState& state);  // NOLINT(google-explicit-constructor): a view of the state
+  operator SolveState() const;              // NOLINT(google-explicit-constructor): a copy
+
+  Work work;
+  std::size_t next_check = first_check;
+  std::size_t good_checks = 0;
+  SumPieces sums;
 };
 
 // Returns an empty state with arrays as large as those of such runs, and with the least work they can have.

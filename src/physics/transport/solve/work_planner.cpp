@@ -150,7 +150,12 @@ std::size_t WorkPlanner::at_once(const Work& work) const {
 }
 
 double WorkPlanner::replicate_bytes(const Work& work) const {
-  return maker_.sum_bytes() + (maker_.has_indirect_pass() ? memory_.bytes(ray_counts(work)) : 0.0);
+  if (!maker_.has_indirect_pass()) return maker_.sum_bytes();
+  return maker_.sum_bytes() - maker_.most_side_bytes() + side_bytes(work) + memory_.bytes(ray_counts(work));
+}
+
+double WorkPlanner::side_bytes(const Work& work) const {
+  return memory_.side_bytes(ray_counts(work), maker_.most_side_bytes());
 }
 
 double WorkPlanner::grid_rays_asked() const {

@@ -56,6 +56,8 @@ class WorkPlanner {
   [[nodiscard]] std::size_t at_once(const Work& work) const;
   // Returns the memory of a replicate while it is made, in bytes.
   [[nodiscard]] double replicate_bytes(const Work& work) const;
+  // Returns the part of it that its sums by side take.
+  [[nodiscard]] double side_bytes(const Work& work) const;
   // Records the memory that a replicate took.
   void learn(const Work& work, const IndirectSums& packets) { memory_.learn(ray_counts(work), packets); }
 

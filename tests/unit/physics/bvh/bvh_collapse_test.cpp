@@ -6,6 +6,8 @@
 #include "support/bvh_check.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 #include <numbers>
 
 namespace sunfleck::testing_bvh {
@@ -71,18 +73,30 @@ TEST(BinaryTree, HalvesAMillionIdenticalTriangles) {
   EXPECT_LE(bvh.depth, 20);  // ceil(log2 1e6) binary levels; at worst each level becomes a level of nodes
 }
 
-// Builds a chain of 80 nodes, each with a subtree of eight triangles. The chain's boxes are so small that opening a chain node
-// never pays, while opening its subtree does: the plan puts one link of the chain into each level, 80 levels in all.
+// Returns eight small triangles at the corners of a cube; each two that follow each other lie at opposite corners.
+std::vector<Triangle> cube(float size) {
+  std::vector<Triangle> triangles;
+  for (const int corner : {0, 7, 1, 6, 2, 5, 4, 3}) {
+    const glm::vec3 at = size * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    const float width = 0.01F * size;
+    triangles.push_back({at, at + glm::vec3(width, 0.0F, 0.0F), at + glm::vec3(0.0F, width, width)});
+  }
+  return triangles;
+}
+
+// Builds a chain of 60 nodes, each with a subtree of eight triangles, in cubes that lie in one another. Opening a link's own cube
+// saves more than opening the smaller cubes inside it: the plan puts one link of the chain into each level, 60 levels in all.
 TEST(Collapse, StaysWithinTheDepthWhateverThePlan) {
-  constexpr std::uint32_t links = 80;
-  const Canopy canopy = isolated(scattered(8 * links + 1, 1.0, 0.5, 7));
+  constexpr std::uint32_t links = 60;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t link = 0; link <= links; ++link) {
+    const std::vector<Triangle> own = cube(std::pow(0.55F, static_cast<float>(link)));
+    triangles.insert(triangles.end(), own.begin(), link < links ? own.end() : own.begin() + 1);
+  }
+  const Canopy canopy = isolated(triangles);
   BinaryTree tree = unordered(canopy);
-  const auto add = [&](std::uint32_t left_count, float size) {
-    tree.nodes.push_back({{0.0F, 0.0F, 0.0F}, left_count, {size, size, size}, 0});
-  };
   for (std::uint32_t link = 0; link < links; ++link) {
-    add(8, 1e-6F);
-    for (const std::uint32_t left_count : {4U, 2U, 1U, 1U, 2U, 1U, 1U}) add(left_count, 3.0F);
+    for (const std::uint32_t left_count : {8U, 4U, 2U, 1U, 1U, 2U, 1U, 1U}) tree.nodes.push_back({left_count, 0});
   }
   ASSERT_EQ(tree.nodes.size() + 1, tree.items.size());
   const auto whole = static_cast<std::uint32_t>(tree.items.size());
@@ -102,9 +116,9 @@ struct Greedy {
 };
 
 double half_area(const BinaryTree& tree, const Subtree& s) {
-  if (s.count == 1) return tree.items[s.first].box.half_area();
-  const auto& [lo, left_count, hi, plan] = tree.nodes[s.node];
-  return DoubleBox{corner(lo), corner(hi)}.half_area();
+  detail::Bounds box = detail::nothing;
+  for (std::uint32_t i = s.first; i < s.first + s.count; ++i) box.grow(tree.items[i].box);
+  return box.half_area();
 }
 
 // Performs the usual collapse: opens the child with the largest area until there are eight; up to three triangles make a leaf.

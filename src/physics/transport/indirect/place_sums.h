@@ -1,0 +1,83 @@
+#pragma once
+// Integer sums for very many places, of which only a few may be reached: in a stand of ten million triangles most sides meet none
+// of a replicate's packets.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace sunfleck {
+
+// Keeps what was added as a list while that takes at most a quarter of the memory of all sums, and all sums from then on. The
+// sums are the same either way.
+class PlaceSums {
+ public:
+  PlaceSums() = default;  // no place
+
+  // Holds `width` sums, all 0, for each of `places` places. There are fewer than 2^32 places.
+  PlaceSums(std::size_t places, std::size_t width) : places_(places), width_(width) {}
+
+  // Returns the number of sums, places times width.
+  [[nodiscard]] std::size_t size() const { return places_ * width_; }
+
+  // Returns the memory taken, in bytes.
+  [[nodiscard]] std::size_t bytes() const;
+
+  // Returns the memory that sums take which would be a list of `list_bytes`, or all of `all_bytes`.
+  [[nodiscard]] static double likely_bytes(double list_bytes, double all_bytes);
+
+  // Adds `values`, one for each sum of the place.
+  void add(std::size_t place, std::span<const std::int64_t> values);
+
+  // Adds the sums of `other`, which has as many, or none.
+  void add(const PlaceSums& other);
+
+  // Return all sums, [place * width + k]; `take_all` leaves no place behind.
+  [[nodiscard]] std::vector<std::int64_t> all() const;
+  [[nodiscard]] std::vector<std::int64_t> take_all();
+
+  // Passes all sums to `archive` in their order, one by one; those of a const object are written, others are filled.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    if constexpr (std::is_const_v<Self>) {
+      const PlaceSums ordered = self.is_list() ? self.merged() : PlaceSums();
+      const PlaceSums& sums = self.is_list() ? ordered : self;
+      std::size_t entry = 0;
+      for (std::size_t place = 0; place < self.places_; ++place) {
+        const bool listed = self.is_list() && entry < sums.at_.size() && sums.at_[entry] == place;
+        for (std::size_t k = 0; k < self.width_; ++k) {
+          std::int64_t value = 0;
+          if (!self.is_list()) value = sums.values_[place * self.width_ + k];
+          if (listed) value = sums.values_[entry * self.width_ + k];
+          archive(value);
+        }
+        entry += listed ? 1 : 0;
+      }
+    } else {
+      std::vector<std::int64_t> values(self.width_);
+      self = PlaceSums(self.places_, self.width_);
+      for (std::size_t place = 0; place < self.places_; ++place) {
+        bool any = false;
+        for (std::int64_t& value : values) {
+          archive(value);
+          any = any || value != 0;
+        }
+        if (any) self.add(place, values);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_list() const { return !all_; }
+  [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
+  void keep_within_limit();
+
+  std::size_t places_ = 0, width_ = 0;
+  bool all_ = false;                  // the form: all sums, or a list
+  std::vector<std::uint32_t> at_;     // [entry], place; empty in the form of all sums
+  std::vector<std::int64_t> values_;  // [entry * width + k] or [place * width + k]
+};
+
+}  // namespace sunfleck
