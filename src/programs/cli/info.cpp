@@ -6,11 +6,8 @@
 #include "base/units.h"
 #include "devices/gpu/context.h"
 #include "physics/light/sun_events.h"
-<<<<<<< HEAD
-#include "programs/cli/info_mesh.h"
-=======
 #include "physics/transport/model/surfaces.h"
->>>>>>> core
+#include "programs/cli/info_mesh.h"
 #include "programs/cli/terminal.h"
 #include "simulate/memory_forecast.h"
 #include "simulate/scene_source.h"
