@@ -13,7 +13,7 @@ namespace {
 // value.
 double unshot_share(const RadiationResult& result, std::size_t band) {
   const FluxLedger& ledger = result.bands[band].ledger;
-  const auto absorbed = static_cast<double>(ledger.absorbed_vegetation + ledger.absorbed_soil);
+  const auto absorbed = static_cast<double>(ledger.absorbed());
   return absorbed > 0.0 ? static_cast<double>(ledger.unshot) / absorbed : 0.0;
 }
 

@@ -94,9 +94,9 @@ void expect_summary_keys(const json& summary) {
   expect_keys(summary["indirect"], {"packets", "rounds", "relative_error", "bound", "seconds"});
   expect_keys(summary["seconds"], {"load", "bvh", "device", "direct", "indirect", "write", "total"});
   for (const json& band : summary["bands"]) {
-    expect_keys(band, {"name", "incident", "absorbed_vegetation", "absorbed_soil", "reflected", "transmitted", "unshot",
-                       "residual", "error"});
-    expect_keys(band["error"], {"absorbed_vegetation", "absorbed_soil", "reflected", "transmitted"});
+    expect_keys(band, {"name", "incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected",
+                       "transmitted", "unshot", "residual", "error"});
+    expect_keys(band["error"], {"absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected", "transmitted"});
   }
 }
 
@@ -108,7 +108,8 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
   for (const json& band : summary_["bands"]) {
     EXPECT_EQ(band["residual"], 0);
     double sum = 0.0;
-    for (const char* key : {"absorbed_vegetation", "absorbed_soil", "reflected", "transmitted", "unshot"}) {
+    for (const char* key :
+         {"absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected", "transmitted", "unshot"}) {
       EXPECT_GE(band[key], 0.0) << key;
       sum += band[key].get<double>();
     }
@@ -119,7 +120,8 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
   EXPECT_EQ(
       profile.header(),
       header("height_m,leaf_area_index,sunfleck_ratio,sunfleck_ratio_error,sunlit_leaf_fraction,sunlit_leaf_fraction_error",
-             {"_down", "_down_error", "_up", "_up_error", "_absorbed", "_absorbed_error"}));
+             {"_down", "_down_error", "_up", "_up_error", "_absorbed", "_absorbed_error", "_absorbed_structure",
+              "_absorbed_structure_error"}));
   EXPECT_EQ(profile.size(), static_cast<std::size_t>(layers()) + 1);
   const Table organs(file("organs.csv"));
   std::string organ_columns = "plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error";
@@ -128,7 +130,7 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
     organ_columns += "," + name + "_direct," + name + "_indirect," + name + "_absorbed," + name + "_error";
     if (band.contains("umol_m2_s")) organ_columns += "," + name + "_absorbed_umol_m2_s";
   }
-  EXPECT_EQ(organs.header(), organ_columns);
+  EXPECT_EQ(organs.header(), organ_columns + ",role");
   EXPECT_EQ(organs.size(), summary_["organs"]);
   const Table triangles(file("triangles.csv"));
   std::vector<std::string> of_band{"_direct_upper", "_direct_lower"};
@@ -141,7 +143,7 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
     EXPECT_EQ(table->comments()[0], "# " + summary_["scene"].get<std::string>());
     for (std::size_t row = 0; row < table->size(); ++row) {
       for (const std::string& column : table->columns()) {
-        if (column != "organ") static_cast<void>(table->number(row, column));
+        if (column != "organ" && column != "role") static_cast<void>(table->number(row, column));
       }
     }
   }
@@ -188,11 +190,15 @@ TEST_P(Scenes, AgreeWithThemselves) {
   for (std::size_t b = 0; b < bands_.size(); ++b) {
     const std::string& band = bands_[b];
     double absorbed = 0.0;
+    double absorbed_by_structures = 0.0;
     double direct = 0.0;
     for (std::size_t o = 0; o < organs.size(); ++o) {
       const double area_m2 = organs.number(o, "area_m2");
       direct += area_m2 * organs.number(o, band + "_direct") / plot_m2;
-      if (organs.cell(o, "organ").rfind("soil", 0) != 0) absorbed += area_m2 * organs.number(o, band + "_absorbed") / plot_m2;
+      const std::string role = organs.cell(o, "role");
+      if (role == "soil") continue;
+      (role == "structure" || role == "lamp" ? absorbed_by_structures : absorbed) +=
+          area_m2 * organs.number(o, band + "_absorbed") / plot_m2;
     }
     double direct_of_triangles = 0.0;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -200,11 +206,17 @@ TEST_P(Scenes, AgreeWithThemselves) {
                              (triangles.number(t, band + "_direct_upper") + triangles.number(t, band + "_direct_lower"));
     }
     double absorbed_in_layers = 0.0;
-    for (std::size_t k = 0; k + 1 < profile.size(); ++k) absorbed_in_layers += profile.number(k, band + "_absorbed");
+    double by_structures_in_layers = 0.0;
+    for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
+      absorbed_in_layers += profile.number(k, band + "_absorbed");
+      by_structures_in_layers += profile.number(k, band + "_absorbed_structure");
+    }
     const json& balance = summary_["bands"][b];
     const double incident = balance["incident"];
     EXPECT_NEAR(absorbed, balance["absorbed_vegetation"], table_rounding * incident);
     EXPECT_NEAR(absorbed_in_layers, balance["absorbed_vegetation"], table_rounding * incident);
+    EXPECT_NEAR(absorbed_by_structures, balance["absorbed_structure"], table_rounding * incident);
+    EXPECT_NEAR(by_structures_in_layers, balance["absorbed_structure"], table_rounding * incident);
     EXPECT_NEAR(direct, direct_of_triangles, table_rounding * incident);
     if (periodic()) {
       if (!has_sky()) {
@@ -218,7 +230,9 @@ TEST_P(Scenes, AgreeWithThemselves) {
       for (std::size_t k = 0; k < profile.size(); ++k) {
         const double net = profile.number(k, band + "_down") - profile.number(k, band + "_up");
         EXPECT_NEAR(net, below, double{balance["unshot"]} + table_rounding * incident) << k;
-        if (k + 1 < profile.size()) below += profile.number(k, band + "_absorbed");
+        if (k + 1 < profile.size()) {
+          below += profile.number(k, band + "_absorbed") + profile.number(k, band + "_absorbed_structure");
+        }
       }
     }
   }

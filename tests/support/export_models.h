@@ -77,7 +77,7 @@ inline RadiationModel maize_on_soil() {
   model.bands = {{"PAR", 350.0, 0.0}, {"NIR", 400.0, 0.0}};
   for (const std::string& name : model.canopy.optics_names) {
     const bool is_leaf = name == "leaf";
-    const std::vector<FaceOptics> faces = is_soil_name(name) ? std::vector<FaceOptics>{{0.15, 0.0}, {0.35, 0.0}}
+    const std::vector<FaceOptics> faces = role_from_name(name) == Role::soil ? std::vector<FaceOptics>{{0.15, 0.0}, {0.35, 0.0}}
                                           : is_leaf          ? std::vector<FaceOptics>{{0.12, 0.06}, {0.40, 0.45}}
                                                              : std::vector<FaceOptics>{{0.12, 0.0}, {0.40, 0.0}};
     model.optics.push_back({name, faces, faces, {}});

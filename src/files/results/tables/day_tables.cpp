@@ -72,7 +72,7 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
               {dates.size(), organs.size()},
               {}};
   table.add({"date", "", "local date", outputs, by_date}, [&](std::size_t d) { return course.dates[dates[d]]; });
-  add_organ_names(table, model, 1);
+  add_organ_names(table, organs, 1);
   table.add({"area_m2", "m2", "one-sided area", outputs, by_organ}, organ_areas_m2(model.canopy));
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const std::string& band = model.bands[b].name;
@@ -88,6 +88,7 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
     table.add({band + "_absorbed_mol_m2", "mol m-2", "photons absorbed by both faces per one-sided area"},
               [&](std::size_t row) { return joules(row).value * umol_per_joule * per_mega; });
   }
+  add_organ_roles(table, model, 1);
   return table;
 }
 

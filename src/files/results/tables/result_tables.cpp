@@ -49,9 +49,7 @@ Table table_of_sensors(const RadiationModel& model, const RadiationResult& resul
 
 }  // namespace
 
-void add_organ_names(Table& table, const RadiationModel& model, std::size_t axis) {
-  const std::vector<Organ>& organs = model.canopy.organs;
-  const std::vector<Role> roles = organ_roles(model);
+void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t axis) {
   const std::vector<std::size_t> along{axis};
   const auto add = [&](const char* name, const char* unit, const char* meaning, const auto part) {
     table.add({name, unit, meaning, in_csv | in_arrays, along}, [&](std::size_t o) { return organs[o].*part; });
@@ -59,7 +57,11 @@ void add_organ_names(Table& table, const RadiationModel& model, std::size_t axis
   add("plant", "1", "number of the plant, 0 for soil", &Organ::plant);
   add("organ", "", "name of the organ", &Organ::name);
   add("rank", "1", "leaf number from the ground, 0 for organs without one", &Organ::rank);
-  table.add({"role", "", "leaf, stem, fruit, structure, lamp or soil", in_csv | in_arrays, along},
+}
+
+void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis) {
+  const std::vector<Role> roles = organ_roles(model);
+  table.add({"role", "", "leaf, stem, fruit, structure, lamp or soil", in_csv | in_arrays, std::vector<std::size_t>{axis}},
             [&](std::size_t o) { return std::string(role_name(roles[o])); });
 }
 
@@ -73,7 +75,7 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
       {},
       {organs.size()},
       {}};
-  add_organ_names(table, model, 0);
+  add_organ_names(table, organs, 0);
   table.add({"area_m2", "m2", "one-sided area"}, [&](std::size_t o) { return light[o].area_m2; });
   table.add({"sunlit_fraction", "1", "share of the area in direct sun"},
             [&](std::size_t o) { return as_share(light[o].sunlit_fraction); });
@@ -92,6 +94,7 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
     table.add({band + "_absorbed_umol_m2_s", "umol m-2 s-1", "photons absorbed by both faces per one-sided area"},
               [&](std::size_t o) { return light[o].absorbed[b].value * umol_per_joule; });
   }
+  add_organ_roles(table, model, 0);
   return table;
 }
 

@@ -11,7 +11,10 @@
 namespace sunfleck {
 
 // Adds plant, name and rank of each organ, which vary along one axis of the table.
-void add_organ_names(Table& table, const RadiationModel& model, std::size_t axis);
+void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t axis);
+
+// Adds the column `role` of organs, which lie along that axis of the table.
+void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis);
 
 // organs.csv: one row per organ of the canopy, in its order, including soil elements of a mesh (organ soil; plant 0 in a .can).
 // The ground of [soil] is not an organ and has no row; absorbed_soil in the summary covers both.

@@ -40,8 +40,13 @@ DayCourse three_steps() {
 }
 
 StepLight light(double w_m2, double half_width, double unshot) {
-  const StepBand band{
-      {w_m2, 0.0}, {0.5 * w_m2, half_width}, {0.25 * w_m2, half_width}, {0.125 * w_m2, half_width}, {0.0, half_width}, unshot};
+  const StepBand band{{w_m2, 0.0},
+                      {0.5 * w_m2, half_width},
+                      {0.0625 * w_m2, half_width},
+                      {0.25 * w_m2, half_width},
+                      {0.125 * w_m2, half_width},
+                      {0.0, half_width},
+                      unshot};
   return {{band, band}, {{w_m2, half_width}, {2.0 * w_m2, half_width}, {0.0, 0.0}, {3.0 * w_m2, none}}, {0.5, 0.01}};
 }
 
