@@ -35,9 +35,9 @@ void check_mesh(const Mesh& mesh) {
 
 template <int Number>
 void feed_mesh(std::string_view bytes) {
-  static constexpr std::array names{"a.gltf", "a.glb", "a.obj", "a.ply", "a.stl", "a.can", "a.can.gz"};
+  static constexpr std::array names{"a.gltf", "a.glb", "a.obj", "a.ply", "a.stl", "a.can", "a.can.gz", "a.dae", "a.opf"};
   const std::filesystem::path file = write(names[Number], bytes);
-  read_or_refuse([&] { check_mesh(read_mesh(file, {.optics = "leaf", .up = std::nullopt})); });
+  read_or_refuse([&] { check_mesh(read_mesh(file, {.optics = "leaf", .up = std::nullopt, .split = OrganSplit::parts})); });
 }
 
 void check_scene(const Scene& scene) {
@@ -130,13 +130,13 @@ void feed_pictures(std::string_view bytes) {
 }
 
 constexpr std::array all_targets{
-    Target{"scene", feed_scene},        Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
-    Target{"obj", feed_mesh<2>},        Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
-    Target{"can", feed_mesh<5>},        Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
-    Target{"station", feed_station},    Target{"epw", feed_epw},        Target{"measured", feed_measured},
-    Target{"pictures", feed_pictures},  Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
-    Target{"spectrum", feed_spectrum},  Target{"opt", feed_opt},        Target{"domain", feed_domain},
-    Target{"run_state", feed_run_state}};
+    Target{"scene", feed_scene},       Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
+    Target{"obj", feed_mesh<2>},       Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
+    Target{"can", feed_mesh<5>},       Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
+    Target{"station", feed_station},   Target{"epw", feed_epw},        Target{"measured", feed_measured},
+    Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
+    Target{"spectrum", feed_spectrum}, Target{"dae", feed_mesh<7>},    Target{"opf", feed_mesh<8>},
+    Target{"opt", feed_opt},           Target{"domain", feed_domain},  Target{"run_state", feed_run_state}};
 
 }  // namespace
 

@@ -45,6 +45,8 @@ std::vector<Reader> readers_of_text() {
       {"a.can", can_square(), read_any_mesh},
       {"a.stl", stl_text_square(), read_any_mesh},
       {"a.ply", ply_text_square(), read_any_mesh},
+      {"a.dae", dae_square(), read_any_mesh},
+      {"a.opf", opf_square(), read_any_mesh},
       {"a.gltf", R"({"asset":{"version":"2.0"}})", read_any_mesh},
       {"a.opt", grey_opt, [](const fs::path& file) { static_cast<void>(read_opt(file)); }},
       {"a.8", filter_domain, [](const fs::path& file) { static_cast<void>(read_domain(file)); }},

@@ -28,7 +28,7 @@ namespace {
 
 // Nodes that instances repeat may make a scene this much larger than its file; see most_vertices.
 constexpr std::size_t harmless_growth = 16;
-constexpr std::size_t harmless_count = std::size_t{1} << 22;
+constexpr std::size_t harmless_count = std::size_t{1} << 20;
 constexpr int deepest_instance = 100;
 
 struct DaeVisit {

@@ -242,8 +242,8 @@ class PlyReader {
     const std::vector<std::string> names = colours_.names();
     if (colours_.mixed_faces() > 0)
       warn(
-          printable(fmt::format("{}: its vertex colours name no organs ({} faces have corners of different colours); give each "
-                                "face one colour, or split = \"parts\"",
+          printable(fmt::format("{}: its vertex colours name no organs (corners of different colours in {} of its faces); "
+                                "give every face one colour, or add split = \"parts\" to the scene's [[geometry]]",
                                 source_.file.string(), colours_.mixed_faces())));
     if (names.empty() && builder_.triangle_count() == 0) return;
     if (names.empty()) {

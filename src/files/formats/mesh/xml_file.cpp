@@ -25,7 +25,8 @@ std::string_view next_xml_word(std::string_view& text) {
 }  // namespace
 
 XmlFile::XmlFile(const MeshSource& source) : source_(source) {
-  const pugi::xml_parse_result result = document_.load_buffer(source.bytes.data(), source.bytes.size());
+  const pugi::xml_parse_result result =
+      document_.load_buffer(source.bytes.data(), source.bytes.size(), pugi::parse_default, pugi::encoding_utf8);
   if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   if (!result) refuse(source, line_at(result.offset), "is not well-formed XML", result.description(), "export the file again");
 }

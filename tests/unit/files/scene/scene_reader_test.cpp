@@ -268,6 +268,22 @@ TEST_F(SceneReader, DoubtsWhatIsSeldomMeant) {
   EXPECT_TRUE(read(bare_scene).warnings.empty());
 }
 
+TEST_F(SceneReader, SplitsTheOrgansOfAMesh) {
+  write(folder_ / "pieces.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 2 0\nv 1 2 0\nv 1 3 0\no rosette\nf 1 2 3\nf 4 5 6\n");
+  const auto organs = [&](const std::string& more) {
+    return read(bare_scene + "[optics.leaf]\nreflectance = 0.1\n[[geometry]]\nfile = \"pieces.obj\"\noptics = \"leaf\"\n" +
+                more)
+        .model.canopy.organs;
+  };
+  EXPECT_EQ(organs(""), (std::vector<Organ>{{1, "rosette", 0}}));
+  EXPECT_EQ(organs("split = \"names\"\n"), organs(""));
+  EXPECT_EQ(organs("split = \"parts\"\n"), (std::vector<Organ>{{1, "rosette", 1}, {1, "rosette", 2}}));
+  EXPECT_EQ(organs("split = \"materials\"\n"), organs(""));
+  const auto message = message_of([&] { static_cast<void>(organs("split = \"pieces\"\n")); });
+  ASSERT_TRUE(message);
+  EXPECT_NE(message->find("geometry.split"), std::string::npos) << *message;
+}
+
 TEST_F(SceneReader, WarnsOfUnusedOptics) {
   const Scene scene = read(good_scene + "[optics.ear]\nreflectance = 0.2\n");
   ASSERT_EQ(scene.warnings.size(), 1U);

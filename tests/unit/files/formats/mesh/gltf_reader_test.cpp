@@ -136,7 +136,7 @@ TEST(GltfReader, OrgansFromExtrasNamesAndParents) {
   document["scenes"][0]["nodes"] = {0, 4, 5};
   const Mesh mesh = read_glb(document);
   EXPECT_EQ(mesh.organs,
-            (std::vector<Organ>{{4000000000U, "leaf", 7}, {5, "stem", 0}, {6, "ear", 2}, {1, "leaf", 0}, {9, "leaf", 3}}));
+            (std::vector<Organ>{{4000000000U, "leaf", 7}, {5, "stem", 0}, {6, "ear", 2}, {1, "Cube", 0}, {9, "leaf", 3}}));
   EXPECT_EQ(mesh.triangles.size(), 10U);
 }
 
