@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace sunfleck::test::differential {
@@ -37,6 +38,8 @@ const char* word(Of of) {
   switch (of) {
     case Of::absorbed_vegetation:
       return "absorbed by vegetation";
+    case Of::absorbed_structure:
+      return "absorbed by structures";
     case Of::absorbed_soil:
       return "absorbed by soil";
     case Of::reflected:
@@ -69,6 +72,8 @@ const char* word(Of of) {
       return "light up in row";
     case Of::row_absorbed:
       return "absorbed in row";
+    case Of::row_structure:
+      return "absorbed by structures in row";
     case Of::plane_ratio:
       return "sunfleck ratio of plane";
     case Of::plane_down:
@@ -96,7 +101,7 @@ std::vector<Figure> figures_of(const RadiationModel& model) {
   };
   const std::size_t bands = model.bands.size();
   const auto rows = static_cast<std::size_t>(model.layers);
-  add({Of::absorbed_vegetation, Of::absorbed_soil, Of::reflected, Of::transmitted}, 1, bands);
+  add({Of::absorbed_vegetation, Of::absorbed_structure, Of::absorbed_soil, Of::reflected, Of::transmitted}, 1, bands);
   add({Of::sunlit_leaves, Of::sunlit_ground}, 1, 1);
   add({Of::organ_sunlit}, model.canopy.organs.size(), 1);
   add({Of::organ_direct, Of::organ_indirect, Of::organ_absorbed}, model.canopy.organs.size(), bands);
@@ -105,7 +110,7 @@ std::vector<Figure> figures_of(const RadiationModel& model) {
   add({Of::row_ratio}, rows + 1, 1);
   add({Of::row_sunlit}, rows, 1);
   add({Of::row_down, Of::row_up}, rows + 1, bands);
-  add({Of::row_absorbed}, rows, bands);
+  add({Of::row_absorbed, Of::row_structure}, rows, bands);
   add({Of::plane_ratio}, model.planes.size(), 1);
   add({Of::plane_down}, model.planes.size(), bands);
   add({Of::sensor_direct, Of::sensor_sky, Of::sensor_scattered}, model.sensors.size(), bands);
@@ -129,6 +134,8 @@ Stated stated(const RadiationModel& model, const RadiationResult& result, const 
   switch (figure.of) {
     case Of::absorbed_vegetation:
       return less(total.absorbed_vegetation, total.unshot);
+    case Of::absorbed_structure:
+      return less(total.absorbed_structure, std::min(total.unshot, total.absorbed_structure.half_width));
     case Of::absorbed_soil:
       return less(total.absorbed_soil, total.unshot);
     case Of::reflected:
@@ -162,6 +169,8 @@ Stated stated(const RadiationModel& model, const RadiationResult& result, const 
       return plain(result.layers[place].up[band]);
     case Of::row_absorbed:
       return finer(result.layers[place].absorbed[band]);
+    case Of::row_structure:
+      return finer(result.layers[place].absorbed_structure[band]);
     case Of::plane_ratio:
       return plain(result.planes[place].sunfleck_ratio);
     case Of::plane_down:

@@ -12,6 +12,7 @@ namespace sunfleck::test::differential {
 
 enum class Of {
   absorbed_vegetation,
+  absorbed_structure,  // by structures and lamps
   absorbed_soil,
   reflected,
   transmitted,
@@ -28,6 +29,7 @@ enum class Of {
   row_down,
   row_up,
   row_absorbed,
+  row_structure,  // absorbed by structures and lamps in the row
   plane_ratio,
   plane_down,
   sensor_direct,

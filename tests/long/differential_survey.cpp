@@ -54,11 +54,17 @@ Survey::Survey(const RadiationModel& model, const World& world, const Light& lig
 void Survey::find_roles(const RadiationModel& model) {
   const auto name_of = [&](std::size_t e) -> const std::string& { return model.canopy.organs[model.canopy.organ_of[e]].name; };
   bool leaves = false;
+  bool plants = false;
   for (std::size_t e = 0; e < model.canopy.size(); ++e) {
     soil_.push_back(name_of(e) == "soil");
+    structure_.push_back(name_of(e) == "wall" || name_of(e) == "lamp");
     leaves = leaves || name_of(e).starts_with("leaf");
+    plants = plants || !(soil_[e] || structure_[e]);
   }
-  for (std::size_t e = 0; e < soil_.size(); ++e) foliage_.push_back(!soil_[e] && (!leaves || name_of(e).starts_with("leaf")));
+  if (!plants) structure_.assign(structure_.size(), false);
+  for (std::size_t e = 0; e < soil_.size(); ++e) {
+    foliage_.push_back(!soil_[e] && !structure_[e] && (!leaves || name_of(e).starts_with("leaf")));
+  }
 }
 
 void Survey::find_facing(const RadiationModel& model, const World& world, const Light& light) {

@@ -21,13 +21,14 @@ bool is_above(const Height& height, double plane_y_m) {
 
 Tally::Tally(const RadiationModel& model, const Survey& survey)
     : model_(model), survey_(survey), bands_(model.bands.size()), vegetation_w_(bands_) {
-  soil_w_ = reflected_w_ = transmitted_w_ = vegetation_w_;
+  structure_w_ = soil_w_ = reflected_w_ = transmitted_w_ = vegetation_w_;
   side_beam_w_.resize(2 * model.canopy.size() * bands_);
   side_other_w_ = side_beam_w_;
   const auto rows = static_cast<std::size_t>(model.layers);
   row_down_w_.resize((rows + 1) * bands_);
   row_up_w_ = row_down_w_;
   row_absorbed_w_.resize(rows * bands_);
+  row_structure_w_ = row_absorbed_w_;
   plane_down_w_.resize(model.planes.size() * bands_);
   plane_reached_m2_.resize(model.planes.size());
   plane_crossing_m2_.resize(model.planes.size());
@@ -97,12 +98,13 @@ void Tally::land_on_element(const Landing& landing, std::span<const double> flux
   const SurfaceOptics& optics = model_.optics[model_.canopy.optics_of[landing.element]];
   const std::vector<FaceOptics>& face = landing.side == 0 ? optics.upper : optics.lower;
   const bool soil = survey_.is_soil(landing.element);
+  const bool structure = survey_.is_structure(landing.element);
   const std::size_t row = soil ? 0 : survey_.row_at(landing.point_m.y);
   for (std::size_t b = 0; b < bands_; ++b) {
     side_w[(2 * landing.element + landing.side) * bands_ + b] += flux_w[b];
     const double absorbed_w = flux_w[b] * (1.0 - face[b].reflectance - face[b].transmittance);
-    (soil ? soil_w_ : vegetation_w_)[b] += absorbed_w;
-    if (!soil) row_absorbed_w_[row * bands_ + b] += absorbed_w;
+    (soil ? soil_w_ : structure ? structure_w_ : vegetation_w_)[b] += absorbed_w;
+    if (!soil) (structure ? row_structure_w_ : row_absorbed_w_)[row * bands_ + b] += absorbed_w;
   }
 }
 
@@ -154,7 +156,7 @@ double Tally::row_value(const Figure& figure) const {
   if (figure.of == Of::row_sunlit) return share(row_lit_m2_[figure.place], survey_.row_facing_m2()[figure.place]);
   if (figure.of == Of::row_down) return row_down_w_[place] / model_.plot.area_m2();
   if (figure.of == Of::row_up) return row_up_w_[place] / model_.plot.area_m2();
-  return row_absorbed_w_[place] / model_.plot.area_m2();
+  return (figure.of == Of::row_structure ? row_structure_w_ : row_absorbed_w_)[place] / model_.plot.area_m2();
 }
 
 double Tally::value(const Figure& figure) const {
@@ -164,6 +166,8 @@ double Tally::value(const Figure& figure) const {
   switch (figure.of) {
     case Of::absorbed_vegetation:
       return vegetation_w_[figure.band] / plot_m2;
+    case Of::absorbed_structure:
+      return structure_w_[figure.band] / plot_m2;
     case Of::absorbed_soil:
       return soil_w_[figure.band] / plot_m2;
     case Of::reflected:
@@ -188,6 +192,7 @@ double Tally::value(const Figure& figure) const {
     case Of::row_down:
     case Of::row_up:
     case Of::row_absorbed:
+    case Of::row_structure:
       return row_value(figure);
     case Of::plane_ratio:
       return share(plane_reached_m2_[figure.place], plane_crossing_m2_[figure.place]);

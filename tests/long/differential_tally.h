@@ -18,6 +18,7 @@ class Survey {
   Survey(const RadiationModel& model, const World& world, const Light& light);
 
   [[nodiscard]] bool is_soil(std::size_t element) const { return soil_[element]; }
+  [[nodiscard]] bool is_structure(std::size_t element) const { return structure_[element]; }  // or a lamp
   [[nodiscard]] bool is_foliage(std::size_t element) const { return foliage_[element]; }
   [[nodiscard]] bool has_beam() const { return has_beam_; }
 
@@ -41,7 +42,7 @@ class Survey {
   bool has_beam_;
   double height_m_ = 0.0;  // of all rows
   std::size_t rows_;
-  std::vector<bool> soil_, foliage_;  // [element]
+  std::vector<bool> soil_, structure_, foliage_;  // [element]
   std::vector<double> lit_per_ground_, element_m2_;
   std::vector<double> organ_m2_, organ_facing_m2_, row_facing_m2_;
 };
@@ -86,12 +87,12 @@ class Tally {
   const RadiationModel& model_;
   const Survey& survey_;
   std::size_t bands_;
-  std::vector<double> vegetation_w_, soil_w_, reflected_w_, transmitted_w_;  // [band]
-  std::vector<double> side_beam_w_, side_other_w_;                           // [side * bands + band]
-  std::vector<double> row_down_w_, row_up_w_;                                // [row * bands + band], last the top plane
-  std::vector<double> row_absorbed_w_;                                       // [row * bands + band]
-  std::vector<double> plane_down_w_;                                         // [plane * bands + band]
-  std::vector<double> plane_reached_m2_, plane_crossing_m2_;                 // [plane]
+  std::vector<double> vegetation_w_, structure_w_, soil_w_, reflected_w_, transmitted_w_;  // [band]
+  std::vector<double> side_beam_w_, side_other_w_;                                         // [side * bands + band]
+  std::vector<double> row_down_w_, row_up_w_;                 // [row * bands + band], last the top plane
+  std::vector<double> row_absorbed_w_, row_structure_w_;      // [row * bands + band]
+  std::vector<double> plane_down_w_;                          // [plane * bands + band]
+  std::vector<double> plane_reached_m2_, plane_crossing_m2_;  // [plane]
   std::vector<double> organ_lit_m2_, row_lit_m2_;
   std::vector<double> row_below_m2_;  // [row], level ground of the beam that lands below the row's lower edge
   double met_m2_ = 0.0, ground_m2_ = 0.0, foliage_lit_m2_ = 0.0;

@@ -64,6 +64,26 @@ TEST_F(Commands, InfoTellsOfAScene) {
   }
 }
 
+TEST_F(Commands, InfoAndRunSayWhatCountsAsWhat) {
+  const std::string scene = scene_file("chamber.toml").string();
+  const json roles = json::parse(run({"info", scene, "--json"}).out)["roles"];
+  EXPECT_EQ(roles.size(), 5U);
+  EXPECT_EQ(roles["leaf"]["organs"], json({"leaf"}));
+  EXPECT_EQ(roles["soil"]["organs"], json({"substrate"}));
+  EXPECT_NEAR(roles["lamp"]["area_m2"], 0.32, 1e-6);
+  EXPECT_TRUE(roles["leaf"]["area_m2"] > 0.1 && roles["leaf"]["area_m2"] < 1.0);
+  const Outcome text = run({"info", scene});
+  EXPECT_NE(text.out.find("counted as lamp: 0.32 m2 (lamp"), std::string::npos) << text.out;
+  const Outcome report =
+      run({"run", scene, "-o", "out", "--device", "cpu", "--passes", "8", "--grid", "0.1", "--images", "none"});
+  EXPECT_EQ(report.status, 0) << report.err;
+  EXPECT_NE(report.err.find("one-sided areas: leaf "), std::string::npos) << report.err;
+  EXPECT_NE(report.err.find(", lamp 0.32 m2"), std::string::npos) << report.err;
+  EXPECT_NE(report.err.find(", by structures "), std::string::npos) << report.err;
+  const json by_role = json::parse(content(folder_ / "out/summary.json"))["area_by_role_m2"];
+  EXPECT_EQ(by_role["lamp"], roles["lamp"]["area_m2"]);
+}
+
 TEST_F(Commands, InfoOfASunByAnglesKnowsNoTimes) {
   const json info = json::parse(run({"info", scene_file("two_squares.toml").string(), "--json"}).out);
   EXPECT_EQ(info["triangles"], 4);

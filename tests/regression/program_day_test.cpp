@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 namespace sunfleck::regression {
@@ -56,7 +57,7 @@ f 2 4 3
 
 constexpr double day_plot_m2 = 1.25;
 const std::array<const char*, 2> bands{"PAR", "NIR"};
-const std::array<const char*, 4> terms{"incident", "absorbed_vegetation", "absorbed_soil", "reflected"};
+const std::array<const char*, 5> terms{"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected"};
 const std::array<const char*, 3> tables{"day.csv", "organs_day.csv", "day.nc"};
 
 class Day : public PreloadTest {
@@ -137,7 +138,10 @@ TEST_F(Day, TablesAreAsTheManualSays) {
   for (std::size_t row = 0; row < 4; ++row) {
     EXPECT_GT(day.number(row, "elevation_deg"), 0.0);
     EXPECT_EQ(day.number(row, "PAR_incident_error"), 0.0);
-    for (const char* term : terms) EXPECT_GT(day.number(row, column("PAR", term)), 0.0);
+    for (const char* term : {"incident", "absorbed_vegetation", "absorbed_soil", "reflected"}) {
+      EXPECT_GT(day.number(row, column("PAR", term)), 0.0);
+    }
+    for (const char* figure : {"PAR_absorbed_structure", "PAR_absorbed_structure_error"}) EXPECT_EQ(day.cell(row, figure), "0");
   }
   for (std::size_t row = 4; row < 6; ++row) {  // sunset is at 19:17
     EXPECT_LT(day.number(row, "elevation_deg"), 0.0);
@@ -145,10 +149,44 @@ TEST_F(Day, TablesAreAsTheManualSays) {
   }
   const Table organs(file("organs_day.csv"));
   EXPECT_EQ(organs.header(),
-            "date,plant,organ,rank,area_m2,PAR_absorbed_mj_m2,PAR_error,PAR_absorbed_mol_m2,NIR_absorbed_mj_m2,NIR_error");
+            "date,plant,organ,rank,area_m2,PAR_absorbed_mj_m2,PAR_error,PAR_absorbed_mol_m2,NIR_absorbed_mj_m2,NIR_error,role");
   EXPECT_EQ(organs.size(), 2U);
   EXPECT_EQ(summary()["complete"], true);
   EXPECT_EQ(summary()["steps"], json({{"asked", 6}, {"done", 6}, {"night", 2}, {"short_of_bound", 0}}));
+}
+
+// The second copy of the leaves is a structure.
+TEST_F(Day, KeepsStructuresApart) {
+  std::string text = scene_text;
+  const std::string copies = "at = [[0, 0, 0], [0.3, 0.2, 0.3]]\n";
+  const std::string panel =
+      "[[geometry]]\nfile = \"leaves.obj\"\noptics = \"leaf\"\nrole = \"structure\"\nat = [[0.3, 0.2, 0.3]]\n";
+  text.replace(text.find(copies), copies.size(), panel);
+  folder_.write("scene.toml", text);
+  expect_day({"--from", "10:00", "--to", "12:00"});
+  const Table day(file("day.csv"));
+  const Table organs(file("organs_day.csv"));
+  ASSERT_EQ(organs.size(), 2U);
+  EXPECT_EQ(organs.cell(0, "role"), "leaf");
+  EXPECT_EQ(organs.cell(1, "role"), "structure");
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    double structure_mj = 0.0;
+    for (std::size_t row = 0; row < day.size(); ++row) {
+      double rest = day.number(row, column(bands[b], "incident"));
+      double unshot = std::numeric_limits<double>::infinity();  // is part of every error
+      for (std::size_t t = 1; t < terms.size(); ++t) {
+        rest -= day.number(row, column(bands[b], terms[t]));
+        unshot = std::min(unshot, day.number(row, column(bands[b], terms[t]) + "_error"));
+      }
+      EXPECT_GT(day.number(row, column(bands[b], "absorbed_structure")), 10.0);
+      EXPECT_GT(rest, -1e-6);
+      EXPECT_LT(rest, unshot + 1e-6);
+      structure_mj += 1e-6 * day.number(row, "step_s") * day.number(row, column(bands[b], "absorbed_structure")) * plot_m2;
+    }
+    EXPECT_NEAR(organs.number(1, column(bands[b], "absorbed_mj_m2")) * organs.number(1, "area_m2") / structure_mj, 1.0, 1e-7);
+    const json sums = summary()["dates"][0]["bands"][b];
+    EXPECT_NEAR(sums["absorbed_structure_mj_m2"].get<double>() * plot_m2 / structure_mj, 1.0, 1e-7);
+  }
 }
 
 TEST_F(Day, StepIsTheRunOfItsMiddle) {

@@ -44,6 +44,24 @@ TEST_F(Identity, CpuAndSoftwareVulkan) {
   expect_same("a", "b");
 }
 
+// Of a scene with lamps, and of one with panels in the beam.
+TEST_F(Identity, CpuAndSoftwareVulkanWithStructures) {
+  if (!has_device()) {
+    ASSERT_FALSE(is_set("SUNFLECK_REQUIRE_DEVICE")) << "no Vulkan device, and SUNFLECK_REQUIRE_DEVICE=1 asks for one";
+    GTEST_SKIP() << "no Vulkan device on this machine";
+  }
+  for (const char* scene : {"chamber.toml", "panels.toml"}) {
+    for (const char* device : {"cpu", "lavapipe"}) {
+      simulate(scene_file(scene),
+               {"--device", device, "--grid", "0.02", "--passes", "8", "--export", "csv", "--images", "none"}, 0, device);
+      EXPECT_EQ(summary(device)["bands"][0]["residual"], 0) << scene;
+      EXPECT_GT(summary(device)["bands"][0]["absorbed_structure"], 1.0) << scene;
+    }
+    for (const std::string& table : result_tables) EXPECT_TRUE(file(table, "cpu") == file(table, "lavapipe")) << scene << table;
+    EXPECT_EQ(summary("cpu")["bands"], summary("lavapipe")["bands"]);
+  }
+}
+
 TEST_F(Identity, EndsAtTheBoundAlike) {
   const Arguments more{"--direct-error", "0.02", "--images", "none"};
   simulate(scene_file("two_squares.toml"), Arguments{"--device", "cpu"} + more, 0, "a");

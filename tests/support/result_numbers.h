@@ -20,13 +20,14 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
   };
   for (const BandResult& band : result.bands) {
     const FluxLedger& ledger = band.ledger;
-    for (const std::int64_t term : {ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_soil, ledger.reflected,
-                                    ledger.transmitted, ledger.unshot}) {
+    for (const std::int64_t term : {ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_structure,
+                                    ledger.absorbed_soil, ledger.reflected, ledger.transmitted, ledger.unshot}) {
       integer(term);
     }
     number(band.incident);
     number(band.unshot);
-    estimates(std::array{band.absorbed_vegetation, band.absorbed_soil, band.reflected, band.transmitted});
+    estimates(
+        std::array{band.absorbed_vegetation, band.absorbed_structure, band.absorbed_soil, band.reflected, band.transmitted});
   }
   for (const OrganResult& organ : result.organs) {
     number(organ.area_m2);
@@ -37,7 +38,7 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
     number(layer.height_m);
     number(layer.leaf_area_index);
     estimates(std::array{layer.sunfleck_ratio, layer.sunlit_leaf_fraction});
-    for (const auto* all : {&layer.down, &layer.up, &layer.absorbed}) estimates(*all);
+    for (const auto* all : {&layer.down, &layer.up, &layer.absorbed, &layer.absorbed_structure}) estimates(*all);
   }
   for (const BeamLandings& element : result.elements) integer(element.upper), integer(element.lower);
   for (const double error : result.element_error) number(error);

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -83,22 +82,26 @@ void warn_of_copies(const Canopy& canopy, const std::string& file, std::vector<s
 
 // Warns of plants all of whose organs are recognised, none of them as a leaf.
 void warn_of_leafless_plants(const RadiationModel& model, const std::string& file, std::vector<std::string>& warnings) {
-  std::map<std::uint32_t, std::pair<bool, std::string>> plants;  // has leaves, name of one of its organs
+  struct Plant {
+    bool has_leaves = false;
+    Surface example;
+  };
+  std::map<std::uint32_t, Plant> plants;
   for (const Surface& surface : Surfaces(model).of) {
-    const Organ& organ = model.canopy.organs[surface.organ];
     if (!is_vegetation(surface.role)) continue;
-    auto& [has_leaves, name] = plants[organ.plant];
-    has_leaves = has_leaves || surface.role == Role::leaf;
-    name = organ.name;
+    Plant& plant = plants[model.canopy.organs[surface.organ].plant];
+    plant.has_leaves = plant.has_leaves || surface.role == Role::leaf;
+    plant.example = surface;
   }
-  const auto leafless = [](const auto& plant) { return !plant.second.first; };
+  const auto leafless = [](const auto& plant) { return !plant.second.has_leaves; };
   const auto count = std::count_if(plants.begin(), plants.end(), leafless);
   if (count == 0) return;
-  const auto& [plant, found] = *std::find_if(plants.begin(), plants.end(), leafless);
-  warnings.push_back(
-      fmt::format("{}: {} of {} plants have no leaf, e.g. plant {} with {}, so they do not count in the leaf area "
-                  "index; add role = \"leaf\" to the [optics.NAME] or the [[geometry]] of their leaves",
-                  file, count, plants.size(), plant, printable(found.second)));
+  const auto& [number, plant] = *std::find_if(plants.begin(), plants.end(), leafless);
+  warnings.push_back(fmt::format(
+      "{}: {} of {} plants {} no leaf that would count in the leaf area index, e.g. plant {}, whose organ \"{}\" is a "
+      "{}; if it is a leaf, add role = \"leaf\" to [optics.{}] or to the [[geometry]]",
+      file, count, plants.size(), count == 1 ? "has" : "have", number, printable(model.canopy.organs[plant.example.organ].name),
+      role_name(plant.example.role), printable(model.canopy.optics_names[plant.example.optics])));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "files/scene/scene_surface.h"
 #include "files/scene/scene_weather.h"
 #include "files/scene/toml_view.h"
+#include "physics/transport/model/surface_roles.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
@@ -204,13 +205,17 @@ void check_same_ground(const TomlTable& root, const RadiationModel& model, const
   if (model.layers != other.layers) refuse("output.layers");
 }
 
-// Refuses a change of the roles by which the counters were assigned.
-void check_same_roles(const TomlTable& root, const RadiationModel& model, const RadiationModel& other) {
-  for (std::size_t o = 0; o < model.optics.size(); ++o) {
-    if (model.optics[o].role == other.optics[o].role) continue;
-    root.refuse_table(fmt::format("the role of optics \"{}\" differs from the scene for which the counters were built",
-                                  printable(model.optics[o].name)),
-                      "change only light and optics, or load the whole scene again");
+// Refuses optics that would change a surface's role, because the counters were assigned by the roles.
+void check_same_roles(const TomlTable& root, const RadiationModel& model, std::span<const SurfaceOptics> optics) {
+  const std::vector<Surface> known = Surfaces(model).of;
+  std::vector<Surface> changed = known;
+  set_roles(changed, model.canopy, optics);
+  for (std::size_t s = 0; s < known.size(); ++s) {
+    if (known[s].role == changed[s].role) continue;
+    root.refuse_table(
+        fmt::format("with these optics, \"{}\" would be a {}, but it was a {} when the scene was loaded",
+                    printable(optics[known[s].optics].name), role_name(changed[s].role), role_name(known[s].role)),
+        "give its optics the same role as before, or load the whole scene again");
   }
 }
 
@@ -257,7 +262,7 @@ void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
   const OpticsByName optics = read_all_but_geometry(root, source, noting, other);
   check_same_ground(root, scene.model, other.model);
   other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, other.model.soil);
-  check_same_roles(root, scene.model, other.model);
+  check_same_roles(root, scene.model, other.model.optics);
   const std::span<const SourceFile> read = std::span(noting.files->list()).subspan(before);
   Digest digest;
   digest.add(scene.digest);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,30 +16,26 @@ using RoleOfWord = std::pair<std::string_view, Role>;
 constexpr RoleOfWord parts[] = {{"leaf", Role::leaf},      {"leaves", Role::leaf},  {"blade", Role::leaf},
                                 {"lamina", Role::leaf},    {"petiole", Role::stem}, {"stem", Role::stem},
                                 {"internode", Role::stem}, {"trunk", Role::stem},   {"branch", Role::stem},
-                                {"fruit", Role::fruit},    {"tassel", Role::fruit}, {"flower", Role::fruit},
-                                {"luminaire", Role::lamp}};
+                                {"fruit", Role::fruit},    {"tassel", Role::fruit}, {"luminaire", Role::lamp}};
 
-// Words that count as whole words and in the plural, because longer words contain them by accident: bear, clamp, wallet.
-constexpr RoleOfWord words[] = {{"stalk", Role::stem},        {"culm", Role::stem},
-                                {"twig", Role::stem},         {"wood", Role::stem},
-                                {"bark", Role::stem},         {"metamer", Role::stem},
-                                {"sheath", Role::stem},       {"rachis", Role::stem},
-                                {"peduncle", Role::stem},     {"shoot", Role::stem},
-                                {"ear", Role::fruit},         {"cob", Role::fruit},
-                                {"pod", Role::fruit},         {"berry", Role::fruit},
-                                {"berries", Role::fruit},     {"panicle", Role::fruit},
-                                {"spike", Role::fruit},       {"grain", Role::fruit},
-                                {"boll", Role::fruit},        {"inflorescence", Role::fruit},
-                                {"panel", Role::structure},   {"wall", Role::structure},
-                                {"floor", Role::structure},   {"ceiling", Role::structure},
-                                {"roof", Role::structure},    {"pot", Role::structure},
-                                {"post", Role::structure},    {"pole", Role::structure},
-                                {"wire", Role::structure},    {"trellis", Role::structure},
-                                {"bench", Role::structure},   {"gutter", Role::structure},
-                                {"frame", Role::structure},   {"structure", Role::structure},
-                                {"chamber", Role::structure}, {"fence", Role::structure},
-                                {"lamp", Role::lamp},         {"led", Role::lamp},
-                                {"bulb", Role::lamp},         {"soil", Role::soil}};
+// Words that count as whole words and in the plural, because longer words contain them by accident: bear, clamp, wallet,
+// sunflower.
+constexpr std::string_view stems[] = {"stalk",   "culm",   "twig",   "wood",     "bark",
+                                      "metamer", "sheath", "rachis", "peduncle", "shoot"};
+constexpr std::string_view fruits[] = {"ear",   "cob",   "pod",  "berry",         "berries", "panicle",
+                                       "spike", "grain", "boll", "inflorescence", "flower"};
+constexpr std::string_view structures[] = {"panel",  "wall",  "floor",     "ceiling", "roof",    "pot",
+                                           "post",   "pole",  "stake",     "wire",    "trellis", "bench",
+                                           "gutter", "frame", "structure", "chamber", "fence",   "flowerpot"};
+constexpr std::string_view lamps[] = {"lamp", "led"};
+constexpr std::string_view soils[] = {"soil"};
+
+using WordsOfRole = std::pair<std::span<const std::string_view>, Role>;
+constexpr WordsOfRole words[] = {
+    {stems, Role::stem}, {fruits, Role::fruit}, {structures, Role::structure}, {lamps, Role::lamp}, {soils, Role::soil}};
+
+// Words for whole plants. What comes before them tells their kind or place: a pole bean is no pole, a pot plant no pot.
+constexpr std::string_view plants[] = {"plant", "crop", "tree", "shrub", "bush", "vine", "weed", "grass", "bean", "seedling"};
 
 // Words that mean the soil where they are the whole name: a ground cover is a plant.
 constexpr std::string_view soil_alone[] = {"ground", "earth"};
@@ -63,9 +60,19 @@ std::vector<std::string> words_of(std::string_view name) {
   return found;
 }
 
+bool is_word_or_plural(std::string_view word, std::string_view known) {
+  if (!word.starts_with(known)) return false;
+  const std::string_view ending = word.substr(known.size());
+  return ending.empty() || ending == "s" || ending == "es";
+}
+
+bool is_one_of(std::span<const std::string_view> list, std::string_view word) {
+  return std::any_of(list.begin(), list.end(), [&](std::string_view known) { return is_word_or_plural(word, known); });
+}
+
 std::optional<Role> role_of_word(std::string_view word) {
-  for (const auto& [known, role] : words) {
-    if (word == known || (word.starts_with(known) && word.substr(known.size()) == "s")) return role;
+  for (const auto& [list, role] : words) {
+    if (is_one_of(list, word)) return role;
   }
   if (word.ends_with("system") || word.ends_with("systems")) return std::nullopt;  // holds no stem
   for (const auto& [part, role] : parts) {
@@ -82,8 +89,12 @@ std::optional<Role> role_from_name(std::string_view name) {
   if (found.size() == 1 && std::find(std::begin(soil_alone), std::end(soil_alone), found.front()) != std::end(soil_alone)) {
     return Role::soil;
   }
+  bool plant = false;
   for (auto word = found.rbegin(); word != found.rend(); ++word) {
-    if (const auto role = role_of_word(*word)) return role;
+    plant = plant || is_one_of(plants, *word);
+    const auto role = role_of_word(*word);
+    if (role && plant && !is_vegetation(*role)) return std::nullopt;
+    if (role) return role;
   }
   return std::nullopt;
 }

@@ -22,9 +22,9 @@ inline constexpr std::array<std::string_view, 6> role_names = {"leaf", "stem", "
   return role == Role::leaf || role == Role::stem || role == Role::fruit;
 }
 
-// Returns the role that the name of an organ, an object or a material suggests, or nothing if it contains no word that is
-// known here. Ignores case. Words end at digits, at other characters that are no letters, and where a capital follows a small
-// letter; the last known word decides, because it is the head of an English compound: `stem_leaf` is a leaf.
+// Returns the role that a name suggests, or nothing if it has no word that is known here. Ignores case. Words end at digits and
+// other characters that are no letters, and where a capital follows a small letter; the last known word decides, because it is
+// the head of an English compound: `stem_leaf` is a leaf. A word for a whole plant hides structures, lamps and soil before it.
 [[nodiscard]] std::optional<Role> role_from_name(std::string_view name);
 
 }  // namespace sunfleck

@@ -122,7 +122,10 @@ void add_scene(ordered_json& info, const Scene& scene) {
     area += element_m2;
     optics_area[scene.model.canopy.optics_of[e]] += element_m2;
   }
-  for (std::size_t o = 0; o < optics_area.size(); ++o) by_optics[scene.model.canopy.optics_names[o]] = optics_area[o];
+  for (std::size_t o = 0; o < optics_area.size(); ++o) {
+    const std::string& name = scene.model.canopy.optics_names[o];  // which plants and structures may share
+    by_optics[name] = by_optics.value(name, 0.0) + optics_area[o];
+  }
   info["title"] = scene.title;
   info["triangles"] = scene.model.canopy.size();
   info["organs"] = scene.model.canopy.organs.size();

@@ -196,6 +196,11 @@ void draw_optics(ViewerState& state) {
   text(state.bands[band] + " (the band shown)");
   for (std::size_t i = 0; i < state.optics_names.size(); ++i) {
     const std::string& name = state.optics_names[i];
+    const auto same = std::find(state.optics_names.begin(), state.optics_names.end(), name) - state.optics_names.begin();
+    if (static_cast<std::size_t>(same) < i) {  // optics of plants and of structures
+      state.light.optics[i] = state.light.optics[static_cast<std::size_t>(same)];
+      continue;
+    }
     FaceRequest& upper = state.light.optics[i].upper[band];
     FaceRequest& lower = state.light.optics[i].lower[band];
     if (upper == lower) {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view state_mark = "SUNRUNS1";
+constexpr std::string_view state_mark = "SUNRUNS2";
 
 [[noreturn]] void throw_damaged(const fs::path& file) {
   throw_input(printable(file.string()), "it is damaged", "omit --resume to start the run again");

@@ -1,72 +1,18 @@
 #include "physics/transport/model/surfaces.h"
 
+#include "base/error.h"
+#include "physics/transport/model/surface_roles.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
 namespace sunfleck {
-
-namespace {
-
-bool emits(const SurfaceOptics& optics) {
-  return std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w_m2) { return w_m2 > 0.0; });
-}
-
-// The role of a surface as given, or as suggested by a name or by its emission.
-struct NamedRole {
-  std::optional<Role> role;
-  bool is_given = false;
-};
-
-// Names the roles of surfaces; remembers what the optics' names suggest.
-class RoleNames {
- public:
-  explicit RoleNames(const RadiationModel& model) : model_(model) {
-    for (const std::string& name : model.canopy.optics_names) of_optics_.push_back(role_from_name(name));
-    of_optics_.resize(std::max(of_optics_.size(), model.optics.size()));
-  }
-
-  [[nodiscard]] NamedRole of(const Surface& surface) const {
-    const Organ& organ = model_.canopy.organs[surface.organ];
-    const SurfaceOptics* optics = surface.optics < model_.optics.size() ? &model_.optics[surface.optics] : nullptr;
-    if (organ.role) return {organ.role, true};
-    if (optics != nullptr && optics->role) return {optics->role, true};
-    const std::optional<Role> by_organ = role_from_name(organ.name);
-    const std::optional<Role> by_optics = of_optics_[surface.optics];
-    if (by_organ == Role::soil || by_optics == Role::soil) return {Role::soil};
-    if (by_organ) return {by_organ};
-    if (by_optics) return {by_optics};
-    if (optics != nullptr && emits(*optics)) return {Role::lamp};
-    return {};
-  }
-
- private:
-  const RadiationModel& model_;
-  std::vector<std::optional<Role>> of_optics_;  // [optics]
-};
-
-void set_roles(const RadiationModel& model, std::vector<Surface>& surfaces) {
-  const RoleNames names(model);
-  std::vector<NamedRole> named;
-  std::set<std::uint32_t> plants_with_leaves;
-  bool any_plant = false;
-  for (const Surface& surface : surfaces) {
-    const NamedRole& last = named.emplace_back(names.of(surface));
-    any_plant = any_plant || !last.role || is_vegetation(*last.role);
-    if (last.role == Role::leaf) plants_with_leaves.insert(model.canopy.organs[surface.organ].plant);
-  }
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const bool has_leaves = plants_with_leaves.contains(model.canopy.organs[surfaces[s].organ].plant);
-    const bool is_plant = !named[s].role || (!any_plant && !named[s].is_given && named[s].role != Role::soil);
-    surfaces[s].role = is_plant ? (has_leaves ? Role::stem : Role::leaf) : *named[s].role;
-  }
-}
-
-}  // namespace
 
 Surfaces::Surfaces(const RadiationModel& model) {
   const Canopy& canopy = model.canopy;
@@ -82,7 +28,7 @@ Surfaces::Surfaces(const RadiationModel& model) {
     if (fresh) of.push_back({key.first, key.second});
     number_of.push_back(place->second);
   }
-  set_roles(model, of);
+  set_roles(of, canopy, model.optics);
 }
 
 std::array<double, role_names.size()> area_of_roles_m2(const RadiationModel& model) {
@@ -122,6 +68,11 @@ void separate_structures(RadiationModel& model) {
     if (!is_structure || !on_plants[surface.optics]) continue;
     const auto [place, fresh] = own.try_emplace(surface.optics, static_cast<std::uint16_t>(model.optics.size()));
     if (fresh) {
+      if (model.optics.size() >= std::numeric_limits<std::uint16_t>::max()) {
+        throw_input(fmt::format("{} optics", model.optics.size()),
+                    "structures need some of their own, and at most 65535 are possible",
+                    "give surfaces of the same optics the same material");
+      }
       model.optics.push_back(SurfaceOptics(model.optics[surface.optics]));
       canopy.optics_names.push_back(std::string(canopy.optics_names[surface.optics]));
     }

@@ -38,7 +38,7 @@ struct Surfaces {
 [[nodiscard]] std::vector<Role> organ_roles(const RadiationModel& model);
 
 // Gives structures and lamps optics numbers of their own, so that no number is shared by them and by vegetation: the light
-// that layers absorb is counted by optics.
+// that layers absorb is counted by optics. Throws an input error if that gives too many.
 void separate_structures(RadiationModel& model);
 
 // Returns true if anything that light can meet reflects, transmits or emits in some band, so that light continues after its

@@ -39,13 +39,15 @@ class DayResult:
     def steps(self) -> dict[str, Any]:
         """The columns of day.csv as arrays of shape (steps,): time (a list of strings: the start of each step with its UTC
         offset), step_s, elevation_deg and azimuth_deg (at the midpoint of the step), BAND_incident, BAND_absorbed_vegetation,
-        BAND_absorbed_structure, BAND_absorbed_soil, BAND_reflected (W m-2 of ground) and sunlit_leaf_fraction, these with their half-widths _error."""
+        BAND_absorbed_structure, BAND_absorbed_soil, BAND_reflected (W m-2 of ground) and sunlit_leaf_fraction, these with their
+        half-widths _error."""
         return self._core.steps()
 
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
-        """The absorption of organs: date (a list); organ (a list of names), plant, rank, role and area_m2 by organ; and arrays of shape
-        (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), BAND_error (relative), with photon units BAND_absorbed_mol_m2."""
+        """The absorption of organs: date (a list); organ and role (lists of names), plant, rank and area_m2 by organ; and arrays
+        of shape (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), BAND_error (relative), with photon units
+        BAND_absorbed_mol_m2."""
         return self._core.organs()
 
     @functools.cached_property

@@ -41,8 +41,9 @@ class Result:
 
     @property
     def bands(self) -> dict[str, dict[str, Any]]:
-        """The energy balance of each band by name, W m-2 of ground: incident, absorbed_vegetation, absorbed_structure, absorbed_soil, reflected,
-        transmitted, unshot; their half-widths are in `error`; `residual`, the quanta missing from the sum, is 0."""
+        """The energy balance of each band by name, W m-2 of ground: incident, absorbed_vegetation, absorbed_structure,
+        absorbed_soil, reflected, transmitted, unshot; their half-widths are in `error`; `residual`, the quanta missing from the
+        sum, is 0."""
         return {band["name"]: band for band in self.summary["bands"]}
 
     @functools.cached_property
@@ -67,14 +68,15 @@ class Result:
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
         """The columns of organs.csv as arrays of shape (organs,): plant, organ (a list of names), rank, area_m2, sunlit_fraction
-        and its _error, BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), BAND_error (relative). Soil
-        elements of a mesh are included, the ground of [soil] is not."""
+        and its _error, BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), BAND_error (relative),
+        role (a list of names). Soil elements of a mesh are included, the ground of [soil] is not."""
         return self._outcome.organs()
 
     @functools.cached_property
     def profile(self) -> dict[str, np.ndarray]:
         """The columns of profile.csv as arrays of shape (layers + 1,), from the ground up, with the top plane in the last row:
-        height_m, leaf_area_index, sunfleck_ratio, sunlit_leaf_fraction, BAND_down, BAND_up, BAND_absorbed, each with its _error."""
+        height_m, leaf_area_index, sunfleck_ratio, sunlit_leaf_fraction, BAND_down, BAND_up, BAND_absorbed (by vegetation) and
+        BAND_absorbed_structure, each with its _error."""
         return self._outcome.profile()
 
     @functools.cached_property

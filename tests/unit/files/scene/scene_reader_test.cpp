@@ -4,6 +4,7 @@
 #include "physics/canopy/maize.h"
 #include "support/scene_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -185,6 +186,57 @@ TEST_F(SceneReader, SoilElementsTakeTheSoilsReflectance) {
   const auto message = message_of([&] { static_cast<void>(read(bare_scene + geometry)); });
   ASSERT_TRUE(message);
   EXPECT_NE(message->find("add [optics.soil] or [soil]"), std::string::npos) << *message;
+}
+
+TEST_F(SceneReader, ReadsRolesOfOpticsAndGeometry) {
+  for (const std::string_view name : role_names) {
+    const std::string key = fmt::format("role = \"{}\"\n", name);
+    const Scene by_optics = read(replaced(good_scene, "[optics.bark.upper]", "[optics.bark]\n" + key + "[optics.bark.upper]"));
+    EXPECT_EQ(role_name(by_optics.model.optics[0].role.value()), name);
+    EXPECT_FALSE(by_optics.model.optics[1].role);
+    const Scene by_geometry = read(replaced(good_scene, "up      = \"y\"\n", key));
+    for (const Organ& organ : by_geometry.model.canopy.organs) EXPECT_EQ(role_name(organ.role.value()), name);
+  }
+}
+
+TEST_F(SceneReader, GivesStructuresThatSharePlantsOpticsTheirOwn) {
+  write(folder_ / "plates.obj", "o plant1_wall\n" + replaced(plates_obj, "usemtl", "o plant1_leaf\nusemtl"));
+  const Scene scene = read(replaced(good_scene, "\"bark\"", "\"leaf\""));
+  ASSERT_EQ(scene.model.canopy.optics_names, (std::vector<std::string>{"leaf", "leaf"}));
+  ASSERT_EQ(scene.model.optics.size(), 2U);
+  EXPECT_EQ(scene.model.canopy.optics_of, (std::vector<std::uint16_t>{1, 0, 1, 0}));
+  EXPECT_EQ(scene.model.optics[1].upper[0].reflectance, 0.12);
+}
+
+TEST_F(SceneReader, WarnsOnceOfPlantsWithoutALeaf) {
+  const std::string corners = plates_obj.substr(0, plates_obj.find("f 1"));
+  write(folder_ / "plates.obj", corners + "o plant1_stem\nf 1 2 3\no plant2_leaf\nf 4 5 6\no plant3_ear\nf 1 2 6\n");
+  const Scene scene = read(good_scene);
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_NE(scene.warnings[0].find("scene.toml: 4 of 6 plants have no leaf"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("plant 1, whose organ \"stem\" is a stem"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("role = \"leaf\" to [optics."), std::string::npos) << scene.warnings[0];
+  // Neither structures nor soil need leaves.
+  for (const char* role : {"structure", "soil", "lamp", "leaf"}) {
+    const Scene other = read(replaced(good_scene, "up      = \"y\"\n", fmt::format("role = \"{}\"\n", role)));
+    EXPECT_TRUE(other.warnings.empty()) << other.warnings.front();
+  }
+}
+
+TEST_F(SceneReader, NewLightChangesNoRoles) {
+  const Scene scene = read(good_scene);
+  const auto relit = [&](const std::string& text) {
+    return message_of([&] {
+      Scene copy = scene;
+      relight(copy, SceneText{file(), text, {}});
+    });
+  };
+  EXPECT_FALSE(relit(replaced(good_scene, "[optics.bark.upper]", "[optics.bark]\nrole = \"stem\"\n[optics.bark.upper]")));
+  const auto message =
+      relit(replaced(good_scene, "[optics.bark.upper]", "[optics.bark]\nrole = \"lamp\"\n[optics.bark.upper]"));
+  ASSERT_TRUE(message);
+  expect_three_parts(*message);
+  EXPECT_NE(message->find("\"bark\" would be a lamp, but it was a stem"), std::string::npos) << *message;
 }
 
 TEST_F(SceneReader, DigestFollowsTextAndMeshes) {

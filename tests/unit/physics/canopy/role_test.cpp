@@ -21,7 +21,9 @@ TEST(Role, IsRecognisedByAWordAnywhereInTheName) {
       {"stem", "Stems", "mainstem", "petiole_3", "Petioles", "trunk.007", "branches.004", "culm", "Metamer", "internode2"},
       Role::stem);
   expect_role({"fruit", "grapefruits", "ear", "Ears", "tassel1", "cob", "berries", "flower.002"}, Role::fruit);
-  expect_role({"solar_panel", "Panels", "wall_north", "pot", "TrellisWire", "floor"}, Role::structure);
+  expect_role({"solar_panel", "Panels", "wall_north", "pot", "plant1_pot", "flowerpot", "FlowerPots", "TrellisWire", "benches",
+               "floor"},
+              Role::structure);
   expect_role({"lamp", "LED 3", "lamps"}, Role::lamp);
   expect_role({"soil", "soil2", "Soil_left", "ground", "Earth.001"}, Role::soil);
 }
@@ -31,9 +33,35 @@ TEST(Role, FollowsTheLastWordOfACompound) {
   expect_role({"leaf petiole", "LeafStem"}, Role::stem);
 }
 
+TEST(Role, IsNotThatOfWhatStandsBeforeAPlant) {
+  expect_role({"pole_bean", "pot_plant3", "PotPlants", "WallGrass", "led_plants", "soil plant"}, std::nullopt);
+  expect_role({"leaf_of_plant_3", "tree_leaf"}, Role::leaf);
+  expect_role({"plant_pot"}, Role::structure);
+}
+
 TEST(Role, IsNotRecognisedInsideOtherWords) {
-  expect_role({"", "Circle.166_Circle.168", "maize", "bear", "year", "earth worm", "clamp", "wallet", "system", "ecosystems",
-               "groundcover", "ground cover", "potato", "hotspot", "pledge", "podium", "Material.003", "mat_all", "42"},
+  expect_role({"",
+               "Circle.166_Circle.168",
+               "maize",
+               "bear",
+               "year",
+               "earth worm",
+               "clamp",
+               "wallet",
+               "system",
+               "ecosystems",
+               "groundcover",
+               "ground cover",
+               "potato",
+               "hotspot",
+               "pledge",
+               "podium",
+               "bulb",
+               "sunflower2",
+               "cauliflower",
+               "Material.003",
+               "mat_all",
+               "42"},
               std::nullopt);
 }
 

@@ -1,6 +1,8 @@
 // Tests the roles of surfaces.
 #include "physics/transport/model/surfaces.h"
 
+#include "physics/transport/model/surface_roles.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -85,6 +87,17 @@ TEST(Surfaces, OfStructuresShareNoOpticsWithVegetation) {
   EXPECT_EQ(model.canopy.optics_names, (std::vector<std::string>{"white", "grey", "white"}));
   EXPECT_EQ(model.optics[2].name, "white");
   EXPECT_EQ(roles_of(model), (Roles{Role::leaf, Role::structure, Role::structure, Role::structure}));
+}
+
+TEST(Surfaces, MayBeGivenTheRolesOfOtherOptics) {
+  const RadiationModel model = model_of({{{1, "a"}, "a"}, {{1, "leaf"}, "b"}});
+  std::vector<SurfaceOptics> optics = model.optics;
+  optics[0].emission_w_m2 = {1.0};
+  std::vector<Surface> surfaces = Surfaces(model).of;
+  EXPECT_EQ(surfaces[0].role, Role::stem);
+  set_roles(surfaces, model.canopy, optics);
+  EXPECT_EQ(surfaces[0].role, Role::lamp);
+  EXPECT_EQ(surfaces[1].role, Role::leaf);
 }
 
 TEST(Surfaces, GiveTheAreaOfEachRole) {
