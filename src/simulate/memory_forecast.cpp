@@ -88,9 +88,8 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const SumBytes sums = sum_bytes(model, tree.layout, settings, *run);
   const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
   const double throughout = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
-  const double computing =
-      std::max({static_cast<double>(tree.bvh.triangles.size()) * building, sums.tracing + in_the_making * run->replicate_bytes,
-                sums.ending, sums.result + elements * stored});
+  const double computing = std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
+                                     sums.tracing + in_the_making * run->replicate_bytes, sums.ending, elements * stored});
   const double drawing = sums.result + picture_bytes(model, tree.layout);
   return MemoryForecast{static_cast<std::uint64_t>(throughout + std::max(computing, drawing)),
                         static_cast<std::uint64_t>(throughout + computing), *run};

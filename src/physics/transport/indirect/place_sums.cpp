@@ -93,7 +93,7 @@ void PlaceSums::keep_within_limit() {
     return;
   }
   values_ = list.all();
-  at_ = {};
+  at_ = std::vector<std::uint32_t>();
   all_ = true;
 }
 
