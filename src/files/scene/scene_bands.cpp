@@ -13,7 +13,8 @@ namespace {
 
 constexpr double largest_irradiance_w_m2 = 1e15;
 constexpr std::size_t most_bands = 1000;
-constexpr double default_share = 0.5;  // share of PAR in solar radiation
+constexpr double default_share = 0.5;        // share of PAR in solar radiation
+constexpr double par_umol_per_joule = 4.57;  // of sunlight of 400..700 nm (McCree 1972)
 
 std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& earlier) {
   band.require("name", "name = \"PAR\"");
@@ -23,6 +24,20 @@ std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& e
     band.refuse("name", "another [[band]] has this name", "give every band a different name");
   }
   return name;
+}
+
+// Returns what a number in the band's unit is to be divided by to give W m-2. Light in photons gives the band its photons per
+// joule if it is named PAR.
+double read_unit(const TomlTable& table, Waveband& band) {
+  const auto unit = table.word("unit", {"W_m2", "umol_m2_s"});
+  if (!unit || *unit == 0) return 1.0;
+  if (band.umol_per_joule == 0.0 && (band.name == "PAR" || band.name == "par")) band.umol_per_joule = par_umol_per_joule;
+  if (band.umol_per_joule == 0.0) {
+    table.refuse("unit", "the photons per joule of this band are unknown",
+                 "add umol_per_joule, 4.57 for sunlight of 400..700 nm");
+  }
+  if (table.has("share")) table.refuse("unit", "a share of the weather has no unit", "remove one of the two");
+  return band.umol_per_joule;
 }
 
 BandLight read_fixed_light(const TomlTable& band, bool has_sun, bool has_sky) {
@@ -63,6 +78,13 @@ BandLight read_band_light(const TomlTable& band, bool has_sun, bool has_sky, con
   return light;
 }
 
+BandLight in_w_m2(BandLight light, double per_w_m2) {
+  light.direct_w_m2 /= per_w_m2;
+  light.direct_normal_w_m2 /= per_w_m2;
+  light.diffuse_w_m2 /= per_w_m2;
+  return light;
+}
+
 }  // namespace
 
 BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun, const std::optional<SkyInput>& sky,
@@ -73,13 +95,14 @@ BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
   if (tables.size() > most_bands) root.refuse("band", fmt::format("at most {} are allowed", most_bands), "split the scene");
   BandsInput input;
   for (const TomlTable& table : tables) {
-    table.allow({"name", "direct", "direct_normal", "diffuse", "share", "umol_per_joule"});
+    table.allow({"name", "direct", "direct_normal", "diffuse", "share", "umol_per_joule", "unit"});
     Waveband band;
     band.name = read_band_name(table, input.bands);
     const NumberRange photons{.lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give 4.57 for PAR from sun and sky"};
     band.umol_per_joule = table.number("umol_per_joule", photons).value_or(0.0);
+    const double per_w_m2 = read_unit(table, band);
     input.bands.push_back(std::move(band));
-    input.lights.push_back(read_band_light(table, sun.has_value(), sky.has_value(), weather));
+    input.lights.push_back(in_w_m2(read_band_light(table, sun.has_value(), sky.has_value(), weather), per_w_m2));
     if (weather && !input.lights.back().share) {
       warnings.push_back(fmt::format("{}: it has its own irradiance, so [weather] does not affect it", table.place()));
     }
