@@ -69,6 +69,15 @@ void warn_of_beam(const TomlTable& band, const BandLight& light, const SunPositi
   }
 }
 
+// Returns whether its role or a name says that a surface is a leaf; unnamed surfaces count as leaves too.
+bool is_called_leaf(const Surface& surface, const RadiationModel& model) {
+  if (surface.role != Role::leaf) return false;
+  const SurfaceOptics& optics = model.optics[surface.optics];
+  const Organ& organ = model.canopy.organs[surface.organ];
+  return organ.role == Role::leaf || optics.role == Role::leaf || role_from_name(organ.name) == Role::leaf ||
+         role_from_name(optics.name) == Role::leaf;
+}
+
 }  // namespace
 
 std::vector<std::string> light_warnings(const TomlTable& root, const Scene& scene) {
@@ -91,7 +100,7 @@ std::vector<std::string> emission_warnings(const TomlTable& root, const Radiatio
   for (const Surface& surface : Surfaces(model).of) {
     const SurfaceOptics& optics = model.optics[surface.optics];
     const bool emits = std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w) { return w > 0.0; });
-    if (emits && surface.role == Role::leaf) shining.insert(optics.name);
+    if (emits && is_called_leaf(surface, model)) shining.insert(optics.name);
   }
   std::vector<std::string> warnings;
   const auto all = root.table("optics");

@@ -17,7 +17,7 @@ inline constexpr double solar_constant_w_m2 = 1361.0;
 // scene's date, or at its mean distance if the scene has no date.
 [[nodiscard]] std::vector<std::string> light_warnings(const TomlTable& root, const Scene& scene);
 
-// Returns warnings about surfaces with the role of a leaf that emit light. `root` locates them.
+// Returns warnings about surfaces that emit light though their role or name says that they are leaves. `root` locates them.
 [[nodiscard]] std::vector<std::string> emission_warnings(const TomlTable& root, const RadiationModel& model);
 
 }  // namespace sunfleck

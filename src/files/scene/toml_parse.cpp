@@ -178,11 +178,15 @@ constexpr Cure cures_by_description[] = {
 
 // Patterns in the line, as regular expressions.
 constexpr Cure cures_by_line[] = {
+    {R"(^\s*[A-Za-z_]+\s*:)", "write = between the key and its value"},
+    {R"([0-9]{1,2}[/.][0-9]{1,2}[/.][0-9]{2,4})", "write the time as 2002-08-08T10:10:00+08:00"},
+    {R"(=\s*\()", "write the list in square brackets"},
+    {R"(\[\s*[-+]?[0-9.]+\s+[-+]?[0-9.])", "put commas between the numbers"},
     {R"(=\s*(True|TRUE|False|FALSE)\b)", "write true or false"},
     {R"(=\s*(yes|no|on|off|Yes|No|On|Off|YES|NO|ON|OFF)\b)", "write true or false"},
     {R"([=\[,]\s*[-+]?\.[0-9])", "write a digit before the point, 0.1 for .1"},
     {R"([0-9]\.\s*($|[,\]}]))", "write a digit after the point, 1.0 for 1."},
-    {R"(=\s*[-+]?[0-9.]+\s*[NSEW]\b)", "write the number of degrees alone, negative for south and west"},
+    {R"((latitude|longitude)\s*=\s*[-+]?[0-9.]+\s*[NSEW]\b)", "write the number of degrees alone, negative for south and west"},
     {R"([=\[,]\s*[-+]?[0-9.]+\s*(mm|cm|m|deg|degrees|nm|W)\b)", "write the number without its unit: metres, degrees, W m-2"},
     {R"([0-9]\s*%)", "write the share without a percent sign, 0.1 for 10 %"},
     {R"(=\s*[-+]?[0-9]+,[0-9])", "write the number with a point, not a comma"},

@@ -105,6 +105,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+struct Synonym {
+  std::string_view word, key;
+};
+
+// Words of other programs for keys of a scene.
+constexpr Synonym synonyms[] = {{"altitude", "elevation"}, {"zenith", "elevation"}, {"lat", "latitude"},
+                                {"lon", "longitude"},      {"lng", "longitude"},    {"mesh", "file"},
+                                {"rotate", "heading"},     {"rotation", "heading"}, {"date", "time"},
+                                {"irradiance", "direct"}};
+
+// Returns what an unknown key is to be replaced with.
+std::string cure_of_key(std::string_view key, const std::vector<std::string>& known, std::string_view otherwise) {
+  for (const auto& [word, meant] : synonyms) {
+    if (key == word && std::find(known.begin(), known.end(), meant) != known.end()) {
+      return fmt::format("use {}{}", meant, key == "zenith" ? ", 90 minus the zenith angle" : "");
+    }
+  }
+  return did_you_mean(key, known, otherwise);
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -178,7 +198,7 @@ void TomlTable::allow(std::initializer_list<std::string_view> keys) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
     throw_input(place(key.str()), "is not a key of " + (name_.empty() ? "a scene file" : name_),
-                did_you_mean(key.str(), known, "remove it, or use one of " + joined(known)));
+                cure_of_key(key.str(), known, "remove it, or use one of " + joined(known)));
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 #include <optional>
@@ -14,7 +13,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::size_t most_samples = 2000;
+constexpr std::size_t most_samples = 1000;
 constexpr std::size_t fewest_samples = 12;
 constexpr double longest_interval_s = 2.0 * 3600.0;  // longer ones say little about the time of day
 constexpr double good_fit = 0.8;
@@ -27,7 +26,7 @@ constexpr double day_s = 86400.0;
 struct Sample {
   const WeatherInterval* interval = nullptr;
   double light_w_m2 = 0.0;
-  double declination_rad = 0.0, hour_angle_rad = 0.0, elevation_rad = 0.0;
+  double declination_rad = 0.0, hour_angle_rad = 0.0;
 };
 
 // Returns the measured global irradiance, or a sum of the parts that grows with it.
@@ -48,12 +47,21 @@ std::vector<Sample> samples_of(const Weather& weather, const Place& place) {
     if ((i / per_day) % every != 0 || !light || all[i].length_s > longest_interval_s) continue;
     const UtcTime middle = plus_seconds(all[i].start, 0.5 * all[i].length_s);
     const SunPosition sun = sun_position(middle, place);
-    const double sine = std::sin(place.latitude_rad) * std::sin(sun.elevation_rad) +
-                        std::cos(place.latitude_rad) * std::cos(sun.elevation_rad) * std::cos(sun.azimuth_rad);
-    samples.push_back(
-        {&all[i], *light, std::asin(std::clamp(sine, -1.0, 1.0)), sun_hour_angle_rad(middle, place), sun.elevation_rad});
+    const double sine_lat = std::sin(place.latitude_rad), cosine_lat = std::cos(place.latitude_rad);
+    const double level = std::cos(sun.elevation_rad), height = std::sin(sun.elevation_rad);
+    const double sine = sine_lat * height + cosine_lat * level * std::cos(sun.azimuth_rad);
+    // The components of the direction to the sun in the plane of the equator, to the west and to the meridian.
+    const double west = -level * std::sin(sun.azimuth_rad);
+    const double meridian = cosine_lat * height - sine_lat * level * std::cos(sun.azimuth_rad);
+    samples.push_back({&all[i], *light, std::asin(std::clamp(sine, -1.0, 1.0)), std::atan2(west, meridian)});
   }
   return samples;
+}
+
+// Returns the sine of the sun's elevation at a latitude, with its hour angle moved.
+double sine_of_elevation(const Sample& sample, double latitude_rad, double moved_rad) {
+  return std::sin(latitude_rad) * std::sin(sample.declination_rad) +
+         std::cos(latitude_rad) * std::cos(sample.declination_rad) * std::cos(sample.hour_angle_rad + moved_rad);
 }
 
 // Returns the correlation of the light with the sine of the sun's elevation, 0 at night, at a latitude and with the hour angle
@@ -61,9 +69,7 @@ std::vector<Sample> samples_of(const Weather& weather, const Place& place) {
 double fit(const std::vector<Sample>& samples, double latitude_rad, double moved_rad) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
   for (const Sample& sample : samples) {
-    const double sine = std::max(
-        0.0, std::sin(latitude_rad) * std::sin(sample.declination_rad) +
-                 std::cos(latitude_rad) * std::cos(sample.declination_rad) * std::cos(sample.hour_angle_rad + moved_rad));
+    const double sine = std::max(0.0, sine_of_elevation(sample, latitude_rad, moved_rad));
     n += 1.0;
     x += sine;
     y += sample.light_w_m2;
@@ -128,10 +134,13 @@ std::optional<std::string> excess(const WeatherInterval& interval, double elevat
 }
 
 // Returns the highest elevation in the interval, judged by its ends and its middle.
-double highest_rad(const Sample& sample, const Place& place) {
-  const SunPosition first = sun_position(sample.interval->start, place);
-  const SunPosition last = sun_position(plus_seconds(sample.interval->start, sample.interval->length_s), place);
-  return std::max({first.elevation_rad, sample.elevation_rad, last.elevation_rad});
+double highest_rad(const Sample& sample, double latitude_rad) {
+  const double half_rad = std::numbers::pi * sample.interval->length_s / day_s;
+  double highest = -1.0;
+  for (const double moved_rad : {-half_rad, 0.0, half_rad}) {
+    highest = std::max(highest, sine_of_elevation(sample, latitude_rad, moved_rad));
+  }
+  return std::asin(std::min(1.0, highest));
 }
 
 }  // namespace
@@ -145,7 +154,7 @@ std::vector<std::string> weather_warnings(const Weather& weather, const Place& p
   bool at_night = false, too_much = false;
   for (const Sample& sample : samples) {
     if (sample.light_w_m2 <= night_light_w_m2 || (at_night && too_much)) continue;
-    const double highest = highest_rad(sample, place);
+    const double highest = highest_rad(sample, place.latitude_rad);
     if (!at_night && highest < night_rad) {
       at_night = true;
       warnings.push_back(

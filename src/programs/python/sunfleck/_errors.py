@@ -31,7 +31,7 @@ def in_python(message: str) -> str:
 
     message = message.replace('[[band]] with name = "PAR" and direct = 350.0', '"band": [{"name": "PAR", "direct": 350.0}]')
     message = message.replace("[plot] with size = [1.8, 2.4]", '"plot": {"size": [1.8, 2.4]}')
-    message = message.replace(" with two brackets, and its keys below it", "")
+    message = message.replace(" with two brackets, and its keys below it", "").replace(" once, with its keys below it", "")
     message = re.sub(r"\[\[([A-Za-z_]\w*)\]\]", r'"\1": [{...}]', message)
     message = re.sub(r"\[([A-Za-z_]\w*(?:\.\w+)*)\]", table, message)
     return message.replace("true or false", "True or False")
