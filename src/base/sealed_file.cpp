@@ -70,6 +70,11 @@ void expect_same_settings(const ordered_json& now, const ordered_json& noted, co
   for (const ordered_json* settings : {&now, &noted}) {
     for (const auto& [key, value] : settings->items()) {
       if (now.contains(key) && noted.contains(key) && now[key] == noted[key]) continue;
+      if (key == "scene_digest") {
+        throw_input(fmt::format("--resume {}", printable(result_folder.string())),
+                    fmt::format("the scene, or a file that it names, has changed since {}", what),
+                    "restore the scene, or omit --resume to start again");
+      }
       throw_input(fmt::format("--resume {}", printable(result_folder.string())),
                   fmt::format("{} has other settings: {} was {}, now {}", what, printable(key), value_text(noted, key),
                               value_text(now, key)),

@@ -96,6 +96,26 @@ def test_scenes(name):
     assert not re.match(r"\S*:\d+: ", message), "lines of a text that nobody saw are not named"
 
 
+def test_messages_speak_python():
+    scenes = {
+        '"band": [{"name": "PAR", "direct": 350.0}]': {"band": []},
+        '"sky": {...}': {"sky": None},
+        "write True or False": {"plot": {"size": [1.0, 1.0], "periodic": "yes"}},
+        'write "plane": [{...}]': {"plane": {"height": 0.5}},
+    }
+    for words, change in scenes.items():
+        scene = {key: value for key, value in {**with_arrays(), **change}.items() if value is not None}
+        with pytest.raises(ValueError) as error:
+            sunfleck.run(scene, **WORK)
+        message = one_line(error, words)
+        assert "[[" not in message and "[sky]" not in message
+
+
+def test_warnings_speak_python():
+    with pytest.warns(UserWarning, match="^scene: sun.azimuth: -60 is below 0"):
+        sunfleck.Simulation({**with_arrays(), "sun": {"elevation": 50.0, "azimuth": -60.0}}, device="cpu")
+
+
 OPTIONS = {
     "error": [0.0, 1.0, -1.0, NAN, "0.01", True],
     "grid": [0.0, -1.0, np.inf, "fine", 1e-9],

@@ -24,6 +24,8 @@ class Usage : public ProgramTest {
 
 TEST_F(Usage, OfOptions) {
   const std::vector<Mistake> mistakes{{{"--bogus"}, "--bogus"},
+                                      {{"--eror", "0.1"}, "--eror (unknown option or argument); did you mean --error?"},
+                                      {{"--sed=2"}, "did you mean --seed?"},
                                       {{"extra"}, "extra"},
                                       {{"--size", "3x"}, "--size 3x"},
                                       {{"--size", "640x480x3"}, "--size 640x480x3"},

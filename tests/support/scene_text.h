@@ -23,7 +23,7 @@ periodic = false
 
 [sun]
 elevation = 30.0
-azimuth   = -90
+azimuth   = 270
 
 [[band]]
 name    = "PAR"

@@ -106,7 +106,7 @@ void warn_of_leafless_plants(const RadiationModel& model, const std::string& fil
 
 }  // namespace
 
-std::vector<std::string> plausibility_warnings(const Scene& scene) {
+std::vector<std::string> plausibility_warnings(const Scene& scene, bool all_z_up) {
   const std::string file = printable(scene.file.string());
   std::vector<std::string> warnings;
   warn_of_missing_light(scene, file, warnings);
@@ -122,10 +122,9 @@ std::vector<std::string> plausibility_warnings(const Scene& scene) {
   }
   if (scene.model.soil && stand.buried_m2 > least_share_of_area * stand.area_m2) {
     warnings.push_back(fmt::format(
-        "{}: {:.0f} % of the plants' area lies below the ground, y = 0, where soil hides it; raise them with at, or "
-        "set up = \"z\" for a "
-        "mesh whose z points up",
-        file, 100.0 * stand.buried_m2 / stand.area_m2));
+        "{}: {:.0f} % of the plants' area lies below the ground, y = 0, where soil hides it; raise them with at{}", file,
+        100.0 * stand.buried_m2 / stand.area_m2,
+        all_z_up ? ", or set up = \"y\" for a mesh whose y points up" : ", or set up = \"z\" for a mesh whose z points up"));
   }
   return warnings;
 }

@@ -16,7 +16,8 @@ namespace {
 constexpr double largest_irradiance_w_m2 = 1e15;
 constexpr std::size_t most_bands = 1000;
 constexpr NumberRange wavelength_nm{.lo = 100.0, .hi = 1e6, .cure = "give nm, e.g. [400, 700]"};
-constexpr double default_share = 0.5;  // share of PAR in solar radiation
+constexpr double default_share = 0.5;        // share of PAR in solar radiation
+constexpr double par_umol_per_joule = 4.57;  // of sunlight of 400..700 nm (McCree 1972)
 
 std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& earlier) {
   band.require("name", "name = \"PAR\"");
@@ -26,6 +27,24 @@ std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& e
     band.refuse("name", "another [[band]] has this name", "give every band a different name");
   }
   return name;
+}
+
+// Returns what a number in the band's unit is to be divided by to give W m-2. Light in photons gives the band its photons per
+// joule: those of its wavelengths or, if it is named PAR, those of sunlight.
+double read_unit(const TomlTable& table, Waveband& band, const Spectrum* spectrum) {
+  const auto unit = table.word("unit", {"W_m2", "umol_m2_s"});
+  if (!unit || *unit == 0) return 1.0;
+  if (band.umol_per_joule == 0.0 && band.to_nm > 0.0) {
+    check_light_covers(table, {band.from_nm, band.to_nm}, spectrum);
+    band.umol_per_joule = umol_per_joule_in({band.from_nm, band.to_nm}, spectrum);
+  }
+  if (band.umol_per_joule == 0.0 && (band.name == "PAR" || band.name == "par")) band.umol_per_joule = par_umol_per_joule;
+  if (band.umol_per_joule == 0.0) {
+    table.refuse("unit", "the photons per joule of this band are unknown",
+                 "add umol_per_joule, 4.57 for sunlight of 400..700 nm");
+  }
+  if (table.has("share")) table.refuse("unit", "a share of the weather has no unit", "remove one of the two");
+  return band.umol_per_joule;
 }
 
 BandLight read_fixed_light(const TomlTable& band, bool has_sun, bool has_sky) {
@@ -63,6 +82,13 @@ BandLight read_band_light(const TomlTable& band, bool has_sun, bool has_sky, con
   if (*light.share > 0.0 && !has_sky && weather->may_be_diffuse()) {
     weather->table.refuse_table("its diffuse light needs a [sky]", "add [sky] with model = \"perez\" or another");
   }
+  return light;
+}
+
+BandLight in_w_m2(BandLight light, double per_w_m2) {
+  light.direct_w_m2 /= per_w_m2;
+  light.direct_normal_w_m2 /= per_w_m2;
+  light.diffuse_w_m2 /= per_w_m2;
   return light;
 }
 
@@ -150,7 +176,7 @@ BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
   if (tables.size() > most_bands) root.refuse("band", fmt::format("at most {} are allowed", most_bands), "split the scene");
   BandsInput input;
   for (const TomlTable& table : tables) {
-    table.allow({"name", "range_nm", "direct", "direct_normal", "diffuse", "share", "umol_per_joule"});
+    table.allow({"name", "range_nm", "direct", "direct_normal", "diffuse", "share", "umol_per_joule", "unit"});
     Waveband band;
     band.name = read_band_name(table, input.bands);
     if (const auto range = read_range(table)) {
@@ -158,8 +184,9 @@ BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
       band.to_nm = range->to_nm;
     }
     band.umol_per_joule = read_photons(table, band, spectrum);
+    const double per_w_m2 = read_unit(table, band, spectrum);
     input.bands.push_back(std::move(band));
-    input.lights.push_back(read_band_light(table, sun.has_value(), sky.has_value(), weather));
+    input.lights.push_back(in_w_m2(read_band_light(table, sun.has_value(), sky.has_value(), weather), per_w_m2));
     if (weather && !input.lights.back().share) {
       warnings.push_back(fmt::format("{}: it has its own irradiance, so [weather] does not affect it", table.place()));
     }

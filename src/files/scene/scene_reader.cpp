@@ -3,8 +3,10 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "files/scene/light_plausibility.h"
 #include "files/scene/moment_light.h"
 #include "files/scene/plausibility.h"
+#include "files/scene/receiver_plausibility.h"
 #include "files/scene/scene_bands.h"
 #include "files/scene/scene_geometry.h"
 #include "files/scene/scene_placement.h"
@@ -118,6 +120,14 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   for (const Organ& organ : mesh.organs) digest.add(fmt::format("{} {} {}\n", organ.plant, organ.name, organ.rank));
 }
 
+// Returns whether every mesh is read with up = "z".
+bool all_z_up(const TomlTable& root) {
+  const std::vector<TomlTable> parts = root.tables("geometry");
+  return !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const TomlTable& part) {
+    return part.has("generator") || (part.has("up") && part.text("up") == "z");
+  });
+}
+
 // Returns the digest of a scene; `files` are those read for the text.
 std::string digest_of(std::string_view text, std::span<const SourceFile> files, std::span<const GeometryPart> parts) {
   Digest digest;
@@ -129,6 +139,10 @@ std::string digest_of(std::string_view text, std::span<const SourceFile> files, 
     if (part.mesh != nullptr) add_mesh(digest, *part.mesh);
   }
   return digest.text();
+}
+
+void append(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
 // Reads [sun], [sky], [weather] and [[band]].
@@ -158,6 +172,7 @@ void read_light(const TomlTable& root, const SceneAccess& access, const Spectral
     scene.model.bands = std::move(now.bands);
     scene.model.sky = std::move(now.sky);
   }
+  append(scene.warnings, light_warnings(root, scene));
 }
 
 // Returns an access that always has a list of files: the caller's, or `own`.
@@ -248,7 +263,9 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
   scene.files = noting.files->list();
   scene.digest = digest_of(source.text, std::span(scene.files).subspan(before), parts);
   warn_of_unused(optics, scene, scene.warnings);
-  for (std::string& warning : plausibility_warnings(scene)) scene.warnings.push_back(std::move(warning));
+  append(scene.warnings, emission_warnings(root, scene.model));
+  append(scene.warnings, receiver_warnings(root, scene));
+  for (std::string& warning : plausibility_warnings(scene, all_z_up(root))) scene.warnings.push_back(std::move(warning));
   for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
   return scene;
 }

@@ -2,6 +2,7 @@
 
 #include "files/formats/weather/weather_reader.h"
 #include "files/scene/scene_files.h"
+#include "files/scene/weather_plausibility.h"
 
 #include <fmt/format.h>
 
@@ -97,6 +98,17 @@ void warn_of_unknown_day(const WeatherInput& input, const SunInput& sun, std::ve
                   input.table.place()));
 }
 
+void warn_of_strange_light(const WeatherInput& input, const SunInput& sun, std::vector<std::string>& warnings) {
+  std::vector<std::string> found;
+  if (input.weather.source == Weather::Source::intervals) {
+    found = weather_warnings(input.weather, sun.moment->place, input.table.place("file"));
+  } else if (input.weather.source == Weather::Source::moment) {
+    const auto day = sun.moment ? std::optional<int>(day_of_year(sun.moment->time)) : std::nullopt;
+    found = moment_warnings(input.weather.moment, sun.position, day, input.table.place());
+  }
+  warnings.insert(warnings.end(), found.begin(), found.end());
+}
+
 }  // namespace
 
 bool WeatherInput::may_be_diffuse() const {
@@ -131,6 +143,7 @@ std::optional<WeatherInput> read_weather_table(const TomlTable& root, const std:
   air.altitude_m =
       table->number("altitude", {.lo = -500.0, .hi = 9000.0, .cure = "give metres above sea level"}).value_or(air.altitude_m);
   warn_of_unknown_day(input, *sun, warnings);
+  warn_of_strange_light(input, *sun, warnings);
   return input;
 }
 

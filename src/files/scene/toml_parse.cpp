@@ -59,6 +59,34 @@ std::size_t end_of_string(const std::string& file, std::string_view text, std::s
   return text.size();
 }
 
+struct Lookalike {
+  std::string_view sign;
+  const char* name;
+  const char* cure;
+};
+
+// What word processors and web pages make of ASCII characters.
+constexpr Lookalike lookalikes[] = {
+    {"\u2212", "a typographic minus", "write the hyphen, -"},
+    {"\u2013", "a dash", "write the hyphen, -"},
+    {"\u2014", "a dash", "write the hyphen, -"},
+    {"\u201c", "a typographic quote", "write straight quotes, \""},
+    {"\u201d", "a typographic quote", "write straight quotes, \""},
+    {"\u201e", "a typographic quote", "write straight quotes, \""},
+    {"\u2018", "a typographic quote", "write straight quotes, \""},
+    {"\u2019", "a typographic quote", "write straight quotes, \""},
+    {"\u00a0", "a non-breaking space", "write an ordinary blank"},
+    {"\u00b0", "a degree sign", "write the number of degrees alone"},
+};
+
+[[noreturn]] void refuse_non_ascii(const std::string& file, std::string_view text, std::size_t at) {
+  for (const auto& [sign, name, cure] : lookalikes) {
+    if (text.substr(at).starts_with(sign)) refuse_at(file, text, at, name, "TOML does not know it outside quotes", cure);
+  }
+  refuse_at(file, text, at, "a non-ASCII character", "these are allowed only in quoted texts and comments",
+            "write it in quotes");
+}
+
 // Refuses non-ASCII characters outside strings and comments, and after a line-ending backslash. toml++ 3.3 would test whether
 // they are blanks with a function whose behaviour is undefined for most characters.
 void check_syntax(const std::string& file, std::string_view text) {
@@ -76,9 +104,7 @@ void check_syntax(const std::string& file, std::string_view text) {
       at = std::min(text.find('\n', at), text.size());
       continue;
     }
-    if (!is_ascii(c))
-      refuse_at(file, text, at, "a non-ASCII character", "these are allowed only in quoted texts and comments",
-                "write it in quotes");
+    if (!is_ascii(c)) refuse_non_ascii(file, text, at);
     if (std::string_view("\n=[]{},").find(c) != std::string_view::npos) dots = 0;
     if (c == '.' && ++dots > max_dots_in_key)
       refuse_at(file, text, at, "a dotted key",
@@ -90,6 +116,16 @@ void check_syntax(const std::string& file, std::string_view text) {
 void refuse_non_text(const std::string& file, std::string_view text) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw_input(fmt::format("{}:1: the file", file), "is empty", "write a scene with at least [plot] size and one [[band]]");
+  }
+  const std::size_t first = without_mark(text).find_first_not_of(" \t\r\n");
+  const std::string_view begin = without_mark(text).substr(std::min(first, without_mark(text).size()));
+  if (begin.starts_with('<')) {
+    throw_input(fmt::format("{}:1: the file", file), "is XML, not a scene in TOML",
+                "convert a mesh to .obj, .ply or .glb and name it under [[geometry]] of a scene file");
+  }
+  if (begin.starts_with('{')) {
+    throw_input(fmt::format("{}:1: the file", file), "looks like JSON, not a scene in TOML",
+                "give a scene file, with tables such as [plot]");
   }
   const std::size_t nul = text.find('\0');
   if (nul != std::string_view::npos) {
@@ -142,7 +178,16 @@ constexpr Cure cures_by_description[] = {
 
 // Patterns in the line, as regular expressions.
 constexpr Cure cures_by_line[] = {
+    {R"(^\s*[A-Za-z_]+\s*:)", "write = between the key and its value"},
+    {R"([0-9]{1,2}[/.][0-9]{1,2}[/.][0-9]{2,4})", "write the time as 2002-08-08T10:10:00+08:00"},
+    {R"(=\s*\()", "write the list in square brackets"},
+    {R"(\[\s*[-+]?[0-9.]+\s+[-+]?[0-9.])", "put commas between the numbers"},
     {R"(=\s*(True|TRUE|False|FALSE)\b)", "write true or false"},
+    {R"(=\s*(yes|no|on|off|Yes|No|On|Off|YES|NO|ON|OFF)\b)", "write true or false"},
+    {R"([=\[,]\s*[-+]?\.[0-9])", "write a digit before the point, 0.1 for .1"},
+    {R"([0-9]\.\s*($|[,\]}]))", "write a digit after the point, 1.0 for 1."},
+    {R"((latitude|longitude)\s*=\s*[-+]?[0-9.]+\s*[NSEW]\b)", "write the number of degrees alone, negative for south and west"},
+    {R"([=\[,]\s*[-+]?[0-9.]+\s*(mm|cm|m|deg|degrees|nm|W)\b)", "write the number without its unit: metres, degrees, W m-2"},
     {R"([0-9]\s*%)", "write the share without a percent sign, 0.1 for 10 %"},
     {R"(=\s*[-+]?[0-9]+,[0-9])", "write the number with a point, not a comma"},
     {R"(=\s*(?!(true|false|inf|nan)\b)([A-Za-z]|\.{0,2}[/\\]))", "put the text in quotes"},

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "files/scene/text_number.h"
 #include "files/scene/toml_parse.h"
 
 #include <fmt/format.h>
@@ -104,6 +105,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+struct Synonym {
+  std::string_view word, key;
+};
+
+// Words of other programs for keys of a scene.
+constexpr Synonym synonyms[] = {{"altitude", "elevation"}, {"zenith", "elevation"}, {"lat", "latitude"},
+                                {"lon", "longitude"},      {"lng", "longitude"},    {"mesh", "file"},
+                                {"rotate", "heading"},     {"rotation", "heading"}, {"date", "time"},
+                                {"irradiance", "direct"}};
+
+// Returns what an unknown key is to be replaced with.
+std::string cure_of_key(std::string_view key, const std::vector<std::string>& known, std::string_view otherwise) {
+  for (const auto& [word, meant] : synonyms) {
+    if (key == word && std::find(known.begin(), known.end(), meant) != known.end()) {
+      return fmt::format("use {}{}", meant, key == "zenith" ? ", 90 minus the zenith angle" : "");
+    }
+  }
+  return did_you_mean(key, known, otherwise);
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -177,7 +198,7 @@ void TomlTable::allow(std::initializer_list<std::string_view> keys) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
     throw_input(place(key.str()), "is not a key of " + (name_.empty() ? "a scene file" : name_),
-                did_you_mean(key.str(), known, "remove it, or use one of " + joined(known)));
+                cure_of_key(key.str(), known, "remove it, or use one of " + joined(known)));
   }
 }
 
@@ -210,7 +231,7 @@ double TomlTable::checked(std::string_view key, const toml::node& item, std::opt
                           const NumberRange& range) const {
   if (!item.is_number()) {
     refuse_item(key, item, index, "must be a number, not " + kind_of(item),
-                item.is_string() ? "write it without quotes" : "give a number");
+                item.is_string() ? cure_of_text(item.as_string()->get(), range.cure) : "give a number");
   }
   const double value = item.is_integer() ? static_cast<double>(item.as_integer()->get()) : item.as_floating_point()->get();
   if (!allows(range, value)) {
@@ -275,8 +296,11 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
   const toml::array* list = node->as_array();
   if (list == nullptr || list->size() != count) {
     const std::string found = list == nullptr ? "not " + kind_of(*node) : fmt::format("but has {}", list->size());
-    refuse(key, fmt::format("must be a list of {} numbers, {}", count, found),
-           count == 2 ? "write it as [1.8, 2.4]" : "write it as [0.1, 0.2, 0.3]");
+    const auto number = node->is_string() ? number_in_text(node->as_string()->get(), range.cure) : std::nullopt;
+    const std::string example = number       ? fmt::format("[{0:.12g}, {0:.12g}]", *number)
+                                : count == 2 ? "[1.8, 2.4]"
+                                             : "[0.1, 0.2, 0.3]";
+    refuse(key, fmt::format("must be a list of {} numbers, {}", count, found), "write it as " + example);
   }
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(checked(key, (*list)[i], i, range));

@@ -5,6 +5,7 @@
 #include "base/version.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/results/exports/exports.h"
+#include "files/scene/toml_view.h"
 #include "programs/cli/option_groups.h"
 #include "simulate/result_folder.h"
 
@@ -139,19 +140,36 @@ void check_stand(const MaizeOptions& options) {
               "give fewer; a periodic plot repeats them without end");
 }
 
+// Returns the nearest option of a command as a question, or `otherwise`.
+std::string nearest_option(const std::string& unknown, const CLI::App& command, const std::string& otherwise) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  return did_you_mean(unknown.substr(0, unknown.find('=')), known, otherwise);
+}
+
 // Rethrows CLI11's message in three parts. Messages of its own checks read `OPTION: what is wrong`, those of ours `OPTION:
 // VALUE (why)`.
 [[noreturn]] void throw_usage(const CLI::ParseError& error, const CLI::App& app, int argc, const char* const* argv) {
   const std::string first = argc > 1 ? printable(argv[1]) : "";
   const auto chosen = app.get_subcommands();
   if (chosen.empty() && (first.empty() || first[0] != '-')) {
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      commands.push_back(command->get_name());
+    }
+    if (const auto nearest = nearest_word(first, commands)) {
+      throw_input(first, "unknown command", fmt::format("did you mean {}?", *nearest));
+    }
     throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "unknown command",
                 "use run, day, render, view, validate, tradeoff, maize, convert, new or info; see sunfleck --help");
   }
   const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
   const std::vector<std::string> unknown = app.remaining(true);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !unknown.empty()) {
-    throw_input("command line: " + printable(unknown.front()), "unknown option or argument", cure);
+    throw_input("command line: " + printable(unknown.front()), "unknown option or argument",
+                nearest_option(unknown.front(), chosen.empty() ? app : *chosen.front(), cure));
   }
   const std::string what = printable(error.what());
   const std::size_t colon = what.find(": ");

@@ -1,5 +1,7 @@
 """The exceptions of the module. Every message is one line: where and what (why); what to do."""
 
+import re
+
 
 class SunfleckError(RuntimeError):
     """The work could not be finished: the disk is full, the device was lost or memory ran out."""
@@ -16,3 +18,20 @@ class InputError(ValueError):
 def refuse(what: str, why: str, cure: str) -> None:
     """Raises InputError with the message `what (why); cure`."""
     raise InputError(f"{what} ({why}); {cure}")
+
+
+def in_python(message: str) -> str:
+    """Returns a message about a scene file in the words of a dict: "band": [{...}] for [[band]], "sun": {...} for [sun]."""
+
+    def table(found: re.Match) -> str:
+        text = "{...}"
+        for name in reversed(found.group(1).split(".")):
+            text = f'{{"{name}": {text}}}'
+        return text[1:-1]
+
+    message = message.replace('[[band]] with name = "PAR" and direct = 350.0', '"band": [{"name": "PAR", "direct": 350.0}]')
+    message = message.replace("[plot] with size = [1.8, 2.4]", '"plot": {"size": [1.8, 2.4]}')
+    message = message.replace(" with two brackets, and its keys below it", "").replace(" once, with its keys below it", "")
+    message = re.sub(r"\[\[([A-Za-z_]\w*)\]\]", r'"\1": [{...}]', message)
+    message = re.sub(r"\[([A-Za-z_]\w*(?:\.\w+)*)\]", table, message)
+    return message.replace("true or false", "True or False")

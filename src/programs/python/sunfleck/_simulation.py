@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _core
-from ._errors import InputError
+from ._errors import InputError, in_python
 from ._options import whole, work_options
 from ._result import Result
 from ._scene import Scene, SceneSource
@@ -28,12 +28,16 @@ UNCHANGED: Any = _Unchanged()
 
 @contextlib.contextmanager
 def without_line_numbers(source: SceneSource) -> Iterator[None]:
-    """Removes line numbers from messages about a text that the user never saw."""
+    """Rewrites messages about a text that the user never saw: no line numbers, and Python's words."""
     try:
         yield
     except InputError as error:
-        begin = re.escape(str(source.file))
-        raise InputError(re.sub(rf"^{begin}:\d+: ", f"{source.file.name}: ", str(error))) from None
+        raise InputError(_of_dict(str(error), source)) from None
+
+
+def _of_dict(message: str, source: SceneSource) -> str:
+    begin = re.escape(str(source.file))
+    return in_python(re.sub(rf"^{begin}(:\d+)?: ", f"{source.file.name}: ", message))
 
 
 class Simulation:
@@ -167,7 +171,8 @@ class Simulation:
 
     def _warn(self) -> None:
         for line in self._core.warnings:
-            warnings.warn(line, stacklevel=3)
+            is_text = self._source.text is not None or bool(self._light)
+            warnings.warn(_of_dict(line, self._source) if is_text else line, stacklevel=3)
 
 
 def run(scene: Scene, **options: Any) -> Result:

@@ -118,7 +118,7 @@ TEST_F(SceneLimits, LettersBeyondAscii) {
   EXPECT_EQ(read("title = \"\"\"a \\\n  b\xc3\xa4\"\"\"\n" + bare_scene).title, "a b\xc3\xa4");
   EXPECT_NO_THROW(static_cast<void>(read(bare_scene + "[optics.\"Bl\xc3\xa4tter\"]\nreflectance = 0.1\n")));
   expect_refused(bare_scene + "[optics.Bl\xc3\xa4tter]\nreflectance = 0.1\n", "scene.toml:5: a non-ASCII character");
-  expect_refused("title =\xc2\xa0\"a\"\n" + bare_scene, "scene.toml:1: a non-ASCII character");
+  expect_refused("title =\xc2\xa0\"a\"\n" + bare_scene, "scene.toml:1: a non-breaking space");
   expect_refused("title = \"\"\"a \\\n  \xc3\xa4\"\"\"\n" + bare_scene, "scene.toml:1: a backslash");
   expect_refused("title = 12\"\xc3\xa4\"\n" + bare_scene, "a quote inside a word");
   expect_refused("title = \"a\"'\xc3\xa4'\n" + bare_scene, "a quote inside a word");

@@ -23,7 +23,8 @@ std::string epw_of_one_value() {
   for (int month = 1; month <= 12; ++month)
     for (int day = 1; day <= days_in[month - 1]; ++day)
       for (int hour = 1; hour <= 24; ++hour)
-        text += fmt::format("1999,{},{},{},60,-,0,0,0,0,0,0,0,500,400,100\n", month, day, hour);
+        text += fmt::format("1999,{},{},{},60,-,0,0,0,0,0,0,0,{}\n", month, day, hour,
+                            hour >= 10 && hour <= 15 ? "500,400,100" : "0,0,0");
   return text;
 }
 
@@ -178,7 +179,7 @@ TEST_F(SceneSky, WeatherComesFromItsFile) {
   ASSERT_EQ(year.warnings.size(), 1U);
   EXPECT_NE(year.warnings[0].find("holds month 8 of 1999, not of 2002"), std::string::npos) << year.warnings[0];
   const Scene far = read(replaced(replaced(head, "station.csv", "year.epw"), "116.28", "10"));
-  ASSERT_EQ(far.warnings.size(), 3U);  // it is also night there
+  ASSERT_EQ(far.warnings.size(), 5U);  // it is also night there, with light in the weather, and too much of it at dawn
   EXPECT_NE(far.warnings[1].find("km from the place in [sun]"), std::string::npos) << far.warnings[1];
 }
 

@@ -1,0 +1,115 @@
+#include "files/scene/light_plausibility.h"
+
+#include "base/file.h"
+#include "physics/transport/model/surfaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <optional>
+#include <set>
+
+namespace sunfleck {
+namespace {
+
+constexpr double most_irradiance_w_m2 = 1400.0;  // of sunlight on level ground, whole spectrum, brightened by clouds
+constexpr double umol_per_joule_of_par = 4.57;
+constexpr double largest_in_radians = 1.6;  // just above a right angle
+constexpr int decimals_of_radians = 3;
+
+// Returns how many decimals the shortest text of a number has.
+int decimals(double value) {
+  const std::string text = fmt::format("{}", value);
+  const std::size_t point = text.find('.');
+  return point == std::string::npos ? 0 : static_cast<int>(text.size() - point - 1);
+}
+
+void warn_of_angles(const TomlTable& sun, std::vector<std::string>& warnings) {
+  const auto elevation = sun.number("elevation", {});
+  if (elevation && *elevation > 0.0 && *elevation < largest_in_radians && decimals(*elevation) >= decimals_of_radians) {
+    warnings.push_back(fmt::format("{}: {} looks like radians, but is taken as degrees; radians would be {:.6g} degrees",
+                                   sun.place("elevation"), *elevation, glm::degrees(*elevation)));
+  }
+  const auto azimuth = sun.number("azimuth", {});
+  if (azimuth && *azimuth < 0.0) {
+    warnings.push_back(
+        fmt::format("{}: {} is below 0, and azimuths count clockwise from north: give {:.6g}, or {:.6g} if it was measured "
+                    "from south, positive to the west",
+                    sun.place("azimuth"), *azimuth, *azimuth + 360.0, std::fmod(*azimuth + 540.0, 360.0)));
+  }
+}
+
+// Returns true, and warns, if the irradiance is more than sunlight brings.
+bool warn_of_photons(const TomlTable& band, const char* key, double irradiance_w_m2, std::vector<std::string>& warnings) {
+  if (irradiance_w_m2 <= most_irradiance_w_m2) return false;
+  warnings.push_back(
+      fmt::format("{}: {:.6g} W m-2 is more than the sun sends to the ground, {:.0f}; if umol m-2 s-1 of PAR "
+                  "are meant, add unit = \"umol_m2_s\", which makes it {:.4g} W m-2",
+                  band.place(key), irradiance_w_m2, most_irradiance_w_m2, irradiance_w_m2 / umol_per_joule_of_par));
+  return true;
+}
+
+void warn_of_beam(const TomlTable& band, const BandLight& light, const SunPosition& sun, double limit_w_m2,
+                  std::vector<std::string>& warnings) {
+  const double sine = std::sin(sun.elevation_rad);
+  if (light.direct_normal_w_m2 > 0.0) {
+    if (warn_of_photons(band, "direct_normal", light.direct_normal_w_m2, warnings)) return;
+    if (light.direct_normal_w_m2 <= limit_w_m2) return;
+    warnings.push_back(fmt::format("{}: {:.6g} W m-2 is more than outside the atmosphere; give at most {:.0f}",
+                                   band.place("direct_normal"), light.direct_normal_w_m2, limit_w_m2));
+  } else if (light.direct_w_m2 > 0.0) {
+    if (warn_of_photons(band, "direct", light.direct_w_m2, warnings)) return;
+    if (sine <= 0.0 || light.direct_w_m2 <= limit_w_m2 * sine) return;
+    warnings.push_back(fmt::format(
+        "{}: {:.6g} W m-2 on level ground, with the sun at {:.4g} degrees, is a beam of {:.0f} W m-2 "
+        "towards the sun, more than outside the atmosphere; give at most {:.4g}",
+        band.place("direct"), light.direct_w_m2, glm::degrees(sun.elevation_rad), light.direct_w_m2 / sine, limit_w_m2 * sine));
+  }
+}
+
+// Returns whether its role or a name says that a surface is a leaf; unnamed surfaces count as leaves too.
+bool is_called_leaf(const Surface& surface, const RadiationModel& model) {
+  if (surface.role != Role::leaf) return false;
+  const SurfaceOptics& optics = model.optics[surface.optics];
+  const Organ& organ = model.canopy.organs[surface.organ];
+  return organ.role == Role::leaf || optics.role == Role::leaf || role_from_name(organ.name) == Role::leaf ||
+         role_from_name(optics.name) == Role::leaf;
+}
+
+}  // namespace
+
+std::vector<std::string> light_warnings(const TomlTable& root, const Scene& scene) {
+  std::vector<std::string> warnings;
+  if (const auto sun = root.table("sun")) warn_of_angles(*sun, warnings);
+  const auto day = scene.moment ? std::optional<int>(day_of_year(scene.moment->time)) : std::nullopt;
+  const double limit_w_m2 = extraterrestrial_normal_w_m2(solar_constant_w_m2, day);
+  const std::vector<TomlTable> bands = root.tables("band");
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const BandLight& light = scene.light.bands[b];
+    if (light.share) continue;
+    if (scene.model.sun) warn_of_beam(bands[b], light, *scene.model.sun, limit_w_m2, warnings);
+    static_cast<void>(warn_of_photons(bands[b], "diffuse", light.diffuse_w_m2, warnings));
+  }
+  return warnings;
+}
+
+std::vector<std::string> emission_warnings(const TomlTable& root, const RadiationModel& model) {
+  std::set<std::string> shining;
+  for (const Surface& surface : Surfaces(model).of) {
+    const SurfaceOptics& optics = model.optics[surface.optics];
+    const bool emits = std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w) { return w > 0.0; });
+    if (emits && is_called_leaf(surface, model)) shining.insert(optics.name);
+  }
+  std::vector<std::string> warnings;
+  const auto all = root.table("optics");
+  for (const std::string& name : shining) {
+    if (!all || !all->is_table(name) || !all->table(name)->has("emission")) continue;
+    warnings.push_back(fmt::format("{}: leaves send out light; give it 0, or role = \"lamp\" if this is a lamp",
+                                   all->table(name)->place("emission")));
+  }
+  return warnings;
+}
+
+}  // namespace sunfleck
