@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace sunfleck {
