@@ -140,12 +140,20 @@ void check_stand(const MaizeOptions& options) {
               "give fewer; a periodic plot repeats them without end");
 }
 
+// Adds the names of all options of a command and of the groups in it.
+void add_option_names(const CLI::App& command, std::vector<std::string>& names) {
+  for (const CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (group->get_name().empty()) add_option_names(*group, names);
+  }
+}
+
 // Returns the nearest option of a command as a question, or `otherwise`.
 std::string nearest_option(const std::string& unknown, const CLI::App& command, const std::string& otherwise) {
   std::vector<std::string> known;
-  for (const CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  }
+  add_option_names(command, known);
   return did_you_mean(unknown.substr(0, unknown.find('=')), known, otherwise);
 }
 
