@@ -17,24 +17,24 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access,
-                         std::string_view wanted) {
-  const std::string name = *table.text("file");
+fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access, std::string_view wanted,
+                         std::string_view key) {
+  const std::string name = *table.text(key);
   std::error_code code;
   const fs::path parent = scene_file.parent_path();
   const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, code);
-  if (code) table.refuse("file", "the scene's folder cannot be read: " + code.message(), "check its permissions");
+  if (code) table.refuse(key, "the scene's folder cannot be read: " + code.message(), "check its permissions");
   fs::path file = fs::weakly_canonical(folder / name, code);
-  if (code) table.refuse("file", "its path cannot be resolved: " + code.message(), "correct the path");
+  if (code) table.refuse(key, "its path cannot be resolved: " + code.message(), "correct the path");
   if (!access.allow_outside && !lies_in(file, folder)) {
-    table.refuse("file", "it lies outside the scene's folder", "move it into that folder, or run with --allow-outside");
+    table.refuse(key, "it lies outside the scene's folder", "move it into that folder, or run with --allow-outside");
   }
   access.files->note(folder / name);
   const fs::file_status status = fs::status(file, code);
   if (status.type() == fs::file_type::not_found) {
-    table.refuse("file", "there is no such file; names are relative to the scene's folder", "correct the name");
+    table.refuse(key, "there is no such file; names are relative to the scene's folder", "correct the name");
   }
-  if (!fs::is_regular_file(status)) table.refuse("file", "it is not a regular file", wanted);
+  if (!fs::is_regular_file(status)) table.refuse(key, "it is not a regular file", wanted);
   return file;
 }
 

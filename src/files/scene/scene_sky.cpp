@@ -14,13 +14,13 @@ namespace sunfleck {
 namespace {
 
 enum class Named { uniform, overcast, clear, cie, perez, lights };
-const std::vector<std::string> names = {"uniform", "cie-overcast", "cie-clear", "cie", "perez", "lights"};
+const std::vector<std::string> model_names = {"uniform", "cie-overcast", "cie-clear", "cie", "perez", "lights"};
 constexpr int clear_type = 12;
 
 void refuse_foreign(const TomlTable& table, Named model) {
   const auto refuse = [&](const char* key, Named owner) {
     if (model == owner || !table.has(key)) return;
-    table.refuse(key, fmt::format("it is only for model = \"{}\"", names[static_cast<std::size_t>(owner)]), "remove it");
+    table.refuse(key, fmt::format("it is only for model = \"{}\"", model_names[static_cast<std::size_t>(owner)]), "remove it");
   };
   refuse("type", Named::cie);
   refuse("dni", Named::perez);
@@ -55,7 +55,7 @@ std::optional<SkyInput> read_sky(const TomlTable& root, const std::filesystem::p
   if (!table) return std::nullopt;
   table->allow({"model", "type", "dni", "dhi", "file"});
   table->require("model", "model = \"cie-overcast\"");
-  const Named named = static_cast<Named>(*table->word("model", names));
+  const Named named = static_cast<Named>(*table->word("model", model_names));
   refuse_foreign(*table, named);
   SkyInput input;
   switch (named) {
