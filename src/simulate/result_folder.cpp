@@ -29,6 +29,7 @@ namespace {
 constexpr const char* profile_file = "profile.csv";
 constexpr const char* profile_plot_file = "profile.png";
 constexpr const char* organs_file = "organs.csv";
+constexpr const char* plants_file = "plants.csv";
 constexpr const char* sensors_file = "sensors.csv";
 
 std::string file_of(const Picture& picture) {
@@ -102,6 +103,7 @@ void write_tables(const std::filesystem::path& folder, const RunRecord& record, 
   };
   write(profile_file, [&] { return profile_csv(record, model, result); });
   write(organs_file, [&] { return organs_csv(record, model, result); });
+  if (!result.plants.empty()) write(plants_file, [&] { return plants_csv(record, model, result); });
   if (!result.sensors.empty()) write(sensors_file, [&] { return sensors_csv(record, model, result); });
   for (std::size_t plane = 0; plane < result.planes.size(); ++plane) {
     const std::string stem = plane_stem(result.planes[plane].height_m);
@@ -197,8 +199,9 @@ bool write_pictures(const std::filesystem::path& folder, const ResultRequest& re
 
 // Returns whether a run or a day writes a file of this name, other than the summary.
 bool is_file_of_runs(const std::string& name) {
-  std::vector<std::string> names{profile_file,   profile_plot_file, organs_file,      sensors_file, result_store_file,
-                                 run_state_file, "day.csv",         "organs_day.csv", "day.nc",     "day.png"};
+  std::vector<std::string> names{profile_file,     profile_plot_file, organs_file,    plants_file,
+                                 sensors_file,     result_store_file, run_state_file, "day.csv",
+                                 "organs_day.csv", "day.nc",          "day.png"};
   for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
   for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
   return is_plane_file(name) || std::find(names.begin(), names.end(), name) != names.end();
@@ -227,6 +230,17 @@ void remove_files(const std::filesystem::path& folder, const std::vector<std::st
 
 std::filesystem::path result_folder(const ResultRequest& request, const std::filesystem::path& scene) {
   return request.output.empty() ? std::filesystem::path("results") / scene_stem(scene) : request.output;
+}
+
+void check_inputs(const std::filesystem::path& folder, const Scene& scene) {
+  std::error_code error;
+  const std::filesystem::path results = std::filesystem::weakly_canonical(folder, error);
+  for (const SourceFile& file : scene.files) {
+    const std::string name = file.path.filename().string();
+    if (!is_file_of_runs(name) || std::filesystem::weakly_canonical(file.path, error).parent_path() != results) continue;
+    throw_input(printable(file.path.string()), "the result would replace this file of the scene",
+                "give another folder with -o, or rename the file");
+  }
 }
 
 void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, OldResults old) {

@@ -22,6 +22,9 @@ inline constexpr const char* summary_file = "summary.json";
 // Says what to do with the files of an earlier run, so that the folder never holds parts of two runs.
 enum class OldResults { remove_all, keep_checkpoint };
 
+// Refuses a folder in which a result would replace a file that the scene was read from. Throws Error (input).
+void check_inputs(const std::filesystem::path& folder, const Scene& scene);
+
 // Creates, locks and test-writes the folder before any ray is traced, so that no result is lost at the end. Throws Error
 // (failure).
 void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, OldResults old = OldResults::remove_all);

@@ -3,6 +3,7 @@
 #include "files/formats/caribu/caribu_reader.h"
 #include "files/formats/caribu/light_reader.h"
 #include "files/formats/measured/measured_reader.h"
+#include "files/formats/measured/plant_positions.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/formats/spectra/spectrum_reader.h"
 #include "files/formats/weather/weather_reader.h"
@@ -122,6 +123,13 @@ void feed_spectrum(std::string_view bytes) {
   read_or_refuse([&] { check_spectrum(read_light_spectrum(file), std::numeric_limits<double>::max()); });
 }
 
+void feed_positions(std::string_view bytes) {
+  read_or_refuse([&] {
+    for (const PlantPosition& position : read_plant_positions(write("plants.csv", bytes)))
+      promise(std::isfinite(position.x_m + position.y_m + position.z_m) && position.scale > 0.0, "places and sizes");
+  });
+}
+
 void feed_pictures(std::string_view bytes) {
   read_or_refuse([&] {
     const StoredResult stored = read_result_store(write(result_store_file, bytes));
@@ -130,13 +138,14 @@ void feed_pictures(std::string_view bytes) {
 }
 
 constexpr std::array all_targets{
-    Target{"scene", feed_scene},       Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
-    Target{"obj", feed_mesh<2>},       Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
-    Target{"can", feed_mesh<5>},       Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
-    Target{"station", feed_station},   Target{"epw", feed_epw},        Target{"measured", feed_measured},
-    Target{"pictures", feed_pictures}, Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
-    Target{"spectrum", feed_spectrum}, Target{"dae", feed_mesh<7>},    Target{"opf", feed_mesh<8>},
-    Target{"opt", feed_opt},           Target{"domain", feed_domain},  Target{"run_state", feed_run_state}};
+    Target{"scene", feed_scene},         Target{"gltf", feed_mesh<0>},   Target{"glb", feed_mesh<1>},
+    Target{"obj", feed_mesh<2>},         Target{"ply", feed_mesh<3>},    Target{"stl", feed_mesh<4>},
+    Target{"can", feed_mesh<5>},         Target{"can_gz", feed_mesh<6>}, Target{"lights", feed_lights},
+    Target{"station", feed_station},     Target{"epw", feed_epw},        Target{"measured", feed_measured},
+    Target{"pictures", feed_pictures},   Target{"step", feed_step},      Target{"step_settings", feed_step_settings},
+    Target{"spectrum", feed_spectrum},   Target{"dae", feed_mesh<7>},    Target{"opf", feed_mesh<8>},
+    Target{"positions", feed_positions}, Target{"opt", feed_opt},        Target{"domain", feed_domain},
+    Target{"run_state", feed_run_state}};
 
 }  // namespace
 

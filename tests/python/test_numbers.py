@@ -16,7 +16,7 @@ def test_saved_files_are_those_of_the_program(scene_file, tmp_path, device):
     assert set(ours) == set(theirs)
     for name in set(theirs) - {"summary.json"}:
         assert ours[name] == theirs[name], name
-    for name in ("profile.csv", "organs.csv", "triangles.csv", "sensors.csv"):
+    for name in ("profile.csv", "organs.csv", "plants.csv", "triangles.csv", "sensors.csv"):
         assert result.table(name).encode() == theirs[name]
 
 
@@ -37,7 +37,7 @@ def test_arrays_hold_what_the_files_hold(scene_file, tmp_path):
                 assert np.array_equal(stored, values.astype(float), equal_nan=True), name
         corners = np.stack([file[f"corner_{axis}"][:] for axis in "xyz"], axis=2)
     assert np.array_equal(corners, result.corners)
-    for name, table in (("profile.csv", result.profile), ("organs.csv", result.organs)):
+    for name, table in (("profile.csv", result.profile), ("organs.csv", result.organs), ("plants.csv", result.plants)):
         lines = body(result.table(name)).splitlines()
         heads = lines[0].split(",")
         assert [head for head in heads if head not in table] == []
@@ -87,6 +87,13 @@ def test_organs_plants_and_placement_of_arrays():
     assert result.organs["organ"] == ["leaf", "leaf", "stem"] * 2
     assert list(result.organs["rank"]) == [1, 3, 0] * 2
     assert list(result["plant"]) == [2, 2, 5, 7, 7, 10]
+
+
+def test_optics_by_patterns_of_names():
+    organs = ["leaf1", "leaf2", "stalk"]
+    named = sunfleck.run(with_arrays(organ=organs), **WORK)
+    patterned = sunfleck.run(with_arrays(organ=organs, optics={"LEAF?": "leaf", "*": "stem"}), **WORK)
+    assert body(patterned.table("triangles.csv")) == body(named.table("triangles.csv"))
 
 
 def test_other_light_is_that_of_a_fresh_scene(scene_file):

@@ -53,7 +53,7 @@ transmittance = { PAR = 0, NIR_1 = 0.2 }
 
 [[geometry]]
 file    = "plates.obj"
-optics  = "bark"
+optics  = { leaf = "leaf", "*" = "bark" }
 up      = "y"
 scale   = 0.5
 heading = [0, 90.0]

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "files/scene/plain_name.h"
 #include "files/scene/scene_files.h"
+#include "files/scene/scene_positions.h"
 #include "physics/canopy/canopy.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <glm/trigonometric.hpp>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace sunfleck {
@@ -25,7 +26,7 @@ constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the gener
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only generator
-  for (const char* key : {"optics", "up", "scale", "heading", "at", "role", "split"}) {
+  for (const char* key : {"optics", "up", "scale", "heading", "at", "positions", "role", "split"}) {
     if (table.has(key))
       table.refuse(key, "it is only for files; a generated stand fills the plot from its corner", "remove it");
   }
@@ -58,16 +59,6 @@ fs::path find_mesh(const TomlTable& table, const fs::path& scene_file, const Sce
   return file;
 }
 
-std::vector<Placement> read_placements(const TomlTable& table) {
-  const std::vector<glm::dvec3> positions_m = table.triples("at", anywhere).value_or(std::vector<glm::dvec3>{{0.0, 0.0, 0.0}});
-  const NumberRange turn{.lo = -360.0, .hi = 360.0, .cure = "give degrees clockwise seen from above"};
-  const std::vector<double> headings_deg =
-      table.number_or_list("heading", positions_m.size(), turn).value_or(std::vector<double>(positions_m.size(), 0.0));
-  std::vector<Placement> placements;
-  for (std::size_t i = 0; i < positions_m.size(); ++i) placements.push_back({positions_m[i], glm::radians(headings_deg[i])});
-  return placements;
-}
-
 const Mesh* find_given_mesh(const TomlTable& table, const SceneText& source) {
   const std::string name = *table.text("mesh");
   const auto found = source.meshes.find(name);
@@ -80,19 +71,21 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
     if (table.has(key)) table.refuse(key, "it is only for generator = \"maize\"", "remove it; place a file's copies with `at`");
   }
   MeshImport import;
-  import.optics = table.text("optics");
+  std::vector<OpticsRule> optics = read_optics_rules(table);
+  if (!optics.empty()) import.optics = table.is_table("optics") ? std::string(unnamed_material) : optics.front().optics;
   import.allow_outside = access.allow_outside;
   if (const auto up = table.word("up", {"y", "z", "x"})) import.up = static_cast<UpAxis>(*up);
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
   if (const auto split = table.word("split", {"names", "materials", "parts"})) import.split = static_cast<OrganSplit>(*split);
-  std::vector<Placement> placements = read_placements(table);
+  std::vector<Placement> placements = read_placements(table, source.file, access);
   const bool given = table.has("mesh");
   return GeometryPart{.table = table,
                       .maize = std::nullopt,
                       .mesh = given ? find_given_mesh(table, source) : nullptr,
                       .file = given ? fs::path() : find_mesh(table, source.file, access),
                       .import = import,
+                      .optics = std::move(optics),
                       .placements = std::move(placements),
                       .role = read_role(table)};
 }
@@ -109,9 +102,12 @@ void refuse_many(const GeometryPart& part, std::size_t triangles) {
 
 void refuse_far(const GeometryPart& part, const Mesh& mesh) {
   double farthest = 0.0;
+  double largest_scale = 1.0;
+  for (const Placement& placement : part.placements) largest_scale = std::max(largest_scale, placement.scale);
   for (const glm::dvec3& vertex_m : mesh.vertices) {
     farthest = std::max({farthest, std::abs(vertex_m.x), std::abs(vertex_m.y), std::abs(vertex_m.z)});
   }
+  farthest *= largest_scale;
   if (farthest > farthest_m) {
     part.table.refuse(part.source_key(),
                       fmt::format("it extends to {:.3g} m, but at most {:.0e} m is allowed", farthest, farthest_m),
@@ -165,11 +161,11 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
 
 void allow_keys(const TomlTable& table, const SceneText& source) {
   if (source.meshes.empty()) {
-    table.allow(
-        {"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at", "role", "split"});
+    table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at",
+                 "positions", "role", "split"});
   } else {
     table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at",
-                 "role", "split"});
+                 "positions", "role", "split"});
   }
 }
 
@@ -199,17 +195,21 @@ std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& 
   return parts;
 }
 
-std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files) {
+std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files,
+                                      std::vector<std::string>& warnings) {
   constexpr std::size_t least_of_plant = 10'000;  // triangles
   std::vector<PlacedMesh> meshes;
   std::size_t triangles = 0;
+  std::set<std::uint32_t> plant_numbers;
   for (const GeometryPart& part : parts) {
     if (part.maize) {
       const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
       refuse_many(part, triangles + plants * least_of_plant);
     }
     meshes.push_back({load_mesh(part, files), part.placements, part.role});
-    const Mesh& mesh = meshes.back().mesh;
+    Mesh& mesh = meshes.back().mesh;
+    apply_optics_rules(part.table, part.optics, mesh, warnings);
+    check_plant_numbers(part.table, mesh, part.placements, plant_numbers);
     refuse_far(part, mesh);
     triangles += mesh.triangles.size() * part.placements.size();
     refuse_many(part, triangles);
@@ -219,14 +219,17 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, Sourc
 
 void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
                   const Scene& scene) {
+  const auto is_defined = [&](const std::string& name) {
+    return find_optics(defined, name) != nullptr || (is_soil(name) && scene.model.soil);
+  };
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (const std::string& name : meshes[i].mesh.optics_names) {
-      const bool known = find_optics(defined, name) != nullptr || (is_soil(name) && scene.model.soil);
-      if (!known) refuse_undefined(parts[i], name, defined);
+    for (const OpticsRule& rule : parts[i].optics) {
+      if (is_defined(rule.optics) || !parts[i].table.is_table("optics")) continue;
+      parts[i].table.table("optics")->refuse(rule.pattern, "these optics are not defined",
+                                             cure_of_undefined(rule.optics, defined));
     }
-    const auto& own = parts[i].import.optics;
-    if (own && find_optics(defined, *own) == nullptr && !(is_soil(*own) && scene.model.soil)) {
-      refuse_undefined(parts[i], *own, defined);
+    for (const std::string& name : meshes[i].mesh.optics_names) {
+      if (!is_defined(name)) refuse_undefined(parts[i], name, defined);
     }
   }
 }

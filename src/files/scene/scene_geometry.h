@@ -3,6 +3,7 @@
 
 #include "base/source_files.h"
 #include "files/formats/mesh/mesh_reader.h"
+#include "files/scene/scene_patterns.h"
 #include "files/scene/scene_reader.h"
 #include "files/scene/scene_surface.h"
 #include "files/scene/toml_view.h"
@@ -25,6 +26,7 @@ struct GeometryPart {
   const Mesh* mesh = nullptr;       // points into the SceneText
   std::filesystem::path file;       // location of the file, symbolic links resolved
   MeshImport import;
+  std::vector<OpticsRule> optics = {};  // of the key `optics`
   std::vector<Placement> placements;
   std::optional<Role> role = std::nullopt;
 
@@ -36,7 +38,9 @@ struct GeometryPart {
                                                       const SceneAccess& access);
 
 // Loads the meshes. Refuses more triangles than fit into the memory of this machine, before allocating memory for their copies.
-[[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files);
+// Adds warnings about keys without effect.
+[[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files,
+                                                    std::vector<std::string>& warnings);
 
 // Refuses the table whose mesh uses undefined optics. Soil names need no definition if the scene has [soil].
 void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,

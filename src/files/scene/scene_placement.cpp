@@ -50,6 +50,7 @@ std::string centring_cure(const GeometryPart& part, const Extent& extent, const 
     return fmt::format("size = [{:.6g}, {:.6g}] would be large enough", part.maize->per_row * part.maize->spacing_in_row_m,
                        part.maize->rows * part.maize->spacing_between_rows_m);
   }
+  if (part.table.has("positions")) return fmt::format("adding {:.6g} to each x and {:.6g} to each z would centre it", dx, dz);
   if (part.placements.size() > 1) return fmt::format("adding [{:.6g}, 0, {:.6g}] to each `at` would centre it", dx, dz);
   const glm::dvec3& at = part.placements.front().position_m;
   return fmt::format("at = [[{:.6g}, {:.6g}, {:.6g}]] would centre it", at.x + dx, at.y, at.z + dz);

@@ -255,7 +255,7 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
   const OpticsByName optics = read_all_but_geometry(root, source, noting, scene);
 
   const std::vector<GeometryPart> parts = read_geometry(root, source, noting);
-  const std::vector<PlacedMesh> meshes = load_geometry(parts, *noting.files);
+  const std::vector<PlacedMesh> meshes = load_geometry(parts, *noting.files, scene.warnings);
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
   check_optics(parts, meshes, optics, scene);
   scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, scene.model.soil);

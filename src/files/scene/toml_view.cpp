@@ -227,6 +227,16 @@ std::vector<std::string> TomlTable::keys() const {
   return names;
 }
 
+std::vector<std::string> TomlTable::keys_as_written() const {
+  std::vector<const toml::key*> written;
+  for (const auto& [key, node] : *table_) written.push_back(&key);
+  std::sort(written.begin(), written.end(),
+            [](const toml::key* a, const toml::key* b) { return a->source().begin < b->source().begin; });
+  std::vector<std::string> names;
+  for (const toml::key* key : written) names.emplace_back(key->str());
+  return names;
+}
+
 double TomlTable::checked(std::string_view key, const toml::node& item, std::optional<std::size_t> index,
                           const NumberRange& range) const {
   if (!item.is_number()) {

@@ -61,6 +61,7 @@ class TomlTable {
   [[nodiscard]] bool is_table(std::string_view key) const;
   [[nodiscard]] bool is_text(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> keys() const;  // in alphabetical order
+  [[nodiscard]] std::vector<std::string> keys_as_written() const;
 
   [[nodiscard]] std::optional<double> number(std::string_view key, const NumberRange& range) const;
   [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, std::int64_t lo, std::int64_t hi) const;

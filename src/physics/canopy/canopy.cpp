@@ -19,20 +19,12 @@ struct DoubleBox {
   [[nodiscard]] bool empty() const { return lo.x > hi.x; }
 };
 
-// Turns clockwise as seen from above: south (+X) turns towards west (+Z).
-glm::dvec3 place(const glm::dvec3& vertex_m, const Placement& placement) {
-  if (placement.heading_rad == 0.0) return vertex_m + placement.position_m;
-  const double c = std::cos(placement.heading_rad);
-  const double s = std::sin(placement.heading_rad);
-  return glm::dvec3(vertex_m.x * c - vertex_m.z * s, vertex_m.y, vertex_m.x * s + vertex_m.z * c) + placement.position_m;
-}
-
 DoubleBox bounds_of(std::span<const PlacedMesh> parts) {
   DoubleBox box;
   for (const PlacedMesh& part : parts) {
     for (const Placement& placement : part.placements) {
       for (const glm::dvec3& vertex_m : part.mesh.vertices) {
-        const glm::dvec3 at_m = place(vertex_m, placement);
+        const glm::dvec3 at_m = placed_m(vertex_m, placement);
         box.lo = glm::min(box.lo, at_m);
         box.hi = glm::max(box.hi, at_m);
       }
@@ -104,8 +96,9 @@ std::vector<std::uint16_t> merge_optics_names(Canopy& canopy, const Mesh& mesh) 
   return merged;
 }
 
-// Appends the organs of one copy, its plants numbered from `offset`; returns the highest plant number in use.
-std::uint32_t add_organs(Canopy& canopy, const PlacedMesh& part, std::uint32_t offset) {
+// Appends the organs of one copy, its plants numbered from `offset` unless it has a number of its own; returns the highest plant
+// number in use.
+std::uint32_t add_organs(Canopy& canopy, const PlacedMesh& part, const Placement& placement, std::uint32_t offset) {
   std::uint32_t highest = offset;
   for (Organ organ : part.mesh.organs) {
     if (part.role) organ.role = part.role;
@@ -113,7 +106,7 @@ std::uint32_t add_organs(Canopy& canopy, const PlacedMesh& part, std::uint32_t o
       throw_input(fmt::format("plant {} of a mesh", organ.plant), fmt::format("{} plants come before it, too many", offset),
                   "number a mesh's plants from 1");
     }
-    if (organ.plant > 0) organ.plant += offset;
+    if (organ.plant > 0) organ.plant = placement.plant.value_or(organ.plant + offset);
     highest = std::max(highest, organ.plant);
     canopy.organs.push_back(std::move(organ));
   }
@@ -154,10 +147,10 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
     const std::vector<std::uint16_t> optics = merge_optics_names(canopy, mesh);
     for (const Placement& placement : part.placements) {
       const auto first_organ = static_cast<std::uint32_t>(canopy.organs.size());
-      highest_plant = add_organs(canopy, part, highest_plant);
+      highest_plant = add_organs(canopy, part, placement, highest_plant);
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         std::array<glm::dvec3, 3> corners_m;
-        for (int k = 0; k < 3; ++k) corners_m[k] = place(mesh.vertices[mesh.triangles[t][k]], placement) - canopy.origin_m;
+        for (int k = 0; k < 3; ++k) corners_m[k] = placed_m(mesh.vertices[mesh.triangles[t][k]], placement) - canopy.origin_m;
         if (plot.periodic) wrapper.wrap(corners_m);
         canopy.corners.push_back({glm::vec3(corners_m[0]), glm::vec3(corners_m[1]), glm::vec3(corners_m[2])});
         canopy.organ_of.push_back(first_organ + mesh.organ_of[t]);
@@ -167,6 +160,7 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
     }
   }
   canopy.copies = find_copies(canopy.corners);
+  canopy.plants = plant_sites(parts);
   return canopy;
 }
 

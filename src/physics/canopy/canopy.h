@@ -3,6 +3,7 @@
 
 #include "physics/canopy/copies.h"
 #include "physics/canopy/mesh.h"
+#include "physics/canopy/plants.h"
 #include "physics/canopy/plot.h"
 #include "physics/canopy/triangle.h"
 
@@ -33,6 +34,7 @@ struct Canopy {
   std::vector<std::string> optics_names;  // [optics]
   std::vector<std::uint64_t> labels;      // [element], as in Mesh
   std::vector<Copy> copies;               // ascending by element; copies neither receive nor emit light
+  std::vector<PlantSite> plants;          // ascending by number; plant 0, the soil, is not among them
 
   [[nodiscard]] std::size_t size() const { return corners.size(); }
 };

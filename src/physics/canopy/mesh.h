@@ -36,11 +36,16 @@ struct Mesh {
   std::vector<std::uint64_t> labels;
 };
 
-// The placement of a copy of a mesh in the scene: turned clockwise as seen from above, then moved.
+// The placement of a copy of a mesh in the scene: scaled, turned clockwise as seen from above, then moved.
 struct Placement {
   glm::dvec3 position_m{0.0};
   double heading_rad = 0.0;
+  double scale = 1.0;                       // > 0
+  std::optional<std::uint32_t> plant = {};  // number of the plant in the canopy, of a mesh with a single plant
 };
+
+// Returns where a vertex of the mesh lies in the scene, before it is wrapped into the plot.
+[[nodiscard]] glm::dvec3 placed_m(const glm::dvec3& vertex_m, const Placement& placement);
 
 // A mesh and its placements; every placement is a copy with its own plants.
 struct PlacedMesh {

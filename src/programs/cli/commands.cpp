@@ -43,6 +43,7 @@ int run(const RunOptions& asked) {
   Scene scene = load_scene_with_warnings(options);
   SolveSettings settings = solve_settings(options, scene, options.threads);
   check_pictures(options, scene.model);
+  check_inputs(folder, scene);
   check_grid(options, scene);
   const ProfileOverlays overlays = read_overlays(options, scene.model);
   Checkpoint checkpoint(folder, options.exports, scene, settings);

@@ -212,6 +212,7 @@ int run_day(const DayOptions& asked) {
   Scene scene = read_day_scene(run);
   const DayPlan plan = plan_day(options, scene);
   const SolveSettings settings = day_solve_settings(run, scene, run.threads);
+  check_inputs(folder, scene);
   check_grid(run, scene);
   static_cast<void>(picture_band(scene.model, run.pictures.band));
   const ordered_json kept_settings = day_settings(options, scene, settings, plan);

@@ -28,11 +28,13 @@ std::string Outcome::table(const std::string& name) const {
   const RadiationModel& model = simulated_.scene->model;
   if (name == "profile.csv") return profile_csv(simulated_.record, model, simulated_.result);
   if (name == "organs.csv") return organs_csv(simulated_.record, model, simulated_.result);
+  if (name == "plants.csv") return plants_csv(simulated_.record, model, simulated_.result);
   if (name == "triangles.csv") return triangles_csv(simulated_.record, model, simulated_.result);
   if (name == "sensors.csv" && !simulated_.result.sensors.empty())
     return sensors_csv(simulated_.record, model, simulated_.result);
-  throw py::value_error(name + " (not a table of this result); use profile.csv, organs.csv, triangles.csv or, if the scene " +
-                        "has sensors, sensors.csv");
+  throw py::value_error(
+      name + " (not a table of this result); use profile.csv, organs.csv, plants.csv, triangles.csv or, if the scene " +
+      "has sensors, sensors.csv");
 }
 
 py::dict Outcome::describe(const std::string& name) {
@@ -40,10 +42,12 @@ py::dict Outcome::describe(const std::string& name) {
   const RadiationResult& result = simulated_.result;
   if (name == "profile.csv") return descriptions_of(layers_table(model, result));
   if (name == "organs.csv") return descriptions_of(organs_table(model, result));
+  if (name == "plants.csv") return descriptions_of(plants_table(model, result));
   if (name == "triangles.csv") return descriptions_of(triangles_table(fields()));
   if (name == "sensors.csv") return descriptions_of(sensors_table(model, result));
   if (name == "balance") return descriptions_of(balance_table(result));
-  throw py::value_error(name + " (not a table of this result); use profile.csv, organs.csv, triangles.csv or sensors.csv");
+  throw py::value_error(name +
+                        " (not a table of this result); use profile.csv, organs.csv, plants.csv, triangles.csv or sensors.csv");
 }
 
 py::dict Outcome::profile() const {
@@ -52,6 +56,10 @@ py::dict Outcome::profile() const {
 
 py::dict Outcome::organs() const {
   return columns_of(organs_table(simulated_.scene->model, simulated_.result));
+}
+
+py::dict Outcome::plants() const {
+  return columns_of(plants_table(simulated_.scene->model, simulated_.result));
 }
 
 py::dict Outcome::balance() const {
@@ -83,6 +91,7 @@ void Outcome::write(const ResultRequest& request) const {
   const std::filesystem::path folder = result_folder(request, simulated_.scene->file);
   FolderLock lock(folder);
   check_pictures(request, simulated_.scene->model);
+  check_inputs(folder, *simulated_.scene);
   prepare_folder(folder, lock);
   RunRecord record = simulated_.record;
   write_whole_result(folder, request, simulated_, record).throw_if_any();
@@ -110,6 +119,7 @@ void bind_outcome(py::module_& module) {
       .def("balance", &Outcome::balance)
       .def("profile", &Outcome::profile)
       .def("organs", &Outcome::organs)
+      .def("plants", &Outcome::plants)
       .def("planes", &Outcome::planes)
       .def("sensors", &Outcome::sensors)
       .def("corners", &Outcome::corners)

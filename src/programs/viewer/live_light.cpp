@@ -235,6 +235,7 @@ void LiveLight::save_if_asked() {
 
 void LiveLight::write(const std::filesystem::path& folder, const RadiationResult& result) {
   FolderLock lock(folder);
+  check_inputs(folder, simulation_.scene());
   prepare_folder(folder, lock);
   SimulatedScene simulated = simulation_.simulated(settings_, result);
   if (has_receivers_) simulated.record.not_written.emplace_back("planes and sensors");

@@ -70,7 +70,7 @@ std::size_t NumberTable::column(std::string_view name) const {
   return *found;
 }
 
-NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header) {
+NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header, SourceFiles* files) {
   NumberTable table;
   table.file = file;
   std::error_code error;
@@ -78,7 +78,7 @@ NumberTable read_number_table(const std::filesystem::path& file, const HeaderChe
   if (!error && bytes_there > most_bytes) {
     refuse_table(table, 0, fmt::format("{} bytes", bytes_there), "a table may have at most 10 MB", "give fewer rows");
   }
-  const std::string bytes = read_file(file);
+  const std::string bytes = read_source(file, files);
   std::vector<std::string_view> cells;
   for (LineReader lines(without_mark(bytes)); lines.next();) {
     const std::string_view line = trimmed(lines.line());

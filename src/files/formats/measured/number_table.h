@@ -1,6 +1,8 @@
 #pragma once
 // Reads CSV tables of numbers written by people or by other programs.
 
+#include "base/source_files.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -31,8 +33,10 @@ using HeaderCheck = std::function<void(const NumberTable&)>;
 
 // Reads a comma-separated table that begins with a line of column names. `#` lines and blank lines may occur anywhere, cells
 // may be in double quotes. Throws Error (input), one line `FILE:LINE: ...`, for malformed tables, numbers that are not finite,
-// and files of more than 10 MB. Calls `check_header` once the columns are known, before any row is read.
-[[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header = {});
+// and files of more than 10 MB. Calls `check_header` once the columns are known, before any row is read. Adds the file to `files`
+// if that is given.
+[[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header = {},
+                                            SourceFiles* files = nullptr);
 
 // Throws Error (input) about that line of the file, or about the whole file for line 0.
 [[noreturn]] void refuse_table(const NumberTable& table, std::size_t line, std::string_view what, std::string_view why,

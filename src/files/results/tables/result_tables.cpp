@@ -98,6 +98,39 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
   return table;
 }
 
+Table plants_table(const RadiationModel& model, const RadiationResult& result) {
+  const std::vector<PlantResult>& plants = result.plants;
+  Table table{
+      "Plants: their leaves, stems and fruits together",
+      "x, y, z: m (X south, Y up, Z west), where the plant was placed, or below the centroid of a plant whose mesh holds "
+      "several; height_m: m, from its lowest to its highest point; leaf_area_m2: m2, one-sided; incident, absorbed: W, "
+      "of the whole plant; absorbed_umol_s: the same in photons, umol s-1; _error: half-width of the confidence interval",
+      {},
+      {plants.size()},
+      {}};
+  table.add({"plant", "1", "number of the plant"}, [&](std::size_t p) { return plants[p].plant; });
+  table.add({"x", "m", "position towards the south"}, [&](std::size_t p) { return plants[p].position_m.x; });
+  table.add({"y", "m", "position upwards"}, [&](std::size_t p) { return plants[p].position_m.y; });
+  table.add({"z", "m", "position towards the west"}, [&](std::size_t p) { return plants[p].position_m.z; });
+  table.add({"height_m", "m", "height from its lowest to its highest point"},
+            [&](std::size_t p) { return plants[p].height_m; });
+  table.add({"leaf_area_m2", "m2", "one-sided area of its leaves"}, [&](std::size_t p) { return plants[p].leaf_area_m2; });
+  table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in direct sun"},
+            [&](std::size_t p) { return as_share(plants[p].sunlit_leaf_fraction); });
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    table.add({band + "_incident", "W", "flux that reaches both faces of all its organs"},
+              [&](std::size_t p) { return plants[p].incident_w[b]; });
+    table.add({band + "_absorbed", "W", "flux that all its organs absorb"},
+              [&](std::size_t p) { return plants[p].absorbed_w[b]; });
+    if (!(umol_per_joule > 0.0)) continue;
+    table.add({band + "_absorbed_umol_s", "umol s-1", "photons that all its organs absorb"},
+              [&](std::size_t p) { return plants[p].absorbed_w[b].value * umol_per_joule; });
+  }
+  return table;
+}
+
 Table layers_table(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<LayerResult>& layers = result.layers;
   const auto is_top_plane = [&](std::size_t i) { return layers[i].absorbed.empty(); };

@@ -20,6 +20,9 @@ void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis
 // The ground of [soil] is not an organ and has no row; absorbed_soil in the summary covers both.
 [[nodiscard]] Table organs_table(const RadiationModel& model, const RadiationResult& result);
 
+// plants.csv: one row per plant with leaves, stems or fruits, ascending by number.
+[[nodiscard]] Table plants_table(const RadiationModel& model, const RadiationResult& result);
+
 // profile.csv: one row per layer and one for the top plane. The columns of results.nc are those of the planes.
 [[nodiscard]] Table layers_table(const RadiationModel& model, const RadiationResult& result);
 

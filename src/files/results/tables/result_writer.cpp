@@ -198,6 +198,10 @@ std::string organs_csv(const RunRecord& record, const RadiationModel& model, con
   return csv_text(record, organs_table(model, result));
 }
 
+std::string plants_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return csv_text(record, plants_table(model, result));
+}
+
 std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
   return csv_text(record, sensors_table(model, result));
 }

@@ -48,6 +48,7 @@ struct RunRecord {
 // replicates or hits, and shares of a missing beam. files/results/tables/result_tables.h and files/results/tables/element_fields.h describe rows and columns.
 [[nodiscard]] std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
+[[nodiscard]] std::string plants_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const ElementFields& fields);

@@ -56,6 +56,7 @@ DirectSums Conversion::sum(std::span<const std::uint32_t> counters) const {
   sums.layer_optics.resize(areas.layer_foliage_m2.size() * model.optics.size());
   sums.organ_lit_m2.resize(areas.organ_m2.size());
   sums.layer_lit_m2.resize(areas.layer_foliage_m2.size());
+  sums.plant_lit_m2.resize(areas.plants.size());
   sums.transmitted = counters[shared::counter_transmitted];
   sums.missed = counters[shared::counter_missed];
   sums.lost = counters[shared::counter_lost];
@@ -76,7 +77,10 @@ void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSum
     const Surface& surface = surfaces.of[number];
     sums.surface[number].upper += element.upper;
     sums.surface[number].lower += element.lower;
-    sums.organ_lit_m2[surface.organ] += static_cast<double>(element.both()) * double{exposure.lit_m2_per_landing(e)};
+    const double lit_m2 = static_cast<double>(element.both()) * double{exposure.lit_m2_per_landing(e)};
+    sums.organ_lit_m2[surface.organ] += lit_m2;
+    const std::uint32_t plant = areas.plants.of_surface[number];
+    if (areas.foliage[e] && plant != PlantAreas::no_plant) sums.plant_lit_m2[plant] += lit_m2;
     if (surface.soil()) continue;
     std::size_t layer = first_layer(layout, model.canopy.corners[e]);
     for (std::uint32_t bin = layout.first_bin[e]; bin < layout.first_bin[e + 1]; ++bin, ++layer) {

@@ -20,6 +20,7 @@ struct DirectSums {
   std::vector<BeamLandings> layer_optics;  // [layer * optics + optics], without soil
   std::vector<double> organ_lit_m2;        // [organ]
   std::vector<double> layer_lit_m2;        // [layer], foliage
+  std::vector<double> plant_lit_m2;        // [plant of PlantAreas], foliage
   std::uint64_t soil_plane = 0, transmitted = 0, ground = 0, met = 0, missed = 0, lost = 0;
 };
 

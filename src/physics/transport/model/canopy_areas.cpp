@@ -17,7 +17,8 @@ CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layou
       organ_absorptance(organ_m2.size() * model.bands.size()),
       vegetation_absorptance(model.bands.size()),
       structure_absorptance(model.bands.size()),
-      soil_absorptance(model.bands.size()) {
+      soil_absorptance(model.bands.size()),
+      plants(model, surfaces, exposure) {
   const Canopy& canopy = model.canopy;
   const std::size_t bands = model.bands.size();
   const std::vector<bool> hidden = hidden_elements(model, layout);

@@ -5,6 +5,7 @@
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/exposure.h"
 #include "physics/transport/model/model.h"
+#include "physics/transport/model/plant_areas.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <vector>
@@ -27,6 +28,7 @@ struct CanopyAreas {
   std::vector<double> organ_absorptance;                             // [organ * bands + band], the largest of its faces
   // [band], the largest of all such surfaces
   std::vector<double> vegetation_absorptance, structure_absorptance, soil_absorptance;
+  PlantAreas plants;
 
   // Returns whether the beam can hit anything but soil.
   [[nodiscard]] bool beam_meets_canopy() const { return beam_meets_vegetation || beam_meets_structure; }

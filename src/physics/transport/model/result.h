@@ -8,6 +8,7 @@
 #include "physics/transport/model/tracer.h"
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,6 +62,17 @@ struct OrganResult {
   std::vector<Estimate> direct;    // [waveband], beam incident on both faces
   std::vector<Estimate> indirect;  // [waveband], all other light incident on both faces
   std::vector<Estimate> absorbed;  // [waveband]
+};
+
+// The light of one plant's leaves, stems and fruits, W of the whole plant.
+struct PlantResult {
+  std::uint32_t plant = 1;
+  glm::dvec3 position_m{0.0};        // as in PlantSite
+  double height_m = 0.0;             // from its lowest to its highest point
+  double leaf_area_m2 = 0.0;         // one-sided
+  Estimate sunlit_leaf_fraction;     // NaN without leaves that the beam can hit
+  std::vector<Estimate> incident_w;  // [waveband], all light on both faces
+  std::vector<Estimate> absorbed_w;  // [waveband]
 };
 
 // A layer, and the horizontal plane at its lower edge. Soil elements count as lying below every plane.
@@ -140,6 +152,7 @@ struct RadiationResult {
   StopReason stop = StopReason::work_done;
   std::vector<BandResult> bands;
   std::vector<OrganResult> organs;     // [organ of the canopy]
+  std::vector<PlantResult> plants;     // [plant with vegetation], ascending by number
   std::vector<LayerResult> layers;     // [layer, bottom first, + 1 for the top plane]
   std::vector<BeamLandings> elements;  // [element], over all replicates
   std::vector<double> element_error;   // [waveband * elements + element], W m-2, of absorbed flux; empty unless requested

@@ -40,6 +40,7 @@ class ResultMaker {
                                      std::max(1.0, static_cast<double>(sums_.replicates)));
     }
     result.organs = organ_results();
+    result.plants = plant_results();
     result.layers = layer_results();
     result.element_error = element_errors();
     result.side_error = side_errors();
@@ -174,6 +175,41 @@ class ResultMaker {
         result.indirect.push_back(sums_.organs[o].indirect[b].estimate(quantile_, one(other)));
         const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
         result.absorbed.push_back(absorbed_estimate(sums_.organs[o].absorbed[b], event_w_m2, b));
+      }
+      results.push_back(std::move(result));
+    }
+    return results;
+  }
+
+  // Returns the parts of each plant's leaves about whose light all replicates agree: [plant]; empty for the other plants.
+  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_plants() const {
+    std::vector<std::vector<FacingArea>> parts(sums_.plants.size());
+    for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
+      if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
+      const std::uint32_t plant = areas_.plants.of_surface[sums_.conversion.surfaces.number_of[e]];
+      if (plant == PlantAreas::no_plant || sums_.plants[plant].sunlit.squares() > 0.0) continue;
+      parts[plant].push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
+    }
+    return parts;
+  }
+
+  [[nodiscard]] std::vector<PlantResult> plant_results() const {
+    const PlantAreas& plants = areas_.plants;
+    std::vector<std::vector<FacingArea>> parts = agreed_plants();
+    std::vector<PlantResult> results;
+    for (std::size_t p = 0; p < plants.size(); ++p) {
+      PlantResult result;
+      result.plant = plants.sites[p].plant;
+      result.position_m = plants.sites[p].position_m;
+      result.height_m = plants.height_m[p];
+      result.leaf_area_m2 = plants.leaf_m2[p];
+      result.sunlit_leaf_fraction = sunlit_estimate(sums_.plants[p].sunlit, plants.facing_leaf_m2[p], std::move(parts[p]));
+      for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
+        const double absorptance = plants.largest_absorptance[p * sums_.bands.size() + b];
+        const double beam = plants.beam_meets[p] ? events_.beam_w_m2[b] : 0.0;
+        const double event_w = model_.plot.area_m2() * std::max(beam, events_.other_w_m2[b]);
+        result.incident_w.push_back(absorbed_estimate(sums_.plants[p].incident[b], event_w, b));
+        result.absorbed_w.push_back(absorbed_estimate(sums_.plants[p].absorbed[b], event_w * absorptance, b));
       }
       results.push_back(std::move(result));
     }

@@ -58,6 +58,7 @@ class Addition {
     add_to_ledgers();
     add_to_band_means();
     add_to_organ_means();
+    add_to_plant_means();
     add_to_layer_means();
     if (sums_.planes) add_to_planes();
     add_arrays();
@@ -196,6 +197,35 @@ class Addition {
     }
   }
 
+  void add_to_plant_means() {
+    const PlantAreas& plants = areas_.plants;
+    const std::size_t bands = sums_.bands.size();
+    std::vector<double> incident_w(plants.size() * bands), absorbed_w(plants.size() * bands);
+    for (std::size_t s = 0; s < surfaces_.of.size(); ++s) {
+      if (plants.of_surface[s] == PlantAreas::no_plant) continue;
+      const double sides[2] = {static_cast<double>(direct_.surface[s].upper), static_cast<double>(direct_.surface[s].lower)};
+      for (std::size_t b = 0; b < bands; ++b) {
+        const std::size_t place = plants.of_surface[s] * bands + b;
+        const double w_per_quantum = quanta_[b].w_m2_per_quantum * model_.plot.area_m2();
+        for (std::size_t side = 0; side < 2; ++side) {
+          double flux_w = sides[side] * conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
+          if (indirect_ != nullptr) {
+            flux_w += static_cast<double>(indirect_->surface_landed[(s * 2 + side) * bands + b]) * w_per_quantum;
+          }
+          incident_w[place] += flux_w;
+          absorbed_w[place] += flux_w * conversion_.absorptance(surfaces_.of[s].optics, side, b);
+        }
+      }
+    }
+    for (std::size_t p = 0; p < plants.size(); ++p) {
+      sums_.plants[p].sunlit.add(plants.facing_leaf_m2[p] > 0.0 ? direct_.plant_lit_m2[p] / plants.facing_leaf_m2[p] : 0.0);
+      for (std::size_t b = 0; b < bands; ++b) {
+        sums_.plants[p].incident[b].add(incident_w[p * bands + b]);
+        sums_.plants[p].absorbed[b].add(absorbed_w[p * bands + b]);
+      }
+    }
+  }
+
   void add_to_layer_means() {
     const std::size_t optics_count = model_.optics.size();
     const std::size_t bands = sums_.bands.size();
@@ -312,6 +342,9 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors)
   OrganMeans organ;
   for (auto* means : {&organ.direct, &organ.indirect, &organ.absorbed, &organ.indirect_absorbed}) means->resize(bands.size());
   organs.assign(model.canopy.organs.size(), organ);
+  PlantMeans plant;
+  for (auto* means : {&plant.incident, &plant.absorbed}) means->resize(bands.size());
+  plants.assign(of.areas.plants.size(), plant);
   LayerMeans layer;
   for (auto* means : {&layer.down, &layer.up, &layer.absorbed, &layer.absorbed_structure}) means->resize(bands.size());
   layers.assign(static_cast<std::size_t>(of.layout.layers.count) + 1, layer);

@@ -25,6 +25,11 @@ struct OrganMeans {
   std::vector<ReplicateMean> direct, indirect, absorbed, indirect_absorbed;  // [band], W m-2 of organ
 };
 
+struct PlantMeans {
+  ReplicateMean sunlit;                           // of its leaf area that the beam can hit
+  std::vector<ReplicateMean> incident, absorbed;  // [band], W
+};
+
 struct LayerMeans {
   ReplicateMean ratio, sunlit;
   std::vector<ReplicateMean> down, up, absorbed, absorbed_structure;  // [band], W m-2 of ground
@@ -68,6 +73,7 @@ struct RunSums {
   std::vector<FluxLedger> ledgers;  // [band]
   std::vector<BandMeans> bands;
   std::vector<OrganMeans> organs;
+  std::vector<PlantMeans> plants;      // [plant of PlantAreas]
   std::vector<LayerMeans> layers;      // [layer, + 1 for the top plane]
   std::vector<BeamLandings> elements;  // [element]
   PlaceSums side_landed, side_sky;     // as in IndirectSums, over all replicates; empty before the first
@@ -96,6 +102,7 @@ void RunSums::visit(Self& self, Archive& archive) {
   for (auto& organ : self.organs) {
     archive(organ.landed, organ.sunlit, organ.direct, organ.indirect, organ.absorbed, organ.indirect_absorbed);
   }
+  for (auto& plant : self.plants) archive(plant.sunlit, plant.incident, plant.absorbed);
   for (auto& layer : self.layers)
     archive(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed, layer.absorbed_structure);
   for (auto& element : self.elements) archive(element.upper, element.lower);

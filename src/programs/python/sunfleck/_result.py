@@ -73,6 +73,12 @@ class Result:
         return self._outcome.organs()
 
     @functools.cached_property
+    def plants(self) -> dict[str, np.ndarray]:
+        """The columns of plants.csv as arrays of shape (plants,): plant, x, y, z (m, where it stands), height_m, leaf_area_m2,
+        sunlit_leaf_fraction, BAND_incident, BAND_absorbed (W of the whole plant), the last three each with its _error."""
+        return self._outcome.plants()
+
+    @functools.cached_property
     def profile(self) -> dict[str, np.ndarray]:
         """The columns of profile.csv as arrays of shape (layers + 1,), from the ground up, with the top plane in the last row:
         height_m, leaf_area_index, sunfleck_ratio, sunlit_leaf_fraction, BAND_down, BAND_up, BAND_absorbed (by vegetation) and
@@ -97,12 +103,12 @@ class Result:
         return self._outcome.corners()
 
     def describe(self, table: str) -> dict[str, tuple[str, str]]:
-        """Returns the unit and the meaning of each column of profile.csv, organs.csv, triangles.csv or sensors.csv:
+        """Returns the unit and the meaning of each column of profile.csv, organs.csv, plants.csv, triangles.csv or sensors.csv:
         result.describe("organs.csv")["area_m2"] is ("m2", "one-sided area")."""
         return {name: (unit, meaning) for name, (unit, meaning, _) in self._outcome.describe(table).items()}
 
     def table(self, name: str) -> str:
-        """Returns the text of profile.csv, organs.csv, triangles.csv or sensors.csv, byte for byte as the program writes it."""
+        """Returns the text of profile.csv, organs.csv, plants.csv, triangles.csv or sensors.csv, byte for byte as the program writes it."""
         return self._outcome.table(name)
 
     def save(

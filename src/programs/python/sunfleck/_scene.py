@@ -18,7 +18,8 @@ from ._errors import refuse
 Scene = Union[str, os.PathLike, Mapping[str, Any]]
 
 _MESH_KEYS = ("vertices", "triangles", "optics", "organ", "plant", "rank")
-_PLACE_KEYS = ("up", "scale", "heading", "at")
+_PLACE_KEYS = ("up", "scale", "heading", "at", "positions")
+_UNNAMED = "unnamed"  # the material of triangles without one, for patterns of optics
 _DICT_NAME = "scene"  # name in messages of a scene that is not a file
 
 
@@ -85,7 +86,8 @@ class SceneSource:
             refuse(f"{place}.{unknown[0]}", "unknown key next to vertices", f"use {', '.join(_MESH_KEYS + _PLACE_KEYS)}")
         name = f"mesh{number}"
         self.meshes[name] = _mesh(part, place)
-        return {"mesh": name, **_plain({key: part[key] for key in _PLACE_KEYS if key in part}, place)}
+        keys = _PLACE_KEYS + (("optics",) if isinstance(part.get("optics"), Mapping) else ())
+        return {"mesh": name, **_plain({key: part[key] for key in keys if key in part}, place)}
 
 
 def _toml(tables: Mapping[str, Any]) -> str:
@@ -189,7 +191,8 @@ def _mesh(part: Mapping[str, Any], place: str) -> Any:
     count = len(triangles)
     if count == 0:
         refuse(f"{place}.triangles: none", "a mesh needs at least one triangle", "add triangles, or leave this geometry out")
-    optics_names, optics = _names(part, "optics", None, count, place)
+    patterned = isinstance(part.get("optics"), Mapping)
+    optics_names, optics = _names({"optics": _UNNAMED} if patterned else part, "optics", None, count, place)
     kind_names, kinds = (optics_names, optics) if "organ" not in part else _names(part, "organ", None, count, place)
     plants = _numbers(part, "plant", 1, count, place)
     ranks = _numbers(part, "rank", 0, count, place)

@@ -45,8 +45,9 @@ class Simulation:
 
     scene: the path of a scene file (TOML), or a dict with its keys. In a dict an entry of `geometry` may hold arrays instead of
         a file: `vertices`, float (n, 3), m, with `triangles`, int (m, 3), or vertices (m, 3, 3) alone; `optics`, one name of an
-        [optics] table or m names; and optionally `organ` (names; default: as optics), `plant` and `rank` (whole numbers; default
-        1 and 0), one for all triangles or m of them; `up` ("y" or "z"), `scale`, `heading` and `at` work as for files.
+        [optics] table, m names, or a dict of patterns of the names in `organ`, {"leaf*": "leaf", "*": "stem"}; and optionally
+        `organ` (names; default: as optics), `plant` and `rank` (whole numbers; default 1 and 0), one for all triangles or m of
+        them; `up` ("y" or "z"), `scale`, `heading` and `at`, or `positions`, work as for files.
     folder: folder in which the files of a dict are looked up (default: the current folder).
     device: auto, gpu, lavapipe, cpu, a device number or part of a device name, as with the program's --device.
     threads: number of threads of the CPU path, 0 for all cores. (For lavapipe the first simulation of a process decides.)

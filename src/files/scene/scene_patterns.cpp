@@ -1,0 +1,153 @@
+#include "files/scene/scene_patterns.h"
+
+#include "base/file.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace sunfleck {
+
+namespace {
+
+constexpr std::size_t most_shown = 12;  // names in a message
+
+std::u32string letters_of(std::string_view text) {
+  const std::string lower = lower_case(text);
+  std::u32string letters;
+  for (std::string_view rest = lower; !rest.empty();) {
+    const auto letter = take_code_point(rest);
+    if (!letter) rest.remove_prefix(1);
+    letters.push_back(letter.value_or(U'\uFFFD'));
+  }
+  return letters;
+}
+
+// Returns the names for a message, the first ones if there are many.
+std::string listed(const std::set<std::string>& names) {
+  std::vector<std::string> shown;
+  for (const std::string& name : names) {
+    if (shown.size() == most_shown) break;
+    shown.push_back(printable(name));
+  }
+  const std::string text = fmt::format("{}", fmt::join(shown, ", "));
+  return names.size() > most_shown ? fmt::format("{} and {} more", text, names.size() - most_shown) : text;
+}
+
+// The pairs of material and organ that share triangles, each with the rule that applies.
+class Choices {
+ public:
+  Choices(const std::vector<OpticsRule>& rules, const Mesh& mesh) : rules_(rules), mesh_(mesh) {
+    const auto match_all = [&](const auto& names, const auto& name_of) {
+      std::vector<std::optional<std::size_t>> first;
+      for (const auto& named : names) first.push_back(first_match(name_of(named)));
+      return first;
+    };
+    by_material_ = match_all(mesh.optics_names, [](const std::string& name) -> const std::string& { return name; });
+    by_organ_ = match_all(mesh.organs, [](const Organ& organ) -> const std::string& { return organ.name; });
+  }
+
+  // Returns the index of the first rule that covers the triangle.
+  [[nodiscard]] std::optional<std::size_t> rule_of(std::size_t triangle) const {
+    const auto& material = by_material_[mesh_.optics_of[triangle]];
+    const auto& organ = by_organ_[mesh_.organ_of[triangle]];
+    if (!material || !organ) return material ? material : organ;
+    return std::min(*material, *organ);
+  }
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> first_match(const std::string& name) const {
+    for (std::size_t r = 0; r < rules_.size(); ++r) {
+      if (matches_pattern(rules_[r].pattern, name)) return r;
+    }
+    return std::nullopt;
+  }
+
+  const std::vector<OpticsRule>& rules_;
+  const Mesh& mesh_;
+  std::vector<std::optional<std::size_t>> by_material_, by_organ_;
+};
+
+void warn_of_idle_patterns(const TomlTable& geometry, const std::vector<OpticsRule>& rules, const Mesh& mesh,
+                           std::vector<std::string>& warnings) {
+  const std::set<std::string> materials(mesh.optics_names.begin(), mesh.optics_names.end());
+  std::set<std::string> names = materials;
+  for (const Organ& organ : mesh.organs) names.insert(organ.name);
+  for (const OpticsRule& rule : rules) {
+    const auto matches = [&](const std::string& name) { return matches_pattern(rule.pattern, name); };
+    if (std::any_of(names.begin(), names.end(), matches)) continue;
+    warnings.push_back(fmt::format("{} matches nothing; the names there are: {}", geometry.table("optics")->place(rule.pattern),
+                                   listed(names)));
+  }
+}
+
+}  // namespace
+
+bool matches_pattern(std::string_view pattern, std::string_view name) {
+  const std::u32string wanted = letters_of(pattern);
+  const std::u32string letters = letters_of(name);
+  std::size_t p = 0, n = 0;
+  std::size_t star = wanted.npos, behind_star = 0;  // the last `*`, and the letters that it stands for end here
+  while (n < letters.size()) {
+    if (p < wanted.size() && wanted[p] == U'*') {
+      star = p++;
+      behind_star = n;
+    } else if (p < wanted.size() && (wanted[p] == U'?' || wanted[p] == letters[n])) {
+      ++p;
+      ++n;
+    } else if (star != wanted.npos) {
+      p = star + 1;
+      n = ++behind_star;
+    } else {
+      return false;
+    }
+  }
+  return wanted.find_first_not_of(U'*', p) == wanted.npos;
+}
+
+std::vector<OpticsRule> read_optics_rules(const TomlTable& geometry) {
+  if (!geometry.has("optics")) return {};
+  if (!geometry.is_table("optics")) return {{"*", *geometry.text("optics")}};
+  const TomlTable table = *geometry.table("optics");
+  std::vector<OpticsRule> rules;
+  for (const std::string& pattern : table.keys_as_written()) rules.push_back({pattern, *table.text(pattern)});
+  if (rules.empty()) geometry.refuse("optics", "it has no pattern", "write { \"leaf*\" = \"leaf\", \"*\" = \"stem\" }");
+  return rules;
+}
+
+void apply_optics_rules(const TomlTable& geometry, const std::vector<OpticsRule>& rules, Mesh& mesh,
+                        std::vector<std::string>& warnings) {
+  if (rules.empty()) return;
+  if (geometry.is_table("optics")) warn_of_idle_patterns(geometry, rules, mesh, warnings);
+  const Choices choices(rules, mesh);
+  std::vector<std::string> names;
+  std::map<std::string, std::uint32_t> number_of;
+  std::vector<std::uint32_t> optics_of;
+  optics_of.reserve(mesh.triangles.size());
+  std::set<std::string> uncovered;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::optional<std::size_t> rule = choices.rule_of(t);
+    if (!rule) {
+      uncovered.insert(mesh.optics_names[mesh.optics_of[t]]);
+      continue;
+    }
+    const auto [place, fresh] = number_of.try_emplace(rules[*rule].optics, static_cast<std::uint32_t>(names.size()));
+    if (fresh) names.push_back(rules[*rule].optics);
+    optics_of.push_back(place->second);
+  }
+  if (!uncovered.empty()) {
+    geometry.refuse("optics", fmt::format("no pattern matches the materials {}", listed(uncovered)),
+                    "add patterns for them, or \"*\" = \"NAME\" at the end for all the rest");
+  }
+  mesh.optics_names = std::move(names);
+  mesh.optics_of = std::move(optics_of);
+}
+
+}  // namespace sunfleck

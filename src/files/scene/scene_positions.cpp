@@ -1,0 +1,72 @@
+#include "files/scene/scene_positions.h"
+
+#include "files/formats/measured/plant_positions.h"
+#include "files/scene/scene_files.h"
+
+#include <fmt/format.h>
+
+#include <glm/trigonometric.hpp>
+
+namespace sunfleck {
+
+namespace {
+
+std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::filesystem::path& scene_file,
+                                          const SceneAccess& access) {
+  for (const char* key : {"at", "heading"}) {
+    if (geometry.has(key)) {
+      geometry.refuse(key, "positions is also given", fmt::format("give {} in that file, or remove positions", key));
+    }
+  }
+  const std::filesystem::path file = find_scene_file(geometry, scene_file, access, "name a .csv file", "positions");
+  std::vector<Placement> placements;
+  for (const PlantPosition& position : read_plant_positions(file, access.files)) {
+    placements.push_back({.position_m = {position.x_m, position.y_m, position.z_m},
+                          .heading_rad = glm::radians(position.heading_deg),
+                          .scale = position.scale,
+                          .plant = position.plant});
+  }
+  return placements;
+}
+
+}  // namespace
+
+std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file,
+                                       const SceneAccess& access) {
+  if (geometry.has("positions")) return placements_of_file(geometry, scene_file, access);
+  const std::vector<glm::dvec3> positions_m =
+      geometry.triples("at", anywhere).value_or(std::vector<glm::dvec3>{{0.0, 0.0, 0.0}});
+  const NumberRange turn{.lo = -360.0, .hi = 360.0, .cure = "give degrees clockwise seen from above"};
+  const std::vector<double> headings_deg =
+      geometry.number_or_list("heading", positions_m.size(), turn).value_or(std::vector<double>(positions_m.size(), 0.0));
+  std::vector<Placement> placements;
+  for (std::size_t i = 0; i < positions_m.size(); ++i) {
+    placements.push_back({.position_m = positions_m[i], .heading_rad = glm::radians(headings_deg[i])});
+  }
+  return placements;
+}
+
+void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std::vector<Placement>& placements,
+                         std::set<std::uint32_t>& used) {
+  std::set<std::uint32_t> own;
+  for (const Organ& organ : mesh.organs) {
+    if (organ.plant > 0) own.insert(organ.plant);
+  }
+  if (own.empty()) return;
+  for (const Placement& placement : placements) {
+    const std::uint32_t highest = used.empty() ? 0 : *used.rbegin();
+    if (!placement.plant) {
+      for (const std::uint32_t number : own) used.insert(highest + number);
+      continue;
+    }
+    if (own.size() > 1) {
+      geometry.refuse("positions", fmt::format("its plants have numbers, but the mesh consists of {} plants", own.size()),
+                      "remove the column plant; the plants are then numbered in the order of the file");
+    }
+    if (used.insert(*placement.plant).second) continue;
+    geometry.refuse("positions", fmt::format("plant {} is there already, from an earlier [[geometry]]", *placement.plant),
+                    fmt::format("use numbers above {}", highest));
+  }
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,23 @@
+#pragma once
+// Reads where the copies of a mesh stand: `at` and `heading`, or `positions`, of a [[geometry]].
+
+#include "files/scene/scene_reader.h"
+#include "files/scene/toml_view.h"
+#include "physics/canopy/mesh.h"
+
+#include <filesystem>
+#include <set>
+#include <vector>
+
+namespace sunfleck {
+
+// Returns the placements, one at the origin by default. `access.files` must be set.
+[[nodiscard]] std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file,
+                                                     const SceneAccess& access);
+
+// Refuses plant numbers of a file of positions for a mesh with several plants, and those that are in use already. `used` holds
+// the numbers of all plants so far, to which those of this mesh are added.
+void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std::vector<Placement>& placements,
+                         std::set<std::uint32_t>& used);
+
+}  // namespace sunfleck
