@@ -77,9 +77,9 @@ TEST_F(Commands, InfoAndRunSayWhatCountsAsWhat) {
   const Outcome report =
       run({"run", scene, "-o", "out", "--device", "cpu", "--passes", "8", "--grid", "0.1", "--images", "none"});
   EXPECT_EQ(report.status, 0) << report.err;
-  EXPECT_NE(report.err.find("one-sided areas: leaf "), std::string::npos) << report.err;
-  EXPECT_NE(report.err.find(", lamp 0.32 m2"), std::string::npos) << report.err;
-  EXPECT_NE(report.err.find(", by structures "), std::string::npos) << report.err;
+  EXPECT_NE(report.out.find("one-sided areas: leaf "), std::string::npos) << report.out;
+  EXPECT_NE(report.out.find(", lamp 0.32 m2"), std::string::npos) << report.out;
+  EXPECT_NE(report.out.find(", by structures "), std::string::npos) << report.out;
   const json by_role = json::parse(content(folder_ / "out/summary.json"))["area_by_role_m2"];
   EXPECT_EQ(by_role["lamp"], roles["lamp"]["area_m2"]);
 }

@@ -56,8 +56,10 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
         with_error(band.reflected), with_error(band.transmitted), band.unshot);
   }
   if (model.has_beam()) {
-    text += fmt::format("  sunlit leaf fraction {}, sunflecks on the ground {}\n",
-                        with_error(as_share(result.sunlit_leaf_fraction)), with_error(result.ground_sunfleck_ratio));
+    const Estimate sunlit = as_share(result.sunlit_leaf_fraction);
+    text += "  ";
+    if (!std::isnan(sunlit.value)) text += fmt::format("sunlit leaf fraction {}, ", with_error(sunlit));
+    text += fmt::format("sunflecks on the ground {}\n", with_error(result.ground_sunfleck_ratio));
   }
   const auto errors = [](const std::optional<double>& error, const std::optional<double>& bound) {
     std::string line;

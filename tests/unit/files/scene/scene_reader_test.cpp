@@ -210,7 +210,8 @@ TEST_F(SceneReader, GivesStructuresThatSharePlantsOpticsTheirOwn) {
 
 TEST_F(SceneReader, WarnsOnceOfPlantsWithoutALeaf) {
   const std::string corners = plates_obj.substr(0, plates_obj.find("f 1"));
-  write(folder_ / "plates.obj", corners + "o plant1_stem\nf 1 2 3\no plant2_leaf\nf 4 5 6\no plant3_ear\nf 1 2 6\n");
+  write(folder_ / "plates.obj",
+        corners + "o plant1_stem\nf 1 2 3\no plant2_leaf\nf 4 5 6\no plant3_ear\nusemtl leaf\nf 1 2 6\n");
   const Scene scene = read(good_scene);
   ASSERT_EQ(scene.warnings.size(), 1U);
   EXPECT_NE(scene.warnings[0].find("scene.toml: 4 of 6 plants have no leaf"), std::string::npos) << scene.warnings[0];
