@@ -38,6 +38,16 @@ Bytef* bytes_of(const void* data) {
   return static_cast<Bytef*>(const_cast<void*>(data));
 }
 
+// Returns the bytes of all packed arrays in the value, which is nested no deeper than a file.
+std::size_t packed_bytes(const json& value) {
+  if (value.is_binary()) return value.get_binary().size();
+  std::size_t bytes = 0;
+  if (value.is_structured()) {
+    for (const json& part : value) bytes += packed_bytes(part);
+  }
+  return bytes;
+}
+
 class Deflater {
  public:
   Deflater() {
@@ -59,6 +69,7 @@ class Deflater {
 
   json::binary_t finish() {
     deflate_into_packed(Z_FINISH);
+    packed_.shrink_to_fit();
     return std::move(packed_);
   }
 
@@ -83,6 +94,12 @@ json read_cbor(std::string_view bytes, std::size_t deepest) {
   DepthCheck check(deepest);
   if (!json::sax_parse(bytes, &check, json::input_format_t::cbor)) throw std::runtime_error("it is truncated or damaged");
   return json::from_cbor(bytes);
+}
+
+void append_cbor(const json& value, std::string& bytes) {
+  constexpr std::size_t other_values = std::size_t{1} << 16U;
+  bytes.reserve(bytes.size() + packed_bytes(value) + other_values);
+  json::to_cbor(value, bytes);
 }
 
 json::binary_t deflated(const NumberPieces<std::byte>& pieces) {

@@ -33,7 +33,7 @@ std::string value_text(const ordered_json& settings, const std::string& key) {
 
 std::string sealed(std::string_view mark, const json& content) {
   std::string bytes(head_bytes, '\0');
-  json::to_cbor(content, bytes);
+  append_cbor(content, bytes);
   const std::uint32_t sum = check_sum(std::string_view(bytes).substr(head_bytes));
   bytes.replace(0, mark_bytes, mark);
   std::memcpy(bytes.data() + mark_bytes, &sum, sizeof sum);

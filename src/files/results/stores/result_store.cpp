@@ -202,7 +202,7 @@ void write_result_store(const std::filesystem::path& file, const RunRecord& reco
   json store = {{"format", store_format}, {"version", store_version}, {"sunfleck", record.version}};
   visit_store(StoreWriter(store), scene, result, record);
   std::string bytes;
-  json::to_cbor(store, bytes);
+  append_cbor(store, bytes);
   write_file(file, bytes);
 }
 
