@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "files/formats/mesh/mesh_survey.h"
+#include "files/scene/scene_patterns.h"
 #include "files/scene/toml_text.h"
 #include "physics/canopy/role.h"
 
@@ -143,15 +144,29 @@ class MeshSceneText {
     const glm::dvec2 centre_m = {(static_cast<double>(column) + 0.5) * cell_m_.x, (static_cast<double>(row) + 0.5) * cell_m_.y};
     text_ += fmt::format("\n[[geometry]]\nfile  = {}   # {} triangles, {:.5g} m2 (one-sided)\n", toml_string(mesh.mesh.name),
                          mesh.survey.triangles, mesh.survey.area_m2());
-    const bool unnamed = std::any_of(mesh.survey.materials.begin(), mesh.survey.materials.end(),
-                                     [](const MeshShare& share) { return share.name == no_material; });
-    if (unnamed) text_ += fmt::format("optics = \"{}\"   # for triangles without a material\n", default_optics);
+    add_optics_of_unnamed(mesh);
     if (mesh.survey.needs_split())
       text_ += fmt::format("split = \"parts\"   # {} connected pieces become organs of their own\n", mesh.survey.shape.pieces);
     add_frame(frame);
     text_ += fmt::format("at    = [[{:.5f}, {:.5f}, {:.5f}]]   # moves the middle of the mesh there\n",
                          centre_m.x - 0.5 * (mesh.lo_m.x + mesh.hi_m.x), lift_m(mesh),
                          centre_m.y - 0.5 * (mesh.lo_m.z + mesh.hi_m.z));
+  }
+
+  // Gives triangles without a material optics, and leaves those of the file's materials as they are.
+  void add_optics_of_unnamed(const SurveyedMesh& mesh) {
+    const std::vector<MeshShare>& materials = mesh.survey.materials;
+    const auto unnamed = [](const MeshShare& share) { return share.name == no_material; };
+    if (std::none_of(materials.begin(), materials.end(), unnamed)) return;
+    if (materials.size() == 1) {
+      text_ += fmt::format("optics = \"{}\"   # the file names no material\n", default_optics);
+      return;
+    }
+    text_ += fmt::format("optics = {{ \"{}\" = \"{}\"", unnamed_material, default_optics);
+    for (const MeshShare& share : materials) {
+      if (!unnamed(share)) text_ += fmt::format(", {} = {}", toml_string(share.name), toml_string(share.name));
+    }
+    text_ += " }   # some triangles have no material\n";
   }
 
   // What the format defines needs no keys.
