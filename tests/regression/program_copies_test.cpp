@@ -44,7 +44,7 @@ v 0.9 0.5 0.9
 )";
 const std::string originals = "o plant1_leaf1\nf 1 2 3\no plant1_leaf2\nf 4 5 6\n";
 // Leaf 3 lies on leaf 1, with its other side up; half of leaf 4 lies on leaf 2.
-const std::string copies = "o plant1_leaf3\nf 3 2 1\no plant2_leaf4\nf 6 4 5\nf 5 7 6\n";
+const std::string copied_leaves = "o plant1_leaf3\nf 3 2 1\no plant2_leaf4\nf 6 4 5\nf 5 7 6\n";
 constexpr double first_m2 = 0.08;
 constexpr double second_m2 = 0.045;
 
@@ -52,7 +52,7 @@ class Copies : public ProgramTest {
  protected:
   Copies() {
     folder_.write("scene.toml", copies_scene);
-    folder_.write("leaves.obj", corners + originals + copies);
+    folder_.write("leaves.obj", corners + originals + copied_leaves);
   }
   // Allows twice the half-width of the 95 % interval, about four standard errors.
   static void expect_wholly_sunlit(const Table& organs, std::size_t row) {

@@ -181,11 +181,11 @@ TEST_F(Day, KeepsStructuresApart) {
       EXPECT_GT(day.number(row, column(bands[b], "absorbed_structure")), 10.0);
       EXPECT_GT(rest, -1e-6);
       EXPECT_LT(rest, unshot + 1e-6);
-      structure_mj += 1e-6 * day.number(row, "step_s") * day.number(row, column(bands[b], "absorbed_structure")) * plot_m2;
+      structure_mj += 1e-6 * day.number(row, "step_s") * day.number(row, column(bands[b], "absorbed_structure")) * day_plot_m2;
     }
     EXPECT_NEAR(organs.number(1, column(bands[b], "absorbed_mj_m2")) * organs.number(1, "area_m2") / structure_mj, 1.0, 1e-7);
     const json sums = summary()["dates"][0]["bands"][b];
-    EXPECT_NEAR(sums["absorbed_structure_mj_m2"].get<double>() * plot_m2 / structure_mj, 1.0, 1e-7);
+    EXPECT_NEAR(sums["absorbed_structure_mj_m2"].get<double>() * day_plot_m2 / structure_mj, 1.0, 1e-7);
   }
 }
 

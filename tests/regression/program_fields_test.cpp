@@ -31,7 +31,7 @@ f 5 6 7 8
 )";
 const std::string pot_obj = "v -0.1 0.01 -0.1\nv -0.1 0.01 0.1\nv 0.1 0.01 0.1\nf 1 2 3\n";
 
-const std::string scene = R"([plot]
+const std::string field_scene = R"([plot]
 size = [2.0, 3.0]
 [sun]
 elevation = 50.0
@@ -72,7 +72,7 @@ class Fields : public ProgramTest {
   Fields() {
     folder_.write("plant.obj", plant_obj);
     folder_.write("pot.obj", pot_obj);
-    folder_.write("scene.toml", scene);
+    folder_.write("scene.toml", field_scene);
     folder_.write("plants.csv",
                   "plant,x,z,heading,scale\n11,0.5,0.5,0,1\n7,1.5,0.5,45,0.5\n8,0.5,2.5,-90,1\n9,1.5,1.9,10,1.5\n");
     const Outcome outcome = run({"run", "scene.toml", "-o", "out", "--device", "cpu", "--error", "0.02", "--images", "none"});

@@ -1,12 +1,15 @@
 #pragma once
 // One square of two triangles, (0,0,0) (1,0,0) (1,1,0) and (0,0,0) (1,1,0) (0,1,0), as a file in each format.
 
+#include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -164,6 +167,11 @@ inline nlohmann::json gltf_document() {
     "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
                   {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]})");
+}
+
+// Checks a position that readers computed in double precision.
+inline void expect_at(const glm::dvec3& found, const glm::dvec3& expected) {
+  EXPECT_LT(glm::distance(found, expected), 1e-12) << found.x << " " << found.y << " " << found.z;
 }
 
 }  // namespace sunfleck

@@ -14,7 +14,7 @@
 namespace sunfleck {
 namespace {
 
-const std::string stand =
+const std::string lit_stand =
     "[plot]\nsize = [2, 3]\nperiodic = false\n[optics.leaf]\nreflectance = 0.1\n[[geometry]]\nfile = \"plates.obj\"\n"
     "optics = \"leaf\"\n";
 
@@ -47,45 +47,48 @@ std::string band(const std::string& light) {
 
 TEST_F(LightPlausibility, BeamsAreWeakerThanOutsideTheAtmosphere) {
   // 1361 sin(10 degrees) = 236.3.
-  expect_warned(stand + sun("10") + band("direct = 350"), "band.direct", "give at most 236.3");
-  expect_silent(stand + sun("10") + band("direct = 236"));
-  expect_warned(stand + sun("90") + band("direct_normal = 1380"), "band.direct_normal", "give at most 1361");
-  expect_silent(stand + sun("90") + band("direct_normal = 1360"));
+  expect_warned(lit_stand + sun("10") + band("direct = 350"), "band.direct", "give at most 236.3");
+  expect_silent(lit_stand + sun("10") + band("direct = 236"));
+  expect_warned(lit_stand + sun("90") + band("direct_normal = 1380"), "band.direct_normal", "give at most 1361");
+  expect_silent(lit_stand + sun("90") + band("direct_normal = 1360"));
   // On 3 January the sun is nearer: 1361 * 1.033 = 1405.8.
-  expect_silent(stand + "[sun]\ntime = 2002-01-03T12:00:00Z\nlatitude = -22\nlongitude = 0\n" + band("direct_normal = 1390"));
+  expect_silent(lit_stand + "[sun]\ntime = 2002-01-03T12:00:00Z\nlatitude = -22\nlongitude = 0\n" +
+                band("direct_normal = 1390"));
 }
 
 TEST_F(LightPlausibility, PhotonsAreNoWatts) {
-  expect_warned(stand + sun("60") + band("direct = 1600"), "band.direct", "unit = \"umol_m2_s\", which makes it 350.1 W m-2");
-  expect_warned(stand + "[sky]\nmodel = \"uniform\"\n" + band("diffuse = 1500"), "band.diffuse", "328.2 W m-2");
-  const Scene scene = read(stand + sun("60") + band("direct = 1600\nunit = \"umol_m2_s\""));
+  expect_warned(lit_stand + sun("60") + band("direct = 1600"), "band.direct",
+                "unit = \"umol_m2_s\", which makes it 350.1 W m-2");
+  expect_warned(lit_stand + "[sky]\nmodel = \"uniform\"\n" + band("diffuse = 1500"), "band.diffuse", "328.2 W m-2");
+  const Scene scene = read(lit_stand + sun("60") + band("direct = 1600\nunit = \"umol_m2_s\""));
   EXPECT_TRUE(scene.warnings.empty());
   EXPECT_DOUBLE_EQ(scene.model.bands[0].direct_w_m2, 1600.0 / 4.57);
   EXPECT_EQ(scene.model.bands[0].umol_per_joule, 4.57);
-  const Scene given = read(stand + sun("60") + band("direct = 100\nunit = \"umol_m2_s\"\numol_per_joule = 5"));
+  const Scene given = read(lit_stand + sun("60") + band("direct = 100\nunit = \"umol_m2_s\"\numol_per_joule = 5"));
   EXPECT_EQ(given.model.bands[0].direct_w_m2, 20.0);
-  EXPECT_EQ(read(stand + sun("60") + band("direct = 100\nunit = \"W_m2\"")).model.bands[0].umol_per_joule, 0.0);
+  EXPECT_EQ(read(lit_stand + sun("60") + band("direct = 100\nunit = \"W_m2\"")).model.bands[0].umol_per_joule, 0.0);
 }
 
 TEST_F(LightPlausibility, AnglesAreDegreesFromNorth) {
-  expect_warned(stand + sun("0.7854") + band("direct = 1"), "sun.elevation", "radians would be 45.0001 degrees");
-  expect_silent(stand + sun("0.75") + band("direct = 1"));
-  expect_silent(stand + sun("1.6001") + band("direct = 1"));
-  expect_warned(stand + sun("30", "-60") + band("direct = 1"), "sun.azimuth", "give 300, or 120 if it was measured from south");
-  expect_silent(stand + sun("30", "0") + band("direct = 1"));
+  expect_warned(lit_stand + sun("0.7854") + band("direct = 1"), "sun.elevation", "radians would be 45.0001 degrees");
+  expect_silent(lit_stand + sun("0.75") + band("direct = 1"));
+  expect_silent(lit_stand + sun("1.6001") + band("direct = 1"));
+  expect_warned(lit_stand + sun("30", "-60") + band("direct = 1"), "sun.azimuth",
+                "give 300, or 120 if it was measured from south");
+  expect_silent(lit_stand + sun("30", "0") + band("direct = 1"));
 }
 
 TEST_F(LightPlausibility, LeavesDoNotShine) {
   const std::string lit = "[optics.leaf]\nreflectance = 0.1\nemission = 5\n";
-  const std::string shining = replaced(stand, "[optics.leaf]\nreflectance = 0.1\n", lit) + sun("60") + band("direct = 1");
+  const std::string shining = replaced(lit_stand, "[optics.leaf]\nreflectance = 0.1\n", lit) + sun("60") + band("direct = 1");
   expect_warned(shining, "optics.leaf.emission", "role = \"lamp\"");
   expect_silent(replaced(shining, "emission = 5", "emission = 5\nrole = \"lamp\""));
   expect_silent(replaced(shining, "emission = 5", "emission = 0"));
 }
 
 TEST_F(LightPlausibility, ReceiversBelongToTheStand) {
-  const std::string lit = stand + sun("60") + band("direct = 1");
-  expect_warned(lit + "[[plane]]\nheight = 2.5\n", "plane.height", "lies above the stand");
+  const std::string lit = lit_stand + sun("60") + band("direct = 1");
+  expect_warned(lit + "[[plane]]\nheight = 2.5\n", "plane.height", "lies above the lit_stand");
   expect_silent(lit + "[[plane]]\nheight = 1.5\n");
   const std::string sensor = "[[sensor]]\nname = \"s\"\nfrom = [2.5, 0.5, 1]\n";
   expect_warned(lit + sensor, "sensor.from", "give X in 0..2 and Z in 0..3");
@@ -96,7 +99,7 @@ TEST_F(LightPlausibility, ReceiversBelongToTheStand) {
 }
 
 TEST_F(LightPlausibility, PlotsAreInMetres) {
-  const std::string lit = stand + sun("60") + band("direct = 1") + "";
+  const std::string lit = lit_stand + sun("60") + band("direct = 1") + "";
   const std::string wide =
       replaced(replaced(lit, "[2, 3]", "[180, 240]"), "optics = \"leaf\"", "optics = \"leaf\"\nat = [[9, 0, 9]]");
   expect_warned(wide, "plot.size", "if centimetres were meant, give [1.8, 2.4]");

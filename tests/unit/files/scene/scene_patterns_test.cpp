@@ -11,7 +11,7 @@
 namespace sunfleck {
 namespace {
 
-const std::string head =
+const std::string pattern_head =
     "[plot]\nsize = [4.0, 4.0]\n[sun]\nelevation = 60.0\nazimuth = 90.0\n[[band]]\nname = \"PAR\"\ndirect = 100.0\n"
     "[optics.leaf]\nreflectance = 0.1\n[optics.stem]\nreflectance = 0.2\n[optics.other]\nreflectance = 0.3\n"
     "[[geometry]]\nfile = \"plant.obj\"\n";
@@ -26,7 +26,7 @@ class Patterns : public testing::Test {
   }
 
   [[nodiscard]] Scene read(const std::string& optics) const {
-    return read_scene(folder_.write("scene.toml", head + (optics.empty() ? "" : "optics = " + optics + "\n")));
+    return read_scene(folder_.write("scene.toml", pattern_head + (optics.empty() ? "" : "optics = " + optics + "\n")));
   }
 
   // Returns the optics of the four triangles.
@@ -97,7 +97,7 @@ TEST_F(Patterns, ATextIsForTheWholeMesh) {
 }
 
 TEST_F(Patterns, ATableBelowTheGeometry) {
-  const std::string table = head + "[geometry.optics]\n\"t*\" = \"stem\"\n\"*\" = \"leaf\"\n";
+  const std::string table = pattern_head + "[geometry.optics]\n\"t*\" = \"stem\"\n\"*\" = \"leaf\"\n";
   EXPECT_EQ(read_scene(folder_.write("scene.toml", table)).model.canopy.optics_names, (Strings{"leaf", "stem"}));
 }
 

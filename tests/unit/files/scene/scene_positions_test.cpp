@@ -9,7 +9,7 @@
 namespace sunfleck {
 namespace {
 
-const std::string head =
+const std::string field_head =
     "[plot]\nsize = [9.0, 9.0]\nperiodic = false\n[sun]\nelevation = 60.0\nazimuth = 90.0\n[[band]]\nname = \"PAR\"\n"
     "direct = 100.0\n[optics.leaf]\nreflectance = 0.1\n";
 const std::string plants = "[[geometry]]\nfile = \"leaf.obj\"\noptics = \"leaf\"\n";
@@ -20,7 +20,7 @@ class Positions : public testing::Test {
 
   [[nodiscard]] Scene read(const std::string& csv, const std::string& more = "positions = \"plants.csv\"\n") const {
     folder_.write("plants.csv", csv);
-    return read_scene(folder_.write("scene.toml", head + plants + more));
+    return read_scene(folder_.write("scene.toml", field_head + plants + more));
   }
 
   [[nodiscard]] std::string refusal(const std::string& csv, const std::string& more = "positions = \"plants.csv\"\n") const {

@@ -9,7 +9,7 @@
 namespace sunfleck::test {
 namespace {
 
-const std::string head =
+const std::string text_head =
     "[plot]\nsize = [1.0, 1.0]\n[sun]\nelevation = 60.0\nazimuth = 90.0\n[[band]]\nname = \"PAR\"\ndirect = 100.0\n"
     "[optics.leaf]\nreflectance = 0.1\n";
 
@@ -25,7 +25,7 @@ Mesh leaf() {
 }
 
 Scene read(const Mesh& mesh, const std::string& more = "") {
-  return read_scene(SceneText{"given.toml", head + "[[geometry]]\nmesh = \"a\"\n" + more, {{"a", mesh}}});
+  return read_scene(SceneText{"given.toml", text_head + "[[geometry]]\nmesh = \"a\"\n" + more, {{"a", mesh}}});
 }
 
 TEST(SceneText, HoldsAMesh) {
@@ -83,7 +83,7 @@ TEST(SceneText, WantsOneSourceOfTriangles) {
     EXPECT_NE(message->find("is also given"), std::string::npos) << *message;
   }
   const auto unknown = message_of([] {
-    static_cast<void>(read_scene(SceneText{"given.toml", head + "[[geometry]]\nmesh = \"b\"\n", {{"a", leaf()}}}));
+    static_cast<void>(read_scene(SceneText{"given.toml", text_head + "[[geometry]]\nmesh = \"b\"\n", {{"a", leaf()}}}));
   });
   ASSERT_TRUE(unknown.has_value());
   EXPECT_NE(unknown->find("no mesh of that name"), std::string::npos) << *unknown;
@@ -91,7 +91,7 @@ TEST(SceneText, WantsOneSourceOfTriangles) {
 
 TEST(SceneText, HasNoMeshesInAFile) {
   const auto message = message_of([] {
-    static_cast<void>(read_scene(SceneText{"given.toml", head + "[[geometry]]\nmesh = \"a\"\n", {}}));
+    static_cast<void>(read_scene(SceneText{"given.toml", text_head + "[[geometry]]\nmesh = \"a\"\n", {}}));
   });
   ASSERT_TRUE(message.has_value());
   EXPECT_NE(message->find("mesh"), std::string::npos) << *message;

@@ -13,7 +13,7 @@
 namespace sunfleck {
 namespace {
 
-Mesh read_text(const std::string& text, const MeshImport& import = {}) {
+Mesh read_dae_text(const std::string& text, const MeshImport& import = {}) {
   const TempFolder folder;
   return read_mesh(folder.write("a.dae", text), import);
 }
@@ -28,47 +28,43 @@ std::string with_nodes(const std::string& nodes) {
   return text.substr(0, from) + nodes + text.substr(text.find(end));
 }
 
-void expect_near(const glm::dvec3& found, const glm::dvec3& expected) {
-  EXPECT_LT(glm::length(found - expected), 1e-12) << found.x << " " << found.y << " " << found.z;
-}
-
 TEST(DaeReader, NodesNameOrgansAndMaterialsAreBound) {
-  const Mesh mesh = read_text(dae_square());
+  const Mesh mesh = read_dae_text(dae_square());
   EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "blade", 0}}));
   EXPECT_EQ(mesh.optics_names, std::vector<std::string>{"leaf"});
-  EXPECT_EQ(read_text(with_nodes("<node>" + instance + "</node>")).optics_names, std::vector<std::string>{"m"})
+  EXPECT_EQ(read_dae_text(with_nodes("<node>" + instance + "</node>")).optics_names, std::vector<std::string>{"m"})
       << "the symbol, where nothing is bound";
 }
 
 TEST(DaeReader, UnitAndUpAxis) {
   const auto second = [](std::string_view up, const MeshImport& import = {}) {
-    return read_text(swapped(swapped(dae_square(), "meter=\"1\"", "meter=\"0.01\""), "Y_UP", up), import).vertices[1];
+    return read_dae_text(swapped(swapped(dae_square(), "meter=\"1\"", "meter=\"0.01\""), "Y_UP", up), import).vertices[1];
   };
-  expect_near(second("Y_UP"), {0.01, 0, 0});
-  expect_near(second("X_UP"), {0, 0.01, 0});
-  expect_near(second("Z_UP"), {0, 0, -0.01});
-  expect_near(second("Z_UP", {.up = UpAxis::y, .scale = 2.0}), {0.02, 0, 0});
+  expect_at(second("Y_UP"), {0.01, 0, 0});
+  expect_at(second("X_UP"), {0, 0.01, 0});
+  expect_at(second("Z_UP"), {0, 0, -0.01});
+  expect_at(second("Z_UP", {.up = UpAxis::y, .scale = 2.0}), {0.02, 0, 0});
 }
 
 TEST(DaeReader, TransformsFollowTheNodeTree) {
-  const Mesh mesh = read_text(with_nodes(
+  const Mesh mesh = read_dae_text(with_nodes(
       "<node name=\"plant\"><translate>0 0 5</translate><rotate>0 0 1 90</rotate><scale>2 3 4</scale><node>" + instance +
       "</node><node name=\"leaf\"><matrix>1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1</matrix>" + instance + "</node></node>"));
-  expect_near(mesh.vertices[1], {0, 2, 5});
-  expect_near(mesh.vertices[2], {-3, 2, 5});
-  expect_near(mesh.vertices[4], {0, 2, 5});
+  expect_at(mesh.vertices[1], {0, 2, 5});
+  expect_at(mesh.vertices[2], {-3, 2, 5});
+  expect_at(mesh.vertices[4], {0, 2, 5});
   EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "plant", 0}, {1, "leaf", 0}}));
 }
 
 TEST(DaeReader, MirroredNodesKeepTheirUpperFace) {
-  const Mesh mesh = read_text(with_nodes("<node><scale>-1 1 1</scale>" + instance + "</node>"));
+  const Mesh mesh = read_dae_text(with_nodes("<node><scale>-1 1 1</scale>" + instance + "</node>"));
   EXPECT_EQ(mesh.triangles[0], glm::uvec3(0, 3, 2));
 }
 
 TEST(DaeReader, InstancesOfNodes) {
   const std::string library = "<library_nodes><node id=\"tree\" name=\"leaf\">" + instance + "</node></library_nodes>";
   const std::string nodes = "<node><instance_node url=\"#tree\"/><instance_node url=\"#tree\"/></node>";
-  const Mesh mesh = read_text(swapped(with_nodes(nodes), "<library_visual_scenes>", library + "<library_visual_scenes>"));
+  const Mesh mesh = read_dae_text(swapped(with_nodes(nodes), "<library_visual_scenes>", library + "<library_visual_scenes>"));
   EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "leaf", 0}, {1, "leaf 2", 0}}));
   EXPECT_EQ(mesh.triangles.size(), 4U);
 }
@@ -80,7 +76,7 @@ TEST(DaeReader, KindsOfPolygons) {
     const std::string text = square.substr(0, from) + "<" + kind +
                              " material=\"m\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>" + lists + "</" + kind +
                              ">" + square.substr(to);
-    return read_text(text).triangles;
+    return read_dae_text(text).triangles;
   };
   using Triangles = std::vector<glm::uvec3>;
   EXPECT_EQ(with("triangles", "<p>0 1 2 0 2 3</p>"), (Triangles{{0, 1, 2}, {0, 2, 3}}));
@@ -127,14 +123,14 @@ TEST(DaeReader, NodesThatDoubleEachOtherEnd) {
     const std::string url = "<instance_node url=\"#n" + std::to_string(i - 1) + "\"/>";
     nodes = "<node id=\"n" + std::to_string(i) + "\">" + url + url + "</node>" + nodes;
   }
-  EXPECT_NE(refusal_of([&] { static_cast<void>(read_text(with_nodes(nodes))); }).find("without end"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { static_cast<void>(read_dae_text(with_nodes(nodes))); }).find("without end"), std::string::npos);
 }
 
 TEST(DaeReader, DeepNestingIsNoRecursion) {
   std::string nodes = instance;
   std::string begin, end;
   for (int i = 0; i < 100'000; ++i) begin += "<node>", end += "</node>";
-  EXPECT_EQ(read_text(with_nodes(begin + nodes + end)).triangles.size(), 2U);
+  EXPECT_EQ(read_dae_text(with_nodes(begin + nodes + end)).triangles.size(), 2U);
 }
 
 }  // namespace

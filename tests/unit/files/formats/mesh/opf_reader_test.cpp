@@ -13,46 +13,43 @@
 namespace sunfleck {
 namespace {
 
-Mesh read_text(const std::string& text, const MeshImport& import = {}) {
+Mesh read_opf_text(const std::string& text, const MeshImport& import = {}) {
   const TempFolder folder;
   return read_mesh(folder.write("a.opf", text), import);
 }
 
-void expect_near(const glm::dvec3& found, const glm::dvec3& expected) {
-  EXPECT_LT(glm::length(found - expected), 1e-12) << found.x << " " << found.y << " " << found.z;
-}
-
 TEST(OpfReader, CentimetresWithZUp) {
-  const Mesh mesh = read_text(opf_square());
+  const Mesh mesh = read_opf_text(opf_square());
   ASSERT_EQ(mesh.triangles.size(), 2U) << "a geometry without shapeIndex is no organ";
   const glm::dvec3 expected[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  for (std::size_t i = 0; i < 4; ++i) expect_near(mesh.vertices[i], expected[i]);
+  for (std::size_t i = 0; i < 4; ++i) expect_at(mesh.vertices[i], expected[i]);
   EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "leaf", 7}}));
   EXPECT_EQ(mesh.optics_names, std::vector<std::string>{"leaf"});
-  expect_near(read_text(opf_square(), {.scale = 2.0}).vertices[1], {2, 0, 0});
+  expect_at(read_opf_text(opf_square(), {.scale = 2.0}).vertices[1], {2, 0, 0});
 }
 
 // y and z are multiplied by dDwn where x is 0 and by dUp where x is 1, here 3 and 5.
 TEST(OpfReader, OrgansTaper) {
   const std::string text = swapped(swapped(opf_square(), "<dUp>1", "<dUp>5"), "<dDwn>1", "<dDwn>3");
-  const Mesh mesh = read_text(text);
-  expect_near(mesh.vertices[1], {3, 0, 0});
-  expect_near(mesh.vertices[2], {5, 1, 0});
-  expect_near(read_text(swapped(text, "enableScale=\"true\"", "enableScale=\"false\"")).vertices[2], {1, 1, 0});
+  const Mesh mesh = read_opf_text(text);
+  expect_at(mesh.vertices[1], {3, 0, 0});
+  expect_at(mesh.vertices[2], {5, 1, 0});
+  expect_at(read_opf_text(swapped(text, "enableScale=\"true\"", "enableScale=\"false\"")).vertices[2], {1, 1, 0});
 }
 
 TEST(OpfReader, OrgansOfOneClassDifferByTheirId) {
   const std::string text = opf_square();
   const std::size_t from = text.find("<decomp"), end = text.find("</topology>");
   const std::string organ = text.substr(from, end - from);
-  const Mesh mesh = read_text(text.substr(0, end) + swapped(organ, "id=\"7\"", "id=\"8\"") +
-                              swapped(organ, "class=\"leaf\"", "class=\"Metamer\"") + text.substr(end));
+  const Mesh mesh = read_opf_text(text.substr(0, end) + swapped(organ, "id=\"7\"", "id=\"8\"") +
+                                  swapped(organ, "class=\"leaf\"", "class=\"Metamer\"") + text.substr(end));
   EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "leaf", 7}, {1, "leaf", 8}, {1, "Metamer", 7}}));
   EXPECT_EQ(mesh.optics_names, (std::vector<std::string>{"leaf", "Metamer"}));
 }
 
 TEST(OpfReader, OrgansWithoutLengthAreKept) {
-  EXPECT_EQ(read_text(swapped(opf_square(), "<mat>0 0 0 0 0 -100 0 0 100", "<mat>0 0 0 0 0 -100 0 0 0")).triangles.size(), 2U);
+  EXPECT_EQ(read_opf_text(swapped(opf_square(), "<mat>0 0 0 0 0 -100 0 0 100", "<mat>0 0 0 0 0 -100 0 0 0")).triangles.size(),
+            2U);
 }
 
 TEST(OpfReader, RefusesDamagedFiles) {
@@ -85,8 +82,9 @@ TEST(OpfReader, DeepNestingIsNoRecursion) {
   const std::size_t from = text.find("<decomp"), end = text.find("</topology>");
   std::string begin, close;
   for (int i = 0; i < 100'000; ++i) begin += "<follow class=\"Axis\">", close += "</follow>";
-  EXPECT_EQ(read_text(text.substr(0, from) + begin + text.substr(from, end - from) + close + text.substr(end)).triangles.size(),
-            2U);
+  EXPECT_EQ(
+      read_opf_text(text.substr(0, from) + begin + text.substr(from, end - from) + close + text.substr(end)).triangles.size(),
+      2U);
 }
 
 }  // namespace
