@@ -276,7 +276,7 @@ TEST_F(Convert, MistakesAreOneLine) {
   refused({"stand.can", "link.can"}, "link.can (it is the same file as the input");
   refused({"stand.can", "a.xyz"}, "use .glb, .gltf, .obj, .ply or .can, or .toml");
   refused({"stand.can", "a.can.gz"}, "a.can.gz (");
-  refused({"a.dae", "a.glb"}, "a.dae (");
+  refused({"a.fbx", "a.glb"}, "a.fbx (");
   refused({"none.can", "a.glb"}, "none.can");
   refused({scene, "a.toml"}, "a.toml (the input and the output are both scene files");
   refused({"stand.can", "a.toml"}, "stand.can (a mesh alone");

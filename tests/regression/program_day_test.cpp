@@ -312,7 +312,7 @@ TEST_F(Day, ResumesWithTheSameSettingsOnly) {
   }
   const std::size_t kept = finished_steps();
   folder_.write("leaves.obj", leaves + "f 1 2 4\n");
-  expect_one_error(day(evening_ + Arguments{"--resume"}), 2, "scene_digest");
+  expect_one_error(day(evening_ + Arguments{"--resume"}), 2, "has changed since that day");
   EXPECT_EQ(finished_steps(), kept);
   folder_.write("leaves.obj", leaves);
   expect_day(evening_ + Arguments{"--resume"});

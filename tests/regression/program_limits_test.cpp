@@ -22,7 +22,7 @@ class Limits : public PreloadTest {
       EXPECT_GT(table.size(), 0U);
       for (std::size_t row = 0; row < table.size(); ++row)
         for (const std::string& column : table.columns())
-          if (column != "organ") static_cast<void>(table.number(row, column));
+          if (column != "organ" && column != "role") static_cast<void>(table.number(row, column));
     }
   }
   const std::filesystem::path maize_ = scene_file("maize_sparse.toml");

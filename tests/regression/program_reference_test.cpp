@@ -21,7 +21,7 @@ void compare(const Table& got, const Table& reference) {
   for (std::size_t row = 0; row < got.size(); ++row) {
     for (const std::string& column : reference.columns()) {
       if (got.cell(row, column) == reference.cell(row, column)) continue;
-      if (column == "organ") {
+      if (column == "organ" || column == "role") {
         ADD_FAILURE() << "row " << row << ": " << got.cell(row, column) << ", not " << reference.cell(row, column);
         continue;
       }

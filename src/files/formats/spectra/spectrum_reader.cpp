@@ -33,15 +33,6 @@ std::string_view unquoted(std::string_view cell) {
   return cell;
 }
 
-// A comma separates columns if a number stands before the first one; otherwise it is the decimal mark of a later column.
-char separator_of(std::string_view line) {
-  for (const char separator : {';', '\t'}) {
-    if (line.find(separator) != line.npos) return separator;
-  }
-  const std::size_t comma = line.find(',');
-  return comma != line.npos && parse_number(unquoted(line.substr(0, comma))) ? ',' : ' ';
-}
-
 Cells cells_of(std::string_view line, char separator) {
   Cells cells;
   if (separator == ' ') {
@@ -63,6 +54,17 @@ std::optional<double> number_in(std::string_view cell, char separator) {
   std::string with_point(cell);
   std::replace(with_point.begin(), with_point.end(), ',', '.');
   return parse_number(with_point);
+}
+
+// Returns what separates the columns of a line. A comma is the decimal mark if words between blanks are numbers with it.
+char separator_of(std::string_view line) {
+  for (const char separator : {';', '\t'}) {
+    if (line.find(separator) != line.npos) return separator;
+  }
+  if (line.find(',') == line.npos) return ' ';
+  const Cells words = cells_of(line, ' ');
+  const auto is_number = [](std::string_view word) { return number_in(word, ' ').has_value(); };
+  return words.size() > 1 && std::all_of(words.begin(), words.end(), is_number) ? ' ' : ',';
 }
 
 // Returns whether the line is a row of numbers, judged by its first cell.
@@ -142,14 +144,18 @@ SpectralTable read_rows(const Path& file, SourceFiles* files) {
   return table;
 }
 
-// Returns the column whose name begins with one of the words, or is one of the letters.
+// Returns the column whose name begins with the first of the words that any does, or is one of the letters.
 std::optional<std::size_t> find_column(const SpectralTable& table, std::initializer_list<std::string_view> words,
                                        std::initializer_list<std::string_view> letters) {
+  for (const std::string_view word : words) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (table.columns[c].starts_with(word)) return c;
+    }
+  }
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const std::string_view name = table.columns[c];
     const std::string_view alone = trimmed(name.substr(0, name.find_first_of("([_ %/")));
-    const bool begins = std::any_of(words.begin(), words.end(), [&](std::string_view w) { return name.starts_with(w); });
-    if (begins || std::find(letters.begin(), letters.end(), alone) != letters.end()) return c;
+    if (std::find(letters.begin(), letters.end(), alone) != letters.end()) return c;
   }
   return std::nullopt;
 }
@@ -243,7 +249,7 @@ Spectrum read_light_spectrum(const Path& file, SourceFiles* files) {
   SpectralTable table = read_rows(file, files);
   const std::size_t columns = table.rows.front().cells.size();
   order_by_wavelength(table);
-  auto column = find_column(table, {"irradiance", "global", "spectral", "energy", "power", "light", "etr"}, {"e"});
+  auto column = find_column(table, {"irradiance", "global", "light", "spectral", "energy", "power", "etr"}, {"e"});
   if (!column || *column == table.wavelength) {
     if (columns != 2) refuse_columns(table, "irradiance");
     column = 1 - table.wavelength;

@@ -88,7 +88,7 @@ TEST_F(LightPlausibility, LeavesDoNotShine) {
 
 TEST_F(LightPlausibility, ReceiversBelongToTheStand) {
   const std::string lit = lit_stand + sun("60") + band("direct = 1");
-  expect_warned(lit + "[[plane]]\nheight = 2.5\n", "plane.height", "lies above the lit_stand");
+  expect_warned(lit + "[[plane]]\nheight = 2.5\n", "plane.height", "lies above the stand");
   expect_silent(lit + "[[plane]]\nheight = 1.5\n");
   const std::string sensor = "[[sensor]]\nname = \"s\"\nfrom = [2.5, 0.5, 1]\n";
   expect_warned(lit + sensor, "sensor.from", "give X in 0..2 and Z in 0..3");

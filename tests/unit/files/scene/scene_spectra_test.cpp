@@ -49,7 +49,7 @@ TEST_F(SceneSpectra, AreWeightedByTheLightSpectrum) {
       with("light_spectrum = \"rising.csv\"\n", "[[band]]\nname = \"NIR\"\nrange_nm = [600, 800]\ndirect = 1\n" + soil_of_leaf);
   EXPECT_NEAR(scene.model.soil->reflectance[0], 0.1 + 0.4 * 2.0 / 3.0, rounding);
   EXPECT_EQ(scene.model.bands[0].weighted_by, "rising.csv");
-  EXPECT_EQ(scene.files.size(), 4U) << "each file by the name that leads to it, and as it was read";
+  EXPECT_EQ(scene.files.size(), 5U) << "the scene, and each file by the name that leads to it and as it was read";
 }
 
 TEST_F(SceneSpectra, SetBothFacesOrEach) {

@@ -271,8 +271,9 @@ TEST(Options, MistakesAreNamed) {
   }
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}),
             "command line: --bogus (unknown option or argument); see sunfleck run --help");
-  EXPECT_EQ(refusal({"ran"}),
-            "ran (unknown command); use run, day, render, view, validate, tradeoff, maize, convert, new or info; see "
+  EXPECT_EQ(refusal({"ran"}), "ran (unknown command); did you mean run?");
+  EXPECT_EQ(refusal({"simulate"}),
+            "simulate (unknown command); use run, day, render, view, validate, tradeoff, maize, convert, new or info; see "
             "sunfleck --help");
   EXPECT_EQ(refusal({}),
             "command line (no command); use run, day, render, view, validate, tradeoff, maize, convert, new or info; see "

@@ -88,7 +88,7 @@ TEST_F(SpectrumFile, IsRefusedWithItsPlaceAndACure) {
   EXPECT_EQ(
       refusal("400,10\n500,20\n"),
       "leaf.csv:1: reflectance 10 (it must be a share from 0 to 1); name the column reflectance (%) if these are percent");
-  EXPECT_NE(refusal("400,0.1\n500,x\n").find("leaf.csv:2: \"x\" (not a finite number)"), std::string::npos);
+  EXPECT_NE(refusal("400,0.1\n500,x\n").find("leaf.csv:2: 'x' (not a finite number)"), std::string::npos);
   EXPECT_NE(refusal("400,0.1\n500,0.1,0.1\n").find("leaf.csv:2: 3 cells (the rows before have 2)"), std::string::npos);
   EXPECT_NE(refusal("400,0.1\n500,0.1\n500,0.2\n").find("leaf.csv:3: wavelength 500 nm"), std::string::npos);
   EXPECT_NE(refusal("400,0.1\n600,0.1\n500,0.2\n600,0.3\n").find("leaf.csv:3: wavelength 500 nm"), std::string::npos);

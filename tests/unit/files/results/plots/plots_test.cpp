@@ -34,9 +34,10 @@ std::vector<LayerResult> layers(double ground_ratio) {
   for (int i = 0; i <= 20; ++i) {
     const double height_m = 0.1 * i;
     const double ratio = ground_ratio + (1.0 - ground_ratio) * height_m / 2.0;
-    all.push_back({height_m, 0.1, {ratio, 0.03}, {0.5, 0.01}, {{1.0, 0.0}}, {{1.0, 0.0}}, {{10.0 + i, 2.0}}});
+    all.push_back({height_m, 0.1, {ratio, 0.03}, {0.5, 0.01}, {{1.0, 0.0}}, {{1.0, 0.0}}, {{10.0 + i, 2.0}}, {{0.0, 0.0}}});
   }
   all.back().absorbed.clear();
+  all.back().absorbed_structure.clear();
   return all;
 }
 

@@ -24,9 +24,16 @@ RadiationModel model_of_two_bands() {
 RadiationResult two_layers() {
   const std::vector<Estimate> through{{1.0, 0.1}, {2.0, 0.2}};
   RadiationResult result;
-  result.layers = {{0.0, 1.0, {0.2, 0.01}, {no_value, no_value}, through, through, {{10.0, 1.0}, {20.0, no_value}}},
-                   {1.0, 2.0, {0.6, 0.02}, {0.5, 0.1}, through, through, {{30.0, 3.0}, {40.0, 4.0}}},
-                   {2.0, 0.0, {1.0, 0.0}, {no_value, no_value}, through, through, {}}};
+  result.layers = {{0.0,
+                    1.0,
+                    {0.2, 0.01},
+                    {no_value, no_value},
+                    through,
+                    through,
+                    {{10.0, 1.0}, {20.0, no_value}},
+                    {{0.5, 0.1}, {1.5, 0.2}}},
+                   {1.0, 2.0, {0.6, 0.02}, {0.5, 0.1}, through, through, {{30.0, 3.0}, {40.0, 4.0}}, {{0.0, 0.0}, {0.0, 0.0}}},
+                   {2.0, 0.0, {1.0, 0.0}, {no_value, no_value}, through, through, {}, {}}};
   return result;
 }
 

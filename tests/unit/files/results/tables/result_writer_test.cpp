@@ -32,8 +32,8 @@ RadiationModel small_model() {
 
 RadiationResult small_result() {
   RadiationResult result;
-  BandResult a{"A", {100, 60, 30, 0, 10, 0}, 100.0, 0.0, {60.0, 1.0}, {30.0, 2.0}, {0.0, 0.0}, {10.0, no_value}};
-  BandResult b{"B", {100, 50, 30, 0, 10, 10}, 200.0, 20.0, {100.0, 21.0}, {60.0, 22.0}, {0.0, 20.0}, {20.0, 20.0}};
+  BandResult a{"A", {100, 60, 0, 30, 0, 10, 0}, 100.0, 0.0, {60.0, 1.0}, {30.0, 2.0}, {0.0, 0.0}, {10.0, no_value}};
+  BandResult b{"B", {100, 50, 0, 30, 0, 10, 10}, 200.0, 20.0, {100.0, 21.0}, {60.0, 22.0}, {0.0, 20.0}, {20.0, 20.0}};
   result.bands = {a, b};
   OrganResult leaf{
       0.5, {0.25, no_value}, {{1.0 / 3.0, 0.1}, {2.0, 0.1}}, {{0.0, 0.0}, {0.75, 0.01}}, {{0.0, 0.0}, {1.5, 0.03}}};
@@ -44,10 +44,12 @@ RadiationResult small_result() {
                     {no_value, no_value},
                     {{40.0, 1.0}, {80.0, 2.0}},
                     {{0.0, 0.0}, {7.0, 0.5}},
-                    {{60.0, 1.0}, {90.0, 2.0}}};
+                    {{60.0, 1.0}, {90.0, 2.0}},
+                    {{0.5, 0.25}, {1.5, 0.75}}};
   LayerResult top = layer;
   top.height_m = 3.0;
   top.absorbed.clear();
+  top.absorbed_structure.clear();
   result.layers = {layer, top};
   result.elements = {{20, 4}, {0, 0}};
   result.element_error = {0.5, no_value, 0.75, no_value};
