@@ -27,9 +27,10 @@ void refuse_stand(const fs::path& scene, const StandFiles& stand) {
 
 CaribuSet caribu_set(const fs::path& mesh, const StandFiles& stand, bool allow_outside) {
   if (stand.optics.empty() || stand.light.empty()) {
-    throw_input(printable(mesh.string()), "a mesh alone has neither optics nor light",
-                fmt::format("write a scene for it: sunfleck new {} -o stand.toml; or give --optics FILE.opt and --light FILE.light",
-                            printable(mesh.filename().string())));
+    throw_input(
+        printable(mesh.string()), "a mesh alone has neither optics nor light",
+        fmt::format("write a scene for it: sunfleck new {} -o stand.toml; or give --optics FILE.opt and --light FILE.light",
+                    printable(mesh.filename().string())));
   }
   CaribuSet set{mesh, {}, stand.light, std::nullopt, stand.scale.value_or(1.0), allow_outside};
   for (const std::string& word : stand.optics) set.bands.push_back(caribu_band(word));

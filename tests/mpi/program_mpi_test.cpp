@@ -126,7 +126,7 @@ class Mpi : public regression::PreloadTest {
 
 TEST_F(Mpi, GivesTheTablesOfThePlainProgram) {
   const Files expected = plain(small_);
-  EXPECT_EQ(expected.size(), 6U);  // organs, profile, sensors, triangles, the map and its sunflecks
+  EXPECT_EQ(expected.size(), 7U);  // organs, profile, sensors, triangles, the map and its sunflecks
   for (const int ranks : {1, 2, 3}) {
     const std::string out = "by" + std::to_string(ranks);
     const Outcome outcome = run(by(ranks, into(out, small_)));
@@ -174,7 +174,7 @@ TEST_F(Mpi, EndsCleanlyWhenOneRankIsToldTo) {
   EXPECT_EQ(ended.status, 130) << ended.err;
   EXPECT_NE(ended.err.find("interrupted after "), std::string::npos) << ended.err;
   EXPECT_EQ(summary()["complete"], false);
-  EXPECT_EQ(csv_files("out").size(), 5U);  // a stopped run does not trace its sensors
+  EXPECT_EQ(csv_files("out").size(), 6U);  // a stopped run does not trace its sensors
 }
 
 // The launcher gives its processes a second; none of them may outlive it.

@@ -76,8 +76,8 @@ inline RadiationModel maize_on_soil() {
   for (const std::string& name : model.canopy.optics_names) {
     const bool is_leaf = name == "leaf";
     const std::vector<FaceOptics> faces = role_from_name(name) == Role::soil ? std::vector<FaceOptics>{{0.15, 0.0}, {0.35, 0.0}}
-                                          : is_leaf          ? std::vector<FaceOptics>{{0.12, 0.06}, {0.40, 0.45}}
-                                                             : std::vector<FaceOptics>{{0.12, 0.0}, {0.40, 0.0}};
+                                          : is_leaf ? std::vector<FaceOptics>{{0.12, 0.06}, {0.40, 0.45}}
+                                                    : std::vector<FaceOptics>{{0.12, 0.0}, {0.40, 0.0}};
     model.optics.push_back({name, faces, faces, {}});
   }
   model.sun = beijing_sun();
