@@ -47,9 +47,11 @@ std::vector<Role> organ_roles(const RadiationModel& model) {
     const Surface& surface = surfaces.at(e);
     areas_m2[surface.organ][static_cast<std::size_t>(surface.role)] += area_m2(model.canopy.corners[e]);
   }
-  std::vector<Role> roles;
-  for (const auto& by_role : areas_m2) {
-    roles.push_back(static_cast<Role>(std::max_element(by_role.begin(), by_role.end()) - by_role.begin()));
+  std::vector<Role> roles(areas_m2.size());
+  for (const Surface& surface : surfaces.of) roles[surface.organ] = surface.role;
+  for (std::size_t o = 0; o < roles.size(); ++o) {
+    const auto largest = std::max_element(areas_m2[o].begin(), areas_m2[o].end());
+    if (*largest > 0.0) roles[o] = static_cast<Role>(largest - areas_m2[o].begin());
   }
   return roles;
 }

@@ -34,7 +34,7 @@ struct Surfaces {
 // Returns the one-sided area of each role, m2. [role]
 [[nodiscard]] std::array<double, role_names.size()> area_of_roles_m2(const RadiationModel& model);
 
-// Returns the role of each organ: that of most of its area. [organ]
+// Returns the role of each organ: that of most of its area, or of one of its surfaces if it has no area. [organ]
 [[nodiscard]] std::vector<Role> organ_roles(const RadiationModel& model);
 
 // Gives structures and lamps optics numbers of their own, so that no number is shared by them and by vegetation: the light

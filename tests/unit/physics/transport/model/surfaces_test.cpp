@@ -104,6 +104,8 @@ TEST(Surfaces, GiveTheAreaOfEachRole) {
   RadiationModel model = model_of({{{1, "leaf"}, "a"}, {{1, "leaf2"}, "a"}, {{1, "pot"}, "b"}});
   EXPECT_EQ(area_of_roles_m2(model), (std::array<double, 6>{1.0, 0.0, 0.0, 0.5, 0.0, 0.0}));
   EXPECT_EQ(organ_roles(model), (Roles{Role::leaf, Role::leaf, Role::structure}));
+  model.canopy.corners[2][1] = model.canopy.corners[2][0];
+  EXPECT_EQ(organ_roles(model)[2], Role::structure) << "without area";
 }
 
 }  // namespace
