@@ -6,6 +6,7 @@
 
 #include "shared/beam.h"
 #include "shared/layout.h"
+#include "shared/turn.h"
 #include "tree.glsl"
 #include "traverse.glsl"
 
@@ -24,13 +25,26 @@ void pause(Ray ray, uint crossings, uint number, bool stuck) {
   outbox[place] = PausedRay(ray.origin, crossings, number, stuck ? 1u : 0u);
 }
 
+uint layer_at(float y) { return layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers); }
+
 void count_element(NearestHit hit) {
-  uvec4 a = TRIANGLE_WORDS(3u * hit.triangle);
-  uvec4 b = TRIANGLE_WORDS(3u * hit.triangle + 1u);
-  uvec4 c = TRIANGLE_WORDS(3u * hit.triangle + 2u);
-  float y = landing_y(uintBitsToFloat(a.y), uintBitsToFloat(b.y), uintBitsToFloat(c.y), hit.weight_b, hit.weight_c);
-  uint layer = layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers);
-  atomicAdd(counters[c.w + 2u * layer + hit.lower], 1u);
+  uvec4 a = TRIANGLE_WORDS(3u * hit.reference);
+  uvec4 b = TRIANGLE_WORDS(3u * hit.reference + 1u);
+  uvec4 c = TRIANGLE_WORDS(3u * hit.reference + 2u);
+  float y_a = uintBitsToFloat(a.y);
+  float y_b = uintBitsToFloat(b.y);
+  float y_c = uintBitsToFloat(c.y);
+  uint word = c.w;
+  if (has_copies) {
+    CopyTurn turn = turn_of(hit.copy);
+    y_a = placed_height(turn, y_a);
+    y_b = placed_height(turn, y_b);
+    y_c = placed_height(turn, y_c);
+    float lowest = y_a < y_b ? y_a : y_b;
+    word += NODE_WORDS(hit.copy + 2u).w - 2u * layer_at(lowest < y_c ? lowest : y_c);
+  }
+  uint layer = layer_at(landing_y(y_a, y_b, y_c, hit.weight_b, hit.weight_c));
+  atomicAdd(counters[word + 2u * layer + hit.lower], 1u);
   if (!periodic) atomicAdd(counters[counter_met], 1u);
 }
 

@@ -29,7 +29,7 @@ std::array<Corner, 3> sorted_corners(const Triangle& corners) {
 
 World::World(const RadiationModel& model) : model_(model), device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
   if (model.canopy.origin_m != glm::dvec3(0.0)) throw std::invalid_argument("scenes far from zero are not for this tracer");
-  const std::vector<Triangle>& elements = model.canopy.corners;
+  const std::vector<Triangle> elements = model.canopy.corners.all();
   std::map<std::array<Corner, 3>, std::size_t> first_of;
   elements_lo_m_ = glm::dvec3(endless);
   elements_hi_m_ = glm::dvec3(-endless);

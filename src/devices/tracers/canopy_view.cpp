@@ -232,7 +232,10 @@ GpuBuffer upload_storage(const GpuContext& context, std::span<const T> data, con
 class GpuViewer final : public LookingViewer {
  public:
   GpuViewer(const GpuContext& context, const GpuTree& tree, const Bvh& bvh, CanopyLook look)
-      : LookingViewer(bvh, std::move(look)), context_(context), tree_(tree), pipeline_(context, view_shader(tree), {}) {
+      : LookingViewer(bvh, std::move(look)),
+        context_(context),
+        tree_(tree),
+        pipeline_(context, view_shader(tree), {0, 0, 0, tree.has_copies ? 1U : 0U}) {
     prepare();
   }
 

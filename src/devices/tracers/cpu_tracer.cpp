@@ -50,10 +50,20 @@ CpuHit CpuTracer::nearest(const shared::Ray& ray, float limit, OwnElement own) c
 }
 
 void CpuTracer::count_element(const shared::BeamBlock& beam, const CpuHit& hit, std::span<std::uint32_t> counters) const {
-  const BvhTriangle& reference = bvh_.triangles[hit.triangle];
-  const float y = shared::landing_y(reference.a[1], reference.b[1], reference.c[1], hit.weight_b, hit.weight_c);
-  const std::uint32_t layer = shared::layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers);
-  count(counters, reference.counter + 2 * layer + hit.lower);
+  const BvhTriangle& reference = bvh_.triangles[hit.reference];
+  const auto layer_at = [&](float y) { return shared::layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers); };
+  if (bvh_.copies.empty()) {
+    const float y = shared::landing_y(reference.a[1], reference.b[1], reference.c[1], hit.weight_b, hit.weight_c);
+    count(counters, reference.counter + 2 * layer_at(y) + hit.lower);
+  } else {
+    const BvhCopy copy = copy_at(bvh_, hit.copy);
+    const shared::CopyTurn turn = turn_of(copy);
+    const float a = shared::placed_height(turn, reference.a[1]);
+    const float b = shared::placed_height(turn, reference.b[1]);
+    const float c = shared::placed_height(turn, reference.c[1]);
+    const std::uint32_t bin = layer_at(shared::landing_y(a, b, c, hit.weight_b, hit.weight_c)) - layer_at(std::min({a, b, c}));
+    count(counters, copy.first_counter + reference.counter + 2 * bin + hit.lower);
+  }
   if (!domain_.periodic) count(counters, shared::counter_met);
 }
 

@@ -65,14 +65,29 @@ INLINED bool within_edges(const EdgeRay& ray, const BvhTriangle& t) {
   return !(any(uvw < 0.0F) && any(uvw > 0.0F));
 }
 
+// What to add to the numbers of a triangle; nothing in a tree without copies.
+struct Numbering {
+  std::uint32_t first_element = 0;
+  std::uint32_t image = 0;
+  std::uint32_t order_offset = 0;
+  std::uint32_t copy = 0;  // node
+};
+
 // Keeps the better of `best` and the hit on one reference.
-void meet(const Bvh& bvh, std::uint32_t triangle, const shared::Ray& ray, float limit, OwnElement own, CpuHit& best) {
+void meet(const Bvh& bvh, std::uint32_t triangle, const shared::Ray& ray, float limit, OwnElement own, const Numbering& add,
+          CpuHit& best) {
   const BvhTriangle& reference = bvh.triangles[triangle];
-  if (reference.element == own.element && reference.image == own.image) return;
+  const std::uint32_t element = reference.element + add.first_element;
+  if (element == own.element && (reference.image | add.image) == own.image) return;
   const shared::TriangleHit hit = shared::meet_triangle(ray, corner(reference.a), corner(reference.b), corner(reference.c));
   if (!hit.met || hit.t > limit) return;
-  if (!shared::hit_precedes({hit.t, reference.element, triangle}, {best.t, best.element, best.triangle})) return;
-  best = {true, hit.t, hit.weight_b, hit.weight_c, hit.lower, reference.element, triangle};
+  const std::uint32_t place = triangle + add.order_offset;
+  if (!shared::hit_precedes({hit.t, element, place}, {best.t, best.element, best.triangle})) return;
+  best = {true, hit.t, hit.weight_b, hit.weight_c, hit.lower, element, place, triangle, add.copy};
+}
+
+Numbering numbering_of(const BvhCopy& copy, std::uint32_t node) {
+  return {copy.first_element, copy.image, copy.order_offset, node};
 }
 
 CpuHit no_hit(float limit) {
@@ -146,27 +161,25 @@ INLINED unsigned along_ray(unsigned slots, unsigned octant) {
   return slots;
 }
 
-}  // namespace
-
-CpuHit nearest_hit_of_all(const Bvh& bvh, const shared::Ray& ray, float limit, OwnElement own) {
-  CpuHit best = no_hit(limit);
-  for (std::uint32_t triangle = 0; triangle < bvh.triangles.size(); ++triangle) meet(bvh, triangle, ray, limit, own, best);
-  return best;
-}
-
-WALK_FOR_EACH_PROCESSOR
-CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images images, OwnElement own) {
-  CpuHit best = no_hit(limit);
-  if (bvh.nodes.empty()) return best;
+// Walks the tree below `root`. A tree of copies calls enter_copy(node number) for each copy that the ray may meet.
+template <bool of_copies, class EnterCopy>
+INLINED void walk(const Bvh& bvh, std::uint32_t root, const shared::Ray& ray, float limit, Images images, OwnElement own,
+                  const Numbering& add, CpuHit& best, const EnterCopy& enter_copy) {
   const BoxRay along = box_ray(ray);
   const EdgeRay edges = edge_ray(ray);
   std::array<Visit, 8 * max_bvh_depth> stack;
   std::size_t depth = 0;
-  stack[depth++] = {0, 0.0F};
+  stack[depth++] = {root, 0.0F};
   while (depth > 0) {
     const Visit visit = stack[--depth];
     if (visit.enter > best.t) continue;
     const BvhNode& node = bvh.nodes[visit.node];
+    if constexpr (of_copies) {
+      if (is_copy(node)) {
+        enter_copy(visit.node);
+        continue;
+      }
+    }
     Float8 enter;
     const unsigned met = enter_children(node, along, best.t, enter);
     for (unsigned leaves = along_ray(met & ~unsigned{node.inner_mask}, along.octant); leaves != 0;) {  // near ones first
@@ -178,7 +191,7 @@ CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images i
       for (std::uint32_t k = first; k < first + triangles; ++k) {
         const BvhTriangle& triangle = bvh.triangles[k];
         if (!within_edges(edges, triangle)) continue;
-        if (images == Images::all || triangle.image == 0) meet(bvh, k, ray, limit, own, best);
+        if (images == Images::all || triangle.image == 0) meet(bvh, k, ray, limit, own, add, best);
       }
     }
     for (unsigned inner = along_ray(met & node.inner_mask, along.octant); inner != 0; inner &= inner - 1) {  // far ones first
@@ -189,6 +202,45 @@ CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images i
       stack[depth++] = {node.child_base + below, enter[slot]};
     }
   }
+}
+
+}  // namespace
+
+shared::CopyTurn turn_of(const BvhCopy& copy) {
+  return {corner(copy.shift), copy.cos_out, copy.sin_out, copy.scale, copy.cos_back, copy.sin_back, copy.per_scale};
+}
+
+CpuHit nearest_hit_of_all(const Bvh& bvh, const shared::Ray& ray, float limit, OwnElement own) {
+  CpuHit best = no_hit(limit);
+  for (const std::uint32_t node : bvh.copies) {
+    const BvhCopy copy = copy_at(bvh, node);
+    const BvhPart& part = bvh.parts[copy.part];
+    const shared::Ray turned = shared::turned_ray(turn_of(copy), ray);
+    for (std::uint32_t k = part.first_triangle; k < part.first_triangle + part.triangles; ++k) {
+      meet(bvh, k, turned, limit, own, numbering_of(copy, node), best);
+    }
+  }
+  if (!bvh.copies.empty()) return best;
+  for (std::uint32_t k = 0; k < bvh.triangles.size(); ++k) meet(bvh, k, ray, limit, own, {}, best);
+  return best;
+}
+
+WALK_FOR_EACH_PROCESSOR
+CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images images, OwnElement own) {
+  CpuHit best = no_hit(limit);
+  if (bvh.nodes.empty()) return best;
+  const auto no_copies = [](std::uint32_t) {};
+  if (bvh.copies.empty()) {
+    walk<false>(bvh, 0, ray, limit, images, own, {}, best, no_copies);
+    return best;
+  }
+  walk<true>(
+      bvh, 0, ray, limit, images, own, {}, best, [&](std::uint32_t node) __attribute__((always_inline)) {
+        const BvhCopy copy = copy_at(bvh, node);
+        if (images == Images::originals && copy.image != 0) return;
+        walk<false>(bvh, copy.root, shared::turned_ray(turn_of(copy), ray), limit, images, own, numbering_of(copy, node), best,
+                    no_copies);
+      });
   return best;
 }
 

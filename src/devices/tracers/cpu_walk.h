@@ -5,12 +5,13 @@
 #include "physics/bvh/bvh.h"
 #include "shared/intersect.h"
 #include "shared/layout.h"
+#include "shared/turn.h"
 
 #include <cstdint>
 
 namespace sunfleck {
 
-// The nearest hit of one ray among the references of one period; `triangle` is its index in leaf order.
+// The nearest hit of one ray among the references of one period.
 struct CpuHit {
   bool found = false;
   float t = 0.0F;
@@ -18,7 +19,9 @@ struct CpuHit {
   float weight_c = 0.0F;
   std::uint32_t lower = 0;
   std::uint32_t element = 0;
-  std::uint32_t triangle = 0;
+  std::uint32_t triangle = 0;   // place in leaf order, counting the triangles of each copy
+  std::uint32_t reference = 0;  // index into Bvh::triangles
+  std::uint32_t copy = 0;       // the node of the copy, in a tree with copies
 };
 
 // Selects elements at their own place only, or also their copies that extend into the period.
@@ -29,6 +32,9 @@ struct OwnElement {
   std::uint32_t element = shared::no_element;
   std::uint32_t image = 0;
 };
+
+// Returns where a copy of the tree stands.
+[[nodiscard]] shared::CopyTurn turn_of(const BvhCopy& copy);
 
 // Return the nearest hit with 0 < t <= limit; at equal distance the first in the order of shared::hit_precedes.
 [[nodiscard]] CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images images = Images::all,

@@ -30,6 +30,7 @@ TreeFetch preferred_fetch(const GpuContext& context, const Bvh& bvh) {
 
 GpuTree::GpuTree(const GpuContext& context, const Bvh& bvh, TreeFetch tree_fetch)
     : fetch(tree_fetch),
+      has_copies(!bvh.copies.empty()),
       nodes(upload_array(context, tree_fetch, bvh.nodes, "the tree's nodes")),
       triangles(upload_array(context, tree_fetch, bvh.triangles, "the tree's triangles")) {}
 

@@ -20,6 +20,7 @@ struct GpuTree {
   [[nodiscard]] BufferUse use() const { return nodes.use; }
 
   TreeFetch fetch;
+  bool has_copies;  // for the specialisation constant of traverse.glsl
   GpuBuffer nodes, triangles;
 };
 

@@ -40,7 +40,7 @@ class PausedWork {
         inbox_(create_buffer(context, BufferUse::storage, head_bytes + choices.rays_per_dispatch * sizeof(Paused), what)),
         outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, what)),
         pipeline_(context, code_of(shader, tree, choices.group_size),
-                  {domain.periodic ? 1U : 0U, domain.has_soil ? 1U : 0U, choices.group_size}) {}
+                  {domain.periodic ? 1U : 0U, domain.has_soil ? 1U : 0U, choices.group_size, tree.has_copies ? 1U : 0U}) {}
 
   // Returns how many rays fit one dispatch at the moment.
   [[nodiscard]] std::uint32_t rays_per_dispatch() const { return budget_.rays(); }

@@ -26,7 +26,7 @@ constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the gener
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only generator
-  for (const char* key : {"optics", "up", "scale", "heading", "at", "positions", "role", "split"}) {
+  for (const char* key : {"optics", "up", "scale", "heading", "at", "positions", "role", "split", "instances"}) {
     if (table.has(key))
       table.refuse(key, "it is only for files; a generated stand fills the plot from its corner", "remove it");
   }
@@ -87,7 +87,8 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
                       .import = import,
                       .optics = std::move(optics),
                       .placements = std::move(placements),
-                      .role = read_role(table)};
+                      .role = read_role(table),
+                      .instances = table.boolean("instances")};
 }
 
 void refuse_many(const GeometryPart& part, std::size_t triangles) {
@@ -162,10 +163,10 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
 void allow_keys(const TomlTable& table, const SceneText& source) {
   if (source.meshes.empty()) {
     table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at",
-                 "positions", "role", "split"});
+                 "positions", "role", "split", "instances"});
   } else {
     table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at",
-                 "positions", "role", "split"});
+                 "positions", "role", "split", "instances"});
   }
 }
 
@@ -206,7 +207,7 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, Sourc
       const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
       refuse_many(part, triangles + plants * least_of_plant);
     }
-    meshes.push_back({load_mesh(part, files), part.placements, part.role});
+    meshes.push_back({load_mesh(part, files), part.placements, part.role, part.instances});
     Mesh& mesh = meshes.back().mesh;
     apply_optics_rules(part.table, part.optics, mesh, warnings);
     check_plant_numbers(part.table, mesh, part.placements, plant_numbers);

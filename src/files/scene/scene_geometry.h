@@ -29,6 +29,7 @@ struct GeometryPart {
   std::vector<OpticsRule> optics = {};  // of the key `optics`
   std::vector<Placement> placements;
   std::optional<Role> role = std::nullopt;
+  std::optional<bool> instances = std::nullopt;
 
   [[nodiscard]] std::string_view source_key() const { return maize ? "generator" : mesh != nullptr ? "mesh" : "file"; }
 };

@@ -61,20 +61,20 @@ Distribution distribute(const Costs& left, const Costs& right, int roots) {
 
 class Collapser {
  public:
-  Collapser(BinaryTree& tree, const Canopy& canopy, std::span<const Reference> references)
-      : tree_(tree), canopy_(canopy), references_(references) {}
+  Collapser(BinaryTree& tree, const ItemContents& contents, int max_depth)
+      : tree_(tree), contents_(contents), max_depth_(max_depth) {}
 
   Bvh run() {
     if (tree_.items.empty()) return {};
     const Subtree whole{0, 0, static_cast<std::uint32_t>(tree_.items.size())};
     solve(whole);
-    bvh_.triangles.reserve(tree_.items.size());
+    if (!of_copies()) bvh_.triangles.reserve(tree_.items.size());
     bvh_.nodes.reserve(tree_.items.size() / 7 + 1);  // 0.10 to 0.13 nodes per triangle are usual
     bvh_.nodes.resize(1);
     emit(0, whole, 1);
     bvh_.nodes.shrink_to_fit();
-    ENSURE(bvh_.depth, <=, max_bvh_depth);
-    ENSURE(bvh_.triangles.size(), ==, references_.size());
+    ENSURE(bvh_.depth, <=, max_depth_);
+    ENSURE(of_copies() ? bvh_.copies.size() : bvh_.triangles.size(), ==, tree_.items.size());
     return std::move(bvh_);
   }
 
@@ -98,6 +98,7 @@ class Collapser {
     for (std::uint32_t i = s.first; i < s.first + s.count; ++i) box.grow(tree_.items[i].box);
     return box;
   }
+  [[nodiscard]] bool of_copies() const { return contents_.copy != nullptr; }
   [[nodiscard]] bool is_leaf(const Subtree& s) const { return s.count == 1 || plan_of(s).leaf(); }
   [[nodiscard]] int height(const Subtree& s) const { return s.count == 1 ? 0 : plan_of(s).height(); }
 
@@ -119,7 +120,7 @@ class Collapser {
     plan.set_split(8, all.left);
     const float as_node = all.cost + area * node_cost;
     const float as_leaf = area * triangle_cost * static_cast<float>(subtree.count);
-    const bool leaf = subtree.count <= max_leaf_triangles && as_leaf <= as_node;
+    const bool leaf = !of_copies() && subtree.count <= max_leaf_triangles && as_leaf <= as_node;
     if (leaf) plan.set_leaf();
     costs.cost[1] = leaf ? as_leaf : as_node;
     for (int roots = 2; roots < 8; ++roots) {
@@ -177,7 +178,7 @@ class Collapser {
 
   void emit(std::size_t number, const Subtree& subtree, int level) {
     bvh_.depth = std::max(bvh_.depth, level);
-    const Children children = children_of(subtree, max_bvh_depth - level);
+    const Children children = children_of(subtree, max_depth_ - level);
     std::array<Bounds, 8> boxes;
     for (std::size_t i = 0; i < children.count; ++i) boxes[i] = box(children.subtree[i]);
     const std::span<const Bounds> used(boxes.data(), children.count);
@@ -192,7 +193,7 @@ class Collapser {
       if (child_in[slot] < 0) continue;
       const auto child = static_cast<std::size_t>(child_in[slot]);
       set_box(node, slot, boxes[child]);
-      if (is_leaf(children.subtree[child])) {
+      if (!of_copies() && is_leaf(children.subtree[child])) {
         node.meta[slot] = leaf_meta(children.subtree[child].count, bvh_.triangles.size() - node.triangle_base);
         append_triangles(children.subtree[child]);
       } else {
@@ -203,15 +204,23 @@ class Collapser {
     }
     bvh_.nodes[number] = node;
     bvh_.nodes.resize(bvh_.nodes.size() + inner_count);
-    for (std::size_t i = 0; i < inner_count; ++i) emit(node.child_base + i, inner[i], level + 1);
+    for (std::size_t i = 0; i < inner_count; ++i) {
+      if (of_copies() && is_leaf(inner[i])) {
+        append_copy(static_cast<std::uint32_t>(node.child_base + i), inner[i]);
+      } else {
+        emit(node.child_base + i, inner[i], level + 1);
+      }
+    }
+  }
+
+  void append_copy(std::uint32_t number, const Subtree& leaf) {
+    set_copy(bvh_, number, contents_.copy(tree_.items[leaf.first].reference()));
+    bvh_.copies.push_back(number);
   }
 
   void append_triangles(const Subtree& leaf) {
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-      const Reference& reference = references_[tree_.items[i].reference()];
-      const auto [a, b, c] = reference_corners(canopy_, reference);
-      bvh_.triangles.push_back(
-          {{a.x, a.y, a.z}, reference.element, {b.x, b.y, b.z}, pack_image(reference.dx, reference.dz), {c.x, c.y, c.z}, 0});
+      bvh_.triangles.push_back(contents_.triangle(tree_.items[i].reference()));
     }
   }
 
@@ -220,15 +229,15 @@ class Collapser {
   }
 
   BinaryTree& tree_;
-  const Canopy& canopy_;
-  std::span<const Reference> references_;
+  const ItemContents& contents_;
+  int max_depth_;
   Bvh bvh_;
 };
 
 }  // namespace
 
-Bvh collapse(BinaryTree& tree, const Canopy& canopy, std::span<const Reference> references) {
-  return Collapser(tree, canopy, references).run();
+Bvh collapse(BinaryTree& tree, const ItemContents& contents, int max_depth) {
+  return Collapser(tree, contents, max_depth).run();
 }
 
 }  // namespace sunfleck::detail

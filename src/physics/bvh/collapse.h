@@ -3,14 +3,20 @@
 
 #include "physics/bvh/binary_tree.h"
 #include "physics/bvh/bvh.h"
-#include "physics/bvh/references.h"
-#include "physics/canopy/canopy.h"
 
-#include <span>
+#include <cstdint>
+#include <functional>
 
 namespace sunfleck::detail {
 
-// Returns the compressed tree over the references of the items. Writes the plans into `tree`.
-[[nodiscard]] Bvh collapse(BinaryTree& tree, const Canopy& canopy, std::span<const Reference> references);
+// What the items of a tree stand for; exactly one of both functions is given.
+struct ItemContents {
+  std::function<BvhTriangle(std::uint32_t item)> triangle;
+  std::function<BvhCopy(std::uint32_t item)> copy;
+};
+
+// Returns the compressed tree over the items, at most `max_depth` levels deep, whose binary tree is at most three times as
+// high. Writes the plans into `tree`.
+[[nodiscard]] Bvh collapse(BinaryTree& tree, const ItemContents& contents, int max_depth = max_bvh_depth);
 
 }  // namespace sunfleck::detail

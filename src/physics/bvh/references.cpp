@@ -6,26 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
+#include <span>
 
 namespace sunfleck {
 namespace {
-
-constexpr std::uint64_t max_references = std::uint64_t{1} << 31U;
 
 // The period numbers first..last of the copies that reach into the enlarged plot.
 struct ImageRange {
   int first = 0;
   int last = 0;
-};
-
-struct ImageRanges {
-  ImageRange x, z;
-
-  [[nodiscard]] std::uint64_t count() const {
-    return static_cast<std::uint64_t>(x.last - x.first + 1) * static_cast<std::uint64_t>(z.last - z.first + 1);
-  }
-  [[nodiscard]] bool holds_origin() const { return x.first <= 0 && x.last >= 0 && z.first <= 0 && z.last >= 0; }
 };
 
 // Returns the images with lo + n * period <= period + margin and hi + n * period >= -margin.
@@ -42,21 +33,13 @@ ImageRange images_on_axis(float lo_m, float hi_m, double period_m, double margin
   return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-ImageRanges images_of(const Canopy& canopy, std::size_t element, glm::vec2 margin_m) {
-  const auto& [a, b, c] = canopy.corners[element];
-  const auto [lo_x, hi_x] = std::minmax({a.x, b.x, c.x});
-  const auto [lo_z, hi_z] = std::minmax({a.z, b.z, c.z});
-  return {images_on_axis(lo_x, hi_x, canopy.period_m.x, margin_m.x, element),
-          images_on_axis(lo_z, hi_z, canopy.period_m.y, margin_m.y, element)};
-}
-
 void append_images(std::vector<Reference>& references, std::size_t element, const ImageRanges& images) {
   const auto append = [&](int dx, int dz) {
     references.push_back({static_cast<std::uint32_t>(element), static_cast<std::int16_t>(dx), static_cast<std::int16_t>(dz)});
   };
   if (images.holds_origin()) append(0, 0);
-  for (int dz = images.z.first; dz <= images.z.last; ++dz) {
-    for (int dx = images.x.first; dx <= images.x.last; ++dx) {
+  for (int dz = images.first_z; dz <= images.last_z; ++dz) {
+    for (int dx = images.first_x; dx <= images.last_x; ++dx) {
       if (dx != 0 || dz != 0) append(dx, dz);
     }
   }
@@ -69,10 +52,18 @@ glm::vec2 border_margin_m(const Canopy& canopy) {
   return {static_cast<float>(canopy.period_m.x * share), static_cast<float>(canopy.period_m.y * share)};
 }
 
-std::vector<Reference> make_references(const Canopy& canopy) {
+ImageRanges images_of(const Canopy& canopy, const Box& box, std::size_t element) {
   const glm::vec2 margin_m = border_margin_m(canopy);
+  const ImageRange x = images_on_axis(box.lo.x, box.hi.x, canopy.period_m.x, margin_m.x, element);
+  const ImageRange z = images_on_axis(box.lo.z, box.hi.z, canopy.period_m.y, margin_m.y, element);
+  return {x.first, x.last, z.first, z.last};
+}
+
+std::vector<Reference> make_references(const Canopy& canopy) {
+  const std::span<const Triangle> own = canopy.corners.own();
+  const std::vector<std::uint32_t> elements = canopy.corners.own_elements();
   std::uint64_t total = 0;
-  for (std::size_t element = 0; element < canopy.size(); ++element) total += images_of(canopy, element, margin_m).count();
+  for (std::size_t k = 0; k < own.size(); ++k) total += images_of(canopy, box_of(own[k]), elements[k]).count();
   if (total > max_references) {
     throw_input(fmt::format("canopy: {} triangles, counting the copies that reach into the plot", total),
                 fmt::format("a tree holds at most {}", max_references),
@@ -81,11 +72,25 @@ std::vector<Reference> make_references(const Canopy& canopy) {
   std::vector<Reference> references;
   references.reserve(total);
   const std::vector<bool> copied = copied_elements(canopy.copies, canopy.size());
-  for (std::size_t element = 0; element < canopy.size(); ++element) {
-    if (copied[element] || !(area_m2(canopy.corners[element]) > 0.0)) continue;
-    append_images(references, element, images_of(canopy, element, margin_m));
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (copied[elements[k]] || !(area_m2(own[k]) > 0.0)) continue;
+    append_images(references, elements[k], images_of(canopy, box_of(own[k]), elements[k]));
   }
   return references;
+}
+
+Box box_of(const Triangle& corners) {
+  const auto& [a, b, c] = corners;
+  return {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+}
+
+BvhTriangle bvh_triangle(const Triangle& corners, std::uint32_t element, std::uint32_t image) {
+  const auto& [a, b, c] = corners;
+  return {{a.x, a.y, a.z}, element, {b.x, b.y, b.z}, image, {c.x, c.y, c.z}, 0};
+}
+
+BvhTriangle reference_triangle(const Canopy& canopy, const Reference& reference) {
+  return bvh_triangle(reference_corners(canopy, reference), reference.element, pack_image(reference.dx, reference.dz));
 }
 
 Triangle reference_corners(const Canopy& canopy, const Reference& reference) {

@@ -1,6 +1,7 @@
 #pragma once
 // The copies of elements that a tree covers, and the positions of their corners.
 
+#include "physics/bvh/bvh.h"
 #include "physics/canopy/canopy.h"
 
 #include <cstdint>
@@ -9,6 +10,9 @@
 
 namespace sunfleck {
 
+// Most triangles that a tree may hold, counting copies in all periods.
+inline constexpr std::uint64_t max_references = std::uint64_t{1} << 31U;
+
 // One appearance of an element in the period that the tree covers.
 struct Reference {
   std::uint32_t element = 0;
@@ -16,7 +20,22 @@ struct Reference {
   std::int16_t dz = 0;
 };
 
-// Returns the references to all elements. In a periodic plot an element whose box reaches beyond the border is referenced
+// The copies of something that reach into the plot: periods first_x..last_x along x and likewise along z.
+struct ImageRanges {
+  int first_x = 0, last_x = 0;
+  int first_z = 0, last_z = 0;
+
+  [[nodiscard]] std::uint64_t count() const {
+    return static_cast<std::uint64_t>(last_x - first_x + 1) * static_cast<std::uint64_t>(last_z - first_z + 1);
+  }
+  [[nodiscard]] bool holds_origin() const { return first_x <= 0 && last_x >= 0 && first_z <= 0 && last_z >= 0; }
+};
+
+// Returns the copies of a box that reach into the plot enlarged by border_margin_m; the first copy alone in an isolated stand.
+// Throws Error (input) for a copy 2^15 periods away, naming `element` as what is too large.
+[[nodiscard]] ImageRanges images_of(const Canopy& canopy, const Box& box, std::size_t element);
+
+// Returns the references to all elements with corners of their own. In a periodic plot an element whose box reaches beyond the border is referenced
 // again wherever a copy of it, shifted by whole periods, reaches into the plot enlarged by border_margin_m on every side.
 // The order is by element, with image (0, 0) first if it reaches into the plot. A centroid in the plot does not by itself
 // make image (0, 0) a reference of the period, but the element's own box always overlaps the plot, so it is one. Elements
@@ -27,6 +46,13 @@ struct Reference {
 // Returns the corners of a reference: the element's corners + (dx * period x, 0, dz * period z), summed in double, rounded
 // once.
 [[nodiscard]] Triangle reference_corners(const Canopy& canopy, const Reference& reference);
+
+// Returns the box around a triangle.
+[[nodiscard]] Box box_of(const Triangle& corners);
+
+// Return a triangle as trees hold it, without a counter.
+[[nodiscard]] BvhTriangle bvh_triangle(const Triangle& corners, std::uint32_t element, std::uint32_t image);
+[[nodiscard]] BvhTriangle reference_triangle(const Canopy& canopy, const Reference& reference);
 
 // Returns how far the references of a period reach beyond the plot's border, per axis (x, z): 2^-18 of the period.
 [[nodiscard]] glm::vec2 border_margin_m(const Canopy& canopy);

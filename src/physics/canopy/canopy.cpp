@@ -1,6 +1,7 @@
 #include "physics/canopy/canopy.h"
 
 #include "base/error.h"
+#include "physics/canopy/shared_meshes.h"
 
 #include <fmt/format.h>
 
@@ -17,17 +18,17 @@ struct DoubleBox {
   glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
 
   [[nodiscard]] bool empty() const { return lo.x > hi.x; }
+  void add(const glm::dvec3& at_m) {
+    lo = glm::min(lo, at_m);
+    hi = glm::max(hi, at_m);
+  }
 };
 
 DoubleBox bounds_of(std::span<const PlacedMesh> parts) {
   DoubleBox box;
   for (const PlacedMesh& part : parts) {
     for (const Placement& placement : part.placements) {
-      for (const glm::dvec3& vertex_m : part.mesh.vertices) {
-        const glm::dvec3 at_m = placed_m(vertex_m, placement);
-        box.lo = glm::min(box.lo, at_m);
-        box.hi = glm::max(box.hi, at_m);
-      }
+      for (const glm::dvec3& vertex_m : part.mesh.vertices) box.add(placed_m(vertex_m, placement));
     }
   }
   return box;
@@ -52,7 +53,7 @@ double snapped(double value_m, double step_m) {
   return std::round(value_m / step_m) * step_m;
 }
 
-// Moves corners onto the grid and shifts them by whole periods until their centroid lies in the plot.
+// Moves corners, or the origin of a mesh, onto the grid and shifts them by whole periods until their centroid lies in the plot.
 class Wrapper {
  public:
   explicit Wrapper(const Plot& plot)
@@ -61,19 +62,19 @@ class Wrapper {
 
   [[nodiscard]] glm::dvec2 period_m() const { return period_m_; }
 
-  void wrap(std::array<glm::dvec3, 3>& corners_m) const {
+  void wrap(std::span<glm::dvec3> corners_m) const {
     wrap_axis(corners_m, 0, step_m_.x, period_m_.x);
     wrap_axis(corners_m, 2, step_m_.y, period_m_.y);
   }
 
  private:
-  static void wrap_axis(std::array<glm::dvec3, 3>& corners_m, int axis, double step_m, double period_m) {
+  static void wrap_axis(std::span<glm::dvec3> corners_m, int axis, double step_m, double period_m) {
     double sum_m = 0.0;
     for (glm::dvec3& corner_m : corners_m) {
       corner_m[axis] = snapped(corner_m[axis], step_m);
       sum_m += corner_m[axis];
     }
-    const double shift_m = -std::floor(sum_m / 3.0 / period_m) * period_m;
+    const double shift_m = -std::floor(sum_m / static_cast<double>(corners_m.size()) / period_m) * period_m;
     for (glm::dvec3& corner_m : corners_m) corner_m[axis] += shift_m;
   }
 
@@ -113,6 +114,66 @@ std::uint32_t add_organs(Canopy& canopy, const PlacedMesh& part, const Placement
   return highest;
 }
 
+// Returns where single precision should count a mesh from.
+glm::dvec3 mesh_origin_m(const Mesh& mesh) {
+  DoubleBox box;
+  for (const glm::dvec3& vertex_m : mesh.vertices) box.add(vertex_m);
+  return {local_origin_m(box, 0), local_origin_m(box, 1), local_origin_m(box, 2)};
+}
+
+class CornerPlacer {
+ public:
+  CornerPlacer(Canopy& canopy, const Plot& plot) : canopy_(canopy), wrapper_(plot), periodic_(plot.periodic) {
+    if (periodic_) canopy.period_m = wrapper_.period_m();
+  }
+
+  void add_own(const PlacedMesh& part) const {
+    const Mesh& mesh = part.mesh;
+    for (const Placement& placement : part.placements) {
+      for (const glm::uvec3& numbers : mesh.triangles) {
+        std::array<glm::dvec3, 3> corners_m;
+        for (int k = 0; k < 3; ++k) corners_m[k] = placed_m(mesh.vertices[numbers[k]], placement) - canopy_.origin_m;
+        if (periodic_) wrapper_.wrap(corners_m);
+        canopy_.corners.push_back({glm::vec3(corners_m[0]), glm::vec3(corners_m[1]), glm::vec3(corners_m[2])});
+      }
+    }
+  }
+
+  void add_shared(const PlacedMesh& part) const {
+    const glm::dvec3 origin_m = mesh_origin_m(part.mesh);
+    std::vector<shared::CopyTurn> turns;
+    for (const Placement& placement : part.placements) {
+      glm::dvec3 shift_m = placed_m(origin_m, placement) - canopy_.origin_m;
+      if (periodic_) wrapper_.wrap(std::span(&shift_m, 1));
+      turns.push_back(turn_of(placement, shift_m));
+    }
+    const std::uint32_t mesh = canopy_.corners.add_mesh(shared_mesh(part.mesh, origin_m, turns));
+    for (const shared::CopyTurn& turn : turns) canopy_.corners.add_copy(mesh, turn);
+  }
+
+ private:
+  Canopy& canopy_;
+  Wrapper wrapper_;
+  bool periodic_;
+};
+
+// Returns the elements that lie exactly on earlier ones: within a shared mesh, or among the elements with corners of their own.
+std::vector<Copy> all_copies(const ElementCorners& corners) {
+  std::vector<Copy> copies = find_copies(corners.own());
+  if (corners.copies().empty()) return copies;
+  const std::vector<std::uint32_t> own = corners.own_elements();
+  for (Copy& copy : copies) copy = {own[copy.element], own[copy.original]};
+  std::vector<std::vector<Copy>> in_mesh;
+  for (const SharedMesh& mesh : corners.meshes()) in_mesh.push_back(find_copies(mesh.corners));
+  for (const MeshCopy& placed : corners.copies()) {
+    for (const Copy& copy : in_mesh[placed.mesh]) {
+      copies.push_back({placed.first_element + copy.element, placed.first_element + copy.original});
+    }
+  }
+  std::sort(copies.begin(), copies.end(), [](const Copy& a, const Copy& b) { return a.element < b.element; });
+  return copies;
+}
+
 }  // namespace
 
 Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
@@ -122,17 +183,12 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
   if (elements > std::numeric_limits<std::uint32_t>::max() / 4) {
     throw_input(fmt::format("{} triangles", elements), "at most 1073741823 are possible", "place fewer copies");
   }
-  canopy.corners.reserve(elements);
-  canopy.organ_of.reserve(elements);
-  canopy.optics_of.reserve(elements);
-
   const bool labelled =
       std::any_of(parts.begin(), parts.end(), [](const PlacedMesh& part) { return !part.mesh.labels.empty(); });
+  canopy.organ_of.reserve(elements);
+  canopy.optics_of.reserve(elements);
   if (labelled) canopy.labels.reserve(elements);
-
   const DoubleBox box = bounds_of(parts);
-  const Wrapper wrapper(plot);
-  if (plot.periodic) canopy.period_m = wrapper.period_m();
   if (!box.empty()) {
     canopy.origin_m.y = local_origin_m(box, 1);
     if (!plot.periodic) {
@@ -141,6 +197,12 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
     }
   }
 
+  std::size_t own_elements = 0;
+  for (const PlacedMesh& part : parts) {
+    if (!shares_triangles(part, elements)) own_elements += part.mesh.triangles.size() * part.placements.size();
+  }
+  canopy.corners.reserve(own_elements);
+  const CornerPlacer placer(canopy, plot);
   std::uint32_t highest_plant = 0;
   for (const PlacedMesh& part : parts) {
     const Mesh& mesh = part.mesh;
@@ -149,24 +211,26 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
       const auto first_organ = static_cast<std::uint32_t>(canopy.organs.size());
       highest_plant = add_organs(canopy, part, placement, highest_plant);
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        std::array<glm::dvec3, 3> corners_m;
-        for (int k = 0; k < 3; ++k) corners_m[k] = placed_m(mesh.vertices[mesh.triangles[t][k]], placement) - canopy.origin_m;
-        if (plot.periodic) wrapper.wrap(corners_m);
-        canopy.corners.push_back({glm::vec3(corners_m[0]), glm::vec3(corners_m[1]), glm::vec3(corners_m[2])});
         canopy.organ_of.push_back(first_organ + mesh.organ_of[t]);
         canopy.optics_of.push_back(optics[mesh.optics_of[t]]);
         if (labelled) canopy.labels.push_back(mesh.labels.empty() ? no_label : mesh.labels[t]);
       }
     }
+    if (shares_triangles(part, elements)) {
+      placer.add_shared(part);
+    } else {
+      placer.add_own(part);
+    }
   }
-  canopy.copies = find_copies(canopy.corners);
+  canopy.copies = all_copies(canopy.corners);
   canopy.plants = plant_sites(parts);
   return canopy;
 }
 
 Box bounds(const Canopy& canopy) {
   if (canopy.corners.empty()) return {};
-  Box box{canopy.corners[0][0], canopy.corners[0][0]};
+  const glm::vec3 first = canopy.corners[0][0];
+  Box box{first, first};
   for (const Triangle& triangle : canopy.corners) {
     for (const glm::vec3& corner : triangle) {
       box.lo = glm::min(box.lo, corner);

@@ -51,7 +51,8 @@ struct Placement {
 struct PlacedMesh {
   Mesh mesh;
   std::vector<Placement> placements;
-  std::optional<Role> role;  // of all its organs, if given
+  std::optional<Role> role;    // of all its organs, if given
+  std::optional<bool> shared;  // whether all copies share the mesh's triangles; without a value, where it pays
 };
 
 }  // namespace sunfleck

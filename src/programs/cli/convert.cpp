@@ -68,15 +68,16 @@ Mesh mesh_of(const Canopy& canopy) {
   mesh.optics_names = canopy.optics_names;
   mesh.organs = canopy.organs;
   mesh.labels = canopy.labels;
+  const std::vector<Triangle> triangles = canopy.corners.all();
   const std::size_t corners = 3 * canopy.size();
   std::vector<unsigned> numbers(corners);
   const std::size_t vertices =
-      meshopt_generateVertexRemap(numbers.data(), nullptr, corners, canopy.corners.data(), corners, sizeof(glm::vec3));
+      meshopt_generateVertexRemap(numbers.data(), nullptr, corners, triangles.data(), corners, sizeof(glm::vec3));
   mesh.vertices.resize(vertices);
   for (std::size_t e = 0; e < canopy.size(); ++e) {
     const unsigned* number = &numbers[3 * e];
     mesh.triangles.emplace_back(number[0], number[1], number[2]);
-    for (std::size_t k = 0; k < 3; ++k) mesh.vertices[number[k]] = canopy.origin_m + glm::dvec3(canopy.corners[e][k]);
+    for (std::size_t k = 0; k < 3; ++k) mesh.vertices[number[k]] = canopy.origin_m + glm::dvec3(triangles[e][k]);
   }
   return mesh;
 }

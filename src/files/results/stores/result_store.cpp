@@ -67,6 +67,27 @@ void visit_surfaces(const Archive& archive, Model& model) {
   });
 }
 
+void visit_corners(const StoreWriter& to, const ElementCorners& corners, std::size_t triangles) {
+  const NumberPieces<Triangle> pieces = [&](const std::function<void(std::span<const Triangle>)>& take) {
+    constexpr std::size_t at_once = 4096;
+    std::vector<Triangle> piece;
+    for (const Triangle& triangle : corners) {
+      piece.push_back(triangle);
+      if (piece.size() < at_once) continue;
+      take(piece);
+      piece.clear();
+    }
+    take(piece);
+  };
+  to.packed(pieces, triangles);
+}
+
+void visit_corners(const StoreReader& from, ElementCorners& corners, std::size_t triangles) {
+  std::vector<Triangle> all;
+  from.packed(all, triangles);
+  corners = std::move(all);
+}
+
 template <class Archive, class Canopy>
 void visit_canopy(const Archive& archive, Canopy& canopy) {
   archive["organs"].list(canopy.organs, [](const auto& to, auto& organ) {
@@ -78,7 +99,7 @@ void visit_canopy(const Archive& archive, Canopy& canopy) {
   archive["triangles"].value(triangles);
   visit_vector(archive["origin_m"], farthest_stored_m, canopy.origin_m);
   archive["period_m"].row(0.0, farthest_stored_m, canopy.period_m.x, canopy.period_m.y);
-  archive["corners_m"].packed(canopy.corners, triangles);
+  visit_corners(archive["corners_m"], canopy.corners, triangles);
   archive["organ_of"].packed(canopy.organ_of, triangles);
   archive["optics_of"].packed(canopy.optics_of, triangles);
 }

@@ -82,8 +82,9 @@ void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSum
     const std::uint32_t plant = areas.plants.of_surface[number];
     if (areas.foliage[e] && plant != PlantAreas::no_plant) sums.plant_lit_m2[plant] += lit_m2;
     if (surface.soil()) continue;
-    std::size_t layer = first_layer(layout, model.canopy.corners[e]);
-    for (std::uint32_t bin = layout.first_bin[e]; bin < layout.first_bin[e + 1]; ++bin, ++layer) {
+    const std::size_t first = first_layer(layout, model.canopy.corners[e]);
+    std::uint32_t bin = layout.first_bin[e];
+    for (std::size_t layer = first; layer < layout.end_layer(e, first); ++layer, ++bin) {
       const std::uint32_t upper = counters[layout.first_bin_word + 2 * bin];
       const std::uint32_t lower = counters[layout.first_bin_word + 2 * bin + 1];
       BeamLandings& in_layer = sums.layer_optics[layer * model.optics.size() + surface.optics];

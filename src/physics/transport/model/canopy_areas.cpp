@@ -45,7 +45,7 @@ CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layou
     }
     if (!soil && !hidden[e] && area > 0.0) {
       const std::size_t first = first_layer(layout, canopy.corners[e]);
-      const std::size_t end = first + layout.first_bin[e + 1] - layout.first_bin[e];
+      const std::size_t end = layout.end_layer(e, first);
       for (std::size_t k = first; k < end; ++k) (plant ? layer_holds_vegetation : layer_holds_structure)[k] = true;
     }
     if (!foliage[e]) continue;

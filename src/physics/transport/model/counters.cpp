@@ -36,6 +36,43 @@ double area_share_below(const std::array<double, 3>& heights, double y) {
   return 1.0 - (highest - y) * (highest - y) / ((highest - middle) * (highest - lowest));
 }
 
+std::uint32_t layers_reached(const CounterLayout& layout, const Triangle& corners) {
+  const float top_m = std::max({corners[0].y, corners[1].y, corners[2].y});
+  return layer_at(layout.layers, top_m) - first_layer(layout, corners) + 1;
+}
+
+// Returns the number of bins of each triangle of a shared mesh: enough for all its copies. [mesh][triangle]
+std::vector<std::vector<std::uint32_t>> bins_of_meshes(const ElementCorners& corners, const CounterLayout& layout) {
+  std::vector<std::vector<std::uint32_t>> bins;
+  for (const SharedMesh& mesh : corners.meshes()) bins.emplace_back(mesh.corners.size(), 1U);
+  for (const MeshCopy& copy : corners.copies()) {
+    std::vector<std::uint32_t>& of_mesh = bins[copy.mesh];
+    for (std::size_t t = 0; t < of_mesh.size(); ++t) {
+      of_mesh[t] = std::max(of_mesh[t], layers_reached(layout, corners[copy.first_element + t]));
+    }
+  }
+  return bins;
+}
+
+// Fills layout.first_bin except for its end; returns the number of bins.
+std::uint64_t number_bins(const Canopy& canopy, CounterLayout& layout) {
+  layout.first_bin.reserve(canopy.size() + 1);
+  std::uint64_t bins = 0;
+  const auto add = [&](std::uint64_t more) {
+    layout.first_bin.push_back(static_cast<std::uint32_t>(bins));
+    bins += more;
+  };
+  const std::vector<std::vector<std::uint32_t>> of_mesh = bins_of_meshes(canopy.corners, layout);
+  for (const MeshCopy& copy : canopy.corners.copies()) {
+    while (layout.first_bin.size() < copy.first_element) {
+      add(layers_reached(layout, canopy.corners[layout.first_bin.size()]));
+    }
+    for (const std::uint32_t more : of_mesh[copy.mesh]) add(more);
+  }
+  while (layout.first_bin.size() < canopy.size()) add(layers_reached(layout, canopy.corners[layout.first_bin.size()]));
+  return bins;
+}
+
 }  // namespace
 
 std::uint32_t layer_at(const Layers& layers, float y_m) {
@@ -54,13 +91,7 @@ CounterLayout make_counter_layout(const RadiationModel& model) {
     layout.cells_x = cells_along(model.plot.size_x_m, model.soil->patch_m);
     layout.cells_z = cells_along(model.plot.size_z_m, model.soil->patch_m);
   }
-  std::uint64_t bins = 0;
-  layout.first_bin.reserve(model.canopy.size() + 1);
-  for (const Triangle& corners : model.canopy.corners) {
-    layout.first_bin.push_back(static_cast<std::uint32_t>(bins));
-    const float top_m = std::max({corners[0].y, corners[1].y, corners[2].y});
-    bins += layer_at(layout.layers, top_m) - first_layer(layout, corners) + 1;
-  }
+  const std::uint64_t bins = number_bins(model.canopy, layout);
   const std::uint64_t words = shared::counter_first_cell + std::uint64_t{layout.cells_x} * layout.cells_z + 2 * bins;
   if (words > std::numeric_limits<std::uint32_t>::max()) {
     throw_input(fmt::format("{} counters of landings", words), "at most 4294967295 are possible",
@@ -113,9 +144,22 @@ shared::PacketBlock make_packet_block(const RadiationModel& model, const Counter
 }
 
 void number_counters(const CounterLayout& layout, const Canopy& canopy, Bvh& bvh) {
-  for (BvhTriangle& triangle : bvh.triangles) {
-    const std::uint32_t first_word = layout.first_bin_word + 2 * layout.first_bin[triangle.element];
-    triangle.counter = first_word - 2 * first_layer(layout, canopy.corners[triangle.element]);
+  if (bvh.copies.empty()) {
+    for (BvhTriangle& triangle : bvh.triangles) {
+      const std::uint32_t first_word = layout.first_bin_word + 2 * layout.first_bin[triangle.element];
+      triangle.counter = first_word - 2 * first_layer(layout, canopy.corners[triangle.element]);
+    }
+    return;
+  }
+  for (const std::uint32_t node : bvh.copies) {
+    BvhCopy copy = copy_at(bvh, node);
+    const BvhPart& part = bvh.parts[copy.part];
+    const std::uint32_t first_bin = layout.first_bin[copy.first_element];
+    copy.first_counter = layout.first_bin_word + 2 * first_bin;
+    set_copy(bvh, node, copy);
+    for (BvhTriangle& triangle : std::span(bvh.triangles).subspan(part.first_triangle, part.triangles)) {
+      triangle.counter = 2 * (layout.first_bin[copy.first_element + triangle.element] - first_bin);
+    }
   }
 }
 

@@ -4,7 +4,7 @@
 //   then cells_x * cells_z words       landings on the soil plane, by cell of its map, x fastest
 //   then two words a bin               landings on elements: [bin][upper, lower]
 // An element has one bin for each layer it reaches into, starting with the lowest, so that landings are counted at their
-// height.
+// height. All copies of a shared mesh have as many bins as the one that needs most; the last ones may stay empty.
 
 #include "physics/bvh/bvh.h"
 #include "physics/canopy/canopy.h"
@@ -12,6 +12,8 @@
 #include "physics/transport/model/scene_frame.h"
 #include "shared/layout.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +38,10 @@ struct CounterLayout {
   std::uint32_t first_bin_word = 0;
   std::vector<std::uint32_t> first_bin;  // [element + 1]
 
+  // Returns the end of the layers to which an element's bins belong, if the first one belongs to `first`.
+  [[nodiscard]] std::size_t end_layer(std::size_t element, std::size_t first) const {
+    return std::min<std::size_t>(first + first_bin[element + 1] - first_bin[element], static_cast<std::size_t>(layers.count));
+  }
   [[nodiscard]] std::uint32_t words() const { return first_bin_word + 2 * first_bin.back(); }
   [[nodiscard]] std::uint32_t cells() const { return cells_x * cells_z; }
 };
@@ -58,7 +64,8 @@ struct CounterLayout {
 // Adds a triangle's one-sided area, m2, to the layers, split exactly as it lies in them. `area_by_layer_m2` is [layer].
 void add_area_by_layer(const Layers& layers, const Triangle& corners, std::span<double> area_by_layer_m2);
 
-// Writes into every reference of the tree where its element's landings are counted.
+// Writes into every reference of the tree where its element's landings are counted: the word of layer 0, if it had a bin. In a
+// tree with copies, the word of the element's lowest layer is the sum of the counters of the triangle and of the copy.
 void number_counters(const CounterLayout& layout, const Canopy& canopy, Bvh& bvh);
 
 }  // namespace sunfleck

@@ -135,7 +135,7 @@ class ResultMaker {
       const Triangle& corners = model_.canopy.corners[e];
       add_area_by_layer(layout_.layers, corners, area_in_layer_m2);
       const std::size_t first = first_layer(layout_, corners);
-      for (std::size_t k = first; k < first + layout_.first_bin[e + 1] - layout_.first_bin[e]; ++k) {
+      for (std::size_t k = first; k < layout_.end_layer(e, first); ++k) {
         if (agree(k)) parts[k].push_back({area_in_layer_m2[k], exposure_.lit_m2_per_landing(e)});
         area_in_layer_m2[k] = 0.0;
       }
