@@ -6,7 +6,6 @@
 
 #include "shared/beam.h"
 #include "shared/layout.h"
-#include "shared/turn.h"
 #include "tree.glsl"
 #include "traverse.glsl"
 

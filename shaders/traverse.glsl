@@ -2,6 +2,8 @@
 // SKIP_OWN the copy `own_image` of element `own_element` is left out. With ONLY_ORIGINALS elements are met only at their
 // place in the canopy, not where their copies reach into the period.
 
+#include "shared/turn.h"
+
 // Whether the tree has nodes that stand for copies of a mesh; see BvhCopy.
 layout(constant_id = 3) const bool has_copies = false;
 

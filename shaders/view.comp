@@ -5,7 +5,6 @@
 // after the other, and the nearest hit is kept.
 
 #define ONLY_ORIGINALS
-#include "shared/turn.h"
 #include "shared/view.h"
 #include "tree.glsl"
 #include "traverse.glsl"

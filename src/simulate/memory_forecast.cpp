@@ -24,7 +24,11 @@ double program_bytes(const TracerDevice& device) {
 }
 
 double canopy_bytes(const RadiationModel& model) {
-  return static_cast<double>(model.canopy.size()) * (sizeof(Triangle) + sizeof(std::uint32_t) + sizeof(std::uint16_t));
+  const ElementCorners& corners = model.canopy.corners;
+  std::size_t triangles = corners.own().size();
+  for (const SharedMesh& mesh : corners.meshes()) triangles += mesh.corners.size();
+  return static_cast<double>(triangles * sizeof(Triangle) +
+                             model.canopy.size() * (sizeof(std::uint32_t) + sizeof(std::uint16_t)));
 }
 
 double tree_bytes(const Bvh& bvh) {

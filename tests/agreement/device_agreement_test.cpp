@@ -4,6 +4,7 @@
 #include "agreement/scenes.h"
 #include "devices/tracers/canopy_view.h"
 #include "devices/tracers/vulkan_tracer.h"
+#include "support/copies.h"
 #include "support/device.h"
 
 #include <gtest/gtest.h>
@@ -75,6 +76,14 @@ class DeviceAgreement : public DeviceTest {
 
 TEST_F(DeviceAgreement, OnTwoMaizePlants) {
   expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun()), 60'000, 1'000);
+}
+
+TEST_F(DeviceAgreement, OnCopiesThatShareATree) {
+  for (const Plot& plot : {unit_plot, unit_stand, Plot{0.3, 0.7, true}}) {
+    for (const bool of_all_sizes : {false, true}) {
+      expect_agreement(stand_of_copies({plot, 12, of_all_sizes, 3}, true), 40'000, 2'000);
+    }
+  }
 }
 
 TEST_F(DeviceAgreement, OnALoneMaizePlant) {

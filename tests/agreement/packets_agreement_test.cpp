@@ -4,6 +4,7 @@
 #include "agreement/scenes.h"
 #include "devices/tracers/vulkan_tracer.h"
 #include "physics/transport/indirect/indirect.h"
+#include "support/copies.h"
 #include "support/device.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
@@ -36,6 +37,16 @@ std::vector<shared::Packet> random_packets(const RadiationModel& model, const Pr
     if (packets.size() % 8 == 1) {
       packet.origin.y = scene.ground.y;
       packet.direction.y = std::abs(packet.direction.y);
+    } else if (!prepared.bvh.copies.empty() && packets.size() % 8 != 5) {
+      packet.element = static_cast<std::uint32_t>(random.uniform() * static_cast<double>(model.canopy.size()));
+      const Triangle corners = model.canopy.corners[packet.element];
+      packet.origin = corners[0] + static_cast<float>(random.uniform(0.0, 0.5)) * (corners[1] - corners[0]) +
+                      static_cast<float>(random.uniform(0.0, 0.5)) * (corners[2] - corners[0]);
+      if (model.plot.periodic) {
+        const glm::vec2 periods(std::floor(packet.origin.x / scene.period.x), std::floor(packet.origin.z / scene.period.y));
+        packet.origin -= glm::vec3(periods.x * scene.period.x, 0.0F, periods.y * scene.period.y);
+        packet.image = pack_image(-static_cast<int>(periods.x), -static_cast<int>(periods.y));
+      }
     } else if (!prepared.bvh.triangles.empty() && packets.size() % 8 != 5) {
       const auto triangle = static_cast<std::size_t>(random.uniform() * static_cast<double>(prepared.bvh.triangles.size()));
       const BvhTriangle& start = prepared.bvh.triangles[triangle];
@@ -124,6 +135,23 @@ TEST_F(PacketsAgreement, OnRandomLeaves) {
 
 TEST_F(PacketsAgreement, OnTwoMaizePlants) {
   expect_agreement(maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun()), 8'000, 200);
+}
+
+TEST_F(PacketsAgreement, OnCopiesThatShareATree) {
+  for (const Plot& plot : {unit_plot, unit_stand, Plot{0.3, 0.7, true}}) {
+    for (const bool of_all_sizes : {false, true}) {
+      expect_agreement(stand_of_copies({plot, 12, of_all_sizes, 2}, true), 8'000, 1'000);
+    }
+  }
+}
+
+TEST_F(PacketsAgreement, OfWholeRunsOnCopiesThatShareATree) {
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    RadiationModel model = stand_of_copies({plot, 10, true, 4}, true);
+    expect_same_run(model, fixed_scatter(model, {.rays = 2e4, .packets = 500, .replicates = 4}));
+    shine_from_sky(model, {});
+    expect_same_run(model, fixed_scatter(model, {.rays = 2e4, .packets = 500, .replicates = 4}));
+  }
 }
 
 TEST_F(PacketsAgreement, OnALeafLargerThanThePlot) {

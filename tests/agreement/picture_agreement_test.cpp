@@ -6,6 +6,7 @@
 #include "devices/tracers/gpu_tree.h"
 #include "pictures/drawing/chart.h"
 #include "pictures/drawing/view_block.h"
+#include "support/copies.h"
 #include "support/device.h"
 
 #include <cstring>
@@ -263,6 +264,28 @@ TEST_F(PictureAgreement, OfAMaizePlotAmidstItsCopies) {
 TEST_F(PictureAgreement, OfManyCopiesOfLeavesThatOverlap) {
   expect_same_pictures(black_model(coplanar_leaves(), unit_plot, beijing_sun()), 1.0, 9);
   expect_same_pictures(black_model(random_leaves(300, 0.2, 5), unit_plot, beijing_sun()), 1.0, 5);
+}
+
+TEST_F(PictureAgreement, OfPlantsThatShareATree) {
+  expect_same_pictures(stand_of_copies({unit_plot, 12, true, 2}, true), 1.0, 3);
+  expect_same_pictures(stand_of_copies({unit_stand, 12, false, 2}, true), 1.0, 1);
+}
+
+// Plants stay whole however they are stored; leaves that share a tree are not wrapped into the plot one by one.
+TEST(Picture, ShowsPlantsWholeThatShareATree) {
+  MeshMaker maker;
+  maker.level(-0.25, 0.0, 0.0, 0.25, 0.5);
+  maker.level(0.0, 0.25, 0.0, 0.25, 0.5);
+  const PlacedMesh part{maker.mesh(), {Placement{}, {{0.5, 0.0, 0.5}}}, {}, true};
+  RadiationModel model = black_model({}, unit_plot, beijing_sun());
+  model.canopy = assemble_canopy(std::span(&part, 1), unit_plot);
+  const Prepared prepared(model);
+  const Seen seen = see_on_cpu(prepared, look_of(model, prepared.layout, above({0.5, 4.0, 0.5}, 4.0), {256, 256, 1}));
+  std::array<int, 8> pixels{};
+  for (const auto& sample : seen) {
+    if (sample.surface < 16) ++pixels[sample.surface / 2];
+  }
+  for (const int count : pixels) EXPECT_NEAR(count, 32, 6);  // half of 8 x 8 pixels
 }
 
 TEST_F(PictureAgreement, OfAnEmptyStand) {

@@ -5,6 +5,7 @@
 #include "files/scene/scene_files.h"
 #include "files/scene/scene_positions.h"
 #include "physics/canopy/canopy.h"
+#include "physics/canopy/shared_meshes.h"
 
 #include <fmt/format.h>
 
@@ -91,13 +92,17 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
                       .instances = table.boolean("instances")};
 }
 
-void refuse_many(const GeometryPart& part, std::size_t triangles) {
-  constexpr double bytes_each = 200.0;  // for a direct-only run, including the tree
+// Returns the least memory of a direct-only run, including the tree, for this many triangles.
+double bytes_of(std::size_t triangles, bool shared) {
+  return (shared ? 70.0 : 200.0) * static_cast<double>(triangles);
+}
+
+void refuse_many(const GeometryPart& part, std::size_t triangles, double bytes) {
   const double memory = static_cast<double>(physical_memory_bytes());
-  if (bytes_each * static_cast<double>(triangles) <= memory) return;
+  if (bytes <= memory) return;
   part.table.refuse(part.source_key(),
                     fmt::format("{} triangles so far need about {:.0f} GB of memory, but this machine has only {:.0f} GB",
-                                triangles, bytes_each * 1e-9 * static_cast<double>(triangles), 1e-9 * memory),
+                                triangles, bytes * 1e-9, 1e-9 * memory),
                     "place fewer copies, or use a coarser mesh");
 }
 
@@ -201,19 +206,22 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, Sourc
   constexpr std::size_t least_of_plant = 10'000;  // triangles
   std::vector<PlacedMesh> meshes;
   std::size_t triangles = 0;
+  double bytes = 0.0;
   std::set<std::uint32_t> plant_numbers;
   for (const GeometryPart& part : parts) {
     if (part.maize) {
       const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
-      refuse_many(part, triangles + plants * least_of_plant);
+      refuse_many(part, triangles + plants * least_of_plant, bytes + bytes_of(plants * least_of_plant, false));
     }
     meshes.push_back({load_mesh(part, files), part.placements, part.role, part.instances});
     Mesh& mesh = meshes.back().mesh;
     apply_optics_rules(part.table, part.optics, mesh, warnings);
     check_plant_numbers(part.table, mesh, part.placements, plant_numbers);
     refuse_far(part, mesh);
-    triangles += mesh.triangles.size() * part.placements.size();
-    refuse_many(part, triangles);
+    const std::size_t placed = mesh.triangles.size() * part.placements.size();
+    triangles += placed;
+    bytes += bytes_of(placed, shares_triangles(meshes.back(), triangles));
+    refuse_many(part, triangles, bytes);
   }
   return meshes;
 }

@@ -113,6 +113,24 @@ ordered_json roles_json(const RadiationModel& model) {
   return roles;
 }
 
+// Returns how many meshes share their triangles among copies, and how many triangles the tree holds for all elements, without
+// those that reach into the plot from its neighbours.
+ordered_json instances_json(const ElementCorners& corners) {
+  std::size_t triangles = corners.own().size();
+  for (const SharedMesh& mesh : corners.meshes()) triangles += mesh.corners.size();
+  return {{"meshes", corners.meshes().size()}, {"copies", corners.copies().size()}, {"triangles", triangles}};
+}
+
+void print_instances(const ordered_json& info) {
+  const ordered_json& instances = info["instances"];
+  if (instances["copies"] == 0) {
+    fmt::print("tree: each triangle has its own place (copies share triangles with instances = true, or where it pays)\n");
+  } else {
+    fmt::print("tree: {} triangles; {} copies share those of {} meshes\n", instances["triangles"].get<std::size_t>(),
+               instances["copies"].get<std::size_t>(), instances["meshes"].get<std::size_t>());
+  }
+}
+
 void add_scene(ordered_json& info, const Scene& scene) {
   double area = 0.0;
   ordered_json by_optics = ordered_json::object();
@@ -134,6 +152,7 @@ void add_scene(ordered_json& info, const Scene& scene) {
   info["roles"] = roles_json(scene.model);
   info["coincident_triangles"] = scene.model.canopy.copies.size();
   info["coincident_organs"] = copies_json(scene.model.canopy);
+  info["instances"] = instances_json(scene.model.canopy.corners);
   info["plot_area_m2"] = scene.model.plot.area_m2();
   info["sun"] = sun_json(scene);
 }
@@ -181,6 +200,7 @@ void print_lines(const ordered_json& info) {
   for (const auto& [name, area] : info["area_by_optics_m2"].items()) fmt::print("  {}: {:.5g} m2\n", name, area.get<double>());
   print_roles(info);
   print_copies(info);
+  print_instances(info);
   constexpr double mib = 1048576.0;
   fmt::print(
       "memory needed: {:.1f} MiB on {} ({:.1f} MiB without pictures), of which {:.1f} MiB for {} replicates in progress\n",

@@ -148,6 +148,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"settings", settings_json(record)},
       {"device", {{"kind", record.device.kind}, {"name", record.device.name}, {"driver", record.device.driver}}},
       {"triangles", model.canopy.size()},
+      {"instances", {{"meshes", model.canopy.corners.meshes().size()}, {"copies", model.canopy.corners.copies().size()}}},
       {"organs", model.canopy.organs.size()},
       {"plants", plant_count(model.canopy)},
       {"plot_area_m2", model.plot.area_m2()},

@@ -27,10 +27,10 @@ BinaryTree unordered(const Canopy& canopy) {
   return tree;
 }
 
-std::vector<Reference> one_each(const Canopy& canopy) {
-  std::vector<Reference> references(canopy.size());
-  for (std::uint32_t i = 0; i < references.size(); ++i) references[i].element = i;
-  return references;
+// Returns the tree of items that are the elements of a canopy.
+Bvh collapsed(BinaryTree& tree, const Canopy& canopy) {
+  const auto triangle = [&](std::uint32_t item) { return reference_triangle(canopy, {item}); };
+  return detail::collapse(tree, {.triangle = triangle, .copy = nullptr});
 }
 
 Subtree left_of(const BinaryTree& tree, const Subtree& s) {
@@ -61,7 +61,7 @@ TEST(BinaryTree, IsNoHigherThanAsked) {
     BinaryTree tree = unordered(shrinking);
     detail::build_binary_tree(tree, limit);
     EXPECT_LE(height(tree, {0, 0, 1000}), limit);
-    const Bvh bvh = detail::collapse(tree, shrinking, one_each(shrinking));
+    const Bvh bvh = collapsed(tree, shrinking);
     const Inspector inspector(shrinking, bvh, 0.0);
   }
 }
@@ -101,7 +101,7 @@ TEST(Collapse, StaysWithinTheDepthWhateverThePlan) {
   ASSERT_EQ(tree.nodes.size() + 1, tree.items.size());
   const auto whole = static_cast<std::uint32_t>(tree.items.size());
   ASSERT_EQ(height(tree, {0, 0, whole}), static_cast<int>(links) + 3);
-  const Bvh bvh = detail::collapse(tree, canopy, one_each(canopy));
+  const Bvh bvh = collapsed(tree, canopy);
   EXPECT_EQ(bvh.depth, max_bvh_depth);
   std::vector<std::uint32_t> elements;
   for (const BvhTriangle& t : bvh.triangles) elements.push_back(t.element);
@@ -151,7 +151,7 @@ TEST(Collapse, IsNoDearerThanGreedy) {
     detail::build_binary_tree(tree);
     Greedy greedy;
     collapse_greedily(tree, {0, 0, 20000}, greedy);
-    const Bvh bvh = detail::collapse(tree, canopy, one_each(canopy));
+    const Bvh bvh = collapsed(tree, canopy);
     const Inspector inspector(canopy, bvh, 0.0);
     const double cost = inspector.area_of_nodes() + 0.3 * inspector.area_of_triangles();
     EXPECT_LE(cost, greedy.cost * (1.0 + 1e-5));  // the plan sums areas in single precision
