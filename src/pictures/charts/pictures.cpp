@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -67,6 +68,40 @@ class Look {
   const PictureOptions& options_;
   std::unique_ptr<CanopyViewer> viewer_;
 };
+
+// Returns how many charts are drawn in one look at the scene: as many as their colours of all surfaces fit into half a
+// gibibyte, and at least one.
+std::size_t charts_at_once(const CounterLayout& layout, const RadiationModel& model) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 29U;
+  const std::size_t bytes_each = (2 * model.canopy.size() + layout.cells() + 1) * sizeof(Colour);
+  return std::max<std::size_t>(1, most_bytes / bytes_each);
+}
+
+// Draws charts in one look at the scene. Returns false if stopped.
+bool draw_together(const Drawing& drawing, const PictureOptions& options, const SurfaceColours& surfaces,
+                   std::span<const Picture> pictures, const StopQuestion& stop, const ChartReceiver& receive) {
+  const RadiationModel& model = drawing.scene.model;
+  const Camera camera = picture_camera(drawing.scene, drawing.layout, options);
+  const ChartFrame frame{options.width, options.height, camera, model.plot, drawing.layout.layers.height_m};
+  std::vector<ChartCanvas> canvases;
+  std::vector<ChartText> texts;
+  for (const Picture& picture : pictures) {
+    ChartContent content =
+        chart_content({drawing.scene.title, model, drawing.layout, drawing.result}, options, picture, surfaces);
+    canvases.emplace_back(frame, std::move(content.colours));
+    texts.push_back(std::move(content.text));
+  }
+  const Look look(drawing, options, camera);
+  const bool seen = look.each_band(stop, [&](const SurfaceImage& rows) {
+    for (ChartCanvas& canvas : canvases) canvas.paint(rows);
+  });
+  if (!seen) return false;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    if (stop && stop()) return false;
+    receive(pictures[k], canvases[k].finish(texts[k]));
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -164,9 +199,9 @@ ChartContent chart_content(const ChartSource& source, const PictureOptions& opti
 double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
                      std::size_t pictures) {
   const auto surfaces = 2.0 * static_cast<double>(model.canopy.size()) + layout.cells();
-  const auto count = static_cast<double>(pictures);
+  const auto count = static_cast<double>(std::min(pictures, charts_at_once(layout, model)));
   const double colours = surfaces * (count + 1.0) * sizeof(Colour);  // and once without light
-  const double values = surfaces * 2.0 * sizeof(double);
+  const double values = surfaces * 3.0 * sizeof(double);  // values, areas, luminances
   const double pixels = count * options.width * options.height * sizeof(decltype(Image::pixels)::value_type);
   const double samples = static_cast<double>(samples_in_band) *
                          (sizeof(shared::SeenSurface) + sizeof(decltype(SurfaceImage::surface)::value_type) +
@@ -176,26 +211,11 @@ double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, c
 
 bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
                  const StopQuestion& stop, const ChartReceiver& receive) {
-  const RadiationModel& model = drawing.scene.model;
-  const Camera camera = picture_camera(drawing.scene, drawing.layout, options);
-  const ChartFrame frame{options.width, options.height, camera, model.plot, drawing.layout.layers.height_m};
-  const SurfaceColours surfaces = surface_colours(model, drawing.layout);
-  std::vector<ChartCanvas> canvases;
-  std::vector<ChartText> texts;
-  for (const Picture& picture : pictures) {
-    ChartContent content =
-        chart_content({drawing.scene.title, model, drawing.layout, drawing.result}, options, picture, surfaces);
-    canvases.emplace_back(frame, std::move(content.colours));
-    texts.push_back(std::move(content.text));
-  }
-  const Look look(drawing, options, camera);
-  const bool seen = look.each_band(stop, [&](const SurfaceImage& rows) {
-    for (ChartCanvas& canvas : canvases) canvas.paint(rows);
-  });
-  if (!seen) return false;
-  for (std::size_t k = 0; k < pictures.size(); ++k) {
-    if (stop && stop()) return false;
-    receive(pictures[k], canvases[k].finish(texts[k]));
+  const SurfaceColours surfaces = surface_colours(drawing.scene.model, drawing.layout);
+  const std::size_t at_once = charts_at_once(drawing.layout, drawing.scene.model);
+  for (std::size_t first = 0; first < pictures.size(); first += at_once) {
+    const auto some = pictures.subspan(first, std::min(at_once, pictures.size() - first));
+    if (!draw_together(drawing, options, surfaces, some, stop, receive)) return false;
   }
   return true;
 }

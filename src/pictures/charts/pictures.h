@@ -75,7 +75,8 @@ struct ChartSource {
 [[nodiscard]] double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
                                    std::size_t pictures);
 
-// Draws charts of one view: the scene is looked at only once for all of them. Passes each on as soon as it is finished, in
+// Draws charts of one view: the scene is looked at once for all of them or, in a scene of millions of triangles, for as many as
+// have their colours in half a gibibyte. Passes each on as soon as it is finished, in
 // order. Returns false if stopped before the last.
 using ChartReceiver = std::function<void(const Picture& picture, const Image& image)>;
 [[nodiscard]] bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
