@@ -8,6 +8,7 @@ namespace sunfleck::bench {
 
 void register_tracing(const GpuContext* context);
 void register_growth(const GpuContext* context);
+void register_copies(const GpuContext* context);
 void register_builds();
 void register_safeguards(const GpuContext* context);
 void register_features(const GpuContext* context);

@@ -2,6 +2,7 @@
 //   trace/RAYS/PLOT/WHO        rays per second; RAYS: beam, leaf or random (packets in the tree's order, or in random order);
 //                              PLOT: endless or single; WHO: embree1, embree8, cpu or device
 //   growth/RAYS/WHO/plants:N   the same over canopies from 32,000 to ten million triangles
+//   copies/RAYS/WHO/TREE       rays per second among copies of one plant; TREE: shared, or own triangles for each
 //   build/WHO/plants:N         from triangles to a finished tree, on one thread
 //   safeguard/WHAT/WHO/WITH    with and without a precaution
 //   feature/WHAT/WHO           a whole simulation of fixed work, with one optional feature
@@ -48,6 +49,7 @@ int run(std::vector<char*> arguments) {
   }
   bench::register_tracing(context.get());
   bench::register_growth(context.get());
+  bench::register_copies(context.get());
   bench::register_builds();
   bench::register_safeguards(context.get());
   bench::register_features(context.get());

@@ -73,6 +73,17 @@ def tracing(ratios):
     return table(["rays, plot", "Embree 1, M/s", "Embree 8 / 1", "CPU path / Embree 1", "device / Embree 1"], rows)
 
 
+def copies(ratios):
+    rows = []
+    for name, entry in sorted(ratios.items()):
+        if name.startswith("copies/") and name.endswith("/shared"):
+            _, rays, who, _ = name.split("/")
+            own = ratios[name.removesuffix("shared") + "own"]
+            ratio = entry["items_per_second"] / own["items_per_second"]
+            rows.append([f"{rays}, {who}", f"{own['items_per_second'] / 1e6:.2f}", f"{ratio:.2f} ({verdict(ratio, 0.7, 1.0)})"])
+    return table(["64 copies of a plant", "own triangles, M/s", "shared / own (must 0.7, aim 1)"], rows)
+
+
 def building(ratios):
     rows = []
     for plants in (16, 158):
@@ -209,7 +220,7 @@ def main():
     print(f"{processor()}, {context['num_cpus']} threads; {context.get('device', 'no Vulkan device')}, "
           f"{context.get('driver', '')}; {datetime.date.today()}\n")
     with tempfile.TemporaryDirectory() as folder:
-        for part in (tracing(ratios), building(ratios), safeguards(ratios), growth(grown), features(runs),
+        for part in (tracing(ratios), copies(ratios), building(ratios), safeguards(ratios), growth(grown), features(runs),
                      whole_run(program, options.device, pathlib.Path(folder), runs),
                      memory(program, options.device, pathlib.Path(folder))):
             print(part)

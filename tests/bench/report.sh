@@ -31,7 +31,7 @@ measure() {
 }
 # The repetitions of a group's measurements take turns, so that a noisy machine affects all of them; but large canopies are made
 # only once.
-measure 'trace|build|safeguard' 5 ratios --benchmark_enable_random_interleaving=true
+measure 'trace|copies|build|safeguard' 5 ratios --benchmark_enable_random_interleaving=true
 measure 'feature|solve' 3 runs --benchmark_enable_random_interleaving=true
 measure growth 3 growth
 

@@ -4,6 +4,7 @@
 #include "support/models.h"
 
 #include <cstddef>
+#include <utility>
 
 namespace sunfleck::bench {
 
@@ -12,6 +13,7 @@ enum class Plots { endless, single };
 
 struct Stand {
   explicit Stand(int plants, Plots plots = Plots::endless);
+  explicit Stand(RadiationModel given) : model(std::move(given)), prepared(model) {}
 
   [[nodiscard]] TraceDomain tracer_scene() const { return test::tracer_scene(model); }
   [[nodiscard]] std::size_t triangles() const { return model.canopy.size(); }
@@ -22,6 +24,12 @@ struct Stand {
 
 // Returns a stand, which is made once and kept; of the stands with more than `large` triangles only the last one is kept.
 [[nodiscard]] const Stand& stand_of(int plants, Plots plots = Plots::endless);
+
+// Whether the copies of a plant share its triangles.
+enum class Copies { own, shared };
+
+// Returns an endless stand of 64 copies of one plant, turned at random, which is made once and kept: a million triangles.
+[[nodiscard]] const Stand& stand_of_copies(Copies copies);
 
 inline constexpr std::size_t large = 1'000'000;
 
