@@ -28,7 +28,7 @@ std::string sealed_as(std::string file, std::string_view bytes) {
 
 RadiationModel small_model() {
   RadiationModel model;
-  model.canopy.corners.resize(3);
+  model.canopy.corners = std::vector<Triangle>(3);
   model.canopy.organs.resize(2);
   model.bands.resize(2);
   model.sky = SkyModel{};

@@ -214,9 +214,8 @@ CpuHit nearest_hit_of_all(const Bvh& bvh, const shared::Ray& ray, float limit, O
   CpuHit best = no_hit(limit);
   for (const std::uint32_t node : bvh.copies) {
     const BvhCopy copy = copy_at(bvh, node);
-    const BvhPart& part = bvh.parts[copy.part];
     const shared::Ray turned = shared::turned_ray(turn_of(copy), ray);
-    for (std::uint32_t k = part.first_triangle; k < part.first_triangle + part.triangles; ++k) {
+    for (std::uint32_t k = copy.first_triangle; k < copy.first_triangle + copy.triangles; ++k) {
       meet(bvh, k, turned, limit, own, numbering_of(copy, node), best);
     }
   }

@@ -48,8 +48,8 @@ static_assert(sizeof(BvhTriangle) == 48);
   return (static_cast<std::uint32_t>(dx) & 0xffffU) | (static_cast<std::uint32_t>(dz) << 16U);
 }
 
-// A copy of a mesh in one period: a node of its own kind in the place of an inner node. The walk turns its ray into the frame
-// of the mesh and continues at the root of that mesh's tree. Elements with corners of their own form one more "mesh", which
+// A copy of a mesh, or of a piece of it, in one period: a node of its own kind in the place of an inner node. The walk turns its ray into the frame
+// of the mesh and continues at the root of that piece's tree. Elements with corners of their own form one more "mesh", which
 // stands once and unturned, and whose triangles have their images.
 struct BvhCopy {
   std::array<float, 3> shift;  // shared::CopyTurn, with the shift of `image` added
@@ -62,8 +62,10 @@ struct BvhCopy {
   float cos_out, sin_out, scale;
   std::uint32_t first_counter;  // added to the counters of the triangles; filled in by the code that counts landings
   float cos_back, sin_back, per_scale;
-  std::uint32_t part;  // index into Bvh::parts
-  std::array<std::uint32_t, 4> unused;
+  std::uint32_t part;            // index into Bvh::parts
+  std::uint32_t first_triangle;  // of the piece, and their number
+  std::uint32_t triangles;
+  std::array<std::uint32_t, 2> unused;
 };
 static_assert(sizeof(BvhCopy) == sizeof(BvhNode));
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <glm/common.hpp>
 #include <limits>
 #include <span>
@@ -28,7 +29,35 @@ constexpr shared::CopyTurn unturned{.shift = glm::vec3(0.0F),
                                     .sin_back = 0.0F,
                                     .per_scale = 1.0F};
 
-// A copy and the box of its triangles in the canopy.
+// Meshes of at least this many triangles enter the tree of copies in up to eight pieces, the children of their root, whose boxes
+// overlap those of neighbouring plants less (Benthin et al. 2017, "Improved two-level BVHs using partial re-braiding").
+constexpr std::size_t least_divided = 512;
+
+// Neighbouring triangles of a part, below one node.
+struct Piece {
+  std::uint32_t root = 0;
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangles = 0;
+};
+
+// Returns the pieces of a tree of triangles: the subtrees of its root, or the whole tree.
+std::vector<Piece> pieces_of(const Bvh& tree) {
+  const auto triangles = static_cast<std::uint32_t>(tree.triangles.size());
+  const BvhNode& root = tree.nodes.front();
+  const auto children = static_cast<std::uint32_t>(std::popcount(root.inner_mask));
+  // The triangles of a node's own leaves come first, then those of each of its inner children.
+  const bool has_leaves = children == 0 || tree.nodes[root.child_base].triangle_base != root.triangle_base;
+  if (triangles < least_divided || has_leaves) return {{0, 0, triangles}};
+  std::vector<Piece> pieces;
+  for (std::uint32_t child = root.child_base; child < root.child_base + children; ++child) {
+    const std::uint32_t first = tree.nodes[child].triangle_base;
+    const bool last = child + 1 == root.child_base + children;
+    pieces.push_back({child, first, (last ? triangles : tree.nodes[child + 1].triangle_base) - first});
+  }
+  return pieces;
+}
+
+// A copy of a piece and the box of its triangles in the canopy.
 struct PlacedCopy {
   BvhCopy copy{};
   Box box;
@@ -79,18 +108,16 @@ class TwoLevels {
   struct Part {
     std::uint32_t mesh;
     Bvh tree;
+    std::vector<Piece> pieces;
   };
 
   void add_own() {
     if (canopy_.corners.own().empty()) return;
-    Part part{own_corners, build_own_tree(canopy_, padding_m_, depth_of_triangles)};
-    if (part.tree.triangles.empty()) return;
-    PlacedCopy placed{make_copy(unturned, 0, 0), nowhere};
-    for (const BvhTriangle& t : part.tree.triangles) {
-      for (const auto& corner : {t.a, t.b, t.c}) grow(placed.box, {corner[0], corner[1], corner[2]});
-    }
-    parts_.push_back(std::move(part));
-    copies_.push_back(placed);
+    Bvh tree = build_own_tree(canopy_, padding_m_, depth_of_triangles);
+    if (tree.triangles.empty()) return;
+    parts_.push_back({own_corners, std::move(tree), {}});
+    parts_.back().pieces = pieces_of(parts_.back().tree);
+    for (const Piece& piece : parts_.back().pieces) copies_.push_back(placed_piece(unturned, 0, piece));
   }
 
   // Boxes are padded so that rounding in the canopy's frame loses no hit.
@@ -114,32 +141,47 @@ class TwoLevels {
     }
     const auto triangle = [&](std::uint32_t item) { return bvh_triangle(mesh.corners[traced[item]], traced[item], 0); };
     part_of_mesh_.push_back(static_cast<std::uint32_t>(parts_.size()));
-    parts_.push_back({number, build_tree(tree, {.triangle = triangle, .copy = nullptr}, depth_of_triangles)});
+    parts_.push_back({number, build_tree(tree, {.triangle = triangle, .copy = nullptr}, depth_of_triangles), {}});
+    if (!traced.empty()) parts_.back().pieces = pieces_of(parts_.back().tree);
+  }
+
+  [[nodiscard]] PlacedCopy placed_piece(const shared::CopyTurn& turn, std::uint32_t part, const Piece& piece) const {
+    PlacedCopy placed{make_copy(turn, part, 0), nowhere};
+    placed.copy.root = piece.root;
+    placed.copy.first_triangle = piece.first_triangle;
+    placed.copy.triangles = piece.triangles;
+    const std::span<const BvhTriangle> all = parts_[part].tree.triangles;
+    for (const BvhTriangle& t : all.subspan(piece.first_triangle, piece.triangles)) {
+      for (const auto& corner : {t.a, t.b, t.c}) {
+        grow(placed.box, shared::placed_point(turn, {corner[0], corner[1], corner[2]}));
+      }
+    }
+    return placed;
   }
 
   void add_images(const MeshCopy& placed) {
     const std::uint32_t part = part_of_mesh_[placed.mesh];
-    Box box = nowhere;
-    for (const BvhTriangle& t : parts_[part].tree.triangles) {
-      for (const auto& corner : {t.a, t.b, t.c}) {
-        grow(box, shared::placed_point(placed.turn, {corner[0], corner[1], corner[2]}));
+    for (const Piece& piece : parts_[part].pieces) {
+      PlacedCopy copy = placed_piece(placed.turn, part, piece);
+      copy.copy.first_element = placed.first_element;
+      const ImageRanges images = images_of(canopy_, copy.box, placed.first_element);
+      for (int dz = images.first_z; dz <= images.last_z; ++dz) {
+        for (int dx = images.first_x; dx <= images.last_x; ++dx) copies_.push_back(moved(copy, dx, dz));
       }
     }
-    if (parts_[part].tree.triangles.empty()) return;
-    const ImageRanges images = images_of(canopy_, box, placed.first_element);
-    for (int dz = images.first_z; dz <= images.last_z; ++dz) {
-      for (int dx = images.first_x; dx <= images.last_x; ++dx) {
-        const auto moved = [&](const glm::vec3& point) {
-          return glm::vec3(static_cast<float>(point.x + dx * canopy_.period_m.x), point.y,
-                           static_cast<float>(point.z + dz * canopy_.period_m.y));
-        };
-        shared::CopyTurn turn = placed.turn;
-        turn.shift = moved(turn.shift);
-        PlacedCopy copy{make_copy(turn, part, placed.first_element), {moved(box.lo), moved(box.hi)}};
-        copy.copy.image = pack_image(dx, dz);
-        copies_.push_back(copy);
-      }
+  }
+
+  [[nodiscard]] PlacedCopy moved(PlacedCopy placed, int dx, int dz) const {
+    const auto shift = [](float at, double by) { return static_cast<float>(at + by); };
+    const glm::dvec2 by(dx * canopy_.period_m.x, dz * canopy_.period_m.y);
+    placed.copy.shift[0] = shift(placed.copy.shift[0], by.x);
+    placed.copy.shift[2] = shift(placed.copy.shift[2], by.y);
+    for (glm::vec3* corner : {&placed.box.lo, &placed.box.hi}) {
+      corner->x = shift(corner->x, by.x);
+      corner->z = shift(corner->z, by.y);
     }
+    placed.copy.image = pack_image(dx, dz);
+    return placed;
   }
 
   void append_parts(Bvh& bvh) {
@@ -160,10 +202,11 @@ class TwoLevels {
     for (const std::uint32_t node : bvh.copies) {
       BvhCopy copy = copy_at(bvh, node);
       const BvhPart& part = bvh.parts[copy.part];
-      copy.root = part.root;
-      copy.order_offset = static_cast<std::uint32_t>(order - part.first_triangle);
+      copy.root += part.root;
+      copy.first_triangle += part.first_triangle;
+      copy.order_offset = static_cast<std::uint32_t>(order - copy.first_triangle);
       set_copy(bvh, node, copy);
-      order += part.triangles;
+      order += copy.triangles;
     }
     if (order > max_references) {
       throw_input(fmt::format("canopy: {} triangles, counting the copies that reach into the plot", order),

@@ -153,11 +153,10 @@ void number_counters(const CounterLayout& layout, const Canopy& canopy, Bvh& bvh
   }
   for (const std::uint32_t node : bvh.copies) {
     BvhCopy copy = copy_at(bvh, node);
-    const BvhPart& part = bvh.parts[copy.part];
     const std::uint32_t first_bin = layout.first_bin[copy.first_element];
     copy.first_counter = layout.first_bin_word + 2 * first_bin;
     set_copy(bvh, node, copy);
-    for (BvhTriangle& triangle : std::span(bvh.triangles).subspan(part.first_triangle, part.triangles)) {
+    for (BvhTriangle& triangle : std::span(bvh.triangles).subspan(copy.first_triangle, copy.triangles)) {
       triangle.counter = 2 * (layout.first_bin[copy.first_element + triangle.element] - first_bin);
     }
   }

@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 RadiationModel two_bands() {
   RadiationModel model;
   model.plot = {1.0, 1.0, true};
-  model.canopy.corners.resize(3);
+  model.canopy.corners = std::vector<Triangle>(3);
   model.canopy.organ_of = {0, 0, 1};
   model.canopy.optics_of = {0, 0, 0};
   model.canopy.organs.resize(2);
@@ -131,7 +131,7 @@ TEST_F(StepStoreTest, ReadsNoStepOfAnotherDayOrNumber) {
   other["seed"] = 2;
   EXPECT_FALSE(StepStore(folder_.path(), model_, other).read(7));
   RadiationModel larger = model_;
-  larger.canopy.corners.resize(4);
+  larger.canopy.corners = std::vector<Triangle>(4);
   EXPECT_FALSE(StepStore(folder_.path(), larger, day_settings).read(7));
   std::filesystem::rename(folder_ / step_file_, folder_ / "steps/step_00008.bin");
   EXPECT_FALSE(store_.read(8));
