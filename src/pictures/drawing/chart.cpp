@@ -185,7 +185,8 @@ Image ChartCanvas::finish(const ChartText& text) {
     draw_horizon(image_, face, frame_.camera, layout);
   } else {
     draw_axis_letters(image_, face, frame_, layout);
-    draw_north_arrow(image_, face, frame_.camera, north_arrow_place(frame_, layout));
+    const glm::dvec3 middle_m(0.5 * frame_.plot.size_x_m, 0.0, 0.5 * frame_.plot.size_z_m);
+    draw_north_arrow(image_, face, frame_.camera, middle_m, north_arrow_place(frame_, layout));
   }
   draw_titles(image_, face, text, layout);
   const double top_px = 0.135 * frame_.height;

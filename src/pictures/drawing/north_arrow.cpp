@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace sunfleck {
 namespace {
@@ -57,14 +59,20 @@ void draw_end_on(Image& image, const NorthArrowPlace& place, bool is_ahead) {
 
 }  // namespace
 
-glm::dvec2 apparent_north(const Camera& camera) {
-  return {glm::dot(to_north, camera.right), glm::dot(to_north, camera.up)};
+glm::dvec2 apparent_north(const Camera& camera, glm::dvec3 at_m) {
+  const glm::dvec2 north(glm::dot(to_north, camera.right), glm::dot(to_north, camera.up));
+  const std::optional<Appearance> seen = project(camera, at_m);
+  if (camera.kind != Projection::perspective || !seen) return north;
+  // The derivative of the projection along the line, times the depth.
+  const glm::dvec2 at = glm::clamp(seen->at, 0.0, 1.0);
+  const glm::dvec2 slope = camera.tan_half_fov * glm::dvec2((2.0 * at.x - 1.0) * camera.aspect, 1.0 - 2.0 * at.y);
+  return north - glm::dot(to_north, camera.forward) * slope;
 }
 
-void draw_north_arrow(Image& image, const Typeface& face, const Camera& camera, const NorthArrowPlace& place) {
+void draw_north_arrow(Image& image, const Typeface& face, const Camera& camera, glm::dvec3 at_m, const NorthArrowPlace& place) {
   const double letter_px = letter_size * place.radius_px;
   if (camera.kind == Projection::fisheye || letter_px < least_letter_px) return;
-  const glm::dvec2 seen = apparent_north(camera);
+  const glm::dvec2 seen = apparent_north(camera, at_m);
   const bool is_end_on = glm::length(seen) < end_on;
   const glm::dvec2 ahead = is_end_on ? glm::dvec2(0.0, -1.0) : glm::normalize(glm::dvec2(seen.x, -seen.y));
   if (is_end_on) {

@@ -262,7 +262,7 @@ void Viewer::obey(const PanelOrders& orders) {
     state_.camera_as_given = false;
   }
   if (orders.copy_camera) {
-    const std::string toml = camera_toml(state_.hand);
+    const std::string toml = camera_toml(state_.hand, session_->light.geometry().model.plot);
     if (!toml.empty()) window_.set_clipboard(toml);
     say_to_user(toml.empty() ? "A scene file cannot hold this view; use render --view." : "Camera copied.", false);
     if (!toml.empty()) events_.tell("camera_copied", {{"toml", toml}});
