@@ -249,8 +249,9 @@ TEST_F(AxesOfScenes, RefusesUnknownNames) {
 TEST_F(AxesOfScenes, WarningsGiveTheirCoordinates) {
   std::string text = "axes = \"east-north-up\"\n" + axes_light + "[plot]\nsize = [3.0, 1.5]\nperiodic = false\n";
   text += "[[sensor]]\nname = \"far\"\nfrom = [3.5, 1.0, 0.1]\n[[geometry]]\nfile = \"plant.obj\"\nat = [[";
+  const Arguments quick{"--device", "cpu", "--grid", "0.1", "--passes", "8", "--images", "none"};
   folder_.write("far.toml", text + "5.0, 0.0, 0.0]]\n");
-  const Outcome far = run({"info", "far.toml", "--device", "cpu"});
+  const Outcome far = run(Arguments{"run", "far.toml", "-o", "far"} + quick);
   EXPECT_NE(far.err.find("x = 3.5 m, y = 1 m lies outside the plot; give x in 0..3 and y in 0..1.5"), std::string::npos)
       << far.err;
   EXPECT_NE(far.err.find("extends over x 4.75..5.5, y 0..0.5 m, outside the plot x 0..3, y 0..1.5 m; at = [[1.375, 0.5, 0]] "
@@ -258,7 +259,7 @@ TEST_F(AxesOfScenes, WarningsGiveTheirCoordinates) {
             std::string::npos)
       << far.err;
   folder_.write("near.toml", text + "1.375, 0.5, 0]]\n");
-  EXPECT_EQ(run({"info", "near.toml", "--device", "cpu"}).err.find("would centre it"), std::string::npos);
+  EXPECT_EQ(run(Arguments{"run", "near.toml", "-o", "near"} + quick).err.find("would centre it"), std::string::npos);
 }
 
 }  // namespace
