@@ -11,7 +11,8 @@
 
 namespace sunfleck {
 
-// Returns the placements in the scene's coordinates, one at the origin of the user's axes by default. `access.files` must be set.
+// Returns the placements in the scene's coordinates, one at the origin of the user's axes by default. `access.files` must be
+// set.
 [[nodiscard]] std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file,
                                                      const Plot& plot, const SceneAccess& access);
 

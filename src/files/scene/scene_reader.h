@@ -90,7 +90,8 @@ struct SceneText {
 };
 
 // Reads a scene from memory. `up`, `scale`, `heading` and `at` apply to a mesh as to one from a file (by default y is up, or z
-// with the axes east_north_up). In addition, refuses meshes whose arrays do not fit together or hold numbers that are not finite.
+// with the axes east_north_up). In addition, refuses meshes whose arrays do not fit together or hold numbers that are not
+// finite.
 [[nodiscard]] Scene read_scene(const SceneText& source, const SceneAccess& access = {});
 
 // Gives a scene everything that a text defines except geometry, which is ignored; the canopy stays as it is. The warnings

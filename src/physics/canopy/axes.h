@@ -1,6 +1,6 @@
 #pragma once
-// Converts between the scene's coordinates (X south, Y up, Z west, origin at the plot's north-east corner) and those of the user.
-// Both are right-handed, in metres, and azimuths and headings are clockwise from north in both. In the user's own axes
+// Converts between the scene's coordinates (X south, Y up, Z west, origin at the plot's north-east corner) and those of the
+// user. Both are right-handed, in metres, and azimuths and headings are clockwise from north in both. In the user's own axes
 // south_up_west, every conversion returns its argument unchanged.
 
 #include "physics/canopy/plot.h"

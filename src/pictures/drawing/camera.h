@@ -36,8 +36,8 @@ struct Camera {
 inline constexpr double axis_overhang = 0.08;
 
 // Returns a three-quarter view from the south-west and above that fits the whole box with a margin, including axes from the
-// corner of its ground where those of the user begin, which extend beyond it. The margin leaves room for titles at the top and a
-// legend at the right.
+// corner of its ground where those of the user begin, which extend beyond it. The margin leaves room for titles at the top and
+// a legend at the right.
 [[nodiscard]] Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west);
 
 // Returns an orthographic view straight down that fits the whole box: north is up, east is right. Margins are as above.

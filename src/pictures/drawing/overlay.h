@@ -36,7 +36,8 @@ struct PixelRange {
 // Corners in either order of rotation.
 using FlatTriangle = std::array<glm::dvec2, 3>;
 
-// Returns the share of a pixel, given by its middle, that a triangle covers (0..1): 1/2 where an edge passes through the middle.
+// Returns the share of a pixel, given by its middle, that a triangle covers (0..1): 1/2 where an edge passes through the
+// middle.
 [[nodiscard]] double triangle_coverage(const FlatTriangle& corners, glm::dvec2 at);
 // Returns the share of a pixel that a line with round ends covers.
 [[nodiscard]] double line_coverage(glm::dvec2 from, glm::dvec2 to, double width_px, glm::dvec2 at);

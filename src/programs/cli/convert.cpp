@@ -61,8 +61,8 @@ void check(const ConvertOptions& options) {
   }
 }
 
-// Returns the canopy as a mesh in which coincident corners are welded into one vertex, in the scene's axes but with the origin of
-// the user's.
+// Returns the canopy as a mesh in which coincident corners are welded into one vertex, in the scene's axes but with the origin
+// of the user's.
 Mesh mesh_of(const Canopy& canopy, const Plot& plot) {
   Mesh mesh;
   mesh.optics_of.assign(canopy.optics_of.begin(), canopy.optics_of.end());

@@ -21,8 +21,8 @@ struct PlantPosition {
 };
 
 // Reads a CSV with a line of column names: x and z (or y, if z is the height), and optionally plant, the height (0
-// without it), heading and scale, in any order. Adds the file to `files` if that is given. Throws Error (input), one line `FILE:LINE: ...`, for unknown, missing or
-// double columns, empty cells, numbers out of range and plants that occur twice.
+// without it), heading and scale, in any order. Adds the file to `files` if that is given. Throws Error (input), one line
+// `FILE:LINE: ...`, for unknown, missing or double columns, empty cells, numbers out of range and plants that occur twice.
 [[nodiscard]] std::vector<PlantPosition> read_plant_positions(const std::filesystem::path& file,
                                                               HeightColumn height = HeightColumn::y,
                                                               SourceFiles* files = nullptr);

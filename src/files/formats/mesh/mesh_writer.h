@@ -8,8 +8,9 @@
 
 namespace sunfleck {
 
-// Writes the mesh, which is in the scene's axes, in the format that the file's ending selects, in upper or lower case. Lengths are
-// metres. The axes of the file are the given ones; but glTF has y up, so that east_north_up becomes x east, y up, z south there.
+// Writes the mesh, which is in the scene's axes, in the format that the file's ending selects, in upper or lower case. Lengths
+// are metres. The axes of the file are the given ones; but glTF has y up, so that east_north_up becomes x east, y up, z south
+// there.
 // .glb, .gltf  as write_gltf
 // .obj         triangles in the order of the mesh, organs as objects (plant1_leaf7), optics as materials; double precision
 // .ply         binary, double precision; each face has `plant`, `rank`, and the numbers `organ` and `optics`, which comments of

@@ -27,8 +27,8 @@ std::string attribute_of(const std::string& band, std::string_view ending) {
   return name;
 }
 
-// Builds a root node with the record, at the canopy's origin, with one child per organ and one primitive per optics name. In the
-// user's axes east_north_up, the frame is x east, y up, z south from the south-west corner, because glTF has y up.
+// Builds a root node with the record, at the canopy's origin, with one child per organ and one primitive per optics name. In
+// the user's axes east_north_up, the frame is x east, y up, z south from the south-west corner, because glTF has y up.
 class CanopyWriter {
  public:
   explicit CanopyWriter(const ExportData& data) : data_(data) {

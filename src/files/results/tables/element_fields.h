@@ -63,8 +63,8 @@ struct ElementFields {
   return column.unit == light_units;
 }
 
-// Returns a corner of an element in the user's axes. Single precision holds it exactly in the scene's own axes if the canopy has
-// no separate origin.
+// Returns a corner of an element in the user's axes. Single precision holds it exactly in the scene's own axes if the canopy
+// has no separate origin.
 [[nodiscard]] glm::dvec3 corner_m(const RadiationModel& model, std::size_t element, std::size_t corner);
 [[nodiscard]] bool corners_fit_float(const RadiationModel& model);
 
