@@ -1,4 +1,5 @@
 # PLANE.png: the facula maps of a receiver, for the beam and for all light, and the sizes of its sunflecks. North is up, west is left.
+# The table has x_m (south) and z_m (west), or x_m (east) and y_m (north).
 #   gnuplot -e "table = 'plane_0.500.csv'; flecks = 'plane_0.500_flecks.csv'" plane.gp > plane.png
 # The program sets these variables before it loads this file:
 if (!exists("table")) table = 'plane_0.000.csv'
@@ -21,9 +22,14 @@ total(x) = column(kt) - column(kd) + direct(x)
 # Cells, metres and watts. The colours reach at least to the full beam, and beyond it to all but the brightest cells, whose
 # excess is noise: four standard deviations above the mean.
 place = remarks[strstrt(remarks, 'horizontal plane at ') + 20:*]
-cells_x = number(past(', ', place)); cells_z = number(past(' x ', place))
-stats table using (last_x = $1, last_z = $2, total(0)) name 'TOTAL' nooutput
-size_x = last_x * cells_x / (cells_x - 0.5); size_z = last_z * cells_z / (cells_z - 0.5)
+cells_1 = number(past(', ', place)); cells_2 = number(past(' x ', place))
+stats table using (last_1 = $1, last_2 = $2, total(0)) name 'TOTAL' nooutput
+size_1 = last_1 * cells_1 / (cells_1 - 0.5); size_2 = last_2 * cells_2 / (cells_2 - 0.5)
+# Left to right (a) and bottom to top (b).
+east = column_of('y_m') > 0
+column_a = east ? 1 : 2; column_b = east ? 2 : 1
+size_a = east ? size_1 : size_2; size_b = east ? size_2 : size_1
+cells_a = east ? cells_1 : cells_2; cells_b = east ? cells_2 : cells_1
 bright = TOTAL_mean + 4 * TOTAL_stddev
 bright = bright > TOTAL_max ? TOTAL_max : bright
 bright = positive(beam > bright ? beam : bright, 1)
@@ -43,8 +49,8 @@ note = ratio == ratio ? sprintf('Sunfleck ratio %.4f', ratio) . (error == error 
 # Both maps have the shape of the plot; they stand side by side above the sizes, and low ones beside a taller colour bar.
 width = 1600.0
 widest = 590.0; highest = 760.0
-scale = widest / size_z < highest / size_x ? widest / size_z : highest / size_x
-map_width = scale * size_z; map_height = scale * size_x
+scale = widest / size_a < highest / size_b ? widest / size_a : highest / size_b
+map_width = scale * size_a; map_height = scale * size_b
 slot = map_width > 340 ? map_width : 340
 left1 = 150 + widest - 0.5 * (slot + map_width)
 left2 = left1 + slot + 50
@@ -57,12 +63,12 @@ set multiplot
 set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', 7 '#addc30', \
   8 '#fde725')
 set cbrange [0:bright]
-set xrange [size_z:0]
-set yrange [size_x:0]
+set xrange [(east ? 0 : size_a):(east ? size_a : 0)]
+set yrange [(east ? 0 : size_b):(east ? size_b : 0)]
 step(length, room) = (finest = length * room, decade = 10 ** floor(log10(finest)), \
   decade * (finest <= decade ? 1 : finest <= 2 * decade ? 2 : finest <= 5 * decade ? 5 : 10))
-set xtics step(size_z, 90 / map_width) out nomirror
-set ytics step(size_x, 70 / map_height) out nomirror
+set xtics step(size_a, 90 / map_width) out nomirror
+set ytics step(size_b, 70 / map_height) out nomirror
 set cbtics out
 unset grid; unset colorbox
 set bmargin at screen bottom / height
@@ -70,11 +76,11 @@ set tmargin at screen (bottom + map_height) / height
 set label 1 cut(title, 70) . ' – plane at ' . sprintf('%.3f m', number(place)) at screen 0.5,(1 - 40 / height) center \
   font ',24' textcolor '#101010'
 set label 2 note at screen 0.5,(1 - 82 / height) center font ',18' textcolor '#101010'
-set label 3 'X (m), from north to south' at screen (left1 - 100) / width,(bottom + 0.5 * map_height) / height center rotate by 90
-set xlabel 'Z (m), from east to west' offset 0,0.2
+set label 3 (east ? 'y (m), from south to north' : 'X (m), from north to south') at screen (left1 - 100) / width,(bottom + 0.5 * map_height) / height center rotate by 90
+set xlabel (east ? 'x (m), from west to east' : 'Z (m), from east to west') offset 0,0.2
 # An image needs two cells along each side; single rows are drawn as boxes.
-half_x = 0.5 * size_x / cells_x; half_z = 0.5 * size_z / cells_z
-boxes = cells_x < 2 || cells_z < 2
+half_a = 0.5 * size_a / cells_a; half_b = 0.5 * size_b / cells_b
+boxes = cells_a < 2 || cells_b < 2
 
 do for [map = 1:2] {
   left = map == 1 ? left1 : left2
@@ -89,9 +95,9 @@ do for [map = 1:2] {
       center rotate by 90
   }
   if (boxes) {
-    plot table using 2:1:(half_z):(half_x):(map == 1 ? direct(0) : total(0)) with boxxyerror fillcolor palette fillstyle solid notitle
+    plot table using column_a:column_b:(half_a):(half_b):(map == 1 ? direct(0) : total(0)) with boxxyerror fillcolor palette fillstyle solid notitle
   } else {
-    plot table using 2:1:(map == 1 ? direct(0) : total(0)) with image notitle
+    plot table using column_a:column_b:(map == 1 ? direct(0) : total(0)) with image notitle
   }
 }
 

@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 import sunfleck
-from conftest import WORK, files_of, with_arrays
+from conftest import TABLES, WORK, files_of, with_arrays
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +53,29 @@ def test_every_column_is_described(result):
     assert result.describe("profile.csv")["PAR_down_error"] == ("W m-2", "half-width of the confidence interval of PAR_down")
     with pytest.raises(ValueError, match="not a table"):
         result.describe("canopy.csv")
+
+
+def test_axes_of_the_scene():
+    south = sunfleck.run(with_arrays({**TABLES, "plot": {"size": [1.0, 1.5]}}, up="z"), **WORK)
+    tables = {**TABLES, "axes": "east-north-up", "plot": {"size": [1.5, 1.0]}, "plane": [{"height": 0.5, "cells": [2, 3]}]}
+    tables["sensor"] = [{"name": "probe", "from": [1.0, 0.5, 0.3], "to": [1.0, 0.5, 0.9], "points": 3}]
+    east = sunfleck.run(with_arrays(tables, at=[[1.5, 1.0, 0.0]]), **WORK)
+    assert (south.summary["axes"], east.summary["axes"]) == ("south-up-west", "east-north-up")
+    assert east.to_xarray().attrs["axes"] == "east-north-up"
+    assert np.array_equal(east["PAR_absorbed"], south["PAR_absorbed"])
+
+    def in_east(points):
+        return np.stack([1.5 - points[..., 2], 1.0 - points[..., 0], points[..., 1]], axis=-1)
+
+    assert np.allclose(east.corners, in_east(south.corners), atol=1e-12)
+    for name in ("triangles", "plants"):
+        a, b = (np.stack([getattr(result, name)[axis] for axis in "xyz"], axis=-1) for result in (east, south))
+        assert np.allclose(a, in_east(b), atol=1e-12), name
+    (flat, known), (probe, same) = (east.planes[0], south.planes[0]), (east.sensors[0], south.sensors[0])
+    assert "y_m" in flat and "z_m" not in flat and flat["PAR_total"].shape == (3, 2)
+    assert np.array_equal(flat["PAR_total"], known["PAR_total"][::-1, ::-1].T)
+    assert np.allclose(flat["x_m"], 1.5 - known["z_m"][::-1]) and np.allclose(flat["y_m"], 1.0 - known["x_m"][::-1])
+    assert np.allclose([probe["x"], probe["y"]], [1.5 - same["z"], 1.0 - same["x"]]) and np.allclose(probe["z"], same["y"])
 
 
 def test_is_told_in_a_line(result):

@@ -213,6 +213,26 @@ TEST_F(ExportReadBack, GltfInVtk) {
   expect_two_triangles(read(ExportKind::glb));
 }
 
+TEST_F(ExportReadBack, CoordinatesAreInTheAxesOfTheUser) {
+  RadiationModel model = test::two_triangles();  // 10 to 13 m south, 30 to 33 m west
+  model.plot = {20.0, 45.0, false, Axes::east_north_up};
+  constexpr std::array z_up = {12.0, 15.0, 7.0, 10.0, 2000.1, 2003.1};
+  constexpr std::array y_up = {12.0, 15.0, 2000.1, 2003.1, -10.0, -7.0};
+  for (const ExportKind kind : {ExportKind::vtp, ExportKind::ply, ExportKind::nc, ExportKind::glb}) {
+    SCOPED_TRACE(export_name(kind));
+    write(kind, model, test::two_triangles_result());
+    const json found = read(kind);
+    const bool gltf = kind == ExportKind::glb;
+    for (std::size_t i = 0; i < z_up.size(); ++i) {
+      EXPECT_NEAR(found["bounds"][i].get<double>(), gltf ? y_up[i] : z_up[i], gltf ? 1.3e-4 : 1e-12) << i;
+    }
+    if (found.contains("record")) {
+      EXPECT_EQ(found["record"]["plot_size_m"], "45 20");
+      EXPECT_EQ(found["record"]["axes"], gltf ? "x east, y up, z south; m" : "x east, y north, z up; m");
+    }
+  }
+}
+
 // assimp drops attributes with names other than its own; this test checks the rest.
 TEST_F(ExportReadBack, GltfInAssimp) {
   write(ExportKind::glb, simulated().model, simulated().result);

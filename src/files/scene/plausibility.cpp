@@ -1,6 +1,7 @@
 #include "files/scene/plausibility.h"
 
 #include "base/file.h"
+#include "physics/canopy/axes.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
@@ -122,8 +123,8 @@ std::vector<std::string> plausibility_warnings(const Scene& scene, bool all_z_up
   }
   if (scene.model.soil && stand.buried_m2 > least_share_of_area * stand.area_m2) {
     warnings.push_back(fmt::format(
-        "{}: {:.0f} % of the plants' area lies below the ground, y = 0, where soil hides it; raise them with at{}", file,
-        100.0 * stand.buried_m2 / stand.area_m2,
+        "{}: {:.0f} % of the plants' area lies below the ground, {} = 0, where soil hides it; raise them with at{}", file,
+        100.0 * stand.buried_m2 / stand.area_m2, scene.model.plot.axes == Axes::south_up_west ? 'y' : 'z',
         all_z_up ? ", or set up = \"y\" for a mesh whose y points up" : ", or set up = \"z\" for a mesh whose z points up"));
   }
   return warnings;

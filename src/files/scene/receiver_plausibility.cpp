@@ -1,10 +1,12 @@
 #include "files/scene/receiver_plausibility.h"
 
+#include "physics/canopy/axes.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -57,25 +59,31 @@ std::optional<glm::dvec3> first_outside(const Sensor& sensor, const Plot& plot) 
 
 void warn_of_sensors(const TomlTable& root, const RadiationModel& model, std::vector<std::string>& warnings) {
   const std::vector<TomlTable> tables = root.tables("sensor");
+  const Plot& plot = model.plot;
+  const auto [first, second] = level_axes(plot.axes);
+  const std::array letters = {axis_letter(plot.axes, first), axis_letter(plot.axes, second)};
+  const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
   for (std::size_t s = 0; s < std::min(tables.size(), model.sensors.size()); ++s) {
-    const auto at_m = first_outside(model.sensors[s], model.plot);
+    const auto at_m = first_outside(model.sensors[s], plot);
     if (!at_m) continue;
+    const glm::dvec3 user_m = user_position_m(plot, *at_m);
     warnings.push_back(
-        fmt::format("{}: X = {:.6g} m, Z = {:.6g} m lies outside the plot{}; give X in 0..{:.6g} and Z in "
+        fmt::format("{}: {} = {:.6g} m, {} = {:.6g} m lies outside the plot{}; give {} in 0..{:.6g} and {} in "
                     "0..{:.6g}",
-                    tables[s].place("from"), at_m->x, at_m->z, model.plot.periodic ? " and the periods next to it" : "",
-                    model.plot.size_x_m, model.plot.size_z_m));
+                    tables[s].place("from"), letters[0], user_m[first], letters[1], user_m[second],
+                    plot.periodic ? " and the periods next to it" : "", letters[0], size_m.x, letters[1], size_m.y));
   }
 }
 
 void warn_of_wide_plot(const TomlTable& root, const Plot& plot, const StandBox& box, std::vector<std::string>& warnings) {
   const double width_m = std::max(box.hi_m.x - box.lo_m.x, box.hi_m.z - box.lo_m.z);
   if (width_m <= 0.0 || std::min(plot.size_x_m, plot.size_z_m) <= widest_plot * width_m) return;
+  const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
   warnings.push_back(
       fmt::format("{}: the plot is {:.0f} times wider than the stand, {:.4g} m; if centimetres were meant, give "
                   "[{:.6g}, {:.6g}]",
                   root.table("plot")->place("size"), std::min(plot.size_x_m, plot.size_z_m) / width_m, width_m,
-                  plot.size_x_m / 100.0, plot.size_z_m / 100.0));
+                  size_m.x / 100.0, size_m.y / 100.0));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "files/scene/scene_geometry.h"
 
 #include "base/file.h"
+#include "files/formats/mesh/mesh_survey.h"
 #include "files/scene/plain_name.h"
 #include "files/scene/scene_files.h"
 #include "files/scene/scene_positions.h"
@@ -67,7 +68,7 @@ const Mesh* find_given_mesh(const TomlTable& table, const SceneText& source) {
   return &found->second;
 }
 
-GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, const SceneAccess& access) {
+GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, const Plot& plot, const SceneAccess& access) {
   for (const char* key : {"rows", "per_row", "spacing", "seed"}) {
     if (table.has(key)) table.refuse(key, "it is only for generator = \"maize\"", "remove it; place a file's copies with `at`");
   }
@@ -75,16 +76,20 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
   std::vector<OpticsRule> optics = read_optics_rules(table);
   if (!optics.empty()) import.optics = table.is_table("optics") ? std::string(unnamed_material) : optics.front().optics;
   import.allow_outside = access.allow_outside;
+  import.axes = plot.axes;
   if (const auto up = table.word("up", {"y", "z", "x"})) import.up = static_cast<UpAxis>(*up);
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
   if (const auto split = table.word("split", {"names", "materials", "parts"})) import.split = static_cast<OrganSplit>(*split);
-  std::vector<Placement> placements = read_placements(table, source.file, access);
-  const bool given = table.has("mesh");
+  std::vector<Placement> placements = read_placements(table, source.file, plot, access);
+  const Mesh* given = table.has("mesh") ? find_given_mesh(table, source) : nullptr;
+  fs::path file = given != nullptr ? fs::path() : find_mesh(table, source.file, access);
+  // What is digitised for a scene with z up has z up itself.
+  if (!import.up && plot.axes == Axes::east_north_up && !frame_of_format(file).up) import.up = UpAxis::z;
   return GeometryPart{.table = table,
                       .maize = std::nullopt,
-                      .mesh = given ? find_given_mesh(table, source) : nullptr,
-                      .file = given ? fs::path() : find_mesh(table, source.file, access),
+                      .mesh = given,
+                      .file = std::move(file),
                       .import = import,
                       .optics = std::move(optics),
                       .placements = std::move(placements),
@@ -190,13 +195,14 @@ void require_one_source(const TomlTable& table) {
 
 }  // namespace
 
-std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source, const SceneAccess& access) {
+std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source, const Plot& plot,
+                                        const SceneAccess& access) {
   std::vector<GeometryPart> parts;
   std::int64_t plants = 0;  // total of all generators
   for (const TomlTable& table : root.tables("geometry")) {
     allow_keys(table, source);
     require_one_source(table);
-    parts.push_back(table.has("generator") ? read_generator(table, plants) : read_mesh_part(table, source, access));
+    parts.push_back(table.has("generator") ? read_generator(table, plants) : read_mesh_part(table, source, plot, access));
   }
   return parts;
 }

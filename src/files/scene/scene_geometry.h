@@ -34,8 +34,8 @@ struct GeometryPart {
   [[nodiscard]] std::string_view source_key() const { return maize ? "generator" : mesh != nullptr ? "mesh" : "file"; }
 };
 
-// Reads the [[geometry]] tables. The source must outlive the parts.
-[[nodiscard]] std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source,
+// Reads the [[geometry]] tables, whose positions are in the axes of the plot. The source must outlive the parts.
+[[nodiscard]] std::vector<GeometryPart> read_geometry(const TomlTable& root, const SceneText& source, const Plot& plot,
                                                       const SceneAccess& access);
 
 // Loads the meshes. Refuses more triangles than fit into the memory of this machine, before allocating memory for their copies.

@@ -2,6 +2,7 @@
 
 #include "files/formats/measured/plant_positions.h"
 #include "files/scene/scene_files.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@ namespace sunfleck {
 
 namespace {
 
-std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::filesystem::path& scene_file,
+std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::filesystem::path& scene_file, const Plot& plot,
                                           const SceneAccess& access) {
   for (const char* key : {"at", "heading"}) {
     if (geometry.has(key)) {
@@ -19,9 +20,10 @@ std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::
     }
   }
   const std::filesystem::path file = find_scene_file(geometry, scene_file, access, "name a .csv file", "positions");
+  const HeightColumn height = plot.axes == Axes::south_up_west ? HeightColumn::y : HeightColumn::z;
   std::vector<Placement> placements;
-  for (const PlantPosition& position : read_plant_positions(file, access.files)) {
-    placements.push_back({.position_m = {position.x_m, position.y_m, position.z_m},
+  for (const PlantPosition& position : read_plant_positions(file, height, access.files)) {
+    placements.push_back({.position_m = scene_position_m(plot, {position.x_m, position.y_m, position.z_m}),
                           .heading_rad = glm::radians(position.heading_deg),
                           .scale = position.scale,
                           .plant = position.plant});
@@ -31,9 +33,9 @@ std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::
 
 }  // namespace
 
-std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file,
+std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file, const Plot& plot,
                                        const SceneAccess& access) {
-  if (geometry.has("positions")) return placements_of_file(geometry, scene_file, access);
+  if (geometry.has("positions")) return placements_of_file(geometry, scene_file, plot, access);
   const std::vector<glm::dvec3> positions_m =
       geometry.triples("at", anywhere).value_or(std::vector<glm::dvec3>{{0.0, 0.0, 0.0}});
   const NumberRange turn{.lo = -360.0, .hi = 360.0, .cure = "give degrees clockwise seen from above"};
@@ -41,7 +43,7 @@ std::vector<Placement> read_placements(const TomlTable& geometry, const std::fil
       geometry.number_or_list("heading", positions_m.size(), turn).value_or(std::vector<double>(positions_m.size(), 0.0));
   std::vector<Placement> placements;
   for (std::size_t i = 0; i < positions_m.size(); ++i) {
-    placements.push_back({.position_m = positions_m[i], .heading_rad = glm::radians(headings_deg[i])});
+    placements.push_back({.position_m = scene_position_m(plot, positions_m[i]), .heading_rad = glm::radians(headings_deg[i])});
   }
   return placements;
 }

@@ -11,9 +11,10 @@
 
 namespace sunfleck {
 
-// Returns the placements, one at the origin by default. `access.files` must be set.
+// Returns the placements in the scene's coordinates, one at the origin of the user's axes by default. `access.files` must be
+// set.
 [[nodiscard]] std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file,
-                                                     const SceneAccess& access);
+                                                     const Plot& plot, const SceneAccess& access);
 
 // Refuses plant numbers of a file of positions for a mesh with several plants, and those that are in use already. `used` holds
 // the numbers of all plants so far, to which those of this mesh are added.

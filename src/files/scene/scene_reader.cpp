@@ -16,6 +16,7 @@
 #include "files/scene/scene_surface.h"
 #include "files/scene/scene_weather.h"
 #include "files/scene/toml_view.h"
+#include "physics/canopy/axes.h"
 #include "physics/transport/model/surface_roles.h"
 #include "physics/transport/model/surfaces.h"
 
@@ -39,15 +40,22 @@ std::string read_title(const TomlTable& root, const std::filesystem::path& file)
   return root.text("title").value_or(printable(file.stem().string()));
 }
 
+Axes axes_of(const TomlTable& root) {
+  return static_cast<Axes>(root.word("axes", axes_names()).value_or(0));
+}
+
 Plot read_plot(const TomlTable& root) {
   root.require("plot", "[plot] with size = [1.8, 2.4]");
   const TomlTable table = *root.table("plot");
   table.allow({"size", "periodic"});
-  table.require("size", "size = [1.8, 2.4], metres along X and Z");
-  const auto size_m = *table.numbers("size", 2, {.lo = 1e-6, .hi = 1e6, .cure = "give metres"});
   Plot plot;
-  plot.size_x_m = size_m[0];
-  plot.size_z_m = size_m[1];
+  plot.axes = axes_of(root);
+  table.require("size", plot.axes == Axes::south_up_west ? "size = [1.8, 2.4], metres along X and Z"
+                                                         : "size = [2.4, 1.8], metres to the east and to the north");
+  const auto size_m = *table.numbers("size", 2, {.lo = 1e-6, .hi = 1e6, .cure = "give metres"});
+  const glm::dvec2 along_xz_m = along_level_axes(plot.axes, {size_m[0], size_m[1]});
+  plot.size_x_m = along_xz_m.x;
+  plot.size_z_m = along_xz_m.y;
   plot.periodic = table.boolean("periodic").value_or(plot.periodic);
   return plot;
 }
@@ -68,15 +76,15 @@ Accuracy read_accuracy(const TomlTable& root) {
   return accuracy;
 }
 
-std::optional<CameraPose> read_camera(const TomlTable& root) {
+std::optional<CameraPose> read_camera(const TomlTable& root, const Plot& plot) {
   const auto table = root.table("camera");
   if (!table) return std::nullopt;
   table->allow({"position", "look_at", "fov"});
   table->require("position", "position = [3.0, 2.5, 3.0], or remove [camera] for a view that fits");
   table->require("look_at", "look_at = [0.9, 1.0, 1.2]");
   CameraPose pose;
-  pose.position_m = *table->triple("position", anywhere);
-  pose.look_at_m = *table->triple("look_at", anywhere);
+  pose.position_m = scene_position_m(plot, *table->triple("position", anywhere));
+  pose.look_at_m = scene_position_m(plot, *table->triple("look_at", anywhere));
   if (pose.position_m == pose.look_at_m) {
     table->refuse("look_at", "it equals the position of the camera, so there is no viewing direction", "give another point");
   }
@@ -121,11 +129,9 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
 }
 
 // Returns whether every mesh is read with up = "z".
-bool all_z_up(const TomlTable& root) {
-  const std::vector<TomlTable> parts = root.tables("geometry");
-  return !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const TomlTable& part) {
-    return part.has("generator") || (part.has("up") && part.text("up") == "z");
-  });
+bool all_z_up(std::span<const GeometryPart> parts) {
+  return !parts.empty() && std::all_of(parts.begin(), parts.end(),
+                                       [](const GeometryPart& part) { return part.maize || part.import.up == UpAxis::z; });
 }
 
 // Returns the digest of a scene; `files` are those read for the text.
@@ -183,7 +189,7 @@ SceneAccess noting_access(SceneAccess access, SourceFiles& own) {
 
 TomlTable parse_scene(const SceneText& source) {
   TomlTable root = TomlTable::parse(source.file.string(), source.text);
-  root.allow({"title", "plot", "sun", "sky", "band", "bands", "light_spectrum", "weather", "soil", "optics", "geometry",
+  root.allow({"title", "axes", "plot", "sun", "sky", "band", "bands", "light_spectrum", "weather", "soil", "optics", "geometry",
               "accuracy", "camera", "output", "plane", "sensor"});
   return root;
 }
@@ -199,10 +205,10 @@ OpticsByName read_all_but_geometry(const TomlTable& root, const SceneText& sourc
   scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, spectra, scene.warnings);
   OpticsByName optics = read_optics(root, scene.model.bands, spectra);
   scene.accuracy = read_accuracy(root);
-  scene.camera = read_camera(root);
+  scene.camera = read_camera(root, scene.model.plot);
   scene.model.layers = read_layers(root, scene.model.layers);
   scene.model.planes = read_planes(root, scene.model.plot);
-  scene.model.sensors = read_sensors(root);
+  scene.model.sensors = read_sensors(root, scene.model.plot);
   return optics;
 }
 
@@ -212,6 +218,7 @@ void check_same_ground(const TomlTable& root, const RadiationModel& model, const
     root.refuse_table(fmt::format("{} differs from the scene for which the canopy's tree was built", what),
                       "change only light and optics, or load the whole scene again");
   };
+  if (model.plot.axes != other.plot.axes) refuse("axes");
   const bool same_plot = model.plot.size_x_m == other.plot.size_x_m && model.plot.size_z_m == other.plot.size_z_m &&
                          model.plot.periodic == other.plot.periodic;
   if (!same_plot) refuse("[plot]");
@@ -254,7 +261,7 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
   Scene scene;
   const OpticsByName optics = read_all_but_geometry(root, source, noting, scene);
 
-  const std::vector<GeometryPart> parts = read_geometry(root, source, noting);
+  const std::vector<GeometryPart> parts = read_geometry(root, source, scene.model.plot, noting);
   const std::vector<PlacedMesh> meshes = load_geometry(parts, *noting.files, scene.warnings);
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
   check_optics(parts, meshes, optics, scene);
@@ -265,7 +272,7 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
   warn_of_unused(optics, scene, scene.warnings);
   append(scene.warnings, emission_warnings(root, scene.model));
   append(scene.warnings, receiver_warnings(root, scene));
-  for (std::string& warning : plausibility_warnings(scene, all_z_up(root))) scene.warnings.push_back(std::move(warning));
+  for (std::string& warning : plausibility_warnings(scene, all_z_up(parts))) scene.warnings.push_back(std::move(warning));
   for (std::string& warning : placement_warnings(parts, meshes, scene)) scene.warnings.push_back(std::move(warning));
   return scene;
 }

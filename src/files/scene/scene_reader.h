@@ -1,5 +1,5 @@
 #pragma once
-// Reads the scene file (TOML). Only this reader knows its keys, degrees and the user's units.
+// Reads the scene file (TOML). Only this reader knows its keys, degrees and the user's units and axes.
 
 #include "base/source_files.h"
 #include "physics/canopy/mesh.h"
@@ -89,14 +89,15 @@ struct SceneText {
   std::map<std::string, Mesh> meshes;
 };
 
-// Reads a scene from memory. `up`, `scale`, `heading` and `at` apply to a mesh as to one from a file (y is up by default). In
-// addition, refuses meshes whose arrays do not fit together or hold numbers that are not finite.
+// Reads a scene from memory. `up`, `scale`, `heading` and `at` apply to a mesh as to one from a file (by default y is up, or z
+// with the axes east_north_up). In addition, refuses meshes whose arrays do not fit together or hold numbers that are not
+// finite.
 [[nodiscard]] Scene read_scene(const SceneText& source, const SceneAccess& access = {});
 
 // Gives a scene everything that a text defines except geometry, which is ignored; the canopy stays as it is. The warnings
 // become those of the new light, and the files of the text are added to those of the scene. Throws Error (input) and leaves the
 // scene unchanged; in addition to the errors of read_scene, this happens if the text does not define optics that the canopy
-// uses, or changes the plot, the layers or the soil cells, because the tree and the counters were built for those.
+// uses, or changes the axes, the plot, the layers or the soil cells, because the tree and the counters were built for those.
 void relight(Scene& scene, const SceneText& source, const SceneAccess& access = {});
 
 }  // namespace sunfleck

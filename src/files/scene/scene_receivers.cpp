@@ -1,6 +1,7 @@
 #include "files/scene/scene_receivers.h"
 
 #include "files/scene/plain_name.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -36,8 +37,11 @@ PlaneReceiver read_plane(const TomlTable& table, const Plot& plot) {
   table.require("height", "height = 0.5, metres above the ground");
   PlaneReceiver plane;
   plane.height_m = *table.number("height", {.lo = 0.0, .hi = farthest_m, .cure = "give metres above the ground"});
-  const auto cells =
-      table.numbers("cells", 2, {.lo = 1.0, .hi = most_cells, .cure = "give whole numbers, along X and along Z"});
+  const auto cells = table.numbers("cells", 2,
+                                   {.lo = 1.0,
+                                    .hi = most_cells,
+                                    .cure = plot.axes == Axes::south_up_west ? "give whole numbers, along X and along Z"
+                                                                             : "give whole numbers, along x and along y"});
   if (!cells) {
     set_default_cells(plane, plot);
     return plane;
@@ -46,8 +50,9 @@ PlaneReceiver read_plane(const TomlTable& table, const Plot& plot) {
     if (count != std::floor(count))
       table.refuse("cells", fmt::format("{} is not a whole number", count), "write it as [180, 240]");
   }
-  plane.cells_x = static_cast<int>((*cells)[0]);
-  plane.cells_z = static_cast<int>((*cells)[1]);
+  const glm::dvec2 along_xz = along_level_axes(plot.axes, {(*cells)[0], (*cells)[1]});
+  plane.cells_x = static_cast<int>(along_xz.x);
+  plane.cells_z = static_cast<int>(along_xz.y);
   return plane;
 }
 
@@ -61,15 +66,16 @@ std::string read_sensor_name(const TomlTable& table, std::set<std::string>& earl
   return name;
 }
 
-std::vector<glm::dvec3> read_points(const TomlTable& table) {
+// Returns the points in the scene's coordinates.
+std::vector<glm::dvec3> read_points(const TomlTable& table, const Plot& plot) {
   table.require("from", "from = [0.2, 1.2, 0.1]");
-  const glm::dvec3 from_m = *table.triple("from", anywhere);
+  const glm::dvec3 from_m = scene_position_m(plot, *table.triple("from", anywhere));
   if (!table.has("to")) {
     if (table.has("points")) table.refuse("points", "points need `to`", "add to, or remove it");
     return {from_m};
   }
   table.require("points", "points = 80, spread from `from` to `to`");
-  const glm::dvec3 to_m = *table.triple("to", anywhere);
+  const glm::dvec3 to_m = scene_position_m(plot, *table.triple("to", anywhere));
   const std::int64_t count = *table.integer("points", 2, most_points);
   std::vector<glm::dvec3> points_m;
   for (std::int64_t i = 0; i < count; ++i) {
@@ -79,22 +85,24 @@ std::vector<glm::dvec3> read_points(const TomlTable& table) {
   return points_m;
 }
 
-Sensor read_sensor(const TomlTable& table, std::set<std::string>& earlier) {
+Sensor read_sensor(const TomlTable& table, const Plot& plot, std::set<std::string>& earlier) {
   table.allow({"name", "from", "to", "points", "response", "normal"});
   Sensor sensor;
   sensor.name = read_sensor_name(table, earlier);
-  sensor.points_m = read_points(table);
+  sensor.points_m = read_points(table, plot);
   if (const auto response = table.word("response", {"cosine", "spherical"})) {
     sensor.response = *response == 0 ? SensorResponse::cosine : SensorResponse::spherical;
   }
-  const auto normal = table.triple("normal", {.lo = -1e6, .hi = 1e6, .cure = "give a direction, such as [0, 1, 0] for up"});
+  const char* example = plot.axes == Axes::south_up_west ? "give a direction, such as [0, 1, 0] for up"
+                                                         : "give a direction, such as [0, 0, 1] for up";
+  const auto normal = table.triple("normal", {.lo = -1e6, .hi = 1e6, .cure = example});
   if (!normal) return sensor;
   if (sensor.response == SensorResponse::spherical) {
     table.refuse("normal", "a spherical sensor has no normal", "remove it, or response = \"spherical\"");
   }
   const double length = glm::length(*normal);
-  if (length < 1e-6) table.refuse("normal", "it has zero length", "give one, such as [0, 1, 0] for up");
-  sensor.normal = *normal / length;
+  if (length < 1e-6) table.refuse("normal", "it has zero length", example);
+  sensor.normal = scene_direction(plot.axes, *normal) / length;
   return sensor;
 }
 
@@ -126,12 +134,12 @@ std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot) 
   return planes;
 }
 
-std::vector<Sensor> read_sensors(const TomlTable& root) {
+std::vector<Sensor> read_sensors(const TomlTable& root, const Plot& plot) {
   std::vector<Sensor> sensors;
   std::set<std::string> names;
   std::size_t points = 0;
   for (const TomlTable& table : root.tables("sensor")) {
-    sensors.push_back(read_sensor(table, names));
+    sensors.push_back(read_sensor(table, plot, names));
     points += sensors.back().points_m.size();
     if (points > static_cast<std::size_t>(most_points)) {
       table.refuse(table.has("points") ? "points" : "from",

@@ -9,10 +9,12 @@
 
 namespace sunfleck {
 
+// `plot.axes` are those of the numbers in the file.
+
 // Returns the planes in ascending order of height.
 [[nodiscard]] std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot);
 
 // Returns the sensors in the order of the file; their names differ.
-[[nodiscard]] std::vector<Sensor> read_sensors(const TomlTable& root);
+[[nodiscard]] std::vector<Sensor> read_sensors(const TomlTable& root, const Plot& plot);
 
 }  // namespace sunfleck

@@ -150,8 +150,9 @@ Camera picture_camera(const Scene& scene, const CounterLayout& layout, const Pic
   const glm::dvec3 beside = 0.5 * (options.repeat - 1) * glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
   lo -= beside;
   hi += beside;
-  if (options.view == ViewKind::top) return top_view(lo, hi, aspect);
-  return options.view == ViewKind::side ? side_view(lo, hi, aspect) : three_quarter_view(lo, hi, aspect);
+  const Axes axes = model.plot.axes;
+  if (options.view == ViewKind::top) return top_view(lo, hi, aspect, axes);
+  return options.view == ViewKind::side ? side_view(lo, hi, aspect, axes) : three_quarter_view(lo, hi, aspect, axes);
 }
 
 CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,

@@ -1,6 +1,8 @@
 #pragma once
 // The camera: one set of numbers for exported and interactive pictures, and for lines drawn over them.
 
+#include "physics/canopy/plot.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -33,16 +35,17 @@ struct Camera {
 // Length by which a chart's axes extend beyond the box of plot and canopy, as a share of its largest extent.
 inline constexpr double axis_overhang = 0.08;
 
-// Returns a three-quarter view from the south-west and above that fits the whole box with a margin, including axes from its
-// lowest corner that extend beyond it. The margin leaves room for titles at the top and a legend at the right.
-[[nodiscard]] Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect);
+// Returns a three-quarter view from the south-west and above that fits the whole box with a margin, including axes from the
+// corner of its ground where those of the user begin, which extend beyond it. The margin leaves room for titles at the top and
+// a legend at the right.
+[[nodiscard]] Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west);
 
 // Returns an orthographic view straight down that fits the whole box: north is up, east is right. Margins are as above.
-[[nodiscard]] Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect);
+[[nodiscard]] Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west);
 
 // Returns a level orthographic view from the south that fits the whole box: east is right, and rows, which run north-south,
 // appear side by side as in a section across them. Margins are as above.
-[[nodiscard]] Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect);
+[[nodiscard]] Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west);
 
 // Returns a view straight up from a point that shows the upper hemisphere as a circle, as in canopy photographs: the zenith in
 // the centre, the horizon on the edge, north up and therefore east left. Leaves room for titles, the legend and the letters

@@ -1,6 +1,7 @@
 #include "pictures/drawing/camera_motion.h"
 
 #include "base/units.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -96,13 +97,14 @@ void fly(HandCamera& hand, glm::dvec3 by_m) {
                            : by_m.x * camera.right + by_m.y * camera.up + by_m.z * camera.forward;
 }
 
-std::string camera_toml(const HandCamera& hand) {
+std::string camera_toml(const HandCamera& hand, const Plot& plot) {
   const Camera& camera = hand.camera;
   if (camera.kind != Projection::perspective) return {};
-  const glm::dvec3 at = camera.position_m + hand.distance_m * camera.forward;
+  const glm::dvec3 from = user_position_m(plot, camera.position_m);
+  const glm::dvec3 at = user_position_m(plot, camera.position_m + hand.distance_m * camera.forward);
   const double fov_deg = in_degrees(2.0 * std::atan(camera.tan_half_fov));
   return fmt::format("[camera]\nposition = [{:.4f}, {:.4f}, {:.4f}]\nlook_at = [{:.4f}, {:.4f}, {:.4f}]\nfov = {:.4f}\n",
-                     camera.position_m.x, camera.position_m.y, camera.position_m.z, at.x, at.y, at.z, fov_deg);
+                     from.x, from.y, from.z, at.x, at.y, at.z, fov_deg);
 }
 
 }  // namespace sunfleck

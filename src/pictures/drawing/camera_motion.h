@@ -37,7 +37,8 @@ void fit(HandCamera& hand, glm::dvec3 lo_m, glm::dvec3 hi_m);
 // Moves right, up and ahead relative to the view, m; a fisheye moves east, up and north.
 void fly(HandCamera& hand, glm::dvec3 by_m);
 
-// Returns "[camera]" with position, look_at and fov as in a scene file; empty for a camera that is not a pinhole.
-[[nodiscard]] std::string camera_toml(const HandCamera& hand);
+// Returns "[camera]" with position, look_at and fov as in a file of a scene with that plot, in its axes; empty for a camera
+// that is not a pinhole.
+[[nodiscard]] std::string camera_toml(const HandCamera& hand, const Plot& plot);
 
 }  // namespace sunfleck

@@ -1,6 +1,8 @@
 #include "pictures/drawing/chart.h"
 
 #include "base/check.h"
+#include "physics/canopy/axes.h"
+#include "pictures/drawing/north_arrow.h"
 #include "pictures/drawing/overlay.h"
 #include "pictures/drawing/palette.h"
 #include "pictures/drawing/scene_lines.h"
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string_view>
 #include <utility>
@@ -76,23 +79,13 @@ void draw_border(Image& image, const SeenScene& scene, const Plot& plot, const L
   }
 }
 
-// Draws a letter centred on `at_px`, with a thin pale edge that keeps it legible on any background.
-void draw_letter(Image& image, const Typeface& face, std::string_view letter, glm::dvec2 at_px, double size_px, Colour colour) {
-  const glm::dvec2 baseline_px = at_px + 0.5 * size_px * glm::dvec2(-face.width_px(letter, 1.0), Typeface::cap_height);
-  const double edge_px = std::max(1.0, 0.07 * size_px);
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      face.draw(image, letter, baseline_px + edge_px * glm::dvec2(x, y), size_px, from_srgb(sky_top));
-    }
-  }
-  face.draw(image, letter, baseline_px, size_px, colour);
-}
-
+// The user's axis, from the user's origin.
 Segment axis_segment(const ChartFrame& frame, int axis) {
   const glm::dvec3 extent_m(frame.plot.size_x_m, frame.height_m, frame.plot.size_z_m);
-  Segment segment;
-  segment.to_m[axis] = extent_m[axis] + axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
-  return segment;
+  const glm::dvec3 along_axes_m = glm::abs(user_direction(frame.plot.axes, extent_m));
+  glm::dvec3 to_m(0.0);
+  to_m[axis] = along_axes_m[axis] + axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
+  return {scene_position_m(frame.plot, glm::dvec3(0.0)), scene_position_m(frame.plot, to_m)};
 }
 
 // The letter of an axis seen end-on is placed opposite to the direction of the other axes.
@@ -132,6 +125,13 @@ void draw_horizon(Image& image, const Typeface& face, const Camera& camera, cons
     draw_letter(image, face, bearings[i], centre_px + (radius_px + 0.85 * layout.axis_letter) * glm::normalize(away),
                 layout.axis_letter, from_srgb(ink));
   }
+}
+
+// Returns the lower right corner, above the footer.
+NorthArrowPlace north_arrow_place(const ChartFrame& frame, const Layout& layout) {
+  const double radius_px = 0.055 * frame.height;
+  const double footer_top = frame.height - layout.margin - 2.0 * layout.footer;
+  return {{frame.width - layout.margin - radius_px, footer_top - radius_px}, radius_px};
 }
 
 // Draws a line of text at `size_px`, or smaller so that it is no wider than `room_px`.
@@ -185,6 +185,8 @@ Image ChartCanvas::finish(const ChartText& text) {
     draw_horizon(image_, face, frame_.camera, layout);
   } else {
     draw_axis_letters(image_, face, frame_, layout);
+    const glm::dvec3 middle_m(0.5 * frame_.plot.size_x_m, 0.0, 0.5 * frame_.plot.size_z_m);
+    draw_north_arrow(image_, face, frame_.camera, middle_m, north_arrow_place(frame_, layout));
   }
   draw_titles(image_, face, text, layout);
   const double top_px = 0.135 * frame_.height;

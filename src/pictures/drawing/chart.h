@@ -37,9 +37,10 @@ struct ChartFrame {
 // A chart that is painted in bands of rows; the division into bands does not affect any pixel.
 //
 // Surfaces are shown in their colours, averaged over each pixel's samples, on a soft background; neighbouring copies of the
-// plot are blended half and half with it. The axes start at the plot's origin in red (X), green (Y) and blue (Z) with their
-// letters, and the plot's border is black at ground level; both are hidden behind surfaces (the letters never are). Text is in
-// a sans-serif typeface whose size scales with the picture's height and which stays readable at half size.
+// plot are blended half and half with it. The user's axes start at their origin in red (X), green (Y) and blue (Z) with their
+// letters, and the plot's border is black at ground level; both are hidden behind surfaces (the letters never are). An arrow in
+// the lower right corner points north. Text is in a sans-serif typeface whose size scales with the picture's height and which
+// stays readable at half size.
 class ChartCanvas {
  public:
   // colours: linear, [surface number].

@@ -5,6 +5,7 @@
 #include "pictures/drawing/colour_scale.h"
 #include "pictures/drawing/image.h"
 
+#include <array>
 #include <glm/vec2.hpp>
 
 namespace sunfleck {
@@ -31,6 +32,18 @@ struct PixelRange {
   int left = 0, right = 0, top = 0, bottom = 0;
 };
 [[nodiscard]] PixelRange pixels_in(const Rectangle& rectangle, int width, int height);
+
+// Corners in either order of rotation.
+using FlatTriangle = std::array<glm::dvec2, 3>;
+
+// Returns the share of a pixel, given by its middle, that a triangle covers (0..1): 1/2 where an edge passes through the
+// middle.
+[[nodiscard]] double triangle_coverage(const FlatTriangle& corners, glm::dvec2 at);
+// Returns the share of a pixel that a line with round ends covers.
+[[nodiscard]] double line_coverage(glm::dvec2 from, glm::dvec2 to, double width_px, glm::dvec2 at);
+
+void fill_triangle(Image& image, const FlatTriangle& corners, const Paint& paint);
+void draw_flat_line(Image& image, glm::dvec2 from, glm::dvec2 to, double width_px, const Paint& paint);
 
 void fill_rectangle(Image& image, const Rectangle& rectangle, Corners corners, const Paint& paint);
 

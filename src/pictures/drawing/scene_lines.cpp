@@ -91,7 +91,7 @@ void draw_stroke(Image& image, const SeenScene& scene, const Stroke& stroke, dou
     for (int column = columns.left; column < columns.right; ++column) {
       const glm::dvec2 middle(column + 0.5, row + 0.5);
       const double t = std::clamp(glm::dot(middle - stroke.from, along) / length2, 0.0, 1.0);
-      const double coverage = std::clamp(reach - glm::distance(middle, stroke.from + t * along), 0.0, 1.0);
+      const double coverage = line_coverage(stroke.from, stroke.to, width_px, middle);
       if (coverage == 0.0) continue;
       const std::size_t pixel = static_cast<std::size_t>(row) * image.width + column;
       blend(image.pixels[pixel], paint, coverage * visible_share(scene, image, column, row, stroke.depth_m(t)));
@@ -99,23 +99,13 @@ void draw_stroke(Image& image, const SeenScene& scene, const Stroke& stroke, dou
   }
 }
 
-// Corners in either order of rotation.
-using FlatTriangle = std::array<glm::dvec2, 3>;
-
-void fill_triangle(Image& image, const SeenScene& scene, FlatTriangle corners, double depth_m, const Paint& paint) {
-  const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
-  if (cross(corners[1] - corners[0], corners[2] - corners[0]) < 0.0) std::swap(corners[1], corners[2]);
+void fill_seen_triangle(Image& image, const SeenScene& scene, const FlatTriangle& corners, double depth_m, const Paint& paint) {
   const Rectangle box = {glm::min(glm::min(corners[0], corners[1]), corners[2]) - 1.0,
                          glm::max(glm::max(corners[0], corners[1]), corners[2]) + 1.0};
   const PixelRange range = seen_rows(pixels_in(box, image.width, image.height), scene.seen);
   for (int row = range.top; row < range.bottom; ++row) {
     for (int column = range.left; column < range.right; ++column) {
-      double inside_px = 1.0;  // smallest distance from the three edges, inwards
-      for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec2 edge = glm::normalize(corners[(i + 1) % 3] - corners[i]);
-        inside_px = std::min(inside_px, cross(edge, glm::dvec2(column + 0.5, row + 0.5) - corners[i]));
-      }
-      const double coverage = std::clamp(inside_px + 0.5, 0.0, 1.0);
+      const double coverage = triangle_coverage(corners, {column + 0.5, row + 0.5});
       if (coverage == 0.0) continue;
       const std::size_t pixel = static_cast<std::size_t>(row) * image.width + column;
       blend(image.pixels[pixel], paint, coverage * visible_share(scene, image, column, row, depth_m));
@@ -140,8 +130,8 @@ void draw_arrow(Image& image, const SeenScene& scene, const Segment& segment, do
     const glm::dvec2 along = (stroke->to - stroke->from) / length;
     const glm::dvec2 aside(-along.y, along.x);
     const glm::dvec2 base = stroke->to - head_length * along;
-    fill_triangle(image, scene, {stroke->to, base + head_half_width * aside, base - head_half_width * aside},
-                  stroke->to_depth_m, paint);
+    fill_seen_triangle(image, scene, {stroke->to, base + head_half_width * aside, base - head_half_width * aside},
+                       stroke->to_depth_m, paint);
     const double shaft = 1.0 - 0.8 * head_length / length;  // ends within the head
     stroke->to_depth_m = stroke->depth_m(shaft);
     stroke->to = glm::mix(stroke->from, stroke->to, shaft);

@@ -39,4 +39,8 @@ class Typeface {
   std::unique_ptr<stbtt_fontinfo> font_;
 };
 
+// Draws a letter centred on `at_px`, with a thin pale edge that keeps it legible on any background.
+void draw_letter(Image& image, const Typeface& face, std::string_view letter, glm::dvec2 at_px, double size_px,
+                 const Colour& colour);
+
 }  // namespace sunfleck

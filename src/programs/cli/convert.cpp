@@ -6,6 +6,7 @@
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/formats/mesh/mesh_text.h"
 #include "files/formats/mesh/mesh_writer.h"
+#include "physics/canopy/axes.h"
 #include "programs/cli/terminal.h"
 #include "simulate/interrupt.h"
 #include "simulate/scene_source.h"
@@ -60,8 +61,9 @@ void check(const ConvertOptions& options) {
   }
 }
 
-// Returns the canopy as a mesh in which coincident corners are welded into one vertex.
-Mesh mesh_of(const Canopy& canopy) {
+// Returns the canopy as a mesh in which coincident corners are welded into one vertex, in the scene's axes but with the origin
+// of the user's.
+Mesh mesh_of(const Canopy& canopy, const Plot& plot) {
   Mesh mesh;
   mesh.optics_of.assign(canopy.optics_of.begin(), canopy.optics_of.end());
   mesh.organ_of = canopy.organ_of;
@@ -77,36 +79,45 @@ Mesh mesh_of(const Canopy& canopy) {
   for (std::size_t e = 0; e < canopy.size(); ++e) {
     const unsigned* number = &numbers[3 * e];
     mesh.triangles.emplace_back(number[0], number[1], number[2]);
-    for (std::size_t k = 0; k < 3; ++k) mesh.vertices[number[k]] = canopy.origin_m + glm::dvec3(triangles[e][k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 user_m = user_position_m(plot, canopy.origin_m + glm::dvec3(triangles[e][k]));
+      mesh.vertices[number[k]] = scene_direction(plot.axes, user_m);
+    }
   }
   return mesh;
 }
 
-Mesh read_input(const ConvertOptions& options) {
+// A mesh to be written, and the axes that its file is to have.
+struct MeshToWrite {
+  Mesh mesh;
+  Axes axes = Axes::south_up_west;
+};
+
+MeshToWrite read_input(const ConvertOptions& options) {
   if (!is_scene_file(options.input)) {
     MeshImport import{.optics = default_optics,
                       .up = std::nullopt,
                       .scale = options.stand.scale.value_or(1.0),
                       .allow_outside = options.allow_outside};
     if (options.z_up) import.up = UpAxis::z;
-    return read_mesh(options.input, import);
+    return {read_mesh(options.input, import)};
   }
   const Scene scene = read_scene(options.input, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   if (scene.model.canopy.size() == 0)
     throw_input(printable(options.input.string()), "the scene has no triangles", "give a scene with a [[geometry]]");
-  return mesh_of(scene.model.canopy);
+  return {mesh_of(scene.model.canopy, scene.model.plot), scene.model.plot.axes};
 }
 
 int write_as_mesh(const ConvertOptions& options) {
-  const Mesh mesh = read_input(options);
+  const auto [mesh, axes] = read_input(options);
   if (is_can_file(options.output)) {
     const std::vector<std::string> lost = optics_lost_in_can(mesh);
     if (!lost.empty())
       warn(printable(fmt::format("{}: optics {} become stems: a .can only has soil, leaf, stem, leaf2, stem2, ...",
                                  options.output.string(), fmt::join(lost, ", "))));
   }
-  write_mesh(mesh, options.output);
+  write_mesh(mesh, options.output, axes);
   fmt::print("{}: {} triangles, {} organs, optics {}\n", options.output.string(), mesh.triangles.size(), mesh.organs.size(),
              printable(fmt::format("{}", fmt::join(mesh.optics_names, ", "))));
   return exit_done;

@@ -98,16 +98,16 @@ void Outcome::write(const ResultRequest& request) const {
 }
 
 py::array Outcome::corners() const {
-  const Canopy& canopy = simulated_.scene->model.canopy;
+  const RadiationModel& model = simulated_.scene->model;
   std::vector<double> corners;
-  corners.reserve(9 * canopy.size());
-  for (std::size_t e = 0; e < canopy.size(); ++e) {
+  corners.reserve(9 * model.canopy.size());
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec3 corner = corner_m(canopy, e, k);
+      const glm::dvec3 corner = corner_m(model, e, k);
       corners.insert(corners.end(), {corner.x, corner.y, corner.z});
     }
   }
-  return array_of(std::move(corners), {signed_size(canopy.size()), 3, 3});
+  return array_of(std::move(corners), {signed_size(model.canopy.size()), 3, 3});
 }
 
 void bind_outcome(py::module_& module) {

@@ -21,7 +21,10 @@ struct IndexedSurface {
 
 IndexedSurface welded(const Canopy& canopy, const std::vector<std::size_t>& elements) {
   std::vector<glm::vec3> corners;
-  for (const std::size_t e : elements) corners.insert(corners.end(), canopy.corners[e].begin(), canopy.corners[e].end());
+  for (const std::size_t e : elements) {
+    const Triangle triangle = canopy.corners[e];
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
   std::vector<unsigned> remap(corners.size());
   const std::size_t vertices =
       meshopt_generateVertexRemap(remap.data(), nullptr, corners.size(), corners.data(), corners.size(), sizeof(glm::vec3));

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/units.h"
+#include "physics/canopy/axes.h"
 #include "physics/light/sun_events.h"
 #include "programs/cli/terminal.h"
 #include "programs/viewer/panel.h"
@@ -67,8 +68,10 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.news = {};
   state_.title = session_->title;
   state_.device = device_line(session_->simulation.device());
-  state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), scene.model.plot.size_x_m,
-                                 scene.model.plot.size_z_m, scene.model.plot.periodic ? ", periodic" : "");
+  const Plot& plot = scene.model.plot;
+  const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
+  state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), size_m.x, size_m.y,
+                                 plot.periodic ? ", periodic" : "");
   state_.bands = session_->bands;
   state_.optics_names = session_->optics;
   if (state_.band() == 0) state_.options.band.clear();
@@ -259,7 +262,7 @@ void Viewer::obey(const PanelOrders& orders) {
     state_.camera_as_given = false;
   }
   if (orders.copy_camera) {
-    const std::string toml = camera_toml(state_.hand);
+    const std::string toml = camera_toml(state_.hand, session_->light.geometry().model.plot);
     if (!toml.empty()) window_.set_clipboard(toml);
     say_to_user(toml.empty() ? "A scene file cannot hold this view; use render --view." : "Camera copied.", false);
     if (!toml.empty()) events_.tell("camera_copied", {{"toml", toml}});

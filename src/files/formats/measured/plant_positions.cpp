@@ -22,28 +22,31 @@ constexpr double whole_turn_deg = 360.0;
 
 constexpr std::string_view known_columns[] = {"plant", "x", "y", "z", "heading", "scale"};
 
-void check_position_columns(const NumberTable& table) {
+void check_position_columns(const NumberTable& table, HeightColumn height) {
   for (const std::string& column : table.columns) {
     if (std::find(std::begin(known_columns), std::end(known_columns), column) != std::end(known_columns)) continue;
     refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)), "it is not known here",
                  fmt::format("use {}", fmt::join(known_columns, ", ")));
   }
-  for (const char* column : {"x", "z"}) {
+  const char* other = height == HeightColumn::y ? "z" : "y";
+  for (const char* column : {"x", other}) {
     if (table.find_column(column)) continue;
-    refuse_table(table, table.header_line, fmt::format("no column {}", column), "plants need x (south) and z (west)",
-                 "begin with a line such as plant,x,z,heading,scale");
+    refuse_table(table, table.header_line, fmt::format("no column {}", column),
+                 height == HeightColumn::y ? "plants need x (south) and z (west)" : "plants need x (east) and y (north)",
+                 fmt::format("begin with a line such as plant,x,{},heading,scale", other));
   }
 }
 
 // Reads the cells of one row.
 class RowReader {
  public:
-  RowReader(const NumberTable& table, const NumberTable::Row& row) : table_(table), row_(row) {}
+  RowReader(const NumberTable& table, const NumberTable::Row& row, HeightColumn height)
+      : table_(table), row_(row), height_(height == HeightColumn::y ? "y" : "z") {}
 
   [[nodiscard]] PlantPosition read() const {
     PlantPosition position;
     position.x_m = metres("x");
-    position.y_m = table_.find_column("y") ? metres("y") : 0.0;
+    position.y_m = metres("y");
     position.z_m = metres("z");
     if (table_.find_column("heading")) {
       position.heading_deg = in_range("heading", -whole_turn_deg, whole_turn_deg, "give degrees clockwise seen from above");
@@ -57,9 +60,13 @@ class RowReader {
   }
 
  private:
-  [[nodiscard]] double metres(const char* column) const { return in_range(column, -farthest_m, farthest_m, "give metres"); }
+  // Returns 0 for a height without a column.
+  [[nodiscard]] double metres(std::string_view column) const {
+    if (column == height_ && !table_.find_column(column)) return 0.0;
+    return in_range(column, -farthest_m, farthest_m, "give metres");
+  }
 
-  [[nodiscard]] double in_range(const char* column, double lo, double hi, const char* cure) const {
+  [[nodiscard]] double in_range(std::string_view column, double lo, double hi, const char* cure) const {
     const double value = row_.cells[table_.column(column)];
     if (std::isnan(value)) {
       refuse_table(table_, row_.line, fmt::format("{} is empty", column), "every row needs all columns", "fill it in");
@@ -75,22 +82,24 @@ class RowReader {
     return static_cast<std::uint32_t>(number);
   }
 
-  [[noreturn]] void refuse_cell(const char* column, double value, const std::string& why, const char* cure) const {
+  [[noreturn]] void refuse_cell(std::string_view column, double value, const std::string& why, const char* cure) const {
     refuse_table(table_, row_.line, fmt::format("{} = {:g}", column, value), why, cure);
   }
 
   const NumberTable& table_;
   const NumberTable::Row& row_;
+  const std::string_view height_;
 };
 
 }  // namespace
 
-std::vector<PlantPosition> read_plant_positions(const std::filesystem::path& file, SourceFiles* files) {
-  const NumberTable table = read_number_table(file, check_position_columns, files);
+std::vector<PlantPosition> read_plant_positions(const std::filesystem::path& file, HeightColumn height, SourceFiles* files) {
+  const NumberTable table = read_number_table(
+      file, [height](const NumberTable& columns) { check_position_columns(columns, height); }, files);
   std::vector<PlantPosition> positions;
   std::map<std::uint32_t, std::size_t> line_of;
   for (const NumberTable::Row& row : table.rows) {
-    positions.push_back(RowReader(table, row).read());
+    positions.push_back(RowReader(table, row, height).read());
     if (!positions.back().plant) continue;
     const auto [earlier, fresh] = line_of.try_emplace(*positions.back().plant, row.line);
     if (fresh) continue;

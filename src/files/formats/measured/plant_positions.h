@@ -10,6 +10,9 @@
 
 namespace sunfleck {
 
+// The column of the height: y of positions with x south and z west, or z of those with x east and y north.
+enum class HeightColumn { y, z };
+
 struct PlantPosition {
   std::optional<std::uint32_t> plant;      // its number in the results, all different
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;  // as in the file
@@ -17,9 +20,11 @@ struct PlantPosition {
   double scale = 1.0;                      // > 0
 };
 
-// Reads a CSV with a line of column names: x and z, and optionally plant, y (the height, 0 without it), heading and scale, in
-// any order. Adds the file to `files` if that is given. Throws Error (input), one line `FILE:LINE: ...`, for unknown, missing or
-// double columns, empty cells, numbers out of range and plants that occur twice.
-[[nodiscard]] std::vector<PlantPosition> read_plant_positions(const std::filesystem::path& file, SourceFiles* files = nullptr);
+// Reads a CSV with a line of column names: x and z (or y, if z is the height), and optionally plant, the height (0
+// without it), heading and scale, in any order. Adds the file to `files` if that is given. Throws Error (input), one line
+// `FILE:LINE: ...`, for unknown, missing or double columns, empty cells, numbers out of range and plants that occur twice.
+[[nodiscard]] std::vector<PlantPosition> read_plant_positions(const std::filesystem::path& file,
+                                                              HeightColumn height = HeightColumn::y,
+                                                              SourceFiles* files = nullptr);
 
 }  // namespace sunfleck

@@ -12,6 +12,7 @@
 #include "files/formats/mesh/opf_reader.h"
 #include "files/formats/mesh/ply_reader.h"
 #include "files/formats/mesh/stl_reader.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -75,8 +76,10 @@ FileMesh read_format(const MeshSource& source, MeshFormat format) {
 }
 
 // Converts to the scene's axes and metres. Elements are stored in single precision, so coordinates must be finite in that.
-void place(const std::string& where, Mesh& mesh, UpAxis up, double scale) {
+void place(const std::string& where, Mesh& mesh, UpAxis up, const MeshImport& import, double unit_m) {
+  const double scale = import.scale * unit_m;
   for (glm::dvec3& v : mesh.vertices) {
+    if (up == UpAxis::y) v = scene_direction_of_y_up(import.axes, v);
     if (up == UpAxis::z) v = {-v.y, v.z, -v.x};
     if (up == UpAxis::x) v = {-v.z, v.x, -v.y};
     v *= scale;
@@ -138,7 +141,7 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import, Sour
     Mesh& mesh = read.mesh;
     if (mesh.triangles.empty())
       refuse(source, 0, "no triangles found", "a mesh needs at least one", "check that surfaces were exported");
-    place(printable(file.string()), mesh, import.up.value_or(read.up), import.scale * read.unit_m);
+    place(printable(file.string()), mesh, import.up.value_or(read.up), import, read.unit_m);
     split_organs(mesh, import.split);
     return std::move(mesh);
   } catch (const std::bad_alloc&) {
@@ -158,7 +161,7 @@ Mesh import_mesh(Mesh mesh, const std::string& place_of_mesh, const MeshImport& 
   if (!mesh.labels.empty() && mesh.labels.size() != mesh.triangles.size())
     throw_input(fmt::format("{}: {} labels", place_of_mesh, mesh.labels.size()),
                 fmt::format("there are {} triangles", mesh.triangles.size()), "give one for each triangle, or none");
-  place(place_of_mesh, mesh, import.up.value_or(UpAxis::y), import.scale);
+  place(place_of_mesh, mesh, import.up.value_or(UpAxis::y), import, 1.0);
   split_organs(mesh, import.split);
   return mesh;
 }

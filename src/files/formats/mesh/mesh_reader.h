@@ -4,6 +4,7 @@
 #include "base/source_files.h"
 #include "files/formats/mesh/organ_split.h"
 #include "physics/canopy/mesh.h"
+#include "physics/canopy/plot.h"
 
 #include <filesystem>
 #include <optional>
@@ -19,10 +20,14 @@ struct MeshImport {
   double scale = 1.0;                 // > 0; the units of .dae and .opf files are applied besides
   bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
   OrganSplit split = OrganSplit::names;
+  Axes axes = Axes::south_up_west;  // of the user, which decide what x and z are in a file with y up
 };
 
-// Returns the triangles of the file in the scene's axes (a z-up file has x east, y north: X = -y, Y = z, Z = -x; an x-up
-// file has y east, z north: X = -z, Y = x, Z = -y), scaled, with polygons cut into fans. Every named object, group, node or solid of the file is an organ of plant 1, with its name and rank 0;
+// Returns the triangles of the file in the scene's axes, scaled, with polygons cut into fans. A z-up file has x east, y north:
+// X = -y, Y = z, Z = -x. An x-up file has y east, z north: X = -z, Y = x, Z = -y. A y-up file has x south, z west as the scene;
+// but with the user's axes east_north_up it has x east, z south, which is how glTF and Blender turn these axes: X = z, Y = y,
+// Z = -x.
+// Every named object, group, node or solid of the file is an organ of plant 1, with its name and rank 0;
 // names like plant1_leaf7, `.can` labels, glTF node extras {"plant", "organ", "rank"} and the ids of .opf give plant and rank too.
 // Objects of one name are one organ in OBJ, where a name may recur; in other formats, the second becomes `NAME 2`. Where nothing
 // is named, and in a file of a single named object with several materials, organs are named after their materials; a PLY file

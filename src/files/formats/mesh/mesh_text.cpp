@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "files/formats/mesh/caribu_label.h"
 #include "files/formats/mesh/organ_name.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -45,11 +46,14 @@ bool survives_label(const std::string& optics) {
 
 }  // namespace
 
-std::string obj_text(const Mesh& mesh) {
+std::string obj_text(const Mesh& mesh, Axes axes) {
   check_arrays(mesh);
-  std::string text = "# sunfleck: X south, Y up, Z west; m\n";
+  std::string text = fmt::format("# sunfleck: {}; m\n", axes_text(axes));
   const auto end = std::back_inserter(text);
-  for (const glm::dvec3& v : mesh.vertices) fmt::format_to(end, "v {} {} {}\n", v.x, v.y, v.z);
+  for (const glm::dvec3& vertex_m : mesh.vertices) {
+    const glm::dvec3 v = user_direction(axes, vertex_m);
+    fmt::format_to(end, "v {} {} {}\n", v.x, v.y, v.z);
+  }
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t organ = none, optics = none;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -63,9 +67,9 @@ std::string obj_text(const Mesh& mesh) {
   return text;
 }
 
-std::string ply_mesh_bytes(const Mesh& mesh) {
+std::string ply_mesh_bytes(const Mesh& mesh, Axes axes) {
   check_arrays(mesh);
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment sunfleck: X south, Y up, Z west; m\n";
+  std::string bytes = fmt::format("ply\nformat binary_little_endian 1.0\ncomment sunfleck: {}; m\n", axes_text(axes));
   for (std::size_t i = 0; i < mesh.organs.size(); ++i)
     bytes += fmt::format("comment organ {} {}\n", i, node_name(mesh.organs[i]));
   for (std::size_t i = 0; i < mesh.optics_names.size(); ++i)
@@ -75,7 +79,10 @@ std::string ply_mesh_bytes(const Mesh& mesh) {
       "element face {}\nproperty list uchar int vertex_indices\nproperty uint plant\nproperty int rank\nproperty uint organ\n"
       "property uint optics\nend_header\n",
       mesh.triangles.size());
-  for (const glm::dvec3& v : mesh.vertices) append_bytes(bytes, std::array{v.x, v.y, v.z});
+  for (const glm::dvec3& vertex_m : mesh.vertices) {
+    const glm::dvec3 v = user_direction(axes, vertex_m);
+    append_bytes(bytes, std::array{v.x, v.y, v.z});
+  }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const glm::uvec3& corners = mesh.triangles[t];
     const Organ& organ = mesh.organs[mesh.organ_of[t]];

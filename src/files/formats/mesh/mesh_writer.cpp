@@ -7,6 +7,7 @@
 #include "files/formats/mesh/gltf_parts.h"
 #include "files/formats/mesh/mesh_text.h"
 #include "files/formats/mesh/organ_name.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,7 @@ using Groups = std::map<std::uint32_t, std::vector<std::size_t>>;
 
 class GltfWriter {
  public:
-  explicit GltfWriter(const Mesh& mesh) : mesh_(mesh), new_number_(mesh.vertices.size(), unused) {
+  GltfWriter(const Mesh& mesh, Axes axes) : mesh_(mesh), axes_(axes), new_number_(mesh.vertices.size(), unused) {
     model_.asset.version = "2.0";
     model_.asset.generator = "sunfleck";
     model_.buffers.emplace_back();
@@ -101,13 +102,14 @@ class GltfWriter {
   int add_corners(const std::vector<std::uint32_t>& vertices) {
     std::vector<std::array<float, 3>> positions;
     for (const std::uint32_t vertex : vertices) {
-      const glm::vec3 position(mesh_.vertices[vertex]);
+      const glm::vec3 position(y_up_direction(axes_, mesh_.vertices[vertex]));
       positions.push_back({position.x, position.y, position.z});
     }
     return add_positions(model_, positions);
   }
 
   const Mesh& mesh_;
+  const Axes axes_;
   std::vector<std::uint32_t> new_number_;  // [mesh vertex], number within the current organ
   tinygltf::Model model_;
 };
@@ -124,23 +126,23 @@ bool is_writable_mesh(const std::filesystem::path& file) {
   return ending == ".glb" || ending == ".gltf" || ending == ".obj" || ending == ".ply" || ending == ".can";
 }
 
-void write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
+void write_mesh(const Mesh& mesh, const std::filesystem::path& file, Axes axes) {
   const std::string ending = ending_of(file);
   if (!is_writable_mesh(file))
     throw_input(fmt::format("{}: unknown kind of mesh", printable(file.string())),
                 fmt::format("its name ends in '{}'", printable(ending)),
                 fmt::format("use a name that ends in {}", writable_meshes));
   if (ending == ".obj")
-    write_file(file, obj_text(mesh));
+    write_file(file, obj_text(mesh, axes));
   else if (ending == ".ply")
-    write_file(file, ply_mesh_bytes(mesh));
+    write_file(file, ply_mesh_bytes(mesh, axes));
   else if (ending == ".can")
     write_file(file, can_text(mesh));
   else
-    write_gltf(mesh, file);
+    write_gltf(mesh, file, axes);
 }
 
-void write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
+void write_gltf(const Mesh& mesh, const std::filesystem::path& file, Axes axes) {
   const std::string ending = ending_of(file);
   const std::string name = printable(file.string());
   if (ending != ".glb" && ending != ".gltf")
@@ -148,7 +150,7 @@ void write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
                 "use a name that ends in .glb or .gltf");
   EXPECT(mesh.optics_of.size(), ==, mesh.triangles.size());
   EXPECT(mesh.organ_of.size(), ==, mesh.triangles.size());
-  const tinygltf::Model model = GltfWriter(mesh).take();
+  const tinygltf::Model model = GltfWriter(mesh, axes).take();
   write_file(file, gltf_bytes(model, ending == ".glb" ? GltfForm::binary : GltfForm::text, name));
 }
 

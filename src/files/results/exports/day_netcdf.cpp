@@ -70,7 +70,7 @@ class DayWriter {
   }
 
   void add_triangles() {
-    const ElementFields places = make_element_places(day_.model.canopy);
+    const ElementFields places = make_element_places(day_.model);
     for (const Column& column : triangles_table(places).columns) {
       if (!column.is_in(in_netcdf) || column.name == "optics") continue;
       file_.add(column, {triangle_});

@@ -5,6 +5,7 @@
 #include "files/formats/mesh/gltf_parts.h"
 #include "files/formats/mesh/organ_name.h"
 #include "files/results/exports/record_entries.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,8 @@ std::string attribute_of(const std::string& band, std::string_view ending) {
   return name;
 }
 
-// Builds a root node with the record, at the canopy's origin, with one child per organ and one primitive per optics name.
+// Builds a root node with the record, at the canopy's origin, with one child per organ and one primitive per optics name. In
+// the user's axes east_north_up, the frame is x east, y up, z south from the south-west corner, because glTF has y up.
 class CanopyWriter {
  public:
   explicit CanopyWriter(const ExportData& data) : data_(data) {
@@ -67,6 +69,7 @@ class CanopyWriter {
     using tinygltf::Value;
     Value::Object extras;
     for (const RecordEntry& entry : record_entries(data_.record, data_.model)) extras[entry.key] = Value(entry.value);
+    if (axes() == Axes::east_north_up) extras["axes"] = Value(std::string("x east, y up, z south; m"));
     Value::Object units{{"_AREA_M2", Value(std::string("m2"))}};
     for (std::size_t b = 0; b < data_.fields.light.size(); ++b) {
       for (const LightValues& column : data_.fields.light[b]) {
@@ -78,7 +81,9 @@ class CanopyWriter {
     tinygltf::Node root;
     root.name = "canopy";
     root.extras = Value(std::move(extras));
-    const glm::dvec3& origin = data_.model.canopy.origin_m;
+    const Plot& plot = data_.model.plot;
+    const glm::dvec3 from_user_m = scene_direction(plot.axes, user_position_m(plot, data_.model.canopy.origin_m));
+    const glm::dvec3 origin = y_up_direction(plot.axes, from_user_m);
     if (origin != glm::dvec3(0.0)) root.translation = {origin.x, origin.y, origin.z};
     model_.nodes.push_back(std::move(root));
   }
@@ -99,7 +104,10 @@ class CanopyWriter {
     shape.material = optics;
     std::vector<std::array<float, 3>> positions;
     for (const std::size_t e : elements) {
-      for (const glm::vec3& corner : data_.model.canopy.corners[e]) positions.push_back({corner.x, corner.y, corner.z});
+      for (const glm::vec3& corner : data_.model.canopy.corners[e]) {
+        const glm::vec3 position(y_up_direction(axes(), corner));
+        positions.push_back({position.x, position.y, position.z});
+      }
     }
     shape.attributes["POSITION"] = add_positions(model_, positions);
     if (!data_.colours.empty()) shape.attributes["COLOR_0"] = add_colours(elements);
@@ -142,6 +150,8 @@ class CanopyWriter {
     accessor.normalized = true;
     return add_piece<std::array<std::uint16_t, 4>>(model_, colours, TINYGLTF_TARGET_ARRAY_BUFFER, accessor);
   }
+
+  [[nodiscard]] Axes axes() const { return data_.model.plot.axes; }
 
   const ExportData& data_;
   tinygltf::Model model_;

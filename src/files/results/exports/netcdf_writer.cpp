@@ -3,10 +3,9 @@
 #include "base/file.h"
 #include "files/results/exports/record_entries.h"
 #include "files/results/tables/result_tables.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
-
-#include <array>
 
 namespace sunfleck {
 namespace {
@@ -65,15 +64,13 @@ class ResultsWriter {
   }
 
   void add_corners(int axis) {
-    constexpr std::array directions = {"towards the south", "up", "towards the west"};
     std::vector<double> corners;
     for (std::size_t e = 0; e < data_.fields.size(); ++e) {
-      for (std::size_t k = 0; k < 3; ++k) corners.push_back(corner_m(data_.model.canopy, e, k)[axis]);
+      for (std::size_t k = 0; k < 3; ++k) corners.push_back(corner_m(data_.model, e, k)[axis]);
     }
-    file_.add(
-        fmt::format("corner_{}", "xyz"[axis]), {triangle_, vertex_}, "m",
-        fmt::format("corners, counter-clockwise seen from the upper face, {}", directions[static_cast<std::size_t>(axis)]),
-        corners);
+    file_.add(fmt::format("corner_{}", "xyz"[axis]), {triangle_, vertex_}, "m",
+              fmt::format("corners, counter-clockwise seen from the upper face, {}", axis_heading(data_.model.plot.axes, axis)),
+              corners);
   }
 
   void add_triangles() {

@@ -53,8 +53,8 @@ std::string header_of(const ExportData& data, const std::vector<Column>& columns
 }
 
 void append_corner(std::string& bytes, const ExportData& data, std::size_t element, std::size_t corner) {
-  const glm::dvec3 position = corner_m(data.model.canopy, element, corner);
-  if (corners_fit_float(data.model.canopy)) {
+  const glm::dvec3 position = corner_m(data.model, element, corner);
+  if (corners_fit_float(data.model)) {
     append_bytes(bytes, glm::vec3(position));
   } else {
     append_bytes(bytes, position);
@@ -86,7 +86,7 @@ std::string ply_bytes(const ExportData& data) {
                   fmt::format("its vertex numbers suffice for at most {}", most_triangles), "export vtp or nc");
   }
   const std::vector<Column> columns = columns_of(data.fields);
-  std::string bytes = header_of(data, columns, corners_fit_float(data.model.canopy) ? "float" : "double");
+  std::string bytes = header_of(data, columns, corners_fit_float(data.model) ? "float" : "double");
   std::string values;
   for (std::size_t e = 0; e < count; ++e) {
     values.clear();

@@ -68,7 +68,7 @@ class VtpWriter {
         3 * count, count);
     add_cells();
     xml_ += "<Points>\n";
-    if (corners_fit_float(data_.model.canopy)) {
+    if (corners_fit_float(data_.model)) {
       add_array<float>("corners", "m", 3, points<float>());
     } else {
       add_array<double>("corners", "m", 3, points<double>());
@@ -137,7 +137,7 @@ class VtpWriter {
     values.reserve(9 * data_.fields.size());
     for (std::size_t e = 0; e < data_.fields.size(); ++e) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec3 corner = corner_m(data_.model.canopy, e, k);
+        const glm::dvec3 corner = corner_m(data_.model, e, k);
         for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<T>(corner[axis]));
       }
     }

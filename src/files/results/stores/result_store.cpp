@@ -112,6 +112,10 @@ void visit_model(const Archive& archive, Model& model) {
   archive["plot"]["size_x_m"].value(model.plot.size_x_m, least_m, farthest_stored_m);
   archive["plot"]["size_z_m"].value(model.plot.size_z_m, least_m, farthest_stored_m);
   archive["plot"]["periodic"].value(model.plot.periodic);
+  auto axes = static_cast<int>(model.plot.axes);
+  if (Archive::reads || axes != 0) archive["plot"].recent_value("axes", axes);
+  require(axes == 0 || axes == 1, "axes");
+  if constexpr (Archive::reads) model.plot.axes = static_cast<Axes>(axes);
   archive["layers"].value(model.layers, 1, most_layers);
   archive["sun"].part(model.sun, [](const auto& to, auto& sun) {
     to["elevation_rad"].value(sun.elevation_rad, -most_rad, most_rad);

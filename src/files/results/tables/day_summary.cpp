@@ -1,6 +1,7 @@
 #include "files/results/tables/day_summary.h"
 
 #include "files/results/tables/summary_parts.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -78,6 +79,7 @@ std::string day_summary_json(const DaySummary& day) {
       {"triangles", day.model.canopy.size()},
       {"organs", day.model.canopy.organs.size()},
       {"plants", plant_count(day.model.canopy)},
+      {"axes", axes_name(day.model.plot.axes)},
       {"plot_area_m2", day.model.plot.area_m2()},
       {"area_by_role_m2", area_by_role_json(day.model)},
       {"leaf_area_index", leaf_area_index(day.model)},

@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "files/results/tables/irradiance.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -75,8 +76,10 @@ const char* meaning(LightColumn column) {
   return label_of(column).meaning;
 }
 
-ElementFields make_element_places(const Canopy& canopy) {
+ElementFields make_element_places(const RadiationModel& model) {
+  const Canopy& canopy = model.canopy;
   ElementFields fields;
+  fields.axes = model.plot.axes;
   std::map<std::string, std::int32_t> kind_of_name;
   std::vector<std::int32_t> kind_of_organ;  // [organ]
   for (const Organ& organ : canopy.organs) {
@@ -94,16 +97,15 @@ ElementFields make_element_places(const Canopy& canopy) {
     const Triangle& corners = canopy.corners[e];
     fields.area_m2.push_back(area_m2(corners));
     const glm::dvec3 sum = glm::dvec3(corners[0]) + glm::dvec3(corners[1]) + glm::dvec3(corners[2]);
-    for (int axis = 0; axis < 3; ++axis) {
-      fields.centroid_m[static_cast<std::size_t>(axis)].push_back(sum[axis] / 3.0 + canopy.origin_m[axis]);
-    }
+    const glm::dvec3 centroid_m = user_position_m(model.plot, sum / 3.0 + canopy.origin_m);
+    for (int axis = 0; axis < 3; ++axis) fields.centroid_m[static_cast<std::size_t>(axis)].push_back(centroid_m[axis]);
   }
   return fields;
 }
 
 ElementFields make_element_fields(const RadiationModel& model, const RadiationResult& result) {
   EXPECT(result.elements.size(), ==, model.canopy.size());
-  ElementFields fields = make_element_places(model.canopy);
+  ElementFields fields = make_element_places(model);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     std::vector<LightValues>& columns = fields.light.emplace_back();
     for (const LightColumn column : columns_of(result)) {
@@ -124,9 +126,10 @@ ElementFields make_element_fields(const RadiationModel& model, const RadiationRe
 Table triangles_table(const ElementFields& fields) {
   constexpr unsigned all = in_csv | in_arrays | in_netcdf | in_meshes;
   Table table{"Triangles, in the order of the files",
-              "area_m2: m2, one-sided; x, y, z: m, centroid after wrapping (X south, Y up, Z west); direct, sky (unscattered, "
-              "a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: half-width of "
-              "the confidence interval of absorbed, empty below 20 hits",
+              fmt::format("area_m2: m2, one-sided; x, y, z: m, centroid after wrapping ({}); direct, sky (unscattered, "
+                          "a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: "
+                          "half-width of the confidence interval of absorbed, empty below 20 hits",
+                          axes_text(fields.axes)),
               {},
               {fields.size()},
               {}};
@@ -140,9 +143,10 @@ Table triangles_table(const ElementFields& fields) {
   table.add_view({"organ", "1", "kind of organ", all, {}, fields.organ_names}, fields.organ);
   table.add_view({"optics", "1", "optics of the surface", all & ~in_csv, {}, fields.optics_names}, fields.optics);
   table.add_view({"area_m2", "m2", "one-sided area", all}, fields.area_m2);
-  table.add_view({"x", "m", "centroid, towards the south", all & ~in_meshes}, fields.centroid_m[0]);
-  table.add_view({"y", "m", "centroid, up", all & ~in_meshes}, fields.centroid_m[1]);
-  table.add_view({"z", "m", "centroid, towards the west", all & ~in_meshes}, fields.centroid_m[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    table.add_view({std::string(1, "xyz"[axis]), "m", "centroid, " + axis_heading(fields.axes, axis), all & ~in_meshes},
+                   fields.centroid_m[static_cast<std::size_t>(axis)]);
+  }
   for (const std::vector<LightValues>& band : fields.light) {
     for (const LightValues& light : band) {
       Column column{light.name, light_units, meaning(light.column), all};
@@ -154,12 +158,12 @@ Table triangles_table(const ElementFields& fields) {
   return table;
 }
 
-glm::dvec3 corner_m(const Canopy& canopy, std::size_t element, std::size_t corner) {
-  return glm::dvec3(canopy.corners[element][corner]) + canopy.origin_m;
+glm::dvec3 corner_m(const RadiationModel& model, std::size_t element, std::size_t corner) {
+  return user_position_m(model.plot, glm::dvec3(model.canopy.corners[element][corner]) + model.canopy.origin_m);
 }
 
-bool corners_fit_float(const Canopy& canopy) {
-  return canopy.origin_m == glm::dvec3(0.0);
+bool corners_fit_float(const RadiationModel& model) {
+  return model.plot.axes == Axes::south_up_west && model.canopy.origin_m == glm::dvec3(0.0);
 }
 
 }  // namespace sunfleck

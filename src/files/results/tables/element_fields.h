@@ -45,16 +45,17 @@ struct ElementFields {
   std::vector<std::int32_t> organ;                // [element], index into organ_names
   std::vector<std::int32_t> optics;               // [element], index into optics_names
   std::vector<double> area_m2;                    // [element], one-sided
-  std::array<std::vector<double>, 3> centroid_m;  // [axis][element], in the scene's frame after wrapping
+  std::array<std::vector<double>, 3> centroid_m;  // [axis][element], in the user's axes, after wrapping
   std::vector<std::string> organ_names;           // distinct names: leaf, stem, ...
   std::vector<std::string> optics_names;          // same as in the canopy
   std::vector<std::vector<LightValues>> light;    // [band][column]; there are no sky columns without a sky
+  Axes axes = Axes::south_up_west;                // of the user
 
   [[nodiscard]] std::size_t size() const { return area_m2.size(); }
 };
 
 [[nodiscard]] ElementFields make_element_fields(const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] ElementFields make_element_places(const Canopy& canopy);  // leaves `light` empty
+[[nodiscard]] ElementFields make_element_places(const RadiationModel& model);  // leaves `light` empty
 
 // Returns the columns of the triangles, which are views of `fields`. The columns in_csv are those of triangles.csv.
 [[nodiscard]] Table triangles_table(const ElementFields& fields);
@@ -62,8 +63,9 @@ struct ElementFields {
   return column.unit == light_units;
 }
 
-// Returns a corner of an element in the scene's frame. Single precision holds it exactly if the canopy has no separate origin.
-[[nodiscard]] glm::dvec3 corner_m(const Canopy& canopy, std::size_t element, std::size_t corner);
-[[nodiscard]] bool corners_fit_float(const Canopy& canopy);
+// Returns a corner of an element in the user's axes. Single precision holds it exactly in the scene's own axes if the canopy
+// has no separate origin.
+[[nodiscard]] glm::dvec3 corner_m(const RadiationModel& model, std::size_t element, std::size_t corner);
+[[nodiscard]] bool corners_fit_float(const RadiationModel& model);
 
 }  // namespace sunfleck

@@ -21,7 +21,7 @@ struct PlaneIrradiance {
 // Returns the share of each cell that the direct beam reaches, [cell]; NaN for cells that no ray would cross.
 [[nodiscard]] std::vector<double> plane_sunfleck(const PlaneResult& plane);
 
-// Returns the table of PLANE.csv: one row per cell, x fastest.
+// Returns the table of PLANE.csv: one row per cell, x fastest, in the user's axes.
 [[nodiscard]] Table plane_table(const RadiationModel& model, const RadiationResult& result, std::size_t plane);
 [[nodiscard]] std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                     std::size_t plane);

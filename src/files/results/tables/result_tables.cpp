@@ -2,12 +2,25 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "physics/canopy/axes.h"
 #include "physics/transport/model/surfaces.h"
+
+#include <fmt/format.h>
 
 namespace sunfleck {
 namespace {
 
 constexpr unsigned everywhere_but_meshes = in_csv | in_arrays | in_netcdf;
+
+// Adds the columns x, y and z of positions, given in the scene's coordinates.
+template <class PositionOf>
+void add_positions(Table& table, const Plot& plot, const PositionOf& position_of) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string meaning = axis == up_axis(plot.axes) ? "position upwards" : "position " + axis_heading(plot.axes, axis);
+    table.add({std::string(1, "xyz"[axis]), "m", meaning},
+              [&](std::size_t i) { return user_position_m(plot, position_of(i))[axis]; });
+  }
+}
 
 // Returns the table of the sensors first ... end - 1.
 Table table_of_sensors(const RadiationModel& model, const RadiationResult& result, std::size_t first, std::size_t end) {
@@ -24,17 +37,15 @@ Table table_of_sensors(const RadiationModel& model, const RadiationResult& resul
     for (std::uint32_t p = 0; p < sensor.points_m.size(); ++p) rows.push_back({sensor, p, result.sensors[s][p]});
   }
   Table table{"Sensors, point by point",
-              "x, y, z: m (X south, Y up, Z west); direct, sky, scattered: W m-2, on a plane (cosine response) or on a "
-              "sphere's cross-section (spherical); _error: half-width of the confidence interval",
+              fmt::format("x, y, z: m ({}); direct, sky, scattered: W m-2, on a plane (cosine response) or on a "
+                          "sphere's cross-section (spherical); _error: half-width of the confidence interval",
+                          axes_text(model.plot.axes)),
               {},
               {rows.size()},
               {}};
-  const auto position = [&](std::size_t i) { return rows[i].sensor.points_m[rows[i].point]; };
   table.add({"sensor", "", "name of the sensor", in_csv}, [&](std::size_t i) { return rows[i].sensor.name; });
   table.add({"point", "1", "number of the point in its sensor, from 0", in_csv}, [&](std::size_t i) { return rows[i].point; });
-  table.add({"x", "m", "position towards the south"}, [&](std::size_t i) { return position(i).x; });
-  table.add({"y", "m", "position upwards"}, [&](std::size_t i) { return position(i).y; });
-  table.add({"z", "m", "position towards the west"}, [&](std::size_t i) { return position(i).z; });
+  add_positions(table, model.plot, [&](std::size_t i) { return rows[i].sensor.points_m[rows[i].point]; });
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const std::string& band = model.bands[b].name;
     table.add({band + "_direct", "W m-2", "reading of the sun's beam"},
@@ -102,16 +113,16 @@ Table plants_table(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<PlantResult>& plants = result.plants;
   Table table{
       "Plants: their leaves, stems and fruits together",
-      "x, y, z: m (X south, Y up, Z west), where the plant was placed, or below the centroid of a plant whose mesh holds "
-      "several; height_m: m, from its lowest to its highest point; leaf_area_m2: m2, one-sided; incident, absorbed: W, "
-      "of the whole plant; absorbed_umol_s: the same in photons, umol s-1; _error: half-width of the confidence interval",
+      fmt::format(
+          "x, y, z: m ({}), where the plant was placed, or below the centroid of a plant whose mesh holds several; height_m: "
+          "m, from its lowest to its highest point; leaf_area_m2: m2, one-sided; incident, absorbed: W, of the whole plant; "
+          "absorbed_umol_s: the same in photons, umol s-1; _error: half-width of the confidence interval",
+          axes_text(model.plot.axes)),
       {},
       {plants.size()},
       {}};
   table.add({"plant", "1", "number of the plant"}, [&](std::size_t p) { return plants[p].plant; });
-  table.add({"x", "m", "position towards the south"}, [&](std::size_t p) { return plants[p].position_m.x; });
-  table.add({"y", "m", "position upwards"}, [&](std::size_t p) { return plants[p].position_m.y; });
-  table.add({"z", "m", "position towards the west"}, [&](std::size_t p) { return plants[p].position_m.z; });
+  add_positions(table, model.plot, [&](std::size_t p) { return plants[p].position_m; });
   table.add({"height_m", "m", "height from its lowest to its highest point"},
             [&](std::size_t p) { return plants[p].height_m; });
   table.add({"leaf_area_m2", "m2", "one-sided area of its leaves"}, [&](std::size_t p) { return plants[p].leaf_area_m2; });

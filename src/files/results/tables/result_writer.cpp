@@ -6,6 +6,7 @@
 #include "files/results/tables/summary_parts.h"
 #include "files/results/tables/table_text.h"
 #include "files/results/tables/work_settings.h"
+#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -151,6 +152,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"instances", {{"meshes", model.canopy.corners.meshes().size()}, {"copies", model.canopy.corners.copies().size()}}},
       {"organs", model.canopy.organs.size()},
       {"plants", plant_count(model.canopy)},
+      {"axes", axes_name(model.plot.axes)},
       {"plot_area_m2", model.plot.area_m2()},
       {"area_by_role_m2", area_by_role_json(model)},
       {"leaf_area_index", result.leaf_area_index},

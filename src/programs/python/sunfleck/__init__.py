@@ -7,9 +7,9 @@
     result["PAR_absorbed"]                       # W m-2, one number per triangle
 
 The module uses the engine of the program `sunfleck`: same scene files, same options, same numbers, bit for bit. Axes are X
-south, Y up, Z west; lengths are in metres, fluxes in W m-2, angles in degrees. `Simulation` keeps the tree and the device for
-scenes that are simulated again under other light; `day` simulates one or more days; `sun_position` and `sky` need no canopy;
-`sunfleck.caribu` offers CARIBU's interface.
+south, Y up, Z west, or x east, y north, z up in scenes with axes = "east-north-up"; lengths are in metres, fluxes in W m-2,
+angles in degrees. `Simulation` keeps the tree and the device for scenes that are simulated again under other light; `day`
+simulates one or more days; `sun_position` and `sky` need no canopy; `sunfleck.caribu` offers CARIBU's interface.
 """
 
 from ._core import commit as __commit__

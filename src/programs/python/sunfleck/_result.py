@@ -22,8 +22,9 @@ class Result:
     """The results of one simulation. BAND stands for the name of a band, such as PAR.
 
     Fluxes are in W m-2, or in the band's own unit of irradiance; errors are half-widths of confidence intervals that include
-    the unshot flux, NaN if there are too few hits. Axes: X south, Y up, Z west, metres. Arrays are computed on first access;
-    those of the triangles are read-only views of memory that the result owns.
+    the unshot flux, NaN if there are too few hits. Coordinates are in metres in the scene's own axes: X south, Y up, Z west, or
+    x east, y north, z up with axes = "east-north-up". Arrays are computed on first access; those of the triangles are read-only
+    views of memory that the result owns.
     """
 
     def __init__(self, outcome: Any) -> None:
@@ -88,7 +89,8 @@ class Result:
     @functools.cached_property
     def planes(self) -> list[dict[str, Any]]:
         """One dict per [[plane]]: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its _error, and maps of shape
-        (cells along Z, cells along X): sunfleck, BAND_direct, BAND_total (W m-2 downwards)."""
+        (cells along Z, cells along X): sunfleck, BAND_direct, BAND_total (W m-2 downwards). With the axes x east, y north, z up
+        there is y_m instead of z_m, and the maps have the shape (cells along y, cells along x)."""
         return self._outcome.planes()
 
     @functools.cached_property
@@ -99,7 +101,7 @@ class Result:
 
     @functools.cached_property
     def corners(self) -> np.ndarray:
-        """The corners of the triangles, m, shape (triangles, 3 corners, 3 axes), as traced: wrapped into the plot."""
+        """The corners of the triangles, m, shape (triangles, 3 corners, 3 axes of the scene), as traced: wrapped into the plot."""
         return self._outcome.corners()
 
     def describe(self, table: str) -> dict[str, tuple[str, str]]:
@@ -133,7 +135,7 @@ class Result:
             described = self._outcome.describe(table).items()
             return {name: (dimension, columns[name], {"units": unit}) for name, (unit, _, stored) in described if stored}
 
-        data = xarray.Dataset(attrs={"title": self.summary["scene"], "seed": self.summary["seed"]})
+        data = xarray.Dataset(attrs={"title": self.summary["scene"], "seed": self.summary["seed"], "axes": self.summary["axes"]})
         data = data.assign(variables("triangles.csv", "triangle", self.triangles))
         for kind in ("organ", "optics"):
             words = self.triangles[f"{kind}_name"]

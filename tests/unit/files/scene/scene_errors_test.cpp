@@ -30,6 +30,8 @@ const std::vector<Breakage> breakages = {
     {"PlotMissing", "[plot]\nsize     = [2.0, 3]\nperiodic = false\n", "", "title", "plot", "add [plot]"},
     {"PlotTwice", "[sun]", "[plot]\nsize = [1, 1]\n[sun]", "[plot]\nsize = [1, 1]", "plot", "keep one"},
     {"PlotAsList", "[plot]", "[[plot]]", "[[plot]]", "plot", "write [plot]"},
+    {"AxesMisspelt", "title ", "axes = \"east-north-op\"\ntitle ", "east-north-op", "axes", "did you mean east-north-up?"},
+    {"AxesUnknown", "title ", "axes = \"z-up\"\ntitle ", "z-up", "axes", "south-up-west, east-north-up"},
     {"PlotEmpty", "[2.0, 3]", "[0.0, 3]", "[0.0, 3]", "plot.size", "give metres"},
     {"PlotNegative", "[2.0, 3]", "[2.0, -3]", "-3]", "plot.size, item 2", "-3"},
     {"PlotHuge", "[2.0, 3]", "[2.0, 1e30]", "1e30", "plot.size", "1000000"},

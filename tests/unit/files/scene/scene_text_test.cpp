@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <limits>
 
 namespace sunfleck::test {
@@ -34,6 +35,24 @@ TEST(SceneText, HoldsAMesh) {
   EXPECT_EQ(scene.model.canopy.organs.front(), (Organ{3, "leaf", 7}));
   EXPECT_EQ(scene.title, "given");
   EXPECT_NEAR(area_m2(scene.model.canopy.corners.front()), 0.18, 1e-6);
+}
+
+TEST(SceneText, TurnsAMeshToTheAxesOfTheScene) {
+  const std::string text = "axes = \"east-north-up\"\n" + text_head + "[[geometry]]\nmesh = \"a\"\n";
+  const auto first_corner = [&](const std::string& more) {
+    const Scene scene = read_scene(SceneText{"given.toml", text + more, {{"a", leaf()}}});
+    return scene.model.canopy.corners.front()[0];
+  };
+  // (0.2, 0.5, 0.2) is 0.2 m east and 0.5 m north of the south-west corner, at a height of 0.2 m.
+  EXPECT_NEAR(glm::distance(first_corner(""), glm::vec3(0.5F, 0.2F, 0.8F)), 0.0F, 1e-6F);
+  EXPECT_EQ(first_corner("up = \"z\"\n"), first_corner(""));
+  EXPECT_NEAR(glm::distance(first_corner("up = \"y\"\nat = [[0, 0.5, 0]]\n"), glm::vec3(0.7F, 0.5F, 0.8F)), 0.0F, 1e-6F);
+}
+
+TEST(SceneText, KeepsItsAxesInNewLight) {
+  Scene scene = read(leaf());
+  const std::string message = refusal_of([&] { relight(scene, {"given.toml", "axes = \"east-north-up\"\n" + text_head, {}}); });
+  EXPECT_NE(message.find("axes differs from the scene"), std::string::npos) << message;
 }
 
 TEST(SceneText, PlacesAMeshLikeAFile) {

@@ -144,20 +144,29 @@ TEST(Fisheye, StaysUprightAndMovesOverTheGround) {
   EXPECT_NEAR(hand.camera.position_m.y, 0.4, 1e-12);
 }
 
+TEST(CameraToml, IsInTheAxesOfThePlot) {
+  HandCamera hand = hand_aslant();
+  hand.camera = look_at({3.0, 1.5, 3.5}, {0.75, 0.25, 1.0}, 0.7, 1.0);
+  hand.distance_m = glm::distance(hand.camera.position_m, {0.75, 0.25, 1.0});
+  const std::string toml = camera_toml(hand, {1.5, 2.25, true, Axes::east_north_up});
+  EXPECT_TRUE(toml.starts_with("[camera]\nposition = [-1.2500, -1.5000, 1.5000]\nlook_at = [1.2500, 0.7500, 0.2500]\n"))
+      << toml;
+}
+
 TEST(CameraToml, GivesTheSameCameraBack) {
   const HandCamera hand = hand_aslant();
   glm::dvec3 position(0);
   glm::dvec3 at(0);
   double fov = 0.0;
   ASSERT_EQ(
-      std::sscanf(camera_toml(hand).c_str(), "[camera]\nposition = [%lf, %lf, %lf]\nlook_at = [%lf, %lf, %lf]\nfov = %lf\n",
+      std::sscanf(camera_toml(hand, {}).c_str(), "[camera]\nposition = [%lf, %lf, %lf]\nlook_at = [%lf, %lf, %lf]\nfov = %lf\n",
                   &position.x, &position.y, &position.z, &at.x, &at.y, &at.z, &fov),
       7);
   const Camera again = look_at(position, at, fov * pi / 180.0, hand.camera.aspect);
   expect_same_point(again.position_m, hand.camera.position_m, 1e-4);
   expect_same_point(again.forward, hand.camera.forward, 1e-4);
   EXPECT_NEAR(again.tan_half_fov, hand.camera.tan_half_fov, 1e-5);
-  EXPECT_EQ(camera_toml(in_hand(top_view({0, 0, 0}, {1, 1, 1}, 1.0), {0, 0, 0})), "") << "a scene's camera is a pinhole";
+  EXPECT_EQ(camera_toml(in_hand(top_view({0, 0, 0}, {1, 1, 1}, 1.0), {0, 0, 0}), {}), "") << "a scene's camera is a pinhole";
 }
 
 }  // namespace

@@ -54,6 +54,28 @@ TEST(FillRectangle, IsCutOffAtThePicturesEdges) {
   EXPECT_EQ(image.pixels, std::vector<Pixel>(200, red));
 }
 
+TEST(FillTriangle, CoversPixelsByTheDistanceOfTheirMiddleFromTheEdges) {
+  for (const FlatTriangle& corners :
+       {FlatTriangle{{{2.0, 2.0}, {12.0, 2.0}, {2.0, 9.0}}}, {{{2.0, 2.0}, {2.0, 9.0}, {12.0, 2.0}}}}) {
+    Image image = white_image(20, 10);
+    fill_triangle(image, corners, {from_srgb(red)});
+    EXPECT_EQ(pixel_at(image, 3, 3), red);
+    EXPECT_EQ(pixel_at(image, 1, 3), white_pixel);
+    EXPECT_EQ(pixel_at(image, 11, 8), white_pixel);
+    EXPECT_EQ(triangle_coverage(corners, {5.0, 2.0}), 0.5);
+  }
+}
+
+TEST(DrawFlatLine, HasItsWidthAndRoundEnds) {
+  Image image = white_image(20, 10);
+  draw_flat_line(image, {4.0, 5.0}, {14.0, 5.0}, 4.0, {from_srgb(red)});
+  EXPECT_EQ(pixel_at(image, 8, 3), red);
+  EXPECT_EQ(pixel_at(image, 8, 6), red);
+  EXPECT_EQ(pixel_at(image, 8, 2), white_pixel);
+  EXPECT_EQ(pixel_at(image, 3, 5), red) << "the round end";
+  EXPECT_EQ(pixel_at(image, 1, 3), white_pixel) << "beside it";
+}
+
 TEST(OutlineRectangle, LeavesTheMiddleAlone) {
   Image image = white_image(20, 10);
   outline_rectangle(image, {{2.0, 2.0}, {12.0, 8.0}}, {}, 1.0, {from_srgb(red)});

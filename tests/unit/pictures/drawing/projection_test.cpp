@@ -124,6 +124,30 @@ TEST(OrthographicViews, ShowTheWholeBoxAndItsAxesWithAMargin) {
   }
 }
 
+// The axes of the user begin at the south-west corner.
+TEST(Views, ShowTheAxesOfTheUser) {
+  constexpr Axes axes = Axes::east_north_up;
+  for (const test::ViewedBox& box : projection_boxes) {
+    const glm::dvec3 extent_m = box.hi_m - box.lo_m;
+    const double overhang_m = axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
+    const glm::dvec3 tips_m[] = {{box.hi_m.x, box.lo_m.y, box.lo_m.z - overhang_m},
+                                 {box.lo_m.x - overhang_m, box.lo_m.y, box.hi_m.z},
+                                 {box.hi_m.x, box.hi_m.y + overhang_m, box.hi_m.z}};
+    for (const double aspect : aspects) {
+      for (const Camera& camera : {top_view(box.lo_m, box.hi_m, aspect, axes), side_view(box.lo_m, box.hi_m, aspect, axes),
+                                   three_quarter_view(box.lo_m, box.hi_m, aspect, axes)}) {
+        for (const glm::dvec3& tip_m : tips_m) {
+          const glm::dvec2 at = place(camera, tip_m);
+          EXPECT_GT(at.x, 0.025);
+          EXPECT_LT(at.x, 1.0 - 0.14);
+          EXPECT_GT(at.y, 0.149);
+          EXPECT_LT(at.y, 1.0 - 0.084);
+        }
+      }
+    }
+  }
+}
+
 // Returns the point of the hemisphere at this zenith angle and azimuth (clockwise from north), 2 m away.
 glm::dvec3 on_hemisphere(const Camera& camera, double zenith_rad, double azimuth_rad) {
   const glm::dvec3 direction(-std::sin(zenith_rad) * std::cos(azimuth_rad), std::cos(zenith_rad),

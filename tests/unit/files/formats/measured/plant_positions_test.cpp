@@ -13,8 +13,8 @@ namespace {
 
 class PlantPositions : public testing::Test {
  protected:
-  [[nodiscard]] std::vector<PlantPosition> read(const std::string& text) const {
-    return read_plant_positions(folder_.write("plants.csv", text));
+  [[nodiscard]] std::vector<PlantPosition> read(const std::string& text, HeightColumn height = HeightColumn::y) const {
+    return read_plant_positions(folder_.write("plants.csv", text), height);
   }
 
   TempFolder folder_;
@@ -32,6 +32,19 @@ TEST_F(PlantPositions, AreReadByTheNamesOfTheColumns) {
   EXPECT_EQ(got[1].x_m, 10.0);
   EXPECT_FALSE(read("x,z\n1,2\n")[0].plant);
   EXPECT_EQ(read("x,y,z,scale\n1,0.5,2,3\n")[0].y_m, 0.5);
+}
+
+TEST_F(PlantPositions, MayHaveTheHeightInZ) {
+  const auto got = read("plant,x,y\n1,2,3\n", HeightColumn::z);
+  EXPECT_EQ(got[0].x_m, 2.0);
+  EXPECT_EQ(got[0].y_m, 3.0);
+  EXPECT_EQ(got[0].z_m, 0.0);
+  EXPECT_EQ(read("x,y,z\n1,2,0.5\n", HeightColumn::z)[0].z_m, 0.5);
+  const std::string message = refusal_of([&] { static_cast<void>(read("plant,x,z\n1,2,3\n", HeightColumn::z)); });
+  expect_three_parts(message);
+  EXPECT_NE(message.find("no column y (plants need x (east) and y (north)); begin with a line such as plant,x,y,heading,scale"),
+            std::string::npos)
+      << message;
 }
 
 TEST_F(PlantPositions, RefuseWhatIsWrongByItsLine) {

@@ -5,6 +5,7 @@
 #include "files/formats/mesh/caribu_label.h"
 #include "files/results/exports/caribu_writer.h"
 #include "files/results/exports/record_entries.h"
+#include "physics/canopy/axes.h"
 #include "support/error_text.h"
 #include "support/export_models.h"
 #include "support/table.h"
@@ -81,10 +82,13 @@ TEST(ElementFields, SkyColumnsOnlyWithASky) {
 
 TEST(ElementFields, CornersStandInTheScenesFrame) {
   RadiationModel model = two_triangles();
-  EXPECT_FALSE(corners_fit_float(model.canopy));
-  EXPECT_EQ(corner_m(model.canopy, 1, 2), glm::dvec3(13.0, 2003.1, 30.0));
+  EXPECT_FALSE(corners_fit_float(model));
+  EXPECT_EQ(corner_m(model, 1, 2), glm::dvec3(13.0, 2003.1, 30.0));
   model.canopy.origin_m = {};
-  EXPECT_TRUE(corners_fit_float(model.canopy));
+  EXPECT_TRUE(corners_fit_float(model));
+  model.plot = {20.0, 40.0, false, Axes::east_north_up};
+  EXPECT_EQ(corner_m(model, 1, 2), user_position_m(model.plot, glm::dvec3(model.canopy.corners[1][2])));
+  EXPECT_FALSE(corners_fit_float(model)) << "differences from the plot's size need double precision";
 }
 
 TEST(Exports, NamesThereAndBack) {

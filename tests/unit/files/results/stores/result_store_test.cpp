@@ -153,6 +153,16 @@ TEST_F(ResultStore, DrawsFilesWithoutSkyRays) {
   expect_three_parts(*bad);
 }
 
+TEST_F(ResultStore, KeepsTheAxes) {
+  EXPECT_EQ(read_result_store(file_).scene.model.plot.axes, Axes::south_up_west);
+  EXPECT_FALSE(json::from_cbor(bytes_).at("model").at("plot").contains("axes"));
+  Scene scene = small_scene();
+  scene.model.plot.axes = Axes::east_north_up;
+  write_result_store(file_, {}, scene, small_result());
+  EXPECT_EQ(read_result_store(file_).scene.model.plot.axes, Axes::east_north_up);
+  expect_three_parts(refusal(changed([](json& store) { store["model"]["plot"]["axes"] = 2; })).value_or(""));
+}
+
 TEST_F(ResultStore, KeepsABareScene) {
   Scene scene;
   scene.model.bands = {{"PAR", 1.0, 0.0}};
