@@ -2,6 +2,7 @@
 // Reads mesh files: glTF and GLB, OBJ, PLY, STL, COLLADA, OPF, CARIBU .can and .can.gz. The file's name determines the format.
 
 #include "base/source_files.h"
+#include "files/formats/mesh/mesh_source.h"
 #include "files/formats/mesh/organ_split.h"
 #include "physics/canopy/mesh.h"
 
@@ -19,6 +20,7 @@ struct MeshImport {
   double scale = 1.0;                 // > 0; the units of .dae and .opf files are applied besides
   bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
   OrganSplit split = OrganSplit::names;
+  NamedParts* named = nullptr;  // receives what read_mesh counts, if given
 };
 
 // Returns the triangles of the file in the scene's axes (a z-up file has x east, y north: X = -y, Y = z, Z = -x; an x-up
