@@ -29,6 +29,10 @@ std::string sealed_as(std::string file, std::string_view bytes) {
 RadiationModel small_model() {
   RadiationModel model;
   model.canopy.corners = std::vector<Triangle>(3);
+  model.canopy.organ_of = {0, 0, 1};
+  model.canopy.optics_of = {0, 0, 0};
+  model.canopy.optics_names = {"leaf"};
+  model.canopy.plants = {{1, {0.5, 0.0, 0.5}}};
   model.canopy.organs.resize(2);
   model.bands.resize(2);
   model.sky = SkyModel{};
@@ -46,7 +50,10 @@ void feed_step(std::string_view bytes) {
   static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP2", bytes)));
   read_or_refuse([] {
     const auto step = store().read(7);
-    if (step) promise(step->light.bands.size() == 2 && step->light.organ_absorbed.size() == 4, "a step of this scene");
+    if (step)
+      promise(
+          step->light.bands.size() == 2 && step->light.organ_absorbed.size() == 4 && step->light.plant_absorbed_w.size() == 2,
+          "a step of this scene");
   });
 }
 

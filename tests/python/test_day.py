@@ -28,7 +28,7 @@ def test_tables_are_those_of_the_program(day_file, tmp_path, work, options):
     program("day", day_file, "-o", tmp_path / "out", *OPTIONS, *options)
     day = sunfleck.day(day_file, **HOURS, **work)
     files = files_of(tmp_path / "out")
-    for name in ("day.csv", "organs_day.csv"):
+    for name in ("day.csv", "organs_day.csv", "plants_day.csv"):
         assert day.table(name).encode() == files[name]
     with netCDF4.Dataset(tmp_path / "out" / "day.nc") as file:
         for name, values in day.triangles.items():
@@ -51,6 +51,11 @@ def test_arrays_hold_what_the_tables_hold():
         assert row[:4] == [organs["date"][0], str(organs["plant"][number]), organs["organ"][number], str(organs["rank"][number])]
         for head, cell in zip(heads[5:], row[5:]):
             assert cell == (organs[head][number] if head == "role" else f"{organs[head][0, number]:.9g}"), head
+    heads, *rows = [line.split(",") for line in body(day.table("plants_day.csv")).splitlines()]
+    assert day.plants["PAR_absorbed_mj"].shape == (1, len(rows)) and len(rows) > 0
+    for number, row in enumerate(rows):
+        for head, cell in zip(heads[7:], row[7:]):
+            assert cell == f"{day.plants[head][0, number]:.9g}", head
 
 
 def test_xarray():

@@ -58,7 +58,7 @@ f 2 4 3
 constexpr double day_plot_m2 = 1.25;
 const std::array<const char*, 2> bands{"PAR", "NIR"};
 const std::array<const char*, 5> terms{"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected"};
-const std::array<const char*, 3> tables{"day.csv", "organs_day.csv", "day.nc"};
+const std::array<const char*, 4> tables{"day.csv", "organs_day.csv", "plants_day.csv", "day.nc"};
 
 class Day : public PreloadTest {
  protected:
@@ -151,6 +151,15 @@ TEST_F(Day, TablesAreAsTheManualSays) {
   EXPECT_EQ(organs.header(),
             "date,plant,organ,rank,area_m2,PAR_absorbed_mj_m2,PAR_error,PAR_absorbed_mol_m2,NIR_absorbed_mj_m2,NIR_error,role");
   EXPECT_EQ(organs.size(), 2U);
+  const Table plants(file("plants_day.csv"));
+  ASSERT_EQ(plants.size(), 2U);
+  for (std::size_t row = 0; row < 2; ++row) {
+    for (const char* band : bands) {
+      const double mj = organs.number(row, column(band, "absorbed_mj_m2")) * organs.number(row, "area_m2");
+      EXPECT_NEAR(plants.number(row, column(band, "absorbed_mj")) / mj, 1.0, 1e-7);
+      EXPECT_GT(plants.number(row, column(band, "absorbed_mj_error")), 0.0);
+    }
+  }
   EXPECT_EQ(summary()["complete"], true);
   EXPECT_EQ(summary()["steps"], json({{"asked", 6}, {"done", 6}, {"night", 2}, {"short_of_bound", 0}}));
 }

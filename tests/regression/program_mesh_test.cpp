@@ -48,6 +48,44 @@ TEST_F(ProgramMesh, InfoDescribesMeshes) {
   }
 }
 
+TEST_F(ProgramMesh, InfoCountsObjectsAndGroupsApart) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 9 9 9\n";
+  folder_.write("plant.obj",
+                corners + "o plant\ng leaf a\nusemtl green\nf 1 2 3\ng leaf b\nf 1 4 3\nf 1 4 4\no idle\ng empty\n");
+  const json found = survey("plant.obj");
+  EXPECT_EQ(found["objects"], 1);
+  EXPECT_EQ(found["groups"], 2);
+  EXPECT_EQ(found["defects"]["zero_area"], 1);
+  EXPECT_EQ(found["defects"]["unused_vertices"], 1);
+  EXPECT_EQ(found["defects"]["organs"], json({"leaf b"}));
+  const std::string text = run({"info", "plant.obj"}).out;
+  EXPECT_NE(text.find("named in the file: 1 object, 2 groups, 1 material\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("defects: 1 triangle without area (in leaf b), 1 vertex in no triangle\n"), std::string::npos) << text;
+
+  folder_.write("square.glb", glb(gltf_document(), gltf_binary()));
+  EXPECT_EQ(survey("square.glb")["groups"], 0);
+  EXPECT_GE(survey("square.glb")["objects"], 1);
+}
+
+// Two leaves in one object, in two materials; the second is of two pieces.
+TEST_F(ProgramMesh, ConvertSplitsOrgans) {
+  folder_.write(
+      "plant.obj",
+      "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 3 0 0\nv 4 0 0\nv 4 0 1\no plant\nusemtl green\nf 1 2 3\nf 1 3 2\nusemtl red\nf 4 5 6\n"
+      "o other\nusemtl red\nf 1 2 3\nf 4 5 6\n");
+  const auto organs = [&](const Arguments& more) {
+    EXPECT_EQ(run(Arguments{"convert", "plant.obj", "made.ply"} + more).status, 0);
+    return survey("made.ply")["organs"];
+  };
+  EXPECT_EQ(organs({}), 2);
+  EXPECT_EQ(organs({"--split", "names"}), 2);
+  EXPECT_EQ(organs({"--split", "materials"}), 3);
+  EXPECT_EQ(organs({"--split", "parts"}), 4);
+  expect_one_error(run({"convert", "plant.obj", "made.ply", "--split", "part"}), 2, "--split");
+  expect_one_error(run({"convert", "plant.obj", "made.toml", "--split", "parts", "--optics", "a.opt", "--light", "a.light"}), 2,
+                   "write split = \"parts\" under [[geometry]]");
+}
+
 TEST_F(ProgramMesh, NewWritesAnythingReadableAsASceneThatRuns) {
   folder_.write("plant.obj", plant_in_centimetres());
   folder_.write("square.ply", ply_text_square());
@@ -118,8 +156,14 @@ TEST_F(ProgramMesh, MistakesAreOneLine) {
     expect_one_error(run({command, "gone.obj"}), 2, "gone.obj");
     expect_one_error(run({command, "folder.obj"}), 2, "folder.obj");
     expect_one_error(run({command, "broken.obj"}), 2, "broken.obj:2: corner");
+    folder_.write("square.txt", ply_text_square());
   }
   expect_one_error(run({"new", "text.txt"}), 2, ".glb, .gltf, .obj");
+  expect_one_error(run({"new", "square.txt"}), 2, "its content looks like .ply); rename it so that it ends in .ply");
+  for (const char* command : {"info", "run"}) {
+    expect_one_error(run({command, "square.txt"}), 2,
+                     "is a mesh (.ply), not a scene in TOML); rename it so that it ends in .ply");
+  }
   expect_one_error(run({"new", "gone.obj", "-o", "a.toml"}), 2, "gone.obj");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.toml"));
 }

@@ -41,32 +41,69 @@ void warn_of_angles(const TomlTable& sun, std::vector<std::string>& warnings) {
   }
 }
 
+// Returns whether the table is a [[band]], which takes a unit; `bands` takes none.
+bool takes_unit(const TomlTable& band) {
+  return !band.has("step");
+}
+
 // Returns true, and warns, if the irradiance is more than sunlight brings.
 bool warn_of_photons(const TomlTable& band, const char* key, double irradiance_w_m2, std::vector<std::string>& warnings) {
   if (irradiance_w_m2 <= most_irradiance_w_m2) return false;
-  warnings.push_back(
-      fmt::format("{}: {:.6g} W m-2 is more than the sun sends to the ground, {:.0f}; if umol m-2 s-1 of PAR "
-                  "are meant, add unit = \"umol_m2_s\", which makes it {:.4g} W m-2",
-                  band.place(key), irradiance_w_m2, most_irradiance_w_m2, irradiance_w_m2 / umol_per_joule_of_par));
+  warnings.push_back(fmt::format(
+      "{}: {:.6g} W m-2 is more than the sun sends to the ground, {:.0f}; if umol m-2 s-1 of PAR "
+      "are meant, {} {:.4g} W m-2",
+      band.place(key), irradiance_w_m2, most_irradiance_w_m2,
+      takes_unit(band) ? "add unit = \"umol_m2_s\", which makes it" : "give", irradiance_w_m2 / umol_per_joule_of_par));
   return true;
 }
 
-void warn_of_beam(const TomlTable& band, const BandLight& light, const SunPosition& sun, double limit_w_m2,
-                  std::vector<std::string>& warnings) {
+// The strongest beam that there can be in a band.
+struct BeamLimit {
+  double w_m2 = 0.0;  // towards the sun
+  std::string where;  // outside the atmosphere, and in which wavelengths
+};
+
+BeamLimit limit_of(const WavelengthRange& range, double solar_w_m2) {
+  if (!(range.to_nm > 0.0)) return {solar_w_m2, "outside the atmosphere"};
+  return {most_solar_share(range) * solar_w_m2,
+          fmt::format("outside the atmosphere from {:g} to {:g} nm", range.from_nm, range.to_nm)};
+}
+
+// Returns what else the numbers of a band with wavelengths may mean.
+std::string photons_instead(const TomlTable& band, const WavelengthRange& range) {
+  const bool may_be_photons = range.to_nm > 0.0 && takes_unit(band) && !band.has("unit");
+  return may_be_photons ? ", or add unit = \"umol_m2_s\" if umol m-2 s-1 are meant" : "";
+}
+
+void warn_of_beam(const TomlTable& band, const BandLight& light, const SunPosition& sun, const WavelengthRange& range,
+                  double solar_w_m2, std::vector<std::string>& warnings) {
   const double sine = std::sin(sun.elevation_rad);
+  const BeamLimit limit = limit_of(range, solar_w_m2);
   if (light.direct_normal_w_m2 > 0.0) {
     if (warn_of_photons(band, "direct_normal", light.direct_normal_w_m2, warnings)) return;
-    if (light.direct_normal_w_m2 <= limit_w_m2) return;
-    warnings.push_back(fmt::format("{}: {:.6g} W m-2 is more than outside the atmosphere; give at most {:.0f}",
-                                   band.place("direct_normal"), light.direct_normal_w_m2, limit_w_m2));
+    if (light.direct_normal_w_m2 <= limit.w_m2) return;
+    warnings.push_back(fmt::format("{}: {:.6g} W m-2 is more than {}; give at most {:.0f}{}", band.place("direct_normal"),
+                                   light.direct_normal_w_m2, limit.where, limit.w_m2, photons_instead(band, range)));
   } else if (light.direct_w_m2 > 0.0) {
     if (warn_of_photons(band, "direct", light.direct_w_m2, warnings)) return;
-    if (sine <= 0.0 || light.direct_w_m2 <= limit_w_m2 * sine) return;
-    warnings.push_back(fmt::format(
-        "{}: {:.6g} W m-2 on level ground, with the sun at {:.4g} degrees, is a beam of {:.0f} W m-2 "
-        "towards the sun, more than outside the atmosphere; give at most {:.4g}",
-        band.place("direct"), light.direct_w_m2, glm::degrees(sun.elevation_rad), light.direct_w_m2 / sine, limit_w_m2 * sine));
+    if (sine <= 0.0 || light.direct_w_m2 <= limit.w_m2 * sine) return;
+    warnings.push_back(
+        fmt::format("{}: {:.6g} W m-2 on level ground, with the sun at {:.4g} degrees, is a beam of {:.0f} W m-2 "
+                    "towards the sun, more than {}; give at most {:.4g}{}",
+                    band.place("direct"), light.direct_w_m2, glm::degrees(sun.elevation_rad), light.direct_w_m2 / sine,
+                    limit.where, limit.w_m2 * sine, photons_instead(band, range)));
   }
+}
+
+// Returns the fixed light of all bands together.
+BandLight sum_of(const std::vector<BandLight>& bands) {
+  BandLight sum;
+  for (const BandLight& band : bands) {
+    sum.direct_w_m2 += band.direct_w_m2;
+    sum.direct_normal_w_m2 += band.direct_normal_w_m2;
+    sum.diffuse_w_m2 += band.diffuse_w_m2;
+  }
+  return sum;
 }
 
 // Returns whether its role or a name says that a surface is a leaf; unnamed surfaces count as leaves too.
@@ -80,17 +117,29 @@ bool is_called_leaf(const Surface& surface, const RadiationModel& model) {
 
 }  // namespace
 
+double most_solar_share(const WavelengthRange& range) {
+  constexpr double effective_temperature_k = 5772.0;
+  constexpr double margin = 1.25;
+  return std::min(1.0, margin * black_body_share(range, effective_temperature_k));
+}
+
 std::vector<std::string> light_warnings(const TomlTable& root, const Scene& scene) {
   std::vector<std::string> warnings;
   if (const auto sun = root.table("sun")) warn_of_angles(*sun, warnings);
   const auto day = scene.moment ? std::optional<int>(day_of_year(scene.moment->time)) : std::nullopt;
   const double limit_w_m2 = extraterrestrial_normal_w_m2(solar_constant_w_m2, day);
-  const std::vector<TomlTable> bands = root.tables("band");
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    const BandLight& light = scene.light.bands[b];
-    if (light.share) continue;
-    if (scene.model.sun) warn_of_beam(bands[b], light, *scene.model.sun, limit_w_m2, warnings);
-    static_cast<void>(warn_of_photons(bands[b], "diffuse", light.diffuse_w_m2, warnings));
+  const auto check = [&](const TomlTable& table, const BandLight& light, const WavelengthRange& range) {
+    if (scene.model.sun) warn_of_beam(table, light, *scene.model.sun, range, limit_w_m2, warnings);
+    static_cast<void>(warn_of_photons(table, "diffuse", light.diffuse_w_m2, warnings));
+  };
+  const std::vector<Waveband>& bands = scene.model.bands;
+  if (const auto equal = root.table("bands")) {
+    if (!scene.light.bands.front().share) check(*equal, sum_of(scene.light.bands), {bands.front().from_nm, bands.back().to_nm});
+    return warnings;
+  }
+  const std::vector<TomlTable> tables = root.tables("band");
+  for (std::size_t b = 0; b < tables.size(); ++b) {
+    if (!scene.light.bands[b].share) check(tables[b], scene.light.bands[b], {bands[b].from_nm, bands[b].to_nm});
   }
   return warnings;
 }

@@ -1,5 +1,6 @@
 #include "files/scene/scene_bands.h"
 
+#include "base/text.h"
 #include "files/scene/plain_name.h"
 #include "files/scene/scene_spectra.h"
 
@@ -29,9 +30,18 @@ std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& e
   return name;
 }
 
+// Returns whether the unit is another word for umol_m2_s.
+bool means_photons(const TomlTable& band) {
+  if (!band.is_text("unit")) return false;
+  const std::string unit = lower_case(band.text("unit").value_or(""));
+  if (unit == "umol_m2_s") return false;
+  return unit.find("mol") != unit.npos || unit.find("ppfd") != unit.npos || unit.find("photon") != unit.npos;
+}
+
 // Returns what a number in the band's unit is to be divided by to give W m-2. Light in photons gives the band its photons per
 // joule: those of its wavelengths or, if it is named PAR, those of sunlight.
 double read_unit(const TomlTable& table, Waveband& band, const Spectrum* spectrum) {
+  if (means_photons(table)) table.refuse("unit", "must be one of W_m2, umol_m2_s", "did you mean umol_m2_s?");
   const auto unit = table.word("unit", {"W_m2", "umol_m2_s"});
   if (!unit || *unit == 0) return 1.0;
   if (band.umol_per_joule == 0.0 && band.to_nm > 0.0) {

@@ -19,6 +19,7 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 
 fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access, std::string_view wanted,
                          std::string_view key) {
+  if (table.has(key) && !table.is_text(key)) table.refuse(key, "it must be the name of a file, in quotes", wanted);
   const std::string name = *table.text(key);
   std::error_code code;
   const fs::path parent = scene_file.parent_path();

@@ -1,6 +1,7 @@
 #include "files/scene/scene_geometry.h"
 
 #include "base/file.h"
+#include "files/formats/mesh/mesh_content.h"
 #include "files/formats/mesh/mesh_survey.h"
 #include "files/scene/plain_name.h"
 #include "files/scene/scene_files.h"
@@ -9,6 +10,7 @@
 #include "physics/canopy/shared_meshes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +58,10 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
 fs::path find_mesh(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access) {
   fs::path file = find_scene_file(table, scene_file, access, "name a mesh file");
   if (!is_mesh_file(file)) {
+    if (const auto ending = mesh_ending_of_file(file)) {
+      table.refuse("file", fmt::format("its name does not tell the format, but its content looks like {}", *ending),
+                   fmt::format("rename it so that it ends in {}", *ending));
+    }
     table.refuse("file", "its format is unknown", fmt::format("use {}", readable_meshes));
   }
   return file;
@@ -68,6 +74,11 @@ const Mesh* find_given_mesh(const TomlTable& table, const SceneText& source) {
   return &found->second;
 }
 
+// Returns whether the names of a mesh's materials need no optics if its role is given.
+bool has_plain_role(const std::optional<Role>& role) {
+  return role == Role::soil || role == Role::structure;
+}
+
 GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, const Plot& plot, const SceneAccess& access) {
   for (const char* key : {"rows", "per_row", "spacing", "seed"}) {
     if (table.has(key)) table.refuse(key, "it is only for generator = \"maize\"", "remove it; place a file's copies with `at`");
@@ -75,12 +86,14 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
   MeshImport import;
   std::vector<OpticsRule> optics = read_optics_rules(table);
   if (!optics.empty()) import.optics = table.is_table("optics") ? std::string(unnamed_material) : optics.front().optics;
+  const std::optional<Role> role = read_role(table);
+  if (optics.empty() && has_plain_role(role)) import.optics = role_name(*role);
   import.allow_outside = access.allow_outside;
   import.axes = plot.axes;
   if (const auto up = table.word("up", {"y", "z", "x"})) import.up = static_cast<UpAxis>(*up);
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
-  if (const auto split = table.word("split", {"names", "materials", "parts"})) import.split = static_cast<OrganSplit>(*split);
+  if (const auto split = table.word("split", organ_split_names())) import.split = static_cast<OrganSplit>(*split);
   std::vector<Placement> placements = read_placements(table, source.file, plot, access);
   const Mesh* given = table.has("mesh") ? find_given_mesh(table, source) : nullptr;
   fs::path file = given != nullptr ? fs::path() : find_mesh(table, source.file, access);
@@ -93,7 +106,7 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
                       .import = import,
                       .optics = std::move(optics),
                       .placements = std::move(placements),
-                      .role = read_role(table),
+                      .role = role,
                       .instances = table.boolean("instances")};
 }
 
@@ -159,6 +172,14 @@ std::string cure_of_undefined(const std::string& name, const OpticsByName& defin
 [[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
   part.table.refuse(part.source_key(), fmt::format("it uses optics \"{}\", which is not defined", printable(name)),
                     cure_of_undefined(name, defined));
+}
+
+SurfaceOptics structure_optics(std::size_t bands) {
+  SurfaceOptics optics;
+  optics.name = plain_structure;
+  optics.upper.assign(bands, {plain_structure_reflectance, 0.0});
+  optics.lower = optics.upper;
+  return optics;
 }
 
 SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
@@ -232,10 +253,30 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, Sourc
   return meshes;
 }
 
+void name_plain_optics(std::span<const GeometryPart> parts, std::span<PlacedMesh> meshes, const OpticsByName& defined,
+                       std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!has_plain_role(parts[i].role) || !parts[i].optics.empty()) continue;
+    std::string plain(role_name(*parts[i].role));
+    if (parts[i].role == Role::structure && find_optics(defined, plain) == nullptr) plain = plain_structure;
+    std::set<std::string> renamed;
+    for (std::string& name : meshes[i].mesh.optics_names) {
+      if (find_optics(defined, name) != nullptr) continue;
+      renamed.insert(printable(name));
+      name = plain;
+    }
+    if (renamed.empty() || plain != plain_structure) continue;
+    warnings.push_back(
+        fmt::format("{}: the optics of {} are not given, so they reflect {} in every band and transmit nothing; add "
+                    "[optics.structure] for all of them",
+                    parts[i].table.place(parts[i].source_key()), fmt::join(renamed, ", "), plain_structure_reflectance));
+  }
+}
+
 void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
                   const Scene& scene) {
   const auto is_defined = [&](const std::string& name) {
-    return find_optics(defined, name) != nullptr || (is_soil(name) && scene.model.soil);
+    return find_optics(defined, name) != nullptr || (is_soil(name) && scene.model.soil) || name == plain_structure;
   };
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (const OpticsRule& rule : parts[i].optics) {
@@ -250,15 +291,20 @@ void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMes
 }
 
 std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<const std::string> names,
-                                           const OpticsByName& defined, const std::optional<Soil>& soil) {
+                                           const OpticsByName& defined, const RadiationModel& model) {
   std::vector<SurfaceOptics> chosen;
   for (const std::string& name : names) {
     const OpticsInput* input = find_optics(defined, name);
-    if (input == nullptr && !(is_soil(name) && soil)) {
+    if (input != nullptr) {
+      chosen.push_back(input->optics);
+    } else if (is_soil(name) && model.soil) {
+      chosen.push_back(soil_optics(name, *model.soil));
+    } else if (name == plain_structure) {
+      chosen.push_back(structure_optics(model.bands.size()));
+    } else {
       root.refuse_table(fmt::format("the canopy uses optics \"{}\", which is not defined", printable(name)),
                         cure_of_undefined(name, defined));
     }
-    chosen.push_back(input != nullptr ? input->optics : soil_optics(name, *soil));
   }
   return chosen;
 }

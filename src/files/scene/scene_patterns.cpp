@@ -41,17 +41,22 @@ std::string listed(const std::set<std::string>& names) {
   return names.size() > most_shown ? fmt::format("{} and {} more", text, names.size() - most_shown) : text;
 }
 
+// Returns the names by which patterns find an organ: its name, and if it has a rank, also NAME RANK, such as `leaf 7`.
+std::vector<std::string> names_of(const Organ& organ) {
+  if (organ.rank == 0) return {organ.name};
+  return {organ.name, fmt::format("{} {}", organ.name, organ.rank)};
+}
+
+bool matches_any(const std::string& pattern, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return matches_pattern(pattern, name); });
+}
+
 // The pairs of material and organ that share triangles, each with the rule that applies.
 class Choices {
  public:
   Choices(const std::vector<OpticsRule>& rules, const Mesh& mesh) : rules_(rules), mesh_(mesh) {
-    const auto match_all = [&](const auto& names, const auto& name_of) {
-      std::vector<std::optional<std::size_t>> first;
-      for (const auto& named : names) first.push_back(first_match(name_of(named)));
-      return first;
-    };
-    by_material_ = match_all(mesh.optics_names, [](const std::string& name) -> const std::string& { return name; });
-    by_organ_ = match_all(mesh.organs, [](const Organ& organ) -> const std::string& { return organ.name; });
+    for (const std::string& name : mesh.optics_names) by_material_.push_back(first_match({name}));
+    for (const Organ& organ : mesh.organs) by_organ_.push_back(first_match(names_of(organ)));
   }
 
   // Returns the index of the first rule that covers the triangle.
@@ -63,9 +68,9 @@ class Choices {
   }
 
  private:
-  [[nodiscard]] std::optional<std::size_t> first_match(const std::string& name) const {
+  [[nodiscard]] std::optional<std::size_t> first_match(const std::vector<std::string>& names) const {
     for (std::size_t r = 0; r < rules_.size(); ++r) {
-      if (matches_pattern(rules_[r].pattern, name)) return r;
+      if (matches_any(rules_[r].pattern, names)) return r;
     }
     return std::nullopt;
   }
@@ -81,8 +86,9 @@ void warn_of_idle_patterns(const TomlTable& geometry, const std::vector<OpticsRu
   std::set<std::string> names = materials;
   for (const Organ& organ : mesh.organs) names.insert(organ.name);
   for (const OpticsRule& rule : rules) {
-    const auto matches = [&](const std::string& name) { return matches_pattern(rule.pattern, name); };
-    if (std::any_of(names.begin(), names.end(), matches)) continue;
+    if (matches_any(rule.pattern, {names.begin(), names.end()})) continue;
+    const auto matches = [&](const Organ& organ) { return matches_any(rule.pattern, names_of(organ)); };
+    if (std::any_of(mesh.organs.begin(), mesh.organs.end(), matches)) continue;
     warnings.push_back(fmt::format("{} matches nothing; the names there are: {}", geometry.table("optics")->place(rule.pattern),
                                    listed(names)));
   }
@@ -114,10 +120,20 @@ bool matches_pattern(std::string_view pattern, std::string_view name) {
 
 std::vector<OpticsRule> read_optics_rules(const TomlTable& geometry) {
   if (!geometry.has("optics")) return {};
+  if (!geometry.is_table("optics") && !geometry.is_text("optics")) {
+    geometry.refuse("optics", "it must be the name of an [optics.NAME], or a table of patterns",
+                    "write \"leaf\", or { \"leaf*\" = \"leaf\", \"*\" = \"stem\" }");
+  }
   if (!geometry.is_table("optics")) return {{"*", *geometry.text("optics")}};
   const TomlTable table = *geometry.table("optics");
   std::vector<OpticsRule> rules;
-  for (const std::string& pattern : table.keys_as_written()) rules.push_back({pattern, *table.text(pattern)});
+  for (const std::string& pattern : table.keys_as_written()) {
+    if (!table.is_text(pattern)) {
+      table.refuse(pattern, "a pattern needs the name of an [optics.NAME]",
+                   "write \"*\" = \"leaf\" here, and its reflectance under [optics.leaf]");
+    }
+    rules.push_back({pattern, *table.text(pattern)});
+  }
   if (rules.empty()) geometry.refuse("optics", "it has no pattern", "write { \"leaf*\" = \"leaf\", \"*\" = \"stem\" }");
   return rules;
 }

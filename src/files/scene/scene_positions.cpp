@@ -19,6 +19,10 @@ std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::
       geometry.refuse(key, "positions is also given", fmt::format("give {} in that file, or remove positions", key));
     }
   }
+  if (!geometry.is_text("positions")) {
+    geometry.refuse("positions", "it must be the name of a file, in quotes",
+                    "write a list of positions as at = [[0.9, 0.0, 1.2]]");
+  }
   const std::filesystem::path file = find_scene_file(geometry, scene_file, access, "name a .csv file", "positions");
   const HeightColumn height = plot.axes == Axes::south_up_west ? HeightColumn::y : HeightColumn::z;
   std::vector<Placement> placements;

@@ -262,10 +262,11 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
   const OpticsByName optics = read_all_but_geometry(root, source, noting, scene);
 
   const std::vector<GeometryPart> parts = read_geometry(root, source, scene.model.plot, noting);
-  const std::vector<PlacedMesh> meshes = load_geometry(parts, *noting.files, scene.warnings);
+  std::vector<PlacedMesh> meshes = load_geometry(parts, *noting.files, scene.warnings);
+  name_plain_optics(parts, meshes, optics, scene.warnings);
   scene.model.canopy = assemble_canopy(meshes, scene.model.plot);
   check_optics(parts, meshes, optics, scene);
-  scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, scene.model.soil);
+  scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, scene.model);
   separate_structures(scene.model);
   scene.files = noting.files->list();
   scene.digest = digest_of(source.text, std::span(scene.files).subspan(before), parts);
@@ -285,7 +286,7 @@ void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
   Scene other;
   const OpticsByName optics = read_all_but_geometry(root, source, noting, other);
   check_same_ground(root, scene.model, other.model);
-  other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, other.model.soil);
+  other.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, other.model);
   check_same_roles(root, scene.model, other.model.optics);
   const std::span<const SourceFile> read = std::span(noting.files->list()).subspan(before);
   Digest digest;

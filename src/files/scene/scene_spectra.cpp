@@ -40,7 +40,8 @@ std::vector<FaceOptics> read_spectral_face(const TomlTable& table, std::vector<W
     if (table.has(key)) table.refuse(key, "spectrum is also given, which holds it", "remove one of the two");
   }
   const std::filesystem::path file =
-      find_scene_file(table, spectra.scene_file, spectra.access, "name a table of reflectance by wavelength", "spectrum");
+      find_scene_file(table, spectra.scene_file, spectra.access,
+                      "name a table of reflectance by wavelength, or give numbers as reflectance", "spectrum");
   const SurfaceSpectra surface = read_surface_spectra(file, spectra.access.files);
   std::vector<FaceOptics> face;
   for (Waveband& band : bands) {

@@ -98,6 +98,17 @@ SurfaceOptics read_surface(const TomlTable& table, const std::string& name, std:
   return optics;
 }
 
+// Refuses [[optics]] and other things that are no tables by name.
+[[noreturn]] void refuse_list_of_optics(const TomlTable& root) {
+  std::string name = "leaf";
+  if (!root.is_text("optics")) {
+    const std::vector<TomlTable> items = root.tables("optics");
+    if (!items.empty() && items.front().is_text("name")) name = *items.front().text("name");
+  }
+  root.refuse("optics", "each material has a table of its own name, and there is no list of them",
+              fmt::format("write [optics.{}] with reflectance below it", printable(name)));
+}
+
 double cells(const Plot& plot, double patch_m) {
   return std::ceil(plot.size_x_m / patch_m) * std::ceil(plot.size_z_m / patch_m);
 }
@@ -105,6 +116,15 @@ double cells(const Plot& plot, double patch_m) {
 }  // namespace
 
 std::optional<Role> read_role(const TomlTable& table) {
+  if (table.is_text("role")) {
+    const std::string word = table.text("role").value_or("");
+    const auto meant = role_from_name(word);
+    if (meant && word != role_name(*meant)) {
+      std::string all;
+      for (const std::string_view name : role_names) all += (all.empty() ? "" : ", ") + std::string(name);
+      table.refuse("role", "must be one of " + all, fmt::format("did you mean {}?", role_name(*meant)));
+    }
+  }
   const auto number = table.word("role", {role_names.begin(), role_names.end()});
   if (!number) return std::nullopt;
   return static_cast<Role>(*number);
@@ -138,6 +158,7 @@ std::optional<Soil> read_soil(const TomlTable& root, std::vector<Waveband>& band
 }
 
 OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, const SpectraAccess& spectra) {
+  if (root.has("optics") && !root.is_table("optics")) refuse_list_of_optics(root);
   const auto all = root.table("optics");
   if (!all) return {};
   const std::size_t names = all->keys().size();

@@ -24,6 +24,46 @@ std::string in_ascii(std::string_view text) {
   return ascii;
 }
 
+struct LengthUnit {
+  std::string_view word;
+  double metres;
+};
+
+constexpr LengthUnit length_units[] = {{"m", 1.0},
+                                       {"metre", 1.0},
+                                       {"metres", 1.0},
+                                       {"meter", 1.0},
+                                       {"meters", 1.0},
+                                       {"dm", 0.1},
+                                       {"cm", 0.01},
+                                       {"mm", 0.001},
+                                       {"in", 0.0254},
+                                       {"inch", 0.0254},
+                                       {"inches", 0.0254},
+                                       {"foot", 0.3048},
+                                       {"feet", 0.3048},
+                                       {"ft", 0.3048},
+                                       {"centimetre", 0.01},
+                                       {"centimetres", 0.01},
+                                       {"centimeter", 0.01},
+                                       {"centimeters", 0.01},
+                                       {"millimetre", 0.001},
+                                       {"millimetres", 0.001},
+                                       {"millimeter", 0.001},
+                                       {"millimeters", 0.001}};
+
+std::optional<double> metres_in(std::string_view word) {
+  for (const auto& [known, metres] : length_units) {
+    if (word == known) return metres;
+  }
+  return std::nullopt;
+}
+
+// Returns whether the key's values are metres per unit of a file.
+bool is_scale(std::string_view unit) {
+  return unit.find("for a file in cm") != std::string_view::npos;
+}
+
 // Returns by what to multiply a number with that suffix; nothing if the suffix does not fit the unit.
 std::optional<double> factor_of(std::string_view suffix, std::string_view unit) {
   if (suffix.empty()) return 1.0;
@@ -33,6 +73,7 @@ std::optional<double> factor_of(std::string_view suffix, std::string_view unit) 
     if (suffix == "cm") return 0.01;
     if (suffix == "mm") return 0.001;
   }
+  if (is_scale(unit)) return metres_in(suffix);
   if (unit.find("degrees") != std::string_view::npos) {
     if (suffix.starts_with("\u00b0")) suffix = trimmed(suffix.substr(2));
     if (suffix.empty() || suffix == "N" || suffix == "E" || suffix == "deg" || suffix == "degrees") return 1.0;
@@ -58,9 +99,13 @@ std::optional<double> number_in_text(std::string_view text, std::string_view uni
 std::string cure_of_text(std::string_view text, std::string_view unit) {
   const auto number = number_in_text(text, unit);
   if (number) return fmt::format("write it without quotes and unit: {:.12g}", *number);
+  if (is_scale(unit)) {
+    const auto metres = metres_in(trimmed(text));
+    if (metres) return fmt::format("write the metres that a unit of the file has, without quotes: {:.12g}", *metres);
+  }
   const bool begins_with_number = !text.empty() && text.find_first_of("0123456789") <= 1;
   return begins_with_number ? fmt::format("write the number alone, without quotes and unit ({})", unit)
-                            : "write it without quotes, or give a number";
+                            : fmt::format("give a number, without quotes ({})", unit);
 }
 
 }  // namespace sunfleck

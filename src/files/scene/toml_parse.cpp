@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text_reader.h"
+#include "files/formats/mesh/mesh_content.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -117,6 +118,12 @@ void refuse_non_text(const std::string& file, std::string_view text) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw_input(fmt::format("{}:1: the file", file), "is empty", "write a scene with at least [plot] size and one [[band]]");
   }
+  constexpr std::size_t enough = 4096;  // to recognise a mesh
+  if (const auto ending = mesh_ending_of(without_mark(text).substr(0, enough))) {
+    throw_input(
+        fmt::format("{}:1: the file", file), fmt::format("is a mesh ({}), not a scene in TOML", *ending),
+        fmt::format("rename it so that it ends in {0}, and write a scene for it: sunfleck new FILE{0} -o stand.toml", *ending));
+  }
   const std::size_t first = without_mark(text).find_first_not_of(" \t\r\n");
   const std::string_view begin = without_mark(text).substr(std::min(first, without_mark(text).size()));
   if (begin.starts_with('<')) {
@@ -187,6 +194,7 @@ constexpr Cure cures_by_line[] = {
     {R"([=\[,]\s*[-+]?\.[0-9])", "write a digit before the point, 0.1 for .1"},
     {R"([0-9]\.\s*($|[,\]}]))", "write a digit after the point, 1.0 for 1."},
     {R"((latitude|longitude)\s*=\s*[-+]?[0-9.]+\s*[NSEW]\b)", "write the number of degrees alone, negative for south and west"},
+    {R"([{,]\s*[A-Za-z_.]*[*?][^"]*=)", "put the pattern in quotes, \"leaf*\""},
     {R"([=\[,]\s*[-+]?[0-9.]+\s*(mm|cm|m|deg|degrees|nm|W)\b)", "write the number without its unit: metres, degrees, W m-2"},
     {R"([0-9]\s*%)", "write the share without a percent sign, 0.1 for 10 %"},
     {R"(=\s*[-+]?[0-9]+,[0-9])", "write the number with a point, not a comma"},

@@ -113,7 +113,8 @@ struct Synonym {
 constexpr Synonym synonyms[] = {{"altitude", "elevation"}, {"zenith", "elevation"}, {"lat", "latitude"},
                                 {"lon", "longitude"},      {"lng", "longitude"},    {"mesh", "file"},
                                 {"rotate", "heading"},     {"rotation", "heading"}, {"date", "time"},
-                                {"irradiance", "direct"}};
+                                {"irradiance", "direct"},  {"range", "range_nm"},   {"wavelengths", "range_nm"},
+                                {"rotations", "heading"}};
 
 // Returns what an unknown key is to be replaced with.
 std::string cure_of_key(std::string_view key, const std::vector<std::string>& known, std::string_view otherwise) {
@@ -281,7 +282,9 @@ std::optional<bool> TomlTable::boolean(std::string_view key) const {
 std::optional<std::string> TomlTable::text(std::string_view key) const {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
-  if (!node->is_string()) refuse(key, "must be a text, not " + kind_of(*node), "write it in quotes");
+  if (!node->is_string())
+    refuse(key, "must be a text, not " + kind_of(*node),
+           node->is_array() || node->is_table() ? "write a single text in quotes" : "write it in quotes");
   const std::string& value = node->as_string()->get();
   const bool control = std::any_of(value.begin(), value.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; });
   if (control) refuse(key, "must be one line without control characters", "remove them");
@@ -291,6 +294,9 @@ std::optional<std::string> TomlTable::text(std::string_view key) const {
 }
 
 std::optional<std::size_t> TomlTable::word(std::string_view key, const std::vector<std::string>& words) const {
+  if (has(key) && !is_text(key)) {
+    refuse(key, fmt::format("must be one of {}, not {}", joined(words), kind_of(*find(key))), "choose one of them, in quotes");
+  }
   const auto value = text(key);
   if (!value) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *value);
@@ -307,9 +313,11 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
   if (list == nullptr || list->size() != count) {
     const std::string found = list == nullptr ? "not " + kind_of(*node) : fmt::format("but has {}", list->size());
     const auto number = node->is_string() ? number_in_text(node->as_string()->get(), range.cure) : std::nullopt;
-    const std::string example = number       ? fmt::format("[{0:.12g}, {0:.12g}]", *number)
-                                : count == 2 ? "[1.8, 2.4]"
-                                             : "[0.1, 0.2, 0.3]";
+    const std::size_t shown = range.cure.find('[');  // an example of its own
+    const std::string example = shown != range.cure.npos ? std::string(range.cure.substr(shown))
+                                : number                 ? fmt::format("[{0:.12g}, {0:.12g}]", *number)
+                                : count == 2             ? "[1.8, 2.4]"
+                                                         : "[0.1, 0.2, 0.3]";
     refuse(key, fmt::format("must be a list of {} numbers, {}", count, found), "write it as " + example);
   }
   std::vector<double> values;

@@ -3,7 +3,9 @@
 #include "base/check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 namespace sunfleck {
@@ -11,6 +13,21 @@ namespace {
 
 // Avogadro's number times Planck's constant times the speed of light, J m mol-1 (exact in the SI of 2019).
 constexpr double molar_photon_j_m = 6.02214076e23 * 6.62607015e-34 * 299792458.0;
+
+// Returns the share of a black body's radiation at wavelengths up to this one: the integral of Planck's law as a series in
+// exp(-x), x = h c / (wavelength k temperature).
+double black_body_share_below(double wavelength_nm, double temperature_k) {
+  constexpr double second_radiation_constant_nm_k = 1.438776877e7;  // h c / k, exact in the SI of 2019
+  constexpr int most_terms = 200;
+  constexpr double pi = std::numbers::pi;
+  const double x = second_radiation_constant_nm_k / (wavelength_nm * temperature_k);
+  double sum = 0.0;
+  for (int n = 1; n <= most_terms; ++n) {
+    const double nth = 1.0 / n;
+    sum += std::exp(-n * x) * nth * (x * x * x + 3.0 * x * x * nth + 6.0 * x * nth * nth + 6.0 * nth * nth * nth);
+  }
+  return 15.0 / (pi * pi * pi * pi) * sum;
+}
 
 // Adds the wavelengths of the spectrum inside the range.
 void add_steps(const Spectrum& spectrum, const WavelengthRange& range, std::vector<double>& steps) {
@@ -73,6 +90,11 @@ double umol_per_joule_in(const WavelengthRange& range, const Spectrum* light) {
   const Spectrum* weight = unless_dark(light, range);
   const double mean_nm = integral([](double nm) { return nm; }, {}, range, weight) / energy_in(weight, range);
   return umol_per_mol * mean_nm * m_per_nm / molar_photon_j_m;
+}
+
+double black_body_share(const WavelengthRange& range, double temperature_k) {
+  EXPECT(temperature_k, >, 0.0);
+  return black_body_share_below(range.to_nm, temperature_k) - black_body_share_below(range.from_nm, temperature_k);
 }
 
 }  // namespace sunfleck

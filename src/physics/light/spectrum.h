@@ -32,4 +32,7 @@ struct WavelengthRange {
 // Returns the photons in the range per energy of the light, umol J-1: the mean of wavelength / (N_A h c).
 [[nodiscard]] double umol_per_joule_in(const WavelengthRange& range, const Spectrum* light);
 
+// Returns the share of a black body's radiation that lies in the range, 0..1 (Chang and Rhee 1984, eq. 6).
+[[nodiscard]] double black_body_share(const WavelengthRange& range, double temperature_k);
+
 }  // namespace sunfleck

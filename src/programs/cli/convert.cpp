@@ -15,6 +15,7 @@
 #include <fmt/ranges.h>
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <optional>
 #include <system_error>
 
@@ -54,6 +55,9 @@ void check(const ConvertOptions& options) {
   if (options.z_up && (to_scene || is_scene_file(options.input)))
     throw_input("--z-up", "only applies when a mesh is converted to another mesh",
                 "leave it out, or write up = \"z\" under [[geometry]] in the scene");
+  if (!options.split.empty() && (to_scene || is_scene_file(options.input)))
+    throw_input("--split", "only applies when a mesh is converted to another mesh",
+                fmt::format("leave it out, or write split = \"{}\" under [[geometry]] in the scene", options.split));
   for (const fs::path& file : inputs(options)) {
     std::error_code error;
     if (!file.empty() && fs::equivalent(file, options.output, error))
@@ -100,6 +104,9 @@ MeshToWrite read_input(const ConvertOptions& options) {
                       .scale = options.stand.scale.value_or(1.0),
                       .allow_outside = options.allow_outside};
     if (options.z_up) import.up = UpAxis::z;
+    const std::vector<std::string>& splits = organ_split_names();
+    const auto split = std::find(splits.begin(), splits.end(), options.split);
+    if (split != splits.end()) import.split = static_cast<OrganSplit>(split - splits.begin());
     return {read_mesh(options.input, import)};
   }
   const Scene scene = read_scene(options.input, {options.allow_outside});

@@ -31,6 +31,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* day_file = "day.csv";
 constexpr const char* organs_file = "organs_day.csv";
+constexpr const char* plants_file = "plants_day.csv";
 constexpr const char* fields_file = "day.nc";
 constexpr const char* plot_file = "day.png";
 constexpr const char* resume_hint = ", then continue with --resume";
@@ -104,6 +105,8 @@ UnwrittenFiles write_tables(const DayJob& job, const RunRecord& record, const Ra
   unwritten.attempt(day_file, [&] { write_file(job.folder / day_file, day_csv(record, model, course, day.lights)); });
   unwritten.attempt(organs_file,
                     [&] { write_file(job.folder / organs_file, organs_day_csv(record, model, course, day.lights)); });
+  unwritten.attempt(plants_file,
+                    [&] { write_file(job.folder / plants_file, plants_day_csv(record, model, course, day.lights)); });
   if (day.lights.empty()) return unwritten;
   unwritten.attempt(fields_file, [&] { write_fields(job.folder, record, model, course, day, job.store); });
   const std::vector<std::string>& images = job.options.run.images;

@@ -55,7 +55,7 @@ ordered_json frame_json(const FrameGuess& frame) {
           {"other_metres_per_unit", frame.other_metres_per_unit}};
 }
 
-ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& survey) {
+ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& survey, const NamedParts& named) {
   const double unit_m2 = squared(survey.frame.metres_per_unit);
   return {{"file", file.string()},
           {"frame", frame_json(survey.frame)},
@@ -66,6 +66,8 @@ ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& su
           {"area_m2", survey.area_m2()},
           {"plants", survey.plants},
           {"organs", survey.organs},
+          {"objects", named.objects},
+          {"groups", named.groups},
           {"organ_names", shares_json(survey.families, unit_m2)},
           {"materials", survey.has_materials() ? shares_json(survey.materials, unit_m2) : ordered_json::array()},
           {"split_in_parts", survey.needs_split()},
@@ -77,7 +79,10 @@ ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& su
            {{"zero_area", survey.defects.flat_triangles},
             {"slivers", survey.defects.slivers},
             {"coincident", survey.defects.coincident},
-            {"non_manifold_edges", survey.defects.crowded_edges}}}};
+            {"non_manifold_edges", survey.defects.crowded_edges},
+            {"flipped_edges", survey.defects.flipped_edges},
+            {"unused_vertices", survey.defects.unused_vertices},
+            {"organs", survey.defects.organs}}}};
 }
 
 std::string counted(std::size_t count, const char* one, const char* many) {
@@ -97,6 +102,15 @@ void print_shares(const char* heading, const std::vector<MeshShare>& shares, dou
   if (shares.size() > most_lines) fmt::print("    and {} more (--json lists them all)\n", shares.size() - most_lines);
 }
 
+// Returns the first names, as " (in leaf, stem and 3 more)"; nothing without names.
+std::string among(const std::vector<std::string>& names) {
+  constexpr std::size_t most_names = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i) text += (i == 0 ? "" : ", ") + printable(names[i]);
+  if (names.size() > most_names) text += fmt::format(" and {} more", names.size() - most_names);
+  return text.empty() ? "" : " (in " + text + ")";
+}
+
 void print_defects(const MeshDefects& defects) {
   std::vector<std::string> found;
   const auto add = [&](std::size_t count, const char* one, const char* many) {
@@ -105,13 +119,16 @@ void print_defects(const MeshDefects& defects) {
   add(defects.flat_triangles, "triangle without area", "triangles without area");
   add(defects.slivers, "sliver", "slivers");
   add(defects.coincident, "triangle that coincides with an earlier one", "triangles that coincide with earlier ones");
+  if (!found.empty()) found.back() += among(defects.organs);
   add(defects.crowded_edges, "edge of three or more triangles", "edges of three or more triangles");
+  add(defects.flipped_edges, "edge whose triangles face opposite ways", "edges whose triangles face opposite ways");
+  add(defects.unused_vertices, "vertex in no triangle", "vertices in no triangle");
   std::string line;
   for (const std::string& defect : found) line += (line.empty() ? "" : ", ") + defect;
   fmt::print("  defects: {}\n", line.empty() ? "none" : line);
 }
 
-void print_survey(const std::filesystem::path& file, const MeshSurvey& survey) {
+void print_survey(const std::filesystem::path& file, const MeshSurvey& survey, const NamedParts& named) {
   const ShapeFigures& shape = survey.shape;
   const double unit_m2 = squared(survey.frame.metres_per_unit);
   fmt::print("{}: {}\n", printable(file.string()), survey.frame.summary());
@@ -126,6 +143,9 @@ void print_survey(const std::filesystem::path& file, const MeshSurvey& survey) {
   fmt::print("  {}, {}, {}, {} of them closed\n", counted(survey.plants, "plant", "plants"),
              counted(survey.organs, "organ", "organs"), counted(shape.pieces, "connected piece", "connected pieces"),
              survey.closed_pieces);
+  fmt::print("  named in the file: {}, {}, {}\n", counted(named.objects, "object", "objects"),
+             counted(named.groups, "group", "groups"),
+             counted(survey.has_materials() ? survey.materials.size() : 0, "material", "materials"));
   if (survey.needs_split()) fmt::print("  split = \"parts\" in a scene makes an organ of each piece\n");
   print_shares("organs by name:", survey.families, unit_m2);
   if (survey.has_materials())
@@ -143,11 +163,13 @@ int show_meshes(const InfoOptions& options) {
   start_at_terminal(options.run);
   ordered_json meshes = ordered_json::array();
   for (const std::filesystem::path& file : options.meshes) {
-    const MeshSurvey survey = survey_mesh(read_mesh_as_is(file, options.run.allow_outside), frame_of_format(file));
+    NamedParts named;
+    const Mesh mesh = read_mesh_as_is(file, options.run.allow_outside, nullptr, &named);
+    const MeshSurvey survey = survey_mesh(mesh, frame_of_format(file));
     if (options.run.json)
-      meshes.push_back(survey_json(file, survey));
+      meshes.push_back(survey_json(file, survey, named));
     else
-      print_survey(file, survey);
+      print_survey(file, survey, named);
   }
   if (options.run.json)
     fmt::print("{}\n", ordered_json{{"meshes", meshes}}.dump(2, ' ', false, ordered_json::error_handler_t::replace));

@@ -2,6 +2,7 @@
 
 #include "base/version.h"
 #include "files/formats/mesh/mesh_reader.h"
+#include "files/formats/mesh/organ_split.h"
 #include "files/results/exports/exports.h"
 #include "programs/cli/option_checks.h"
 
@@ -316,6 +317,12 @@ void add_convert(CLI::App& app, ConvertOptions& options) {
       ->check(not_empty());
   add_stand(convert, options.stand);
   convert.add_flag("--z-up", options.z_up, "The input's axes are x east, y north, z up, as a .can's always are");
+  convert
+      .add_option(
+          "--split", options.split,
+          "Organs of a mesh: names (as the file names them), materials (one for each material of an organ) or parts (one "
+          "for each connected piece)")
+      ->check(one_of(organ_split_names()));
   convert.add_flag("--allow-outside", options.allow_outside, "Accept files outside the folder of the scene or glTF");
 }
 

@@ -69,6 +69,7 @@ struct ConvertOptions {
   std::filesystem::path input, output;
   StandFiles stand;
   bool z_up = false;  // the input's z axis points up, as it always does in a .can
+  std::string split;  // names, materials or parts; empty: not given
   bool allow_outside = false;
 };
 

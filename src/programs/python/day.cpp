@@ -37,13 +37,15 @@ class Day {
     const RadiationModel& model = day_.scene.model;
     if (name == "day.csv") return day_csv(day_.record, model, day_.plan.course, day_.lights);
     if (name == "organs_day.csv") return organs_day_csv(day_.record, model, day_.plan.course, day_.lights);
-    throw py::value_error(name + " (not a table of a day); use day.csv or organs_day.csv");
+    if (name == "plants_day.csv") return plants_day_csv(day_.record, model, day_.plan.course, day_.lights);
+    throw not_a_table(name);
   }
 
   [[nodiscard]] py::dict describe(const std::string& name) const {
     if (name == "day.csv") return descriptions_of(steps_table());
     if (name == "organs_day.csv") return descriptions_of(organs_table());
-    throw py::value_error(name + " (not a table of a day); use day.csv or organs_day.csv");
+    if (name == "plants_day.csv") return descriptions_of(plants_table());
+    throw not_a_table(name);
   }
 
   // Returns the columns of day.csv, [step].
@@ -51,14 +53,9 @@ class Day {
 
   // Returns what organs absorbed, [date, organ], as the columns of organs_day.csv, lists first; dates without a step are left
   // out.
-  [[nodiscard]] py::dict organs() const {
-    Table table = organs_table();
-    const auto is_text = [](const Column& column) {
-      return std::holds_alternative<std::span<const std::string>>(column.values);
-    };
-    std::stable_partition(table.columns.begin(), table.columns.end(), is_text);
-    return columns_of(table);
-  }
+  [[nodiscard]] py::dict organs() const { return lists_first(organs_table()); }
+  // Returns what plants absorbed, [date, plant], likewise.
+  [[nodiscard]] py::dict plants() const { return lists_first(plants_table()); }
 
   // Returns the variables of day.nc, [step, triangle], in single precision; those of a night are zero.
   [[nodiscard]] py::dict triangles() const {
@@ -82,8 +79,21 @@ class Day {
   }
 
  private:
+  [[nodiscard]] static py::value_error not_a_table(const std::string& name) {
+    return py::value_error(name + " (not a table of a day); use day.csv, organs_day.csv or plants_day.csv");
+  }
+
+  [[nodiscard]] static py::dict lists_first(Table table) {
+    const auto is_text = [](const Column& column) {
+      return std::holds_alternative<std::span<const std::string>>(column.values);
+    };
+    std::stable_partition(table.columns.begin(), table.columns.end(), is_text);
+    return columns_of(table);
+  }
+
   [[nodiscard]] Table steps_table() const { return sunfleck::steps_table(day_.scene.model, day_.plan.course, day_.lights); }
   [[nodiscard]] Table organs_table() const { return organs_day_table(day_.scene.model, day_.plan.course, day_.lights); }
+  [[nodiscard]] Table plants_table() const { return plants_day_table(day_.scene.model, day_.plan.course, day_.lights); }
 
   InMemoryDay day_;
 };
@@ -118,6 +128,7 @@ void bind_day(py::module_& module) {
       .def("describe", &Day::describe)
       .def("steps", &Day::steps)
       .def("organs", &Day::organs)
+      .def("plants", &Day::plants)
       .def("triangles", &Day::triangles);
   module.def("day", &day_of);
 }

@@ -1,5 +1,7 @@
 #include "programs/viewer/session.h"
 
+#include "base/text.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "simulate/scene_source.h"
 
 #include <utility>
@@ -31,6 +33,10 @@ RunOptions run_options(const ViewOptions& options, const std::filesystem::path& 
 }
 
 }  // namespace
+
+bool can_show(const std::filesystem::path& file) {
+  return lower_case(file.extension().string()) == ".toml" || is_mesh_file(file);
+}
 
 Session::Session(const ViewOptions& options, const std::filesystem::path& scene_file, SourceFiles& files,
                  const std::function<void()>& notify)

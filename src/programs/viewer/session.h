@@ -14,6 +14,9 @@
 
 namespace sunfleck {
 
+// Returns whether a session can show files of this name: scenes (.toml) and meshes, with the scene that mesh_scene.h writes.
+[[nodiscard]] bool can_show(const std::filesystem::path& file);
+
 class Session {
  public:
   // Reads the scene and starts simulating it. Throws Error (input) for a broken scene and Error (device) without the device.

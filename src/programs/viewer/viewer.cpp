@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/units.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "physics/canopy/axes.h"
 #include "physics/light/sun_events.h"
 #include "programs/cli/terminal.h"
@@ -117,10 +118,12 @@ void Viewer::finish_loading() {
 
 void Viewer::take_dropped_files() {
   for (const fs::path& file : window_.take_dropped_files()) {
-    if (file.extension() == ".toml") {
+    if (can_show(file)) {
       load(file);
     } else {
-      say_to_user(fmt::format("{} (not a scene file); drop a .toml file", printable(file.filename().string())), true);
+      say_to_user(fmt::format("{} (neither a scene nor a mesh); drop a scene, .toml, or a mesh, {}",
+                              printable(file.filename().string()), readable_meshes),
+                  true);
     }
   }
 }

@@ -51,7 +51,10 @@ std::uint32_t MeshBuilder::default_optics(std::size_t line) {
 
 std::uint32_t MeshBuilder::organ(const Organ& organ) {
   has_given_organs_ = true;
-  return find_organ(organ);
+  const std::size_t known = mesh_.organs.size();
+  const std::uint32_t number = find_organ(organ);
+  if (source_.named != nullptr) source_.named->objects += mesh_.organs.size() - known;
+  return number;
 }
 
 std::uint32_t MeshBuilder::find_organ(const Organ& organ) {
@@ -91,6 +94,7 @@ std::uint32_t MeshBuilder::object_organ(std::uint32_t object, std::uint32_t opti
       known.organ = organ(*given);
     } else {
       known.organ = find_organ({plant, free_name(plant, known.name), rank});
+      if (source_.named != nullptr) ++source_.named->objects;
       only_object_ = known.organ;
       ++named_organs_;
     }

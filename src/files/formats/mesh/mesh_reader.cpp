@@ -7,6 +7,7 @@
 #include "files/formats/mesh/can_reader.h"
 #include "files/formats/mesh/dae_reader.h"
 #include "files/formats/mesh/gltf_reader.h"
+#include "files/formats/mesh/mesh_content.h"
 #include "files/formats/mesh/mesh_source.h"
 #include "files/formats/mesh/obj_reader.h"
 #include "files/formats/mesh/opf_reader.h"
@@ -71,6 +72,9 @@ FileMesh read_format(const MeshSource& source, MeshFormat format) {
     case MeshFormat::unknown:
       break;
   }
+  if (const auto ending = mesh_ending_of_file(source.file))
+    refuse(source, 0, "unknown kind of mesh", fmt::format("its content looks like {}", *ending),
+           fmt::format("rename it so that it ends in {}", *ending));
   refuse(source, 0, "unknown kind of mesh", fmt::format("the name must end in {}", readable_meshes),
          "convert it, or rename it to match its format");
 }
@@ -131,7 +135,7 @@ bool is_can_file(const std::filesystem::path& file) {
 Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import, SourceFiles* files) {
   EXPECT(import.scale, >, 0.0);
   const MeshFormat format = format_of(file);
-  MeshSource source{file, {}, import.optics, import.allow_outside, files};
+  MeshSource source{file, {}, import.optics, import.allow_outside, files, import.named};
   try {
     const std::string bytes = format == MeshFormat::unknown ? std::string() : read_source(file, files);
     source.bytes = without_mark(bytes);

@@ -2,6 +2,7 @@
 // Reads mesh files: glTF and GLB, OBJ, PLY, STL, COLLADA, OPF, CARIBU .can and .can.gz. The file's name determines the format.
 
 #include "base/source_files.h"
+#include "files/formats/mesh/mesh_source.h"
 #include "files/formats/mesh/organ_split.h"
 #include "physics/canopy/mesh.h"
 #include "physics/canopy/plot.h"
@@ -21,6 +22,7 @@ struct MeshImport {
   bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
   OrganSplit split = OrganSplit::names;
   Axes axes = Axes::south_up_west;  // of the user, which decide what x and z are in a file with y up
+  NamedParts* named = nullptr;      // receives what read_mesh counts, if given
 };
 
 // Returns the triangles of the file in the scene's axes, scaled, with polygons cut into fans. A z-up file has x east, y north:

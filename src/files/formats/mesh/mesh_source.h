@@ -11,12 +11,19 @@
 
 namespace sunfleck {
 
+// How many parts of a file that have triangles are named there: groups of an .obj; its objects, and the named objects, nodes, solids,
+// instances or labelled organs of other formats.
+struct NamedParts {
+  std::size_t objects = 0, groups = 0;
+};
+
 struct MeshSource {
   std::filesystem::path file;
   std::string_view bytes;             // not empty
   std::optional<std::string> optics;  // for triangles whose file names no material
   bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
   SourceFiles* files = nullptr;       // collects the buffers of a glTF file
+  NamedParts* named = nullptr;        // receives the counts of the file, if given
 };
 
 // Throws Error (input) `FILE:LINE: what (why); cure`. Line 0 leaves the line out.

@@ -43,6 +43,7 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 struct EdgeUse {
   Edge edge;
   std::uint32_t triangle = 0;
+  bool is_rising = false;  // the triangle runs from the lower to the higher place
 
   friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
 };
@@ -195,31 +196,62 @@ class Surveyor {
 
   void count_defects() {
     constexpr double slenderness = 100.0;
-    std::vector<std::array<std::uint32_t, 3>> seen;
+    std::vector<bool> is_defective(mesh_.triangles.size(), false);
+    std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> seen;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (is_flat(t)) {
+      is_defective[t] = is_flat(t);
+      if (is_defective[t]) {
         ++found_.defects.flat_triangles;
         continue;
       }
-      seen.push_back(sorted_places(t));
+      seen.emplace_back(sorted_places(t), t);
       const double longest = longest_edge(corners_of(mesh_, t));
-      if (longest * longest > slenderness * 2.0 * areas_[t]) ++found_.defects.slivers;
+      if (longest * longest <= slenderness * 2.0 * areas_[t]) continue;
+      ++found_.defects.slivers;
+      is_defective[t] = true;
     }
     std::sort(seen.begin(), seen.end());
-    const auto unique_end = std::unique(seen.begin(), seen.end());
-    found_.defects.coincident = static_cast<std::size_t>(seen.end() - unique_end);
+    for (std::size_t i = 1; i < seen.size(); ++i) {
+      if (seen[i].first != seen[i - 1].first) continue;
+      ++found_.defects.coincident;
+      is_defective[seen[i].second] = true;
+    }
+    name_organs(is_defective);
+    count_unused_vertices();
   }
 
-  // Counts crowded edges and closed pieces.
-  void count_edges() {
+  void name_organs(const std::vector<bool>& is_defective) {
+    std::set<std::string> named;
+    for (std::size_t t = 0; t < is_defective.size(); ++t) {
+      const std::string& name = mesh_.organs[mesh_.organ_of[t]].name;
+      if (is_defective[t] && named.insert(name).second) found_.defects.organs.push_back(name);
+    }
+  }
+
+  void count_unused_vertices() {
+    std::vector<bool> is_used(mesh_.vertices.size(), false);
+    for (const glm::uvec3& c : mesh_.triangles) is_used[c.x] = is_used[c.y] = is_used[c.z] = true;
+    found_.defects.unused_vertices = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
+  }
+
+  [[nodiscard]] std::vector<EdgeUse> uses_of_edges() const {
     std::vector<EdgeUse> uses;
     uses.reserve(3 * mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (is_flat(t)) continue;
-      const auto [a, b, c] = sorted_places(t);
-      for (const Edge& edge : {Edge(a, b), Edge(b, c), Edge(a, c)}) uses.push_back({edge, t});
+      const glm::uvec3& c = mesh_.triangles[t];
+      for (const auto& [from, to] : {Edge(c.x, c.y), Edge(c.y, c.z), Edge(c.z, c.x)}) {
+        const std::uint32_t a = places_[from], b = places_[to];
+        uses.push_back({std::minmax(a, b), t, a < b});
+      }
     }
     std::sort(uses.begin(), uses.end());
+    return uses;
+  }
+
+  // Counts crowded and flipped edges, and closed pieces.
+  void count_edges() {
+    const std::vector<EdgeUse> uses = uses_of_edges();
     std::vector<bool> closed(pieces_.count, false);
     for (const EdgeUse& use : uses) closed[pieces_.piece_of[use.triangle]] = true;
     for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
@@ -227,6 +259,8 @@ class Surveyor {
       if (next - first > 2) ++found_.defects.crowded_edges;
       std::map<std::uint32_t, std::size_t> by_piece;
       for (std::size_t i = first; i < next; ++i) ++by_piece[pieces_.piece_of[uses[i].triangle]];
+      if (next - first == 2 && by_piece.size() == 1 && uses[first].is_rising == uses[first + 1].is_rising)
+        ++found_.defects.flipped_edges;
       for (const auto& [piece, count] : by_piece)
         if (count != 2) closed[piece] = false;
     }
@@ -293,8 +327,9 @@ MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known) {
   return Surveyor(mesh, known).survey();
 }
 
-Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files) {
+Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files, NamedParts* named) {
   MeshImport import{.optics = std::string(no_material), .up = UpAxis::y, .scale = 1.0, .allow_outside = allow_outside};
+  import.named = named;
   if (is_collada(file)) import.up.reset();
   Mesh mesh = read_mesh(file, import, files);
   // The colours of a .ply are its materials unless the scene gives optics.
@@ -302,6 +337,7 @@ Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, Sour
                                     [](const Organ& organ) { return organ.name.starts_with(colour_prefix); });
   if (!coloured || mesh.optics_names != std::vector<std::string>{std::string(no_material)}) return mesh;
   import.optics.reset();
+  import.named = nullptr;
   return read_mesh(file, import, files);
 }
 

@@ -40,6 +40,11 @@ struct MeshDefects {
   std::size_t slivers = 0;         // others whose longest edge is over 100 times their height
   std::size_t coincident = 0;      // with the three corners of an earlier triangle, in any order
   std::size_t crowded_edges = 0;   // edges of three or more triangles (non-manifold)
+  std::size_t flipped_edges =
+      0;  // edges of two triangles of one piece that face opposite ways, so its upper face changes sides
+  std::size_t unused_vertices = 0;
+  std::vector<std::string>
+      organs;  // that hold flat triangles, slivers or coincident triangles, by first triangle, without repeats
 };
 
 struct MeshSurvey {
@@ -78,6 +83,8 @@ struct MeshSurvey {
 
 // Reads a file as read_mesh does, but leaves its axes and unit as they are. Only a .dae comes in the scene's axes, since the file
 // itself says how it is to be turned; it and an .opf come in metres. Triangles without a material have no_material.
-[[nodiscard]] Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files = nullptr);
+// `named` receives the counts of the file, if given.
+[[nodiscard]] Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files = nullptr,
+                                   NamedParts* named = nullptr);
 
 }  // namespace sunfleck

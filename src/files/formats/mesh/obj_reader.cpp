@@ -42,6 +42,7 @@ class ObjText {
     // corners, one dummy position per position.
     std::string faces;
     bool groups_are_organs = false;  // otherwise objects are, for faces that have both
+    NamedParts named;
   };
 
   Checked check() {
@@ -53,7 +54,7 @@ class ObjText {
     LineReader lines(source_.bytes);
     while (lines.next()) check_line(lines.number(), lines.line());
     if (highest_ > static_cast<std::int64_t>(positions_.size())) refuse_corner(highest_line_, fmt::to_string(highest_));
-    return {std::move(positions_), std::move(faces_), groups_.size() >= objects_.size()};
+    return {std::move(positions_), std::move(faces_), groups_.size() >= objects_.size(), {objects_.size(), groups_.size()}};
   }
 
  private:
@@ -221,6 +222,7 @@ Mesh read_obj(const MeshSource& source) {
   std::string warnings, errors;
   if (!tinyobj::LoadObjWithCallback(faces_only, callback, &mesh, nullptr, &warnings, &errors))
     refuse(source, 0, "cannot be read as OBJ", errors, "export the file again");
+  if (source.named != nullptr) *source.named = text.named;
   return mesh.take();
 }
 

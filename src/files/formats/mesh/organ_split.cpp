@@ -130,6 +130,11 @@ void split_by_parts(Mesh& mesh) {
 
 }  // namespace
 
+const std::vector<std::string>& organ_split_names() {
+  static const std::vector<std::string> names = {"names", "materials", "parts"};
+  return names;
+}
+
 void split_organs(Mesh& mesh, OrganSplit split) {
   if (split == OrganSplit::materials) split_by_materials(mesh);
   if (split == OrganSplit::parts) split_by_parts(mesh);

@@ -4,6 +4,8 @@
 #include "physics/canopy/mesh.h"
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace sunfleck {
 
@@ -12,6 +14,9 @@ enum class OrganSplit {
   materials,  // one organ for each material of a named organ
   parts       // one organ for each connected piece
 };
+
+// Returns the words for them in scenes and options, in this order.
+[[nodiscard]] const std::vector<std::string>& organ_split_names();
 
 // Splits the organs of a mesh; new organs are in the order of their first triangles.
 // materials  the triangles of an organ that has several materials become one organ for each, with the name `ORGAN MATERIAL`.

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/sealed_file.h"
 #include "files/results/tables/day_fields.h"
+#include "physics/transport/model/plant_areas.h"
 
 #include <fmt/format.h>
 
@@ -75,6 +76,7 @@ StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model,
       settings_(settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace)),
       bands_(model.bands.size()),
       organs_(model.canopy.organs.size()),
+      plants_(count_plants(model)),
       field_values_(model.bands.size() * day_columns(model).size() * model.canopy.size()) {}
 
 StepStore::Found StepStore::find() const {
@@ -122,7 +124,8 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
   try {
     if (content->at("settings") != settings_ || content->at("step") != step) return std::nullopt;
     StoredStep stored;
-    stored.light = {std::vector<StepBand>(bands_), std::vector<Estimate>(organs_ * bands_), {}};
+    stored.light = {
+        std::vector<StepBand>(bands_), std::vector<Estimate>(organs_ * bands_), {}, std::vector<Estimate>(plants_ * bands_)};
     visit(StoreReader(*content), stored, field_values_);
     return stored;
   } catch (const json::exception&) {

@@ -62,7 +62,7 @@ class StepStore {
 
   std::filesystem::path folder_;
   std::string settings_;  // JSON
-  std::size_t bands_, organs_, field_values_;
+  std::size_t bands_, organs_, plants_, field_values_;
 };
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #include "files/results/tables/day_course.h"
 
 #include "base/check.h"
+#include "physics/transport/model/plant_areas.h"
 
 #include <fmt/format.h>
 
@@ -36,10 +37,12 @@ struct Sums {
   std::size_t steps = 0;
   std::vector<std::array<Sum, std::size(terms)>> bands;
   std::vector<Sum> organs;  // [organ * bands + band]
+  std::vector<Sum> plants;  // [plant * bands + band]
 
   void add(const StepLight& light, double length_s) {
     EXPECT(light.bands.size(), ==, bands.size());
     EXPECT(light.organ_absorbed.size(), ==, organs.size());
+    EXPECT(light.plant_absorbed_w.size(), ==, plants.size());
     ++steps;
     for (std::size_t b = 0; b < bands.size(); ++b) {
       const StepBand& band = light.bands[b];
@@ -49,10 +52,12 @@ struct Sums {
       }
       const double absorbed = band.absorbed_vegetation.value + band.absorbed_structure.value + band.absorbed_soil.value;
       const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
-      for (std::size_t i = b; i < organs.size(); i += bands.size()) {
-        const Estimate& flux = light.organ_absorbed[i];
-        organs[i].add(flux, std::min(flux.half_width, flux.value * unshot_share), length_s);
-      }
+      const auto add_to = [&](std::vector<Sum>& sums, const std::vector<Estimate>& fluxes) {
+        for (std::size_t i = b; i < sums.size(); i += bands.size())
+          sums[i].add(fluxes[i], std::min(fluxes[i].half_width, fluxes[i].value * unshot_share), length_s);
+      };
+      add_to(organs, light.organ_absorbed);
+      add_to(plants, light.plant_absorbed_w);
     }
   }
 
@@ -66,6 +71,7 @@ struct Sums {
       date.bands.push_back(sums);
     }
     for (const Sum& organ : organs) date.organ_absorbed.push_back(organ.estimate());
+    for (const Sum& plant : plants) date.plant_absorbed.push_back(plant.estimate());
     return date;
   }
 };
@@ -94,6 +100,9 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
   for (const OrganResult& organ : result.organs) {
     light.organ_absorbed.insert(light.organ_absorbed.end(), organ.absorbed.begin(), organ.absorbed.end());
   }
+  for (const PlantResult& plant : result.plants) {
+    light.plant_absorbed_w.insert(light.plant_absorbed_w.end(), plant.absorbed_w.begin(), plant.absorbed_w.end());
+  }
   light.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
   return light;
 }
@@ -101,7 +110,8 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
 StepLight night_light(const RadiationModel& model) {
   const std::size_t bands = model.bands.size();
   return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
-          std::vector<Estimate>(model.canopy.organs.size() * bands, zero), zero};
+          std::vector<Estimate>(model.canopy.organs.size() * bands, zero), zero,
+          std::vector<Estimate>(count_plants(model) * bands, zero)};
 }
 
 std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
@@ -109,6 +119,7 @@ std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& co
   Sums dark;
   dark.bands.resize(bands);
   dark.organs.resize(model.canopy.organs.size() * bands);
+  dark.plants.resize(count_plants(model) * bands);
   std::vector<Sums> dates(course.dates.size(), dark);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const DayStep& step = course.steps[i];

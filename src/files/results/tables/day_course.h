@@ -49,10 +49,11 @@ struct StepLight {
   std::vector<StepBand> bands;           // [band]
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], W m-2 of the organ's one-sided area
   Estimate sunlit_leaf_fraction;
+  std::vector<Estimate> plant_absorbed_w;  // [plant * bands + band], plants as in PlantAreas
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction);
+    archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction, self.plant_absorbed_w);
   }
 };
 
@@ -68,6 +69,7 @@ struct DateSums {
   std::size_t steps = 0;
   std::vector<StepBand> bands;
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], J m-2 of the organ's one-sided area
+  std::vector<Estimate> plant_absorbed;  // [plant * bands + band], J of the whole plant
 };
 
 // From J to MJ, in which tables and summaries state these sums.

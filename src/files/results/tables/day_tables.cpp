@@ -3,6 +3,7 @@
 #include "base/units.h"
 #include "files/results/tables/result_tables.h"
 #include "files/results/tables/table_text.h"
+#include "physics/transport/model/plant_areas.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,32 @@ std::vector<double> organ_areas_m2(const Canopy& canopy) {
 std::vector<std::string> stopped_note(const DayCourse& course, std::span<const StepLight> lights) {
   if (lights.size() == course.steps.size()) return {};
   return {fmt::format("incomplete: the first {} of {} steps", lights.size(), course.steps.size())};
+}
+
+std::vector<std::size_t> dates_with_steps(const std::vector<DateSums>& sums) {
+  std::vector<std::size_t> dates;
+  for (std::size_t d = 0; d < sums.size(); ++d) {
+    if (sums[d].steps > 0) dates.push_back(d);
+  }
+  return dates;
+}
+
+// Returns the plants with their places and areas, which no beam changes.
+PlantAreas plants_of(const RadiationModel& model) {
+  return {model, Surfaces(model), BeamExposure(model, make_counter_layout(model), 1.0)};
+}
+
+void add_plants(Table& table, const PlantAreas& plants, std::size_t axis) {
+  const std::vector<std::size_t> along{axis};
+  const auto add = [&](const char* name, const char* unit, const char* meaning, const auto& value) {
+    table.add({name, unit, meaning, in_csv | in_arrays, along}, value);
+  };
+  add("plant", "1", "number of the plant", [&](std::size_t p) { return plants.sites[p].plant; });
+  add("x", "m", "position towards the south", [&](std::size_t p) { return plants.sites[p].position_m.x; });
+  add("y", "m", "position upwards", [&](std::size_t p) { return plants.sites[p].position_m.y; });
+  add("z", "m", "position towards the west", [&](std::size_t p) { return plants.sites[p].position_m.z; });
+  add("height_m", "m", "height from its lowest to its highest point", [&](std::size_t p) { return plants.height_m[p]; });
+  add("leaf_area_m2", "m2", "one-sided area of its leaves", [&](std::size_t p) { return plants.leaf_m2[p]; });
 }
 
 }  // namespace
@@ -60,10 +87,7 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
   constexpr unsigned outputs = in_csv | in_arrays;
   const std::vector<Organ>& organs = model.canopy.organs;
   const std::vector<DateSums> sums = sum_dates(model, course, lights);
-  std::vector<std::size_t> dates;
-  for (std::size_t d = 0; d < sums.size(); ++d) {
-    if (sums[d].steps > 0) dates.push_back(d);
-  }
+  const std::vector<std::size_t> dates = dates_with_steps(sums);
   Table table{"What organs absorbed over the steps of each date, soil elements included; the ground of [soil] has no row",
               "area_m2: m2, one-sided; absorbed: per one-sided area; _error: relative half-width of the confidence interval of "
               "absorbed",
@@ -91,6 +115,36 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
   return table;
 }
 
+Table plants_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
+  const std::vector<DateSums> sums = sum_dates(model, course, lights);
+  const std::vector<std::size_t> dates = dates_with_steps(sums);
+  const PlantAreas plants = plants_of(model);
+  Table table{
+      "What plants, their leaves, stems and fruits together, absorbed over the steps of each date",
+      "x, y, z: m (X south, Y up, Z west); height_m: m; leaf_area_m2: m2, one-sided; absorbed: of the whole plant, MJ and "
+      "mol of photons; _error: half-width of the confidence interval",
+      stopped_note(course, lights),
+      {dates.size(), plants.size()},
+      {}};
+  table.add({"date", "", "local date", in_csv | in_arrays, std::vector<std::size_t>{0}},
+            [&](std::size_t d) { return course.dates[dates[d]]; });
+  add_plants(table, plants, 1);
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    const auto absorbed = [&, b](std::size_t row, double per_joule) -> Estimate {
+      const Estimate& joules = sums[dates[row / plants.size()]].plant_absorbed[row % plants.size() * model.bands.size() + b];
+      return {joules.value * per_joule, joules.half_width * per_joule};
+    };
+    table.add({band + "_absorbed_mj", "MJ", "energy that all its organs absorbed"},
+              [&](std::size_t row) { return absorbed(row, per_mega); });
+    if (!(umol_per_joule > 0.0)) continue;
+    table.add({band + "_absorbed_mol", "mol", "photons that all its organs absorbed"},
+              [&](std::size_t row) { return absorbed(row, umol_per_joule * per_mega); });
+  }
+  return table;
+}
+
 std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                     std::span<const StepLight> lights) {
   return csv_text(record, steps_table(model, course, lights));
@@ -99,6 +153,11 @@ std::string day_csv(const RunRecord& record, const RadiationModel& model, const 
 std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                            std::span<const StepLight> lights) {
   return csv_text(record, organs_day_table(model, course, lights));
+}
+
+std::string plants_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+                           std::span<const StepLight> lights) {
+  return csv_text(record, plants_day_table(model, course, lights));
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a day: day.csv and organs_day.csv. `lights` holds the light of the first steps of the course: all of them, or
+// The tables of a day: day.csv, organs_day.csv and plants_day.csv. `lights` holds the light of the first steps of the course: all of them, or
 // those finished before the day was stopped; in that case a line of the tables says so.
 
 #include "files/results/tables/day_course.h"
@@ -16,9 +16,14 @@ namespace sunfleck {
 // Returns the rows of organs.csv for each date that has steps; its axes are date and organ.
 [[nodiscard]] Table organs_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
 
+// Returns the rows of plants.csv for each date that has steps; its axes are date and plant.
+[[nodiscard]] Table plants_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
+
 [[nodiscard]] std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                   std::span<const StepLight> lights);
 [[nodiscard]] std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+                                         std::span<const StepLight> lights);
+[[nodiscard]] std::string plants_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                          std::span<const StepLight> lights);
 
 }  // namespace sunfleck

@@ -65,4 +65,10 @@ PlantAreas::PlantAreas(const RadiationModel& model, const Surfaces& surfaces, co
   for (std::size_t p = 0; p < sites.size(); ++p) height_m[p] = double{heights[p].hi} - double{heights[p].lo};
 }
 
+std::size_t count_plants(const RadiationModel& model) {
+  std::vector<PlantSite> sites;
+  static_cast<void>(list_sites(model, Surfaces(model), sites));
+  return sites.size();
+}
+
 }  // namespace sunfleck

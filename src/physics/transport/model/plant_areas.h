@@ -30,4 +30,7 @@ struct PlantAreas {
   std::vector<double> largest_absorptance;  // [plant * bands + band], of faces with an area
 };
 
+// Returns how many plants have vegetation.
+[[nodiscard]] std::size_t count_plants(const RadiationModel& model);
+
 }  // namespace sunfleck

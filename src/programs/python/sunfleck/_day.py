@@ -51,6 +51,12 @@ class DayResult:
         return self._core.organs()
 
     @functools.cached_property
+    def plants(self) -> dict[str, Any]:
+        """The absorption of plants: date (a list); plant, x, y, z, height_m and leaf_area_m2 by plant; and arrays of shape (dates,
+        plants): BAND_absorbed_mj (of the whole plant), with photon units BAND_absorbed_mol, with their half-widths _error."""
+        return self._core.plants()
+
+    @functools.cached_property
     def triangles(self) -> dict[str, np.ndarray]:
         """The fields of day.nc in single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
         BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed, BAND_error. They
@@ -58,11 +64,11 @@ class DayResult:
         return self._core.triangles()
 
     def describe(self, table: str) -> dict[str, tuple[str, str]]:
-        """Returns the unit and the meaning of each column of day.csv or organs_day.csv."""
+        """Returns the unit and the meaning of each column of day.csv, organs_day.csv or plants_day.csv."""
         return {name: (unit, meaning) for name, (unit, meaning, _) in self._core.describe(table).items()}
 
     def table(self, name: str) -> str:
-        """Returns the text of day.csv or organs_day.csv, byte for byte as the program writes it."""
+        """Returns the text of day.csv, organs_day.csv or plants_day.csv, byte for byte as the program writes it."""
         return self._core.table(name)
 
     def to_xarray(self) -> xarray.Dataset:

@@ -56,6 +56,33 @@ TEST_F(LightPlausibility, BeamsAreWeakerThanOutsideTheAtmosphere) {
                 band("direct_normal = 1390"));
 }
 
+// Outside the atmosphere the sun sends 519 W m-2 of PAR (Thekaekara 1973, scaled to 1361 W m-2), so a bound must be above that.
+TEST_F(LightPlausibility, BandsHaveTheirShareOfTheSolarConstant) {
+  EXPECT_GT(most_solar_share({400.0, 700.0}) * 1361.0, 525.0);
+  EXPECT_LT(most_solar_share({400.0, 700.0}) * 1361.0, 640.0);
+  EXPECT_GT(most_solar_share({450.0, 460.0}) * 1361.0, 20.8);  // the brightest of the spectrum
+  EXPECT_GT(most_solar_share({1600.0, 1700.0}) * 1361.0, 23.4);
+  EXPECT_EQ(most_solar_share({100.0, 50000.0}), 1.0);
+  const std::string par = "\nrange_nm = [400, 700]", nir = "\nrange_nm = [700, 2500]";
+  expect_warned(lit_stand + sun("90") + band("direct = 700" + par), "band.direct", "outside the atmosphere from 400 to 700 nm");
+  expect_warned(lit_stand + sun("90") + band("direct_normal = 700" + par), "band.direct_normal",
+                "or add unit = \"umol_m2_s\" if umol m-2 s-1 are meant");
+  expect_silent(lit_stand + sun("90") + band("direct = 520" + par));
+  expect_silent(lit_stand + sun("90") + band("direct = 1000"));
+  expect_silent(lit_stand + sun("90") + band("direct = 2000\nunit = \"umol_m2_s\"" + par));
+  expect_warned(lit_stand + sun("90") + band("direct = 900" + nir), "band.direct", "from 700 to 2500 nm");
+  expect_silent(lit_stand + sun("90") + band("direct = 700" + nir));
+}
+
+TEST_F(LightPlausibility, EqualBandsAreJudgedTogether) {
+  const auto equal = [](const std::string& light) {
+    return "bands = { from = 400, to = 700, step = 100, " + light + " }\n" + lit_stand;
+  };
+  expect_warned(equal("direct = 700") + sun("90"), "bands.direct", "from 400 to 700 nm");
+  expect_warned(equal("direct = 2000") + sun("90"), "bands.direct", "are meant, give 437.6 W m-2");
+  expect_silent(equal("direct = 500") + sun("90"));
+}
+
 TEST_F(LightPlausibility, PhotonsAreNoWatts) {
   expect_warned(lit_stand + sun("60") + band("direct = 1600"), "band.direct",
                 "unit = \"umol_m2_s\", which makes it 350.1 W m-2");

@@ -78,6 +78,29 @@ const std::vector<Breakage> breakages = {
     {"AzimuthRange", "270", "-361", "azimuth", "sun.azimuth", "-360..360"},
     {"AzimuthMissing", "azimuth   = 270\n", "", "[sun]", "sun.azimuth", "add azimuth"},
     {"SunMixed", "azimuth   = 270", "latitude = 3", "elevation", "sun.elevation", "remove it"},
+    {"ScaleUnit", "scale   = 0.5", "scale = \"cm\"", "cm", "geometry.scale", "without quotes: 0.01"},
+    {"OpticsAsList", "[optics.leaf]", "[[optics]]\nname = \"leaf\"", "[[optics]]", "optics", "write [optics.leaf]"},
+    {"SpectrumNumber", "reflectance   = { PAR = 0.12, NIR_1 = 0.45 }\ntransmittance = { PAR = 0.06, NIR_1 = 0.55 }",
+     "spectrum = 0.1", "spectrum = 0.1", "optics.leaf.spectrum", "or give numbers as reflectance"},
+    {"RangeNumber", "diffuse = 0.0", "range_nm = 550", "range_nm", "band.range_nm", "write it as [400, 700]"},
+    {"RangeText", "diffuse = 0.0", "range_nm = \"400-700\"", "range_nm", "band.range_nm", "write it as [400, 700]"},
+    {"RangeKey", "diffuse = 0.0", "range = [400, 700]", "range", "band.range", "use range_nm"},
+    {"UnitPhotons", "diffuse = 0.0", "unit = \"PPFD\"", "PPFD", "band.unit", "did you mean umol_m2_s?"},
+    {"UnitMicromol", "diffuse = 0.0", "unit = \"umol\"", "unit", "band.unit", "did you mean umol_m2_s?"},
+    {"UnitNumber", "diffuse = 0.0", "unit = 1", "unit", "band.unit", "must be one of W_m2, umol_m2_s, not a whole number"},
+    {"RoleWood", "up      = \"y\"", "role = \"wood\"", "wood", "geometry.role", "did you mean stem?"},
+    {"RoleLeaves", "up      = \"y\"", "role = \"Leaves\"", "Leaves", "geometry.role", "did you mean leaf?"},
+    {"SplitTrue", "up      = \"y\"", "split = true", "split", "geometry.split",
+     "must be one of names, materials, parts, not true"},
+    {"SplitOther", "up      = \"y\"", "split = \"part\"", "split", "geometry.split", "did you mean parts?"},
+    {"PositionsList", "heading = [0, 90.0]\nat      =", "positions =", "positions", "geometry.positions",
+     "write a list of positions as at"},
+    {"OpticsList", "{ leaf = \"leaf\", \"*\" = \"bark\" }", "[\"leaf\"]", "optics  =", "geometry.optics",
+     "write \"leaf\", or {"},
+    {"OpticsInline", "{ leaf = \"leaf\", \"*\" = \"bark\" }", "{ reflectance = 0.1 }", "reflectance = 0.1",
+     "geometry.optics.reflectance", "reflectance under [optics.leaf]"},
+    {"PatternUnquoted", "{ leaf = \"leaf\", \"*\" = \"bark\" }", "{ leaf* = \"leaf\" }", "leaf*", "",
+     "put the pattern in quotes"},
     {"RoleUnknown", "up      = \"y\"", "role = \"leafs\"", "leafs", "geometry.role", "did you mean leaf?"},
     {"RoleNumber", "[optics.bark.upper]", "[optics.bark]\nrole = 1\n[optics.bark.upper]", "role = 1", "optics.bark.role",
      "in quotes"},
@@ -263,6 +286,29 @@ TEST_F(BrokenSceneFile, RefusesAMesh) {
   const auto message = message_of([&] { static_cast<void>(read_scene(folder_ / "stand.glb")); });
   ASSERT_TRUE(message);
   EXPECT_NE(message->find("stand.glb: not a scene (this is a mesh); write a scene for it"), std::string::npos) << *message;
+}
+
+TEST_F(BrokenSceneFile, RefusesAMeshOfAnotherName) {
+  const std::pair<const char*, const char*> meshes[] = {{"ply\nformat ascii 1.0\n", ".ply"},
+                                                        {"# Blender\nmtllib a.mtl\n", ".obj"},
+                                                        {"v 0 0 1\n", ".obj"},
+                                                        {"p 1 100001001000 3 0 0 0\n", ".can"},
+                                                        {"solid a\n facet normal", ".stl"},
+                                                        {"<?xml?>\n<COLLADA>", ".dae"},
+                                                        {"<opf version>", ".opf"}};
+  for (const auto& [bytes, ending] : meshes) {
+    write(folder_ / "mesh.txt", bytes);
+    const auto message = message_of([&] { static_cast<void>(read_scene(folder_ / "mesh.txt")); });
+    ASSERT_TRUE(message);
+    expect_three_parts(*message);
+    EXPECT_NE(message->find(fmt::format("is a mesh ({0}), not a scene in TOML); rename it so that it ends in {0}", ending)),
+              std::string::npos)
+        << *message;
+    const auto named = message_of([&] { static_cast<void>(read(replaced(good_scene, "plates.obj", "mesh.txt"))); });
+    ASSERT_TRUE(named);
+    EXPECT_NE(named->find(fmt::format("looks like {0}); rename it so that it ends in {0}", ending)), std::string::npos)
+        << *named;
+  }
 }
 
 // Excessive nesting must overflow the stack neither in the parser nor when its tree is freed.

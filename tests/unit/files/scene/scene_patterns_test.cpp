@@ -92,6 +92,12 @@ TEST_F(Patterns, MatchMaterialsAndOrgans) {
   EXPECT_EQ(names(R"({ "green" = "other", "trunk*" = "stem", "blade" = "leaf" })"), (Strings{"leaf", "leaf", "stem", "other"}));
 }
 
+TEST_F(Patterns, MatchAnOrganWithItsRank) {
+  EXPECT_EQ(names(R"({ "trunk 7" = "stem", "*" = "leaf" })"), (Strings{"leaf", "leaf", "stem", "stem"}));
+  EXPECT_EQ(names(R"({ "trunk 8" = "stem", "* 0" = "stem", "*" = "leaf" })"), (Strings{"leaf", "leaf", "leaf", "leaf"}));
+  EXPECT_EQ(idle(R"({ "trunk 7" = "stem", "*" = "leaf" })"), "");
+}
+
 TEST_F(Patterns, ATextIsForTheWholeMesh) {
   EXPECT_EQ(names("\"stem\""), (Strings{"stem", "stem", "stem", "stem"}));
 }
@@ -123,8 +129,8 @@ TEST_F(Patterns, RefuseWhatTheyDoNotCover) {
             "scene.toml:17: geometry.optics.* = \"laef\" (these optics are not defined); did you mean leaf? Otherwise add "
             "[optics.laef] with reflectance");
   EXPECT_EQ(refusal("{ }").substr(0, 53), "scene.toml:17: geometry.optics (it has no pattern); w");
-  EXPECT_NE(refusal(R"({ "*" = 3 })").find("must be a text"), std::string::npos);
-  EXPECT_NE(refusal("3").find("must be a text"), std::string::npos);
+  EXPECT_NE(refusal(R"({ "*" = 3 })").find("a pattern needs the name of an [optics.NAME]"), std::string::npos);
+  EXPECT_NE(refusal("3").find("must be the name of an [optics.NAME], or a table of patterns"), std::string::npos);
 }
 
 }  // namespace

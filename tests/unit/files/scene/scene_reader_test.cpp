@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cstdint>
 #include <numbers>
@@ -197,6 +198,34 @@ TEST_F(SceneReader, ReadsRolesOfOpticsAndGeometry) {
     const Scene by_geometry = read(replaced(good_scene, "up      = \"y\"\n", key));
     for (const Organ& organ : by_geometry.model.canopy.organs) EXPECT_EQ(role_name(organ.role.value()), name);
   }
+}
+
+// Their materials need no optics: soil reflects as [soil] does, and a structure is grey.
+TEST_F(SceneReader, SoilAndStructuresNeedNoOptics) {
+  write(folder_ / "plates.obj", replaced(plates_obj, "usemtl", "usemtl box\nf 1 2 3\nusemtl"));
+  const std::string without =
+      replaced(good_scene, "optics  = { leaf = \"leaf\", \"*\" = \"bark\" }\nup      = \"y\"\n", "role = \"{}\"\n");
+  const Scene soil = read(replaced(without, "{}", "soil"));
+  ASSERT_EQ(soil.model.canopy.optics_names, (std::vector<std::string>{"soil", "leaf"}));
+  EXPECT_EQ(soil.model.optics[0].upper[0].reflectance, 0.15);
+  const Scene grey = read(replaced(without, "{}", "structure"));
+  ASSERT_EQ(grey.model.canopy.optics_names.front(), "plain structure");
+  EXPECT_EQ(grey.model.optics[0].lower[1].reflectance, 0.4);
+  EXPECT_EQ(grey.model.optics[0].lower[1].transmittance, 0.0);
+  ASSERT_FALSE(grey.warnings.empty());
+  const auto said = std::find_if(grey.warnings.begin(), grey.warnings.end(), [](const std::string& warning) {
+    return warning.find("the optics of box, structure are not given") != warning.npos;
+  });
+  EXPECT_NE(said, grey.warnings.end()) << grey.warnings.front();
+  Scene again = grey;
+  relight(again, SceneText{file(), replaced(without, "{}", "structure"), {}});
+  EXPECT_EQ(again.model.optics[0].upper[0].reflectance, 0.4);
+  const Scene given = read(replaced(without, "{}", "structure") + "[optics.structure]\nreflectance = 0.7\n");
+  EXPECT_EQ(given.model.optics[0].upper[0].reflectance, 0.7);
+  // Plants still need theirs.
+  const auto message = message_of([&] { static_cast<void>(read(replaced(without, "{}", "stem"))); });
+  ASSERT_TRUE(message);
+  expect_three_parts(*message);
 }
 
 TEST_F(SceneReader, GivesStructuresThatSharePlantsOpticsTheirOwn) {

@@ -28,7 +28,12 @@ TEST(TextNumber, LeavesOtherTextsAlone) {
 TEST(TextNumber, AdvisesTheNumber) {
   EXPECT_EQ(cure_of_text("50 cm", "give metres"), "write it without quotes and unit: 0.5");
   EXPECT_EQ(cure_of_text("50 ft", "give metres"), "write the number alone, without quotes and unit (give metres)");
-  EXPECT_EQ(cure_of_text("noon", "give degrees"), "write it without quotes, or give a number");
+  const char* const scale = "give 0.01 for a file in cm";
+  EXPECT_EQ(cure_of_text("cm", scale), "write the metres that a unit of the file has, without quotes: 0.01");
+  EXPECT_EQ(cure_of_text("inches", scale), "write the metres that a unit of the file has, without quotes: 0.0254");
+  EXPECT_EQ(cure_of_text("1 cm", scale), "write it without quotes and unit: 0.01");
+  EXPECT_EQ(cure_of_text("small", scale), "give a number, without quotes (give 0.01 for a file in cm)");
+  EXPECT_EQ(cure_of_text("noon", "give degrees"), "give a number, without quotes (give degrees)");
 }
 
 }  // namespace

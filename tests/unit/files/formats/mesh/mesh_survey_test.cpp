@@ -119,6 +119,26 @@ TEST(MeshSurvey, CountsDefects) {
   EXPECT_EQ(defects.coincident, 1U);
   EXPECT_EQ(defects.slivers, 1U);
   EXPECT_EQ(defects.crowded_edges, 1U);
+  EXPECT_EQ(defects.unused_vertices, 0U);
+  EXPECT_EQ(defects.organs, std::vector<std::string>{"leaf"});
+}
+
+TEST(MeshSurvey, CountsEdgesWhereASheetTurnsItsFace) {
+  Mesh mesh;
+  mesh.optics_names = {"leaf"};
+  mesh.organs = {{1, "leaf", 0}};
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {5, 5, 5}, {6, 6, 6}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.organ_of = mesh.optics_of = {0, 0};
+  EXPECT_EQ(survey_mesh(mesh, {}).defects.flipped_edges, 0U);
+  EXPECT_EQ(survey_mesh(mesh, {}).defects.unused_vertices, 2U);
+  EXPECT_TRUE(survey_mesh(mesh, {}).defects.organs.empty());
+  std::swap(mesh.triangles[1].x, mesh.triangles[1].y);
+  EXPECT_EQ(survey_mesh(mesh, {}).defects.flipped_edges, 1U);
+  // Another piece may face any way.
+  mesh.organs.push_back({1, "stem", 0});
+  mesh.organ_of[1] = 1;
+  EXPECT_EQ(survey_mesh(mesh, {}).defects.flipped_edges, 0U);
 }
 
 TEST(MeshSurvey, PiecesJoinWherePositionsAreEqualWithinOneOrganAndMaterial) {

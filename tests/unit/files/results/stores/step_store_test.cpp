@@ -25,6 +25,8 @@ RadiationModel two_bands() {
   model.canopy.organ_of = {0, 0, 1};
   model.canopy.optics_of = {0, 0, 0};
   model.canopy.organs.resize(2);
+  model.canopy.optics_names = {"leaf"};
+  model.canopy.plants = {{1, {0.5, 0.0, 0.5}}};
   model.bands.resize(2);
   model.sky = SkyModel{};
   return model;
@@ -37,6 +39,7 @@ StoredStep some_step(const RadiationModel& model) {
   step.light.bands[1].unshot = 1e-300;
   step.light.organ_absorbed[3] = {0.1, std::numeric_limits<double>::denorm_min()};
   step.light.sunlit_leaf_fraction = {no_value, no_value};
+  step.light.plant_absorbed_w[1] = {0.7, 0.1};
   step.fields.assign(2 * 8 * 3, 0.1F);
   step.fields[7] = std::numeric_limits<float>::quiet_NaN();
   step.next_work = {1e6 / 7.0, 0.1};
@@ -77,6 +80,8 @@ TEST_F(StepStoreTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(read->light.bands[1].unshot, 1e-300);
   EXPECT_EQ(read->light.organ_absorbed[3].half_width, std::numeric_limits<double>::denorm_min());
   EXPECT_TRUE(std::isnan(read->light.sunlit_leaf_fraction.value));
+  ASSERT_EQ(read->light.plant_absorbed_w.size(), 2U);
+  EXPECT_EQ(read->light.plant_absorbed_w[1].half_width, 0.1);
   ASSERT_EQ(read->fields.size(), step.fields.size());
   EXPECT_EQ(std::memcmp(read->fields.data(), step.fields.data(), step.fields.size() * sizeof(float)), 0);
   EXPECT_TRUE(same_bits(read->next_work.rays, step.next_work.rays));
@@ -132,6 +137,8 @@ TEST_F(StepStoreTest, ReadsNoStepOfAnotherDayOrNumber) {
   EXPECT_FALSE(StepStore(folder_.path(), model_, other).read(7));
   RadiationModel larger = model_;
   larger.canopy.corners = std::vector<Triangle>(4);
+  larger.canopy.organ_of.push_back(1);
+  larger.canopy.optics_of.push_back(0);
   EXPECT_FALSE(StepStore(folder_.path(), larger, day_settings).read(7));
   std::filesystem::rename(folder_ / step_file_, folder_ / "steps/step_00008.bin");
   EXPECT_FALSE(store_.read(8));

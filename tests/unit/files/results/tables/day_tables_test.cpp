@@ -117,6 +117,37 @@ TEST(DayTables, OrgansHaveSumsOfEachDate) {
   EXPECT_EQ(table.cell(3, "date"), "2003-01-01");
 }
 
+TEST(DayTables, PlantsHaveSumsOfEachDate) {
+  RadiationModel model = two_organs();
+  model.canopy.optics_names = {"leaf"};
+  model.optics[0].upper = model.optics[0].lower = {{0.1, 0.1}, {0.4, 0.4}};
+  model.canopy.plants = {{1, {0.5, 0.0, 0.25}}, {2, {1.0, 0.0, 1.0}}};
+  const auto of_plants = [](double w, double half_width) {
+    StepLight step = light(w, half_width, 0.0);
+    step.plant_absorbed_w = {{w, half_width}, {2.0 * w, half_width}, {0.0, 0.0}, {3.0 * w, no_value}};
+    return step;
+  };
+  const std::vector<StepLight> lights{of_plants(100.0, 3.0), night_light(model), of_plants(10.0, 5.0)};
+  EXPECT_EQ(lights[1].plant_absorbed_w.size(), 4U);
+  const regression::Table table(plants_day_csv({}, model, three_steps(), lights));
+  EXPECT_EQ(table.header(),
+            "date,plant,x,y,z,height_m,leaf_area_m2,A_absorbed_mj,A_absorbed_mj_error,A_absorbed_mol,A_absorbed_mol_error,"
+            "B_absorbed_mj,B_absorbed_mj_error");
+  ASSERT_EQ(table.size(), 4U);
+  EXPECT_EQ(table.cell(0, "date"), "2002-12-31");
+  EXPECT_EQ(table.number(1, "plant"), 2.0);
+  EXPECT_EQ(table.number(0, "z"), 0.25);
+  EXPECT_EQ(table.number(1, "leaf_area_m2"), 4.5);
+  EXPECT_EQ(table.number(0, "A_absorbed_mj"), 0.18);
+  EXPECT_EQ(table.number(0, "A_absorbed_mj_error"), 0.0054);
+  EXPECT_EQ(table.number(0, "A_absorbed_mol"), 0.72);
+  EXPECT_EQ(table.number(0, "A_absorbed_mol_error"), 0.0216);
+  EXPECT_EQ(table.number(1, "B_absorbed_mj"), 0.54);
+  EXPECT_EQ(table.cell(1, "B_absorbed_mj_error"), "");
+  EXPECT_EQ(table.cell(3, "date"), "2003-01-01");
+  EXPECT_EQ(table.number(2, "A_absorbed_mj"), 0.006);
+}
+
 TEST(DayTables, SaysWhatIsMissing) {
   const RadiationModel model = two_organs();
   const std::vector<StepLight> lights{light(100.0, 3.0, 0.0)};
