@@ -22,8 +22,6 @@ void take_header(NumberTable& table, std::size_t line, const std::vector<std::st
   if (names.size() > most_columns)
     refuse_table(table, line, fmt::format("{} columns", names.size()), fmt::format("a table may have at most {}", most_columns),
                  "remove the columns that are not needed");
-  if (std::all_of(names.begin(), names.end(), [](std::string_view name) { return parse_number(name).has_value(); }))
-    refuse_table(table, line, "no column names", "the first line holds numbers", "begin with a line that names the columns");
   for (const std::string_view name : names) {
     if (name.empty()) refuse_table(table, line, "a column without a name", "the header must name every column", "name it");
     if (table.find_column(name))

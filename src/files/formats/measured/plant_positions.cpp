@@ -32,6 +32,9 @@ void check_position_columns(const NumberTable& table) {
     if (column.find_first_of(";\t") != column.npos)
       refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
                    "commas separate the columns of a table", "put commas between the cells, and points into the numbers");
+    if (parse_number(column))
+      refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
+                   "the first line must name the columns", "begin with a line such as plant,x,z,heading,scale");
     if (is_known(lower_case(column)))
       refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
                    "names of columns are in small letters", fmt::format("write {}", lower_case(column)));

@@ -42,7 +42,7 @@ TEST_F(PlantPositions, RefuseWhatIsWrongByItsLine) {
       {"x,z,name\n1,2,3\n", "plants.csv:1: column 'name'"},
       {"x,z,x\n1,2,3\n", "plants.csv:1: column 'x' twice"},
       {"x;z\n1;2\n", "plants.csv:1: column 'x;z' (commas separate the columns of a table); put commas"},
-      {"0.3,0.3\n0.5,0.5\n", "plants.csv:1: no column names (the first line holds numbers); begin with a line that names"},
+      {"0.3,0.4\n0.5,0.5\n", "plants.csv:1: column '0.3' (the first line must name the columns); begin with a line such as"},
       {"X,z\n1,2\n", "plants.csv:1: column 'X' (names of columns are in small letters); write x"},
       {"x,z\n1\n", "plants.csv:2: 1 cells"},
       {"x,z\n1,two\n", "plants.csv:2: z = 'two'"},
