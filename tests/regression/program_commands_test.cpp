@@ -84,6 +84,29 @@ TEST_F(Commands, InfoAndRunSayWhatCountsAsWhat) {
   EXPECT_EQ(by_role["lamp"], roles["lamp"]["area_m2"]);
 }
 
+// What is unlikely is said on standard error and stops nothing.
+TEST_F(Commands, WarningsComeWithTheirPlace) {
+  folder_.write("leaf.obj", "v 0 0.5 0\nv 0 0.5 1\nv 1 0.5 0\nf 1 2 3\n");
+  folder_.write(
+      "stand.toml",
+      "[plot]\nsize = [60, 60]\n[sun]\nelevation = 0.7854\nazimuth = -60\n[[band]]\nname = \"PAR\"\n"
+      "range_nm = [400, 700]\ndirect_normal = 900\n[optics.leaf]\nreflectance = 0.1\nemission = 5\n[[geometry]]\n"
+      "file = \"leaf.obj\"\noptics = \"leaf\"\n[[plane]]\nheight = 2\n[[sensor]]\nname = \"s\"\nfrom = [500, 0, 1]\n");
+  for (const Arguments& command :
+       {Arguments{"info", "stand.toml"},
+        {"run", "stand.toml", "--device", "cpu", "--passes", "8", "--grid", "1", "--images", "none"}}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    for (const char* words :
+         {"stand.toml:4: sun.elevation: 0.7854 looks like radians", "stand.toml:5: sun.azimuth: -60 is below 0",
+          "stand.toml:9: band.direct_normal: 900 W m-2 is more than outside the atmosphere from 400 to 700 nm",
+          "optics.leaf.emission: leaves send out light", "plane.height: ", "lies above the stand",
+          "sensor.from: ", "stand.toml:2: plot.size: "}) {
+      EXPECT_NE(outcome.err.find(words), std::string::npos) << words << "\n" << outcome.err;
+    }
+  }
+}
+
 TEST_F(Commands, InfoOfASunByAnglesKnowsNoTimes) {
   const json info = json::parse(run({"info", scene_file("two_squares.toml").string(), "--json"}).out);
   EXPECT_EQ(info["triangles"], 4);

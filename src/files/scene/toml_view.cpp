@@ -110,11 +110,12 @@ struct Synonym {
 };
 
 // Words of other programs for keys of a scene.
-constexpr Synonym synonyms[] = {{"altitude", "elevation"}, {"zenith", "elevation"}, {"lat", "latitude"},
-                                {"lon", "longitude"},      {"lng", "longitude"},    {"mesh", "file"},
-                                {"rotate", "heading"},     {"rotation", "heading"}, {"date", "time"},
-                                {"irradiance", "direct"},  {"range", "range_nm"},   {"wavelengths", "range_nm"},
-                                {"rotations", "heading"}};
+constexpr Synonym synonyms[] = {
+    {"altitude", "elevation"}, {"zenith", "elevation"},  {"lat", "latitude"},   {"lon", "longitude"},
+    {"lng", "longitude"},      {"mesh", "file"},         {"rotate", "heading"}, {"rotation", "heading"},
+    {"date", "time"},          {"irradiance", "direct"}, {"range", "range_nm"}, {"wavelengths", "range_nm"},
+    {"rotations", "heading"},  {"start", "from"},        {"end", "to"},         {"stop", "to"},
+    {"width", "step"}};
 
 // Returns what an unknown key is to be replaced with.
 std::string cure_of_key(std::string_view key, const std::vector<std::string>& known, std::string_view otherwise) {

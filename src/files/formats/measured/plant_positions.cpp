@@ -1,5 +1,6 @@
 #include "files/formats/measured/plant_positions.h"
 
+#include "base/text.h"
 #include "base/text_reader.h"
 #include "files/formats/measured/number_table.h"
 
@@ -24,7 +25,19 @@ constexpr std::string_view known_columns[] = {"plant", "x", "y", "z", "heading",
 
 void check_position_columns(const NumberTable& table, HeightColumn height) {
   for (const std::string& column : table.columns) {
-    if (std::find(std::begin(known_columns), std::end(known_columns), column) != std::end(known_columns)) continue;
+    const auto is_known = [](std::string_view name) {
+      return std::find(std::begin(known_columns), std::end(known_columns), name) != std::end(known_columns);
+    };
+    if (is_known(column)) continue;
+    if (column.find_first_of(";\t") != column.npos)
+      refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
+                   "commas separate the columns of a table", "put commas between the cells, and points into the numbers");
+    if (parse_number(column))
+      refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
+                   "the first line must name the columns", "begin with a line such as plant,x,z,heading,scale");
+    if (is_known(lower_case(column)))
+      refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
+                   "names of columns are in small letters", fmt::format("write {}", lower_case(column)));
     refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)), "it is not known here",
                  fmt::format("use {}", fmt::join(known_columns, ", ")));
   }

@@ -348,6 +348,13 @@ TEST_F(SceneReader, DoubtsWhatIsSeldomMeant) {
   }
   EXPECT_TRUE(read(lit).warnings.empty());
   EXPECT_TRUE(read(bare_scene).warnings.empty());
+  // The advice is the axis that is not yet given.
+  for (const auto& [given, advised] : {std::pair("", "set up = \"z\""), std::pair("up = \"z\"\n", "set up = \"y\"")}) {
+    const Scene scene = read(lit + soil + plates(std::string("at = [[0, -5, 0]]\n") + given));
+    EXPECT_TRUE(std::any_of(scene.warnings.begin(), scene.warnings.end(), [&advice = advised](const std::string& warning) {
+      return warning.find(advice) != warning.npos;
+    })) << advised;
+  }
 }
 
 TEST_F(SceneReader, SplitsTheOrgansOfAMesh) {

@@ -92,6 +92,11 @@ TEST_F(SceneSpectra, OutsideTheirRangeAreRefused) {
   EXPECT_NE(refusal("light_spectrum = \"sun.csv\"\nbands = { from = 300, to = 600, step = 50, direct = 1 }\n", "")
                 .find("reach beyond light_spectrum"),
             std::string::npos);
+  EXPECT_NE(refusal("bands = { from = 700, to = 400, step = 10, direct = 1 }\n", "")
+                .find("bands.to = 400 (it must be above from, 700)"),
+            std::string::npos);
+  EXPECT_NE(refusal("bands = { start = 400, to = 700, step = 10 }\n", "").find("use from"), std::string::npos);
+  EXPECT_NE(refusal("bands = { from = 0.4, to = 700, step = 10 }\n", "").find("give nm, such as 400"), std::string::npos);
   EXPECT_NE(refusal("bands = { from = 400, to = 800, step = 30, direct = 1 }\n", "").find("gives 13.3333 bands"),
             std::string::npos);
   EXPECT_NE(refusal("", "[[band]]\nname = \"a\"\nrange_nm = [700, 400]\ndirect = 1\n").find("it must ascend"),
