@@ -145,6 +145,10 @@ TEST_F(PacketsAgreement, OnCopiesThatShareATree) {
   }
 }
 
+TEST_F(PacketsAgreement, OnCopiesInPieces) {
+  expect_agreement(stand_of_copies({unit_plot, 8, true, 2, 300}, true), 8'000, 500);
+}
+
 TEST_F(PacketsAgreement, OfWholeRunsOnCopiesThatShareATree) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
     RadiationModel model = stand_of_copies({plot, 10, true, 4}, true);

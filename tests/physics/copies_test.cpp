@@ -82,6 +82,7 @@ void expect_same_hits(const CopiesStand& stand) {
 TEST(Copies, MeetTheRaysThatTheirOwnTrianglesMeet) {
   for (const Plot& plot : {unit_plot, unit_stand, Plot{0.35, 0.8, true}}) {
     for (const bool of_all_sizes : {false, true}) expect_same_hits({plot, 12, of_all_sizes, 5});
+    expect_same_hits({plot, 12, true, 7, 300});
   }
 }
 

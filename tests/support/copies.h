@@ -32,6 +32,7 @@ struct CopiesStand {
   int plants = 12;
   bool of_all_sizes = true;  // scaled, and at different heights
   std::uint32_t seed = 1;
+  int leaves = 30;  // of a plant; from 256 on, the tree of copies holds plants in pieces
 };
 
 inline std::vector<Placement> random_placements(const CopiesStand& stand, int count, std::uint32_t seed) {
@@ -56,9 +57,9 @@ inline RadiationModel stand_of_copies(const CopiesStand& stand, std::optional<bo
   lone.level(0.1, 0.4, 0.2, 0.5, 0.25);
   lone.triangle({-0.6, 0.1, 0.3}, {1.7, 0.4, 0.2}, {0.4, 0.6, 1.4});
   const std::vector<PlacedMesh> parts = {
-      {leafy_plant(30, stand.seed), random_placements(stand, stand.plants / 2, stand.seed + 100), {}, shared},
+      {leafy_plant(stand.leaves, stand.seed), random_placements(stand, stand.plants / 2, stand.seed + 100), {}, shared},
       {lone.mesh(), {Placement{}}, {}, false},
-      {leafy_plant(45, stand.seed + 1),
+      {leafy_plant(stand.leaves + 15, stand.seed + 1),
        random_placements(stand, stand.plants - stand.plants / 2, stand.seed + 200),
        {},
        shared}};

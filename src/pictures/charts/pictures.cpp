@@ -202,7 +202,7 @@ double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, c
   const auto surfaces = 2.0 * static_cast<double>(model.canopy.size()) + layout.cells();
   const auto count = static_cast<double>(std::min(pictures, charts_at_once(layout, model)));
   const double colours = surfaces * (count + 1.0) * sizeof(Colour);  // and once without light
-  const double values = surfaces * 3.0 * sizeof(double);  // values, areas, luminances
+  const double values = surfaces * 3.0 * sizeof(double);             // values, areas, luminances
   const double pixels = count * options.width * options.height * sizeof(decltype(Image::pixels)::value_type);
   const double samples = static_cast<double>(samples_in_band) *
                          (sizeof(shared::SeenSurface) + sizeof(decltype(SurfaceImage::surface)::value_type) +

@@ -7,7 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace sunfleck::test {
 namespace {
@@ -42,38 +46,27 @@ Box inspect(const Bvh& bvh, std::uint32_t number, float padding_m, std::multiset
   return all;
 }
 
-TEST(TwoLevels, HoldEachMeshOnceAndEachCopyInEveryPeriod) {
-  const RadiationModel model = stand_of_copies({unit_plot, 12, true, 6}, true);
-  constexpr float padding_m = 1e-4F;
-  const Bvh bvh = build_bvh(model.canopy, padding_m);
-  ASSERT_EQ(bvh.parts.size(), 3U);
-  EXPECT_EQ(bvh.parts[0].mesh, own_corners);
-  EXPECT_EQ(bvh.parts[1].triangles, model.canopy.corners.meshes()[0].corners.size());
-  EXPECT_EQ(bvh.parts[2].triangles, model.canopy.corners.meshes()[1].corners.size());
-  EXPECT_LE(bvh.depth, max_bvh_depth);
-  std::multiset<std::uint32_t> triangles;
-  // Copies are scaled by at least 0.5 here, which doubles the padding at most.
-  for (const BvhPart& part : bvh.parts)
-    inspect(bvh, part.root, part.mesh == own_corners ? padding_m : 0.5F * padding_m, triangles);
-  EXPECT_EQ(triangles.size(), bvh.triangles.size());
-  EXPECT_EQ(std::set(triangles.begin(), triangles.end()).size(), bvh.triangles.size());
-
-  std::set<std::pair<std::uint32_t, std::uint32_t>> copies;
+// Checks that the copies of every mesh hold each of its triangles once in every period into which their piece reaches.
+void expect_all_copies(const RadiationModel& model, const Bvh& bvh) {
+  std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> copies;  // element, image, first triangle
   std::uint64_t order = 0;
   for (const std::uint32_t node : bvh.copies) {
     ASSERT_TRUE(is_copy(bvh.nodes[node]));
     const BvhCopy copy = copy_at(bvh, node);
-    EXPECT_EQ(static_cast<std::uint32_t>(copy.order_offset + bvh.parts[copy.part].first_triangle), order);
-    order += bvh.parts[copy.part].triangles;
-    if (copy.part > 0) {
-      EXPECT_TRUE(copies.emplace(copy.first_element, copy.image).second);
-    }
+    EXPECT_EQ(static_cast<std::uint32_t>(copy.order_offset + copy.first_triangle), order);
+    order += copy.triangles;
+    EXPECT_TRUE(copies.emplace(copy.first_element, copy.image, copy.first_triangle).second);
   }
   std::size_t expected = 0;
-  for (const MeshCopy& copy : model.canopy.corners.copies()) {
+  for (const std::uint32_t node : bvh.copies) {
+    const BvhCopy copy = copy_at(bvh, node);
+    if (copy.image != 0 || bvh.parts[copy.part].mesh == own_corners) {
+      expected += bvh.parts[copy.part].mesh == own_corners ? 1 : 0;
+      continue;
+    }
     Box box{glm::vec3(1e9F), glm::vec3(-1e9F)};
-    for (std::size_t t = 0; t < model.canopy.corners.meshes()[copy.mesh].corners.size(); ++t) {
-      for (const glm::vec3& corner : model.canopy.corners[copy.first_element + t]) {
+    for (std::uint32_t k = copy.first_triangle; k < copy.first_triangle + copy.triangles; ++k) {
+      for (const glm::vec3& corner : model.canopy.corners[copy.first_element + bvh.triangles[k].element]) {
         box.lo = glm::min(box.lo, corner);
         box.hi = glm::max(box.hi, corner);
       }
@@ -81,7 +74,7 @@ TEST(TwoLevels, HoldEachMeshOnceAndEachCopyInEveryPeriod) {
     for (int dx = -4; dx <= 4; ++dx) {
       for (int dz = -4; dz <= 4; ++dz) {
         const bool reaches = box.lo.x + dx <= 1.0F && box.hi.x + dx >= 0.0F && box.lo.z + dz <= 1.0F && box.hi.z + dz >= 0.0F;
-        EXPECT_EQ(copies.contains({copy.first_element, pack_image(dx, dz)}), reaches);
+        EXPECT_EQ(copies.contains({copy.first_element, pack_image(dx, dz), copy.first_triangle}), reaches);
         expected += reaches ? 1 : 0;
       }
     }
@@ -89,9 +82,44 @@ TEST(TwoLevels, HoldEachMeshOnceAndEachCopyInEveryPeriod) {
   EXPECT_EQ(copies.size(), expected);
 }
 
+// The origins of all plants lie in the plot, but not all of their pieces do: those of the larger plants may be seen from other
+// periods alone.
+TEST(TwoLevels, HoldEachMeshOnceAndEachCopyInEveryPeriod) {
+  for (const int leaves : {30, 400}) {
+    CopiesStand stand{unit_plot, 12, true, 6};
+    stand.leaves = leaves;
+    const RadiationModel model = stand_of_copies(stand, true);
+    constexpr float padding_m = 1e-4F;
+    const Bvh bvh = build_bvh(model.canopy, padding_m);
+    ASSERT_EQ(bvh.parts.size(), 3U);
+    EXPECT_EQ(bvh.parts[0].mesh, own_corners);
+    EXPECT_EQ(bvh.parts[1].triangles, model.canopy.corners.meshes()[0].corners.size());
+    EXPECT_EQ(bvh.parts[2].triangles, model.canopy.corners.meshes()[1].corners.size());
+    EXPECT_LE(bvh.depth, max_bvh_depth);
+    std::multiset<std::uint32_t> triangles;
+    // Copies are scaled by at least 0.5 here, which doubles the padding at most, and by 1.6, which makes it smaller.
+    for (const BvhPart& part : bvh.parts) {
+      inspect(bvh, part.root, part.mesh == own_corners ? padding_m : 0.5F * padding_m, triangles);
+    }
+    EXPECT_EQ(triangles.size(), bvh.triangles.size());
+    EXPECT_EQ(std::set(triangles.begin(), triangles.end()).size(), bvh.triangles.size());
+    const std::size_t of_one_plant =
+        static_cast<std::size_t>(std::count_if(bvh.copies.begin(), bvh.copies.end(), [&](std::uint32_t node) {
+          const BvhCopy copy = copy_at(bvh, node);
+          return copy.part == 1 && copy.first_element == model.canopy.corners.copies()[0].first_element && copy.image == 0;
+        }));
+    if (leaves < 256) {
+      EXPECT_EQ(of_one_plant, 1U);
+      expect_all_copies(model, bvh);
+    } else {
+      EXPECT_GT(of_one_plant, 1U);
+    }
+  }
+}
+
 TEST(TwoLevels, AreWalkedToTheHitsOfATestOfEveryTriangle) {
-  for (const Plot& plot : {unit_plot, unit_stand}) {
-    const RadiationModel model = stand_of_copies({plot, 12, true, 8}, true);
+  for (const auto& [plot, leaves] : {std::pair{unit_plot, 30}, std::pair{unit_stand, 30}, std::pair{unit_plot, 300}}) {
+    const RadiationModel model = stand_of_copies({plot, 12, true, 8, leaves}, true);
     const Prepared prepared(model);
     Random random(3);
     int hits = 0;
