@@ -126,6 +126,41 @@ TEST_F(Fields, AllPlantsTogetherAbsorbWhatTheVegetationAbsorbs) {
   }
 }
 
+// Plants that share their mesh's triangles get what those with triangles of their own get, on every device.
+TEST_F(Fields, PlantsMayShareTheTrianglesOfTheirMesh) {
+  const Table own(file("plants.csv"));
+  EXPECT_EQ(json::parse(file("summary.json"))["instances"], (json{{"meshes", 0}, {"copies", 0}}));
+  std::string scene = field_scene;
+  scene.insert(scene.find("positions ="), "instances = true\n");
+  folder_.write("shared.toml", scene);
+  const Outcome info = run({"info", "shared.toml", "--error", "0.02"});
+  EXPECT_NE(info.out.find("tree: 5 triangles; 4 copies share those of 1 meshes"), info.out.npos) << info.out;
+  std::map<std::string, std::string> of_device;
+  for (const char* device : {"cpu", "lavapipe"}) {
+    const Outcome outcome =
+        run({"run", "shared.toml", "-o", "out", "--device", device, "--error", "0.02", "--images", "none", "--seed", "5"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    for (const char* table : {"plants.csv", "organs.csv", "profile.csv"}) {
+      const auto [known, fresh] = of_device.try_emplace(table, file(table));
+      EXPECT_EQ(known->second, file(table)) << table << " on " << device;
+    }
+  }
+  const json summary = json::parse(file("summary.json"));
+  EXPECT_EQ(summary["instances"], (json{{"meshes", 1}, {"copies", 4}}));
+  for (const json& band : summary["bands"]) EXPECT_EQ(band["residual"], 0);
+  const Table shared(file("plants.csv"));
+  ASSERT_EQ(shared.size(), own.size());
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    for (const std::string column : {"plant", "x", "z", "height_m", "leaf_area_m2"}) {
+      EXPECT_NEAR(shared.number(p, column), own.number(p, column), 1e-6) << column;
+    }
+    for (const std::string column : {"PAR_absorbed", "NIR_absorbed", "sunlit_leaf_fraction"}) {
+      const double bound = std::hypot(own.number(p, column + "_error"), shared.number(p, column + "_error"));
+      EXPECT_NEAR(shared.number(p, column), own.number(p, column), 3.0 * bound) << column;
+    }
+  }
+}
+
 TEST_F(Fields, TheInputIsNotReplaced) {
   const std::string positions = content(folder_ / "plants.csv");
   const Outcome outcome = run({"run", "scene.toml", "-o", ".", "--device", "cpu", "--images", "none"});

@@ -99,6 +99,29 @@ TEST_F(Memory, IsForetoldByInfo) {
   }
 }
 
+// 400 copies of the stand, which share its triangles. Of what 400,000 triangles take by themselves, corners and tree are saved: about
+// 90 bytes each.
+TEST_F(Memory, OfCopiesThatShareTrianglesIsForetoldToo) {
+  std::string positions = "x,z,heading\n";
+  for (int k = 0; k < 400; ++k) {
+    positions += std::to_string(2 * (k / 20)) + "," + std::to_string(2 * (k % 20)) + "," + std::to_string(17 * k % 360) + "\n";
+  }
+  folder_.write("positions.csv", positions);
+  std::string scene = content(folder_ / "stand.toml");
+  scene.replace(scene.find("[2.0, 2.0]"), 10, "[40.0, 40.0]");
+  scene += "positions = \"positions.csv\"\n";
+  folder_.write("own.toml", scene);
+  folder_.write("shared.toml", scene + "instances = true\n");
+  const Arguments work{"--device", "cpu", "--threads", "2", "--error", "0.05"};
+  const Outcome info = run(Arguments{"info", "shared.toml", "--json"} + work);
+  ASSERT_EQ(info.status, 0) << info.err;
+  const double forecast_mib = json::parse(info.out)["memory_without_pictures_bytes"].get<double>() / 1048576.0;
+  const Outcome shared = simulate("shared.toml", work + Arguments{"--images", "none"});
+  EXPECT_NEAR(forecast_mib / shared.peak_mib, 1.0, 0.2) << forecast_mib << " MiB forecast";
+  const Outcome own = simulate("own.toml", work + Arguments{"--images", "none"});
+  EXPECT_GT(own.peak_mib - shared.peak_mib, 60.0 * 400e3 / 1048576.0) << shared.peak_mib << " MiB";
+}
+
 TEST_F(Memory, BoundIsChecked) {
   expect_one_error(run({"run", "stand.toml", "--memory", "1kB"}), 2, "--memory");
   expect_one_error(run({"run", "stand.toml", "--memory", "much"}), 2, "--memory");
