@@ -75,9 +75,9 @@ class Mpi : public regression::PreloadTest {
     return 0;
   }
 
-  // Runs the long run by two processes into `out`, and sends the signal once a state is kept: to a rank, or to the launcher (-1).
-  // The first rank, which keeps the states, halts itself when the second state gets its name, timed by a clock that counts, and
-  // continues afterwards. Until then `watch` is called.
+  // Runs the long run by two processes into `out`, and sends the signal once a state is kept: to a rank, or to the launcher
+  // (-1). The first rank, which keeps the states, halts itself when the second state gets its name, timed by a clock that
+  // counts, and continues afterwards. Until then `watch` is called.
   Outcome run_and_send(int signal, int rank, const std::function<void(pid_t launcher)>& watch = {}) {
     const auto environment = before_program_;
     preload_signals(regression::signal_at(SIGSTOP, "rename run_state.bin", 2), {{"SUNFLECK_FAULT_STRIDE", "0.01"}});

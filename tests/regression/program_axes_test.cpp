@@ -1,4 +1,5 @@
-// Tests that a scene in x east, y north, z up gives the light of the same scene in X south, Y up, Z west, in its own coordinates.
+// Tests that a scene in x east, y north, z up gives the light of the same scene in X south, Y up, Z west, in its own
+// coordinates.
 
 #include "regression/program.h"
 #include "support/table.h"

@@ -99,8 +99,8 @@ TEST_F(Memory, IsForetoldByInfo) {
   }
 }
 
-// 400 copies of the stand, which share its triangles. Of what 400,000 triangles take by themselves, corners and tree are saved: about
-// 90 bytes each.
+// 400 copies of the stand, which share its triangles. Of what 400,000 triangles take by themselves, corners and tree are saved:
+// about 90 bytes each.
 TEST_F(Memory, OfCopiesThatShareTrianglesIsForetoldToo) {
   std::string positions = "x,z,heading\n";
   for (int k = 0; k < 400; ++k) {

@@ -43,8 +43,9 @@ struct GeometryPart {
 [[nodiscard]] std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, SourceFiles& files,
                                                     std::vector<std::string>& warnings);
 
-// Gives surfaces of a [[geometry]] whose role is soil or structure, without `optics` of its own, the name "soil" or "structure" where
-// the scene does not define the optics of their materials. Without [optics.structure] that becomes plain_structure, with a warning.
+// Gives surfaces of a [[geometry]] whose role is soil or structure, without `optics` of its own, the name "soil" or "structure"
+// where the scene does not define the optics of their materials. Without [optics.structure] that becomes plain_structure, with
+// a warning.
 void name_plain_optics(std::span<const GeometryPart> parts, std::span<PlacedMesh> meshes, const OpticsByName& defined,
                        std::vector<std::string>& warnings);
 
@@ -52,13 +53,13 @@ void name_plain_optics(std::span<const GeometryPart> parts, std::span<PlacedMesh
 void check_optics(std::span<const GeometryPart> parts, std::span<const PlacedMesh> meshes, const OpticsByName& defined,
                   const Scene& scene);
 
-// The optics of structures for which the scene gives none; optics_of_names knows them. Painted or galvanised surfaces are about so
-// bright.
+// The optics of structures for which the scene gives none; optics_of_names knows them. Painted or galvanised surfaces are about
+// so bright.
 inline constexpr const char* plain_structure = "plain structure";
 inline constexpr double plain_structure_reflectance = 0.4;
 
-// Returns the optics of these names; undefined soil names take the reflectance and colour of [soil], and plain_structure its own. Refuses the whole text if
-// any other name is undefined.
+// Returns the optics of these names; undefined soil names take the reflectance and colour of [soil], and plain_structure its
+// own. Refuses the whole text if any other name is undefined.
 [[nodiscard]] std::vector<SurfaceOptics> optics_of_names(const TomlTable& root, std::span<const std::string> names,
                                                          const OpticsByName& defined, const RadiationModel& model);
 

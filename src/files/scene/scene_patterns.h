@@ -13,8 +13,8 @@ namespace sunfleck {
 // The material of triangles for which a file names none, where `optics` is a table of patterns.
 inline constexpr std::string_view unnamed_material = "unnamed";
 
-// Surfaces whose material or organ has a name that matches the pattern have these optics. An organ with a rank also has the name
-// NAME RANK, such as `leaf 7`.
+// Surfaces whose material or organ has a name that matches the pattern have these optics. An organ with a rank also has the
+// name NAME RANK, such as `leaf 7`.
 struct OpticsRule {
   std::string pattern;
   std::string optics;

@@ -48,9 +48,9 @@ static_assert(sizeof(BvhTriangle) == 48);
   return (static_cast<std::uint32_t>(dx) & 0xffffU) | (static_cast<std::uint32_t>(dz) << 16U);
 }
 
-// A copy of a mesh, or of a piece of it, in one period: a node of its own kind in the place of an inner node. The walk turns its ray into the frame
-// of the mesh and continues at the root of that piece's tree. Elements with corners of their own form one more "mesh", which
-// stands once and unturned, and whose triangles have their images.
+// A copy of a mesh, or of a piece of it, in one period: a node of its own kind in the place of an inner node. The walk turns
+// its ray into the frame of the mesh and continues at the root of that piece's tree. Elements with corners of their own form
+// one more "mesh", which stands once and unturned, and whose triangles have their images.
 struct BvhCopy {
   std::array<float, 3> shift;  // shared::CopyTurn, with the shift of `image` added
   std::uint32_t mark;          // all bits set, which marks a copy: other nodes have smaller exponents

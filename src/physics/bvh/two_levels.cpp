@@ -29,8 +29,8 @@ constexpr shared::CopyTurn unturned{.shift = glm::vec3(0.0F),
                                     .sin_back = 0.0F,
                                     .per_scale = 1.0F};
 
-// Meshes of at least this many triangles enter the tree of copies in up to eight pieces, the children of their root, whose boxes
-// overlap those of neighbouring plants less (Benthin et al. 2017, "Improved two-level BVHs using partial re-braiding").
+// Meshes of at least this many triangles enter the tree of copies in up to eight pieces, the children of their root, whose
+// boxes overlap those of neighbouring plants less (Benthin et al. 2017, "Improved two-level BVHs using partial re-braiding").
 constexpr std::size_t least_divided = 512;
 
 // Neighbouring triangles of a part, below one node.

@@ -97,8 +97,8 @@ std::vector<std::uint16_t> merge_optics_names(Canopy& canopy, const Mesh& mesh) 
   return merged;
 }
 
-// Appends the organs of one copy, its plants numbered from `offset` unless it has a number of its own; returns the highest plant
-// number in use.
+// Appends the organs of one copy, its plants numbered from `offset` unless it has a number of its own; returns the highest
+// plant number in use.
 std::uint32_t add_organs(Canopy& canopy, const PlacedMesh& part, const Placement& placement, std::uint32_t offset) {
   std::uint32_t highest = offset;
   for (Organ organ : part.mesh.organs) {

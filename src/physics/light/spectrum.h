@@ -25,8 +25,8 @@ struct WavelengthRange {
 // light of equal energy at all wavelengths (null).
 [[nodiscard]] double energy_in(const Spectrum* light, const WavelengthRange& range);
 
-// Returns the mean of the values over the range, weighted by the energy of the light, or unweighted if the light is null or dark
-// in the whole range. It is exact for values that are linear between the given ones. Both must cover the range.
+// Returns the mean of the values over the range, weighted by the energy of the light, or unweighted if the light is null or
+// dark in the whole range. It is exact for values that are linear between the given ones. Both must cover the range.
 [[nodiscard]] double mean_in(const Spectrum& values, const WavelengthRange& range, const Spectrum* light);
 
 // Returns the photons in the range per energy of the light, umol J-1: the mean of wavelength / (N_A h c).

@@ -8,8 +8,8 @@
 
 namespace sunfleck {
 
-// Returns the usual ending, such as ".ply", of the mesh format that the bytes at the beginning of a file belong to; nothing if they
-// look like no mesh. Binary .stl files are not recognised.
+// Returns the usual ending, such as ".ply", of the mesh format that the bytes at the beginning of a file belong to; nothing if
+// they look like no mesh. Binary .stl files are not recognised.
 [[nodiscard]] std::optional<std::string> mesh_ending_of(std::string_view bytes);
 
 // Returns the same for a file; nothing also if it cannot be read.

@@ -11,8 +11,8 @@
 
 namespace sunfleck {
 
-// How many parts of a file that have triangles are named there: groups of an .obj; its objects, and the named objects, nodes, solids,
-// instances or labelled organs of other formats.
+// How many parts of a file that have triangles are named there: groups of an .obj; its objects, and the named objects, nodes,
+// solids, instances or labelled organs of other formats.
 struct NamedParts {
   std::size_t objects = 0, groups = 0;
 };

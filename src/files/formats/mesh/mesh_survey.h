@@ -29,7 +29,8 @@ struct MeshShare {
   double area = 0.0;  // one-sided, file units squared
   std::size_t pieces = 0;
   std::size_t organs = 0;
-  // |sum of area * normal| of each piece, added up, divided by the area: about 1 for flat sheets, 0 for tubes and closed bodies.
+  // |sum of area * normal| of each piece, added up, divided by the area: about 1 for flat sheets, 0 for tubes and closed
+  // bodies.
   double flatness = 0.0;
   Role role = Role::leaf;
   RoleSource role_from = RoleSource::shape;
@@ -59,15 +60,15 @@ struct MeshSurvey {
   MeshDefects defects;
   double area_below_ground = 0.0;  // of triangles whose centroid is below 0 along the guessed up axis
 
-  // Returns whether the file names so few organs that its connected pieces are better ones: no family has two organs, and the pieces
-  // are more than the organs and of two triangles and more on average.
+  // Returns whether the file names so few organs that its connected pieces are better ones: no family has two organs, and the
+  // pieces are more than the organs and of two triangles and more on average.
   [[nodiscard]] bool needs_split() const;
   [[nodiscard]] bool has_materials() const { return materials.size() > 1 || materials.front().name != no_material; }
   [[nodiscard]] double area_m2() const { return area * frame.metres_per_unit * frame.metres_per_unit; }
 };
 
-// Returns what the format of a file of this name defines, for the mesh that read_mesh_as_is returns: axis and unit of glTF, .dae and
-// .opf, the axis of .can.
+// Returns what the format of a file of this name defines, for the mesh that read_mesh_as_is returns: axis and unit of glTF,
+// .dae and .opf, the axis of .can.
 [[nodiscard]] KnownFrame frame_of_format(const std::filesystem::path& file);
 
 // Returns the name without the number at its end and the characters that separate it: `leaf` for leaf.012, leaf_12 and leaf 12.
@@ -76,13 +77,13 @@ struct MeshSurvey {
 
 // Surveys a mesh in the axes and units of its file, with at least one triangle.
 //
-// Roles: a share has the role that its name suggests (role_from_name), or else the role of the largest area among its organs whose
-// names suggest one. Of the others, a share is a leaf if its pieces are sheets (flatness above 0.3) and a stem if they are tubes or
-// closed bodies. If no share is a leaf then, all whose shape decided are, since a plant has leaves.
+// Roles: a share has the role that its name suggests (role_from_name), or else the role of the largest area among its organs
+// whose names suggest one. Of the others, a share is a leaf if its pieces are sheets (flatness above 0.3) and a stem if they
+// are tubes or closed bodies. If no share is a leaf then, all whose shape decided are, since a plant has leaves.
 [[nodiscard]] MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known);
 
-// Reads a file as read_mesh does, but leaves its axes and unit as they are. Only a .dae comes in the scene's axes, since the file
-// itself says how it is to be turned; it and an .opf come in metres. Triangles without a material have no_material.
+// Reads a file as read_mesh does, but leaves its axes and unit as they are. Only a .dae comes in the scene's axes, since the
+// file itself says how it is to be turned; it and an .opf come in metres. Triangles without a material have no_material.
 // `named` receives the counts of the file, if given.
 [[nodiscard]] Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files = nullptr,
                                    NamedParts* named = nullptr);

@@ -3,8 +3,8 @@
 // an interrupted day resumes where it stopped.
 //
 // settings.json holds the settings of the steps and whether the day is finished; the steps of a finished day are removed.
-// step_00007.bin is step 7, counted from 0, in the format of base/sealed_file.h; long arrays are byte strings, little-endian and
-// deflated (zlib).
+// step_00007.bin is step 7, counted from 0, in the format of base/sealed_file.h; long arrays are byte strings, little-endian
+// and deflated (zlib).
 
 #include "files/results/tables/day_course.h"
 #include "files/results/tables/element_fields.h"

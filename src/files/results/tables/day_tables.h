@@ -1,6 +1,6 @@
 #pragma once
-// The tables of a day: day.csv, organs_day.csv and plants_day.csv. `lights` holds the light of the first steps of the course: all of them, or
-// those finished before the day was stopped; in that case a line of the tables says so.
+// The tables of a day: day.csv, organs_day.csv and plants_day.csv. `lights` holds the light of the first steps of the course:
+// all of them, or those finished before the day was stopped; in that case a line of the tables says so.
 
 #include "files/results/tables/day_course.h"
 #include "files/results/tables/result_writer.h"

@@ -84,8 +84,9 @@ std::vector<Triangle> cube(float size) {
   return triangles;
 }
 
-// Builds a chain of 60 nodes, each with a subtree of eight triangles, in cubes that lie in one another. Opening a link's own cube
-// saves more than opening the smaller cubes inside it: the plan puts one link of the chain into each level, 60 levels in all.
+// Builds a chain of 60 nodes, each with a subtree of eight triangles, in cubes that lie in one another. Opening a link's own
+// cube saves more than opening the smaller cubes inside it: the plan puts one link of the chain into each level, 60 levels in
+// all.
 TEST(Collapse, StaysWithinTheDepthWhateverThePlan) {
   constexpr std::uint32_t links = 60;
   std::vector<Triangle> triangles;

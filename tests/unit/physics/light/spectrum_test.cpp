@@ -44,8 +44,8 @@ TEST(Spectrum, GivesPhotonsPerEnergy) {
   EXPECT_NEAR(umol_per_joule_in({400.0, 700.0}, &red), 660e-9 / 0.119626565 * 1e6, 1e-6);
 }
 
-// A quarter of the radiation lies below wavelength * temperature = 2897.8 um K, the maximum by wavelength (0.25006 from tables), and
-// half of it below 4107 um K.
+// A quarter of the radiation lies below wavelength * temperature = 2897.8 um K, the maximum by wavelength (0.25006 from
+// tables), and half of it below 4107 um K.
 TEST(Spectrum, ABlackBodyHasKnownShares) {
   EXPECT_NEAR(black_body_share({1.0, 2897.77}, 1000.0), 0.25005, 2e-5);
   EXPECT_NEAR(black_body_share({1.0, 4107.0}, 1000.0), 0.5, 1e-4);
