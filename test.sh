@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program and its tests, and runs them: ./test.sh
-# ./test.sh --full adds clang-tidy, the tests labelled "long", the physics tests under the sanitizers, the thread sanitizer, the
-# validation layer's thorough checks of the agreement tests, and the share of src's lines that tests execute.
+# The unit tests run under the sanitizers alone. ./test.sh --full runs them optimised too, and adds clang-tidy, the tests labelled
+# "long", the physics tests under the sanitizers, the thread sanitizer, the validation layer's thorough checks of the agreement
+# tests, and the share of src's lines that tests execute.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -21,9 +22,9 @@ find src shaders tests \( -name '*.h' -o -name '*.cpp' \) -not -path 'tests/data
 
 echo "== build =="
 if [ "$full" = yes ]; then
-  cmake --preset ci -DSUNFLECK_UNITY=OFF # clang-tidy reads each source by itself
+  cmake --preset ci -DSUNFLECK_UNIT_TESTS=ON -DSUNFLECK_UNITY=OFF # clang-tidy reads each source by itself
 elif [ ! -f build/ci/build.ninja ]; then
-  cmake --preset ci
+  cmake --preset ci -DSUNFLECK_UNIT_TESTS=OFF
 fi
 cmake --build --preset ci
 
