@@ -82,7 +82,7 @@ std::vector<std::string> column_names(bool sky, const std::vector<std::string>& 
   std::vector<std::string> names;
   for (const std::string& band : bands) {
     for (const char* column :
-         {"direct_upper", "direct_lower", "indirect_upper", "indirect_lower", "total", "absorbed", "error"}) {
+         {"direct_upper", "direct_lower", "indirect_upper", "indirect_lower", "total", "absorbed", "absorbed_error"}) {
       names.push_back(band + "_" + column);
     }
     if (!sky) continue;
@@ -117,7 +117,7 @@ void expect_simulated(const json& found) {
     const auto last = first + static_cast<std::ptrdiff_t>(all.model.canopy.size());
     const auto none = std::count_if(first, last, [](double error) { return std::isnan(error); });
     ASSERT_GT(none, 0);
-    EXPECT_EQ(found["no_interval"][all.model.bands[b].name + "_error"], none);
+    EXPECT_EQ(found["no_interval"][all.model.bands[b].name + "_absorbed_error"], none);
   }
   double area = 0.0;
   for (const Triangle& corners : all.model.canopy.corners) area += area_m2(corners);

@@ -69,7 +69,7 @@ TEST_F(CaribuProgram, TheFiltersCoverHalfEach) {
       EXPECT_EQ(organs.number(layer, "rank"), static_cast<double>(layer + 1));
       EXPECT_NEAR(organs.number(layer, "area_m2"), 200.0, 1e-6);
       const double got = organs.number(layer, "PAR_absorbed") * 200.0 / 400.0 / incident;
-      EXPECT_NEAR(got, share, half_widths * organs.number(layer, "PAR_error") * got) << "layer " << layer + 1;
+      EXPECT_NEAR(got, share, half_widths * organs.number(layer, "PAR_absorbed_error")) << "layer " << layer + 1;
     }
     const double error = band["error"]["absorbed_soil"];
     EXPECT_LT(error, 0.02 * incident);

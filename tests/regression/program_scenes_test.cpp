@@ -127,15 +127,17 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
   std::string organ_columns = "plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error";
   for (const json& band : summary_["bands"]) {
     const std::string name = band["name"];
-    organ_columns += "," + name + "_direct," + name + "_indirect," + name + "_absorbed," + name + "_error";
-    if (band.contains("umol_m2_s")) organ_columns += "," + name + "_absorbed_umol_m2_s";
+    for (const char* figure : {"_direct", "_indirect", "_absorbed", "_absorbed_umol_m2_s"}) {
+      const bool has_figure = band.contains("umol_m2_s") || std::string(figure) != "_absorbed_umol_m2_s";
+      if (has_figure) organ_columns += "," + name + figure + "," + name + figure + "_error";
+    }
   }
   EXPECT_EQ(organs.header(), organ_columns + ",role");
   EXPECT_EQ(organs.size(), summary_["organs"]);
   const Table triangles(file("triangles.csv"));
   std::vector<std::string> of_band{"_direct_upper", "_direct_lower"};
   if (has_sky()) of_band.insert(of_band.end(), {"_sky_upper", "_sky_lower"});
-  of_band.insert(of_band.end(), {"_indirect_upper", "_indirect_lower", "_absorbed", "_error"});
+  of_band.insert(of_band.end(), {"_indirect_upper", "_indirect_lower", "_absorbed", "_absorbed_error"});
   EXPECT_EQ(triangles.header(), header("triangle,plant,organ,area_m2,x,y,z", of_band));
   EXPECT_EQ(triangles.size(), summary_["triangles"]);
   for (const Table* table : {&profile, &organs, &triangles}) {

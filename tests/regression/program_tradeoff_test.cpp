@@ -65,17 +65,18 @@ TEST_F(Tradeoff, TableAndSlopes) {
 
   const std::string text = file("tradeoff.csv");
   const Table table(text);
-  EXPECT_NE(text.find("\nsetting,seed,seconds,rays,quantity,true_error,reported_error,covered"), std::string::npos);
+  EXPECT_NE(text.find("\nsetting,seed,seconds,rays,quantity,true_relative_error,reported_relative_error,covered"),
+            std::string::npos);
   EXPECT_NE(text.find("# One leaf\n"), std::string::npos);
   std::map<std::string, std::set<double>> seeds_of;
   for (std::size_t row = 0; row < table.size(); ++row) {
     seeds_of[table.cell(row, "setting")].insert(table.number(row, "seed"));
-    EXPECT_GE(table.number(row, "true_error"), 0.0);
+    EXPECT_GE(table.number(row, "true_relative_error"), 0.0);
     EXPECT_GT(table.number(row, "seconds"), 0.0);
     EXPECT_GT(table.number(row, "rays"), 0.0);
     const double covered = table.number(row, "covered");
     EXPECT_TRUE(std::isnan(covered) || (covered >= 0.0 && covered <= 1.0));
-    EXPECT_EQ(std::isnan(covered), std::isnan(table.number(row, "reported_error")));
+    EXPECT_EQ(std::isnan(covered), std::isnan(table.number(row, "reported_relative_error")));
   }
   const std::map<std::string, std::size_t> expected{{"grid 0.002", 1},   {"grid 0.004", 2},  {"grid 0.01", 4},
                                                     {"packets 4096", 1}, {"packets 256", 4}, {"error 0.02", 1},
@@ -98,7 +99,7 @@ TEST_F(Tradeoff, TableAndSlopes) {
   }
   EXPECT_EQ(seen, 2);
   EXPECT_EQ(report["recommendation"]["quantity"], "canopy");
-  EXPECT_EQ(report["recommendation"]["asked_error"], 0.02);
+  EXPECT_EQ(report["recommendation"]["asked_relative_error"], 0.02);
   EXPECT_GT(report["recommendation"]["error"], 0.0);
 }
 
@@ -113,7 +114,8 @@ TEST_F(Tradeoff, SaysWhatItRecommendsAndRepeatsItself) {
   const Table second(file("tradeoff.csv"));
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t row = 0; row < first.size(); ++row) {
-    for (const char* column : {"setting", "seed", "rays", "quantity", "true_error", "reported_error", "covered"})
+    for (const char* column :
+         {"setting", "seed", "rays", "quantity", "true_relative_error", "reported_relative_error", "covered"})
       EXPECT_EQ(first.cell(row, column), second.cell(row, column)) << column << " of row " << row;
   }
 }

@@ -332,7 +332,7 @@ class WindowTest(unittest.TestCase):
         band = summary["bands"][0]
         for key in ("absorbed_vegetation", "absorbed_soil", "reflected"):
             self.assertEqual(converged[key], band[key])
-        self.assertEqual(converged["direct_error"], summary["direct"]["relative_error"])
+        self.assertEqual(converged["direct_relative_error"], summary["direct"]["relative_error"])
         self.expect_clean_end(window)
 
     def test_a_broken_scene_file_is_told_and_the_last_good_one_goes_on(self):

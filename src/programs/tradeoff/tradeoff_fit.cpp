@@ -94,6 +94,7 @@ std::optional<PowerLaw> fit_power_law(std::span<const WorkAndError> points) {
   }
   if (!(xx > 0.0)) return {};
   PowerLaw law;
+  law.points = logarithms.size();
   law.exponent = xy / xx;
   law.factor = std::exp(mean.error - law.exponent * mean.work);
   law.standard_error = logarithms.size() > 2 ? std::sqrt(std::max(0.0, yy - law.exponent * xy) / (n - 2.0) / xx) : no_value;

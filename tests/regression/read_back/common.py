@@ -5,7 +5,7 @@ import sys
 
 BANDS = ("PAR", "NIR", "A", "B-2")
 COLUMNS = ("direct_upper", "direct_lower", "sky_upper", "sky_lower", "indirect_upper", "indirect_lower", "total",
-           "absorbed", "error")
+           "absorbed", "absorbed_error")
 
 
 def report(read):

@@ -88,7 +88,8 @@ class DayWriter {
         const int number = file_.variable<float>(fmt::format("{}_{}", band.name, ending(column)), {time_, triangle_},
                                                  light_units, meaning(column));
         file_.attribute(number, "coordinates", "x y z");
-        if (column == LightColumn::absorbed) file_.attribute(number, "ancillary_variables", band.name + "_error");
+        if (column == LightColumn::absorbed)
+          file_.attribute(number, "ancillary_variables", fmt::format("{}_{}", band.name, ending(LightColumn::absorbed_error)));
         file_.store_by_row(number, day_.model.canopy.size());
         light_.push_back(number);
       }

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* store_format = "sunfleck pictures";
-constexpr int store_version = 1;
+constexpr int store_version = 2;
 
 // Largest coordinate of a scene, such as a mesh of up to 1e7 m, turned and placed as far from zero.
 constexpr double farthest_stored_m = 1e8;
@@ -142,10 +142,10 @@ void visit_result(const Archive& archive, Result& result, const RadiationModel& 
   archive["ground_per_ray_m2"].value(result.ground_per_ray_m2, 0.0, largest);
   archive["w_per_quantum"].value(result.w_per_quantum, 0.0, largest);
   archive["rays"].value(result.direct.rays);
-  archive["direct_error"].value(result.direct.relative_error);
+  archive["direct_relative_error"].value(result.direct.relative_error);
   archive["packets"].value(result.indirect.packets);
-  archive.recent_value("sky_rays", result.indirect.sky_rays);
-  archive["indirect_error"].value(result.indirect.relative_error);
+  archive["sky_rays"].value(result.indirect.sky_rays);
+  archive["indirect_relative_error"].value(result.indirect.relative_error);
   archive["landings"].packed(result.elements, elements);
   archive["cells"].value(cells);
   archive["cell_landings"].packed(result.soil_cells, cells);

@@ -19,8 +19,7 @@ inline constexpr const char* result_store_file = "pictures.cbor";
 
 // Content of the file. `scene` has the title, digest, model and camera; its model lacks the kind of sky, the planes and the
 // sensors (`sky` is set if the scene has one). `result` has all counts of landings and quanta by side and by cell, their
-// conversion to W m-2, the leaf area index, and the rays, packets, sky rays and relative errors of both passes. Sky rays are 0
-// in files from earlier builds.
+// conversion to W m-2, the leaf area index, and the rays, packets, sky rays and relative errors of both passes.
 struct StoredResult {
   Scene scene;
   RadiationResult result;

@@ -16,6 +16,13 @@ using nlohmann::ordered_json;
 
 constexpr std::string_view state_mark = "SUNRUNS2";
 
+// Returns whether the file begins with the letters of a run's state and the digit of another version.
+bool is_of_another_version(std::string_view bytes) {
+  const std::size_t digit = state_mark.size() - 1;
+  return bytes.size() > digit && bytes.substr(0, digit) == state_mark.substr(0, digit) && bytes[digit] != state_mark[digit] &&
+         bytes[digit] >= '0' && bytes[digit] <= '9';
+}
+
 [[noreturn]] void throw_damaged(const fs::path& file) {
   throw_input(printable(file.string()), "it is damaged", "omit --resume to start the run again");
 }
@@ -41,7 +48,12 @@ RunStore::RunStore(const fs::path& result_folder, const ordered_json& settings)
 std::optional<SolveState> RunStore::read(const SolveState& blank) const {
   std::error_code error;
   if (!fs::exists(file_, error)) return std::nullopt;
-  const std::optional<json> content = unsealed(state_mark, read_file(file_));
+  const std::string bytes = read_file(file_);
+  if (is_of_another_version(bytes)) {
+    throw_input(printable(file_.string()), "another version of the program wrote it, in another format",
+                "omit --resume to start the run again");
+  }
+  const std::optional<json> content = unsealed(state_mark, bytes);
   if (!content || !content->is_object() || !content->contains("settings") || !content->at("settings").is_string()) {
     throw_damaged(file_);
   }

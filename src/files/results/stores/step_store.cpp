@@ -17,10 +17,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view step_mark = "SUNSTEP2";
+constexpr std::string_view step_mark = "SUNSTEP3";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
+constexpr const char* format_key = "format";
+constexpr int step_format = 3;  // of the steps, and of the tables that a finished day has
 
 // Writes or reads a step; its light has the sizes of the model.
 template <class Archive, class Step>
@@ -87,8 +89,13 @@ StepStore::Found StepStore::find() const {
   if (!noted.is_object() || !noted.contains(finished_key)) {
     throw_input(printable(file.string()), "it is damaged", "omit --resume to start the day again");
   }
+  if (!noted.contains(format_key) || noted[format_key] != step_format) {
+    throw_input(printable(file.string()), "another version of the program stored that day, in another format",
+                "omit --resume to start the day again");
+  }
   const bool finished = noted[finished_key] == true;
   noted.erase(finished_key);
+  noted.erase(format_key);
   expect_same_settings(ordered_json::parse(settings_), noted, "that day", folder_.parent_path());
   return finished ? Found::finished : Found::begun;
 }
@@ -146,6 +153,7 @@ fs::path StepStore::file_of(std::size_t step) const {
 void StepStore::write_settings(bool finished) const {
   ordered_json settings = ordered_json::parse(settings_);
   settings[finished_key] = finished;
+  settings[format_key] = step_format;
   write_file(folder_ / settings_file, settings.dump(2) + "\n");
 }
 

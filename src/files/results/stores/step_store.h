@@ -2,7 +2,7 @@
 // Stores the finished steps of a day in the folder `steps` of the result folder. The tables and fields are made from them, so
 // an interrupted day resumes where it stopped.
 //
-// settings.json holds the settings of the steps and whether the day is finished; the steps of a finished day are removed.
+// settings.json holds the settings of the steps, the format and whether the day is finished; the steps of a finished day are removed.
 // step_00007.bin is step 7, counted from 0, in the format of base/sealed_file.h; long arrays are byte strings, little-endian
 // and deflated (zlib).
 
@@ -38,7 +38,8 @@ class StepStore {
   StepStore(const std::filesystem::path& result_folder, const RadiationModel& model, const nlohmann::ordered_json& settings);
 
   enum class Found { nothing, begun, finished };
-  // Returns the state that an earlier day left. Throws Error (input), naming the first difference, if its settings differ.
+  // Returns the state that an earlier day left. Throws Error (input) if another version of the program left it in another
+  // format, or, naming the first difference, if its settings differ.
   [[nodiscard]] Found find() const;
 
   // Removes what an earlier day left and records the settings. Throws Error (failure).

@@ -7,8 +7,8 @@ namespace sunfleck {
 std::vector<LightColumn> day_columns(const RadiationModel& model) {
   std::vector<LightColumn> columns = {LightColumn::direct_upper, LightColumn::direct_lower};
   if (model.sky) columns.insert(columns.end(), {LightColumn::sky_upper, LightColumn::sky_lower});
-  columns.insert(columns.end(),
-                 {LightColumn::indirect_upper, LightColumn::indirect_lower, LightColumn::absorbed, LightColumn::error});
+  columns.insert(columns.end(), {LightColumn::indirect_upper, LightColumn::indirect_lower, LightColumn::absorbed,
+                                 LightColumn::absorbed_error});
   return columns;
 }
 

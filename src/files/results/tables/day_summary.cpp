@@ -35,8 +35,9 @@ ordered_json date_json(const DaySummary& day, const std::string& name, const Dat
       errors[fmt::format("{}_mj_m2", term)] = number_or_null(sum.half_width);
     }
     if (waveband.umol_per_joule > 0.0) {
-      band["absorbed_vegetation_mol_m2"] =
-          number_or_null(date.bands[b].absorbed_vegetation.value * per_mega * waveband.umol_per_joule);
+      const Estimate photons = date.bands[b].absorbed_vegetation.scaled(per_mega * waveband.umol_per_joule);
+      band["absorbed_vegetation_mol_m2"] = number_or_null(photons.value);
+      errors["absorbed_vegetation_mol_m2"] = number_or_null(photons.half_width);
     }
     band["error"] = errors;
     bands.push_back(std::move(band));

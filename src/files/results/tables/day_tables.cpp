@@ -89,8 +89,8 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
   const std::vector<DateSums> sums = sum_dates(model, course, lights);
   const std::vector<std::size_t> dates = dates_with_steps(sums);
   Table table{"What organs absorbed over the steps of each date, soil elements included; the ground of [soil] has no row",
-              "area_m2: m2, one-sided; absorbed: per one-sided area; _error: relative half-width of the confidence interval of "
-              "absorbed",
+              "area_m2: m2, one-sided; absorbed: per one-sided area, MJ m-2 and mol of photons m-2; _error: half-width of the "
+              "confidence interval",
               stopped_note(course, lights),
               {dates.size(), organs.size()},
               {}};
@@ -104,12 +104,10 @@ Table organs_day_table(const RadiationModel& model, const DayCourse& course, std
       return sums[dates[row / organs.size()]].organ_absorbed[row % organs.size() * model.bands.size() + b];
     };
     table.add({band + "_absorbed_mj_m2", "MJ m-2", "energy absorbed by both faces per one-sided area"},
-              [&](std::size_t row) { return joules(row).value * per_mega; });
-    table.add({band + "_error", "1", "relative half-width of the confidence interval of absorbed"},
-              [&](std::size_t row) { return relative_half_width(joules(row)); });
+              [&](std::size_t row) { return joules(row).scaled(per_mega); });
     if (!(umol_per_joule > 0.0)) continue;
     table.add({band + "_absorbed_mol_m2", "mol m-2", "photons absorbed by both faces per one-sided area"},
-              [&](std::size_t row) { return joules(row).value * umol_per_joule * per_mega; });
+              [&](std::size_t row) { return joules(row).scaled(umol_per_joule * per_mega); });
   }
   add_organ_roles(table, model, 1);
   return table;

@@ -31,7 +31,7 @@ double value_of(LightColumn column, const Irradiance& upper, const Irradiance& l
       return upper.total_w_m2() + lower.total_w_m2();
     case LightColumn::absorbed:
       return absorbed_w_m2;
-    case LightColumn::error:
+    case LightColumn::absorbed_error:
       return error_w_m2;
   }
   return no_value;
@@ -52,7 +52,7 @@ constexpr LightLabel light_labels[] = {
     {"indirect_lower", "irradiance of the lower face by all light but the sun's beam at its first hit"},
     {"total", "irradiance of both faces together by all light"},
     {"absorbed", "flux absorbed by both faces per one-sided area"},
-    {"error", "half-width of the confidence interval of absorbed"}};
+    {"absorbed_error", "half-width of the confidence interval of absorbed"}};
 
 const LightLabel& label_of(LightColumn column) {
   return light_labels[static_cast<std::size_t>(column)];
@@ -62,7 +62,7 @@ std::vector<LightColumn> columns_of(const RadiationResult& result) {
   std::vector<LightColumn> columns = {LightColumn::direct_upper, LightColumn::direct_lower};
   if (!result.side_sky.empty()) columns.insert(columns.end(), {LightColumn::sky_upper, LightColumn::sky_lower});
   columns.insert(columns.end(), {LightColumn::indirect_upper, LightColumn::indirect_lower, LightColumn::total,
-                                 LightColumn::absorbed, LightColumn::error});
+                                 LightColumn::absorbed, LightColumn::absorbed_error});
   return columns;
 }
 
@@ -128,7 +128,7 @@ Table triangles_table(const ElementFields& fields) {
   Table table{"Triangles, in the order of the files",
               fmt::format("area_m2: m2, one-sided; x, y, z: m, centroid after wrapping ({}); direct, sky (unscattered, "
                           "a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: "
-                          "half-width of the confidence interval of absorbed, empty below 20 hits",
+                          "half-width of the confidence interval, empty below 20 hits",
                           axes_text(fields.axes)),
               {},
               {fields.size()},

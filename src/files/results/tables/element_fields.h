@@ -24,7 +24,7 @@ enum class LightColumn {
   indirect_lower,
   total,  // all light incident on both faces
   absorbed,
-  error  // half-width of the confidence interval of absorbed
+  absorbed_error  // half-width of the confidence interval of absorbed
 };
 
 [[nodiscard]] const char* ending(LightColumn column);  // e.g. direct_upper

@@ -81,8 +81,8 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<OrganResult>& light = result.organs;
   Table table{
       "Organs, those of soil elements included; the ground of [soil] has no row",
-      "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided area; _error: relative "
-      "half-width of the confidence interval of absorbed; absorbed_umol_m2_s: the same in photons, umol m-2 s-1",
+      "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided area; absorbed_umol_m2_s: "
+      "the same in photons, umol m-2 s-1; _error: half-width of the confidence interval",
       {},
       {organs.size()},
       {}};
@@ -94,16 +94,14 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
     const std::string& band = model.bands[b].name;
     const double umol_per_joule = model.bands[b].umol_per_joule;
     table.add({band + "_direct", "W m-2", "irradiance of both faces by the sun's beam"},
-              [&](std::size_t o) { return light[o].direct[b].value; });
+              [&](std::size_t o) { return light[o].direct[b]; });
     table.add({band + "_indirect", "W m-2", "irradiance of both faces by all light but the sun's beam at its first hit"},
-              [&](std::size_t o) { return light[o].indirect[b].value; });
+              [&](std::size_t o) { return light[o].indirect[b]; });
     table.add({band + "_absorbed", "W m-2", "flux absorbed by both faces per one-sided area"},
-              [&](std::size_t o) { return light[o].absorbed[b].value; });
-    table.add({band + "_error", "1", "relative half-width of the confidence interval of absorbed"},
-              [&](std::size_t o) { return relative_half_width(light[o].absorbed[b]); });
+              [&](std::size_t o) { return light[o].absorbed[b]; });
     if (!(umol_per_joule > 0.0)) continue;
     table.add({band + "_absorbed_umol_m2_s", "umol m-2 s-1", "photons absorbed by both faces per one-sided area"},
-              [&](std::size_t o) { return light[o].absorbed[b].value * umol_per_joule; });
+              [&](std::size_t o) { return light[o].absorbed[b].scaled(umol_per_joule); });
   }
   add_organ_roles(table, model, 0);
   return table;
@@ -137,7 +135,7 @@ Table plants_table(const RadiationModel& model, const RadiationResult& result) {
               [&](std::size_t p) { return plants[p].absorbed_w[b]; });
     if (!(umol_per_joule > 0.0)) continue;
     table.add({band + "_absorbed_umol_s", "umol s-1", "photons that all its organs absorb"},
-              [&](std::size_t p) { return plants[p].absorbed_w[b].value * umol_per_joule; });
+              [&](std::size_t p) { return plants[p].absorbed_w[b].scaled(umol_per_joule); });
   }
   return table;
 }

@@ -18,6 +18,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// Returns the half-widths of the band's fluxes, each multiplied by `factor`.
+ordered_json half_widths_json(const BandResult& band, double factor) {
+  return {{"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width * factor)},
+          {"absorbed_structure", number_or_null(band.absorbed_structure.half_width * factor)},
+          {"absorbed_soil", number_or_null(band.absorbed_soil.half_width * factor)},
+          {"reflected", number_or_null(band.reflected.half_width * factor)},
+          {"transmitted", number_or_null(band.transmitted.half_width * factor)}};
+}
+
 ordered_json band_json(const BandResult& band) {
   return {{"name", band.name},
           {"incident", band.incident},
@@ -36,12 +45,7 @@ ordered_json band_json(const BandResult& band) {
             {"reflected", band.ledger.reflected},
             {"transmitted", band.ledger.transmitted},
             {"unshot", band.ledger.unshot}}},
-          {"error",
-           {{"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width)},
-            {"absorbed_structure", number_or_null(band.absorbed_structure.half_width)},
-            {"absorbed_soil", number_or_null(band.absorbed_soil.half_width)},
-            {"reflected", number_or_null(band.reflected.half_width)},
-            {"transmitted", number_or_null(band.transmitted.half_width)}}}};
+          {"error", half_widths_json(band, 1.0)}};
 }
 
 // Returns the same fluxes in photons, umol m-2 s-1 of ground, for bands with umol_per_joule.
@@ -51,7 +55,8 @@ ordered_json photons_json(const BandResult& band, double umol_per_joule) {
           {"absorbed_structure", band.absorbed_structure.value * umol_per_joule},
           {"absorbed_soil", band.absorbed_soil.value * umol_per_joule},
           {"reflected", band.reflected.value * umol_per_joule},
-          {"transmitted", band.transmitted.value * umol_per_joule}};
+          {"transmitted", band.transmitted.value * umol_per_joule},
+          {"error", half_widths_json(band, umol_per_joule)}};
 }
 
 ordered_json bands_json(const RadiationModel& model, const RadiationResult& result) {

@@ -1,7 +1,6 @@
 #include "files/results/tables/table.h"
 
 #include <functional>
-#include <limits>
 #include <numeric>
 
 namespace sunfleck {
@@ -31,10 +30,6 @@ std::size_t Table::value_in_row(const Column& column, std::size_t row) const {
 Estimate as_share(Estimate estimate) {
   if (estimate.value > 1.0) estimate.value = 1.0;
   return estimate;
-}
-
-double relative_half_width(const Estimate& estimate) {
-  return estimate.value > 0.0 ? estimate.half_width / estimate.value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #pragma once
 // A table of results. Each column states once its name, unit and meaning and holds its values; CSV, netCDF, VTK, PLY and the
-// arrays of Python are made from it.
+// arrays of Python are made from it. A column NAME_error holds the half-widths of the confidence intervals of the column NAME, in
+// its unit; a half-width relative to its value is named NAME_relative_error.
 
 #include "physics/transport/model/statistics.h"
 
@@ -74,9 +75,6 @@ struct Table {
 
 // Limits a share to 1 for reporting: the estimate is unbiased and may exceed 1 by chance, although the share cannot.
 [[nodiscard]] Estimate as_share(Estimate estimate);
-
-// Returns half-width / value, or NaN if the value is not positive.
-[[nodiscard]] double relative_half_width(const Estimate& estimate);
 
 template <class T>
 void Table::add(Column column, std::vector<T> values) {

@@ -3,6 +3,7 @@
 #include "base/units.h"
 #include "files/results/tables/summary_parts.h"
 #include "files/results/tables/table_text.h"
+#include "physics/transport/model/statistics.h"
 
 #include <fmt/format.h>
 
@@ -33,20 +34,21 @@ ordered_json by_quantity(const std::array<double, 4>& values) {
 }
 
 std::string head(const TradeoffReport& report) {
-  std::string text = table_head(
-      report.record, "Speed against accuracy: runs of several seeds against a long reference",
-      "seconds: s, simulation alone; rays: beam and sky rays and packets; true_error, reported_error, largest_error: relative; "
-      "covered: share");
+  std::string text = table_head(report.record, "Speed against accuracy: runs of several seeds against a long reference",
+                                "seconds: s, simulation alone; rays: beam and sky rays and packets; the errors: relative; "
+                                "covered: share");
   text += fmt::format("# device {}; {} seeds a setting, up to four times as many where grids or packets are cheap\n",
                       report.record.device.name, report.seeds);
   text +=
       "# setting: grid, --grid in m with --passes 8, judged by the sun's direct light; packets, of the first round of each of "
       "8 "
       "replicates, by all other light; error, --error, and mesh, share of the triangles kept, by what is absorbed\n"
-      "# true_error: root mean square over canopy (vegetation, soil), layers, organs (from a tenth of the mean organ's flux "
-      "on) or triangles (area-weighted) of the difference to the reference relative to the value (layers and canopy: at least "
-      "1 % of the incident flux; triangles: mean); reported_error: the same of the half-widths; covered: share of the values "
-      "that they reach; triangles: of those with 20 hits\n";
+      "# true_relative_error: root mean square over canopy (vegetation, soil), layers, organs (from a tenth of the mean "
+      "organ's "
+      "flux on) or triangles (area-weighted) of the difference to the reference relative to the value (layers and canopy: at "
+      "least 1 % of the incident flux; triangles: mean); reported_relative_error: the same of the half-widths; covered: share "
+      "of "
+      "the values that they reach; triangles: of those with 20 hits\n";
   for (std::size_t i = 0; i < report.reference_rays.size(); ++i) {
     if (report.reference_rays[i] == 0) continue;
     text += fmt::format("# reference of {} light: {} rays and packets, its own error", light_name(all_series[i]),
@@ -62,16 +64,16 @@ std::string head(const TradeoffReport& report) {
   return text;
 }
 
-ordered_json law_json(const PowerLaw& law) {
-  return {{"slope", number_or_null(law.exponent)}, {"standard_error", number_or_null(law.standard_error)}};
+ordered_json law_json(const PowerLaw& law, double confidence) {
+  return {{"slope", number_or_null(law.exponent)}, {"slope_error", number_or_null(law.half_width(confidence))}};
 }
 
 ordered_json recommendation_json(const Recommendation& recommendation) {
-  return {{"asked_error", recommendation.requested_error},
+  return {{"asked_relative_error", recommendation.requested_error},
           {"quantity", quantity_name(recommendation.quantity)},
           {"error", recommendation.bound},
           {"seconds", number_or_null(recommendation.seconds)},
-          {"expected_error", number_or_null(recommendation.expected)},
+          {"expected_relative_error", number_or_null(recommendation.expected)},
           {"margin", number_or_null(recommendation.margin)},
           {"extrapolated", recommendation.extrapolated}};
 }
@@ -82,7 +84,7 @@ ordered_json level_json(const TradeoffLevel& level) {
           {"seeds", level.runs.size()},
           {"rays", number_or_null(mean_rays(level))},
           {"seconds", number_or_null(median_seconds(level))},
-          {"true_error", by_quantity(level.error)}};
+          {"true_relative_error", by_quantity(level.error)}};
 }
 
 }  // namespace
@@ -90,6 +92,10 @@ ordered_json level_json(const TradeoffLevel& level) {
 const char* quantity_name(Quantity quantity) {
   constexpr std::array names{"canopy", "layer", "organ", "triangle"};
   return names[static_cast<std::size_t>(quantity)];
+}
+
+double PowerLaw::half_width(double confidence) const {
+  return points > 2 ? t_quantile(confidence, points - 1) * standard_error : no_value;
 }
 
 std::string setting_name(const TradeoffLevel& level) {
@@ -113,7 +119,8 @@ double mean_rays(const TradeoffLevel& level) {
 
 std::string tradeoff_csv(const TradeoffReport& report) {
   std::string text = head(report);
-  text += "setting,seed,seconds,rays,quantity,true_error,reported_error,covered,largest_error,light\n";
+  text +=
+      "setting,seed,seconds,rays,quantity,true_relative_error,reported_relative_error,covered,largest_relative_error,light\n";
   for (const TradeoffLevel& level : report.levels) {
     for (const TradeoffRun& run : level.runs) {
       for (const Quantity quantity : quantities) {
@@ -145,15 +152,15 @@ std::string tradeoff_json(const TradeoffReport& report) {
   for (const TradeoffFit& fit : report.fits) {
     json["slopes"].push_back({{"light", light_name(fit.series)},
                               {"quantity", quantity_name(fit.quantity)},
-                              {"rays", law_json(fit.of_rays)},
-                              {"seconds", law_json(fit.of_seconds)}});
+                              {"rays", law_json(fit.of_rays, record.accuracy.confidence)},
+                              {"seconds", law_json(fit.of_seconds, record.accuracy.confidence)}});
   }
   json["reference"] = ordered_json::array();
   for (std::size_t i = 0; i < report.reference_rays.size(); ++i) {
     if (report.reference_rays[i] == 0) continue;
     json["reference"].push_back({{"light", light_name(all_series[i])},
                                  {"rays", report.reference_rays[i]},
-                                 {"error", by_quantity(report.reference_error[i])}});
+                                 {"relative_error", by_quantity(report.reference_error[i])}});
   }
   json["settings"] = ordered_json::array();
   for (const TradeoffLevel& level : report.levels) json["settings"].push_back(level_json(level));

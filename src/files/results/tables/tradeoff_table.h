@@ -4,6 +4,7 @@
 #include "files/results/tables/result_writer.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -54,6 +55,11 @@ struct TradeoffLevel {
 struct PowerLaw {
   double exponent = 0.0, factor = 1.0;
   double standard_error = 0.0;  // of the exponent; NaN for two points
+  std::size_t points = 0;
+
+  // Returns the half-width of the exponent's confidence interval; NaN for two points. Two parameters are fitted, so Student's t
+  // has points - 2 degrees of freedom.
+  [[nodiscard]] double half_width(double confidence) const;
 };
 
 struct TradeoffFit {

@@ -46,8 +46,8 @@ class DayResult:
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
         """The absorption of organs: date (a list); organ and role (lists of names), plant, rank and area_m2 by organ; and arrays
-        of shape (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), BAND_error (relative), with photon units
-        BAND_absorbed_mol_m2."""
+        of shape (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), with photon units BAND_absorbed_mol_m2, with their
+        half-widths _error."""
         return self._core.organs()
 
     @functools.cached_property
@@ -59,8 +59,8 @@ class DayResult:
     @functools.cached_property
     def triangles(self) -> dict[str, np.ndarray]:
         """The fields of day.nc in single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
-        BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed, BAND_error. They
-        are 0 at night."""
+        BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed,
+        BAND_absorbed_error. They are 0 at night."""
         return self._core.triangles()
 
     def describe(self, table: str) -> dict[str, tuple[str, str]]:

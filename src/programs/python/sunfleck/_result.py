@@ -21,8 +21,8 @@ _EXPORTS = ("csv", "nc", "vtp", "glb", "ply", "caribu")
 class Result:
     """The results of one simulation. BAND stands for the name of a band, such as PAR.
 
-    Fluxes are in W m-2, or in the band's own unit of irradiance; errors are half-widths of confidence intervals that include
-    the unshot flux, NaN if there are too few hits. Coordinates are in metres in the scene's own axes: X south, Y up, Z west, or
+    Fluxes are in W m-2, or in the band's own unit of irradiance; NAME_error is the half-width of the confidence interval of NAME, in
+    its unit; it includes the unshot flux and is NaN if there are too few hits. Coordinates are in metres in the scene's own axes: X south, Y up, Z west, or
     x east, y north, z up with axes = "east-north-up". Arrays are computed on first access; those of the triangles are read-only
     views of memory that the result owns.
     """
@@ -53,8 +53,8 @@ class Result:
 
         plant, rank; organ and optics as indices into the lists organ_name and optics_name; area_m2 (one-sided); x, y, z
         (centroid after wrapping, m); BAND_direct_upper, BAND_direct_lower, BAND_indirect_upper, BAND_indirect_lower, with a sky
-        BAND_sky_upper, BAND_sky_lower (incident on a face, W m-2), BAND_total (incident on both), BAND_absorbed, BAND_error
-        (half-width of BAND_absorbed).
+        BAND_sky_upper, BAND_sky_lower (incident on a face, W m-2), BAND_total (incident on both), BAND_absorbed,
+        BAND_absorbed_error.
         """
         return self._outcome.triangles()
 
@@ -68,15 +68,16 @@ class Result:
 
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
-        """The columns of organs.csv as arrays of shape (organs,): plant, organ (a list of names), rank, area_m2, sunlit_fraction
-        and its _error, BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), BAND_error (relative),
-        role (a list of names). Soil elements of a mesh are included, the ground of [soil] is not."""
+        """The columns of organs.csv as arrays of shape (organs,): plant, organ (a list of names), rank, area_m2, sunlit_fraction,
+        BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), with photon units
+        BAND_absorbed_umol_m2_s, each of these with its _error; role (a list of names). Soil elements of a mesh are included, the ground of [soil] is not."""
         return self._outcome.organs()
 
     @functools.cached_property
     def plants(self) -> dict[str, np.ndarray]:
         """The columns of plants.csv as arrays of shape (plants,): plant, x, y, z (m, where it stands), height_m, leaf_area_m2,
-        sunlit_leaf_fraction, BAND_incident, BAND_absorbed (W of the whole plant), the last three each with its _error."""
+        sunlit_leaf_fraction, BAND_incident, BAND_absorbed (W of the whole plant), with photon units BAND_absorbed_umol_s, each of
+        these with its _error."""
         return self._outcome.plants()
 
     @functools.cached_property

@@ -233,7 +233,7 @@ class CaribuScene:
         column = self.result.triangles
         upper = column[f"{name}_direct_upper"] + column[f"{name}_indirect_upper"]
         lower = column[f"{name}_direct_lower"] + column[f"{name}_indirect_lower"]
-        absorbed, half_width = column[f"{name}_absorbed"], column[f"{name}_error"]
+        absorbed, half_width = column[f"{name}_absorbed"], column[f"{name}_absorbed_error"]
         if direct:
             counts = [len(triangles) for triangles in self.scene.values()]
             faces = np.array([_absorptances(self.material[band][primitive]) for primitive in self.scene])

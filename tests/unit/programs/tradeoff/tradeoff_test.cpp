@@ -93,6 +93,8 @@ TEST(TradeoffFit, StandardErrorIsThatOfLeastSquares) {
   ASSERT_TRUE(law);
   EXPECT_NEAR(law->exponent, 1.5, 1e-12);
   EXPECT_NEAR(law->standard_error, std::sqrt(0.75), 1e-12);
+  // Student's t at 97.5 % with one degree of freedom is 12.7062.
+  EXPECT_NEAR(law->half_width(0.95), 12.7062 * std::sqrt(0.75), 1e-4);
 }
 
 TEST(TradeoffFit, NeedsTwoPoints) {

@@ -50,8 +50,8 @@ TEST(ElementFields, ValuesByHand) {
   EXPECT_EQ(values(fields, 1, LightColumn::sky_lower)[0], 0.0);
   EXPECT_NEAR(values(fields, 1, LightColumn::total)[0], 104.0, 1e-9);
   EXPECT_NEAR(values(fields, 1, LightColumn::absorbed)[0], 0.25 * 82.0 + 0.75 * 22.0, 1e-9);
-  EXPECT_EQ(values(fields, 1, LightColumn::error)[0], 0.75);
-  EXPECT_TRUE(std::isnan(values(fields, 1, LightColumn::error)[1]));
+  EXPECT_EQ(values(fields, 1, LightColumn::absorbed_error)[0], 0.75);
+  EXPECT_TRUE(std::isnan(values(fields, 1, LightColumn::absorbed_error)[1]));
   EXPECT_EQ(fields.light[1][0].name, "B-2_direct_upper");
 }
 

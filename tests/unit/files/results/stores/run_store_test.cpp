@@ -90,6 +90,14 @@ TEST_F(RunStoreTest, ReadsNoStateThatIsDamaged) {
   EXPECT_EQ(refusal(), "");
 }
 
+TEST_F(RunStoreTest, ReadsNoStateOfAnotherVersion) {
+  store_.write(state_);
+  folder_.write(run_state_file, "SUNRUNS1" + bytes().substr(8));
+  const std::string message = refusal();
+  expect_three_parts(message);
+  EXPECT_NE(message.find("another version of the program wrote it"), std::string::npos) << message;
+}
+
 // The checksum is right, but this program writes other maps.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   store_.write(state_);

@@ -161,6 +161,17 @@ TEST_F(StepStoreTest, TellsWhatAnEarlierDayLeft) {
   EXPECT_EQ(store_.find(), StepStore::Found::begun);
 }
 
+TEST_F(StepStoreTest, RefusesADayInAnotherFormat) {
+  store_.begin();
+  const auto message = [&] { return refusal_of([&] { static_cast<void>(store_.find()); }); };
+  for (const char* old : {"", ", \"format\": 2", ", \"format\": \"3\""}) {
+    folder_.write("steps/settings.json",
+                  std::string(R"({"scene_digest": "0123", "seed": 1, "step_min": 10, "finished": true)") + old + "}");
+    EXPECT_NE(message().find("another version of the program stored that day"), std::string::npos) << old << message();
+    expect_three_parts(message());
+  }
+}
+
 TEST_F(StepStoreTest, NamesTheFirstSettingThatDiffers) {
   store_.begin();
   ordered_json other = day_settings;

@@ -102,18 +102,18 @@ TEST(DayTables, OrgansHaveSumsOfEachDate) {
   const std::vector<StepLight> lights{light(100.0, 3.0, 0.0), night_light(model), light(10.0, 5.0, 0.0)};
   const regression::Table table(organs_day_csv({}, model, three_steps(), lights));
   EXPECT_EQ(table.header(),
-            "date,plant,organ,rank,area_m2,A_absorbed_mj_m2,A_error,A_absorbed_mol_m2,B_absorbed_mj_m2,B_error,role");
+            "date,plant,organ,rank,area_m2,A_absorbed_mj_m2,A_absorbed_mj_m2_error,A_absorbed_mol_m2,A_absorbed_mol_m2_error,"
+            "B_absorbed_mj_m2,B_absorbed_mj_m2_error,role");
   ASSERT_EQ(table.size(), 4U);
   EXPECT_EQ(table.cell(0, "date"), "2002-12-31");
   EXPECT_EQ(table.cell(1, "organ"), "a \"tip\", dry");
   EXPECT_EQ(table.number(1, "area_m2"), 4.5);
   EXPECT_EQ(table.number(0, "A_absorbed_mj_m2"), 0.18);
   EXPECT_EQ(table.number(0, "A_absorbed_mol_m2"), 0.72);
-  EXPECT_EQ(table.number(0, "A_error"), 0.03);
-  EXPECT_EQ(table.number(0, "B_error"), 0.015);
+  EXPECT_EQ(table.number(0, "A_absorbed_mj_m2_error"), 0.0054);
+  EXPECT_EQ(table.number(0, "A_absorbed_mol_m2_error"), 0.0216);
   EXPECT_EQ(table.number(1, "A_absorbed_mj_m2"), 0.0);
-  EXPECT_EQ(table.cell(1, "A_error"), "");  // there is no value to be relative to
-  EXPECT_EQ(table.cell(1, "B_error"), "");  // the error of one step is unknown
+  EXPECT_EQ(table.cell(1, "B_absorbed_mj_m2_error"), "");  // the error of one step is unknown
   EXPECT_EQ(table.cell(3, "date"), "2003-01-01");
 }
 

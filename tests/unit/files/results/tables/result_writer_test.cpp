@@ -102,10 +102,9 @@ TEST(ResultWriter, OrgansAreQuotedAndUnknownsEmpty) {
   EXPECT_EQ(table.cell(1, "organ"), "a \"tip\", dry");
   EXPECT_EQ(table.cell(0, "sunlit_fraction_error"), "");
   EXPECT_EQ(table.cell(0, "A_direct"), "0.333333333") << "nine digits";
-  EXPECT_EQ(table.cell(0, "A_error"), "") << "relative to nothing";
   EXPECT_EQ(table.cell(0, "A_indirect"), "0");
   EXPECT_EQ(table.cell(0, "B_indirect"), "0.75");
-  EXPECT_EQ(table.cell(0, "B_error"), "0.02");
+  EXPECT_EQ(table.number(0, "B_absorbed_error"), 0.02 * table.number(0, "B_absorbed")) << "in W m-2";
 }
 
 TEST(ResultWriter, TrianglesStandInTheScenesFrame) {
@@ -126,17 +125,17 @@ TEST(ResultWriter, TrianglesStandInTheScenesFrame) {
   EXPECT_NEAR(table.number(0, "B_indirect_lower"), 6.0, 1e-6);
   EXPECT_EQ(table.cell(0, "A_indirect_upper"), "0");
   EXPECT_NEAR(table.number(0, "B_absorbed"), 0.25 * (80.0 + 2.0) + 0.75 * (16.0 + 6.0), 1e-6);
-  EXPECT_EQ(table.cell(0, "A_error"), "0.5");
-  EXPECT_EQ(table.cell(0, "B_error"), "0.75");
-  EXPECT_EQ(table.cell(1, "B_error"), "");
+  EXPECT_EQ(table.cell(0, "A_absorbed_error"), "0.5");
+  EXPECT_EQ(table.cell(0, "B_absorbed_error"), "0.75");
+  EXPECT_EQ(table.cell(1, "B_absorbed_error"), "");
 }
 
 TEST(ResultWriter, TrianglesWithoutIntervals) {
   RadiationResult result = small_result();
   result.element_error.clear();
   const regression::Table table(triangles_csv(small_record(), small_model(), result));
-  EXPECT_EQ(table.cell(0, "A_error"), "");
-  EXPECT_EQ(table.cell(0, "B_error"), "");
+  EXPECT_EQ(table.cell(0, "A_absorbed_error"), "");
+  EXPECT_EQ(table.cell(0, "B_absorbed_error"), "");
 }
 
 TEST(ResultWriter, SummaryHasNullForUnknowns) {

@@ -1,6 +1,9 @@
 #include "files/results/tables/table.h"
 
 #include "base/units.h"
+#include "files/results/tables/day_tables.h"
+#include "files/results/tables/element_fields.h"
+#include "files/results/tables/plane_writer.h"
 #include "files/results/tables/result_tables.h"
 #include "files/results/tables/table_text.h"
 
@@ -92,12 +95,46 @@ TEST(Table, AViewCopiesNothingAndACopyOfTheTableKeepsItsValues) {
   EXPECT_EQ(std::get<std::span<const double>>(copy.columns[1].values)[1], 6.0);
 }
 
-TEST(Table, SharesAreAtMostOneAndErrorsNeedAValue) {
+TEST(Table, SharesAreAtMostOne) {
   EXPECT_EQ(as_share({1.5, 0.7}).value, 1.0);
   EXPECT_EQ(as_share({1.5, 0.7}).half_width, 0.7);
   EXPECT_EQ(as_share({0.5, 0.7}).value, 0.5);
-  EXPECT_EQ(relative_half_width({2.0, 0.5}), 0.25);
-  EXPECT_TRUE(std::isnan(relative_half_width({0.0, 0.5})));
+}
+
+// X_error means one thing in every table: the half-width of X, in the unit of X, in the next column. So photons have errors of
+// their own.
+TEST(Table, AnErrorIsTheHalfWidthOfTheColumnBeforeIt) {
+  RadiationModel model;
+  model.bands = {{"PAR", 100.0, 0.0, 4.57}};
+  model.sun = SunPosition{0.5, 1.0};
+  RadiationResult result;
+  result.planes.resize(1);
+  result.planes[0].cells_x = result.planes[0].cells_z = 1;
+  const DayCourse course;
+  const ElementFields fields = make_element_fields(model, result);
+  std::size_t errors = 0;
+  for (const Table& table :
+       {organs_table(model, result), plants_table(model, result), layers_table(model, result), balance_table(result),
+        sensors_table(model, result), plane_table(model, result, 0), triangles_table(fields), steps_table(model, course, {}),
+        organs_day_table(model, course, {}), plants_day_table(model, course, {})}) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      const Column& error = table.columns[i];
+      if (!error.name.ends_with("_error")) continue;
+      ++errors;
+      ASSERT_GT(i, 0U);
+      const Column& column = table.columns[i - 1];
+      EXPECT_EQ(error.name, column.name + "_error") << table.content;
+      EXPECT_EQ(error.name, column.error_column) << table.content;
+      EXPECT_EQ(error.unit, column.unit) << error.name;
+      EXPECT_EQ(error.outputs, column.outputs) << error.name;
+    }
+    for (const Column& column : table.columns) {
+      const bool is_estimate = column.name.ends_with("_absorbed") || column.name.find("mol") != std::string::npos;
+      if (!is_estimate || column.name.ends_with("_error")) continue;
+      EXPECT_EQ(column.error_column, column.name + "_error") << table.content;
+    }
+  }
+  EXPECT_GT(errors, 30U);
 }
 
 // Readers of a column must be able to find out what it is, so every column of numbers has a unit and every column a meaning.
