@@ -34,16 +34,17 @@ bright = TOTAL_mean + 4 * TOTAL_stddev
 bright = bright > TOTAL_max ? TOTAL_max : bright
 bright = positive(beam > bright ? beam : bright, 1)
 
-if (flecks ne '') {
-  stats flecks using 1:4 name 'SIZE' nooutput
-  stats flecks using 2 name 'UPPER' nooutput
-}
-
 # The share and the number of flecks, under the title.
 ratio = number(after('sunfleck ratio ')); error = number(past('error ', after('sunfleck ratio ')))
 count = number(past(': ', after('flecks ')))
+few = after('no sizes of flecks: ')
+if (flecks ne '' && count > 0) {
+  stats flecks using 1:4 name 'SIZE' nooutput
+  stats flecks using 2 name 'UPPER' nooutput
+}
 note = ratio == ratio ? sprintf('Sunfleck ratio %.4f', ratio) . (error == error ? sprintf(' ± %.2g', error) : '') \
-  . sprintf('   ·   %d fleck%s, %.1f beam rays a cell', count, count == 1 ? '' : 's', number(past('; ', after('sunfleck ratio ')))) \
+  . (count == count ? sprintf('   ·   %d fleck%s', count, count == 1 ? '' : 's') : '') \
+  . sprintf('   ·   %.1f beam rays a cell', number(past('; ', after('sunfleck ratio ')))) \
   : 'No direct beam'
 
 # Both maps have the shape of the plot; they stand side by side above the sizes, and low ones beside a taller colour bar.
@@ -125,7 +126,7 @@ if (count > 0 && flecks ne '') {
 } else {
   set yrange [0:1]
   set ytics 0.5
-  set label 4 'no flecks' at graph 0.5,0.5 center
+  set label 4 (few eq '' ? 'no flecks' : 'No sizes: ' . up_to(';', few)) at graph 0.5,0.5 center
   plot NaN notitle
 }
 unset multiplot

@@ -31,6 +31,7 @@ constexpr const char* profile_plot_file = "profile.png";
 constexpr const char* organs_file = "organs.csv";
 constexpr const char* plants_file = "plants.csv";
 constexpr const char* sensors_file = "sensors.csv";
+constexpr const char* sensor_means_file = "sensor_means.csv";
 
 std::string file_of(const Picture& picture) {
   return stem_of(picture) + ".png";
@@ -104,7 +105,10 @@ void write_tables(const std::filesystem::path& folder, const RunRecord& record, 
   write(profile_file, [&] { return profile_csv(record, model, result); });
   write(organs_file, [&] { return organs_csv(record, model, result); });
   if (!result.plants.empty()) write(plants_file, [&] { return plants_csv(record, model, result); });
-  if (!result.sensors.empty()) write(sensors_file, [&] { return sensors_csv(record, model, result); });
+  if (!result.sensors.empty()) {
+    write(sensors_file, [&] { return sensors_csv(record, model, result); });
+    write(sensor_means_file, [&] { return sensor_means_csv(record, model, result); });
+  }
   for (std::size_t plane = 0; plane < result.planes.size(); ++plane) {
     const std::string stem = plane_stem(result.planes[plane].height_m);
     write(stem + ".csv", [&] { return plane_csv(record, model, result, plane); });
@@ -199,9 +203,9 @@ bool write_pictures(const std::filesystem::path& folder, const ResultRequest& re
 
 // Returns whether a run or a day writes a file of this name, other than the summary.
 bool is_file_of_runs(const std::string& name) {
-  std::vector<std::string> names{profile_file,     profile_plot_file, organs_file,    plants_file,
-                                 sensors_file,     result_store_file, run_state_file, "day.csv",
-                                 "organs_day.csv", "plants_day.csv",  "day.nc",       "day.png"};
+  std::vector<std::string> names{profile_file,      profile_plot_file, organs_file,    plants_file, sensors_file,
+                                 sensor_means_file, result_store_file, run_state_file, "day.csv",   "organs_day.csv",
+                                 "plants_day.csv",  "day.nc",          "day.png"};
   for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
   for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
   return is_plane_file(name) || std::find(names.begin(), names.end(), name) != names.end();

@@ -26,6 +26,20 @@ std::uint32_t sensor_rays(const SolveSettings& settings) {
   return static_cast<std::uint32_t>(std::clamp(3.0 / bound, 64.0, 16384.0));
 }
 
+// The total of a sensor is judged against at least this share of the incident irradiance, like the fluxes of the canopy.
+constexpr double least_judged_share = 0.01;
+
+// Returns the bound on sensors that the scene asks for, if any. A run that is over gives them no more time.
+std::optional<SensorBound> sensor_bound(const SolveSettings& settings, const RadiationResult& result, const Stopwatch& watch) {
+  if (settings.accuracy.of != ErrorTarget::sensors || settings.grid_m || settings.passes) return std::nullopt;
+  SensorBound bound{settings.accuracy.indirect, {}, {}};
+  for (const BandResult& band : result.bands) bound.least_w_m2.push_back(least_judged_share * band.incident);
+  bound.time_is_up = [&settings, &watch, is_over = !is_done(result.stop)] {
+    return is_over || (settings.max_seconds && watch.seconds() >= *settings.max_seconds);
+  };
+  return bound;
+}
+
 std::shared_ptr<Tracing> open_tracing(const RadiationModel& model, const DeviceRequest& device, EngineUse use) {
   set_software_threads(device.threads);
   const CpuThreads limit(device.threads);
@@ -93,17 +107,25 @@ RadiationResult Simulation::solve(const SolveSettings& settings, const Monitor& 
   const CpuThreads limit(threads_);
   Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
   const RadiationModel& model = scene_->model;
+  Stopwatch watch;
   RadiationResult result = sunfleck::solve(model, layout(), tracer, settings, monitor, helpers);
   if (model.sensors.empty() || result.stop == StopReason::interrupted) return result;
   SensorSettings sensors;
   sensors.rays = sensor_rays(settings);
   sensors.seed = settings.seed;
   sensors.confidence = settings.accuracy.confidence;
-  if (auto readings = measure_sensors(model, layout(), tracer, sensors, monitor.interrupted)) {
-    result.sensors = std::move(*readings);
-  } else {
+  sensors.bound = sensor_bound(settings, result, watch);
+  Stopwatch sensor_watch;
+  auto readings = measure_sensors(model, layout(), tracer, sensors, monitor.interrupted);
+  if (!readings) {
     result.stop = StopReason::interrupted;
+    return result;
   }
+  if (is_done(result.stop) && !is_done(readings->stop)) result.stop = readings->stop;
+  result.sensors = std::move(readings->points);
+  result.sensor_means = std::move(readings->means);
+  result.of_sensors = readings->summary;
+  result.of_sensors.seconds = sensor_watch.seconds();
   return result;
 }
 

@@ -19,9 +19,9 @@ class SensorsAgreement : public DeviceTest {
   static std::vector<double> read(const RadiationModel& model, const Prepared& prepared, Tracer& tracer) {
     std::vector<double> numbers;
     const auto readings = measure_sensors(model, prepared.layout, tracer, {.rays = 256, .replicates = 8, .seed = 3}, {});
-    for (const std::vector<SensorResult>& points : readings.value()) {
+    for (const std::vector<SensorResult>& points : readings.value().points) {
       for (const SensorResult& reading : points) {
-        for (const auto* column : {&reading.direct, &reading.sky, &reading.scattered}) {
+        for (const auto* column : {&reading.direct, &reading.sky, &reading.scattered, &reading.total}) {
           for (const Estimate& estimate : *column) numbers.insert(numbers.end(), {estimate.value, estimate.half_width});
         }
       }
@@ -46,7 +46,7 @@ TEST_F(SensorsAgreement, InMaize) {
     VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
     const std::vector<double> expected = read(model, prepared, cpu);
-    EXPECT_EQ(expected.size(), 9U * 3U * 2U * 2U);
+    EXPECT_EQ(expected.size(), 9U * 4U * 2U * 2U);
     EXPECT_TRUE(read(model, prepared, device) == expected);
   }
 }

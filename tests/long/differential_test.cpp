@@ -40,7 +40,7 @@ RadiationResult run(const RadiationModel& model, const Prepared& prepared, std::
   CpuTracer tracer(prepared.bvh, tracer_scene(model));
   RadiationResult result = solve(model, prepared.layout, tracer, settings, {});
   const SensorSettings sensors{.rays = 128, .replicates = differential_replicates, .seed = seed};
-  result.sensors = measure_sensors(model, prepared.layout, tracer, sensors, {}).value();
+  result.sensors = measure_sensors(model, prepared.layout, tracer, sensors, {}).value().points;
   EXPECT_EQ(result.lost_rays, 0U);
   return result;
 }

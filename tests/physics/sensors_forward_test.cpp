@@ -29,7 +29,7 @@ std::vector<Readings> mean_readings(const RadiationModel& model, const Prepared&
   CpuTracer tracer(prepared.bvh, tracer_scene(model));
   const auto got = measure_sensors(model, prepared.layout, tracer, {64, 8, seed, 0.95}, {});
   std::vector<Readings> readings(model.bands.size());
-  for (const std::vector<SensorResult>& points : got.value()) {
+  for (const std::vector<SensorResult>& points : got.value().points) {
     for (const SensorResult& point : points) {
       for (std::size_t b = 0; b < readings.size(); ++b) {
         readings[b].direct.add(point.direct[b].value);

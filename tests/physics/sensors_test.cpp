@@ -35,7 +35,7 @@ std::vector<SensorResult> read(const RadiationModel& model, const SensorSettings
   CpuTracer tracer(prepared.bvh, tracer_scene(model), walk);
   const auto got = measure_sensors(model, prepared.layout, tracer, settings, {});
   std::vector<SensorResult> readings;
-  for (const auto& points : got.value()) readings.insert(readings.end(), points.begin(), points.end());
+  for (const auto& points : got.value().points) readings.insert(readings.end(), points.begin(), points.end());
   return readings;
 }
 
@@ -327,6 +327,146 @@ TEST(Sensors, IntervalsCoverTheTruth) {
   scores.expect_plausible();
 }
 
+// Returns leaves under sun and sky, with a line of four points below them and a ball above.
+RadiationModel line_and_ball() {
+  RadiationModel model = leaf_model(random_leaves(60, 0.03, unit_plot, 1.0, 5), unit_plot, beijing_sun(), std::array{nir_band});
+  give_sky(model, 0.5);
+  Sensor line = cosine_sensor({0.1, 0.2, 0.3}, up);
+  for (const double x : {0.3, 0.5, 0.7}) line.points_m.emplace_back(x, 0.2, 0.3);
+  line.name = "line";
+  Sensor ball = sphere({0.5, 1.5, 0.5});
+  ball.name = "ball";
+  model.sensors = {line, ball};
+  return model;
+}
+
+SensorReadings readings_of(const RadiationModel& model, const SensorSettings& settings, CpuWalk walk = CpuWalk::tree) {
+  const Prepared prepared(model);
+  CpuTracer tracer(prepared.bvh, tracer_scene(model), walk);
+  return measure_sensors(model, prepared.layout, tracer, settings, {}).value();
+}
+
+TEST(Sensors, TotalsAndMeansAreThoseOfTheParts) {
+  const SensorReadings got = readings_of(line_and_ball(), settings_of(256));
+  ASSERT_EQ(got.points.size(), 2U);
+  ASSERT_EQ(got.means.size(), 2U);
+  EXPECT_EQ(got.summary.replicates, 16U);
+  EXPECT_FALSE(got.summary.bound);
+  EXPECT_EQ(got.stop, StopReason::work_done);
+  for (std::size_t s = 0; s < 2; ++s) {
+    double total = 0.0, squares = 0.0;
+    for (const SensorResult& point : got.points[s]) {
+      const double sum = point.direct[0].value + point.sky[0].value + point.scattered[0].value;
+      EXPECT_NEAR(point.total[0].value, sum, 1e-12 * sum);
+      EXPECT_GT(point.total[0].half_width, 0.0);
+      EXPECT_LE(point.total[0].half_width, point.sky[0].half_width + point.scattered[0].half_width + 1e-12);
+      total += sum;
+      squares += point.total[0].half_width * point.total[0].half_width;
+    }
+    const auto n = static_cast<double>(got.points[s].size());
+    EXPECT_NEAR(got.means[s].total[0].value, total / n, 1e-12 * total);
+    // The points have random numbers of their own; with 15 degrees of freedom a spread is known to a factor of two.
+    const double independent = std::sqrt(squares) / n;
+    EXPECT_GT(got.means[s].total[0].half_width, 0.5 * independent);
+    EXPECT_LT(got.means[s].total[0].half_width, 2.0 * independent);
+  }
+}
+
+TEST(Sensors, IntervalsOfTotalsAndMeansCoverTheTruth) {
+  const RadiationModel model = line_and_ball();
+  const SensorReadings truth = readings_of(model, {4096, 64, 1001, 0.95});
+  ZScores of_totals(8), of_means(8);
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const SensorReadings got = readings_of(model, {64, 8, seed, 0.95});
+    of_totals.add(got.points[0][1].total[0], truth.points[0][1].total[0].value, "total at a point");
+    of_means.add(got.means[0].total[0], truth.means[0].total[0].value, "mean of a line");
+  }
+  of_totals.expect_plausible();
+  of_means.expect_plausible();
+}
+
+SensorSettings bounded(double relative) {
+  SensorSettings settings{256, 8, 1, 0.95};
+  settings.bound = SensorBound{relative, {0.015}, {}};
+  return settings;
+}
+
+TEST(Sensors, GoOnUntilTheBoundHoldsForEach) {
+  const RadiationModel model = line_and_ball();
+  const SensorReadings got = readings_of(model, bounded(0.01));
+  EXPECT_EQ(got.stop, StopReason::bound_reached);
+  for (const SensorResult& mean : got.means) EXPECT_LE(mean.total[0].half_width, 0.01 * mean.total[0].value);
+  EXPECT_GT(got.summary.replicates, 15U) << "eight to begin with, checks at 12 and 15";
+  EXPECT_EQ(got.summary.bound, 0.01);
+  ASSERT_TRUE(got.summary.judged);
+  EXPECT_EQ(got.summary.judged->of, JudgedFigure::Of::sensor);
+  const Estimate& worst = got.means[got.summary.judged->sensor].total[0];
+  EXPECT_EQ(got.summary.relative_error, worst.half_width / worst.value);
+  EXPECT_GT(readings_of(model, bounded(0.005)).summary.replicates, 2 * got.summary.replicates);
+  const SensorReadings again = readings_of(model, bounded(0.01), CpuWalk::every_element);
+  EXPECT_EQ(again.means[0].total[0].value, got.means[0].total[0].value);
+  EXPECT_EQ(again.summary.replicates, got.summary.replicates);
+}
+
+// A search that ends at a lucky moment gives intervals that are too narrow, unless it asks for more than one good check.
+TEST(Sensors, IntervalsAtABoundCoverTheTruth) {
+  RadiationModel model = line_and_ball();
+  model.sensors.erase(model.sensors.begin());
+  const double truth = readings_of(model, {4096, 64, 1001, 0.95}).means[0].total[0].value;
+  constexpr int seeds = 200;
+  int covered = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    SensorSettings settings = bounded(0.02);
+    settings.rays = 64;
+    settings.seed = static_cast<std::uint64_t>(seed);
+    const Estimate got = readings_of(model, settings).means[0].total[0];
+    EXPECT_LE(got.half_width, 0.02 * got.value);
+    if (std::abs(got.value - truth) <= got.half_width) ++covered;
+  }
+  std::printf("%d of %d intervals cover the truth\n", covered, seeds);
+  // Three standard deviations of a binomial count with a probability of 95 % are 9.2.
+  EXPECT_GT(covered, 0.95 * seeds - 9.2);
+}
+
+// The mean of four points is known before the ball, whose further replicates leave the line alone.
+TEST(Sensors, OneThatIsGoodEnoughIsLeftAlone) {
+  RadiationModel model = line_and_ball();
+  const SensorReadings both = readings_of(model, bounded(0.01));
+  SensorSettings all = bounded(0.01);
+  all.bound.reset();
+  all.replicates = static_cast<int>(both.summary.replicates);
+  const SensorReadings equal = readings_of(model, all);
+  EXPECT_NE(both.means[0].total[0].value, equal.means[0].total[0].value);
+  EXPECT_EQ(both.means[1].total[0].value, equal.means[1].total[0].value);
+  model.sensors.pop_back();
+  EXPECT_LT(readings_of(model, bounded(0.01)).summary.replicates, both.summary.replicates);
+}
+
+TEST(Sensors, TimeEndsTheSearchForABound) {
+  SensorSettings settings = bounded(1e-6);
+  int asked = 0;
+  settings.bound->time_is_up = [&] { return ++asked == 3; };
+  const SensorReadings got = readings_of(line_and_ball(), settings);
+  EXPECT_EQ(got.stop, StopReason::time_spent);
+  EXPECT_EQ(got.summary.replicates, 24U) << "8, 12, and twice that";
+  EXPECT_GT(got.summary.relative_error.value(), 1e-6);
+  settings.bound.reset();
+  EXPECT_EQ(readings_of(line_and_ball(), settings).summary.replicates, 8U);
+}
+
+// Below a plate no beam and no sky arrive, so the total is compared with the least one.
+TEST(Sensors, ADarkOneIsComparedWithTheLeastTotal) {
+  MeshMaker maker;
+  maker.level(0.0, 1.0, 0.0, 1.0, 0.5);
+  RadiationModel model = black_model(maker.mesh(), unit_plot, beijing_sun());
+  give_sky(model, 1.0);
+  model.sensors = {cosine_sensor({0.3, 0.2, 0.3}, up)};
+  const SensorReadings got = readings_of(model, bounded(0.05));
+  EXPECT_EQ(got.stop, StopReason::bound_reached);
+  EXPECT_EQ(got.means[0].total[0].value, 0.0);
+  EXPECT_LE(got.means[0].total[0].half_width, 0.05 * 0.015);
+}
+
 TEST(Sensors, StopWhenAsked) {
   RadiationModel model = bare_ground(0.4);
   model.sensors = {cosine_sensor({0.3, 0.25, 0.6}, down)};
@@ -339,7 +479,7 @@ TEST(Sensors, WithoutSensorsThereIsNothing) {
   const RadiationModel model = bare_ground(0.4);
   const Prepared prepared(model);
   CpuTracer tracer(prepared.bvh, tracer_scene(model), CpuWalk::tree);
-  EXPECT_TRUE(measure_sensors(model, prepared.layout, tracer, {}, {}).value().empty());
+  EXPECT_TRUE(measure_sensors(model, prepared.layout, tracer, {}, {}).value().points.empty());
 }
 
 }  // namespace

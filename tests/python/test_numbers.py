@@ -16,7 +16,7 @@ def test_saved_files_are_those_of_the_program(scene_file, tmp_path, device):
     assert set(ours) == set(theirs)
     for name in set(theirs) - {"summary.json"}:
         assert ours[name] == theirs[name], name
-    for name in ("profile.csv", "organs.csv", "plants.csv", "triangles.csv", "sensors.csv"):
+    for name in ("profile.csv", "organs.csv", "plants.csv", "triangles.csv", "sensors.csv", "sensor_means.csv"):
         assert result.table(name).encode() == theirs[name]
 
 

@@ -36,12 +36,45 @@ def test_views_outlive_their_result():
 
 def test_xarray(result):
     data = result.to_xarray()
-    assert data.sizes == {"triangle": 3, "plane_height": 5, "band": 2}
+    assert data.sizes == {"triangle": 3, "plane_height": 5, "band": 2, "sensor_point": 3, "sensor": 1}
     assert np.array_equal(data["NIR_absorbed"], result["NIR_absorbed"])
     assert data["NIR_absorbed"].attrs["units"] == "W m-2"
     assert float(data["absorbed_soil"].sel(band="PAR")) == result.bands["PAR"]["absorbed_soil"]
     assert np.array_equal(data["PAR_down"], result.profile["PAR_down"])
     assert "absorbed" not in data and "sunlit_leaf_fraction" not in data
+
+
+def test_sensors_of_netcdf_are_those_of_xarray(result, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    result.save(tmp_path / "out", export=["nc"])
+    data = result.to_xarray()
+    with xarray.open_dataset(tmp_path / "out" / "results.nc") as stored:
+        names = {name for name in stored.variables if name.startswith("sensor_")}
+        assert names == {name for name in data.variables if name.startswith("sensor_")}
+        for name in names - {"sensor_name", "sensor_point_name"}:
+            assert np.array_equal(stored[name], data[name]), name
+            assert stored[name].attrs["units"] == data[name].attrs["units"], name
+        assert stored["sensor_point_name"].values.tolist() == data["sensor_point_name"].values.tolist() == ["probe"] * 3
+        assert stored["sensor_name"].values.tolist() == data["sensor_name"].values.tolist() == ["probe"]
+
+
+def test_totals_and_means_of_sensors(result):
+    (probe,) = result.sensors
+    means = result.sensor_means
+    assert means["sensor"] == ["probe"] and means["points"].tolist() == [3]
+    for band in ("PAR", "NIR"):
+        total = probe[f"{band}_direct"] + probe[f"{band}_sky"] + probe[f"{band}_scattered"]
+        assert np.allclose(probe[f"{band}_total"], total, rtol=1e-12)
+        assert np.allclose(means[f"{band}_total"], total.mean(), rtol=1e-12)
+        assert 0.0 < means[f"{band}_total_error"][0] < probe[f"{band}_total_error"].max()
+
+
+def test_an_error_is_named_after_its_column(result):
+    tables = [result.triangles, result.organs, result.plants, result.profile, *result.sensors, result.sensor_means]
+    errors = [(table, name) for table in tables for name in table if name.endswith("_error")]
+    assert len(errors) > 30
+    for table, name in errors:
+        assert np.shape(table[name]) == np.shape(table[name.removesuffix("_error")]), name
 
 
 def test_every_column_is_described(result):

@@ -1,6 +1,7 @@
 // Tests fixed work, limits, interruption, and what is printed where.
 
 #include "regression/preload.h"
+#include "regression/small_scene.h"
 #include "support/table.h"
 
 #include <cmath>
@@ -58,6 +59,37 @@ TEST_F(Limits, ErrorSetsBothBounds) {
   simulate(squares_, on_cpu + Arguments{"--error", "0.04", "--direct-error", "0.05"});
   EXPECT_EQ(summary()["settings"]["direct_error"], 0.05);
   EXPECT_EQ(summary()["settings"]["indirect_error"], 0.04);
+}
+
+// The bound of the indirect pass also holds for the line of sensors; the limit that ends the search for it is named.
+TEST_F(Limits, ABoundHoldsForSensors) {
+  folder_.write("leaves.obj", leaves_obj);
+  const std::string line =
+      two_band_scene + "[[sensor]]\nname = \"line\"\nfrom = [0.2, 0.2, 0.5]\nto = [0.8, 0.2, 0.5]\npoints = 4\n";
+  const auto scene = folder_.write("scene.toml", line + "[accuracy]\nof = \"sensors\"\n");
+  const Outcome outcome = simulate(scene, on_cpu + Arguments{"--error", "0.01"});
+  json sensors = summary()["sensors"];
+  EXPECT_GT(sensors["replicates"], 8);
+  EXPECT_LE(sensors["relative_error"], 0.01);
+  EXPECT_EQ(sensors["bound"], 0.01);
+  EXPECT_NE(outcome.out.find("sensors: " + sensors["replicates"].dump() + " replicates"), std::string::npos) << outcome.out;
+  const Table means(file("sensor_means.csv"));
+  ASSERT_EQ(means.size(), 2U);
+  for (std::size_t row = 0; row < 2; ++row)
+    for (const char* band : {"PAR", "NIR"})
+      EXPECT_LE(means.number(row, std::string(band) + "_total_error"), 0.01 * means.number(row, std::string(band) + "_total"));
+
+  const std::string beyond =
+      simulate(scene, on_cpu + Arguments{"--direct-error", "0.01", "--indirect-error", "2e-4", "--max-seconds", "3"}, 1).err;
+  EXPECT_NE(beyond.find("stopped after --max-seconds 3"), std::string::npos) << beyond;
+  EXPECT_NE(beyond.find("sensors error"), std::string::npos) << beyond;
+  EXPECT_EQ(summary()["complete"], false);
+
+  folder_.write("scene.toml", line);
+  simulate(scene, on_cpu + Arguments{"--error", "0.01"});
+  sensors = summary()["sensors"];
+  EXPECT_EQ(sensors["replicates"], 8);
+  EXPECT_TRUE(sensors["bound"].is_null());
 }
 
 TEST_F(Limits, RaysStopTheRun) {

@@ -138,14 +138,14 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
   std::vector<std::string> of_band{"_direct_upper", "_direct_lower"};
   if (has_sky()) of_band.insert(of_band.end(), {"_sky_upper", "_sky_lower"});
   of_band.insert(of_band.end(), {"_indirect_upper", "_indirect_lower", "_absorbed", "_absorbed_error"});
-  EXPECT_EQ(triangles.header(), header("triangle,plant,organ,area_m2,x,y,z", of_band));
+  EXPECT_EQ(triangles.header(), header("triangle,plant,rank,organ,optics,area_m2,x,y,z", of_band));
   EXPECT_EQ(triangles.size(), summary_["triangles"]);
   for (const Table* table : {&profile, &organs, &triangles}) {
     ASSERT_GE(table->comments().size(), 3U);
     EXPECT_EQ(table->comments()[0], "# " + summary_["scene"].get<std::string>());
     for (std::size_t row = 0; row < table->size(); ++row) {
       for (const std::string& column : table->columns()) {
-        if (column != "organ" && column != "role") static_cast<void>(table->number(row, column));
+        if (column != "organ" && column != "role" && column != "optics") static_cast<void>(table->number(row, column));
       }
     }
   }
@@ -177,8 +177,15 @@ TEST_P(Scenes, ShowWhatTheirReceiversSaw) {
   }
   if (text_.find("[[sensor]]") == std::string::npos) return;
   const Table sensors(file("sensors.csv"));
-  EXPECT_EQ(sensors.header(),
-            header("sensor,point,x,y,z", {"_direct", "_direct_error", "_sky", "_sky_error", "_scattered", "_scattered_error"}));
+  std::string columns;
+  for (const json& band : summary_["bands"]) {
+    for (const std::string figure : {"_direct", "_sky", "_scattered", "_total", "_total_umol_m2_s"}) {
+      if (figure == "_total_umol_m2_s" && !band.contains("umol_m2_s")) continue;
+      columns += "," + band["name"].get<std::string>() + figure + "," + band["name"].get<std::string>() + figure + "_error";
+    }
+  }
+  EXPECT_EQ(sensors.header(), "sensor,point,x,y,z" + columns);
+  EXPECT_EQ(Table(file("sensor_means.csv")).header(), "sensor,points" + columns);
   for (std::size_t row = 0; row < sensors.size(); ++row) {
     for (const std::string& band : bands_) EXPECT_GE(sensors.number(row, band + "_sky"), 0.0);
   }

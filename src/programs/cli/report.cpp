@@ -79,6 +79,11 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
         fmt::format("  indirect: {}{} packets in {} rounds{}, {:.2f} s\n", sky, result.indirect.packets, result.indirect.rounds,
                     errors(result.indirect.relative_error, result.indirect.bound), result.indirect.seconds);
   }
+  if (result.of_sensors.bound) {
+    text +=
+        fmt::format("  sensors: {} replicates of {} rays{}, {:.2f} s\n", result.of_sensors.replicates, result.of_sensors.rays,
+                    errors(result.of_sensors.relative_error, result.of_sensors.bound), result.of_sensors.seconds);
+  }
   for (const PlaneResult& plane : result.planes) {
     text += fmt::format("  plane at {:.3f} m:", plane.height_m);
     if (model.has_beam()) text += fmt::format(" sunflecks {},", with_error(plane.sunfleck_ratio));

@@ -74,10 +74,13 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
         shortfall("direct", result.direct.relative_error, result.direct.bound, result.direct.judged, model);
     const std::string indirect =
         shortfall("indirect", result.indirect.relative_error, result.indirect.bound, result.indirect.judged, model);
-    for (const std::string& pass : {direct, indirect}) {
+    const SensorSummary& read = result.of_sensors;
+    const std::string sensors = shortfall("sensors", read.relative_error, read.bound, read.judged, model);
+    for (const std::string& pass : {direct, indirect, sensors}) {
       if (!pass.empty()) line += ", " + pass;
     }
-    if (direct.empty() && indirect.empty() && result.direct.bound) line += ", before a second check confirmed the bounds";
+    if (direct.empty() && indirect.empty() && sensors.empty() && result.direct.bound)
+      line += ", before a second check confirmed the bounds";
   }
   warn(fmt::format("{}; the results are kept and marked incomplete{}", line, cure));
 }

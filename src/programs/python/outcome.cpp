@@ -32,9 +32,11 @@ std::string Outcome::table(const std::string& name) const {
   if (name == "triangles.csv") return triangles_csv(simulated_.record, model, simulated_.result);
   if (name == "sensors.csv" && !simulated_.result.sensors.empty())
     return sensors_csv(simulated_.record, model, simulated_.result);
+  if (name == "sensor_means.csv" && !simulated_.result.sensors.empty())
+    return sensor_means_csv(simulated_.record, model, simulated_.result);
   throw py::value_error(
       name + " (not a table of this result); use profile.csv, organs.csv, plants.csv, triangles.csv or, if the scene " +
-      "has sensors, sensors.csv");
+      "has sensors, sensors.csv or sensor_means.csv");
 }
 
 py::dict Outcome::describe(const std::string& name) {
@@ -45,9 +47,11 @@ py::dict Outcome::describe(const std::string& name) {
   if (name == "plants.csv") return descriptions_of(plants_table(model, result));
   if (name == "triangles.csv") return descriptions_of(triangles_table(fields()));
   if (name == "sensors.csv") return descriptions_of(sensors_table(model, result));
+  if (name == "sensor_means.csv") return descriptions_of(sensor_means_table(model, result));
   if (name == "balance") return descriptions_of(balance_table(result));
-  throw py::value_error(name +
-                        " (not a table of this result); use profile.csv, organs.csv, plants.csv, triangles.csv or sensors.csv");
+  throw py::value_error(
+      name + " (not a table of this result); use profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv or " +
+      "sensor_means.csv");
 }
 
 py::dict Outcome::profile() const {
@@ -81,6 +85,11 @@ py::list Outcome::sensors() const {
     sensors.append(columns_of(sensor_table(simulated_.scene->model, simulated_.result, i), {}, sensor));
   }
   return sensors;
+}
+
+py::dict Outcome::sensor_means() const {
+  if (simulated_.result.sensors.empty()) return {};
+  return columns_of(sensor_means_table(simulated_.scene->model, simulated_.result));
 }
 
 py::dict Outcome::triangles(const py::object& self) {
@@ -122,6 +131,7 @@ void bind_outcome(py::module_& module) {
       .def("plants", &Outcome::plants)
       .def("planes", &Outcome::planes)
       .def("sensors", &Outcome::sensors)
+      .def("sensor_means", &Outcome::sensor_means)
       .def("corners", &Outcome::corners)
       .def("triangles", [](const py::object& self) { return self.cast<Outcome&>().triangles(self); })
       .def("write", [](const Outcome& outcome, const std::string& folder, std::vector<std::string> exports,

@@ -31,6 +31,7 @@ class ResultsWriter {
     add_triangles();
     add_bands();
     add_profile();
+    add_sensors();
     return file_.take();
   }
 
@@ -114,6 +115,28 @@ class ResultsWriter {
       file_.attribute(number, "positive", "up");
       file_.attribute(number, "axis", "Z");
     }
+  }
+
+  // Adds the columns of a sensor table that are in_arrays under names that begin with `prefix`; its texts are names of sensors.
+  void add_sensor_table(const Table& table, const std::string& prefix, int dimension) {
+    for (Column column : table.columns) {
+      if (const auto* names = std::get_if<std::span<const std::string>>(&column.values)) {
+        std::vector<std::string> cleaned;
+        for (const std::string& name : *names) cleaned.push_back(printable(name));
+        file_.names(prefix + "name", dimension, cleaned, column.meaning);
+      } else if (column.is_in(in_arrays)) {
+        column.name.insert(0, prefix);
+        file_.add(column, {dimension});
+      }
+    }
+  }
+
+  void add_sensors() {
+    if (data_.result.sensors.empty()) return;
+    const Table points = sensors_table(data_.model, data_.result);
+    add_sensor_table(points, "sensor_point_", file_.dimension("sensor_point", points.rows()));
+    const Table means = sensor_means_table(data_.model, data_.result);
+    add_sensor_table(means, "sensor_", file_.dimension("sensor", means.rows()));
   }
 
   const ExportData& data_;

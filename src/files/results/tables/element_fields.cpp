@@ -139,9 +139,9 @@ Table triangles_table(const ElementFields& fields) {
                            .outputs = all & ~in_arrays,
                            .values = RowNumbers{fields.size()}});
   table.add_view({"plant", "1", "number of the plant, 0 for soil", all}, fields.plant);
-  table.add_view({"rank", "1", "leaf number from the ground, 0 for organs without one", all & ~in_csv}, fields.rank);
+  table.add_view({"rank", "1", "leaf number from the ground, 0 for organs without one", all}, fields.rank);
   table.add_view({"organ", "1", "kind of organ", all, {}, fields.organ_names}, fields.organ);
-  table.add_view({"optics", "1", "optics of the surface", all & ~in_csv, {}, fields.optics_names}, fields.optics);
+  table.add_view({"optics", "1", "optics of the surface", all, {}, fields.optics_names}, fields.optics);
   table.add_view({"area_m2", "m2", "one-sided area", all}, fields.area_m2);
   for (int axis = 0; axis < 3; ++axis) {
     table.add_view({std::string(1, "xyz"[axis]), "m", "centroid, " + axis_heading(fields.axes, axis), all & ~in_meshes},

@@ -19,6 +19,8 @@ std::string place_name(const JudgedFigure& figure, const RadiationModel& model) 
     }
     case JudgedFigure::Of::triangles:
       return "triangles, root mean square";
+    case JudgedFigure::Of::sensor:
+      return "sensor " + printable(model.sensors[figure.sensor].name);
   }
   return "";
 }
@@ -26,7 +28,8 @@ std::string place_name(const JudgedFigure& figure, const RadiationModel& model) 
 }  // namespace
 
 std::string figure_name(const JudgedFigure& figure, const RadiationModel& model) {
-  const std::string light = figure.band ? model.bands[*figure.band].name + " absorbed by" : "beam on";
+  const char* meets = figure.of == JudgedFigure::Of::sensor ? " at" : " absorbed by";
+  const std::string light = figure.band ? model.bands[*figure.band].name + meets : "beam on";
   return fmt::format("{} {}", light, place_name(figure, model));
 }
 

@@ -8,7 +8,8 @@
 
 namespace sunfleck {
 
-// Returns the name of the figure, e.g. "beam on vegetation", "PAR absorbed by soil", "NIR absorbed by leaf 7 of plant 3".
+// Returns the name of the figure, e.g. "beam on vegetation", "PAR absorbed by soil", "NIR absorbed by leaf 7 of plant 3",
+// "PAR at sensor pole".
 [[nodiscard]] std::string figure_name(const JudgedFigure& figure, const RadiationModel& model);
 
 }  // namespace sunfleck

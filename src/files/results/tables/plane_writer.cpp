@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -59,6 +60,16 @@ struct UserMap {
   }
 };
 
+// Says why there are no sizes, and how many cells would have enough rays.
+std::string too_few_rays(const UserMap& map, const FleckSizes& sizes) {
+  const double shrink = std::sqrt(sizes.rays_per_cell / least_fleck_rays);
+  const auto cells = [&](const MapAxis& axis) { return std::max(1.0, std::floor(shrink * axis.cells)); };
+  return fmt::format(
+      "no sizes of flecks: too few rays: {:.3g} a cell, {:g} are needed; use a coarser cells = [{}, {}] or a smaller "
+      "error",
+      sizes.rays_per_cell, least_fleck_rays, cells(map.first), cells(map.second));
+}
+
 // Returns a table without columns.
 Table empty_table(const PlaneResult& plane, const UserMap& map, const FleckSizes& sizes, const char* content,
                   const std::string& units) {
@@ -70,15 +81,20 @@ Table empty_table(const PlaneResult& plane, const UserMap& map, const FleckSizes
     table.notes = {"no direct beam"};
     return table;
   }
+  const std::string ratio =
+      fmt::format("sunfleck ratio {}, error {}; {:.9g} beam rays a cell without the canopy", number(plane.sunfleck_ratio.value),
+                  number(plane.sunfleck_ratio.half_width), sizes.rays_per_cell);
+  if (!sizes.enough_rays()) {
+    table.notes = {ratio, too_few_rays(map, sizes)};
+    return table;
+  }
   std::string flecks = fmt::format("flecks (joined cells with sunfleck >= 0.5): {}, together {:.9g} of the plane",
                                    sizes.areas_m2.size(), sizes.area_share);
   if (!sizes.areas_m2.empty()) {
     flecks += fmt::format("; median {:.9g} cm2, largest {:.9g} cm2",
                           cm2_per_m2 * sizes.areas_m2[(sizes.areas_m2.size() - 1) / 2], cm2_per_m2 * sizes.areas_m2.back());
   }
-  table.notes = {fmt::format("sunfleck ratio {}, error {}; {:.9g} beam rays a cell without the canopy",
-                             number(plane.sunfleck_ratio.value), number(plane.sunfleck_ratio.half_width), sizes.rays_per_cell),
-                 flecks};
+  table.notes = {ratio, flecks};
   return table;
 }
 
@@ -153,7 +169,7 @@ std::string plane_flecks_csv(const RunRecord& record, const RadiationModel& mode
                              std::size_t plane) {
   EXPECT(plane, <, result.planes.size());
   const FleckSizes sizes = fleck_sizes(result.planes[plane], model.plot);
-  const std::vector<FleckClass>& of = sizes.classes;
+  const std::vector<FleckClass> of = sizes.enough_rays() ? sizes.classes : std::vector<FleckClass>();
   Table table = empty_table(result.planes[plane], UserMap(result.planes[plane], model.plot), sizes, "Sunflecks",
                             "lower_cm2 <= area < upper_cm2: cm2; flecks: number; area_share: share of the plane's area");
   table.shape = {of.size()};

@@ -26,7 +26,8 @@ struct PlaneIrradiance {
 [[nodiscard]] std::string plane_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                     std::size_t plane);
 
-// Returns PLANE_flecks.csv: one row per area class of the sunflecks.
+// Returns PLANE_flecks.csv: one row per area class of the sunflecks; no rows, and a note that says why, if the cells have too few
+// rays.
 [[nodiscard]] std::string plane_flecks_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result,
                                            std::size_t plane);
 

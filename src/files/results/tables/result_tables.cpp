@@ -22,6 +22,30 @@ void add_positions(Table& table, const Plot& plot, const PositionOf& position_of
   }
 }
 
+constexpr const char* sensor_units =
+    "direct, sky, scattered: W m-2, on a plane (cosine response) or on a sphere's cross-section (spherical); total: their sum; "
+    "total_umol_m2_s: the same in photons, umol m-2 s-1; _error: half-width of the confidence interval";
+
+// Adds the columns of readings; reading_of(row) returns that of a row.
+template <class ReadingOf>
+void add_readings(Table& table, const std::vector<Waveband>& bands, const ReadingOf& reading_of) {
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const std::string& band = bands[b].name;
+    const auto add = [&](const char* name, const char* meaning, const std::vector<Estimate> SensorResult::*part) {
+      table.add({band + name, "W m-2", meaning, in_csv | in_arrays | in_netcdf},
+                [&](std::size_t i) { return (reading_of(i).*part)[b]; });
+    };
+    add("_direct", "reading of the sun's beam", &SensorResult::direct);
+    add("_sky", "reading of unscattered sky light", &SensorResult::sky);
+    add("_scattered", "reading of scattered and emitted light", &SensorResult::scattered);
+    add("_total", "reading of all light", &SensorResult::total);
+    const double umol_per_joule = bands[b].umol_per_joule;
+    if (!(umol_per_joule > 0.0)) continue;
+    table.add({band + "_total_umol_m2_s", "umol m-2 s-1", "reading of all light, in photons", in_csv | in_arrays | in_netcdf},
+              [&](std::size_t i) { return reading_of(i).total[b].scaled(umol_per_joule); });
+  }
+}
+
 // Returns the table of the sensors first ... end - 1.
 Table table_of_sensors(const RadiationModel& model, const RadiationResult& result, std::size_t first, std::size_t end) {
   EXPECT(result.sensors.size(), ==, model.sensors.size());
@@ -37,24 +61,14 @@ Table table_of_sensors(const RadiationModel& model, const RadiationResult& resul
     for (std::uint32_t p = 0; p < sensor.points_m.size(); ++p) rows.push_back({sensor, p, result.sensors[s][p]});
   }
   Table table{"Sensors, point by point",
-              fmt::format("x, y, z: m ({}); direct, sky, scattered: W m-2, on a plane (cosine response) or on a "
-                          "sphere's cross-section (spherical); _error: half-width of the confidence interval",
-                          axes_text(model.plot.axes)),
+              fmt::format("x, y, z: m ({}); {}", axes_text(model.plot.axes), sensor_units),
               {},
               {rows.size()},
               {}};
   table.add({"sensor", "", "name of the sensor", in_csv}, [&](std::size_t i) { return rows[i].sensor.name; });
   table.add({"point", "1", "number of the point in its sensor, from 0", in_csv}, [&](std::size_t i) { return rows[i].point; });
   add_positions(table, model.plot, [&](std::size_t i) { return rows[i].sensor.points_m[rows[i].point]; });
-  for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const std::string& band = model.bands[b].name;
-    table.add({band + "_direct", "W m-2", "reading of the sun's beam"},
-              [&](std::size_t i) { return rows[i].reading.direct[b]; });
-    table.add({band + "_sky", "W m-2", "reading of unscattered sky light"},
-              [&](std::size_t i) { return rows[i].reading.sky[b]; });
-    table.add({band + "_scattered", "W m-2", "reading of scattered and emitted light"},
-              [&](std::size_t i) { return rows[i].reading.scattered[b]; });
-  }
+  add_readings(table, model.bands, [&](std::size_t i) -> const SensorResult& { return rows[i].reading; });
   return table;
 }
 
@@ -193,6 +207,16 @@ Table sensors_table(const RadiationModel& model, const RadiationResult& result) 
 
 Table sensor_table(const RadiationModel& model, const RadiationResult& result, std::size_t sensor) {
   return table_of_sensors(model, result, sensor, sensor + 1);
+}
+
+Table sensor_means_table(const RadiationModel& model, const RadiationResult& result) {
+  EXPECT(result.sensor_means.size(), ==, model.sensors.size());
+  Table table{"Sensors, each the mean over its points", sensor_units, {}, {model.sensors.size()}, {}};
+  table.add({"sensor", "", "name of the sensor"}, [&](std::size_t s) { return model.sensors[s].name; });
+  table.add({"points", "1", "number of its points", everywhere_but_meshes},
+            [&](std::size_t s) { return static_cast<std::uint32_t>(model.sensors[s].points_m.size()); });
+  add_readings(table, model.bands, [&](std::size_t s) -> const SensorResult& { return result.sensor_means[s]; });
+  return table;
 }
 
 }  // namespace sunfleck

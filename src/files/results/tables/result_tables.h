@@ -34,4 +34,7 @@ void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis
 [[nodiscard]] Table sensors_table(const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] Table sensor_table(const RadiationModel& model, const RadiationResult& result, std::size_t sensor);
 
+// sensor_means.csv: one row per sensor, the mean over its points.
+[[nodiscard]] Table sensor_means_table(const RadiationModel& model, const RadiationResult& result);
+
 }  // namespace sunfleck

@@ -138,6 +138,8 @@ const char* error_target_name(ErrorTarget target) {
       return "organ";
     case ErrorTarget::triangle:
       return "triangle";
+    case ErrorTarget::sensors:
+      return "sensors";
   }
   return "";
 }
@@ -194,6 +196,14 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
         {"indirect", record.seconds.indirect},
         {"write", record.seconds.write},
         {"total", record.seconds.total}}}};
+  if (!result.sensors.empty()) {
+    summary["sensors"] = {{"rays", result.of_sensors.rays},
+                          {"replicates", result.of_sensors.replicates},
+                          {"relative_error", value_or_null(result.of_sensors.relative_error)},
+                          {"judged", judged_json(result.of_sensors.judged, model)},
+                          {"bound", value_or_null(result.of_sensors.bound)},
+                          {"seconds", result.of_sensors.seconds}};
+  }
   if (!record.not_written.empty()) summary["not_written"] = record.not_written;
   return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
@@ -212,6 +222,10 @@ std::string plants_csv(const RunRecord& record, const RadiationModel& model, con
 
 std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
   return csv_text(record, sensors_table(model, result));
+}
+
+std::string sensor_means_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
+  return csv_text(record, sensor_means_table(model, result));
 }
 
 std::string triangles_csv(const RunRecord& record, const ElementFields& fields) {

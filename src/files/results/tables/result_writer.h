@@ -50,6 +50,7 @@ struct RunRecord {
 [[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string plants_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
+[[nodiscard]] std::string sensor_means_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string triangles_csv(const RunRecord& record, const ElementFields& fields);
 

@@ -3,7 +3,8 @@
 
 namespace sunfleck {
 
-enum class ErrorTarget { canopy, organ, triangle };
+// The finest figures that a bound holds for. It always holds for the canopy.
+enum class ErrorTarget { canopy, organ, triangle, sensors };
 
 // Selects the elements whose spread between replicates is recorded in addition to that of bands, organs and layers; this costs
 // memory and time.

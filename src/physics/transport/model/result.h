@@ -107,9 +107,10 @@ struct PlaneResult {
   std::vector<Estimate> total_down;  // [band], W m-2 of plane, beam and all other light
 };
 
-// The reading at one point of a sensor, W m-2.
+// The reading at one point of a sensor, or the mean over its points, W m-2.
 struct SensorResult {
   std::vector<Estimate> direct, sky, scattered;  // [band]; `direct` is exact: a point sees the sun or does not
+  std::vector<Estimate> total;                   // [band], their sum
 };
 
 // The size of one replicate: rays of the beam, packets of the first round.
@@ -120,9 +121,10 @@ struct Work {
 
 // A figure whose error is compared with a bound.
 struct JudgedFigure {
-  enum class Of { vegetation, soil, organ, triangles };
+  enum class Of { vegetation, soil, organ, triangles, sensor };
   Of of = Of::vegetation;
   std::size_t organ = 0;            // for Of::organ
+  std::size_t sensor = 0;           // for Of::sensor
   std::optional<std::size_t> band;  // empty: the beam's landings, which are the same in all bands
 };
 
@@ -146,6 +148,15 @@ struct IndirectSummary {
   double seconds = 0.0;
 };
 
+struct SensorSummary {
+  std::uint32_t rays = 0;                // for sky light and for scattered light each, from every point in every replicate
+  std::size_t replicates = 0;            // of the sensor that has most
+  std::optional<double> relative_error;  // largest of all sensors: of the total, for a line of the mean of its points
+  std::optional<JudgedFigure> judged;    // sensor and band with that error
+  std::optional<double> bound;           // empty if the number of replicates was fixed
+  double seconds = 0.0;
+};
+
 enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, time_spent, interrupted };
 
 struct RadiationResult {
@@ -165,6 +176,7 @@ struct RadiationResult {
   std::vector<std::int64_t> cell_sky;  // the same part of cell_indirect
   std::vector<PlaneResult> planes;     // [plane of the model]
   std::vector<std::vector<SensorResult>> sensors;  // [sensor of the model][point]
+  std::vector<SensorResult> sensor_means;          // [sensor of the model], over its points
   std::vector<double> w_per_quantum;               // [waveband], W per quantum of the arrays above
   Estimate sunlit_leaf_fraction;
   Estimate ground_sunfleck_ratio;  // value NaN without a beam
@@ -173,6 +185,7 @@ struct RadiationResult {
   std::uint64_t lost_rays = 0;
   PassSummary direct;
   IndirectSummary indirect;
+  SensorSummary of_sensors;
   Work work;       // of each replicate
   Work next_work;  // suitable start for a run on a very similar scene with the same bounds
 

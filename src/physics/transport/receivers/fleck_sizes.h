@@ -17,6 +17,9 @@ struct FleckClass {
   double area_share = 0.0;  // of the plane
 };
 
+// A cell's share of ten rays has a standard error of up to 0.16. With fewer rays, chance would join, split and make flecks.
+inline constexpr double least_fleck_rays = 10.0;
+
 struct FleckSizes {
   // Area of each fleck, ascending.
   std::vector<double> areas_m2;
@@ -25,6 +28,9 @@ struct FleckSizes {
   std::vector<FleckClass> classes;
   double area_share = 0.0;     // of all flecks together, in the plane
   double rays_per_cell = 0.0;  // mean number of rays that a cell would receive without the canopy
+
+  // Returns whether a cell has enough rays, on average, for the sizes to mean anything.
+  [[nodiscard]] bool enough_rays() const { return rays_per_cell >= least_fleck_rays; }
 };
 
 // Returns the sunflecks of a plane. A fleck is a set of edge-connected cells, each reached by at least half of the beam rays

@@ -33,9 +33,9 @@ SensorLight::SensorLight(const RadiationModel& model) {
   }
 }
 
-RandomStream sensor_stream(std::uint64_t seed, std::uint32_t purpose, std::size_t point, int replicate) {
+RandomStream sensor_stream(std::uint64_t seed, std::uint32_t purpose, std::size_t point, std::size_t replicate) {
   RandomStream of_point(seed, sensor_streams + point);
-  return {of_point.word(), (std::uint64_t{purpose} << 32U) + static_cast<std::uint64_t>(replicate)};
+  return {of_point.word(), (std::uint64_t{purpose} << 32U) + replicate};
 }
 
 glm::dvec2 PairSequence::at(std::uint32_t k) const {
@@ -65,26 +65,24 @@ SensorPaths::SensorPaths(const RadiationModel& model, const CounterLayout& layou
                          const SensorRays& rays, Tracer& tracer)
     : bands_(model.bands.size()), light_(light), rays_(rays), tracer_(tracer), scene_(make_packet_block(model, layout)) {}
 
-std::optional<std::vector<double>> SensorPaths::run(std::span<const SensorPoint> points, const SensorSettings& settings,
+std::optional<std::vector<double>> SensorPaths::run(const SensorBatch& batch, const SensorSettings& settings,
                                                     const StopQuestion& stop) {
-  const std::size_t slots = points.size() * static_cast<std::size_t>(settings.replicates);
+  const std::size_t slots = batch.slots();
   const std::size_t slots_at_a_time = std::max<std::size_t>(1, most_paths / settings.rays);
   std::vector<double> sums(slots * bands_);
   for (std::size_t first = 0; first < slots; first += slots_at_a_time) {
     Wave wave;
-    for (std::size_t slot = first; slot < std::min(slots, first + slots_at_a_time); ++slot) begin(wave, points, slot, settings);
+    for (std::size_t slot = first; slot < std::min(slots, first + slots_at_a_time); ++slot) begin(wave, batch, slot, settings);
     if (!follow(std::move(wave), sums, stop)) return std::nullopt;
   }
   for (double& sum : sums) sum /= settings.rays;
   return sums;
 }
 
-void SensorPaths::begin(Wave& wave, std::span<const SensorPoint> points, std::size_t slot,
-                        const SensorSettings& settings) const {
-  const auto replicates = static_cast<std::size_t>(settings.replicates);
-  const SensorPoint& point = points[slot / replicates];
+void SensorPaths::begin(Wave& wave, const SensorBatch& batch, std::size_t slot, const SensorSettings& settings) const {
+  const SensorPoint& point = batch.all[batch.point(slot)];
   const bool spherical = point.response == SensorResponse::spherical;
-  RandomStream random = sensor_stream(settings.seed, scattered_purpose, slot / replicates, static_cast<int>(slot % replicates));
+  RandomStream random = sensor_stream(settings.seed, scattered_purpose, batch.point(slot), batch.replicate(slot));
   const PairSequence sequence(random);
   for (std::uint32_t ray = 0; ray < settings.rays; ++ray) {
     const glm::dvec2 at = sequence.at(ray);

@@ -25,8 +25,19 @@ struct SensorLight {
   std::optional<Sky> sky;
 };
 
+// Some replicates of some points. Its slots are numbered by point, then by replicate.
+struct SensorBatch {
+  std::span<const SensorPoint> all;     // points of all sensors
+  std::span<const std::size_t> points;  // numbers of those in the batch
+  std::size_t first = 0, replicates = 0;
+
+  [[nodiscard]] std::size_t slots() const { return points.size() * replicates; }
+  [[nodiscard]] std::size_t point(std::size_t slot) const { return points[slot / replicates]; }
+  [[nodiscard]] std::size_t replicate(std::size_t slot) const { return first + slot % replicates; }
+};
+
 // Returns the random numbers of one point's replicate. `purpose` keeps those of sky light and of scattered light apart.
-[[nodiscard]] RandomStream sensor_stream(std::uint64_t seed, std::uint32_t purpose, std::size_t point, int replicate);
+[[nodiscard]] RandomStream sensor_stream(std::uint64_t seed, std::uint32_t purpose, std::size_t point, std::size_t replicate);
 
 // Points of a two-dimensional additive sequence (Roberts' R2: steps are powers of the plastic number) with a random start.
 class PairSequence {
@@ -50,19 +61,19 @@ class SensorPaths {
     return response == SensorResponse::spherical ? 4.0 : 1.0;
   }
 
-  // Returns the light that has left a surface and reaches the points, W m-2: [(point * replicates + replicate) * bands +
-  // band]. Returns nothing if stopped.
-  [[nodiscard]] std::optional<std::vector<double>> run(std::span<const SensorPoint> points, const SensorSettings& settings,
+  // Returns the light that has left a surface and reaches the points of the batch, W m-2: [slot of the batch * bands + band].
+  // Returns nothing if stopped.
+  [[nodiscard]] std::optional<std::vector<double>> run(const SensorBatch& batch, const SensorSettings& settings,
                                                        const StopQuestion& stop);
 
  private:
   struct Wave;
   struct Path {
-    std::size_t slot = 0;  // point * replicates + replicate
+    std::size_t slot = 0;  // of the batch
     double start = 1.0;    // weight at the sensor
     RandomStream random{0, 0};
   };
-  void begin(Wave& wave, std::span<const SensorPoint> points, std::size_t slot, const SensorSettings& settings) const;
+  void begin(Wave& wave, const SensorBatch& batch, std::size_t slot, const SensorSettings& settings) const;
   [[nodiscard]] bool follow(Wave wave, std::vector<double>& sums, const StopQuestion& stop) const;
   void scatter(Wave& next, Path path, std::span<double> weights, const MetSurface& surface, std::vector<double>& sums) const;
   void look_at_light(Wave& next, const Path& path, std::span<const double> weights, const MetSurface& surface,

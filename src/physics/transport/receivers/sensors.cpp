@@ -1,18 +1,27 @@
 #include "physics/transport/receivers/sensors.h"
 
 #include "base/check.h"
+#include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/surfaces.h"
 #include "physics/transport/receivers/sensor_paths.h"
 #include "physics/transport/receivers/sensor_rays.h"
+#include "physics/transport/receivers/sensor_tally.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace sunfleck {
 namespace {
 
 constexpr std::size_t rays_at_a_time = std::size_t{1} << 18U;
 constexpr std::uint32_t sky_purpose = 0;
+// Rays traced between two questions whether the time is up: a few seconds' work.
+constexpr std::size_t most_rays_of_a_batch = std::size_t{1} << 22U;
+// Errors from fewer replicates are too uncertain to be compared with a bound.
+constexpr std::size_t first_check = 12;
 // On planes this close to level, rays that carry equal shares of the horizontal irradiance have the smallest variance.
 constexpr double nearly_level = 0.999;
 
@@ -99,68 +108,30 @@ class SensorMeasurement {
         stop_(stop),
         light_(model),
         rays_(model, layout),
-        points_(rays_.points()),
-        replicates_(static_cast<std::size_t>(settings.replicates)),
-        readings_(points_.size()) {
-    for (SensorResult& reading : readings_)
-      reading.direct = reading.sky = reading.scattered = std::vector<Estimate>(model.bands.size(), Estimate{0.0, 0.0});
+        all_(rays_.points()) {
+    for (const Sensor& sensor : model.sensors) first_point_.push_back(first_point_.back() + sensor.points_m.size());
+    for (std::size_t b = 0; b < model.bands.size(); ++b) brightest_w_m2_.push_back(scatters(model) ? brightest_w_m2(b) : 0.0);
   }
 
-  // The following three return false if stopped.
-  [[nodiscard]] bool direct() {
-    if (light_.beam_w_m2.empty()) return true;
-    Visibility visibility = look(points_.size());
-    for (std::size_t p = 0; p < points_.size(); ++p) visibility.add(p, points_[p], light_.to_sun, 1.0);
-    return settle(visibility, light_.beam_w_m2, &SensorResult::direct);
-  }
-
-  [[nodiscard]] bool sky() {
-    if (!light_.sky) return true;
-    const bool list = light_.sky->is_list();
-    Visibility visibility = look(list ? points_.size() : points_.size() * replicates_);
-    for (std::size_t p = 0; p < points_.size(); ++p) {
-      for (const SkyLight& one : light_.sky->lights()) visibility.add(p, points_[p], one.to_sky, one.weight / one.to_sky.y);
-      for (std::size_t r = 0; r < replicates_ && !list; ++r)
-        add_sky_rays(visibility, *light_.sky, points_[p], p * replicates_ + r,
-                     sensor_stream(settings_.seed, sky_purpose, p, static_cast<int>(r)), settings_.rays);
-    }
-    return settle(visibility, light_.sky_w_m2, &SensorResult::sky);
-  }
-
-  [[nodiscard]] bool scattered() {
-    if (!scatters(model_)) return true;
-    const auto got = SensorPaths(model_, layout_, light_, rays_, tracer_).run(points_, settings_, stop_);
-    if (!got) return false;
-    const std::size_t bands = model_.bands.size();
-    for (std::size_t p = 0; p < points_.size(); ++p)
-      for (std::size_t b = 0; b < bands; ++b) {
-        ReplicateMean mean;
-        for (std::size_t r = 0; r < replicates_; ++r) mean.add((*got)[(p * replicates_ + r) * bands + b]);
-        const double of_one_path = SensorPaths::start_weight(points_[p].response) * brightest_w_m2(b) / settings_.rays;
-        readings_[p].scattered[b] = mean.estimate(quantile(), unseen(of_one_path));
-      }
-    return true;
-  }
-
-  [[nodiscard]] std::vector<std::vector<SensorResult>> by_sensor() {
-    std::vector<std::vector<SensorResult>> results;
-    auto next = readings_.begin();
-    for (const Sensor& sensor : model_.sensors) {
-      const auto end = next + static_cast<std::ptrdiff_t>(sensor.points_m.size());
-      results.emplace_back(std::make_move_iterator(next), std::make_move_iterator(end));
-      next = end;
-    }
-    return results;
+  // Returns nothing if stopped.
+  [[nodiscard]] std::optional<SensorReadings> measure() {
+    std::vector<std::size_t> sensors(model_.sensors.size());
+    std::iota(sensors.begin(), sensors.end(), std::size_t{0});
+    if (!see_exact_light() || !add_replicates(sensors, static_cast<std::size_t>(settings_.replicates))) return std::nullopt;
+    const std::optional<StopReason> end = settings_.bound ? reach_bound(std::move(sensors)) : StopReason::work_done;
+    if (!end) return std::nullopt;
+    return readings(*end);
   }
 
  private:
-  [[nodiscard]] Visibility look(std::size_t slots) const { return {model_, layout_, rays_, tracer_, slots, stop_}; }
-  [[nodiscard]] double quantile() const { return t_quantile(settings_.confidence, replicates_); }
+  // The sensor and band whose total has the largest error.
+  struct Judged {
+    double relative = 0.0;
+    std::size_t sensor = 0, band = 0;
+  };
 
-  // Returns what may have escaped all replicates of a point if each event adds that much light.
-  [[nodiscard]] double unseen(double of_one_event) const {
-    return unseen_events(settings_.confidence) * of_one_event / static_cast<double>(replicates_);
-  }
+  [[nodiscard]] Visibility look(std::size_t slots) const { return {model_, layout_, rays_, tracer_, slots, stop_}; }
+  [[nodiscard]] std::size_t points_of(std::size_t sensor) const { return first_point_[sensor + 1] - first_point_[sensor]; }
 
   // Returns the exitance of a surface in full sun under the open sky, the brightest possible after one scattering.
   [[nodiscard]] double brightest_w_m2(std::size_t band) const {
@@ -176,23 +147,187 @@ class SensorMeasurement {
     return brightest;
   }
 
-  // Writes the readings. A point has either a single slot, which is exact, or one slot per replicate, which are averaged.
-  [[nodiscard]] bool settle(Visibility& visibility, const std::vector<double>& light_w_m2,
-                            std::vector<Estimate> SensorResult::*column) {
-    const auto seen = visibility.take();
-    if (!seen) return false;
-    const std::size_t slots = seen->size() / points_.size();
-    for (std::size_t p = 0; p < points_.size(); ++p) {
-      ReplicateMean mean;
-      double largest = 0.0;
-      for (std::size_t r = 0; r < slots; ++r) {
-        mean.add((*seen)[p * slots + r].sum);
-        largest = std::max(largest, (*seen)[p * slots + r].largest);
+  // Sees the sun, and a sky of single lights, from every point, and begins the tallies. Returns false if stopped.
+  [[nodiscard]] bool see_exact_light() {
+    const std::size_t bands = model_.bands.size();
+    Visibility sun = look(all_.size()), sky = look(all_.size());
+    const bool list = light_.sky && light_.sky->is_list();
+    for (std::size_t p = 0; p < all_.size(); ++p) {
+      if (!light_.beam_w_m2.empty()) sun.add(p, all_[p], light_.to_sun, 1.0);
+      if (!list) continue;
+      for (const SkyLight& one : light_.sky->lights()) sky.add(p, all_[p], one.to_sky, one.weight / one.to_sky.y);
+    }
+    const auto sunlit = sun.take(), lit = sky.take();
+    if (!sunlit || !lit) return false;
+    const std::vector<double> sky_w_m2 = light_.sky ? light_.sky_w_m2 : std::vector<double>(bands);
+    for (std::size_t s = 0; s < model_.sensors.size(); ++s) {
+      ExactLight mean{std::vector<double>(bands), {}};
+      const auto share = 1.0 / static_cast<double>(points_of(s));
+      for (std::size_t p = first_point_[s]; p < first_point_[s + 1]; ++p) {
+        ExactLight here{std::vector<double>(bands), {}};
+        for (std::size_t b = 0; b < light_.beam_w_m2.size(); ++b) {
+          here.direct_w_m2[b] = (*sunlit)[p].sum * light_.beam_w_m2[b];
+          mean.direct_w_m2[b] += share * here.direct_w_m2[b];
+        }
+        if (list || !light_.sky) here.sky = (*lit)[p].sum;
+        if (here.sky) mean.sky = mean.sky.value_or(0.0) + share * *here.sky;
+        points_.emplace_back(std::move(here), sky_w_m2);
       }
-      const Estimate relative = slots == 1 ? Estimate{mean.mean(), 0.0} : mean.estimate(quantile(), unseen(largest));
-      for (std::size_t b = 0; b < light_w_m2.size(); ++b) (readings_[p].*column)[b] = relative.scaled(light_w_m2[b]);
+      means_.emplace_back(std::move(mean), sky_w_m2);
+    }
+    sky_ray_.resize(all_.size());
+    return true;
+  }
+
+  // Adds replicates of some sensors that have equally many. Returns false if stopped.
+  [[nodiscard]] bool add_replicates(const std::vector<std::size_t>& sensors, std::size_t count) {
+    std::vector<std::size_t> points;
+    for (const std::size_t s : sensors)
+      for (std::size_t p = first_point_[s]; p < first_point_[s + 1]; ++p) points.push_back(p);
+    const SensorBatch batch{all_, points, points_[points.front()].replicates(), count};
+    const auto sky = sky_light(batch);
+    if (!sky) return false;
+    std::vector<double> scattered(batch.slots() * model_.bands.size());
+    if (scatters(model_)) {
+      auto got = SensorPaths(model_, layout_, light_, rays_, tracer_).run(batch, settings_, stop_);
+      if (!got) return false;
+      scattered = std::move(*got);
+    }
+    std::size_t slot = 0;  // of the sensor's first point and replicate
+    for (const std::size_t s : sensors) {
+      for (std::size_t r = 0; r < count; ++r) add_replicate(s, slot + r, count, *sky, scattered);
+      slot += points_of(s) * count;
     }
     return true;
+  }
+
+  // Returns the sampled sky light of each slot, for a sky of horizontal irradiance 1; nothing if stopped.
+  [[nodiscard]] std::optional<std::vector<double>> sky_light(const SensorBatch& batch) {
+    std::vector<double> light(batch.slots());
+    if (!light_.sky || light_.sky->is_list()) return light;
+    Visibility visibility = look(batch.slots());
+    for (std::size_t slot = 0; slot < batch.slots(); ++slot) {
+      const std::size_t p = batch.point(slot);
+      add_sky_rays(visibility, *light_.sky, all_[p], slot, sensor_stream(settings_.seed, sky_purpose, p, batch.replicate(slot)),
+                   settings_.rays);
+    }
+    const auto seen = visibility.take();
+    if (!seen) return std::nullopt;
+    for (std::size_t slot = 0; slot < batch.slots(); ++slot) {
+      light[slot] = (*seen)[slot].sum;
+      double& largest = sky_ray_[batch.point(slot)];
+      largest = std::max(largest, (*seen)[slot].largest);
+    }
+    return light;
+  }
+
+  // Adds one replicate of a sensor, whose points have the slots `first`, `first + step`, ...
+  void add_replicate(std::size_t sensor, std::size_t first, std::size_t step, const std::vector<double>& sky,
+                     const std::vector<double>& scattered) {
+    const std::size_t bands = model_.bands.size();
+    const double share = 1.0 / static_cast<double>(points_of(sensor));
+    SampledLight mean{0.0, std::vector<double>(bands)};
+    for (std::size_t i = 0; i < points_of(sensor); ++i) {
+      const std::size_t slot = first + i * step;
+      const auto begin = scattered.begin() + static_cast<std::ptrdiff_t>(slot * bands);
+      const SampledLight here{sky[slot], {begin, begin + static_cast<std::ptrdiff_t>(bands)}};
+      points_[first_point_[sensor] + i].add(here);
+      mean.sky += share * here.sky;
+      for (std::size_t b = 0; b < bands; ++b) mean.scattered[b] += share * here.scattered[b];
+    }
+    means_[sensor].add(mean);
+  }
+
+  // Returns what one more event would add to a replicate of a point, in parts on which all replicates agree.
+  [[nodiscard]] SampledLight unseen_at(std::size_t point) const {
+    SampledLight event{sky_ray_[point], brightest_w_m2_};
+    for (double& light : event.scattered) light *= SensorPaths::start_weight(all_[point].response) / settings_.rays;
+    return points_[point].unseen(std::move(event));
+  }
+
+  // Returns the mean over a sensor's points. Events that may have escaped its points together are as many as at one of them.
+  [[nodiscard]] SensorResult mean_of(std::size_t sensor) const {
+    SampledLight largest{0.0, std::vector<double>(model_.bands.size())};
+    const double share = 1.0 / static_cast<double>(points_of(sensor));
+    for (std::size_t p = first_point_[sensor]; p < first_point_[sensor + 1]; ++p) {
+      const SampledLight event = unseen_at(p);
+      largest.sky = std::max(largest.sky, share * event.sky);
+      for (std::size_t b = 0; b < largest.scattered.size(); ++b)
+        largest.scattered[b] = std::max(largest.scattered[b], share * event.scattered[b]);
+    }
+    return means_[sensor].result(largest, settings_.confidence);
+  }
+
+  [[nodiscard]] Judged error_of(std::size_t sensor) const {
+    const SensorResult mean = mean_of(sensor);
+    Judged largest{0.0, sensor, 0};
+    for (std::size_t b = 0; b < mean.total.size(); ++b) {
+      const Estimate& total = mean.total[b];
+      const double relative =
+          total.half_width > 0.0 ? total.half_width / std::max(total.value, settings_.bound->least_w_m2[b]) : 0.0;
+      if (relative > largest.relative) largest = {relative, sensor, b};
+    }
+    return largest;
+  }
+
+  // Gives the sensors more replicates, each until two checks in a row find its error within the bound. Returns nothing if
+  // stopped.
+  [[nodiscard]] std::optional<StopReason> reach_bound(std::vector<std::size_t> sensors) {
+    const SensorBound& bound = *settings_.bound;
+    std::vector<int> good(model_.sensors.size());
+    std::size_t next = first_check;
+    while (true) {
+      const std::size_t done = means_[sensors.front()].replicates();
+      if (done >= next) {
+        double largest = 0.0;
+        std::vector<std::size_t> left;
+        for (const std::size_t s : sensors) {
+          const double error = error_of(s).relative;
+          good[s] = error <= bound.relative ? good[s] + 1 : 0;
+          if (good[s] < 2) left.push_back(s);
+          if (good[s] < 2) largest = std::max(largest, error);
+        }
+        if (left.empty()) return StopReason::bound_reached;
+        sensors = std::move(left);
+        next = next_check(done, largest / bound.relative);
+      }
+      if (done >= most_replicates) return StopReason::replicates_spent;
+      if (bound.time_is_up && bound.time_is_up()) return StopReason::time_spent;
+      std::size_t points = 0;
+      for (const std::size_t s : sensors) points += points_of(s);
+      const std::size_t at_once = std::max<std::size_t>(1, most_rays_of_a_batch / (points * settings_.rays));
+      if (!add_replicates(sensors, std::min(at_once, next - done))) return std::nullopt;
+    }
+  }
+
+  // Returns the number of replicates of the next check, when the error is `excess` times the bound. Half-widths fall with the
+  // square root of that number.
+  [[nodiscard]] static std::size_t next_check(std::size_t done, double excess) {
+    const auto n = static_cast<double>(done);
+    const double wanted = std::clamp(1.1 * n * excess * excess, 1.25 * n, 2.0 * n);
+    return std::min(most_replicates, static_cast<std::size_t>(std::ceil(wanted)));
+  }
+
+  [[nodiscard]] SensorReadings readings(StopReason stop) const {
+    SensorReadings readings;
+    readings.stop = stop;
+    readings.summary.rays = settings_.rays;
+    Judged largest;
+    for (std::size_t s = 0; s < model_.sensors.size(); ++s) {
+      std::vector<SensorResult>& points = readings.points.emplace_back();
+      for (std::size_t p = first_point_[s]; p < first_point_[s + 1]; ++p)
+        points.push_back(points_[p].result(unseen_at(p), settings_.confidence));
+      readings.means.push_back(mean_of(s));
+      readings.summary.replicates = std::max(readings.summary.replicates, means_[s].replicates());
+      if (!settings_.bound) continue;
+      const Judged judged = error_of(s);
+      if (s == 0 || judged.relative > largest.relative) largest = judged;
+    }
+    if (!settings_.bound) return readings;
+    readings.summary.relative_error = largest.relative;
+    readings.summary.bound = settings_.bound->relative;
+    readings.summary.judged = {.of = JudgedFigure::Of::sensor, .sensor = largest.sensor, .band = largest.band};
+    return readings;
   }
 
   const RadiationModel& model_;
@@ -202,23 +337,25 @@ class SensorMeasurement {
   const StopQuestion& stop_;
   SensorLight light_;
   SensorRays rays_;
-  std::vector<SensorPoint> points_;
-  std::size_t replicates_;
-  std::vector<SensorResult> readings_;  // [point of all sensors]
+  std::vector<SensorPoint> all_;             // points of all sensors
+  std::vector<std::size_t> first_point_{0};  // [sensor], and the end
+  std::vector<double> brightest_w_m2_;       // [band]; 0 if nothing scatters or shines
+  std::vector<double> sky_ray_;              // [point], the most that a sky ray adds to a replicate
+  std::vector<SensorTally> points_, means_;  // [point], [sensor]
 };
 
 }  // namespace
 
-std::optional<std::vector<std::vector<SensorResult>>> measure_sensors(const RadiationModel& model, const CounterLayout& layout,
-                                                                      Tracer& tracer, const SensorSettings& settings,
-                                                                      const StopQuestion& stop) {
+std::optional<SensorReadings> measure_sensors(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
+                                              const SensorSettings& settings, const StopQuestion& stop) {
   EXPECT(settings.replicates, >=, 8);
   EXPECT(settings.rays, >=, 1U);
   EXPECT(settings.rays, <=, std::uint32_t{1} << 20U);
-  if (model.sensors.empty()) return std::vector<std::vector<SensorResult>>{};
-  SensorMeasurement measurement(model, layout, tracer, settings, stop);
-  if (!measurement.direct() || !measurement.sky() || !measurement.scattered()) return std::nullopt;
-  return measurement.by_sensor();
+  if (settings.bound) {
+    EXPECT(settings.bound->least_w_m2.size(), ==, model.bands.size());
+  }
+  if (model.sensors.empty()) return SensorReadings{};
+  return SensorMeasurement(model, layout, tracer, settings, stop).measure();
 }
 
 }  // namespace sunfleck

@@ -96,9 +96,16 @@ class Result:
 
     @functools.cached_property
     def sensors(self) -> list[dict[str, Any]]:
-        """One dict per [[sensor]]: name, and arrays of shape (points,): x, y, z, BAND_direct, BAND_sky, BAND_scattered with
-        their _error."""
+        """One dict per [[sensor]]: name, and arrays of shape (points,): x, y, z, BAND_direct, BAND_sky, BAND_scattered,
+        BAND_total and, with photon units, BAND_total_umol_m2_s, each with its _error."""
         return self._outcome.sensors()
+
+    @functools.cached_property
+    def sensor_means(self) -> dict[str, Any]:
+        """The columns of sensor_means.csv as arrays of shape (sensors,), each the mean over the sensor's points: sensor (a list of
+        names), points (their number), BAND_direct, BAND_sky, BAND_scattered, BAND_total and, with photon units,
+        BAND_total_umol_m2_s, each with its _error; empty without sensors."""
+        return self._outcome.sensor_means()
 
     @functools.cached_property
     def corners(self) -> np.ndarray:
@@ -106,12 +113,13 @@ class Result:
         return self._outcome.corners()
 
     def describe(self, table: str) -> dict[str, tuple[str, str]]:
-        """Returns the unit and the meaning of each column of profile.csv, organs.csv, plants.csv, triangles.csv or sensors.csv:
-        result.describe("organs.csv")["area_m2"] is ("m2", "one-sided area")."""
+        """Returns the unit and the meaning of each column of profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv
+        or sensor_means.csv: result.describe("organs.csv")["area_m2"] is ("m2", "one-sided area")."""
         return {name: (unit, meaning) for name, (unit, meaning, _) in self._outcome.describe(table).items()}
 
     def table(self, name: str) -> str:
-        """Returns the text of profile.csv, organs.csv, plants.csv, triangles.csv or sensors.csv, byte for byte as the program writes it."""
+        """Returns the text of profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv or sensor_means.csv, byte for byte as the
+        program writes it."""
         return self._outcome.table(name)
 
     def save(
@@ -129,7 +137,8 @@ class Result:
 
     def to_xarray(self) -> xarray.Dataset:
         """Returns the variables of results.nc as an xarray Dataset: fields by `triangle`, the profile by `plane_height`, the
-        balance by `band`. Maps and sensors are in the lists `planes` and `sensors` instead. Needs xarray."""
+        balance by `band`, means of sensors by `sensor`, their points by `sensor_point`. Maps are in the list `planes` instead.
+        Needs xarray."""
         import xarray
 
         def variables(table: str, dimension: str, columns: dict[str, Any]) -> dict[str, Any]:
@@ -148,10 +157,25 @@ class Result:
         balance = variables("balance", "band", self._outcome.balance())
         for name in sorted(balance, key=lambda name: name.endswith("_error")):
             data[name] = balance[name]
+        data = data.assign(self._sensor_variables())
         return data.assign(
             plot_area_m2=((), self.summary["plot_area_m2"], {"units": "m2"}),
             leaf_area_index=((), self.summary["leaf_area_index"], {"units": "1"}),
         )
+
+    def _sensor_variables(self) -> dict[str, Any]:
+        """Returns the variables of results.nc that begin with sensor_."""
+        if not self.sensors:
+            return {}
+        names = [sensor["name"] for sensor in self.sensors for _ in sensor["x"]]
+        variables: dict[str, Any] = {"sensor_point_name": ("sensor_point", names)}
+        for name, (unit, _) in self.describe("sensors.csv").items():
+            values = np.concatenate([sensor[name] for sensor in self.sensors])
+            variables[f"sensor_point_{name}"] = ("sensor_point", values, {"units": unit})
+        for name, (unit, _) in self.describe("sensor_means.csv").items():
+            key = "sensor_name" if name == "sensor" else f"sensor_{name}"
+            variables[key] = ("sensor", self.sensor_means[name], {"units": unit} if unit else {})
+        return variables
 
     def __repr__(self) -> str:
         summary = self.summary

@@ -189,6 +189,7 @@ const std::vector<Breakage> breakages = {
     {"DirectBoundZero", "0.002", "0", "direct     = 0", "accuracy.direct", "0.001"},
     {"IndirectBoundOne", "0.004", "1.0", "indirect", "accuracy.indirect", "below 1"},
     {"ConfidencePercent", "confidence = 0.9", "confidence = 95", "confidence", "accuracy.confidence", "0.95"},
+    {"OfSensorsWithoutAny", "\"organ\"", "\"sensors\"", "sensors", "accuracy.of", "[[sensor]]"},
     {"OfUnknown", "\"organ\"", "\"organs\"", "organs", "accuracy.of", "did you mean organ?"},
     {"CameraNowhere", "[0.9, 1.0, 1.2]", "[3.0, 2.5, 3.0]", "look_at", "camera.look_at", "another point"},
     {"CameraFov", "fov      = 50", "fov = 180", "fov", "camera.fov", "1..179"},

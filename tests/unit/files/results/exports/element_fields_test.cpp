@@ -67,6 +67,7 @@ TEST(ElementFields, OrgansOfOneNameAreOneKind) {
 TEST(ElementFields, SkyColumnsOnlyWithASky) {
   RadiationModel model = two_triangles();
   model.canopy.organs[1].name = "a \"tip\", dry";
+  model.canopy.optics_names[1] = "bark";
   RadiationResult result = two_triangles_result();
   const regression::Table with(triangles_csv(awkward_record(), model, result));
   EXPECT_NEAR(with.number(0, "B-2_sky_upper"), 1.0, 1e-9);
@@ -74,6 +75,9 @@ TEST(ElementFields, SkyColumnsOnlyWithASky) {
   EXPECT_EQ(with.cell(0, "A_total"), "no such column");
   result.side_sky.clear();
   EXPECT_EQ(with.cell(1, "organ"), "a \"tip\", dry");
+  EXPECT_EQ(with.cell(0, "optics"), "leaf");
+  EXPECT_EQ(with.cell(1, "optics"), "bark");
+  EXPECT_EQ(with.cell(0, "rank"), "7");
   const regression::Table without(triangles_csv(awkward_record(), model, result));
   EXPECT_EQ(without.cell(0, "B-2_sky_upper"), "no such column");
   EXPECT_EQ(without.columns().size() + 4, with.columns().size());

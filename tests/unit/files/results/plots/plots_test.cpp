@@ -418,9 +418,9 @@ TEST_F(Plots, AThousandCellsASideAreDrawn) {
   auto [model, result] = test::small_plane();
   PlaneResult& map = result.planes[0];
   map.cells_x = map.cells_z = 1000;
-  map.crossing.assign(1'000'000, 4);
+  map.crossing.assign(1'000'000, 12);
   map.reached.assign(1'000'000, 0);
-  for (std::size_t cell = 0; cell < map.reached.size(); cell += 3) map.reached[cell] = 4;
+  for (std::size_t cell = 0; cell < map.reached.size(); cell += 3) map.reached[cell] = 12;
   map.down.clear();
   EXPECT_EQ(plane("Large", model, result, 0).width, 1600);
 }

@@ -31,7 +31,7 @@ TEST(PlaneWriter, ACellARow) {
   ASSERT_EQ(table.comments().size(), 6U);
   EXPECT_EQ(table.comments()[0], "# A plane");
   EXPECT_EQ(table.comments()[2], "# seed 7, confidence 0.95");
-  EXPECT_EQ(table.comments()[4], "# sunfleck ratio 0.3, error 0.01; 8.33333333 beam rays a cell without the canopy");
+  EXPECT_EQ(table.comments()[4], "# sunfleck ratio 0.3, error 0.01; 10 beam rays a cell without the canopy");
   EXPECT_EQ(table.comments()[5],
             "# flecks (joined cells with sunfleck >= 0.5): 1, together 0.333333333 of the plane; median 10000 cm2, largest "
             "10000 cm2");
@@ -45,7 +45,7 @@ TEST(PlaneWriter, ACellARow) {
   EXPECT_EQ(table.cell(2, "sunfleck"), "0.5");
   EXPECT_EQ(table.cell(4, "sunfleck"), "0");
   EXPECT_EQ(table.cell(5, "sunfleck"), "") << "no ray crosses it";
-  // 10 rays, each of 0.05 m2 of 100 W m-2, and 10 quanta of 0.5 W cross 0.5 m2.
+  // 12 rays, each of 1/24 m2 of 100 W m-2, and 10 quanta of 0.5 W cross 0.5 m2.
   EXPECT_NEAR(table.number(0, "PAR_direct"), 100.0, 1e-6);
   EXPECT_NEAR(table.number(0, "PAR_total"), 110.0, 1e-6);
   EXPECT_NEAR(table.number(0, "NIR_total"), 200.0, 1e-6);
@@ -63,6 +63,19 @@ TEST(PlaneWriter, AClassOfFlecksARow) {
   EXPECT_EQ(table.cell(0, "upper_cm2"), "20000");
   EXPECT_EQ(table.cell(0, "flecks"), "1");
   EXPECT_NEAR(table.number(0, "area_share"), 1.0 / 3.0, 1e-8);
+}
+
+TEST(PlaneWriter, SizesOfFlecksNeedTenRaysACell) {
+  auto [model, result] = test::small_plane();
+  for (std::uint64_t& rays : result.planes[0].crossing) rays = rays * 3 / 4;
+  const std::string why =
+      "# no sizes of flecks: too few rays: 7.5 a cell, 10 are needed; use a coarser cells = [1, 2] or a smaller error";
+  const regression::Table map(plane_csv(plane_record(), model, result, 0));
+  EXPECT_EQ(map.comments().back(), why);
+  EXPECT_EQ(map.size(), 6U) << "the map itself is there";
+  const regression::Table sizes(plane_flecks_csv(plane_record(), model, result, 0));
+  EXPECT_EQ(sizes.comments().back(), why);
+  EXPECT_EQ(sizes.size(), 0U);
 }
 
 TEST(PlaneWriter, WithoutABeamTheSunfleckCellsAreEmpty) {

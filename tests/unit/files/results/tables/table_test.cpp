@@ -115,8 +115,8 @@ TEST(Table, AnErrorIsTheHalfWidthOfTheColumnBeforeIt) {
   std::size_t errors = 0;
   for (const Table& table :
        {organs_table(model, result), plants_table(model, result), layers_table(model, result), balance_table(result),
-        sensors_table(model, result), plane_table(model, result, 0), triangles_table(fields), steps_table(model, course, {}),
-        organs_day_table(model, course, {}), plants_day_table(model, course, {})}) {
+        sensors_table(model, result), sensor_means_table(model, result), plane_table(model, result, 0), triangles_table(fields),
+        steps_table(model, course, {}), organs_day_table(model, course, {}), plants_day_table(model, course, {})}) {
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const Column& error = table.columns[i];
       if (!error.name.ends_with("_error")) continue;
@@ -141,7 +141,8 @@ TEST(Table, AnErrorIsTheHalfWidthOfTheColumnBeforeIt) {
 TEST(Table, TheColumnsOfAResultAreDescribed) {
   RadiationModel model;
   model.bands = {{"PAR", 100.0, 0.0, 4.57}};
-  for (const Table& table : {organs_table(model, {}), layers_table(model, {}), sensors_table(model, {}), balance_table({})}) {
+  for (const Table& table : {organs_table(model, {}), layers_table(model, {}), sensors_table(model, {}),
+                             sensor_means_table(model, {}), balance_table({})}) {
     EXPECT_GT(table.columns.size(), 5U);
     for (const Column& column : table.columns) {
       EXPECT_NE(column.meaning, "") << column.name;
