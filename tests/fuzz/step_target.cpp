@@ -47,7 +47,7 @@ StepStore store() {
 
 void feed_step(std::string_view bytes) {
   std::filesystem::create_directories(folder() / "steps");
-  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP2", bytes)));
+  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP3", bytes)));
   read_or_refuse([] {
     const auto step = store().read(7);
     if (step)
