@@ -408,7 +408,7 @@ TEST(Sensors, GoOnUntilTheBoundHoldsForEach) {
   EXPECT_EQ(again.summary.replicates, got.summary.replicates);
 }
 
-// A search that ends at a lucky moment gives intervals that are too narrow, unless it asks for more than one good check.
+// A search that ends at a lucky moment must not make the intervals too narrow.
 TEST(Sensors, IntervalsAtABoundCoverTheTruth) {
   RadiationModel model = line_and_ball();
   model.sensors.erase(model.sensors.begin());

@@ -243,6 +243,10 @@ TEST_F(Day, IntegralsAreSumsOverTheStepsOfEachDate) {
       EXPECT_NEAR(organs_mj / mj, 1.0, 1e-7) << band;
       const json sums = summary()["dates"][date]["bands"][band == bands[0] ? 0 : 1];
       EXPECT_NEAR(sums["absorbed_vegetation_mj_m2"].get<double>() * day_plot_m2 / mj, 1.0, 1e-7);
+      if (sums.contains("absorbed_vegetation_mol_m2")) {
+        const double mj_error = sums["error"]["absorbed_vegetation_mj_m2"];
+        EXPECT_NEAR(sums["error"]["absorbed_vegetation_mol_m2"].get<double>() / mj_error, 4.57, 1e-6);
+      }
     }
     const double mol = organs.number(2 * date, "PAR_absorbed_mol_m2");
     EXPECT_NEAR(mol / organs.number(2 * date, "PAR_absorbed_mj_m2"), 4.57, 1e-6);

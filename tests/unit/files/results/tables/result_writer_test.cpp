@@ -160,6 +160,17 @@ TEST(ResultWriter, SummaryHasNullForUnknowns) {
   EXPECT_TRUE(summary["bands"][0]["error"]["transmitted"].is_null());
 }
 
+TEST(ResultWriter, PhotonsHaveErrorsOfTheirOwn) {
+  RadiationModel model = small_model();
+  model.bands[1].umol_per_joule = 2.0;
+  const json photons = json::parse(summary_json(small_record(), model, small_result()))["bands"][1]["umol_m2_s"];
+  EXPECT_EQ(photons["absorbed_soil"], 120.0);
+  EXPECT_EQ(photons["error"]["absorbed_soil"], 44.0);
+  const regression::Table organs(organs_csv(small_record(), model, small_result()));
+  EXPECT_EQ(organs.cell(0, "B_absorbed_umol_m2_s"), "3");
+  EXPECT_EQ(organs.cell(0, "B_absorbed_umol_m2_s_error"), "0.06");
+}
+
 TEST(ResultWriter, SummaryWithoutASun) {
   RadiationModel model = small_model();
   model.sun.reset();
