@@ -152,8 +152,9 @@ class DayRun {
 }  // namespace
 
 SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads) {
-  SolveSettings settings = solve_settings(work, scene, threads);
-  settings.element_errors = ElementErrors::keep;
+  WorkRequest of_triangles = work;
+  of_triangles.triangle_light = true;
+  SolveSettings settings = solve_settings(of_triangles, scene, threads);
   settings.max_seconds.reset();
   return settings;
 }

@@ -37,10 +37,14 @@ double tree_bytes(const Bvh& bvh) {
 
 // The memory of the sums over replicates.
 struct SumBytes {
-  double tracing = 0.0;  // those of the run, and of its pilot until the run has two replicates
-  double ending = 0.0;   // those of the run, and the result made from them
-  double result = 0.0;   // the result alone
+  double tracing = 0.0;   // those of the run, and of its pilot until the run has two replicates
+  double ending = 0.0;    // those of the run, and the result made from them
+  double result = 0.0;    // the result alone
+  double refining = 0.0;  // estimating the light of triangles at the end
 };
+
+// Of the trees of surfaces and of pooling over all of them at the same time.
+constexpr double bytes_refining_element = 400.0;
 
 SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings,
                    const RunForecast& run) {
@@ -58,10 +62,14 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, con
   const double of_run = PlaceSums::likely_bytes(planned_replicates * run.side_bytes, sides);
   const double of_pilot = PlaceSums::likely_bytes(pilot_replicates * run.side_bytes, sides);
   double spreads = 0.0;
-  if (settings.element_errors != ElementErrors::skip) spreads = 2.0 * elements * (16.0 + 32.0 * bands);
   SumBytes bytes;
+  if (settings.element_errors == ElementErrors::refine) {
+    bytes.refining = elements * bytes_refining_element + 3.0 * sides;
+    spreads = 2.0 * (landings + of_run);
+  } else if (settings.element_errors != ElementErrors::skip)
+    spreads = 2.0 * elements * (16.0 + 32.0 * bands);
   bytes.tracing = numbering + 2.0 * (exposure + landings + cells) + of_run + of_pilot + spreads;
-  bytes.ending = numbering + exposure + landings + cells + sides + spreads;
+  bytes.ending = numbering + exposure + landings + cells + sides + spreads + bytes.refining;
   if (of_run < sides) bytes.ending += of_run;
   bytes.result = elements * sizeof(std::uint32_t) + landings + cells + sides + 0.5 * spreads;
   return bytes;

@@ -43,8 +43,9 @@ struct WorkRequest {
   std::optional<std::uint64_t> max_rays;
   std::optional<std::uint64_t> memory_bytes;  // for replicates in progress; by default a quarter of the free memory
   std::uint64_t seed = 1;
-  bool triangle_errors = false;  // also keeps errors of single triangles, which costs memory and time
-  bool resume = false;           // resumes an earlier run's work in the folder
+  // Estimates the light of single triangles with its errors, which costs memory and time; for pictures and exports.
+  bool triangle_light = false;
+  bool resume = false;  // resumes an earlier run's work in the folder
 };
 
 // The contents of a result folder.

@@ -289,10 +289,8 @@ void check_pictures(const ResultRequest& request, const RadiationModel& model) {
   for (const Picture& picture : named_pictures(request)) check_field(model, picture);
 }
 
-bool needs_triangle_errors(const std::vector<std::string>& exports) {
-  // CARIBU's table has no errors.
-  return std::any_of(exports.begin(), exports.end(),
-                     [](const std::string& name) { return name != export_name(ExportKind::caribu); });
+bool shows_triangles(const ResultRequest& request) {
+  return asks_for(request, "all") || !request.exports.empty() || !named_pictures(request).empty();
 }
 
 UnwrittenFiles write_whole_result(const std::filesystem::path& folder, const ResultRequest& request,

@@ -44,8 +44,8 @@ struct ProfileOverlays {
 // Throws Error (input) for pictures that the scene cannot provide.
 void check_pictures(const ResultRequest& request, const RadiationModel& model);
 
-// Returns whether an export contains errors of single triangles, which the simulation must then keep.
-[[nodiscard]] bool needs_triangle_errors(const std::vector<std::string>& exports);
+// Returns whether exports or pictures show the light of single triangles, which the simulation must then estimate.
+[[nodiscard]] bool shows_triangles(const ResultRequest& request);
 
 // Writes everything into the prepared folder, the summary last. Completes the record, which begins as the result's own, with
 // the unwritten files and the time taken. Returns the files that could not be written; the others are complete.

@@ -19,6 +19,9 @@
 namespace sunfleck {
 namespace {
 
+// Larger stands keep the light of single triangles as it was counted: estimating it takes some 400 bytes each.
+constexpr std::size_t most_refined_triangles = std::size_t{1} << 21U;
+
 // Returns the number of rays per sensor. Half-widths at a point are about ten times the bound of the totals: a few percent
 // where that is 0.3 %.
 std::uint32_t sensor_rays(const SolveSettings& settings) {
@@ -61,8 +64,9 @@ SolveSettings solve_settings(const WorkRequest& work, const Scene& scene, int th
   settings.fit_to_time = !work.resume;
   settings.replicates_at_once = threads == 1 ? 1 : 2;
   settings.memory_bytes = static_cast<double>(work.memory_bytes.value_or(available_memory_bytes() / 4));
-  const bool of_elements = work.triangle_errors || scene.accuracy.of == ErrorTarget::triangle;
-  settings.element_errors = of_elements ? ElementErrors::keep : ElementErrors::skip;
+  const bool of_elements = work.triangle_light || scene.accuracy.of == ErrorTarget::triangle;
+  const bool few = scene.model.canopy.size() <= most_refined_triangles;
+  settings.element_errors = !of_elements ? ElementErrors::skip : few ? ElementErrors::refine : ElementErrors::keep;
   return settings;
 }
 

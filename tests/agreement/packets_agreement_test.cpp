@@ -193,6 +193,8 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
     SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8, .bound = 0.01});
     fixed.element_errors = ElementErrors::keep;
     expect_same_run(model, fixed);
+    fixed.element_errors = ElementErrors::refine;
+    expect_same_run(model, fixed);
     expect_same_run(without_soil(model), fixed);
     expect_same_run(model, automatic);
   }

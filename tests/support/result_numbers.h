@@ -40,6 +40,9 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
     estimates(std::array{layer.sunfleck_ratio, layer.sunlit_leaf_fraction});
     for (const auto* all : {&layer.down, &layer.up, &layer.absorbed, &layer.absorbed_structure}) estimates(*all);
   }
+  for (const auto parts : result.side_direct) integer(parts);
+  for (const double error : result.side_error) number(error);
+  for (const double error : result.triangle_relative_error) number(error);
   for (const BeamLandings& element : result.elements) integer(element.upper), integer(element.lower);
   for (const double error : result.element_error) number(error);
   for (const auto landings : result.soil_cells) integer(landings);

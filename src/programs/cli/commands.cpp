@@ -68,6 +68,7 @@ int run(const RunOptions& asked) {
 
   const std::string cure = checkpoint.holds_state() ? "; --resume continues the run" : "";
   warn_if_short(simulated, settings, cure);
+  warn_of_coarse_triangles(simulated, options.exports);
   print_result(folder, options, simulated);
   if (simulated.record.complete && unwritten.names().empty()) checkpoint.finish();
   unwritten.throw_if_any(cure);

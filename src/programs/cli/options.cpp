@@ -74,11 +74,11 @@ void add_caribu_table(RunOptions& options) {
 
 RunOptions finished(RunOptions options, const OptionWords& words, const CLI::App& command) {
   add_caribu_table(options);
-  options.triangle_errors = needs_triangle_errors(options.exports);
   read_errors(words, options);
   read_pictures(words, options.pictures);
   if (command.count("--chart") + command.count("--field") > 0) options.extra_picture = read_picture(words);
   check_images(options);
+  options.triangle_light = shows_triangles(options);
   return options;
 }
 
@@ -105,7 +105,7 @@ InfoOptions finished(InfoOptions options, const OptionWords& words) {
   if (!options.meshes.empty()) sort_files(options);
   read_errors(words, options.run);
   add_caribu_table(options.run);
-  options.run.triangle_errors = needs_triangle_errors(options.run.exports);
+  options.run.triangle_light = shows_triangles(options.run);
   return options;
 }
 
@@ -113,6 +113,7 @@ RenderOptions finished(RenderOptions options, const OptionWords& words, const CL
   read_errors(words, options.run);
   read_pictures(words, options.run.pictures);
   options.picture = read_picture(words);
+  options.run.triangle_light = true;
   options.chart_given = command.count("--chart") > 0;
   for (const char* name : {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--max-seconds", "--max-rays",
                            "--memory", "--seed", "--allow-outside", "--optics", "--light", "--domain", "--scale"}) {

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 namespace sunfleck {
@@ -83,6 +85,19 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
       line += ", before a second check confirmed the bounds";
   }
   warn(fmt::format("{}; the results are kept and marked incomplete{}", line, cure));
+}
+
+void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector<std::string>& exports) {
+  constexpr double coarse = 0.2;
+  if (exports.empty()) return;
+  const std::vector<double>& errors = simulated.result.triangle_relative_error;
+  const auto worst = std::max_element(errors.begin(), errors.end());
+  if (worst == errors.end() || !(*worst > coarse)) return;
+  const std::string& band = simulated.scene->model.bands[static_cast<std::size_t>(worst - errors.begin())].name;
+  warn(
+      fmt::format("--export: {} absorbed by a triangle typically has an error of {:.0f} % (its own one stands beside it); a "
+                  "smaller --error makes it smaller",
+                  band, 100.0 * *worst));
 }
 
 int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sunfleck {
 
@@ -46,6 +47,9 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
 // reached its bound, has none, or has no light.
 [[nodiscard]] std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
                                     const std::optional<JudgedFigure>& judged, const RadiationModel& model);
+
+// Warns if triangles are exported whose light typically is known to no better than 20 %.
+void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector<std::string>& exports);
 
 // Reports that the `work` in the folder, a run or a day, is finished, or prints its summary if --json requests it. Returns the
 // exit status.

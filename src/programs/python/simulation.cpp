@@ -109,7 +109,7 @@ WorkRequest work_request(std::optional<double> direct_error, std::optional<doubl
   request.max_rays = max_rays;
   request.memory_bytes = memory_bytes;
   request.seed = seed;
-  request.triangle_errors = triangle_errors;
+  request.triangle_light = triangle_errors;
   return request;
 }
 

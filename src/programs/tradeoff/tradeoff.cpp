@@ -107,8 +107,8 @@ int tradeoff(const TradeoffOptions& options) {
   run.passes.reset();
   run.grid_m.reset();
   run.max_seconds.reset();
+  run.triangle_light = true;
   SolveSettings settings = solve_settings(run, scene, run.threads);
-  settings.element_errors = ElementErrors::keep;
 
   Simulation simulation(std::move(scene), options.run);
   TradeoffReport report;

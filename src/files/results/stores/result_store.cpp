@@ -138,6 +138,7 @@ void visit_result(const Archive& archive, Result& result, const RadiationModel& 
   std::size_t cells = result.soil_cells.size();
   bool indirect = !result.side_indirect.empty() || !result.cell_indirect.empty();
   bool sky = !result.side_sky.empty() || !result.cell_sky.empty();
+  bool refined = !result.side_direct.empty();
   archive["leaf_area_index"].value(result.leaf_area_index, 0.0, largest);
   archive["ground_per_ray_m2"].value(result.ground_per_ray_m2, 0.0, largest);
   archive["w_per_quantum"].value(result.w_per_quantum, 0.0, largest);
@@ -147,6 +148,9 @@ void visit_result(const Archive& archive, Result& result, const RadiationModel& 
   archive["sky_rays"].value(result.indirect.sky_rays);
   archive["indirect_relative_error"].value(result.indirect.relative_error);
   archive["landings"].packed(result.elements, elements);
+  archive["has_side_direct"].value(refined);
+  archive["side_direct"].packed(result.side_direct, refined ? 2 * elements : 0);
+  archive["triangle_relative_error"].value(result.triangle_relative_error, 0.0, largest);
   archive["cells"].value(cells);
   archive["cell_landings"].packed(result.soil_cells, cells);
   archive["has_indirect"].value(indirect);

@@ -95,6 +95,14 @@ ordered_json planes_json(const RadiationResult& result) {
   return planes;
 }
 
+// Returns the typical relative error of what a triangle of the vegetation absorbs, by band; null if it was not estimated.
+ordered_json triangle_error_json(const RadiationModel& model, const RadiationResult& result) {
+  if (result.triangle_relative_error.empty()) return nullptr;
+  ordered_json errors = ordered_json::object();
+  for (std::size_t b = 0; b < model.bands.size(); ++b) errors[model.bands[b].name] = result.triangle_relative_error[b];
+  return errors;
+}
+
 ordered_json settings_json(const RunRecord& record) {
   ordered_json settings = {{"scene_file", record.scene_file}};
   add_work_settings(settings, record.accuracy, record.grid_m, record.passes, record.max_rays);
@@ -169,6 +177,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"sunlit_leaf_fraction_error", number_or_null(result.sunlit_leaf_fraction.half_width)},
       {"ground_sunfleck_ratio", number_or_null(result.ground_sunfleck_ratio.value)},
       {"ground_sunfleck_ratio_error", number_or_null(result.ground_sunfleck_ratio.half_width)},
+      {"triangle_relative_error", triangle_error_json(model, result)},
       {"planes", planes_json(result)},
       {"lost_rays", result.lost_rays},
       {"direct",

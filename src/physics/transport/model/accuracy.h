@@ -10,6 +10,7 @@ enum class ErrorTarget { canopy, organ, triangle, sensors };
 // memory and time.
 enum class ElementErrors {
   skip,
+  refine,      // instead, the light of each element is estimated at the end, from the halves of the run
   keep,        // of the flux that each element absorbs
   keep_sides,  // and also of the flux incident on each of its sides
 };

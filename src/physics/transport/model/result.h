@@ -160,6 +160,8 @@ struct SensorSummary {
 enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, time_spent, interrupted };
 
 struct RadiationResult {
+  static constexpr std::int64_t parts_per_landing = 1 << 16;  // in side_direct
+
   StopReason stop = StopReason::work_done;
   std::vector<BandResult> bands;
   std::vector<OrganResult> organs;     // [organ of the canopy]
@@ -171,6 +173,13 @@ struct RadiationResult {
   std::vector<std::uint64_t> soil_cells;  // [cell of the soil's map], landings of beam rays
   // [(2 * element + side) * bands + band], quanta of all other light; empty without any.
   std::vector<std::int64_t> side_indirect;
+  // [2 * element + side], parts of landings of beam rays, whose sums over each side of a surface are those of `elements`; empty
+  // unless the light of triangles was estimated (ElementErrors::refine) or without a beam. side_indirect and side_sky are then
+  // estimates in the same way.
+  std::vector<std::int64_t> side_direct;
+  // [band], typical relative error of what a triangle of the vegetation absorbs: the root mean square of the half-widths, weighted
+  // by area, relative to the mean. Empty unless estimated.
+  std::vector<double> triangle_relative_error;
   std::vector<std::int64_t> cell_indirect;  // [cell * bands + band]
   std::vector<std::int64_t> side_sky;  // the part of side_indirect that comes unscattered from the sky; empty without a sky
   std::vector<std::int64_t> cell_sky;  // the same part of cell_indirect
@@ -209,6 +218,16 @@ struct RadiationResult {
   // without area.
   [[nodiscard]] double irradiance_w_m2(std::uint64_t landings, double area_m2, double beam_w_m2) const {
     return area_m2 > 0.0 ? static_cast<double>(landings) * ground_per_ray_m2 * beam_w_m2 / area_m2 : 0.0;
+  }
+
+  // Returns the irradiance (W m-2) of a side by the beam, estimated if the light of triangles was; 0 without area.
+  [[nodiscard]] double side_direct_w_m2(std::size_t side, double area_m2, double beam_w_m2) const {
+    if (!side_direct.empty()) {
+      const double landings = static_cast<double>(side_direct[side]) / static_cast<double>(parts_per_landing);
+      return area_m2 > 0.0 ? landings * ground_per_ray_m2 * beam_w_m2 / area_m2 : 0.0;
+    }
+    const BeamLandings& landed = elements[side / 2];
+    return irradiance_w_m2(side % 2 == 0 ? landed.upper : landed.lower, area_m2, beam_w_m2);
   }
 
  private:

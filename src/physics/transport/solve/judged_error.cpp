@@ -90,7 +90,7 @@ JudgedError direct_error(const RunSums& sums, const Accuracy& accuracy) {
   if (accuracy.of == ErrorTarget::organ) {
     largest.raise(organ_error(sums, quantile, false));
   }
-  if (accuracy.of == ErrorTarget::triangle) {
+  if (accuracy.of == ErrorTarget::triangle && !sums.direct_spread.empty()) {
     largest.raise({element_rms_error(sums, quantile, sums.direct_spread, 0), {.of = JudgedFigure::Of::triangles}});
   }
   return largest;

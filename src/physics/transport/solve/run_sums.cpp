@@ -275,8 +275,15 @@ class Addition {
     sums_.side_landed.add(indirect_->side_landed);
     add_up(indirect_->cell_landed, sums_.cell_landed);
     sums_.side_sky.add(indirect_->side_sky);
+    if (in_half()) {
+      sums_.half_side_landed.add(indirect_->side_landed);
+      sums_.half_side_sky.add(indirect_->side_sky);
+    }
     add_up(indirect_->cell_sky, sums_.cell_sky);
   }
+
+  // Returns whether this is one of every other replicate, the first included.
+  [[nodiscard]] bool in_half() const { return sums_.keeps_half && sums_.replicates % 2 == 1; }
 
   void add_elements() {
     const std::size_t bands = sums_.bands.size();
@@ -286,6 +293,10 @@ class Addition {
       const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
       sums_.elements[e].upper += landings.upper;
       sums_.elements[e].lower += landings.lower;
+      if (in_half()) {
+        sums_.half_elements[e].upper += landings.upper;
+        sums_.half_elements[e].lower += landings.lower;
+      }
       if (sums_.direct_spread.empty()) continue;
       sums_.direct_spread[e].add(static_cast<double>(landings.both()));
       sums_.element_hits[e] += landings.both() + (indirect_ != nullptr ? indirect_->element_hits[e] : 0);
@@ -349,7 +360,9 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors)
   for (auto* means : {&layer.down, &layer.up, &layer.absorbed, &layer.absorbed_structure}) means->resize(bands.size());
   layers.assign(static_cast<std::size_t>(of.layout.layers.count) + 1, layer);
   if (of.receivers != nullptr) planes.emplace(*of.receivers, model);
-  if (element_errors == ElementErrors::skip) return;
+  keeps_half = element_errors == ElementErrors::refine;
+  if (keeps_half) half_elements.resize(elements.size());
+  if (element_errors == ElementErrors::skip || keeps_half) return;
   direct_spread.resize(elements.size());
   element_hits.resize(elements.size());
   absorbed_spread.resize(elements.size() * bands.size());

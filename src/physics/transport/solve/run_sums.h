@@ -66,6 +66,7 @@ struct RunSums {
   static void visit(Self& self, Archive& archive);
 
   const Conversion& conversion;
+  bool keeps_half = false;
   std::size_t replicates = 0;
   std::uint64_t lost = 0, sky_rays = 0, packets = 0, rounds = 0;
   std::vector<double> landed;  // [band], quanta of packets and sky rays, counted once per landing
@@ -79,6 +80,10 @@ struct RunSums {
   PlaceSums side_landed, side_sky;     // as in IndirectSums, over all replicates; empty before the first
   std::vector<std::int64_t> cell_landed, cell_sky;
   std::vector<std::uint64_t> soil_cells;
+  // As `elements`, side_landed and side_sky, over every other replicate from the first on; empty unless the light of triangles
+  // is to be estimated.
+  std::vector<BeamLandings> half_elements;
+  PlaceSums half_side_landed, half_side_sky;
   std::vector<std::uint64_t> element_hits;  // [element], rays and packets; empty if errors are skipped
   std::vector<Spread> direct_spread;        // [element], landings; this and the next two are empty if errors are skipped
   std::vector<Spread> absorbed_spread;      // [band * elements + element], W m-2 of element
@@ -126,6 +131,9 @@ void RunSums::visit(Self& self, Archive& archive) {
   visit_late(self.cell_landed, packets ? cells : 0);
   visit_sides(self.side_sky, model.has_sky() ? sides : 0);
   visit_late(self.cell_sky, model.has_sky() ? cells : 0);
+  for (auto& element : self.half_elements) archive(element.upper, element.lower);
+  visit_sides(self.half_side_landed, packets && self.keeps_half ? sides : 0);
+  visit_sides(self.half_side_sky, model.has_sky() && self.keeps_half ? sides : 0);
   archive(self.soil_cells, self.element_hits);
   for (auto* spreads : {&self.direct_spread, &self.absorbed_spread, &self.indirect_spread, &self.side_spread}) {
     for (auto& spread : *spreads) archive(spread.sum, spread.squares);

@@ -9,6 +9,7 @@
 #include "physics/transport/solve/replicate_queue.h"
 #include "physics/transport/solve/result_of.h"
 #include "physics/transport/solve/run_sums.h"
+#include "physics/transport/solve/run_triangles.h"
 #include "physics/transport/solve/work_planner.h"
 
 #include <algorithm>
@@ -50,6 +51,7 @@ class Solver {
         monitor_(monitor),
         maker_(model, layout, tracer),
         planner_(model, settings, maker_),
+        triangles_(tracer, settings.seed, [&monitor] { return monitor.interrupted && monitor.interrupted(); }),
         queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
 
   RadiationResult run() {
@@ -101,6 +103,7 @@ class Solver {
       }
       report_pilot();
     }
+    judge_triangles();
     SeriesOutcome pilots = outcome();
     pilots.seconds_each = (seconds() - before) / pilot_replicates;
     if (settings_.max_seconds) pilots.seconds_left = std::max(0.0, *settings_.max_seconds - seconds());
@@ -117,6 +120,7 @@ class Solver {
     begun_with_ = 0;
     begun_s_ = seconds();
     completion_ = {};
+    triangles_.forget();
     Incidence incidence = maker_.incidence(work.rays);
     incidence.packets = work.packets;
     incidence.sky_rays = planner_.sky_rays(work);
@@ -158,17 +162,26 @@ class Solver {
   // The two errors are empty for a pass without any light in the scene.
   [[nodiscard]] std::optional<JudgedError> direct_error(const RunSums& sums) const {
     if (!model_.has_beam()) return std::nullopt;
-    return sunfleck::direct_error(sums, settings_.accuracy);
+    JudgedError error = sunfleck::direct_error(sums, settings_.accuracy);
+    error.raise(triangles_.direct_error());
+    return error;
   }
   [[nodiscard]] std::optional<JudgedError> indirect_error(const RunSums& sums) const {
     if (!has_indirect()) return std::nullopt;
-    return sunfleck::indirect_error(sums, settings_.accuracy);
+    JudgedError error = sunfleck::indirect_error(sums, settings_.accuracy);
+    error.raise(triangles_.indirect_error());
+    return error;
   }
   [[nodiscard]] double direct_error() const { return direct_error(series_->sums).value_or(JudgedError{}).relative; }
   [[nodiscard]] double indirect_error() const { return indirect_error(series_->sums).value_or(JudgedError{}).relative; }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
+  }
+
+  // Between two calls the errors of the triangles stay the same: estimating them takes a while.
+  void judge_triangles() {
+    if (settings_.accuracy.of == ErrorTarget::triangle) triangles_.judge(series_->sums, settings_.accuracy);
   }
 
   void report_pilot() const {
@@ -264,6 +277,7 @@ class Solver {
       if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
       report(expected_replicates());
       if (series_->sums.replicates >= next_check_) {
+        judge_triangles();
         good_checks_ = bounds_hold() ? good_checks_ + 1 : 0;
         if (good_checks_ == 2) return finish(StopReason::bound_reached);
         if (series_->sums.replicates >= most_replicates) return finish(StopReason::replicates_spent);
@@ -307,6 +321,7 @@ class Solver {
     result.work = work_;
     result.next_work = planner_.next(work_, outcome());
     move_arrays(series_->sums, result);
+    triangles_.refine(series_->sums, settings_.accuracy.confidence, result);
     return result;
   }
 
@@ -353,6 +368,7 @@ class Solver {
   double begun_s_ = 0.0;        // time at which this series began
   Completion completion_;
   double direct_s_ = 0.0, indirect_s_ = 0.0;
+  RunTriangles triangles_;
   ReplicateQueue queue_;  // declared last, so that it is destroyed first
 };
 

@@ -1,0 +1,42 @@
+#pragma once
+// The light of the triangles of a run, from sums that keep half of themselves.
+
+#include "physics/transport/model/accuracy.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/solve/judged_error.h"
+#include "physics/transport/solve/run_sums.h"
+#include "physics/transport/triangles/triangle_light.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace sunfleck {
+
+class RunTriangles {
+ public:
+  RunTriangles(Tracer& tracer, std::uint64_t seed, StopQuestion stop) : tracer_(tracer), seed_(seed), stop_(std::move(stop)) {}
+
+  // Estimates the light of the triangles and keeps the errors that are compared with the bounds.
+  void judge(const RunSums& sums, const Accuracy& accuracy);
+  // Forgets these errors, for a series of other replicates.
+  void forget() { direct_ = indirect_ = {}; }
+
+  // Return the errors kept by judge(), 0 if there are none.
+  [[nodiscard]] const JudgedError& direct_error() const { return direct_; }
+  [[nodiscard]] const JudgedError& indirect_error() const { return indirect_; }
+
+  // Gives a result with all figures and arrays the light of its triangles.
+  void refine(const RunSums& sums, double confidence, RadiationResult& result);
+
+ private:
+  [[nodiscard]] TriangleLight estimate(const RunSums& sums, std::span<const BeamLandings> landings,
+                                       std::span<const std::int64_t> indirect, std::span<const std::int64_t> sky);
+
+  Tracer& tracer_;
+  std::uint64_t seed_;
+  StopQuestion stop_;
+  std::optional<TriangleEstimator> estimator_;
+  JudgedError direct_, indirect_;
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,218 @@
+#include "physics/transport/triangles/pooling.h"
+
+#include "physics/transport/triangles/shrinkage.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::size_t scales = 12;
+// A scale with fewer comparisons between the halves uses the noise of all scales together.
+constexpr double least_comparisons = 16.0;
+// A part keeps at least this share of its expected light.
+constexpr double least_share = 1e-3;
+// Weights are at least this part of the largest, so that no sum of weights loses one to rounding.
+constexpr double least_weight = 1e-9;
+// The variance that an average over trees keeps at least of that of a single tree.
+constexpr double least_part_of_variance = 0.25;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+// Where no packet landed, the flux may still be that of 3.69 packets (95 %), which is 1.88 times 1.96.
+constexpr double unseen_deviations = 1.88;
+
+std::size_t scale_of(const TreeCut& cut) {
+  return std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(cut.whole.size())), scales - 1);
+}
+
+std::vector<double> running_sums(const SurfaceTree& tree, std::span<const double> values) {
+  std::vector<double> sums(tree.order.size() + 1);
+  for (std::size_t k = 0; k < tree.order.size(); ++k) sums[k + 1] = sums[k] + values[tree.order[k]];
+  return sums;
+}
+
+std::vector<double> resolvable(std::span<const double> weights) {
+  const double least = weights.empty() ? 0.0 : least_weight * *std::max_element(weights.begin(), weights.end());
+  std::vector<double> resolved(weights.begin(), weights.end());
+  for (double& weight : resolved) weight = std::max(weight, least);
+  return resolved;
+}
+
+// Pools over one tree.
+class TreePooling {
+ public:
+  TreePooling(const SurfaceTree& tree, std::span<const double> weights, std::span<const double> half_a,
+              std::span<const double> half_b)
+      : tree_(tree),
+        weights_(running_sums(tree, weights)),
+        a_(running_sums(tree, half_a)),
+        b_(running_sums(tree, half_b)),
+        splits_(tree.cuts.size()) {}
+
+  // Returns flux and variance by place in the order of the tree.
+  PooledLight run() {
+    compare();
+    learn_noise();
+    shrink();
+    return divide();
+  }
+
+ private:
+  struct Split {
+    double expected = 0.5;  // share of the first part, by weight
+    double total = 0.0;     // flux of both halves
+    double difference = 0.0;
+    double correction = 0.0, variance = 0.0;  // of the first part's share
+    std::size_t scale = 0;
+
+    // Returns the factor that scales differences of shares to a noise that is the same for all splits of one flux.
+    [[nodiscard]] double spread() const { return std::sqrt(expected * (1.0 - expected)); }
+  };
+
+  // Sums over comparisons of the halves: squared differences of the mean, times the flux.
+  struct Noise {
+    double squares = 0.0, count = 0.0;
+    [[nodiscard]] double mean() const { return count > 0.0 ? squares / count : 0.0; }
+  };
+
+  [[nodiscard]] static double in(const std::vector<double>& sums, const TreeRange& range) {
+    return sums[range.end] - sums[range.begin];
+  }
+
+  void compare() {
+    for (std::size_t k = 0; k < splits_.size(); ++k) {
+      const TreeCut& cut = tree_.cuts[k];
+      const TreeRange first{cut.whole.begin, cut.middle};
+      Split& split = splits_[k];
+      split.scale = scale_of(cut);
+      split.expected = in(weights_, first) / in(weights_, cut.whole);
+      const double flux_a = in(a_, cut.whole);
+      const double flux_b = in(b_, cut.whole);
+      split.total = flux_a + flux_b;
+      if (!(split.total > 0.0)) continue;
+      split.difference = ((in(a_, first) + in(b_, first)) / split.total - split.expected) / split.spread();
+      if (!(flux_a > 0.0 && flux_b > 0.0)) continue;
+      const double between = (in(a_, first) / flux_a - in(b_, first) / flux_b) / split.spread();
+      for (Noise* noise : {&noise_[split.scale], &noise_of_all_}) {
+        noise->squares += 0.25 * between * between * split.total;
+        noise->count += 1.0;
+      }
+    }
+  }
+
+  void learn_noise() {
+    for (std::size_t scale = 0; scale < scales; ++scale) {
+      const Noise& noise = noise_[scale];
+      noise_flux_[scale] = noise.count < least_comparisons ? noise_of_all_.mean() : noise.mean();
+    }
+  }
+
+  [[nodiscard]] double noise_of(const Split& split) const {
+    return split.total > 0.0 ? noise_flux_[split.scale] / split.total : infinite;
+  }
+
+  void shrink() {
+    for (std::size_t scale = 0; scale < scales; ++scale) {
+      std::vector<double> differences, noise;
+      for (const Split& split : splits_) {
+        if (split.scale != scale) continue;
+        differences.push_back(split.difference);
+        noise.push_back(noise_of(split));
+      }
+      const Shrinkage shrinkage(differences, noise);
+      for (Split& split : splits_) {
+        if (split.scale != scale) continue;
+        const Posterior posterior = shrinkage.of(split.difference, noise_of(split));
+        split.correction = posterior.mean * split.spread();
+        split.variance = posterior.variance * split.spread() * split.spread();
+      }
+    }
+  }
+
+  // Passes the flux of each surface down to its elements.
+  [[nodiscard]] PooledLight divide() const {
+    const std::size_t places = tree_.order.size();
+    std::vector<double> density(places), relative(places);
+    for (const TreeRange& surface : tree_.surfaces) {
+      const double flux = in(a_, surface) + in(b_, surface);
+      const double spread = flux > 0.0 ? noise_of_all_.mean() / flux : 0.0;
+      for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
+        density[k] = flux / in(weights_, surface);
+        relative[k] = spread;
+      }
+    }
+    // The ranges nest, so multiplying place by place costs as much as the depth of the tree.
+    for (std::size_t k = 0; k < splits_.size(); ++k) {
+      const Split& split = splits_[k];
+      const TreeCut& cut = tree_.cuts[k];
+      const double share = std::clamp(split.expected + split.correction, least_share * split.expected,
+                                      1.0 - least_share * (1.0 - split.expected));
+      for (std::uint32_t place = cut.whole.begin; place < cut.whole.end; ++place) {
+        const bool first = place < cut.middle;
+        const double part = first ? share : 1.0 - share;
+        density[place] *= part / (first ? split.expected : 1.0 - split.expected);
+        relative[place] += split.variance / (part * part);
+      }
+    }
+    return light(density, relative);
+  }
+
+  [[nodiscard]] PooledLight light(const std::vector<double>& density, const std::vector<double>& relative) const {
+    PooledLight pooled{std::vector<double>(density.size()), std::vector<double>(density.size())};
+    for (const TreeRange& surface : tree_.surfaces) {
+      const bool dark = !(in(a_, surface) + in(b_, surface) > 0.0);
+      for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
+        const double weight = weights_[k + 1] - weights_[k];
+        pooled.flux[k] = density[k] * weight;
+        const double unseen = unseen_deviations * noise_of_all_.mean() * weight / in(weights_, surface);
+        pooled.variance[k] = dark ? unseen * unseen : relative[k] * pooled.flux[k] * pooled.flux[k];
+      }
+    }
+    return pooled;
+  }
+
+  const SurfaceTree& tree_;
+  std::vector<double> weights_, a_, b_;  // [place + 1], running sums
+  std::vector<Split> splits_;            // [cut]
+  std::array<Noise, scales> noise_;
+  Noise noise_of_all_;
+  std::array<double, scales> noise_flux_{};  // variance of a split's difference times its flux
+};
+
+}  // namespace
+
+PooledLight pool(std::span<const SurfaceTree> trees, std::span<const double> weights, std::span<const double> half_a,
+                 std::span<const double> half_b) {
+  PooledLight pooled{std::vector<double>(weights.size()), std::vector<double>(weights.size())};
+  const std::vector<double> resolved = resolvable(weights);
+  std::vector<PooledLight> of_tree(trees.size());
+  tbb::parallel_for(std::size_t{0}, trees.size(),
+                    [&](std::size_t t) { of_tree[t] = TreePooling(trees[t], resolved, half_a, half_b).run(); });
+  const double share = 1.0 / static_cast<double>(trees.size());
+  std::vector<double> squares(weights.size());
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    for (std::size_t k = 0; k < trees[t].order.size(); ++k) {
+      const std::uint32_t e = trees[t].order[k];
+      pooled.flux[e] += share * of_tree[t].flux[k];
+      squares[e] += share * of_tree[t].flux[k] * of_tree[t].flux[k];
+      pooled.variance[e] += share * of_tree[t].variance[k];
+    }
+  }
+  // The mean over the trees is better than a single tree by as much as they differ from it (Krogh and Vedelsby 1995, NIPS 7).
+  for (std::size_t e = 0; e < weights.size(); ++e) {
+    const double between = squares[e] - pooled.flux[e] * pooled.flux[e];
+    pooled.variance[e] = std::max(least_part_of_variance * pooled.variance[e], pooled.variance[e] - between);
+  }
+  for (std::size_t e = 0; e < weights.size(); ++e) {
+    if (!(weights[e] > 0.0)) pooled.flux[e] = half_a[e] + half_b[e];
+  }
+  return pooled;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,336 @@
+#include "physics/transport/triangles/triangle_light.h"
+
+#include "physics/light/sun.h"
+#include "physics/transport/triangles/pooling.h"
+#include "physics/transport/triangles/shadow_points.h"
+#include "physics/transport/triangles/surface_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::size_t tree_count = 4;
+// Replicates of a normal distribution, for the quantile of pooled variances.
+constexpr std::size_t many = 1000000;
+// The least variance of the sunlit share of each kind of shade. The beam's landings show the variances themselves, but only
+// as exactly as there are landings. For mixed elements it is a quarter of what an additive sequence of so many points leaves.
+constexpr std::array<double, shade_kinds> least_variance = {0.0, 1e-5, 1e-5, 1e-4, 1e-4, 1e-3, 3e-4};
+
+// Returns whole numbers in proportion to `values` whose sum is `total`; `values` of which none is positive count as equal.
+void apportion(std::span<const double> values, std::int64_t total, std::span<std::int64_t> parts) {
+  double sum = 0.0;
+  for (const double value : values) sum += std::max(0.0, value);
+  const bool equal = !(sum > 0.0);
+  if (equal) sum = static_cast<double>(values.size());
+  double passed = 0.0;
+  std::int64_t given = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    passed += equal ? 1.0 : std::max(0.0, values[k]);
+    const bool last = k + 1 == values.size();
+    const auto until =
+        last ? total : static_cast<std::int64_t>(std::floor(static_cast<double>(total) * std::min(1.0, passed / sum)));
+    parts[k] = until - given;
+    given = until;
+  }
+}
+
+std::vector<double> areas_within_reach_m2(const TriangleScene& scene) {
+  const std::vector<bool> hidden = hidden_elements(scene.model, scene.layout);
+  std::vector<double> areas;
+  areas.reserve(hidden.size());
+  for (std::size_t e = 0; e < hidden.size(); ++e) areas.push_back(hidden[e] ? 0.0 : area_m2(scene.model.canopy.corners[e]));
+  return areas;
+}
+
+class Estimation {
+ public:
+  // `shades` may be null; there are none without a beam.
+  Estimation(const TriangleScene& scene, const TriangleSums& sums, const std::vector<double>& areas_m2,
+             const std::vector<SurfaceTree>& trees, const std::vector<ElementShade>* shades)
+      : scene_(scene), sums_(sums), elements_(scene.model.canopy.size()), areas_m2_(areas_m2), trees_(trees), shades_(shades) {}
+
+  [[nodiscard]] TriangleLight run() {
+    if (scene_.model.has_beam()) estimate_beam();
+    if (!sums_.indirect.empty()) estimate_indirect();
+    return std::move(light_);
+  }
+
+ private:
+  // Replaces the sums over each surface by the same sums, divided in proportion to `values`. `at` is the index of an element.
+  template <class At>
+  void divide(const std::vector<double>& values, std::int64_t unit, std::span<const std::int64_t> landed, const At& at,
+              std::vector<std::int64_t>& result) const {
+    for (const TreeRange& surface : trees_.front().surfaces) {
+      std::vector<double> of_surface;
+      std::int64_t total = 0;
+      for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
+        const std::uint32_t e = trees_.front().order[k];
+        of_surface.push_back(values[e]);
+        total += landed[at(e)] * unit;
+      }
+      std::vector<std::int64_t> parts(of_surface.size());
+      apportion(of_surface, total, parts);
+      for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
+        result[at(trees_.front().order[k])] = parts[k - surface.begin];
+      }
+    }
+  }
+
+  void estimate_indirect() {
+    const std::size_t bands = scene_.model.bands.size();
+    light_.side_indirect.assign(sums_.indirect.begin(), sums_.indirect.end());
+    light_.side_sky.assign(sums_.sky.begin(), sums_.sky.end());
+    light_.indirect_variance.resize(sums_.indirect.size());
+    std::vector<std::int64_t> scattered(sums_.indirect.begin(), sums_.indirect.end());
+    std::vector<std::int64_t> half_scattered(sums_.half_indirect.begin(), sums_.half_indirect.end());
+    for (std::size_t k = 0; k < sums_.sky.size(); ++k) {
+      scattered[k] -= sums_.sky[k];
+      half_scattered[k] -= sums_.half_sky[k];
+    }
+    for (std::size_t part = 0; part < 2 * bands; ++part) {
+      const auto at = [&](std::size_t e) { return (2 * e + part / bands) * bands + part % bands; };
+      pool_part(scattered, half_scattered, at, light_.side_indirect);
+      if (sums_.sky.empty()) continue;
+      pool_part(sums_.sky, sums_.half_sky, at, light_.side_sky);
+      for (std::size_t e = 0; e < elements_; ++e) light_.side_indirect[at(e)] += light_.side_sky[at(e)];
+    }
+  }
+
+  template <class At>
+  void pool_part(std::span<const std::int64_t> all, std::span<const std::int64_t> half, const At& at,
+                 std::vector<std::int64_t>& result) {
+    std::vector<double> a(elements_), b(elements_);
+    for (std::size_t e = 0; e < elements_; ++e) {
+      a[e] = static_cast<double>(half[at(e)]);
+      b[e] = static_cast<double>(all[at(e)] - half[at(e)]);
+    }
+    const PooledLight pooled = pool(trees_, areas_m2_, a, b);
+    for (std::size_t e = 0; e < elements_; ++e) {
+      result[at(e)] = all[at(e)];
+      light_.indirect_variance[at(e)] += pooled.variance[e];
+    }
+    divide(pooled.flux, 1, all, at, result);
+  }
+
+  // Returns the number of landings expected on an element in full sun, in that many replicates.
+  [[nodiscard]] double landings_in_sun(std::size_t e, std::size_t replicates) const {
+    const double lit_m2 = scene_.exposure.lit_m2_per_landing(e);
+    return lit_m2 > 0.0 ? areas_m2_[e] / lit_m2 * static_cast<double>(replicates) : 0.0;
+  }
+
+  void estimate_beam() {
+    light_.direct_variance.resize(elements_);
+    const std::vector<double> landings = shades_ != nullptr ? join(*shades_) : pooled_landings();
+    std::vector<std::int64_t> landed(2 * elements_);
+    for (std::size_t e = 0; e < elements_; ++e) {
+      landed[2 * e] = static_cast<std::int64_t>(sums_.landings[e].upper);
+      landed[2 * e + 1] = static_cast<std::int64_t>(sums_.landings[e].lower);
+    }
+    light_.side_direct.resize(landed.size());
+    for (std::size_t k = 0; k < landed.size(); ++k) light_.side_direct[k] = landed[k] * RadiationResult::parts_per_landing;
+    const glm::dvec3 to_sun = direction_to_sun(*scene_.model.sun);
+    for (std::size_t side = 0; side < 2; ++side) {
+      std::vector<double> on_side(elements_);
+      for (std::size_t e = 0; e < elements_; ++e) {
+        const bool upper = glm::dot(unit_normal(scene_.model.canopy.corners[e]), to_sun) > 0.0;
+        if (upper == (side == 0)) on_side[e] = landings[e];
+      }
+      divide(
+          on_side, RadiationResult::parts_per_landing, landed, [side](std::size_t e) { return 2 * e + side; },
+          light_.side_direct);
+    }
+  }
+
+  [[nodiscard]] std::vector<double> pooled_landings() {
+    std::vector<double> weights(elements_), a(elements_), b(elements_);
+    for (std::size_t e = 0; e < elements_; ++e) {
+      weights[e] = landings_in_sun(e, 1);
+      a[e] = static_cast<double>(sums_.half_landings[e].both());
+      b[e] = static_cast<double>(sums_.landings[e].both()) - a[e];
+    }
+    PooledLight pooled = pool(trees_, weights, a, b);
+    light_.direct_variance = std::move(pooled.variance);
+    return std::move(pooled.flux);
+  }
+
+  // Variance of shares from points, by kind of shade.
+  using PointVariance = std::array<double, shade_kinds>;
+
+  // Returns the variance of an element's share from landings, times the landings expected in full sun, relative to the share:
+  // 1 for rays without any order, less for a grid.
+  [[nodiscard]] double landing_spread(const std::vector<ElementShade>& shades) const {
+    double squares = 0.0, expected = 0.0;
+    const std::size_t others = sums_.replicates - sums_.half_replicates;
+    for (std::size_t e = 0; e < elements_; ++e) {
+      if (shades[e].kind == ShadeKind::unasked || !(shades[e].share > 0.0F)) continue;
+      const auto in_half = static_cast<double>(sums_.half_landings[e].both());
+      const double in_others = static_cast<double>(sums_.landings[e].both()) - in_half;
+      const double half = landings_in_sun(e, sums_.half_replicates);
+      const double other = landings_in_sun(e, others);
+      const double difference = in_half / half - in_others / other;
+      // Weighted by the landings, so that elements with few of them do not rule.
+      squares += difference * difference / (1.0 / half + 1.0 / other);
+      expected += shades[e].share;
+    }
+    return expected > 0.0 ? squares / expected : 1.0;
+  }
+
+  [[nodiscard]] double seen_share(std::size_t e) const {
+    return static_cast<double>(sums_.landings[e].both()) / landings_in_sun(e, sums_.replicates);
+  }
+
+  [[nodiscard]] PointVariance point_variance(const std::vector<ElementShade>& shades, double spread) const {
+    PointVariance squares{}, weights{};
+    for (std::size_t e = 0; e < elements_; ++e) {
+      const auto kind = static_cast<std::size_t>(shades[e].kind);
+      if (shades[e].kind == ShadeKind::unasked) continue;
+      const double weight = landings_in_sun(e, sums_.replicates);
+      const double difference = shades[e].share - seen_share(e);
+      squares[kind] += weight * (difference * difference - spread * shades[e].share / weight);
+      weights[kind] += weight;
+    }
+    for (std::size_t k = 0; k < shade_kinds; ++k) {
+      squares[k] = std::max(least_variance[k], weights[k] > 0.0 ? squares[k] / weights[k] : 0.0);
+    }
+    return squares;
+  }
+
+  // Returns the landings expected on each element, and sets their variance.
+  [[nodiscard]] std::vector<double> join(const std::vector<ElementShade>& shades) {
+    const double spread = landing_spread(shades);
+    const PointVariance of_points = point_variance(shades, spread);
+    std::vector<double> landings(elements_);
+    for (std::size_t e = 0; e < elements_; ++e) {
+      const ElementShade& shade = shades[e];
+      if (shade.kind == ShadeKind::unasked) continue;
+      const double in_sun = landings_in_sun(e, sums_.replicates);
+      const double of_point = of_points[static_cast<std::size_t>(shade.kind)];
+      const double seen_at_least = 0.5 / (shade.points + 1.0);
+      const double of_landings = spread * std::max<double>(shade.share, seen_at_least) / in_sun;
+      const double weight = of_landings / (of_landings + of_point);
+      landings[e] = in_sun * (weight * shade.share + (1.0 - weight) * seen_share(e));
+      light_.direct_variance[e] = in_sun * in_sun * weight * of_point;
+    }
+    return landings;
+  }
+
+  const TriangleScene& scene_;
+  const TriangleSums& sums_;
+  std::size_t elements_;
+  const std::vector<double>& areas_m2_;
+  const std::vector<SurfaceTree>& trees_;
+  const std::vector<ElementShade>* shades_;
+  TriangleLight light_;
+};
+
+}  // namespace
+
+TriangleEstimator::TriangleEstimator(const TriangleScene& scene, Tracer& tracer, std::uint64_t seed)
+    : model_(scene.model),
+      layout_(scene.layout),
+      surfaces_(scene.surfaces),
+      tracer_(tracer),
+      seed_(seed),
+      areas_m2_(areas_within_reach_m2(scene)) {
+  for (std::size_t t = 0; t < tree_count; ++t) {
+    trees_.push_back(make_surface_tree(model_.canopy, surfaces_.number_of, areas_m2_, t));
+  }
+}
+
+TriangleLight TriangleEstimator::estimate(const BeamExposure& exposure, const TriangleSums& sums, const StopQuestion& stop) {
+  if (!shades_ && model_.has_beam()) {
+    shades_ = ask_shadow_points(model_, layout_, exposure, trees_.front(), tracer_, seed_, stop);
+  }
+  return Estimation({model_, layout_, surfaces_, exposure}, sums, areas_m2_, trees_, shades_ ? &*shades_ : nullptr).run();
+}
+
+TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence) {
+  const double quantile = t_quantile(confidence, many);
+  const RadiationModel& model = scene.model;
+  const std::size_t bands = light.side_indirect.size() / std::max<std::size_t>(1, 2 * model.canopy.size());
+  TriangleErrors errors;
+  errors.indirect.resize(bands);
+  // `places` and `variances` return the indices of an element's values.
+  const auto typical = [&](std::span<const std::int64_t> flux, std::span<const double> variance, double unit,
+                           const auto& places, const auto& variances) {
+    double squares = 0.0, sum = 0.0, area = 0.0;
+    for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+      const double element_m2 = area_m2(model.canopy.corners[e]);
+      if (!is_vegetation(scene.surfaces.at(e).role) || !(element_m2 > 0.0)) continue;
+      for (const std::size_t place : places(e)) sum += static_cast<double>(flux[place]) / unit;
+      for (const std::size_t place : variances(e)) squares += variance[place] / element_m2;
+      area += element_m2;
+    }
+    return sum > 0.0 ? quantile * std::sqrt(squares * area) / sum : 0.0;
+  };
+  if (!light.side_direct.empty()) {
+    errors.direct = typical(
+        light.side_direct, light.direct_variance, RadiationResult::parts_per_landing,
+        [](std::size_t e) {
+          return std::array{2 * e, 2 * e + 1};
+        },
+        [](std::size_t e) { return std::array{e}; });
+  }
+  for (std::size_t b = 0; b < bands; ++b) {
+    const auto sides = [&](std::size_t e) { return std::array{2 * e * bands + b, (2 * e + 1) * bands + b}; };
+    errors.indirect[b] = typical(light.side_indirect, light.indirect_variance, 1.0, sides, sides);
+  }
+  return errors;
+}
+
+void set_triangle_light(const TriangleScene& scene, TriangleLight light, double confidence, RadiationResult& result) {
+  const RadiationModel& model = scene.model;
+  const std::size_t elements = model.canopy.size();
+  const std::size_t bands = model.bands.size();
+  const double quantile = t_quantile(confidence, many);
+  result.side_direct = std::move(light.side_direct);
+  if (!light.side_indirect.empty()) result.side_indirect = std::move(light.side_indirect);
+  if (!light.side_sky.empty()) result.side_sky = std::move(light.side_sky);
+  result.element_error.assign(elements * bands, 0.0);
+  result.side_error.assign(2 * elements * bands, 0.0);
+  result.triangle_relative_error.clear();
+  const glm::dvec3 to_sun = model.has_beam() ? direction_to_sun(*model.sun) : glm::dvec3(0.0, 1.0, 0.0);
+  for (std::size_t b = 0; b < bands; ++b) {
+    const double unshot = result.bands[b].ledger.unshot_share();
+    double squares = 0.0, flux = 0.0, area = 0.0;
+    for (std::size_t e = 0; e < elements; ++e) {
+      const double element_m2 = area_m2(model.canopy.corners[e]);
+      if (!(element_m2 > 0.0)) continue;
+      const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
+      const bool upper = glm::dot(unit_normal(model.canopy.corners[e]), to_sun) > 0.0;
+      double absorbed = 0.0, variance = 0.0;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t place = (2 * e + side) * bands + b;
+        double incident = result.side_indirect_w_m2(2 * e + side, element_m2, b);
+        double of_side = 0.0;
+        if (!light.indirect_variance.empty()) {
+          const double per_quantum = result.w_per_quantum[b] / element_m2;
+          of_side = light.indirect_variance[place] * per_quantum * per_quantum;
+        }
+        if (!result.side_direct.empty()) {
+          const double per_landing = result.irradiance_w_m2(1, element_m2, model.bands[b].direct_w_m2);
+          incident += result.side_direct_w_m2(2 * e + side, element_m2, model.bands[b].direct_w_m2);
+          if (upper == (side == 0)) of_side += light.direct_variance[e] * per_landing * per_landing;
+        }
+        const double absorptance = (side == 0 ? optics.upper : optics.lower)[b].absorptance();
+        absorbed += incident * absorptance;
+        variance += of_side * absorptance * absorptance;
+        result.side_error[place] = quantile * std::sqrt(of_side) + incident * unshot;
+      }
+      const double error = quantile * std::sqrt(variance) + absorbed * unshot;
+      result.element_error[b * elements + e] = error;
+      if (!is_vegetation(scene.surfaces.at(e).role)) continue;
+      squares += error * error * element_m2;
+      flux += absorbed * element_m2;
+      area += element_m2;
+    }
+    result.triangle_relative_error.push_back(flux > 0.0 ? std::sqrt(squares * area) / flux : 0.0);
+  }
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,81 @@
+#pragma once
+// The light of single elements and sides, as exact as a run and the elements' neighbourhoods allow, with honest errors.
+
+#include "physics/transport/model/counters.h"
+#include "physics/transport/model/exposure.h"
+#include "physics/transport/model/model.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/model/surfaces.h"
+#include "physics/transport/model/tracer.h"
+#include "physics/transport/triangles/shadow_points.h"
+#include "physics/transport/triangles/surface_tree.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// What landed on elements in all replicates of a run, and in every other one of them.
+struct TriangleSums {
+  std::size_t replicates = 0, half_replicates = 0;
+  std::span<const BeamLandings> landings, half_landings;  // [element]
+  std::span<const std::int64_t> indirect, half_indirect;  // [(2 * element + side) * bands + band]; empty without any
+  std::span<const std::int64_t> sky, half_sky;            // the part of it that comes unscattered from the sky
+};
+
+struct TriangleLight {
+  std::vector<std::int64_t> side_direct;              // [2 * element + side], in parts of a landing as in RadiationResult
+  std::vector<double> direct_variance;                // [element], in landings squared
+  std::vector<std::int64_t> side_indirect, side_sky;  // quanta, as in RadiationResult
+  std::vector<double> indirect_variance;              // as side_indirect, in quanta squared
+};
+
+// What the light of elements is estimated from.
+struct TriangleScene {
+  const RadiationModel& model;
+  const CounterLayout& layout;
+  const Surfaces& surfaces;
+  const BeamExposure& exposure;
+};
+
+// Typical relative errors of the light of the vegetation's elements: the root mean square of their half-widths, weighted by area,
+// relative to their mean.
+struct TriangleErrors {
+  double direct = 0.0;           // of the beam's first landings; 0 without a beam
+  std::vector<double> indirect;  // [band], of all other light on both sides together
+};
+
+class TriangleEstimator {
+ public:
+  // All arguments must outlive the estimator, which keeps what the points showed: `exposure` of later scenes may differ only in
+  // the number of rays.
+  TriangleEstimator(const TriangleScene& scene, Tracer& tracer, std::uint64_t seed);
+
+  // Estimates the light of each element and side. Scattered light and sky light are pooled over neighbours (pooling.h). Of the
+  // beam, points of the element are asked whether they see the sun (shadow_points.h), and their share is joined with the
+  // beam's landings by the variances of both, which the scatter of the one around the other shows; if `stop` ends that, the
+  // landings are pooled too. The sums over each side of a surface stay what landed there, to the last quantum.
+  [[nodiscard]] TriangleLight estimate(const BeamExposure& exposure, const TriangleSums& sums, const StopQuestion& stop);
+
+ private:
+  const RadiationModel& model_;
+  const CounterLayout& layout_;
+  const Surfaces& surfaces_;
+  Tracer& tracer_;
+  std::uint64_t seed_;
+  std::vector<double> areas_m2_;  // [element]; 0 where no light comes
+  std::vector<SurfaceTree> trees_;
+  std::optional<std::vector<ElementShade>> shades_;
+};
+
+// Returns the typical errors of that light, without unshot flux.
+[[nodiscard]] TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence);
+
+// Gives the result the light of its triangles with their errors: `side_direct`, `side_indirect`, `side_sky`, `element_error`,
+// `side_error` and `triangle_relative_error`. The result needs everything but these. An error includes unshot flux in
+// proportion.
+void set_triangle_light(const TriangleScene& scene, TriangleLight light, double confidence, RadiationResult& result);
+
+}  // namespace sunfleck
