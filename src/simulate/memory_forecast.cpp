@@ -46,7 +46,7 @@ struct SumBytes {
 // Of the trees of surfaces and of pooling over all of them at the same time.
 constexpr double bytes_refining_element = 400.0;
 
-SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, const SolveSettings& settings,
+SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, ElementErrors element_errors,
                    const RunForecast& run) {
   const auto elements = static_cast<double>(model.canopy.size());
   const auto bands = static_cast<double>(model.bands.size());
@@ -63,10 +63,10 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, con
   const double of_pilot = PlaceSums::likely_bytes(pilot_replicates * run.side_bytes, sides);
   double spreads = 0.0;
   SumBytes bytes;
-  if (settings.element_errors == ElementErrors::refine) {
+  if (element_errors == ElementErrors::refine) {
     bytes.refining = elements * bytes_refining_element + 3.0 * sides;
     spreads = 2.0 * (landings + of_run);
-  } else if (settings.element_errors != ElementErrors::skip)
+  } else if (element_errors != ElementErrors::skip)
     spreads = 2.0 * elements * (16.0 + 32.0 * bands);
   bytes.tracing = numbering + 2.0 * (exposure + landings + cells) + of_run + of_pilot + spreads;
   bytes.ending = numbering + exposure + landings + cells + sides + spreads + bytes.refining;
@@ -84,7 +84,8 @@ double picture_bytes(const RadiationModel& model, const CounterLayout& layout) {
 
 }  // namespace
 
-std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const SolveSettings& settings, const Monitor& monitor) {
+std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const SolveSettings& settings,
+                                              ElementErrors without_pictures, const Monitor& monitor) {
   // Bytes of one tree reference while the tree is built, in addition to its place in the finished tree.
   constexpr double building = 40.0 + sizeof(Reference);
   // Bytes of one element packed for the store in the result folder, including its copy in the file's text.
@@ -97,14 +98,17 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   if (!run) return std::nullopt;
   const auto elements = static_cast<double>(model.canopy.size());
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
-  const SumBytes sums = sum_bytes(model, tree.layout, settings, *run);
   const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
   const double throughout = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
-  const double computing = std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
-                                     sums.tracing + in_the_making * run->replicate_bytes, sums.ending, elements * stored});
-  const double drawing = sums.result + picture_bytes(model, tree.layout);
-  return MemoryForecast{static_cast<std::uint64_t>(throughout + std::max(computing, drawing)),
-                        static_cast<std::uint64_t>(throughout + computing), *run};
+  const auto computing = [&](const SumBytes& sums) {
+    return std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
+                     sums.tracing + in_the_making * run->replicate_bytes, sums.ending, elements * stored});
+  };
+  const SumBytes drawn = sum_bytes(model, tree.layout, settings.element_errors, *run);
+  const SumBytes plain = sum_bytes(model, tree.layout, without_pictures, *run);
+  const double drawing = drawn.result + picture_bytes(model, tree.layout);
+  return MemoryForecast{static_cast<std::uint64_t>(throughout + std::max(computing(drawn), drawing)),
+                        static_cast<std::uint64_t>(throughout + computing(plain)), *run};
 }
 
 }  // namespace sunfleck

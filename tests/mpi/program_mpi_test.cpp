@@ -126,7 +126,7 @@ class Mpi : public regression::PreloadTest {
 
 TEST_F(Mpi, GivesTheTablesOfThePlainProgram) {
   const Files expected = plain(small_);
-  EXPECT_EQ(expected.size(), 7U);  // organs, plants, profile, sensors, triangles, the map and its sunflecks
+  EXPECT_EQ(expected.size(), 8U);  // organs, plants, profile, sensors, their means, triangles, the map and its sunflecks
   for (const int ranks : {1, 2, 3}) {
     const std::string out = "by" + std::to_string(ranks);
     const Outcome outcome = run(by(ranks, into(out, small_)));

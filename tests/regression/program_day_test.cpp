@@ -129,7 +129,18 @@ TEST_F(Day, TablesAreAsTheManualSays) {
   for (const char* band : bands) {
     for (const char* term : terms) header += ',' + column(band, term) + ',' + column(band, term) + "_error";
   }
-  EXPECT_EQ(day.header(), header + ",sunlit_leaf_fraction,sunlit_leaf_fraction_error");
+  header +=
+      ",sunlit_leaf_fraction,sunlit_leaf_fraction_error,sunlit_leaf_area_index,sunlit_leaf_area_index_error,"
+      "shaded_leaf_area_index,shaded_leaf_area_index_error";
+  for (const char* band : bands) {
+    for (const char* part : {"_sunlit", "_shaded"}) {
+      for (const char* unit : {"", "_umol_m2_s"}) {
+        if (*unit != '\0' && std::string(band) != "PAR") continue;
+        header += ',' + column(band, "absorbed") + part + unit + ',' + column(band, "absorbed") + part + unit + "_error";
+      }
+    }
+  }
+  EXPECT_EQ(day.header(), header);
   ASSERT_EQ(day.size(), 6U);
   EXPECT_EQ(day.cell(0, "time"), "2002-08-08T15:00:00+08:00");
   EXPECT_EQ(day.number(0, "step_s"), 3600.0);
@@ -145,7 +156,11 @@ TEST_F(Day, TablesAreAsTheManualSays) {
   }
   for (std::size_t row = 4; row < 6; ++row) {  // sunset is at 19:17
     EXPECT_LT(day.number(row, "elevation_deg"), 0.0);
-    for (std::size_t c = 4; c < day.columns().size(); ++c) EXPECT_EQ(day.cell(row, day.columns()[c]), "0");
+    for (std::size_t c = 4; c < day.columns().size(); ++c) {
+      if (day.columns()[c] == "shaded_leaf_area_index") continue;
+      EXPECT_EQ(day.cell(row, day.columns()[c]), "0");
+    }
+    EXPECT_GT(day.number(row, "shaded_leaf_area_index"), 0.0);
   }
   const Table organs(file("organs_day.csv"));
   EXPECT_EQ(

@@ -54,6 +54,19 @@ class Scenes : public ProgramTest, public ::testing::WithParamInterface<std::str
       for (const std::string& column : of_band) common += "," + band + column;
     return common;
   }
+  // Returns the columns of the sunlit and the shaded class, whose areas end in `area`.
+  [[nodiscard]] std::string class_columns(const std::string& area) const {
+    std::string columns;
+    const auto add = [&](const std::string& name) { columns += "," + name + "," + name + "_error"; };
+    for (const char* part : {"sunlit_", "shaded_"}) add(part + area);
+    for (const json& band : summary_["bands"]) {
+      for (const char* part : {"_absorbed_sunlit", "_absorbed_shaded"}) {
+        add(band["name"].get<std::string>() + part);
+        if (band.contains("umol_m2_s")) add(band["name"].get<std::string>() + part + "_umol_m2_s");
+      }
+    }
+    return columns;
+  }
   [[nodiscard]] int layers() const {
     std::smatch found;
     return std::regex_search(text_, found, std::regex("layers *= *([0-9]+)")) ? std::stoi(found[1]) : 20;
@@ -121,7 +134,8 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
       profile.header(),
       header("height_m,leaf_area_index,sunfleck_ratio,sunfleck_ratio_error,sunlit_leaf_fraction,sunlit_leaf_fraction_error",
              {"_down", "_down_error", "_up", "_up_error", "_absorbed", "_absorbed_error", "_absorbed_structure",
-              "_absorbed_structure_error"}));
+              "_absorbed_structure_error"}) +
+          class_columns("leaf_area_index"));
   EXPECT_EQ(profile.size(), static_cast<std::size_t>(layers()) + 1);
   const Table organs(file("organs.csv"));
   std::string organ_columns = "plant,organ,rank,area_m2,sunlit_fraction,sunlit_fraction_error";
@@ -132,7 +146,7 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
       if (has_figure) organ_columns += "," + name + figure + "," + name + figure + "_error";
     }
   }
-  EXPECT_EQ(organs.header(), organ_columns + ",role");
+  EXPECT_EQ(organs.header(), organ_columns + class_columns("area_m2") + ",role");
   EXPECT_EQ(organs.size(), summary_["organs"]);
   const Table triangles(file("triangles.csv"));
   std::vector<std::string> of_band{"_direct_upper", "_direct_lower"};

@@ -87,9 +87,12 @@ ordered_json copies_json(const Canopy& canopy) {
 // Adds the memory that a run with these options needs, and what it is needed for.
 void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
   const SolveSettings settings = solve_settings(options, scene, options.threads);
+  RunOptions undrawn = options;
+  undrawn.triangle_light = !options.exports.empty();
+  const ElementErrors without_pictures = solve_settings(undrawn, scene, options.threads).element_errors;
   Simulation simulation(std::move(scene), options);
   ProgressLine line("forecasting the memory of a run");
-  const auto memory = forecast_memory(simulation, settings, terminal_monitor(line));
+  const auto memory = forecast_memory(simulation, settings, without_pictures, terminal_monitor(line));
   if (!memory) throw_failure("info", "interrupted", "start it again");
   info["memory_bytes"] = memory->bytes;
   info["memory_without_pictures_bytes"] = memory->bytes_without_pictures;

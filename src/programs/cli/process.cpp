@@ -15,6 +15,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace sunfleck {
@@ -72,6 +73,12 @@ int report_exception() {
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return error.code().value() == EPIPE ? 0 : output_lost(error.code().value());
     return fail_with(error.what(), " (refused by the system); free memory or threads, or give fewer --threads");
+  } catch (const std::runtime_error& error) {
+    // oneTBB reports a thread that the system refuses in this form.
+    if (std::string_view(error.what()).starts_with("pthread_create")) {
+      return fail_with(error.what(), " (refused by the system); free memory or threads, or give fewer --threads");
+    }
+    return fail_with(error.what(), "; this is a bug in the program, please report it");
   } catch (const std::exception& error) {
     return fail_with(error.what(), "; this is a bug in the program, please report it");
   }

@@ -131,8 +131,12 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
   try {
     if (content->at("settings") != settings_ || content->at("step") != step) return std::nullopt;
     StoredStep stored;
-    stored.light = {
-        std::vector<StepBand>(bands_), std::vector<Estimate>(organs_ * bands_), {}, std::vector<Estimate>(plants_ * bands_)};
+    StepLight& light = stored.light;
+    light.bands.resize(bands_);
+    light.organ_absorbed.resize(organs_ * bands_);
+    light.plant_absorbed_w.resize(plants_ * bands_);
+    light.leaf_classes.absorbed_sunlit.resize(bands_);
+    light.leaf_classes.absorbed_shaded.resize(bands_);
     visit(StoreReader(*content), stored, field_values_);
     return stored;
   } catch (const json::exception&) {

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "physics/transport/model/plant_areas.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
 
@@ -104,13 +105,17 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
     light.plant_absorbed_w.insert(light.plant_absorbed_w.end(), plant.absorbed_w.begin(), plant.absorbed_w.end());
   }
   light.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
+  light.leaf_classes = result.leaf_classes;
   return light;
 }
 
 StepLight night_light(const RadiationModel& model) {
   const std::size_t bands = model.bands.size();
+  const std::vector<Estimate> dark(bands, zero);
   return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
-          std::vector<Estimate>(model.canopy.organs.size() * bands, zero), zero,
+          std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
+          zero,
+          {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark},
           std::vector<Estimate>(count_plants(model) * bands, zero)};
 }
 

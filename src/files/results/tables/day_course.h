@@ -49,11 +49,13 @@ struct StepLight {
   std::vector<StepBand> bands;           // [band]
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], W m-2 of the organ's one-sided area
   Estimate sunlit_leaf_fraction;
+  ShadeClassResult leaf_classes;
   std::vector<Estimate> plant_absorbed_w;  // [plant * bands + band], plants as in PlantAreas
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction, self.plant_absorbed_w);
+    archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction, self.plant_absorbed_w, self.leaf_classes.sunlit_m2,
+            self.leaf_classes.shaded_m2, self.leaf_classes.absorbed_sunlit, self.leaf_classes.absorbed_shaded);
   }
 };
 

@@ -79,6 +79,8 @@ Table steps_table(const RadiationModel& model, const DayCourse& course, std::spa
   }
   table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in direct sun"},
             [&](std::size_t i) { return as_share(lights[i].sunlit_leaf_fraction); });
+  add_classes(table, model, "of the leaves", model.plot.area_m2(), in_csv | in_arrays,
+              [&](std::size_t i) { return &lights[i].leaf_classes; });
   return table;
 }
 

@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <optional>
+
 namespace sunfleck {
 namespace {
 
@@ -74,6 +77,41 @@ Table table_of_sensors(const RadiationModel& model, const RadiationResult& resul
 
 }  // namespace
 
+void add_classes(Table& table, const RadiationModel& model, const char* of, std::optional<double> ground_m2, unsigned outputs,
+                 const std::function<const ShadeClassResult*(std::size_t)>& classes_of) {
+  const auto get = [&](std::size_t i, const auto& value) {
+    const ShadeClassResult* classes = classes_of(i);
+    return classes != nullptr && !classes->absorbed_sunlit.empty() ? value(*classes) : Estimate{no_value, no_value};
+  };
+  const auto add_area = [&](const char* name, Estimate ShadeClassResult::*area) {
+    table.add({fmt::format("{}_{}", name, ground_m2 ? "leaf_area_index" : "area_m2"), ground_m2 ? "1" : "m2",
+               fmt::format("one-sided area {} that is {}{}", of, name, ground_m2 ? ", per ground area" : ""), outputs},
+              [&](std::size_t i) {
+                return get(i, [&](const auto& classes) { return (classes.*area).scaled(1.0 / ground_m2.value_or(1.0)); });
+              });
+  };
+  add_area("sunlit", &ShadeClassResult::sunlit_m2);
+  add_area("shaded", &ShadeClassResult::shaded_m2);
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    const auto add = [&](const char* name, std::vector<Estimate> ShadeClassResult::*absorbed) {
+      const auto value = [&, b](std::size_t i, double factor) {
+        return get(i, [&](const auto& classes) { return (classes.*absorbed).at(b).scaled(factor); });
+      };
+      table.add({fmt::format("{}_absorbed_{}", band, name), "W m-2",
+                 fmt::format("flux absorbed by both faces per {} area {}", name, of), outputs},
+                [&](std::size_t i) { return value(i, 1.0); });
+      if (!(umol_per_joule > 0.0)) return;
+      table.add({fmt::format("{}_absorbed_{}_umol_m2_s", band, name), "umol m-2 s-1",
+                 fmt::format("photons absorbed by both faces per {} area {}", name, of), outputs},
+                [&](std::size_t i) { return value(i, umol_per_joule); });
+    };
+    add("sunlit", &ShadeClassResult::absorbed_sunlit);
+    add("shaded", &ShadeClassResult::absorbed_shaded);
+  }
+}
+
 void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t axis) {
   const std::vector<std::size_t> along{axis};
   const auto add = [&](const char* name, const char* unit, const char* meaning, const auto part) {
@@ -117,6 +155,7 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
     table.add({band + "_absorbed_umol_m2_s", "umol m-2 s-1", "photons absorbed by both faces per one-sided area"},
               [&](std::size_t o) { return light[o].absorbed[b].scaled(umol_per_joule); });
   }
+  add_classes(table, model, "of the organ", std::nullopt, in_csv | in_arrays, [&](std::size_t o) { return &light[o].classes; });
   add_organ_roles(table, model, 0);
   return table;
 }
@@ -182,6 +221,8 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
     table.add({band + "_absorbed_structure", "W m-2", "flux absorbed by structures and lamps in the layer per ground area"},
               [&](std::size_t i) { return is_top_plane(i) ? Estimate{no_value} : layers[i].absorbed_structure[b]; });
   }
+  add_classes(table, model, "of the leaves in the layer", model.plot.area_m2(), in_csv | in_arrays | in_netcdf,
+              [&](std::size_t i) { return is_top_plane(i) ? nullptr : &layers[i].leaf_classes; });
   return table;
 }
 

@@ -6,6 +6,8 @@
 #include "physics/transport/model/result.h"
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <vector>
 
 namespace sunfleck {
@@ -15,6 +17,13 @@ void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t
 
 // Adds the column `role` of organs, which lie along that axis of the table.
 void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis);
+
+// Adds the areas of the sunlit and the shaded class and what each absorbs per area of its own, in all bands. `of` says in the
+// meanings whose area it is. Areas are in m2 or, with a ground area, leaf area
+// indices. Rows for which `classes_of`
+// returns null, or classes without bands, have no values.
+void add_classes(Table& table, const RadiationModel& model, const char* of, std::optional<double> ground_m2, unsigned outputs,
+                 const std::function<const ShadeClassResult*(std::size_t)>& classes_of);
 
 // organs.csv: one row per organ of the canopy, in its order, including soil elements of a mesh (organ soil; plant 0 in a .can).
 // The ground of [soil] is not an organ and has no row; absorbed_soil in the summary covers both.

@@ -72,6 +72,22 @@ ordered_json bands_json(const RadiationModel& model, const RadiationResult& resu
   return bands;
 }
 
+ordered_json estimate_json(const Estimate& estimate) {
+  return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.half_width)}};
+}
+
+// Returns the sunlit and the shaded leaf area and what each absorbs by band, W m-2 of its own area.
+ordered_json leaf_classes_json(const RadiationModel& model, const RadiationResult& result) {
+  const ShadeClassResult& classes = result.leaf_classes;
+  const auto of_class = [&](const Estimate& leaf_m2, const std::vector<Estimate>& absorbed) {
+    ordered_json bands = ordered_json::object();
+    for (std::size_t b = 0; b < absorbed.size(); ++b) bands[model.bands[b].name] = estimate_json(absorbed[b]);
+    return ordered_json{{"leaf_area_m2", estimate_json(leaf_m2)}, {"absorbed", bands}};
+  };
+  return {{"sunlit", of_class(classes.sunlit_m2, classes.absorbed_sunlit)},
+          {"shaded", of_class(classes.shaded_m2, classes.absorbed_shaded)}};
+}
+
 ordered_json sun_json(const RadiationModel& model) {
   if (!model.sun) return nullptr;
   return {{"elevation_deg", in_degrees(model.sun->elevation_rad)}, {"azimuth_deg", in_degrees(model.sun->azimuth_rad)}};
@@ -175,6 +191,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"bands", bands_json(model, result)},
       {"sunlit_leaf_fraction", number_or_null(as_share(result.sunlit_leaf_fraction).value)},
       {"sunlit_leaf_fraction_error", number_or_null(result.sunlit_leaf_fraction.half_width)},
+      {"leaf_classes", leaf_classes_json(model, result)},
       {"ground_sunfleck_ratio", number_or_null(result.ground_sunfleck_ratio.value)},
       {"ground_sunfleck_ratio_error", number_or_null(result.ground_sunfleck_ratio.half_width)},
       {"triangle_relative_error", triangle_error_json(model, result)},

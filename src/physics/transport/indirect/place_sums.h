@@ -2,6 +2,7 @@
 // Integer sums for very many places, of which only a few may be reached: in a stand of ten million triangles most sides meet none
 // of a replicate's packets.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,6 +38,18 @@ class PlaceSums {
   // Return all sums, [place * width + k]; `take_all` leaves no place behind.
   [[nodiscard]] std::vector<std::int64_t> all() const;
   [[nodiscard]] std::vector<std::int64_t> take_all();
+
+  // Calls take(place, values), whose values add up to the sums: once or several times for a place, in any order, and perhaps not
+  // at all for one whose sums are 0.
+  template <class Take>
+  void for_each(const Take& take) const {
+    const std::size_t entries = all_ ? places_ : at_.size();
+    for (std::size_t entry = 0; entry < entries; ++entry) {
+      const std::span<const std::int64_t> values(&values_[entry * width_], width_);
+      if (std::all_of(values.begin(), values.end(), [](std::int64_t value) { return value == 0; })) continue;
+      take(all_ ? entry : at_[entry], values);
+    }
+  }
 
   // Passes all sums to `archive` in their order, one by one; those of a const object are written, others are filled.
   template <class Self, class Archive>

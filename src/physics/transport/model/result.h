@@ -54,6 +54,15 @@ struct BandResult {
   Estimate absorbed_structure{0.0, 0.0};  // by structures and lamps; exactly 0 without any
 };
 
+// The sunlit and the shaded part of an organ, of the leaves in a layer, or of all leaves; one-sided areas. Triangles that no light
+// can reach are in neither.
+struct ShadeClassResult {
+  Estimate sunlit_m2, shaded_m2;
+  // [waveband], W m-2 of the class's own area, absorbed by both faces; NaN unless the class is known to
+  // have an area
+  std::vector<Estimate> absorbed_sunlit, absorbed_shaded;
+};
+
 // The light of one organ, W m-2 of its one-sided area. Here and in all finer figures the half-width of `absorbed` includes
 // unshot flux in proportion to what was absorbed, with the canopy's ratio of unshot to absorbed flux.
 struct OrganResult {
@@ -62,6 +71,7 @@ struct OrganResult {
   std::vector<Estimate> direct;    // [waveband], beam incident on both faces
   std::vector<Estimate> indirect;  // [waveband], all other light incident on both faces
   std::vector<Estimate> absorbed;  // [waveband]
+  ShadeClassResult classes;
 };
 
 // The light of one plant's leaves, stems and fruits, W of the whole plant.
@@ -84,6 +94,7 @@ struct LayerResult {
   std::vector<Estimate> down, up;  // [waveband], W m-2 through the plane
   // [waveband], W m-2 of ground, by the vegetation and by the structures and lamps in the layer
   std::vector<Estimate> absorbed, absorbed_structure;
+  ShadeClassResult leaf_classes;  // empty in the top plane
 };
 
 // Landings of beam rays on the two sides of an element or a surface.
@@ -188,6 +199,7 @@ struct RadiationResult {
   std::vector<SensorResult> sensor_means;          // [sensor of the model], over its points
   std::vector<double> w_per_quantum;               // [waveband], W per quantum of the arrays above
   Estimate sunlit_leaf_fraction;
+  ShadeClassResult leaf_classes;   // of all leaves
   Estimate ground_sunfleck_ratio;  // value NaN without a beam
   double leaf_area_index = 0.0;
   double ground_per_ray_m2 = 0.0;  // level ground that one landing represents, from which irradiance follows

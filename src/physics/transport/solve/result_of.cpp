@@ -42,6 +42,7 @@ class ResultMaker {
     result.organs = organ_results();
     result.plants = plant_results();
     result.layers = layer_results();
+    result.leaf_classes = sums_.classes.leaves(class_errors());
     result.element_error = element_errors();
     result.side_error = side_errors();
     if (sums_.planes) {
@@ -64,6 +65,15 @@ class ResultMaker {
 
  private:
   [[nodiscard]] double unseen(double event) const { return sums_.unseen(event, confidence_); }
+
+  [[nodiscard]] ShadeClasses::Errors class_errors() const {
+    ShadeClasses::Errors errors{quantile_, unseen(1.0), {}, {}};
+    for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
+      errors.unshot_share.push_back(sums_.ledgers[b].unshot_share());
+      errors.event_w.push_back(events_.largest_w_m2(b) * model_.plot.area_m2());
+    }
+    return errors;
+  }
 
   [[nodiscard]] BandResult band_result(std::size_t band) const {
     const FluxLedger& ledger = sums_.ledgers[band];
@@ -160,6 +170,7 @@ class ResultMaker {
 
   [[nodiscard]] std::vector<OrganResult> organ_results() const {
     std::vector<std::vector<FacingArea>> parts = agreed_organs();
+    const ShadeClasses::Errors errors = class_errors();
     std::vector<OrganResult> results;
     for (std::size_t o = 0; o < sums_.organs.size(); ++o) {
       OrganResult result;
@@ -176,6 +187,7 @@ class ResultMaker {
         const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
         result.absorbed.push_back(absorbed_estimate(sums_.organs[o].absorbed[b], event_w_m2, b));
       }
+      result.classes = sums_.classes.organ(o, errors);
       results.push_back(std::move(result));
     }
     return results;
@@ -226,6 +238,7 @@ class ResultMaker {
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
     const std::size_t count = areas_.layer_foliage_m2.size();
     std::vector<std::vector<FacingArea>> parts = agreed_layers();
+    const ShadeClasses::Errors errors = class_errors();
     const double one_ray = unseen(share_of_one_ray());
     std::vector<LayerResult> results;
     for (std::size_t k = 0; k <= count; ++k) {
@@ -238,6 +251,7 @@ class ResultMaker {
       result.sunlit_leaf_fraction = {no_value, no_value};
       if (below_top) {
         result.leaf_area_index = areas_.layer_foliage_m2[k] / model_.plot.area_m2();
+        result.leaf_classes = sums_.classes.layer(k, errors);
         result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], std::move(parts[k]));
       }
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {

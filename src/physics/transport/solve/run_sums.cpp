@@ -60,6 +60,7 @@ class Addition {
     add_to_organ_means();
     add_to_plant_means();
     add_to_layer_means();
+    sums_.classes.add(replicate_);
     if (sums_.planes) add_to_planes();
     add_arrays();
     add_elements();
@@ -347,6 +348,7 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors)
       landed(of.quanta.size()),
       ledgers(of.quanta.size()),
       bands(of.quanta.size()),
+      classes(of),
       elements(of.model.canopy.size()),
       soil_cells(of.layout.cells()) {
   const RadiationModel& model = of.model;

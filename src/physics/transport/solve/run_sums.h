@@ -7,6 +7,7 @@
 #include "physics/transport/model/result.h"
 #include "physics/transport/model/statistics.h"
 #include "physics/transport/receivers/planes.h"
+#include "physics/transport/solve/shade_classes.h"
 
 #include <cstdint>
 #include <optional>
@@ -74,8 +75,9 @@ struct RunSums {
   std::vector<FluxLedger> ledgers;  // [band]
   std::vector<BandMeans> bands;
   std::vector<OrganMeans> organs;
-  std::vector<PlantMeans> plants;      // [plant of PlantAreas]
-  std::vector<LayerMeans> layers;      // [layer, + 1 for the top plane]
+  std::vector<PlantMeans> plants;  // [plant of PlantAreas]
+  std::vector<LayerMeans> layers;  // [layer, + 1 for the top plane]
+  ShadeClasses classes;
   std::vector<BeamLandings> elements;  // [element]
   PlaceSums side_landed, side_sky;     // as in IndirectSums, over all replicates; empty before the first
   std::vector<std::int64_t> cell_landed, cell_sky;
@@ -110,6 +112,7 @@ void RunSums::visit(Self& self, Archive& archive) {
   for (auto& plant : self.plants) archive(plant.sunlit, plant.incident, plant.absorbed);
   for (auto& layer : self.layers)
     archive(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed, layer.absorbed_structure);
+  archive(self.classes);
   for (auto& element : self.elements) archive(element.upper, element.lower);
   const auto visit_late = [&](auto& values, std::size_t size) {
     if constexpr (!std::is_const_v<Self>) values.resize(size);

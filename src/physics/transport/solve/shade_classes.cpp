@@ -1,0 +1,184 @@
+#include "physics/transport/solve/shade_classes.h"
+
+#include "base/units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace sunfleck {
+namespace {
+
+// Calls take(layer, share of the element's area) for each layer that an element reaches into.
+class LayerShares {
+ public:
+  explicit LayerShares(const CounterLayout& layout)
+      : layout_(layout), area_m2_(static_cast<std::size_t>(layout.layers.count)) {}
+
+  template <class Take>
+  void visit(std::size_t e, const Triangle& corners, const Take& take) {
+    const std::size_t first = first_layer(layout_, corners);
+    const std::size_t end = layout_.end_layer(e, first);
+    if (end - first == 1) return take(first, 1.0);
+    add_area_by_layer(layout_.layers, corners, area_m2_);
+    double all_m2 = 0.0;
+    for (std::size_t k = first; k < end; ++k) all_m2 += area_m2_[k];
+    for (std::size_t k = first; k < end; ++k) {
+      if (all_m2 > 0.0) take(k, area_m2_[k] / all_m2);
+      area_m2_[k] = 0.0;
+    }
+  }
+
+ private:
+  const CounterLayout& layout_;
+  std::vector<double> area_m2_;  // [layer], 0 between two calls
+};
+
+}  // namespace
+
+void RatioMean::add(double numerator, double denominator) {
+  const double from_old_mean = numerator_.count() > 0 ? numerator - numerator_.mean() : 0.0;
+  numerator_.add(numerator);
+  denominator_.add(denominator);
+  products_ += from_old_mean * (denominator - denominator_.mean());
+}
+
+Estimate RatioMean::estimate(double t_quantile, double unseen) const {
+  if (!(denominator_.mean() > t_quantile * denominator_.standard_error())) return {no_value, no_value};
+  const double ratio = numerator_.mean() / denominator_.mean();
+  const double squares = std::max(0.0, numerator_.squares() - 2.0 * ratio * products_ + ratio * ratio * denominator_.squares());
+  const auto n = static_cast<double>(numerator_.count());
+  const double half_width = squares > 0.0 ? t_quantile * std::sqrt(squares / (n - 1.0) / n) : unseen;
+  return {ratio, half_width / denominator_.mean()};
+}
+
+ShadeClasses::ShadeClasses(const Conversion& conversion)
+    : conversion_(conversion),
+      organ_open_m2_(conversion.model.canopy.organs.size()),
+      layer_open_m2_(conversion.areas.layer_foliage_m2.size()),
+      leaf_open_m2_(1) {
+  const RadiationModel& model = conversion.model;
+  const std::vector<bool> hidden = hidden_elements(model, conversion.layout);
+  LayerShares shares(conversion.layout);
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+    if (hidden[e]) continue;
+    const Triangle& corners = model.canopy.corners[e];
+    const double element_m2 = area_m2(corners);
+    organ_open_m2_[model.canopy.organ_of[e]] += element_m2;
+    if (!conversion.areas.foliage[e]) continue;
+    leaf_open_m2_[0] += element_m2;
+    shares.visit(e, corners, [&](std::size_t k, double share) { layer_open_m2_[k] += share * element_m2; });
+  }
+  ShadeMeans means;
+  for (auto* ratios : {&means.sunlit, &means.shaded}) ratios->resize(model.bands.size());
+  organs_.assign(organ_open_m2_.size(), means);
+  layers_.assign(layer_open_m2_.size(), means);
+  leaves_.assign(1, means);
+}
+
+void ShadeClasses::add(const Replicate& replicate) {
+  const std::size_t bands = conversion_.quanta.size();
+  ShadeSums none;
+  for (auto* sums : {&none.direct_w, &none.indirect_w, &none.lit_indirect_w}) sums->resize(bands);
+  Groups groups{std::vector(organs_.size(), none), std::vector(layers_.size(), none), std::vector(1, none)};
+  if (conversion_.model.has_beam()) add_beam(replicate, groups);
+  if (replicate.packets) add_other_light(replicate, groups);
+  const auto add_all = [&](const std::vector<ShadeSums>& sums, const std::vector<double>& open_m2,
+                           std::vector<ShadeMeans>& means) {
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      means[i].lit_m2.add(sums[i].lit_m2);
+      for (std::size_t b = 0; b < bands; ++b) {
+        means[i].sunlit[b].add(sums[i].direct_w[b] + sums[i].lit_indirect_w[b], sums[i].lit_m2);
+        means[i].shaded[b].add(sums[i].indirect_w[b] - sums[i].lit_indirect_w[b], open_m2[i] - sums[i].lit_m2);
+      }
+    }
+  };
+  add_all(groups.organs, organ_open_m2_, organs_);
+  add_all(groups.layers, layer_open_m2_, layers_);
+  add_all(groups.leaves, leaf_open_m2_, leaves_);
+}
+
+void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
+  const Canopy& canopy = conversion_.model.canopy;
+  for (std::size_t e = 0; e < canopy.size(); ++e) {
+    if (conversion_.element_landings(replicate.counters, e).both() == 0) continue;
+    const double lit_m2_per_landing = conversion_.exposure.lit_m2_per_landing(e);
+    const bool foliage = conversion_.areas.foliage[e];
+    const std::size_t first = first_layer(conversion_.layout, canopy.corners[e]);
+    std::size_t word = conversion_.layout.first_bin_word + 2 * std::size_t{conversion_.layout.first_bin[e]};
+    for (std::size_t k = first; k < conversion_.layout.end_layer(e, first); ++k, word += 2) {
+      const double upper = replicate.counters[word];
+      const double lower = replicate.counters[word + 1];
+      const auto add_to = [&](ShadeSums& sums) {
+        sums.lit_m2 += (upper + lower) * lit_m2_per_landing;
+        for (std::size_t b = 0; b < sums.direct_w.size(); ++b) {
+          const double per_landing_w = conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
+          sums.direct_w[b] += per_landing_w * (upper * conversion_.absorptance(canopy.optics_of[e], 0, b) +
+                                               lower * conversion_.absorptance(canopy.optics_of[e], 1, b));
+        }
+      };
+      if (upper + lower == 0.0) continue;
+      add_to(groups.organs[canopy.organ_of[e]]);
+      if (!foliage) continue;
+      add_to(groups.layers[k]);
+      add_to(groups.leaves[0]);
+    }
+  }
+}
+
+void ShadeClasses::add_other_light(const Replicate& replicate, Groups& groups) const {
+  const Canopy& canopy = conversion_.model.canopy;
+  const std::size_t bands = conversion_.quanta.size();
+  LayerShares shares(conversion_.layout);
+  replicate.packets->side_landed.for_each([&](std::size_t side, std::span<const std::int64_t> quanta) {
+    const std::size_t e = side / 2;
+    const Triangle& corners = canopy.corners[e];
+    const double element_m2 = area_m2(corners);
+    const auto landings = static_cast<double>(conversion_.element_landings(replicate.counters, e).both());
+    const double lit = element_m2 > 0.0 ? landings * conversion_.exposure.lit_m2_per_landing(e) / element_m2 : 0.0;
+    const auto add_to = [&](ShadeSums& sums, double share) {
+      for (std::size_t b = 0; b < bands; ++b) {
+        const double absorbed_w = share * static_cast<double>(quanta[b]) * conversion_.quanta[b].w_m2_per_quantum *
+                                  conversion_.model.plot.area_m2() * conversion_.absorptance(canopy.optics_of[e], side % 2, b);
+        sums.indirect_w[b] += absorbed_w;
+        sums.lit_indirect_w[b] += lit * absorbed_w;
+      }
+    };
+    add_to(groups.organs[canopy.organ_of[e]], 1.0);
+    if (!conversion_.areas.foliage[e]) return;
+    add_to(groups.leaves[0], 1.0);
+    shares.visit(e, corners, [&](std::size_t k, double share) { add_to(groups.layers[k], share); });
+  });
+}
+
+ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, const Errors& errors) const {
+  ShadeClassResult result;
+  result.sunlit_m2 = means.lit_m2.estimate(errors.t_quantile, errors.unseen_events * conversion_.ground_per_ray_m2);
+  // The estimate is unbiased and may leave this range by chance, although the area cannot.
+  result.sunlit_m2.value = std::clamp(result.sunlit_m2.value, 0.0, open_m2);
+  result.shaded_m2 = {open_m2 - result.sunlit_m2.value, result.sunlit_m2.half_width};
+  for (std::size_t b = 0; b < means.sunlit.size(); ++b) {
+    const auto of_class = [&](const RatioMean& ratio) {
+      Estimate absorbed = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]);
+      absorbed.half_width += absorbed.value * errors.unshot_share[b];
+      return absorbed;
+    };
+    result.absorbed_sunlit.push_back(of_class(means.sunlit[b]));
+    result.absorbed_shaded.push_back(of_class(means.shaded[b]));
+  }
+  return result;
+}
+
+ShadeClassResult ShadeClasses::organ(std::size_t organ, const Errors& errors) const {
+  return result(organs_[organ], organ_open_m2_[organ], errors);
+}
+
+ShadeClassResult ShadeClasses::layer(std::size_t layer, const Errors& errors) const {
+  return result(layers_[layer], layer_open_m2_[layer], errors);
+}
+
+ShadeClassResult ShadeClasses::leaves(const Errors& errors) const {
+  return result(leaves_[0], leaf_open_m2_[0], errors);
+}
+
+}  // namespace sunfleck

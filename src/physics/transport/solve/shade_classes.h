@@ -1,0 +1,90 @@
+#pragma once
+// The sunlit and the shaded part of leaves and organs, and what each absorbs: the two classes of leaf area with which canopy
+// models compute photosynthesis (e.g. de Pury and Farquhar 1997, Plant Cell Environ. 20:537).
+
+#include "physics/transport/indirect/conversion.h"
+#include "physics/transport/indirect/replicate.h"
+#include "physics/transport/model/result.h"
+#include "physics/transport/model/statistics.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sunfleck {
+
+// A ratio of two means over replicates, whose error includes that both vary together.
+class RatioMean {
+ public:
+  void add(double numerator, double denominator);
+
+  // Passes the whole state to `archive`.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.numerator_, self.denominator_, self.products_);
+  }
+
+  // Returns the ratio of the means; NaN unless the denominator is known to be above 0. Its half-width follows from the spread of numerator - ratio *
+  // denominator (Cochran 1977, Sampling Techniques, eq. 6.13) or, if that is 0, from an `unseen` part of the numerator.
+  [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
+
+ private:
+  ReplicateMean numerator_, denominator_;
+  double products_ = 0.0;  // sum of the products of both deviations
+};
+
+// Sums of one replicate over the parts of a group: an organ, the leaves in a layer, or all leaves.
+struct ShadeSums {
+  double lit_m2 = 0.0;
+  std::vector<double> direct_w, indirect_w, lit_indirect_w;  // [band], absorbed; the last one where the sun shines
+};
+
+struct ShadeMeans {
+  ReplicateMean lit_m2;
+  std::vector<RatioMean> sunlit, shaded;  // [band], W m-2 of the class's area
+
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.lit_m2, self.sunlit, self.shaded);
+  }
+};
+
+// The means of all groups over the replicates of a run.
+class ShadeClasses {
+ public:
+  // The conversion must outlive the object.
+  explicit ShadeClasses(const Conversion& conversion);
+
+  // Adds a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the beam's landings on
+  // it and the packets that land there are independent, so the product has no bias if both are even over the triangle.
+  void add(const Replicate& replicate);
+
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    for (auto* groups : {&self.organs_, &self.layers_, &self.leaves_}) archive(*groups);
+  }
+
+  // Return the classes of an organ, of the leaves in a layer, or of all leaves. `unshot_share` is [band], and `event_w` the flux
+  // that one event brings, [band].
+  struct Errors {
+    double t_quantile = 0.0, unseen_events = 0.0;
+    std::vector<double> unshot_share, event_w;
+  };
+  [[nodiscard]] ShadeClassResult organ(std::size_t organ, const Errors& errors) const;
+  [[nodiscard]] ShadeClassResult layer(std::size_t layer, const Errors& errors) const;
+  [[nodiscard]] ShadeClassResult leaves(const Errors& errors) const;
+
+ private:
+  struct Groups {
+    std::vector<ShadeSums> organs, layers, leaves;
+  };
+
+  void add_beam(const Replicate& replicate, Groups& groups) const;
+  void add_other_light(const Replicate& replicate, Groups& groups) const;
+  [[nodiscard]] ShadeClassResult result(const ShadeMeans& means, double open_m2, const Errors& errors) const;
+
+  const Conversion& conversion_;
+  std::vector<double> organ_open_m2_, layer_open_m2_, leaf_open_m2_;  // of triangles that light can reach
+  std::vector<ShadeMeans> organs_, layers_, leaves_;                  // the last has one entry
+};
+
+}  // namespace sunfleck

@@ -1,0 +1,114 @@
+// The sunlit and the shaded class of leaf area, and what each absorbs.
+
+#include "physics/transport/solve/shade_classes.h"
+
+#include "base/random.h"
+#include "support/leaf_scenes.h"
+#include "support/light_mix.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sunfleck::test {
+namespace {
+
+// Returns the flux that both classes absorb, W.
+double absorbed_w(const ShadeClassResult& classes, std::size_t band) {
+  const auto of = [](const Estimate& area_m2, const Estimate& absorbed) {
+    return std::isnan(absorbed.value) ? 0.0 : area_m2.value * absorbed.value;
+  };
+  return of(classes.sunlit_m2, classes.absorbed_sunlit[band]) + of(classes.shaded_m2, classes.absorbed_shaded[band]);
+}
+
+TEST(ShadeClasses, AddUpToWhatOrgansLayersAndLeavesAbsorb) {
+  const RadiationModel model = light_mix();
+  const RadiationResult result = simulate(model, to_a_wide_bound());
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    double organs_w = 0.0;
+    for (const OrganResult& organ : result.organs) {
+      const double expected_w = organ.absorbed[b].value * organ.area_m2;
+      // A class too small to be seen has no value, and takes what little it absorbs along.
+      const bool both = !std::isnan(organ.classes.absorbed_sunlit[b].value + organ.classes.absorbed_shaded[b].value);
+      EXPECT_NEAR(absorbed_w(organ.classes, b), expected_w, (both ? 1e-9 : 0.1) * expected_w);
+      organs_w += expected_w;
+    }
+    double layers_w = 0.0;
+    for (const LayerResult& layer : result.layers) {
+      if (!layer.absorbed.empty()) layers_w += absorbed_w(layer.leaf_classes, b);
+    }
+    EXPECT_NEAR(layers_w, organs_w, 0.02 * organs_w);
+    EXPECT_NEAR(absorbed_w(result.leaf_classes, b), organs_w, 1e-9 * organs_w);
+  }
+}
+
+// A level black leaf with another of half its size right above: half of the lower one is sunlit.
+TEST(ShadeClasses, OfALeafInHalfShade) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.level(0.2, 0.8, 0.2, 0.8, 0.5);
+  maker.organ("leaf", 1, 2);
+  maker.level(0.2, 0.8, 0.2, 0.5, 0.6);
+  const RadiationModel model = black_model(maker.mesh(), unit_plot, sun_at(90.0, 180.0));
+  const RadiationResult result = simulate(model, fixed_work(model, 2e5));
+  const double full_sun_w_m2 = model.bands[0].direct_w_m2;
+  for (const OrganResult& organ : result.organs) {
+    const ShadeClassResult& classes = organ.classes;
+    EXPECT_NEAR(classes.sunlit_m2.value, 0.18, 2.0 * classes.sunlit_m2.half_width + 1e-6);
+    EXPECT_NEAR(classes.sunlit_m2.value + classes.shaded_m2.value, organ.area_m2, 1e-9);
+    EXPECT_NEAR(classes.absorbed_sunlit[0].value, full_sun_w_m2, 1e-6 * full_sun_w_m2);
+    if (organ.area_m2 > 0.2) {
+      EXPECT_EQ(classes.absorbed_shaded[0].value, 0.0);
+    }
+  }
+}
+
+TEST(ShadeClasses, WithoutABeamAllIsShaded) {
+  RadiationModel model = light_mix();
+  model.sun.reset();
+  for (Waveband& band : model.bands) band.direct_w_m2 = 0.0;
+  const RadiationResult result = simulate(model, to_a_wide_bound());
+  EXPECT_EQ(result.leaf_classes.sunlit_m2.value, 0.0);
+  EXPECT_TRUE(std::isnan(result.leaf_classes.absorbed_sunlit[0].value));
+  EXPECT_GT(result.leaf_classes.absorbed_shaded[0].value, 0.0);
+}
+
+TEST(ShadeClasses, HaveHonestErrors) {
+  const RadiationModel model = light_mix();
+  const Prepared prepared(model);
+  const auto run = [&](double rays, double packets, std::uint64_t seed) {
+    return simulate(model, prepared, fixed_scatter(model, {.rays = rays, .packets = packets, .replicates = 12, .seed = seed}))
+        .leaf_classes;
+  };
+  const ShadeClassResult truth = run(8e6, 2e5, 1000);
+  constexpr int seeds = 100;
+  int sunlit = 0, shaded = 0;
+  const auto covers = [](const Estimate& got, const Estimate& right) {
+    return std::abs(got.value - right.value) <= std::hypot(got.half_width, right.half_width) ? 1 : 0;
+  };
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const ShadeClassResult got = run(1e5, 2000, seed);
+    sunlit += covers(got.absorbed_sunlit[1], truth.absorbed_sunlit[1]);
+    shaded += covers(got.absorbed_shaded[1], truth.absorbed_shaded[1]);
+  }
+  // A binomial count with probability 0.95 falls below 87 of 100 once in a thousand times.
+  EXPECT_GE(sunlit, 87);
+  EXPECT_GE(shaded, 87);
+}
+
+TEST(RatioMean, ErrorsThatRiseAndFallTogetherCancel) {
+  RandomStream random(3, 4);
+  RatioMean together, apart;
+  for (int k = 0; k < 50; ++k) {
+    const double size = 1.0 + random.unit();
+    together.add(3.0 * size, size);
+    apart.add(3.0 * (1.0 + random.unit()), size);
+  }
+  EXPECT_NEAR(together.estimate(2.0, 0.0).value, 3.0, 1e-12);
+  EXPECT_LT(together.estimate(2.0, 0.0).half_width, 1e-6);
+  EXPECT_GT(apart.estimate(2.0, 0.0).half_width, 0.1);
+  EXPECT_TRUE(std::isnan(RatioMean().estimate(2.0, 0.0).value));
+}
+
+}  // namespace
+}  // namespace sunfleck::test
