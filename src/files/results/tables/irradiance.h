@@ -22,8 +22,8 @@ struct Irradiance {
 // Returns zeros where the area is 0. A side is numbered 2 * element + face, the upper face is 0.
 [[nodiscard]] inline Irradiance side_irradiance(const RadiationModel& model, const RadiationResult& result, std::size_t side,
                                                 double area_m2, std::size_t band) {
-  return {result.side_direct_w_m2(side, area_m2, model.bands[band].direct_w_m2),
-          result.side_sky_w_m2(side, area_m2, band), result.side_indirect_w_m2(side, area_m2, band)};
+  return {result.side_direct_w_m2(side, area_m2, model.bands[band].direct_w_m2), result.side_sky_w_m2(side, area_m2, band),
+          result.side_indirect_w_m2(side, area_m2, band)};
 }
 
 [[nodiscard]] inline Irradiance cell_irradiance(const RadiationModel& model, const RadiationResult& result, std::size_t cell,
