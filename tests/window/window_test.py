@@ -254,6 +254,12 @@ class WindowTest(unittest.TestCase):
         window.heard_or_awaited("picture", wish=last)
         self.wait_until_picture(window, lambda after: changed_share(before, after) > 0.01)
         self.keep_shot("sun_moved")
+        # However the figures changed meanwhile, every control stayed in its place.
+        places = {}
+        for event in window.events:
+            for name, place in event["controls"].items() if event["event"] == "controls" else ():
+                self.assertEqual(places.setdefault(name, place), place, name)
+        self.assertIn("save_result", places)
         self.expect_clean_end(window)
 
     def test_orbiting_does_not_begin_the_simulation_anew(self):
@@ -280,9 +286,25 @@ class WindowTest(unittest.TestCase):
             self.screen.do("mousemove", *map(int, self.plot_to_screen(window, seen, corner)))
             self.screen.do("click", 1)
             event = window.wait_for("picked")
-            self.assertEqual((event["organ"], event["plant"], event["rank"]), (organ, plant, rank))
+            self.assertEqual((event["what"], event["organ"], event["plant"], event["rank"]), ("organ", organ, plant, rank))
+            whole = 0.09 if plant == 1 else 0.04
+            self.assertAlmostEqual(event["area_m2"], whole, places=6)
+            self.assertEqual(event["triangles"], 2)
+            self.assertAlmostEqual(event["direct"]["value"] / 350.0, 1.0, delta=0.02)
+            for figure in ("direct", "indirect", "absorbed"):
+                self.assertGreater(event[figure]["error"], 0.0)
+            around_organ = self.outline(window)
+            self.keep_shot(f"picked_organ_{plant}")
+            self.screen.do("mousemove", *map(int, self.plot_to_screen(window, seen, corner)))
+            self.screen.do("click", 1)
+            event = window.wait_for("picked")
+            self.assertEqual((event["what"], event["organ"], event["plant"], event["rank"]), ("triangle", organ, plant, rank))
+            around_triangle = self.outline(window)
+            self.assertGreater(around_organ.sum(), 100)
+            self.assertGreater((around_triangle & ~around_organ).sum(), 30)  # the diagonal
+            self.assertGreater((around_organ & ~around_triangle).sum(), 30)
             # Half of the square, lit only by the beam and the light from the soil.
-            self.assertAlmostEqual(event["area_m2"], 0.045 if plant == 1 else 0.02, places=6)
+            self.assertAlmostEqual(event["triangle_area_m2"], 0.5 * whole, places=6)
             self.assertAlmostEqual(event["upper"]["direct"] / 350.0, 1.0, delta=0.02)
             self.assertEqual(event["lower"]["direct"], 0.0)
             self.assertGreater(event["lower"]["scattered"], 0.0)
@@ -290,6 +312,64 @@ class WindowTest(unittest.TestCase):
             self.assertLess(event["upper"]["error"], 0.05 * event["upper"]["irradiance"])
         self.keep_shot("picked")
         self.expect_clean_end(window)
+
+    def outline(self, window):
+        """Returns which pixels of the picture have the colour of the line around what is picked."""
+        return numpy.all(window.picture() == (255, 0, 200), axis=2)
+
+    def test_a_compass_shows_north_and_the_sun(self):
+        window = self.open("--view", "top")
+        left, top, right, bottom = window.controls["compass"]
+        middle, radius = (0.5 * (left + right), 0.5 * (top + bottom)), 0.5 * (right - left)
+        shown = self.screen.still_shot().astype(int)
+        self.keep_shot("compass")
+        def colour_at(azimuth_deg, reach):
+            angle = numpy.radians(azimuth_deg)  # north is up and east right
+            x, y = middle[0] + reach * radius * numpy.sin(angle), middle[1] - reach * radius * numpy.cos(angle)
+            return shown[round(y), round(x)]
+        sun = (250, 190, 0)
+        self.assertLess(abs(colour_at(120.0, 1.0 / 3.0) - sun).max(), 10)  # 60 degrees above the horizon
+        self.assertGreater(abs(colour_at(300.0, 1.0 / 3.0) - sun).max(), 50)
+        self.assertLess(abs(colour_at(0.0, 0.9) - (190, 25, 13)).max(), 40)
+        self.expect_clean_end(window)
+
+    def test_a_chosen_sky_sheds_light(self):
+        window = self.open("--view", "top")
+        seen = window.picture().astype(int)
+        self.click(window.place("sky"))
+        window.place("sky/uniform")
+        window.wait_for("controls")  # the list gets its place in its second frame
+        self.click(window.place("sky/uniform"))
+        # The scene says nothing about diffuse light: a fifth of 350 W m-2 is assumed.
+        self.assertEqual(window.heard_or_awaited("assumed_diffuse")["share"], 0.2)
+        last = window.last_restart("sky")
+        window.heard_or_awaited("converged", wish=last)
+        window.heard_or_awaited("picture", wish=last)
+        self.keep_shot("sky_chosen")
+        for _ in range(2):
+            self.click(self.plot_to_screen(window, seen, (0.15, 0.15)))
+            event = window.wait_for("picked")
+        self.assertAlmostEqual(event["upper"]["sky"] / 70.0, 1.0, delta=0.05)  # nothing is above this leaf
+        self.assertAlmostEqual(event["upper"]["direct"] / 280.0, 1.0, delta=0.02)
+        self.expect_clean_end(window)
+
+    def test_pictures_have_the_chosen_size(self):
+        window = self.open()
+        self.click(window.place("own_size", 0.1))
+        self.click(window.place("save_picture"))
+        saved = read_png(os.path.join(self.folder, window.wait_for("saved")["file"]))
+        self.assertEqual(saved.shape, (1200, 1600, 3))
+        self.run_program("render", "leaves.toml", "--device", "lavapipe", "-o", "rendered.png", "--quiet")
+        rendered = read_png(os.path.join(self.folder, "rendered.png"))
+        far = numpy.any(numpy.abs(saved.astype(int) - rendered.astype(int)) > 1, axis=2)
+        self.assertLessEqual(far.mean(), 0.001)
+        self.keep_shot("own_size")
+        self.expect_clean_end(window)
+
+    def click(self, place):
+        self.screen.do("mousemove", *map(int, place))
+        time.sleep(0.2)  # lets a frame see the pointer before the button
+        self.screen.do("click", 1)
 
     def plot_to_screen(self, window, seen, place):
         """Finds a place of the square plot (X, Z in metres) in a picture from above: north is up and east right, the plot's western
@@ -411,11 +491,22 @@ class WindowTest(unittest.TestCase):
         self.assertTrue(summary["complete"])
         self.assertIn("changed", summary["scene_digest"])
         self.assertEqual(summary["bands"][0]["absorbed_vegetation"], converged["absorbed_vegetation"])
+        view = os.path.join("results", "leaves_view")
+        self.run_program("run", os.path.join(view, "scene.toml"), "--device", "lavapipe", "--images", "none", "--quiet", "-o",
+                         "again")
+        for name in ("organs.csv", "plants.csv", "profile.csv"):
+            with open(os.path.join(self.folder, view, name), "rb") as one, \
+                 open(os.path.join(self.folder, "again", name), "rb") as other:
+                self.assertEqual(one.read(), other.read(), name)
         window.key("p")
         saved = window.wait_for("saved")
         above_message = slice(0, SIZE[1] - 80)
         stored = read_png(os.path.join(self.folder, saved["file"]))
-        self.assertTrue(numpy.array_equal(stored[above_message], window.picture()[above_message]))
+        shown = window.picture()
+        left, _, _, bottom = window.controls["compass"]
+        for picture in (stored, shown):
+            picture[:int(bottom) + 30, int(left - window.stage[0]) - 30:] = 0  # the compass is in the window only
+        self.assertTrue(numpy.array_equal(stored[above_message], shown[above_message]))
         self.expect_clean_end(window)
 
     def test_without_a_display_other_commands_are_named(self):

@@ -273,6 +273,7 @@ Scene read_scene(const SceneText& source, const SceneAccess& access) {
   check_optics(parts, meshes, optics, scene);
   scene.model.optics = optics_of_names(root, scene.model.canopy.optics_names, optics, scene.model);
   separate_structures(scene.model);
+  scene.text = source.text;
   scene.files = noting.files->list();
   scene.digest = digest_of(source.text, std::span(scene.files).subspan(before), parts);
   warn_of_unused(optics, scene, scene.warnings);

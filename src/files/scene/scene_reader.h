@@ -54,6 +54,7 @@ struct SceneLight {
 struct Scene {
   std::string title;  // default: the stem of the file name
   std::filesystem::path file;
+  std::string text;  // TOML; empty after `relight`
   // All files that the scene was read from, as in SourceFiles, preceded by the earlier content of `access.files`.
   std::vector<SourceFile> files;
   // 16 hexadecimal digits: 64-bit FNV-1a over the text of the scene and the digests of all files it names, directly or

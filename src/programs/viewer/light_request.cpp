@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace sunfleck {
@@ -44,7 +46,8 @@ SurfaceRequest surface_request(const SurfaceOptics& optics) {
 }
 
 SunPosition position_of(const SunRequest& sun) {
-  if (!sun.by_clock) return {sun.elevation_deg * degree, sun.azimuth_deg * degree};
+  // A scene file cannot hold 360 degrees.
+  if (!sun.by_clock) return {sun.elevation_deg * degree, std::fmod(sun.azimuth_deg, 360.0) * degree};
   return sun_position(time_of(sun), {sun.latitude_deg * degree, sun.longitude_deg * degree, sun.altitude_m});
 }
 
@@ -95,14 +98,27 @@ SkyRequest in_use(const SkyRequest& sky) {
   return request;
 }
 
+// Divides the irradiance of bands without diffuse light between sun and sky.
+std::optional<double> assume_diffuse_light(const LightRequest& request, std::vector<Waveband>& bands) {
+  const auto is_diffuse = [](const Waveband& band) { return band.diffuse_w_m2 > 0.0; };
+  if (std::any_of(bands.begin(), bands.end(), is_diffuse)) return std::nullopt;
+  const double share = assumed_diffuse_share(request);
+  for (Waveband& band : bands) {
+    band.diffuse_w_m2 = share * band.direct_w_m2;
+    band.direct_w_m2 -= band.diffuse_w_m2;
+  }
+  return share;
+}
+
 // Keeps the scene's own moment exactly, so that an untouched window shows what `run` computes. A sun that does not shine still
 // determines the time.
-void grant_light(const LightRequest& request, const Scene& scene, RadiationModel& model) {
+std::optional<double> grant_light(const LightRequest& request, const Scene& scene, RadiationModel& model) {
+  std::optional<double> assumed;
   const LightRequest own = request_of(scene);
   model.sun = scene.model.sun;
   model.bands = scene.model.bands;
   model.sky = scene.model.sky;
-  if (in_use(request.sun) != in_use(own.sun)) {
+  if (!same_sun(request.sun, own.sun)) {
     std::optional<UtcTime> time;
     if (scene.moment) time = scene.moment->time;
     if (request.sun.by_clock) time = time_of(request.sun);
@@ -112,7 +128,10 @@ void grant_light(const LightRequest& request, const Scene& scene, RadiationModel
     model.sky = std::move(light.sky);
     model.sun = request.sun.shines ? std::optional(sun) : std::nullopt;
   }
-  if (in_use(request.sky) != in_use(own.sky)) model.sky = sky_of(request.sky, scene);
+  if (!same_sky(request.sky, own.sky)) {
+    model.sky = sky_of(request.sky, scene);
+    if (model.sky && !request.own_irradiance) assumed = assume_diffuse_light(request, model.bands);
+  }
   if (request.own_irradiance) {
     for (std::size_t b = 0; b < model.bands.size(); ++b) {
       const BandRequest& band = request.bands[b];
@@ -129,6 +148,7 @@ void grant_light(const LightRequest& request, const Scene& scene, RadiationModel
     throw_input("sky", "it follows the sun, but the scene has no sun",
                 "switch the sun on, or choose a uniform or overcast sky");
   }
+  return assumed;
 }
 
 void grant_optics(const LightRequest& request, const Scene& scene, RadiationModel& model) {
@@ -160,9 +180,17 @@ LightRequest request_of(const Scene& scene) {
   return request;
 }
 
+bool same_sun(const SunRequest& one, const SunRequest& other) {
+  return in_use(one) == in_use(other);
+}
+
+bool same_sky(const SkyRequest& one, const SkyRequest& other) {
+  return in_use(one) == in_use(other);
+}
+
 std::string first_difference(const LightRequest& one, const LightRequest& other) {
-  if (in_use(one.sun) != in_use(other.sun)) return "sun";
-  if (in_use(one.sky) != in_use(other.sky)) return "sky";
+  if (!same_sun(one.sun, other.sun)) return "sun";
+  if (!same_sky(one.sky, other.sky)) return "sky";
   if (one.own_irradiance != other.own_irradiance || (one.own_irradiance && one.bands != other.bands)) return "irradiance";
   if (one.optics != other.optics || one.soil_reflectance != other.soil_reflectance) return "optics";
   return "";
@@ -198,15 +226,27 @@ std::string digest_of(const LightRequest& request) {
 }
 
 UtcTime time_of(const SunRequest& sun) {
-  return plus_seconds({sun.year, sun.month, sun.day, 0, 0, 0.0}, 3600.0 * sun.hour - 60.0 * sun.offset_minutes);
+  return plus_seconds({sun.year, sun.month, sun.day, 0, 0, 0.0}, std::round(3600.0 * sun.hour) - 60.0 * sun.offset_minutes);
 }
 
-void grant(const LightRequest& request, const Scene& scene, RadiationModel& model) {
+double assumed_diffuse_share(const LightRequest& request) {
+  constexpr double of_clear_day = 0.2;
+  const bool alone = !request.sun.shines || request.sky.kind == SkyRequestKind::overcast;
+  return alone ? 1.0 : of_clear_day;
+}
+
+bool has_fixed_beam(const Scene& scene) {
+  return std::any_of(scene.light.bands.begin(), scene.light.bands.end(),
+                     [](const BandLight& band) { return !band.share && band.direct_w_m2 > 0.0; });
+}
+
+std::optional<double> grant(const LightRequest& request, const Scene& scene, RadiationModel& model) {
   const std::optional<SunPosition> sun = model.sun;
   const std::optional<SkyModel> sky = model.sky;
   const std::vector<Waveband> bands = model.bands;
+  std::optional<double> assumed;
   try {
-    grant_light(request, scene, model);
+    assumed = grant_light(request, scene, model);
   } catch (...) {
     model.sun = sun;
     model.sky = sky;
@@ -214,6 +254,7 @@ void grant(const LightRequest& request, const Scene& scene, RadiationModel& mode
     throw;
   }
   grant_optics(request, scene, model);
+  return assumed;
 }
 
 }  // namespace sunfleck

@@ -70,17 +70,31 @@ struct LightRequest {
 // Returns the scene's own light.
 [[nodiscard]] LightRequest request_of(const Scene& scene);
 
+// Return whether two requests mean the same, whatever the values of the fields that they do not use.
+[[nodiscard]] bool same_sun(const SunRequest& one, const SunRequest& other);
+[[nodiscard]] bool same_sky(const SkyRequest& one, const SkyRequest& other);
+
 // Returns the first difference for the log: "sun", "sky", "irradiance" or "optics"; empty if there is none.
 [[nodiscard]] std::string first_difference(const LightRequest& one, const LightRequest& other);
 
 // Returns a digest of the requested light in the form of Digest::text. Equal whenever first_difference finds no difference.
 [[nodiscard]] std::string digest_of(const LightRequest& request);
 
-// Returns the local date and time of a sun that follows the clock, in UTC. Throws Error (input) for a date that does not exist.
+// Returns the local date and time of a sun that follows the clock, in UTC, to the second, as a scene file can hold it. Throws Error (input) for a date that does not exist.
 [[nodiscard]] UtcTime time_of(const SunRequest& sun);
 
 // Applies the requested light to `model`, which began as a copy of scene.model. If that is impossible, throws Error (input)
 // with one line and leaves the model unchanged.
-void grant(const LightRequest& request, const Scene& scene, RadiationModel& model);
+//
+// A sky chosen here for a scene without any diffuse light gets assumed_diffuse_share of each band's irradiance. Returns that
+// share; nothing if the light is the scene's or the user's own.
+std::optional<double> grant(const LightRequest& request, const Scene& scene, RadiationModel& model);
+
+// Returns the part of the irradiance that a sky gets where nothing says how much: all of it under an overcast sky or without a sun,
+// else 0.2, a common share on a clear day.
+[[nodiscard]] double assumed_diffuse_share(const LightRequest& request);
+
+// Returns whether the scene's direct irradiance on level ground stays the same while the sun moves, for at least one band.
+[[nodiscard]] bool has_fixed_beam(const Scene& scene);
 
 }  // namespace sunfleck

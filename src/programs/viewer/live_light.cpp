@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/folder_lock.h"
+#include "programs/viewer/saved_scene.h"
 #include "simulate/result_folder.h"
 #include "simulate/scene_source.h"
 
@@ -151,11 +152,13 @@ bool LiveLight::wants_result() const {
 }
 
 void LiveLight::simulate_request(const LightRequest& request, std::uint64_t number) {
+  std::optional<double> assumed;
   {
     const std::lock_guard lock(result_mutex_);
     // The old result belongs to the previous light and is removed, because the scene no longer describes it.
     Scene& scene = simulation_.scene();
-    grant(request, original_, scene.model);
+    assumed = grant(request, original_, scene.model);
+    granted_ = request;
     const bool changed = !first_difference(request_of(original_), request).empty();
     scene.title = original_.title + (changed ? " (light changed)" : "");
     scene.digest = original_.digest + (changed ? "-changed-" + digest_of(request) : "");
@@ -165,6 +168,9 @@ void LiveLight::simulate_request(const LightRequest& request, std::uint64_t numb
     const std::lock_guard lock(news_mutex_);
     news_.request = number;
     news_.problem.clear();
+    news_.assumed_diffuse_share = assumed;
+    news_.sun = simulation_.model().sun;
+    news_.incoming = simulation_.model().bands;
   }
   Monitor monitor;
   monitor.interrupted = [this, number] { return superseded(number); };
@@ -198,8 +204,6 @@ void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool c
   news_.stop = result.stop;
   news_.rays = rays_of(result);
   news_.spared_beams = simulation_.spared_beams();
-  news_.sun = simulation_.model().sun;
-  news_.incoming = simulation_.model().bands;
   news_.direct_error = result.direct.relative_error;
   news_.indirect_error = result.indirect.relative_error;
   news_.direct_bound = settings_.accuracy.direct;
@@ -239,6 +243,7 @@ void LiveLight::write(const std::filesystem::path& folder, const RadiationResult
   prepare_folder(folder, lock);
   SimulatedScene simulated = simulation_.simulated(settings_, result);
   if (has_receivers_) simulated.record.not_written.emplace_back("planes and sensors");
+  save_scene({original_, granted_, simulation_.scene(), settings_.accuracy, options_.seed}, folder);
   write_whole_result(folder, options_, simulated, simulated.record).throw_if_any();
 }
 

@@ -40,6 +40,8 @@ struct LightNews {
   std::uint64_t spared_beams = 0;
   std::optional<SunPosition> sun;
   std::vector<Waveband> incoming;  // [band], incident light
+  // As grant returns it.
+  std::optional<double> assumed_diffuse_share;
   std::optional<double> direct_error, indirect_error;
   double direct_bound = 0.0, indirect_bound = 0.0;
   std::vector<BandResult> bands;
@@ -69,7 +71,11 @@ class LiveLight {
   std::uint64_t ask(const LightRequest& request);
 
   // Writes the result into a folder as `run` does, complete or not, as soon as there is one; planes and sensors are left out.
+  // Beside it goes scene.toml, from which `run` makes the same result, with copies of the files that it names.
   void save(const std::filesystem::path& folder);
+
+  // Returns whether the scene's beam keeps its irradiance while the sun moves.
+  [[nodiscard]] bool has_fixed_beam() const { return sunfleck::has_fixed_beam(original_); }
 
   [[nodiscard]] LightNews news() const;
 
@@ -110,8 +116,9 @@ class LiveLight {
   std::atomic<std::uint64_t> asked_ = 0;  // number of the last request
   std::atomic<bool> save_asked_ = false;
 
-  mutable std::mutex result_mutex_;  // guards the simulation's scene and the next two members; readers may hold it
+  mutable std::mutex result_mutex_;  // guards the simulation's scene and the next three members; readers may hold it
   std::optional<RadiationResult> result_;
+  LightRequest granted_;  // the light of the simulation's scene
   LightStamp stamp_;
 
   // Guards the members below up to the worker; held only briefly.

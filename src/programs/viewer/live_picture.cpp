@@ -1,6 +1,7 @@
 #include "programs/viewer/live_picture.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "files/results/tables/irradiance.h"
 #include "pictures/drawing/chart.h"
 #include "pictures/drawing/image_writer.h"
@@ -21,7 +22,7 @@ constexpr double preview_s = 0.035;
 // No preview is drawn if one sample per pixel takes no longer than this.
 constexpr double soon_s = 0.06;
 constexpr int coarsest_step = 12;  // pixels
-constexpr Colour picked_colour{1.0, 0.0, 0.6};
+constexpr std::uint32_t outline_colour = 0x00ff00c8;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -75,14 +76,10 @@ PickedElement::Face face_of(const Scene& scene, const RadiationResult& result, s
 
 PickedElement describe(const Scene& scene, const RadiationResult& result, std::uint32_t element, std::size_t band) {
   const RadiationModel& model = scene.model;
-  const Organ& organ = model.canopy.organs[model.canopy.organ_of[element]];
   const SurfaceOptics& optics = model.optics[model.canopy.optics_of[element]];
   PickedElement picked;
   picked.element = element;
-  picked.organ = organ.name;
-  picked.plant = organ.plant;
-  picked.rank = organ.rank;
-  picked.optics = optics.name;
+  picked.errors_known = !result.side_error.empty();
   picked.area_m2 = area_m2(model.canopy.corners[element]);
   picked.upper = face_of(scene, result, 2 * std::size_t{element}, band);
   picked.lower = face_of(scene, result, 2 * std::size_t{element} + 1, band);
@@ -90,6 +87,50 @@ PickedElement describe(const Scene& scene, const RadiationResult& result, std::u
   picked.absorbed_half_width_w_m2 = result.element_error.empty() ? std::numeric_limits<double>::quiet_NaN()
                                                                  : result.element_error[band * model.canopy.size() + element];
   return picked;
+}
+
+PickedOrgan describe_organ(const Scene& scene, const RadiationResult& result, std::uint32_t element, std::size_t band) {
+  const Canopy& canopy = scene.model.canopy;
+  const std::uint32_t number = canopy.organ_of[element];
+  const OrganResult& light = result.organs[number];
+  PickedOrgan picked;
+  picked.organ = canopy.organs[number].name;
+  picked.plant = canopy.organs[number].plant;
+  picked.rank = canopy.organs[number].rank;
+  picked.optics = scene.model.optics[canopy.optics_of[element]].name;
+  for (std::size_t e = 0; e < canopy.size(); ++e) picked.triangles += canopy.organ_of[e] == number ? 1 : 0;
+  picked.area_m2 = light.area_m2;
+  picked.sunlit_fraction = light.sunlit_fraction;
+  picked.direct = light.direct[band];
+  picked.indirect = light.indirect[band];
+  picked.absorbed = light.absorbed[band];
+  return picked;
+}
+
+// Draws a line around the pixels that see the picked organ or triangle, outside of it.
+void outline_pick(LivePictureFrame& frame, const Canopy& canopy) {
+  const auto is_picked = [&](std::uint32_t surface) {
+    const std::size_t element = surface / 2;
+    if (element >= canopy.size()) return false;
+    if (frame.pick->what == Pick::What::triangle) return element == frame.pick->element;
+    return canopy.organ_of[element] == canopy.organ_of[frame.pick->element];
+  };
+  const int reach = std::max(1, frame.height / 400);  // px
+  const auto at = [&](int row, int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(column);
+  };
+  std::vector<char> inside(frame.surface.size());
+  std::transform(frame.surface.begin(), frame.surface.end(), inside.begin(), is_picked);
+  for (int row = 0; row < frame.height; ++row) {
+    for (int column = 0; column < frame.width; ++column) {
+      if (!inside[at(row, column)]) continue;
+      for (int y = std::max(0, row - reach); y <= std::min(frame.height - 1, row + reach); ++y) {
+        for (int x = std::max(0, column - reach); x <= std::min(frame.width - 1, column + reach); ++x) {
+          if (!inside[at(y, x)]) frame.pixels[at(y, x)] = outline_colour;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -139,6 +180,19 @@ std::uint64_t LivePicture::ask(const PictureRequest& request) {
   return look;
 }
 
+void LivePicture::save(const PictureRequest& request, const std::filesystem::path& file) {
+  {
+    const std::lock_guard lock(mutex_);
+    to_save_ = {request, file};
+  }
+  order_.notify_all();
+}
+
+std::optional<SaveOutcome> LivePicture::take_saved() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(saved_, std::nullopt);
+}
+
 void LivePicture::light_changed() {
   {
     const std::lock_guard lock(mutex_);
@@ -161,6 +215,7 @@ bool LivePicture::wait_for_work() {
   std::unique_lock lock(mutex_);
   order_.wait(lock, [this] {
     if (quitting_) return true;
+    if (to_save_) return true;
     if (!request_) return false;
     const bool unfinished = sight_ && sight_->fineness != Fineness::full && !request_->moving && content_;
     return !sight_ || sight_->look != look_ || drawn_request_ != request_number_ || drawn_light_ != light_number_ || unfinished;
@@ -173,6 +228,7 @@ void LivePicture::work() {
     std::string problem;
     bool over = false;
     try {
+      save_if_asked();
       draw_once();
     } catch (const std::bad_alloc&) {
       problem = "out of memory (allocation failed); make the window smaller, or use fewer samples";
@@ -195,6 +251,7 @@ void LivePicture::draw_once() {
   std::uint64_t look = 0;
   {
     const std::lock_guard lock(mutex_);
+    if (!request_) return;
     request = *request_;
     look = look_;
     drawn_request_ = request_number_;
@@ -216,6 +273,43 @@ void LivePicture::draw_once() {
   sight_->request = request;
   refresh_content(request);
   if (content_) paint(*sight_);
+}
+
+void LivePicture::save_if_asked() {
+  std::optional<PictureToSave> order;
+  {
+    const std::lock_guard lock(mutex_);
+    order = std::exchange(to_save_, std::nullopt);
+  }
+  if (!order) return;
+  SaveOutcome outcome{true, order->file.string()};
+  try {
+    const Image image = whole_picture(order->request);
+    make_folder(order->file.parent_path());
+    write_png(image, order->file);
+  } catch (const std::bad_alloc&) {
+    outcome = {false, "out of memory (allocation failed); save a smaller picture"};
+  } catch (const Error& error) {
+    outcome = {false, error.what()};
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    saved_ = outcome;
+  }
+  notify_();
+}
+
+Image LivePicture::whole_picture(const PictureRequest& request) {
+  std::optional<ChartContent> chart;
+  static_cast<void>(light_.with_result([&](const Scene& scene, const RadiationResult& result, const LightStamp&) {
+    if (!surfaces_) surfaces_ = surface_colours(scene.model, tracing_.tree.layout);
+    chart =
+        chart_content({scene.title, scene.model, tracing_.tree.layout, result}, request.options, request.picture, *surfaces_);
+  }));
+  if (!chart) throw_failure("the picture", "there is no light to show yet", "wait for the first picture");
+  const std::vector<shared::SeenSurface> samples = see(request.options, request.camera, {});
+  return draw_chart(surface_image(samples, {0, request.options.height}, request.options), chart->colours, request.camera,
+                    light_.geometry().model.plot, tracing_.tree.layout.layers.height_m, chart->text);
 }
 
 // Returns the distance in pixels between two samples of a preview; 1 if no preview is needed.
@@ -284,11 +378,12 @@ void LivePicture::refresh_content(const PictureRequest& request) {
         stamp,
         request,
         chart_content({scene.title, scene.model, tracing_.tree.layout, result}, request.options, request.picture, *surfaces_),
+        {},
         {}};
-    if (request.picked && *request.picked < scene.model.canopy.size()) {
-      const std::size_t side = 2 * std::size_t{*request.picked};
-      next.chart.colours[side] = next.chart.colours[side + 1] = picked_colour;
-      next.picked = describe(scene, result, *request.picked, picture_band(scene.model, request.options.band));
+    if (request.picked && request.picked->element < scene.model.canopy.size()) {
+      const std::size_t band = picture_band(scene.model, request.options.band);
+      next.organ = describe_organ(scene, result, request.picked->element, band);
+      if (request.picked->what == Pick::What::triangle) next.picked = describe(scene, result, request.picked->element, band);
     }
     content_ = std::move(next);
   }));
@@ -311,7 +406,12 @@ void LivePicture::paint(const Sight& sight) {
   next->look = sight.look;
   next->look_s = sight.look_s;
   next->paint_s = seconds_since(start);
+  next->organ = content_->organ;
   next->picked = content_->picked;
+  if (next->organ) {
+    next->pick = content_->request.picked;
+    outline_pick(*next, light_.geometry().model.canopy);
+  }
   {
     const std::lock_guard lock(mutex_);
     next->number = frame_ ? frame_->number + 1 : 1;

@@ -18,24 +18,41 @@
 
 namespace sunfleck {
 
+// What the user has picked: the organ of an element, or the element itself.
+struct Pick {
+  enum class What { organ, triangle };
+  std::uint32_t element = 0;
+  What what = What::organ;
+
+  friend bool operator==(const Pick&, const Pick&) = default;
+};
+
 struct PictureRequest {
   Camera camera;
   PictureOptions options;  // size, samples, repeat, band and upper end of the scale; the view is the camera's
   Picture picture;
-  std::optional<std::uint32_t> picked;  // element number
-  bool moving = false;                  // the camera is about to change again
+  std::optional<Pick> picked;
+  bool moving = false;  // the camera is about to change again
 };
 
 // Return whether two requests see the same surfaces, and whether they colour them alike.
 [[nodiscard]] bool same_look(const PictureRequest& a, const PictureRequest& b);
 [[nodiscard]] bool same_style(const PictureRequest& a, const PictureRequest& b);
 
+// Description of the organ of a picked element, and the light it receives, W m-2 of its one-sided area, both faces together.
+struct PickedOrgan {
+  std::string organ, optics;
+  std::int64_t plant = 0, rank = 0;
+  std::size_t triangles = 0;
+  double area_m2 = 0.0;
+  Estimate sunlit_fraction, direct, indirect, absorbed;
+};
+
 // Description of a picked element and the light it receives.
 struct PickedElement {
   std::uint32_t element = 0;
-  std::string organ, optics;
-  std::int64_t plant = 0, rank = 0;
   double area_m2 = 0.0;
+  bool errors_known = false;  // false for a scene whose triangles are too many
   struct Face {
     double direct_w_m2 = 0.0, sky_w_m2 = 0.0, scattered_w_m2 = 0.0;  // incident
     double half_width_w_m2 = 0.0;                                    // of their sum; NaN if there are too few hits
@@ -56,7 +73,9 @@ struct LivePictureFrame {
   LightStamp light;
   std::uint64_t look = 0;  // number of the request's camera and size
   double look_s = 0.0, paint_s = 0.0;
-  std::optional<PickedElement> picked;
+  std::optional<Pick> pick;             // what the next two describe
+  std::optional<PickedOrgan> organ;     // if anything is picked
+  std::optional<PickedElement> picked;  // if a triangle is picked
 };
 
 // Writes the frame's picture as a PNG. Throws Error (failure).
@@ -76,6 +95,11 @@ class LivePicture {
   // Tells the drawing thread that the light has changed.
   void light_changed();
 
+  // Requests a picture of any size in a file, with all its samples; its folder is created. Its outcome follows by take_saved.
+  void save(const PictureRequest& request, const std::filesystem::path& file);
+  // Returns the outcome of the last request to save, once.
+  [[nodiscard]] std::optional<SaveOutcome> take_saved();
+
   // Returns the latest frame; null before the first one.
   [[nodiscard]] std::shared_ptr<const LivePictureFrame> frame() const;
   [[nodiscard]] std::string problem() const;
@@ -94,12 +118,19 @@ class LivePicture {
     LightStamp light;
     PictureRequest request;
     ChartContent chart;
+    std::optional<PickedOrgan> organ;
     std::optional<PickedElement> picked;
+  };
+  struct PictureToSave {
+    PictureRequest request;
+    std::filesystem::path file;
   };
 
   void work();
   [[nodiscard]] bool wait_for_work();
   void draw_once();
+  void save_if_asked();
+  [[nodiscard]] Image whole_picture(const PictureRequest& request);
   enum class Haste { to_the_end, give_up_for_next };
   [[nodiscard]] bool look_at(Sight& sight, Fineness fineness, Haste haste);
   [[nodiscard]] std::vector<shared::SeenSurface> see(const PictureOptions& options, const Camera& camera,
@@ -119,6 +150,8 @@ class LivePicture {
   mutable std::mutex mutex_;  // guards the members up to problem_
   std::condition_variable order_;
   std::optional<PictureRequest> request_;
+  std::optional<PictureToSave> to_save_;
+  std::optional<SaveOutcome> saved_;
   std::uint64_t light_number_ = 0;
   std::shared_ptr<const LivePictureFrame> frame_;
   std::string problem_;

@@ -50,8 +50,9 @@ bool slider(ViewerState& state, const std::string& name, const char* label, int&
   return changed;
 }
 
-bool button(ViewerState& state, const std::string& name, const char* label) {
-  const bool pressed = ImGui::Button((label + ("##" + name)).c_str());
+// A width of 0 fits the label; a button whose label changes needs another, so that what follows stays in its place.
+bool button(ViewerState& state, const std::string& name, const char* label, float width_px = 0.0F) {
+  const bool pressed = ImGui::Button((label + ("##" + name)).c_str(), {width_px, 0.0F});
   note(state, name);
   return pressed;
 }
@@ -85,11 +86,6 @@ void draw_state(const ViewerState& state) {
   const LightNews& news = state.news;
   ImGui::TextWrapped("%s", state.title.c_str());
   ImGui::TextDisabled("%s", state.plot_text.c_str());
-  if (!news.problem.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, problem_colour);
-    ImGui::TextWrapped("%s", news.problem.c_str());
-    ImGui::PopStyleColor();
-  }
   const bool current = news.version > 0 && news.result_request == news.request;
   const double reached = std::max(news.direct_error.value_or(1.0) / std::max(1e-9, news.direct_bound),
                                   news.indirect_error.value_or(0.0) / std::max(1e-9, news.indirect_bound));
@@ -128,7 +124,8 @@ void draw_clock(ViewerState& state) {
   double offset_h = sun.offset_minutes / 60.0;
   if (slider(state, "utc_offset", "UTC offset, h", offset_h, {-12.0, 14.0, "%+.2f"}))
     sun.offset_minutes = static_cast<int>(std::lround(60.0 * offset_h));
-  if (button(state, "play", state.playing ? "Stop" : "Play the day")) state.playing = !state.playing;
+  if (button(state, "play", state.playing ? "Stop" : "Play the day", 7.0F * ImGui::GetFontSize()))
+    state.playing = !state.playing;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(5.0F * ImGui::GetFontSize());
   slider(state, "play_step", "min", state.play_step_min, {1.0, 60.0, "%.0f"});
@@ -179,6 +176,24 @@ void draw_sky(ViewerState& state) {
     slider(state, "diffuse/" + state.bands[b], (state.bands[b] + " diffuse share").c_str(), band.diffuse_share,
            {0.0, 1.0, "%.3f"});
   }
+}
+
+// Says what light comes in, always on three lines.
+void draw_incoming(const ViewerState& state) {
+  const LightNews& news = state.news;
+  if (state.band() >= news.incoming.size()) return text("\n\n");
+  const Waveband& shown = news.incoming[state.band()];
+  text(fmt::format("{}: beam {:.4g}, sky {:.4g} W m⁻²", shown.name, shown.direct_w_m2, shown.diffuse_w_m2));
+  const bool sky = state.light.sky.kind != SkyRequestKind::none;
+  const bool no_sky_light =
+      std::all_of(news.incoming.begin(), news.incoming.end(), [](const Waveband& band) { return !(band.diffuse_w_m2 > 0.0); });
+  std::string of_sky = " ";
+  if (sky && no_sky_light) of_sky = "The sky has no light: give `diffuse`";
+  if (news.assumed_diffuse_share)
+    of_sky = fmt::format("Sky: {:.0f} % of the light, assumed", 100.0 * *news.assumed_diffuse_share);
+  text(of_sky);
+  const bool fixed = state.light.sun.shines && state.light.sun.by_clock && (state.fixed_beam || state.light.own_irradiance);
+  text(fixed ? "Beam fixed: it does not follow the hour" : " ");
 }
 
 // Keeps reflectance plus transmittance at 1 or below by lowering the one that is not being changed.
@@ -247,24 +262,56 @@ void draw_views(ViewerState& state, PanelOrders& orders) {
       "quit.");
 }
 
-std::string with_error(double value, double half_width) {
-  return std::isnan(half_width) ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} ± {:.2g}", value, half_width);
+std::string with_error(const Estimate& figure) {
+  if (std::isnan(figure.value)) return "too few rays";
+  if (std::isnan(figure.half_width)) return fmt::format("{:.4g} (too few rays)", figure.value);
+  return fmt::format("{:.4g} ± {:.2g}", figure.value, figure.half_width);
 }
 
-void draw_picked(const ViewerState& state) {
-  const PickedElement& picked = *state.frame->picked;
+void draw_picked_organ(const PickedOrgan& picked) {
   text(fmt::format("{} of plant {}{}", picked.organ, picked.plant,
                    picked.rank > 0 ? fmt::format(", rank {}", picked.rank) : ""));
-  text(fmt::format("triangle {}, {:.4g} cm², optics {}", picked.element, 1e4 * picked.area_m2, picked.optics));
-  const auto face = [](const char* name, const PickedElement::Face& light) {
-    text(fmt::format("{}: {} W m⁻²", name, with_error(light.total_w_m2(), light.half_width_w_m2)));
+  text(fmt::format("{:.4g} cm², triangles: {}, optics {}", 1e4 * picked.area_m2, picked.triangles, picked.optics));
+  text("W m⁻² of its area, both faces:");
+  text(fmt::format("Direct: {}", with_error(picked.direct)));
+  text(fmt::format("Sky and scattered: {}", with_error(picked.indirect)));
+  text(fmt::format("Absorbed: {}", with_error(picked.absorbed)));
+  text(fmt::format("Share in direct sun: {}", with_error(picked.sunlit_fraction)));
+  ImGui::TextDisabled("Click it again for a triangle.");
+}
+
+void draw_picked_triangle(const PickedOrgan& organ, const PickedElement& picked) {
+  text(fmt::format("Triangle {} of {}, plant {}{}", picked.element, organ.organ, organ.plant,
+                   organ.rank > 0 ? fmt::format(", rank {}", organ.rank) : ""));
+  text(fmt::format("{:.4g} cm², optics {}", 1e4 * picked.area_m2, organ.optics));
+  const auto figure = [&](double value, double half_width) {
+    return picked.errors_known ? with_error({value, half_width}) : fmt::format("{:.4g} (error not kept)", value);
+  };
+  const auto face = [&](const char* name, const PickedElement::Face& light) {
+    text(fmt::format("{}: {} W m⁻²", name, figure(light.total_w_m2(), light.half_width_w_m2)));
     ImGui::TextDisabled("%s", fmt::format("  direct {:.4g}, sky {:.4g}, scattered {:.4g}", light.direct_w_m2, light.sky_w_m2,
                                           light.scattered_w_m2)
                                   .c_str());
   };
   face("Upper face", picked.upper);
   face("Lower face", picked.lower);
-  text(fmt::format("Absorbed: {} W m⁻²", with_error(picked.absorbed_w_m2, picked.absorbed_half_width_w_m2)));
+  text(fmt::format("Absorbed: {} W m⁻²", figure(picked.absorbed_w_m2, picked.absorbed_half_width_w_m2)));
+}
+
+// Chooses the size of saved pictures.
+void draw_save_size(ViewerState& state) {
+  constexpr int least = 64;
+  constexpr int most = 4096;
+  ImGui::Checkbox("Own size", &state.own_size);
+  note(state, "own_size");
+  ImGui::SameLine();
+  std::array<int, 2> size{state.save_width, state.save_height};
+  ImGui::SetNextItemWidth(8.0F * ImGui::GetFontSize());
+  if (ImGui::InputInt2("px##save_size", size.data(), ImGuiInputTextFlags_EnterReturnsTrue)) {
+    state.save_width = std::clamp(size[0], least, most);
+    state.save_height = std::clamp(size[1], least, most);
+  }
+  note(state, "save_size");
 }
 
 bool section(ViewerState& state, const char* name, bool open) {
@@ -279,18 +326,20 @@ PanelOrders draw_panel(ViewerState& state, float width_px, float height_px) {
   PanelOrders orders;
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize({width_px, height_px});
-  constexpr ImGuiWindowFlags fixed =
-      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar;
+  constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_AlwaysVerticalScrollbar | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar;
   ImGui::Begin("sunfleck", nullptr, fixed);
   ImGui::PushItemWidth(0.55F * width_px);
   draw_state(state);
   orders.save_picture = button(state, "save_picture", "Save picture");
   ImGui::SameLine();
-  orders.save_result = button(state, "save_result", state.news.saving ? "Saving …" : "Save result");
-  if (is_picked_shown(state) && section(state, "Selected", true)) draw_picked(state);
+  orders.save_result =
+      button(state, "save_result", state.news.saving ? "Saving …" : "Save result", 7.0F * ImGui::GetFontSize());
+  draw_save_size(state);
   if (section(state, "Light", true)) {
     draw_sun(state);
     draw_sky(state);
+    draw_incoming(state);
     if (button(state, "reset_light", "As in the scene")) orders.reset_light = true;
   }
   if (section(state, "Picture", true)) draw_picture(state);
@@ -303,6 +352,24 @@ PanelOrders draw_panel(ViewerState& state, float width_px, float height_px) {
   ImGui::PopItemWidth();
   ImGui::End();
   return orders;
+}
+
+void draw_selected(const ViewerState& state, float left_px, float height_px) {
+  if (!is_picked_shown(state)) return;
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const ImVec2 size(19.0F * line, 9.0F * line);
+  ImGui::SetNextWindowPos({left_px + line, height_px - size.y - 5.0F * line});
+  ImGui::SetNextWindowSize(size);
+  ImGui::SetNextWindowBgAlpha(0.93F);
+  ImGui::Begin("selected", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+  const LivePictureFrame& frame = *state.frame;
+  if (frame.picked) {
+    draw_picked_triangle(*frame.organ, *frame.picked);
+  } else {
+    draw_picked_organ(*frame.organ);
+  }
+  ImGui::End();
 }
 
 void draw_message(const ViewerState& state, float left_px, float width_px, float height_px) {

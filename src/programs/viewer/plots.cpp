@@ -100,8 +100,7 @@ void draw_balance(const BandResult& band, float width_px) {
   }
   ImGui::Dummy({width_px, 1.3F * line});
   ImGui::Text("%s", fmt::format("{} incident {:.4g} W m⁻²", band.name, band.incident).c_str());
-  for (const Part& part : parts) {
-    if (!(band.incident > 0.0) || !(part.value.value > 0.0)) continue;
+  for (const Part& part : parts) {  // all of them, so that what follows stays in its place
     const ImVec2 at = ImGui::GetCursorScreenPos();
     canvas.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + 0.7F * line, at.y + 0.85F * line}, part.colour);
     ImGui::Dummy({0.8F * line, line});

@@ -17,6 +17,10 @@ json face_fields(const PickedElement::Face& face) {
           {"scattered", face.scattered_w_m2}};
 }
 
+json estimate_fields(const Estimate& estimate) {
+  return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.half_width)}};
+}
+
 }  // namespace
 
 json converged_fields(const LightNews& news, std::size_t band) {
@@ -35,15 +39,26 @@ json converged_fields(const LightNews& news, std::size_t band) {
           {"reflected", light.reflected.value}};
 }
 
-json picked_fields(const PickedElement& picked) {
-  return {{"element", picked.element},
-          {"plant", picked.plant},
-          {"organ", picked.organ},
-          {"rank", picked.rank},
-          {"area_m2", picked.area_m2},
-          {"upper", face_fields(picked.upper)},
-          {"lower", face_fields(picked.lower)},
-          {"absorbed", picked.absorbed_w_m2}};
+json picked_fields(const LivePictureFrame& frame) {
+  const PickedOrgan& organ = *frame.organ;
+  json fields = {{"what", frame.picked ? "triangle" : "organ"},
+                 {"plant", organ.plant},
+                 {"organ", organ.organ},
+                 {"rank", organ.rank},
+                 {"area_m2", organ.area_m2},
+                 {"triangles", organ.triangles},
+                 {"sunlit", estimate_fields(organ.sunlit_fraction)},
+                 {"direct", estimate_fields(organ.direct)},
+                 {"indirect", estimate_fields(organ.indirect)},
+                 {"absorbed", estimate_fields(organ.absorbed)}};
+  if (!frame.picked) return fields;
+  const PickedElement& picked = *frame.picked;
+  fields["element"] = picked.element;
+  fields["triangle_area_m2"] = picked.area_m2;
+  fields["upper"] = face_fields(picked.upper);
+  fields["lower"] = face_fields(picked.lower);
+  fields["triangle_absorbed"] = picked.absorbed_w_m2;
+  return fields;
 }
 
 json frame_fields(std::vector<double> seconds) {

@@ -10,7 +10,7 @@ std::size_t ViewerState::band() const {
 }
 
 bool is_picked_shown(const ViewerState& state) {
-  return state.picked && state.frame && state.frame->picked && state.frame->picked->element == *state.picked;
+  return state.picked && state.frame && state.frame->pick == state.picked;
 }
 
 }  // namespace sunfleck

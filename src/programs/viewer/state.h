@@ -24,7 +24,9 @@ struct ViewerState {
   bool camera_as_given = true;
   PictureOptions options;
   Picture picture;
-  std::optional<std::uint32_t> picked;
+  std::optional<Pick> picked;
+  bool own_size = false;  // save pictures in the size below, not in the window's
+  int save_width = 1600, save_height = 1200;
   bool panel = true;
   bool playing = false;
   double play_step_min = 10.0;
@@ -40,6 +42,7 @@ struct ViewerState {
   std::vector<std::string> bands;
   std::vector<std::string> optics_names;
   double frame_ms = 0.0;
+  bool fixed_beam = false;  // as has_fixed_beam of the scene
 
   // Positions of the panel's controls, px: left, top, right, bottom.
   std::map<std::string, std::array<float, 4>> controls;
@@ -47,7 +50,7 @@ struct ViewerState {
   [[nodiscard]] std::size_t band() const;  // number of the band shown
 };
 
-// Returns true if the frame describes the picked element, which it does a moment after the click.
+// Returns true if the frame describes what is picked, which it does a moment after the click.
 [[nodiscard]] bool is_picked_shown(const ViewerState& state);
 
 // One-time requests from the panel.

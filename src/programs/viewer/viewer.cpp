@@ -8,6 +8,7 @@
 #include "physics/canopy/axes.h"
 #include "physics/light/sun_events.h"
 #include "programs/cli/terminal.h"
+#include "programs/viewer/compass.h"
 #include "programs/viewer/panel.h"
 #include "programs/viewer/reports.h"
 #include "simulate/interrupt.h"
@@ -76,6 +77,8 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.bands = session_->bands;
   state_.optics_names = session_->optics;
   if (state_.band() == 0) state_.options.band.clear();
+  state_.fixed_beam = session_->light.has_fixed_beam();
+  told_assumed_.reset();
   state_.picked.reset();
   state_.playing = false;
   if (another || !asked_picture_) choose_view(another ? ViewKind::camera : options_.run.pictures.view);
@@ -159,9 +162,19 @@ void Viewer::frame() {
   take_picture();
   if (!drawn) return;
   const PictureFrame place = picture_frame();
-  if (now_s() > message_until_s_) state_.message.clear();
+  if (now_s() > message_until_s_) {
+    state_.message_is_problem = !state_.news.problem.empty();
+    state_.message = state_.news.problem;
+  }
   PanelOrders orders;
   if (state_.panel) orders = draw_panel(state_, place.left_px, place.height_px);
+  if (state_.panel) {
+    const CompassPlace compass = compass_place(place.left_px, place.width_px, place.height_px);
+    draw_compass(compass, state_.hand.camera, state_.news.sun);
+    state_.controls["compass"] = {compass.centre_px.x - compass.radius_px, compass.centre_px.y - compass.radius_px,
+                                  compass.centre_px.x + compass.radius_px, compass.centre_px.y + compass.radius_px};
+  }
+  draw_selected(state_, place.left_px, place.height_px);
   draw_message(state_, place.left_px, place.width_px, place.height_px);
   if (const auto clicked = hands_.steer(state_, place, now_s())) pick(*clicked);
   take_keys();
@@ -194,11 +207,25 @@ void Viewer::take_news() {
   }
   if (news.request == light_number_) tell_problem(told_problems_[0], news.problem);
   tell_problem(told_problems_[1], session_->picture.problem());
-  if (saving_picture_.valid() && saving_picture_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    const SaveOutcome outcome = saving_picture_.get();
-    say_to_user((outcome.done ? "Saved " : "") + outcome.text, !outcome.done);
-    if (outcome.done) events_.tell("saved", {{"file", outcome.text}});
-  }
+  if (saving_picture_.valid() && saving_picture_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    tell_saved(saving_picture_.get());
+  if (const std::optional<SaveOutcome> outcome = session_->picture.take_saved()) tell_saved(*outcome);
+  tell_assumed_light();
+}
+
+void Viewer::tell_saved(const SaveOutcome& outcome) {
+  say_to_user((outcome.done ? "Saved " : "") + outcome.text, !outcome.done);
+  if (outcome.done) events_.tell("saved", {{"file", outcome.text}});
+}
+
+void Viewer::tell_assumed_light() {
+  const std::optional<double> assumed = state_.news.assumed_diffuse_share;
+  if (std::exchange(told_assumed_, assumed) == assumed || !assumed) return;
+  say_to_user(fmt::format("The scene gives its bands no `diffuse` light, so the sky gets {:.0f} % of each band's irradiance; "
+                          "Own irradiance changes that.",
+                          100.0 * *assumed),
+              false);
+  events_.tell("assumed_diffuse", {{"share", *assumed}});
 }
 
 // Reports each problem once while it lasts.
@@ -230,7 +257,7 @@ void Viewer::take_picture() {
   }
   if (picked_told_ || !is_picked_shown(state_)) return;
   picked_told_ = true;
-  events_.tell("picked", picked_fields(*frame->picked));
+  events_.tell("picked", picked_fields(*frame));
 }
 
 void Viewer::take_keys() {
@@ -295,6 +322,7 @@ void Viewer::save_picture() {
   do {
     file = folder / fmt::format("view_{}_{:03d}.png", stem_of(state_.picture), ++saved_pictures_);
   } while (fs::exists(file, error));
+  if (state_.own_size) return session_->picture.save(picture_to_save(), file);
   saving_picture_ = std::async(std::launch::async, [frame = state_.frame, folder, file] {
     try {
       make_folder(folder);
@@ -304,6 +332,22 @@ void Viewer::save_picture() {
       return SaveOutcome{false, problem.what()};
     }
   });
+}
+
+// Fits an unmoved camera to the size of the file.
+PictureRequest Viewer::picture_to_save() const {
+  PictureRequest request{state_.hand.camera, state_.options, state_.picture, std::nullopt, false};
+  request.options.width = state_.save_width;
+  request.options.height = state_.save_height;
+  const double aspect = static_cast<double>(state_.save_width) / state_.save_height;
+  if (state_.camera_as_given) {
+    request.camera = picture_camera(session_->light.geometry(), session_->simulation.layout(), request.options);
+  } else if (request.camera.kind == Projection::fisheye) {
+    request.camera = fisheye_view(request.camera.position_m, aspect);
+  } else {
+    request.camera.aspect = aspect;
+  }
+  return request;
 }
 
 // Fits an unmoved camera to the window as `render` would fit its picture.
@@ -326,12 +370,16 @@ void Viewer::place_camera(const PictureFrame& place) {
 void Viewer::pick(glm::ivec2 pixel) {
   if (!state_.frame || shown_frame_ == 0) return;  // otherwise it shows the previous scene
   const LivePictureFrame& frame = *state_.frame;
-  state_.picked.reset();
+  const std::optional<Pick> earlier = std::exchange(state_.picked, std::nullopt);
   picked_told_ = false;
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= frame.width || pixel.y >= frame.height) return;
   const std::uint32_t surface = frame.surface[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(frame.width) +
                                               static_cast<std::size_t>(pixel.x)];
-  if (surface / 2 < session_->light.geometry().model.canopy.size()) state_.picked = surface / 2;
+  const Canopy& canopy = session_->light.geometry().model.canopy;
+  const std::uint32_t element = surface / 2;
+  if (element >= canopy.size()) return;
+  const bool again = earlier && canopy.organ_of[earlier->element] == canopy.organ_of[element];
+  state_.picked = Pick{element, again ? Pick::What::triangle : Pick::What::organ};
 }
 
 // Moves the time from sunrise to sunset, over and over.

@@ -59,6 +59,9 @@ class Viewer {
   void ask_for_light();
   void ask_for_picture();
   void save_picture();
+  void tell_saved(const SaveOutcome& outcome);
+  [[nodiscard]] PictureRequest picture_to_save() const;
+  void tell_assumed_light();
   [[nodiscard]] std::filesystem::path save_folder() const;
   void tell_problem(std::string& told, const std::string& problem);
   void say_to_user(const std::string& message, bool problem);
@@ -94,6 +97,7 @@ class Viewer {
   std::future<SaveOutcome> saving_picture_;
   std::array<std::string, 2> told_problems_;  // of light and picture
   bool picked_told_ = false;
+  std::optional<double> told_assumed_;
   std::vector<double> frame_times_s_;
 };
 
