@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -33,7 +34,7 @@ std::string subtitle_line(const RadiationModel& model, const RadiationResult& re
   return line + fmt::format("{} triangles, leaf area index {:.2f}", model.canopy.size(), result.leaf_area_index);
 }
 
-std::string footer_line(LightField field, const RadiationResult& result, const std::string& note) {
+std::string footer_line(LightField field, const RadiationResult& result, std::size_t band, const std::string& note) {
   std::string line;
   const auto add = [&](std::uint64_t count, const char* what, const std::optional<double>& error) {
     if (count == 0) return;
@@ -43,6 +44,9 @@ std::string footer_line(LightField field, const RadiationResult& result, const s
   add(result.direct.rays, "rays", result.direct.relative_error);
   if (field != LightField::direct) {
     add(result.indirect.packets + result.indirect.sky_rays, "packets", result.indirect.relative_error);
+  }
+  if (band < result.triangle_relative_error.size() && !std::isnan(result.triangle_relative_error[band])) {
+    line += fmt::format("; a triangle's light is known to {:.2g} %", 100.0 * result.triangle_relative_error[band]);
   }
   return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
 }
@@ -189,12 +193,17 @@ ChartContent chart_content(const ChartSource& source, const PictureOptions& opti
                            const SurfaceColours& surfaces) {
   const RadiationModel& model = source.model;
   const std::size_t band = picture_band(model, options.band);
-  const FieldValues values = field_values(model, source.layout, source.result, band, picture.field);
-  Colouring colouring =
-      colour_field(picture.chart, values, surfaces, field_title(picture.field, model.bands[band].name), options.top_w_m2);
+  FieldValues values = field_values(model, source.layout, source.result, band, picture.field);
+  const bool of_leaves = is_rank(picture.chart);
+  if (of_leaves) values = leaf_values(model, std::move(values), picture.field);
+  const int faces = of_leaves || picture.field == LightField::absorbed ? 2 : 1;
+  const ScaleLimits limits{options.top_w_m2, of_leaves ? lit_from_w_m2(model, band) : 0.0,
+                           largest_possible_w_m2(model, band, picture.field, faces)};
+  const std::string title = field_title(picture.field, model.bands[band].name, of_leaves);
+  Colouring colouring = colour_field(picture.chart, values, surfaces, title, limits);
   return {std::move(colouring.colours),
           {source.title, subtitle_line(model, source.result), colouring.legend_title, colouring.legend,
-           footer_line(picture.field, source.result, colouring.note), colouring.bar}};
+           footer_line(picture.field, source.result, band, colouring.note), colouring.bar}};
 }
 
 double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,

@@ -258,9 +258,9 @@ class Result:
     ) -> np.ndarray:
         """Returns a picture, uint8 of shape (height, width, 3), sRGB, pixel for pixel as `sunfleck render SCENE` draws it.
 
-        chart: rank, rank-interval, hue or map. field: direct, sky, indirect, total, absorbed or scattered. band: by default the
+        chart: rank, rank-interval, rank-log, hue or map. field: direct, sky, indirect, total, absorbed or scattered. band: by default the
             first. view: camera, top, side or fisheye. size: (width, height), each 64..8192. samples: per pixel, 1..256.
-        repeat: N x N copies of a periodic plot, N odd up to 9. range: upper end of the scale of rank-interval and map, W m-2.
+        repeat: N x N copies of a periodic plot, N odd up to 9. range: upper end of the scale of rank-interval, rank-log and map, W m-2.
         """
         width, height = size
         pixels = (whole(width, "size", 64, 8192), whole(height, "size", 64, 8192))
