@@ -19,7 +19,7 @@ constexpr std::array<std::array<std::uint8_t, 3>, rank_count> rank_srgb = {
     {{0x24, 0x1a, 0x63}, {0x20, 0x64, 0xb4}, {0x17, 0xa2, 0x7f}, {0xe8, 0xa5, 0x3a}, {0xff, 0xef, 0x8a}}};
 
 // Darker than the second class and lighter than the first, and without their hue.
-constexpr std::array<std::uint8_t, 3> unlit_srgb = {0x4c, 0x49, 0x46};
+constexpr std::array<std::uint8_t, 3> unlit_srgb = {0x4f, 0x4c, 0x48};
 
 // Equal values and their total weight; no class boundary can separate them.
 struct Group {
