@@ -39,12 +39,12 @@ double shown(LightField field, const Irradiance& light) {
 }  // namespace
 
 std::string field_title(LightField field, const std::string& band, bool of_both_faces) {
-  const char* const unit = of_both_faces ? " of both faces, W m⁻²" : ", W m⁻²";
+  const char* const unit = of_both_faces ? ", W m⁻² (both faces)" : ", W m⁻²";
   switch (field) {
     case LightField::direct:
       return fmt::format("Direct {} irradiance{}", band, unit);
     case LightField::sky:
-      return fmt::format("{} irradiance {}from the sky, W m⁻²", band, of_both_faces ? "of both faces " : "");
+      return fmt::format("{} irradiance from the sky{}", band, unit);
     case LightField::scattered:
       return fmt::format("Scattered {} irradiance{}", band, unit);
     case LightField::indirect:

@@ -15,7 +15,7 @@
 namespace sunfleck {
 
 // Returns the field's title with its unit, for the heading of a legend: "Direct PAR irradiance, W m⁻²", or with both faces together
-// "Direct PAR irradiance of both faces, W m⁻²".
+// "Direct PAR irradiance, W m⁻² (both faces)".
 [[nodiscard]] std::string field_title(LightField field, const std::string& band, bool of_both_faces = false);
 
 // Returns true if the scene has this light: a beam, a sky, or anything that scatters or emits light.
