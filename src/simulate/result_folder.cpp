@@ -75,7 +75,7 @@ std::vector<ElementColour> element_colours(const Drawing& drawing, std::size_t b
   const FieldValues sides = field_values(model, drawing.layout, drawing.result, band, LightField::total);
   const FieldValues values = leaf_values(model, sides, LightField::total);
   const std::vector<Colour> surfaces = colour_field(ChartKind::rank, values, surface_colours(model, drawing.layout), "",
-                                                    {.lit_from_w_m2 = lit_from_w_m2(model, band)})
+                                                    {.lit_from_w_m2 = lit_from_w_m2(model, band, LightField::total)})
                                            .colours;
   std::vector<ElementColour> colours(model.canopy.size());
   for (std::size_t e = 0; e < colours.size(); ++e) {

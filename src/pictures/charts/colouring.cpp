@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace sunfleck {
 namespace {
@@ -32,14 +33,36 @@ RankScale rank_scale(ChartKind chart, const FieldValues& values, const ScaleLimi
   return scale;
 }
 
-Colouring ranked(const FieldValues& values, const RankScale& scale) {
+// Soil that is not counted has browns of its own, from dark to a pale sand: on the leaves' scale, which is of two faces, its sunflecks
+// could all lie in the lowest class.
+Colour soil_colour(double share_of_top) {
+  constexpr Colour dark{0.22, 0.17, 0.13}, pale{0.87, 0.80, 0.70};  // sRGB
+  Colour encoded{};
+  const double share = std::clamp(share_of_top, 0.0, 1.0);
+  for (std::size_t i = 0; i < encoded.size(); ++i) encoded[i] = dark[i] + share * (pale[i] - dark[i]);
+  return from_encoded(encoded);
+}
+
+// Gives the soil's cells their colours and a line of the legend.
+void colour_soil(Colouring& colouring, const FieldValues& values, const ScaleLimits& limits) {
+  const auto cells = std::span(values.w_m2).subspan(values.first_cell);
+  const std::vector<double> equal_areas(cells.size(), 1.0);
+  const double own_top = weighted_quantile(cells, equal_areas, rank_top_share);
+  const double top = limits.top_w_m2.value_or(std::min(own_top, limits.largest_w_m2));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    colouring.colours[values.first_cell + i] = soil_colour(top > 0.0 ? cells[i] / top : 0.0);
+  }
+  colouring.legend.push_back({soil_colour(1.0), fmt::format("soil at {:.3g}", top)});
+  colouring.legend.push_back({soil_colour(0.0), "soil at 0"});
+}
+
+Colouring ranked(const FieldValues& values, const RankScale& scale, const ScaleLimits& limits) {
   Colouring colouring;
   colouring.colours.reserve(values.w_m2.size());
-  for (std::size_t i = 0; i < values.w_m2.size(); ++i) {
-    const int rank = rank_of(scale, values.w_m2[i]);
-    colouring.colours.push_back(rank_colour(i < values.first_cell ? rank : std::max(0, rank)));  // only leaves are called unlit
-  }
+  for (const double value : values.w_m2) colouring.colours.push_back(rank_colour(rank_of(scale, value)));
   colouring.legend = rank_legend(scale, rank_shares(scale, values.w_m2, values.area_m2));
+  const bool soil_apart = values.first_cell < values.area_m2.size() && values.area_m2[values.first_cell] == 0.0;
+  if (soil_apart) colour_soil(colouring, values, limits);
   return colouring;
 }
 
@@ -126,7 +149,7 @@ Colouring colour_field(ChartKind chart, const FieldValues& values, const Surface
     case ChartKind::rank:
     case ChartKind::rank_interval:
     case ChartKind::rank_log:
-      colouring = ranked(values, rank_scale(chart, values, limits));
+      colouring = ranked(values, rank_scale(chart, values, limits), limits);
       break;
     case ChartKind::hue:
       colouring = hue_mapped(values, surfaces, limits.largest_w_m2);

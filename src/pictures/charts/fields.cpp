@@ -115,15 +115,17 @@ FieldValues leaf_values(const RadiationModel& model, FieldValues of_sides, Light
   return of_sides;
 }
 
-double lit_from_w_m2(const RadiationModel& model, std::size_t band) {
+double lit_from_w_m2(const RadiationModel& model, std::size_t band, LightField field) {
   constexpr double unlit_share = 1e-3;
+  const double beam = model.has_beam() ? model.bands[band].direct_w_m2 : 0.0;
+  const double sky = model.has_sky() ? model.bands[band].diffuse_w_m2 : 0.0;
+  if (field == LightField::direct) return unlit_share * beam;
+  if (field == LightField::sky) return unlit_share * sky;
   double lamps_w = 0.0;
   for (std::size_t e = 0; e < model.canopy.size(); ++e) {
     const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
     if (!optics.emission_w_m2.empty()) lamps_w += optics.emission_w_m2[band] * area_m2(model.canopy.corners[e]);
   }
-  const double beam = model.has_beam() ? model.bands[band].direct_w_m2 : 0.0;
-  const double sky = model.has_sky() ? model.bands[band].diffuse_w_m2 : 0.0;
   return unlit_share * (beam + sky + lamps_w / model.plot.area_m2());
 }
 

@@ -39,8 +39,9 @@ struct FieldValues {
 // vegetation.
 [[nodiscard]] FieldValues leaf_values(const RadiationModel& model, FieldValues of_sides, LightField field);
 
-// Returns a thousandth of all light from above and from lamps, per ground area: leaves with less are unlit.
-[[nodiscard]] double lit_from_w_m2(const RadiationModel& model, std::size_t band);
+// Returns a thousandth of the light from above and from lamps, per ground area: leaves with less are unlit. Of direct light it is a
+// thousandth of the beam, of the sky's a thousandth of the sky.
+[[nodiscard]] double lit_from_w_m2(const RadiationModel& model, std::size_t band, LightField field);
 
 // Returns the largest irradiance that a side, or both faces of an element together, can have from that light; infinite where there is no
 // such limit. It is the sum of

@@ -46,7 +46,7 @@ std::string footer_line(LightField field, const RadiationResult& result, std::si
     add(result.indirect.packets + result.indirect.sky_rays, "packets", result.indirect.relative_error);
   }
   if (band < result.triangle_relative_error.size() && !std::isnan(result.triangle_relative_error[band])) {
-    line += fmt::format("; a triangle's light is known to {:.2g} %", 100.0 * result.triangle_relative_error[band]);
+    line += fmt::format("; what a triangle absorbs is known to {:.2g} %", 100.0 * result.triangle_relative_error[band]);
   }
   return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
 }
@@ -197,7 +197,7 @@ ChartContent chart_content(const ChartSource& source, const PictureOptions& opti
   const bool of_leaves = is_rank(picture.chart);
   if (of_leaves) values = leaf_values(model, std::move(values), picture.field);
   const int faces = of_leaves || picture.field == LightField::absorbed ? 2 : 1;
-  const ScaleLimits limits{options.top_w_m2, of_leaves ? lit_from_w_m2(model, band) : 0.0,
+  const ScaleLimits limits{options.top_w_m2, of_leaves ? lit_from_w_m2(model, band, picture.field) : 0.0,
                            largest_possible_w_m2(model, band, picture.field, faces)};
   const std::string title = field_title(picture.field, model.bands[band].name, of_leaves);
   Colouring colouring = colour_field(picture.chart, values, surfaces, title, limits);

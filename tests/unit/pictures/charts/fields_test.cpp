@@ -83,15 +83,40 @@ TEST(ColourField, EndsNoScaleAboveWhatIsPossible) {
   EXPECT_EQ(colour_field(ChartKind::map, values, surfaces, "", limits).bar->hi, 200.0) << "a given end stands";
 }
 
-TEST(ColourField, CallsLeavesUnlitButNotTheSoil) {
-  FieldValues values{{0.5, 2.0, 3.0, 4.0, 0.0}, {1.0, 1.0, 1.0, 1.0, 0.0}};
+TEST(LitFrom, IsAThousandthOfTheLightThatIsShown) {
+  const RadiationModel model = leaves_in_the_open();
+  const double beam = model.bands[0].direct_w_m2;
+  EXPECT_DOUBLE_EQ(lit_from_w_m2(model, 0, LightField::direct), 1e-3 * beam);
+  EXPECT_DOUBLE_EQ(lit_from_w_m2(model, 0, LightField::sky), 1e-3 * 0.5);
+  EXPECT_DOUBLE_EQ(lit_from_w_m2(model, 0, LightField::scattered), 1e-3 * (beam + 0.5));
+}
+
+// Leaves of two faces' light, and soil with less than any of them.
+TEST(ColourField, DrawsTheSoilOnAScaleOfItsOwn) {
+  FieldValues values{{0.5, 2.0, 3.0, 4.0, 0.0, 0.25, 0.5}, {1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0}};
   values.first_cell = 4;
   ScaleLimits limits;
   limits.lit_from_w_m2 = 1.0;
   const Colouring colouring = colour_field(ChartKind::rank, values, {}, "", limits);
   EXPECT_EQ(colouring.colours[0], rank_colour(unlit_rank));
-  EXPECT_EQ(colouring.colours[4], rank_colour(0));
-  EXPECT_EQ(colouring.legend.back().label, "unlit   25 %");
+  const auto brightness = [&](std::size_t i) { return colouring.colours[i][1]; };
+  EXPECT_LT(brightness(4), brightness(5));
+  EXPECT_LT(brightness(5), brightness(6));
+  ASSERT_GE(colouring.legend.size(), 3U);
+  const LegendEntry* const last = &colouring.legend.back();
+  EXPECT_EQ(last[-2].label, "unlit   25 %");
+  EXPECT_EQ(last[-1].label, "soil at 0.5");
+  EXPECT_EQ(last[-1].colour, colouring.colours[6]);
+  EXPECT_EQ(last[0].label, "soil at 0");
+  EXPECT_EQ(last[0].colour, colouring.colours[4]);
+}
+
+TEST(ColourField, GivesBareSoilTheFiveClasses) {
+  FieldValues values{{1.0, 2.0, 3.0, 4.0, 5.0}, {1.0, 1.0, 1.0, 1.0, 1.0}};
+  values.first_cell = 0;
+  const Colouring colouring = colour_field(ChartKind::rank, values, {}, "");
+  for (int rank = 0; rank < 5; ++rank) EXPECT_EQ(colouring.colours[static_cast<std::size_t>(rank)], rank_colour(rank));
+  EXPECT_EQ(colouring.legend.size(), 5U);
 }
 
 }  // namespace
