@@ -48,7 +48,7 @@ void colour_soil(Colouring& colouring, const FieldValues& values, const ScaleLim
   const auto cells = std::span(values.w_m2).subspan(values.first_cell);
   const std::vector<double> equal_areas(cells.size(), 1.0);
   const double own_top = weighted_quantile(cells, equal_areas, rank_top_share);
-  const double top = limits.top_w_m2.value_or(std::min(own_top, limits.largest_w_m2));
+  const double top = limits.top_w_m2.value_or(std::min(own_top, limits.largest_on_soil_w_m2));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     colouring.colours[values.first_cell + i] = soil_colour(top > 0.0 ? cells[i] / top : 0.0);
   }

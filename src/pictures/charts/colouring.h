@@ -37,6 +37,7 @@ struct ScaleLimits {
   double lit_from_w_m2 = 0.0;      // less than this is unlit in a rank chart
   // No scale ends above it, so that the noise of a sliver stretches none.
   double largest_w_m2 = std::numeric_limits<double>::infinity();
+  double largest_on_soil_w_m2 = std::numeric_limits<double>::infinity();
 };
 
 // Returns the colours and the legend of a field; for a rank chart, `values` are those of leaf_values. `title` is the field's, with its

@@ -36,6 +36,53 @@ double shown(LightField field, const Irradiance& light) {
   return 0.0;
 }
 
+struct FromAbove {
+  double beam_w_m2 = 0.0, sky_w_m2 = 0.0;
+};
+
+// Returns the beam on a plane that faces it and the sky on a sphere.
+FromAbove light_from_above(const RadiationModel& model, std::size_t band) {
+  FromAbove light;
+  if (model.has_beam()) light.beam_w_m2 = model.bands[band].direct_w_m2 / std::sin(model.sun->elevation_rad);
+  if (model.has_sky()) {
+    const SunPosition sun = model.sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0});
+    light.sky_w_m2 = model.bands[band].diffuse_w_m2 * Sky(*model.sky, sun).spherical_irradiance();
+  }
+  return light;
+}
+
+// Returns the largest irradiance of a side by light that surfaces send.
+double largest_sent_w_m2(const RadiationModel& model, std::size_t band) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double sent = model.soil ? model.soil->reflectance[band] : 0.0;
+  for (const SurfaceOptics& optics : model.optics) {
+    if (!optics.emission_w_m2.empty() && optics.emission_w_m2[band] > 0.0) return infinite;
+    const FaceOptics &upper = optics.upper[band], &lower = optics.lower[band];
+    sent = std::max({sent, upper.reflectance + lower.transmittance, lower.reflectance + upper.transmittance});
+  }
+  if (sent >= 1.0) return infinite;
+  const FromAbove light = light_from_above(model, band);
+  return (light.beam_w_m2 + light.sky_w_m2) * sent / (1.0 - sent);
+}
+
+// Returns what a field shows of all this light.
+double largest_of(LightField field, const FromAbove& light, double sent_w_m2) {
+  switch (field) {
+    case LightField::direct:
+      return light.beam_w_m2;
+    case LightField::sky:
+      return light.sky_w_m2;
+    case LightField::scattered:
+      return sent_w_m2;
+    case LightField::indirect:
+      return light.sky_w_m2 + sent_w_m2;
+    case LightField::total:
+    case LightField::absorbed:
+      return light.beam_w_m2 + light.sky_w_m2 + sent_w_m2;
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 std::string field_title(LightField field, const std::string& band, bool of_both_faces) {
@@ -130,27 +177,18 @@ double lit_from_w_m2(const RadiationModel& model, std::size_t band, LightField f
 }
 
 double largest_possible_w_m2(const RadiationModel& model, std::size_t band, LightField field, int faces) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  double scattering = model.soil ? model.soil->reflectance[band] : 0.0;
-  for (const SurfaceOptics& optics : model.optics) {
-    if (!optics.emission_w_m2.empty() && optics.emission_w_m2[band] > 0.0 && field != LightField::direct &&
-        field != LightField::sky)
-      return infinite;
-    const FaceOptics &upper = optics.upper[band], &lower = optics.lower[band];
-    scattering = std::max({scattering, upper.reflectance + lower.transmittance, lower.reflectance + upper.transmittance});
+  return largest_of(field, light_from_above(model, band), faces * largest_sent_w_m2(model, band));
+}
+
+double largest_on_soil_w_m2(const RadiationModel& model, std::size_t band, LightField field) {
+  FromAbove open_ground;
+  if (model.has_beam()) open_ground.beam_w_m2 = model.bands[band].direct_w_m2;
+  if (model.has_sky()) open_ground.sky_w_m2 = model.bands[band].diffuse_w_m2;
+  const double sent_w_m2 = largest_sent_w_m2(model, band);
+  if (field == LightField::absorbed && model.soil) {
+    return (1.0 - model.soil->reflectance[band]) * largest_of(LightField::total, open_ground, sent_w_m2);
   }
-  const double beam = model.has_beam() ? model.bands[band].direct_w_m2 / std::sin(model.sun->elevation_rad) : 0.0;
-  double sky = 0.0;
-  if (model.has_sky()) {
-    const SunPosition sun = model.sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0});
-    sky = model.bands[band].diffuse_w_m2 * Sky(*model.sky, sun).spherical_irradiance();
-  }
-  if (field == LightField::direct) return beam;
-  if (field == LightField::sky) return sky;
-  if (scattering >= 1.0) return infinite;
-  const double scattered = faces * (beam + sky) * scattering / (1.0 - scattering);
-  if (field == LightField::scattered) return scattered;
-  return field == LightField::indirect ? sky + scattered : beam + sky + scattered;
+  return largest_of(field, open_ground, sent_w_m2);
 }
 
 std::vector<Colour> surface_reflectance(const RadiationModel& model, const CounterLayout& layout) {

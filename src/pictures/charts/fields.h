@@ -52,6 +52,9 @@ struct FieldValues {
 //   surfaces. There is no limit with lamps, or if a = 1.
 [[nodiscard]] double largest_possible_w_m2(const RadiationModel& model, std::size_t band, LightField field, int faces);
 
+// Returns that limit for the level ground: the light from above on open ground, and what surfaces send as above.
+[[nodiscard]] double largest_on_soil_w_m2(const RadiationModel& model, std::size_t band, LightField field);
+
 // Returns the reflectance in red, green and blue, [surface number].
 [[nodiscard]] std::vector<Colour> surface_reflectance(const RadiationModel& model, const CounterLayout& layout);
 

@@ -105,9 +105,10 @@ void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words
       ->check(positive());
   group.add_option("--size", words.size, "Picture size in pixels, WxH")->capture_default_str();
   group.add_option("--samples", options.samples, "Samples per pixel")->transform(whole_number(1, 256))->capture_default_str();
-  group.add_option("--repeat", options.repeat, "Show N x N copies of a periodic plot (N odd)")
-      ->transform(whole_number(1, most_repeat))
-      ->capture_default_str();
+  group
+      .add_option("--repeat", options.repeat,
+                  "Show N x N copies of a periodic plot, N odd (default: 1; enough for a horizon in a view upwards)")
+      ->transform(whole_number(1, most_repeat));
 }
 
 std::vector<std::string> image_words() {

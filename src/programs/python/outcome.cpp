@@ -36,8 +36,8 @@ Picture picture_of(const std::string& chart, const std::string& field) {
 }
 
 // `size` is width and height in pixels.
-PictureOptions picture_options(std::string band, const std::string& view, std::pair<int, int> size, int samples, int repeat,
-                               std::optional<double> top_w_m2) {
+PictureOptions picture_options(std::string band, const std::string& view, std::pair<int, int> size, int samples,
+                               std::optional<int> repeat, std::optional<double> top_w_m2) {
   PictureOptions options;
   options.band = std::move(band);
   options.view = choice_of<ViewKind>("view", view_names(), view);
@@ -192,7 +192,8 @@ void bind_outcome(py::module_& module) {
       .def("organ_rows", [](const py::object& self) { return self.cast<Outcome&>().organ_rows(self); })
       .def("render",
            [](const Outcome& outcome, const std::string& chart, const std::string& field, std::string band,
-              const std::string& view, std::pair<int, int> size, int samples, int repeat, std::optional<double> top_w_m2) {
+              const std::string& view, std::pair<int, int> size, int samples, std::optional<int> repeat,
+              std::optional<double> top_w_m2) {
              return outcome.render(picture_of(chart, field),
                                    picture_options(std::move(band), view, size, samples, repeat, top_w_m2));
            })

@@ -253,19 +253,19 @@ class Result:
         view: str = "camera",
         size: tuple[int, int] = (1600, 1200),
         samples: int = 4,
-        repeat: int = 1,
+        repeat: Optional[int] = None,
         range: Optional[float] = None,
     ) -> np.ndarray:
         """Returns a picture, uint8 of shape (height, width, 3), sRGB, pixel for pixel as `sunfleck render SCENE` draws it.
 
         chart: rank, rank-interval, rank-log, hue or map. field: direct, sky, indirect, total, absorbed or scattered. band: by default the
             first. view: camera, top, side or fisheye. size: (width, height), each 64..8192. samples: per pixel, 1..256.
-        repeat: N x N copies of a periodic plot, N odd up to 9. range: upper end of the scale of rank-interval, rank-log and map, W m-2.
+        repeat: N x N copies of a periodic plot, N odd up to 9; by default 1, or enough for a horizon in a view upwards. range: upper end of the scale of rank-interval, rank-log and map, W m-2.
         """
         width, height = size
         pixels = (whole(width, "size", 64, 8192), whole(height, "size", 64, 8192))
-        copies = whole(repeat, "repeat", 1, 9)
-        if copies % 2 == 0:
+        copies = None if repeat is None else whole(repeat, "repeat", 1, 9)
+        if copies is not None and copies % 2 == 0:
             refuse(f"repeat = {copies}", "must be odd: the plot is in the middle of its copies", f"give {copies + 1}")
         top = None if range is None else above_zero(range, "range")
         return self._outcome.render(chart, field, band or "", view, pixels, whole(samples, "samples", 1, 256), copies, top)

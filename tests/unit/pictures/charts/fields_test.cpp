@@ -61,10 +61,16 @@ TEST(LargestPossible, IsNotExceededByALongRun) {
     const auto largest = [](const FieldValues& values) { return *std::max_element(values.w_m2.begin(), values.w_m2.end()); };
     EXPECT_LE(largest(sides), 1.05 * largest_possible_w_m2(model, 0, field, 1)) << "5 % for noise";
     EXPECT_LE(largest(leaves), 1.05 * largest_possible_w_m2(model, 0, field, 2));
+    const double on_soil =
+        *std::max_element(sides.w_m2.begin() + static_cast<std::ptrdiff_t>(sides.first_cell), sides.w_m2.end());
+    EXPECT_LE(on_soil, 1.05 * largest_on_soil_w_m2(model, 0, field));
   }
   EXPECT_NEAR(largest_possible_w_m2(model, 0, LightField::direct, 1), 2.0, 1e-9) << "the sun stands at 30 degrees";
   EXPECT_NEAR(largest_possible_w_m2(model, 0, LightField::sky, 1), 1.0, 1e-9) << "a sphere under a uniform sky";
   EXPECT_NEAR(largest_possible_w_m2(model, 0, LightField::total, 1), 3.0 / (1.0 - 0.18), 1e-9);
+  EXPECT_NEAR(largest_on_soil_w_m2(model, 0, LightField::direct), 1.0, 1e-9);
+  EXPECT_NEAR(largest_on_soil_w_m2(model, 0, LightField::sky), 0.5, 1e-9);
+  EXPECT_NEAR(largest_on_soil_w_m2(model, 0, LightField::total), 1.5 + 3.0 * 0.18 / (1.0 - 0.18), 1e-9);
   RadiationModel mirrors = model;
   mirrors.soil->reflectance[0] = 1.0;
   EXPECT_TRUE(std::isinf(largest_possible_w_m2(mirrors, 0, LightField::total, 1)));
