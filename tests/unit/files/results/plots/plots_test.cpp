@@ -112,25 +112,63 @@ TEST_F(Plots, TwoProfilesAndFieldData) {
   EXPECT_GT(picture.count(black), draw("profile.gp", profiles(tables)).count(black) + 100) << "rings of the field data";
 }
 
-TEST_F(Plots, AProfileHasBothPanels) {
-  const auto in_half = [](const test::Picture& picture, bool right) {
-    std::size_t count = 0;
-    for (int y = 0; y < picture.height; ++y) {
-      for (int x = right ? 860 : 0; x < (right ? picture.width : 860); ++x) count += picture.at(x, y) == blue ? 1 : 0;
-    }
-    return count;
-  };
-  const test::Picture both = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
-  EXPECT_GT(in_half(both, false), 500U);
-  EXPECT_GT(in_half(both, true), 500U);
+// Counts the blue pixels of a picture from column `left` to before `right`.
+std::size_t blue_between(const test::Picture& picture, int left, int right) {
+  std::size_t count = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = left; x < right; ++x) count += picture.at(x, y) == blue ? 1 : 0;
+  }
+  return count;
+}
+
+// Returns whether the picture has a border of a panel, a dark line of most of its height, near this column. gnuplot places it up to
+// three pixels further left.
+bool has_border_at(const test::Picture& picture, int column) {
+  int longest = 0;
+  for (int x = column - 3; x <= column + 1; ++x) {
+    int dark = 0;
+    for (int y = 0; y < picture.height; ++y) dark += picture.at(x, y)[0] < 0x60 ? 1 : 0;
+    longest = std::max(longest, dark);
+  }
+  return longest > picture.height / 2;
+}
+
+TEST_F(Plots, AProfileHasThreePanels) {
+  const test::Picture picture = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
+  for (const int left : {140, 627, 1113}) {
+    EXPECT_TRUE(has_border_at(picture, left)) << left;
+    EXPECT_GT(blue_between(picture, left, left + 430), 400U) << left;
+  }
+}
+
+TEST_F(Plots, AProfileDrawsTheSunlitShareOfEachLayer) {
+  std::vector<LayerResult> shady = layers(0.2);
+  for (LayerResult& layer : shady) layer.sunlit_leaf_fraction = {0.1, 0.01};
+  const test::Picture half = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
+  const test::Picture tenth = draw("profile.gp", profiles({profile("A stand", shady)}));
+  // The panel from 0 to 1.02 spans columns 627 to 1063.
+  EXPECT_GT(blue_between(half, 830, 852), 1000U);
+  EXPECT_EQ(blue_between(half, 640, 700), 0U);
+  EXPECT_GT(blue_between(tenth, 659, 681), 1000U);
+  EXPECT_EQ(blue_between(tenth, 800, 900), 0U);
+}
+
+TEST_F(Plots, AProfileHasNoEmptyPanel) {
   const test::Picture other_band = draw("profile.gp", profiles({profile("A stand", layers(0.2))}, "UV"));
-  EXPECT_EQ(in_half(other_band, false), in_half(both, false));
-  EXPECT_EQ(in_half(other_band, true), 0U);
-  std::vector<LayerResult> dark = layers(0.2);
-  for (LayerResult& layer : dark) layer.sunfleck_ratio = {no_value, no_value};
+  EXPECT_TRUE(has_border_at(other_band, 820) && has_border_at(other_band, 870)) << "two panels share the room";
+  EXPECT_FALSE(has_border_at(other_band, 627));
+  EXPECT_GT(blue_between(other_band, 140, 820), 500U);
+  EXPECT_GT(blue_between(other_band, 870, 1550), 500U);
+
+  std::vector<LayerResult> bare = layers(0.2), dark = layers(0.2);
+  for (LayerResult& layer : bare) layer.sunlit_leaf_fraction = {no_value, no_value};
+  EXPECT_TRUE(has_border_at(draw("profile.gp", profiles({profile("No leaves", bare)})), 870));
+
+  for (LayerResult& layer : dark) layer.sunfleck_ratio = layer.sunlit_leaf_fraction = {no_value, no_value};
   const test::Picture no_beam = draw("profile.gp", profiles({profile("A stand", dark)}));
-  EXPECT_EQ(in_half(no_beam, false), 0U);
-  EXPECT_EQ(in_half(no_beam, true), in_half(both, true));
+  EXPECT_FALSE(has_border_at(no_beam, 627) || has_border_at(no_beam, 820) || has_border_at(no_beam, 870));
+  EXPECT_TRUE(has_border_at(no_beam, 140) && has_border_at(no_beam, 1550)) << "the absorbed light has all the room";
+  EXPECT_GT(blue_between(no_beam, 140, 1550), 1000U);
 }
 
 TEST_F(Plots, ProfilesOfAnythingASimulationGives) {
