@@ -365,6 +365,28 @@ TEST_F(Plots, AMapHasNorthUpAndWestLeft) {
   EXPECT_EQ(at(5.0 / 6.0, 0.75), shade) << "south-east";
 }
 
+TEST_F(Plots, AMapWithoutABeamStandsAlone) {
+  auto [model, result] = test::small_plane();
+  const test::Picture both = plane("Sun", model, result, 0);
+  result.planes[0].reached.clear();
+  result.planes[0].crossing.clear();
+  result.planes[0].sunfleck_ratio = {no_value, no_value};
+  model.bands[0].direct_w_m2 = 0.0;
+  const test::Picture alone = plane("Overcast", model, result, 0);
+  EXPECT_LT(alone.height, 700) << "neither a map of the beam nor sizes of flecks";
+  // The widest stretch without white in a row that crosses the maps: one is 1180 wide, two are 590 each.
+  const auto widest = [](const test::Picture& picture) {
+    int columns = 0, longest = 0;
+    for (int x = 0; x < picture.width; ++x) {
+      columns = picture.at(x, 250) == white ? 0 : columns + 1;
+      longest = std::max(longest, columns);
+    }
+    return longest;
+  };
+  EXPECT_NEAR(widest(both), 590, 20);
+  EXPECT_NEAR(widest(alone), 1180, 20);
+}
+
 TEST_F(Plots, MapsOfAnythingASimulationGives) {
   auto [model, result] = test::small_plane();
   result.planes[0].down.clear();
@@ -388,7 +410,8 @@ TEST_F(Plots, MapsOfAnythingASimulationGives) {
 }
 
 DayStep step_at(int day, double hour) {
-  const UtcTime start{2002, 8, 8 + day, static_cast<int>(hour), static_cast<int>(60.0 * (hour - std::floor(hour)) + 0.5), 0.0};
+  const UtcTime first{2002, 8, 8, static_cast<int>(hour), static_cast<int>(60.0 * (hour - std::floor(hour)) + 0.5), 0.0};
+  const UtcTime start = plus_seconds(first, 86400.0 * day);
   return {start, start, 600.0, 0, {std::sin((hour - 6.0) / 12.0 * 3.14), 1.0}};
 }
 
