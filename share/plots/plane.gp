@@ -1,4 +1,5 @@
-# PLANE.png: the facula maps of a receiver, for the beam and for all light, and the sizes of its sunflecks. North is up, west is left.
+# PLANE.png: the facula maps of a receiver, for the beam and for all light, and the sizes of its sunflecks. What does not exist, such
+# as all of the beam under an overcast sky, leaves its room to the rest. North is up, west is left.
 # The table has x_m (south) and z_m (west), or x_m (east) and y_m (north).
 #   gnuplot -e "table = 'plane_0.500.csv'; flecks = 'plane_0.500_flecks.csv'" plane.gp > plane.png
 # The program sets these variables before it loads this file:
@@ -38,26 +39,31 @@ bright = positive(beam > bright ? beam : bright, 1)
 ratio = number(after('sunfleck ratio ')); error = number(past('error ', after('sunfleck ratio ')))
 count = number(past(': ', after('flecks ')))
 few = after('no sizes of flecks: ')
-if (flecks ne '' && count > 0) {
+sizes = flecks ne '' && count > 0
+if (sizes) {
   stats flecks using 1:4 name 'SIZE' nooutput
   stats flecks using 2 name 'UPPER' nooutput
 }
 note = ratio == ratio ? sprintf('Sunfleck ratio %.4f', ratio) . (error == error ? sprintf(' ± %.2g', error) : '') \
   . (count == count ? sprintf('   ·   %d fleck%s', count, count == 1 ? '' : 's') : '') \
-  . sprintf('   ·   %.1f beam rays a cell', number(past('; ', after('sunfleck ratio ')))) \
+  . (few eq '' ? sprintf('   ·   %.1f beam rays a cell', number(past('; ', after('sunfleck ratio ')))) \
+    : '   ·   no sizes of flecks: ' . up_to(';', few)) \
   : 'No direct beam'
+maps = ratio == ratio ? 2 : 1
 
-# Both maps have the shape of the plot; they stand side by side above the sizes, and low ones beside a taller colour bar.
+# The maps have the shape of the plot; they stand side by side above the sizes, and low ones beside a taller colour bar. A single one
+# stands in the middle.
 width = 1600.0
-widest = 590.0; highest = 760.0
+widest = maps == 2 ? 590.0 : 1180.0; highest = 760.0
 scale = widest / size_a < highest / size_b ? widest / size_a : highest / size_b
 map_width = scale * size_a; map_height = scale * size_b
 slot = map_width > 340 ? map_width : 340
 left1 = 150 + widest - 0.5 * (slot + map_width)
-left2 = left1 + slot + 50
+left2 = maps == 2 ? left1 + slot + 50 : 755 - 0.5 * map_width
 bar = map_height > 260 ? map_height : 260
-height = 0.0 + ceil(500 + bar + 165)
-bottom = 500 + 0.5 * (bar - map_height)
+base = sizes ? 500 : 125
+height = 0.0 + ceil(base + bar + 165)
+bottom = base + 0.5 * (bar - map_height)
 set terminal pngcairo noenhanced size width,height font font . ',20' linewidth 2 background '#ffffff'
 set multiplot
 # Viridis at nine positions (van der Walt and Smith 2015, matplotlib), perceptually uniform in colour and in grey.
@@ -77,22 +83,21 @@ set tmargin at screen (bottom + map_height) / height
 set label 1 cut(title, 70) . ' – plane at ' . sprintf('%.3f m', number(place)) at screen 0.5,(1 - 40 / height) center \
   font ',24' textcolor '#101010'
 set label 2 note at screen 0.5,(1 - 82 / height) center font ',18' textcolor '#101010'
-set label 3 (east ? 'y (m), from south to north' : 'X (m), from north to south') at screen (left1 - 100) / width,(bottom + 0.5 * map_height) / height center rotate by 90
+set label 3 (east ? 'y (m), from south to north' : 'X (m), from north to south') at screen ((maps == 2 ? left1 : left2) - 100) / width,(bottom + 0.5 * map_height) / height center rotate by 90
 set xlabel (east ? 'x (m), from west to east' : 'Z (m), from east to west') offset 0,0.2
 # An image needs two cells along each side; single rows are drawn as boxes.
 half_a = 0.5 * size_a / cells_a; half_b = 0.5 * size_b / cells_b
 boxes = cells_a < 2 || cells_b < 2
 
-do for [map = 1:2] {
+do for [map = 3 - maps:2] {
   left = map == 1 ? left1 : left2
   set lmargin at screen left / width
   set rmargin at screen (left + map_width) / width
   set title (map == 1 ? 'Direct ' : 'Total ') . band offset 0,-0.3
   if (map == 2) {
-    unset label
-    set format y ''
-    set colorbox vertical user origin screen (left + map_width + 30) / width,500 / height size screen 30 / width,bar / height bdefault
-    set label 3 band . ' downwards (W m⁻²)' at screen (left + map_width + 185) / width,(bottom + 0.5 * map_height) / height \
+    if (maps == 2) { unset label; set format y '' }
+    set colorbox vertical user origin screen (left + map_width + 30) / width,base / height size screen 30 / width,bar / height bdefault
+    set label 4 band . ' downwards (W m⁻²)' at screen (left + map_width + 185) / width,(bottom + 0.5 * map_height) / height \
       center rotate by 90
   }
   if (boxes) {
@@ -102,31 +107,24 @@ do for [map = 1:2] {
   }
 }
 
-unset title; unset label; unset colorbox
-set format y '%g'
-set lmargin at screen 150 / width
-set rmargin at screen 1540 / width
-set bmargin at screen 120 / height
-set tmargin at screen 350 / height
-set xlabel 'Area of a fleck (cm²); above the columns: number of flecks' offset 0,0.2
-set label 3 'Share of plane (%)' at screen 50 / width,235 / height center rotate by 90
-set grid noxtics ytics back linetype 1 linecolor '#d9d9d9' linewidth 0.5
-set format x '%g'
-set xtics autofreq
-set xrange [1:1000]
-set logscale x
-if (count > 0 && flecks ne '') {
+if (sizes) {
+  unset title; unset label; unset colorbox
+  set format y '%g'
+  set lmargin at screen 150 / width
+  set rmargin at screen 1540 / width
+  set bmargin at screen 120 / height
+  set tmargin at screen 350 / height
+  set xlabel 'Area of a fleck (cm²); above the columns: number of flecks' offset 0,0.2
+  set label 3 'Share of plane (%)' at screen 50 / width,235 / height center rotate by 90
+  set grid noxtics ytics back linetype 1 linecolor '#d9d9d9' linewidth 0.5
+  set xtics autofreq
   most = 125 * SIZE_max_y
+  set logscale x
   set xrange [10 ** floor(log10(SIZE_min_x) + 1e-9):10 ** ceil(log10(UPPER_max) - 1e-9)]
   set yrange [0:most]
   set ytics step(most, 50 / 230.0)
   plot flecks using (sqrt($1 * $2)):(100 * $4):1:2:(0):(100 * $4) with boxxyerror fillcolor rgb colour[1] fillstyle solid 0.8 \
       border linecolor '#ffffff' notitle, \
     flecks using (sqrt($1 * $2)):(100 * $4):(sprintf('%d', $3)) with labels offset 0,0.7 font ',17' notitle
-} else {
-  set yrange [0:1]
-  set ytics 0.5
-  set label 4 (few eq '' ? 'no flecks' : 'No sizes: ' . up_to(';', few)) at graph 0.5,0.5 center
-  plot NaN notitle
 }
 unset multiplot

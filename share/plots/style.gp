@@ -4,6 +4,7 @@ font = 'DejaVu Sans'
 set border linecolor '#404040' linewidth 0.75
 set grid back linetype 1 linecolor '#d9d9d9' linewidth 0.5
 set tics scale 0.6 textcolor '#202020'
+set format '%g'
 set errorbars small linewidth 0.9
 unset key
 # Colours that readers with any colour vision can tell apart (Okabe and Ito 2008, Color Universal Design), and one filled shape

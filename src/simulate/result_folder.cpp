@@ -206,8 +206,8 @@ bool write_pictures(const std::filesystem::path& folder, const ResultRequest& re
 // Returns whether a run or a day writes a file of this name, other than the summary.
 bool is_file_of_runs(const std::string& name) {
   std::vector<std::string> names{profile_file,      profile_plot_file, organs_file,    plants_file, sensors_file,
-                                 sensor_means_file, result_store_file, run_state_file, "day.csv",   "organs_day.csv",
-                                 "plants_day.csv",  "day.nc",          "day.png"};
+                                 sensor_means_file, result_store_file, run_state_file, "day.csv",   "day_sums.csv",
+                                 "organs_day.csv",  "plants_day.csv",  "day.nc",       "day.png"};
   for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
   for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
   return is_plane_file(name) || std::find(names.begin(), names.end(), name) != names.end();

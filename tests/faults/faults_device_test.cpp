@@ -131,7 +131,8 @@ TEST_F(Device, ThatIsLostLeavesADayToBeResumedElsewhere) {
   EXPECT_TRUE(exists("steps/step_00000.bin"));
   before_program_ = {};
   EXPECT_EQ(run(on("cpu") + Arguments{"--resume"}).status, 0);
-  for (const char* name : {"day.csv", "organs_day.csv", "plants_day.csv"}) EXPECT_TRUE(file(name) == whole.at(name)) << name;
+  for (const char* name : {"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv"})
+    EXPECT_TRUE(file(name) == whole.at(name)) << name;
 }
 
 TEST_F(Device, ThatFailsIsNotReplacedInSilence) {

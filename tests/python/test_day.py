@@ -28,7 +28,7 @@ def test_tables_are_those_of_the_program(day_file, tmp_path, work, options):
     program("day", day_file, "-o", tmp_path / "out", *OPTIONS, *options)
     day = sunfleck.day(day_file, **HOURS, **work)
     files = files_of(tmp_path / "out")
-    for name in ("day.csv", "organs_day.csv", "plants_day.csv"):
+    for name in ("day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv"):
         assert day.table(name).encode() == files[name]
     with netCDF4.Dataset(tmp_path / "out" / "day.nc") as file:
         for name, values in day.triangles.items():
@@ -44,6 +44,10 @@ def test_arrays_hold_what_the_tables_hold():
         for head, cell in zip(heads, row):
             value = day.steps[head][number]
             assert cell == (value if isinstance(value, str) else "" if np.isnan(value) else f"{value:.9g}"), head
+    heads, row = [line.split(",") for line in body(day.table("day_sums.csv")).splitlines()]
+    assert row[:2] == [day.sums["date"][0], "5"]
+    for head, cell in zip(heads[1:], row[1:]):
+        assert cell == f"{day.sums[head][0]:.9g}", head
     heads, *rows = [line.split(",") for line in body(day.table("organs_day.csv")).splitlines()]
     organs = day.organs
     assert organs["PAR_absorbed_mol_m2"].shape == (1, 2)

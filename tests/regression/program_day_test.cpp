@@ -58,7 +58,7 @@ f 2 4 3
 constexpr double day_plot_m2 = 1.25;
 const std::array<const char*, 2> bands{"PAR", "NIR"};
 const std::array<const char*, 5> terms{"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected"};
-const std::array<const char*, 4> tables{"day.csv", "organs_day.csv", "plants_day.csv", "day.nc"};
+const std::array<const char*, 5> tables{"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv", "day.nc"};
 
 class Day : public PreloadTest {
  protected:

@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr const char* day_file = "day.csv";
+constexpr const char* sums_file = "day_sums.csv";
 constexpr const char* organs_file = "organs_day.csv";
 constexpr const char* plants_file = "plants_day.csv";
 constexpr const char* fields_file = "day.nc";
@@ -71,6 +72,7 @@ class FolderSink final : public DaySink {
 void draw_day(const fs::path& folder, const std::string& title, const std::string& band) {
   PlotVariables variables;
   variables.set_file("table", folder / day_file);
+  variables.set_file("sums", folder / sums_file);
   variables.set_text("title", title);
   variables.set_text("band", band);
   if (const std::optional<std::string> problem = draw_table("day.gp", variables, folder / plot_file)) warn(*problem);
@@ -103,6 +105,7 @@ UnwrittenFiles write_tables(const DayJob& job, const RunRecord& record, const Ra
   const DayCourse& course = job.plan.course;
   UnwrittenFiles unwritten;
   unwritten.attempt(day_file, [&] { write_file(job.folder / day_file, day_csv(record, model, course, day.lights)); });
+  unwritten.attempt(sums_file, [&] { write_file(job.folder / sums_file, day_sums_csv(record, model, course, day.lights)); });
   unwritten.attempt(organs_file,
                     [&] { write_file(job.folder / organs_file, organs_day_csv(record, model, course, day.lights)); });
   unwritten.attempt(plants_file,

@@ -36,6 +36,7 @@ class Day {
   [[nodiscard]] std::string table(const std::string& name) const {
     const RadiationModel& model = day_.scene.model;
     if (name == "day.csv") return day_csv(day_.record, model, day_.plan.course, day_.lights);
+    if (name == "day_sums.csv") return day_sums_csv(day_.record, model, day_.plan.course, day_.lights);
     if (name == "organs_day.csv") return organs_day_csv(day_.record, model, day_.plan.course, day_.lights);
     if (name == "plants_day.csv") return plants_day_csv(day_.record, model, day_.plan.course, day_.lights);
     throw not_a_table(name);
@@ -43,6 +44,7 @@ class Day {
 
   [[nodiscard]] py::dict describe(const std::string& name) const {
     if (name == "day.csv") return descriptions_of(steps_table());
+    if (name == "day_sums.csv") return descriptions_of(sums_table());
     if (name == "organs_day.csv") return descriptions_of(organs_table());
     if (name == "plants_day.csv") return descriptions_of(plants_table());
     throw not_a_table(name);
@@ -50,6 +52,8 @@ class Day {
 
   // Returns the columns of day.csv, [step].
   [[nodiscard]] py::dict steps() const { return columns_of(steps_table()); }
+  // Returns the columns of day_sums.csv, [date].
+  [[nodiscard]] py::dict sums() const { return columns_of(sums_table()); }
 
   // Returns what organs absorbed, [date, organ], as the columns of organs_day.csv, lists first; dates without a step are left
   // out.
@@ -80,7 +84,7 @@ class Day {
 
  private:
   [[nodiscard]] static py::value_error not_a_table(const std::string& name) {
-    return py::value_error(name + " (not a table of a day); use day.csv, organs_day.csv or plants_day.csv");
+    return py::value_error(name + " (not a table of a day); use day.csv, day_sums.csv, organs_day.csv or plants_day.csv");
   }
 
   [[nodiscard]] static py::dict lists_first(Table table) {
@@ -92,6 +96,7 @@ class Day {
   }
 
   [[nodiscard]] Table steps_table() const { return sunfleck::steps_table(day_.scene.model, day_.plan.course, day_.lights); }
+  [[nodiscard]] Table sums_table() const { return day_sums_table(day_.scene.model, day_.plan.course, day_.lights); }
   [[nodiscard]] Table organs_table() const { return organs_day_table(day_.scene.model, day_.plan.course, day_.lights); }
   [[nodiscard]] Table plants_table() const { return plants_day_table(day_.scene.model, day_.plan.course, day_.lights); }
 
@@ -128,6 +133,7 @@ void bind_day(py::module_& module) {
       .def("describe", &Day::describe)
       .def("steps", &Day::steps)
       .def("organs", &Day::organs)
+      .def("sums", &Day::sums)
       .def("plants", &Day::plants)
       .def("triangles", &Day::triangles);
   module.def("day", &day_of);

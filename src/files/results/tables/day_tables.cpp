@@ -84,6 +84,39 @@ Table steps_table(const RadiationModel& model, const DayCourse& course, std::spa
   return table;
 }
 
+Table day_sums_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
+  const std::vector<DateSums> sums = sum_dates(model, course, lights);
+  const std::vector<std::size_t> dates = dates_with_steps(sums);
+  Table table{
+      "The light of each date: sums over its steps",
+      "steps: their number; incident, absorbed, reflected: per ground area, MJ m-2 and mol of photons m-2; _error: half-width "
+      "of the confidence interval",
+      stopped_note(course, lights),
+      {dates.size()},
+      {}};
+  table.add({"date", "", "local date"}, [&](std::size_t d) { return course.dates[dates[d]]; });
+  table.add({"steps", "1", "number of its steps"},
+            [&](std::size_t d) { return static_cast<std::uint32_t>(sums[dates[d]].steps); });
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const std::string& band = model.bands[b].name;
+    const double umol_per_joule = model.bands[b].umol_per_joule;
+    const auto add = [&, b](const std::string& name, const std::string& fate, Estimate StepBand::*term) {
+      const auto joules = [&, b, term](std::size_t d) -> const Estimate& { return sums[dates[d]].bands[b].*term; };
+      table.add({band + name + "_mj_m2", "MJ m-2", "energy " + fate + " per ground area"},
+                [&](std::size_t d) { return joules(d).scaled(per_mega); });
+      if (!(umol_per_joule > 0.0)) return;
+      table.add({band + name + "_mol_m2", "mol m-2", "photons " + fate + " per ground area"},
+                [&](std::size_t d) { return joules(d).scaled(umol_per_joule * per_mega); });
+    };
+    add("_incident", "that arrived", &StepBand::incident);
+    add("_absorbed_vegetation", "absorbed by vegetation", &StepBand::absorbed_vegetation);
+    add("_absorbed_structure", "absorbed by structures and lamps", &StepBand::absorbed_structure);
+    add("_absorbed_soil", "absorbed by soil", &StepBand::absorbed_soil);
+    add("_reflected", "that left upwards", &StepBand::reflected);
+  }
+  return table;
+}
+
 Table organs_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
   const std::vector<std::size_t> by_date{0}, by_organ{1};
   constexpr unsigned outputs = in_csv | in_arrays;
@@ -148,6 +181,11 @@ Table plants_day_table(const RadiationModel& model, const DayCourse& course, std
 std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                     std::span<const StepLight> lights) {
   return csv_text(record, steps_table(model, course, lights));
+}
+
+std::string day_sums_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+                         std::span<const StepLight> lights) {
+  return csv_text(record, day_sums_table(model, course, lights));
 }
 
 std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,

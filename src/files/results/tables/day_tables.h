@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a day: day.csv, organs_day.csv and plants_day.csv. `lights` holds the light of the first steps of the course:
+// The tables of a day: day.csv, day_sums.csv, organs_day.csv and plants_day.csv. `lights` holds the light of the first steps of the course:
 // all of them, or those finished before the day was stopped; in that case a line of the tables says so.
 
 #include "files/results/tables/day_course.h"
@@ -13,6 +13,8 @@ namespace sunfleck {
 
 // Returns one row per step.
 [[nodiscard]] Table steps_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
+// Returns one row per date that has steps: the sums of its steps.
+[[nodiscard]] Table day_sums_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
 // Returns the rows of organs.csv for each date that has steps; its axes are date and organ.
 [[nodiscard]] Table organs_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
 
@@ -21,6 +23,8 @@ namespace sunfleck {
 
 [[nodiscard]] std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                   std::span<const StepLight> lights);
+[[nodiscard]] std::string day_sums_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
+                                       std::span<const StepLight> lights);
 [[nodiscard]] std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
                                          std::span<const StepLight> lights);
 [[nodiscard]] std::string plants_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,

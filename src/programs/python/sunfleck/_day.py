@@ -51,6 +51,12 @@ class DayResult:
         return with_text_arrays(self._core.steps())
 
     @functools.cached_property
+    def sums(self) -> dict[str, np.ndarray]:
+        """The columns of day_sums.csv as arrays of shape (dates,): date, steps (their number), BAND_incident_mj_m2 and its fates
+        (sums per ground area), with photon units the same in _mol_m2, with their half-widths _error."""
+        return with_text_arrays(self._core.sums())
+
+    @functools.cached_property
     def organs(self) -> dict[str, Any]:
         """The absorption of organs: date; organ and role (names), plant, rank and area_m2 by organ; and arrays
         of shape (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), with photon units BAND_absorbed_mol_m2, with their
@@ -71,11 +77,11 @@ class DayResult:
         return self._core.triangles()
 
     def describe(self, table: str) -> dict[str, tuple[str, str]]:
-        """Returns the unit and the meaning of each column of day.csv, organs_day.csv or plants_day.csv."""
+        """Returns the unit and the meaning of each column of day.csv, day_sums.csv, organs_day.csv or plants_day.csv."""
         return {name: (unit, meaning) for name, (unit, meaning, _) in self._core.describe(table).items()}
 
     def table(self, name: str) -> str:
-        """Returns the text of day.csv, organs_day.csv or plants_day.csv, byte for byte as the program writes it."""
+        """Returns the text of day.csv, day_sums.csv, organs_day.csv or plants_day.csv, byte for byte as the program writes it."""
         return self._core.table(name)
 
     def to_xarray(self) -> xarray.Dataset:
@@ -91,19 +97,22 @@ class DayResult:
         return data
 
     def to_dataframe(self, table: str = "steps") -> pandas.DataFrame:
-        """Returns "steps" (by time, UTC), "organs" (by date and organ_index, the organ's number), "plants" (by date and
-        plant_index) or "triangles" (by time and triangle) as a pandas DataFrame, one row for each combination. attrs["units"]
+        """Returns "steps" (by time, UTC), "sums" (by date), "organs" (by date and organ_index, the organ's number), "plants" (by date
+        and plant_index) or "triangles" (by time and triangle) as a pandas DataFrame, one row for each combination. attrs["units"]
         has the units. Needs pandas."""
         times = [_utc(text) for text in self.steps["time"]]
         if table == "steps":
             columns = {name: values for name, values in self.steps.items() if name != "time"}
             return data_frame(columns, named("time", times), self._units("day.csv"))
+        if table == "sums":
+            columns = dict(self.sums)
+            return data_frame(columns, named("date", columns.pop("date")), self._units("day_sums.csv"))
         if table == "triangles":
             count = self.summary["triangles"]
             flat = {name: values.ravel() for name, values in self.triangles.items()}
             return data_frame(flat, crossed(["time", "triangle"], [times, range(count)]), dict.fromkeys(flat, "W m-2"))
         if table not in ("organs", "plants"):
-            refuse(f"to_dataframe({table!r})", "no such table of a day", "use steps, organs, plants or triangles")
+            refuse(f"to_dataframe({table!r})", "no such table of a day", "use steps, sums, organs, plants or triangles")
         columns = dict(self.organs if table == "organs" else self.plants)
         dates = columns.pop("date")
         count = len(columns["plant"])

@@ -99,10 +99,11 @@ class KeptDay(_Kept):
         if isinstance(core, KeptDay):
             self.__dict__.update(core.__dict__)
             return
-        tables = ("day.csv", "organs_day.csv", "plants_day.csv")
-        super().__init__(core, ("steps", "organs", "plants", "triangles"), tables, tables)
+        tables = ("day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv")
+        super().__init__(core, ("steps", "sums", "organs", "plants", "triangles"), tables, tables)
 
     steps = _answer("steps")
+    sums = _answer("sums")
     organs = _answer("organs")
     plants = _answer("plants")
     triangles = _answer("triangles")

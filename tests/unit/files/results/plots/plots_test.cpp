@@ -82,13 +82,20 @@ class Plots : public test::GnuplotTest {
 
   // Draws a day with these steps as `day` does.
   [[nodiscard]] test::Picture day(const std::string& title, const std::vector<DayStep>& steps,
-                                  const std::vector<StepLight>& lights) const {
+                                  const std::vector<StepLight>& lights, double umol_per_joule = 0.0) const {
     RadiationModel model;
     model.bands = {{"PAR", 0.0, 0.0}};
+    model.bands[0].umol_per_joule = umol_per_joule;
     DayCourse course;
     course.steps = steps;
+    for (DayStep& step : course.steps) {
+      const std::string its = local_time_text(step.start, 0).substr(0, 10);
+      if (course.dates.empty() || course.dates.back() != its) course.dates.push_back(its);
+      step.date = course.dates.size() - 1;
+    }
     PlotVariables variables;
     variables.set_file("table", folder_.write("day.csv", day_csv(titled(title), model, course, lights)));
+    variables.set_file("sums", folder_.write("day_sums.csv", day_sums_csv(titled(title), model, course, lights)));
     variables.set_text("title", title);
     variables.set_text("band", "PAR");
     return draw("day.gp", variables);
@@ -112,25 +119,63 @@ TEST_F(Plots, TwoProfilesAndFieldData) {
   EXPECT_GT(picture.count(black), draw("profile.gp", profiles(tables)).count(black) + 100) << "rings of the field data";
 }
 
-TEST_F(Plots, AProfileHasBothPanels) {
-  const auto in_half = [](const test::Picture& picture, bool right) {
-    std::size_t count = 0;
-    for (int y = 0; y < picture.height; ++y) {
-      for (int x = right ? 860 : 0; x < (right ? picture.width : 860); ++x) count += picture.at(x, y) == blue ? 1 : 0;
-    }
-    return count;
-  };
-  const test::Picture both = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
-  EXPECT_GT(in_half(both, false), 500U);
-  EXPECT_GT(in_half(both, true), 500U);
+// Counts the blue pixels of a picture from column `left` to before `right`.
+std::size_t blue_between(const test::Picture& picture, int left, int right) {
+  std::size_t count = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = left; x < right; ++x) count += picture.at(x, y) == blue ? 1 : 0;
+  }
+  return count;
+}
+
+// Returns whether the picture has a border of a panel, a dark line of most of its height, near this column. gnuplot places it up to
+// three pixels further left.
+bool has_border_at(const test::Picture& picture, int column) {
+  int longest = 0;
+  for (int x = column - 3; x <= column + 1; ++x) {
+    int dark = 0;
+    for (int y = 0; y < picture.height; ++y) dark += picture.at(x, y)[0] < 0x60 ? 1 : 0;
+    longest = std::max(longest, dark);
+  }
+  return longest > picture.height / 2;
+}
+
+TEST_F(Plots, AProfileHasThreePanels) {
+  const test::Picture picture = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
+  for (const int left : {140, 627, 1113}) {
+    EXPECT_TRUE(has_border_at(picture, left)) << left;
+    EXPECT_GT(blue_between(picture, left, left + 430), 400U) << left;
+  }
+}
+
+TEST_F(Plots, AProfileDrawsTheSunlitShareOfEachLayer) {
+  std::vector<LayerResult> shady = layers(0.2);
+  for (LayerResult& layer : shady) layer.sunlit_leaf_fraction = {0.1, 0.01};
+  const test::Picture half = draw("profile.gp", profiles({profile("A stand", layers(0.2))}));
+  const test::Picture tenth = draw("profile.gp", profiles({profile("A stand", shady)}));
+  // The panel from 0 to 1.02 spans columns 627 to 1063.
+  EXPECT_GT(blue_between(half, 830, 852), 1000U);
+  EXPECT_EQ(blue_between(half, 640, 700), 0U);
+  EXPECT_GT(blue_between(tenth, 659, 681), 1000U);
+  EXPECT_EQ(blue_between(tenth, 800, 900), 0U);
+}
+
+TEST_F(Plots, AProfileHasNoEmptyPanel) {
   const test::Picture other_band = draw("profile.gp", profiles({profile("A stand", layers(0.2))}, "UV"));
-  EXPECT_EQ(in_half(other_band, false), in_half(both, false));
-  EXPECT_EQ(in_half(other_band, true), 0U);
-  std::vector<LayerResult> dark = layers(0.2);
-  for (LayerResult& layer : dark) layer.sunfleck_ratio = {no_value, no_value};
+  EXPECT_TRUE(has_border_at(other_band, 820) && has_border_at(other_band, 870)) << "two panels share the room";
+  EXPECT_FALSE(has_border_at(other_band, 627));
+  EXPECT_GT(blue_between(other_band, 140, 820), 500U);
+  EXPECT_GT(blue_between(other_band, 870, 1550), 500U);
+
+  std::vector<LayerResult> bare = layers(0.2), dark = layers(0.2);
+  for (LayerResult& layer : bare) layer.sunlit_leaf_fraction = {no_value, no_value};
+  EXPECT_TRUE(has_border_at(draw("profile.gp", profiles({profile("No leaves", bare)})), 870));
+
+  for (LayerResult& layer : dark) layer.sunfleck_ratio = layer.sunlit_leaf_fraction = {no_value, no_value};
   const test::Picture no_beam = draw("profile.gp", profiles({profile("A stand", dark)}));
-  EXPECT_EQ(in_half(no_beam, false), 0U);
-  EXPECT_EQ(in_half(no_beam, true), in_half(both, true));
+  EXPECT_FALSE(has_border_at(no_beam, 627) || has_border_at(no_beam, 820) || has_border_at(no_beam, 870));
+  EXPECT_TRUE(has_border_at(no_beam, 140) && has_border_at(no_beam, 1550)) << "the absorbed light has all the room";
+  EXPECT_GT(blue_between(no_beam, 140, 1550), 1000U);
 }
 
 TEST_F(Plots, ProfilesOfAnythingASimulationGives) {
@@ -327,6 +372,28 @@ TEST_F(Plots, AMapHasNorthUpAndWestLeft) {
   EXPECT_EQ(at(5.0 / 6.0, 0.75), shade) << "south-east";
 }
 
+TEST_F(Plots, AMapWithoutABeamStandsAlone) {
+  auto [model, result] = test::small_plane();
+  const test::Picture both = plane("Sun", model, result, 0);
+  result.planes[0].reached.clear();
+  result.planes[0].crossing.clear();
+  result.planes[0].sunfleck_ratio = {no_value, no_value};
+  model.bands[0].direct_w_m2 = 0.0;
+  const test::Picture alone = plane("Overcast", model, result, 0);
+  EXPECT_LT(alone.height, 700) << "neither a map of the beam nor sizes of flecks";
+  // The widest stretch without white in a row that crosses the maps: one is 1180 wide, two are 590 each.
+  const auto widest = [](const test::Picture& picture) {
+    int columns = 0, longest = 0;
+    for (int x = 0; x < picture.width; ++x) {
+      columns = picture.at(x, 250) == white ? 0 : columns + 1;
+      longest = std::max(longest, columns);
+    }
+    return longest;
+  };
+  EXPECT_NEAR(widest(both), 590, 20);
+  EXPECT_NEAR(widest(alone), 1180, 20);
+}
+
 TEST_F(Plots, MapsOfAnythingASimulationGives) {
   auto [model, result] = test::small_plane();
   result.planes[0].down.clear();
@@ -350,7 +417,8 @@ TEST_F(Plots, MapsOfAnythingASimulationGives) {
 }
 
 DayStep step_at(int day, double hour) {
-  const UtcTime start{2002, 8, 8 + day, static_cast<int>(hour), static_cast<int>(60.0 * (hour - std::floor(hour)) + 0.5), 0.0};
+  const UtcTime first{2002, 8, 8, static_cast<int>(hour), static_cast<int>(60.0 * (hour - std::floor(hour)) + 0.5), 0.0};
+  const UtcTime start = plus_seconds(first, 86400.0 * day);
   return {start, start, 600.0, 0, {std::sin((hour - 6.0) / 12.0 * 3.14), 1.0}};
 }
 
@@ -402,9 +470,118 @@ TEST_F(Plots, CurvesHaveAGapWhereStepsAreMissing) {
   EXPECT_GT(black_at_the_first_midnight(days(3, 0, 24)), 0U);
 }
 
-TEST_F(Plots, ManyDaysAreDrawn) {
-  const auto [steps, lights] = days(20, 10, 11);
-  EXPECT_EQ(day("Twenty days", steps, lights).width, 1600);
+// Returns the rows of the upper panel that hold a point of this colour near a column, from the top.
+std::vector<int> rows_near(const test::Picture& picture, int column, const test::Picture::Pixel& colour) {
+  std::vector<int> rows;
+  for (int y = 185; y < 650; ++y) {
+    int found = 0;
+    for (int x = column - 6; x <= column + 6; ++x) found += picture.at(x, y) == colour ? 1 : 0;
+    if (found >= 5) rows.push_back(y);
+  }
+  return rows;
+}
+
+// The column of the middle of a date, from 0, in a picture of that many days. Without photons the panel spans columns 150 to 1510.
+int middle_of(int date, int dates) {
+  return 150 + static_cast<int>(1360.0 * (date + 0.5) / dates);
+}
+
+TEST_F(Plots, MoreThanSevenDaysAreDailySums) {
+  // Ten hours of 400 W m-2 are 14.4 MJ m-2; twice as long is twice as much.
+  Days all = days(10, 4, 14);
+  for (StepLight& step : all.lights) step = light(400.0);
+  const Days longer = days(1, 0, 20);
+  std::vector<DayStep> steps(all.steps.begin(), all.steps.end() - 60);
+  std::vector<StepLight> lights(all.lights.begin(), all.lights.end() - 60);
+  for (DayStep step : longer.steps) {
+    step.start.day += 9;
+    steps.push_back(step);
+    lights.push_back(light(400.0));
+  }
+  const test::Picture picture = day("Ten days", steps, lights);
+  const auto height_of = [&](int date) {
+    const std::vector<int> rows = rows_near(picture, middle_of(date, 10), black);
+    return rows.empty() ? 0.0 : 660.0 - 0.5 * (rows.front() + rows.back());
+  };
+  // The axis ends 8 % above 28.8 MJ m-2; it is 485 pixels high.
+  EXPECT_NEAR(height_of(9), 485.0 / 1.08, 4.0);
+  EXPECT_NEAR(height_of(4), 0.5 * 485.0 / 1.08, 4.0);
+  EXPECT_NEAR(height_of(0), height_of(8), 1.0);
+}
+
+TEST_F(Plots, SevenDaysAreStillDrawnAsTheyGo) {
+  const auto at_noon = [&](int count) {
+    Days all = days(count, 0, 24);
+    for (StepLight& step : all.lights) step = light(300.0);
+    return day("Days", all.steps, all.lights);
+  };
+  // Half-widths are 7 % of a step's value, but a twelfth of that for the sum over the 144 steps of a date.
+  constexpr test::Picture::Pixel pale_green{0xB2, 0xE2, 0xD5};
+  EXPECT_GT(at_noon(7).count(pale_green, 2), 4 * at_noon(8).count(pale_green, 2));
+}
+
+TEST_F(Plots, DaysWithoutStepsAreAGapInASeason) {
+  Days all = days(12, 10, 14);
+  const auto is_gap = [](const DayStep& step) { return step.start.day == 8 + 5 || step.start.day == 8 + 6; };
+  Days kept;
+  for (std::size_t i = 0; i < all.steps.size(); ++i) {
+    if (is_gap(all.steps[i])) continue;
+    kept.steps.push_back(all.steps[i]);
+    kept.lights.push_back(light(300.0));
+  }
+  const test::Picture picture = day("Twelve days", kept.steps, kept.lights);
+  const auto black_at = [&](int column) {
+    std::size_t count = 0;
+    for (int y = 190; y < 640; ++y) count += picture.at(column, y) == black ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(black_at(middle_of(5, 12)), 0U);
+  EXPECT_EQ(black_at(middle_of(6, 12)), 0U);
+  EXPECT_GT(black_at(middle_of(2, 12) + 50), 0U) << "between two days";
+}
+
+TEST_F(Plots, ASeasonWithPhotonsHasAnAxisOfMoles) {
+  const auto [steps, lights] = days(10, 10, 12);
+  const test::Picture without = day("Ten days", steps, lights);
+  const test::Picture with = day("Ten days", steps, lights, 4.57);
+  EXPECT_TRUE(has_border_at(without, 1510) && !has_border_at(without, 1440));
+  EXPECT_TRUE(has_border_at(with, 1440) && !has_border_at(with, 1510));
+}
+
+TEST_F(Plots, DaysWithoutSunHaveOnePanel) {
+  for (const int count : {1, 12}) {
+    Days all = days(count, 8, 16);
+    const test::Picture sunny = day("Sun", all.steps, all.lights);
+    for (StepLight& step : all.lights) step.sunlit_leaf_fraction = {no_value, no_value};
+    const test::Picture overcast = day("Overcast", all.steps, all.lights);
+    EXPECT_EQ(overcast.height, 1100);
+    const auto border_row = [](const test::Picture& picture, int row) {
+      int dark = 0;
+      for (int x = 150; x < 1510; ++x) {
+        int darkest = 255;
+        for (int y = row - 1; y <= row + 1; ++y) darkest = std::min<int>(darkest, picture.at(x, y)[0]);
+        dark += darkest < 0xA0 ? 1 : 0;
+      }
+      return dark > 1200;
+    };
+    EXPECT_TRUE(border_row(sunny, 660) && border_row(sunny, 710)) << count;
+    EXPECT_FALSE(border_row(overcast, 660) || border_row(overcast, 710)) << count;
+    EXPECT_TRUE(border_row(overcast, 975)) << count;
+  }
+}
+
+TEST_F(Plots, AWholeYearIsDrawn) {
+  const auto [steps, lights] = days(365, 10, 11);
+  EXPECT_EQ(day("A year", steps, lights).width, 1600);
+}
+
+TEST_F(Plots, ABandThatTheTableLacksIsAWarning) {
+  const auto [steps, lights] = days(1, 10, 12);
+  EXPECT_EQ(day("A day", steps, lights).width, 1600);
+  PlotVariables variables;
+  variables.set_file("table", folder_ / "day.csv");
+  variables.set_text("band", "UV");
+  EXPECT_NE(draw_table("day.gp", variables, folder_ / "uv.png").value_or(""), "");
 }
 
 TEST_F(Plots, DaysOfAnythingASimulationGives) {

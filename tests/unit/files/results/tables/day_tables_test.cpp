@@ -97,6 +97,29 @@ TEST(DayTables, DayIsWrittenStepByStep) {
   EXPECT_EQ(table.cell(2, "A_reflected_error"), "");
 }
 
+TEST(DayTables, DatesHaveSums) {
+  const RadiationModel model = two_organs();
+  const std::vector<StepLight> lights{light(100.0, 4.0, 1.0), night_light(model), light(10.0, 5.0, 0.0)};
+  const regression::Table table(day_sums_csv({}, model, three_steps(), lights));
+  std::string header = "date,steps";
+  for (const char* name : {"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected"}) {
+    for (const char* unit : {"_mj_m2", "_mol_m2"}) header += std::string(",A_") + name + unit + ",A_" + name + unit + "_error";
+  }
+  EXPECT_EQ(table.header().substr(0, header.size()), header);
+  EXPECT_EQ(table.header().find("B_incident_mol"), std::string::npos);
+  ASSERT_EQ(table.size(), 2U);
+  EXPECT_EQ(table.cell(0, "date"), "2002-12-31");
+  EXPECT_EQ(table.number(0, "steps"), 2.0);
+  EXPECT_EQ(table.number(0, "A_incident_mj_m2"), 0.18);
+  EXPECT_EQ(table.number(0, "A_incident_mol_m2"), 0.72);
+  EXPECT_EQ(table.number(0, "A_absorbed_vegetation_mj_m2"), 0.09);
+  EXPECT_EQ(table.number(0, "A_absorbed_vegetation_mj_m2_error"), 0.0072);
+  EXPECT_EQ(table.number(0, "A_absorbed_soil_mj_m2"), 0.045);
+  EXPECT_EQ(table.number(0, "B_reflected_mj_m2"), 0.0225);
+  EXPECT_EQ(table.cell(1, "date"), "2003-01-01");
+  EXPECT_EQ(table.number(1, "A_incident_mj_m2"), 0.006);
+}
+
 TEST(DayTables, OrgansHaveSumsOfEachDate) {
   const RadiationModel model = two_organs();
   const std::vector<StepLight> lights{light(100.0, 3.0, 0.0), night_light(model), light(10.0, 5.0, 0.0)};

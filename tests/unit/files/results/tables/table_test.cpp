@@ -116,7 +116,8 @@ TEST(Table, AnErrorIsTheHalfWidthOfTheColumnBeforeIt) {
   for (const Table& table :
        {organs_table(model, result), plants_table(model, result), layers_table(model, result), balance_table(result),
         sensors_table(model, result), sensor_means_table(model, result), plane_table(model, result, 0), triangles_table(fields),
-        steps_table(model, course, {}), organs_day_table(model, course, {}), plants_day_table(model, course, {})}) {
+        steps_table(model, course, {}), day_sums_table(model, course, {}), organs_day_table(model, course, {}),
+        plants_day_table(model, course, {})}) {
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const Column& error = table.columns[i];
       if (!error.name.ends_with("_error")) continue;
