@@ -110,6 +110,8 @@ bool draw_together(const Drawing& drawing, const PictureOptions& options, const 
 }
 
 constexpr double least_filled_share = 0.6;
+// The part of the room for plants that they fill where the legend leaves too little of a narrow picture.
+constexpr double least_filled_room = 0.9;
 
 // Returns the corners of plants, of large stands those of a sample.
 std::vector<glm::dvec3> plant_points(const RadiationModel& model) {
@@ -219,8 +221,10 @@ Camera picture_camera(const Scene& scene, const CounterLayout& layout, const Pic
   const Camera camera = view_of(options.view, box_with_axes(lo - beside, hi + beside, model.plot.axes), aspect);
   if (plots > 1) return camera;
   const std::vector<glm::dvec3> plants_m = plant_points(model);
-  if (plants_m.empty() || filled_share(camera, plants_m) >= least_filled_share) return camera;
-  return near_enough(camera, view_of(options.view, plants_m, aspect), plants_m, least_filled_share);
+  if (plants_m.empty()) return camera;
+  const Camera nearest = view_of(options.view, plants_m, aspect);
+  const double share = std::min(least_filled_share, least_filled_room * filled_share(nearest, plants_m));
+  return filled_share(camera, plants_m) < share ? near_enough(camera, nearest, plants_m, share) : camera;
 }
 
 CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,

@@ -50,7 +50,8 @@ struct ShownBox {
 [[nodiscard]] ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout);
 
 // Returns the scene's own camera or the requested view. A view fits the plot with its canopy and axes into the picture; it comes
-// closer where plants would fill less than 60 % of the picture's height and width, at most until they reach the margins.
+// closer where plants would fill less than 60 % of the picture's height and width or, in a picture too narrow for that, less than 90 % of
+// the room beside the legend.
 [[nodiscard]] Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options);
 
 // Returns how to look through that camera, with the size, samples and copies of the plot that the options give.

@@ -23,7 +23,7 @@ struct FreeWindow {
 FreeWindow free_window(double half_height, double aspect) {
   constexpr double top_margin = 0.15, bottom_margin = 0.085;
   const double left_margin = std::min(0.065 / aspect, 0.15);
-  const double legend_width = std::min(0.36 / aspect, 0.4);
+  const double legend_width = std::min(0.36 / aspect, 0.4 + 0.035 / aspect);
   const auto horizontal = [&](double x) { return (2.0 * x - 1.0) * half_height * aspect; };
   const auto vertical = [&](double y) { return (1.0 - 2.0 * y) * half_height; };
   return {horizontal(left_margin), horizontal(1.0 - legend_width), vertical(1.0 - bottom_margin), vertical(top_margin)};

@@ -32,7 +32,7 @@ glm::dvec2 place_on_compass(const Camera& camera, double azimuth_rad, double ele
 
 CompassPlace compass_place(float left_px, float width_px, float height_px) {
   const float radius = 0.042F * height_px;
-  return {{left_px + width_px - 1.9F * radius, 1.6F * radius}, radius};
+  return {{left_px + width_px - 1.9F * radius, 0.72F * height_px}, radius};
 }
 
 void draw_compass(const CompassPlace& place, const Camera& camera, const std::optional<SunPosition>& sun) {

@@ -18,7 +18,7 @@ struct CompassPlace {
   glm::vec2 centre_px{0.0F};
   float radius_px = 0.0F;
 };
-// Returns the upper right corner of a picture that begins at `left_px`.
+// Returns a place at the right edge of a picture that begins at `left_px`, between its legend and its north arrow.
 [[nodiscard]] CompassPlace compass_place(float left_px, float width_px, float height_px);
 
 // Draws it with Dear ImGui within a frame, below the panels. The sun is shown while it is above the horizon.
