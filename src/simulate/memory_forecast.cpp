@@ -63,11 +63,13 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
   const double of_pilot = PlaceSums::likely_bytes(pilot_replicates * run.side_bytes, sides);
   double spreads = 0.0;
   SumBytes bytes;
-  if (element_errors == ElementErrors::refine) {
+  if (refines(element_errors)) {
     bytes.refining = elements * bytes_refining_element + 3.0 * sides;
     spreads = 2.0 * (landings + of_run);
-  } else if (element_errors != ElementErrors::skip)
-    spreads = 2.0 * elements * (16.0 + 32.0 * bands);
+  }
+  if (element_errors != ElementErrors::skip && element_errors != ElementErrors::refine) {
+    spreads += 2.0 * elements * (16.0 + 32.0 * bands);
+  }
   bytes.tracing = numbering + 2.0 * (exposure + landings + cells) + of_run + of_pilot + spreads;
   bytes.ending = numbering + exposure + landings + cells + sides + spreads + bytes.refining;
   if (of_run < sides) bytes.ending += of_run;

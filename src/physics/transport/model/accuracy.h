@@ -13,7 +13,13 @@ enum class ElementErrors {
   refine,      // instead, the light of each element is estimated at the end, from the halves of the run
   keep,        // of the flux that each element absorbs
   keep_sides,  // and also of the flux incident on each of its sides
+  keep_sides_and_refine,
 };
+
+// Returns whether the light of each element is estimated at the end.
+[[nodiscard]] constexpr bool refines(ElementErrors errors) {
+  return errors == ElementErrors::refine || errors == ElementErrors::keep_sides_and_refine;
+}
 
 // Relative half-widths of the confidence intervals, and the figures to which they apply.
 struct Accuracy {

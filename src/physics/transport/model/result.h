@@ -185,7 +185,7 @@ struct RadiationResult {
   // [(2 * element + side) * bands + band], quanta of all other light; empty without any.
   std::vector<std::int64_t> side_indirect;
   // [2 * element + side], parts of landings of beam rays, whose sums over each side of a surface are those of `elements`; empty
-  // unless the light of triangles was estimated (ElementErrors::refine) or without a beam. side_indirect and side_sky are then
+  // unless the light of triangles was estimated (refines(ElementErrors)) or without a beam. side_indirect and side_sky are then
   // estimates in the same way.
   std::vector<std::int64_t> side_direct;
   // [band], typical relative error of what a triangle of the vegetation absorbs: the root mean square of the half-widths, weighted

@@ -362,14 +362,14 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors)
   for (auto* means : {&layer.down, &layer.up, &layer.absorbed, &layer.absorbed_structure}) means->resize(bands.size());
   layers.assign(static_cast<std::size_t>(of.layout.layers.count) + 1, layer);
   if (of.receivers != nullptr) planes.emplace(*of.receivers, model);
-  keeps_half = element_errors == ElementErrors::refine;
+  keeps_half = refines(element_errors);
   if (keeps_half) half_elements.resize(elements.size());
-  if (element_errors == ElementErrors::skip || keeps_half) return;
+  if (element_errors == ElementErrors::skip || element_errors == ElementErrors::refine) return;
   direct_spread.resize(elements.size());
   element_hits.resize(elements.size());
   absorbed_spread.resize(elements.size() * bands.size());
   if (scatters(model) || model.has_sky()) indirect_spread.resize(elements.size() * bands.size());
-  if (element_errors == ElementErrors::keep_sides) side_spread.resize(2 * elements.size() * bands.size());
+  if (element_errors != ElementErrors::keep) side_spread.resize(2 * elements.size() * bands.size());
 }
 
 void RunSums::add(const Replicate& replicate) {
