@@ -42,7 +42,7 @@ for clock in ("06:30", "08:30", "12:00"):
 # %% Flux absorbed by the leaves of each rank, per leaf area, averaged over plants
 def by_rank(result):
     organs = result.organs
-    leaf = np.array([name == "leaf" for name in organs["organ"]])
+    leaf = organs["organ"] == "leaf"
     ranks = np.unique(organs["rank"][leaf])
     means = []
     for rank in ranks:

@@ -21,6 +21,12 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
+// Bad input: a file does not exist.
+class MissingFile : public Error {
+ public:
+  explicit MissingFile(const std::string& message) : Error(ErrorKind::input, message) {}
+};
+
 [[nodiscard]] inline std::string three_part_message(std::string_view what, std::string_view why, std::string_view cure) {
   std::string message(what);
   message.append(" (").append(why).append("); ").append(cure);

@@ -149,7 +149,10 @@ std::uintmax_t available_memory_bytes() {
 std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
   std::error_code code;
   const fs::file_status status = fs::status(file, code);
-  if (status.type() == fs::file_type::not_found) refuse_read(file, "there is no such file", "check the name and the folder");
+  if (status.type() == fs::file_type::not_found) {
+    throw MissingFile(three_part_message(fmt::format("{}: cannot be read", printable(file.string())), "there is no such file",
+                                         "check the name and the folder"));
+  }
   if (code) refuse_read(file, code.message(), "check the path and its permissions");
   if (fs::is_directory(status)) refuse_read(file, "it is a directory", "name a file");
   if (!fs::is_regular_file(status)) refuse_read(file, "it is not a regular file", "name a file on disk");

@@ -43,6 +43,15 @@ std::string count_text(std::uint64_t rays) {
   return fmt::format("{:.1f} M rays", static_cast<double>(rays) * 1e-6);
 }
 
+// Returns ", direct error 0.0012 of 0.001"; empty if the error is unknown.
+std::string error_text(const ProgressLine::State& state) {
+  if (!state.relative_error || !std::isfinite(*state.relative_error)) return "";
+  std::string text =
+      fmt::format(", {}{}error {:.2g}", state.error_of, state.error_of.empty() ? "" : " ", *state.relative_error);
+  if (state.bound) text += fmt::format(" of {:.2g}", *state.bound);
+  return text;
+}
+
 std::string duration_text(double seconds) {
   if (seconds >= 1e9) return "years";
   const auto whole = static_cast<long>(std::ceil(seconds));
@@ -105,16 +114,12 @@ void ProgressLine::draw_bar(steady_clock::time_point now) {
 std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s, int bar_width) {
   const double fraction = std::isfinite(state.fraction) ? std::clamp(state.fraction, 0.0, 1.0) : 0.0;
   std::string text(task);
-  if (!state.stage.empty()) return fmt::format("{}, {}, {}", task, state.stage, count_text(state.rays));
+  if (!state.stage.empty()) return fmt::format("{}, {}, {}{}", task, state.stage, count_text(state.rays), error_text(state));
   if (bar_width > 0) {
     const int full = static_cast<int>(fraction * bar_width);
     text += fmt::format(" [{}{}]", std::string(full, '#'), std::string(bar_width - full, '.'));
   }
-  text += fmt::format(" {} %, {}", static_cast<int>(100.0 * fraction), count_text(state.rays));
-  if (state.relative_error && std::isfinite(*state.relative_error)) {
-    text += fmt::format(", {}{}error {:.2g}", state.error_of, state.error_of.empty() ? "" : " ", *state.relative_error);
-    if (state.bound) text += fmt::format(" of {:.2g}", *state.bound);
-  }
+  text += fmt::format(" {} %, {}{}", static_cast<int>(100.0 * fraction), count_text(state.rays), error_text(state));
   if (fraction >= 0.01 && fraction < 1.0) {
     const double left_s = state.seconds_left.value_or(elapsed_s * (1.0 - fraction) / fraction);
     text += fmt::format(", {} left", duration_text(left_s));

@@ -40,7 +40,7 @@ class ReplicateBench {
     const std::lock_guard lock(mutex_);
     if (!conversion_ || order.beam_rays != beam_rays_) {
       beam_rays_ = order.beam_rays;
-      conversion_ = std::make_shared<const Conversion>(maker_.conversion(maker_.incidence(beam_rays_)));
+      conversion_ = std::make_shared<const Conversion>(maker_.conversion(maker_.incidence(beam_rays_, order.aimed)));
     }
     return conversion_;
   }

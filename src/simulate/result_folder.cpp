@@ -69,15 +69,17 @@ std::vector<Picture> wanted_pictures(const ResultRequest& request, const Radiati
   return wanted;
 }
 
-// Returns the colours of elements in the rank chart of total light, as the mean of both faces.
+// Returns the colours of elements in the rank chart of total light.
 std::vector<ElementColour> element_colours(const Drawing& drawing, std::size_t band) {
   const RadiationModel& model = drawing.scene.model;
-  const FieldValues values = field_values(model, drawing.layout, drawing.result, band, LightField::total);
-  const std::vector<Colour> surfaces =
-      colour_field(ChartKind::rank, values, surface_colours(model, drawing.layout), "").colours;
+  const FieldValues sides = field_values(model, drawing.layout, drawing.result, band, LightField::total);
+  const FieldValues values = leaf_values(model, sides, LightField::total);
+  const std::vector<Colour> surfaces = colour_field(ChartKind::rank, values, surface_colours(model, drawing.layout), "",
+                                                    {.lit_from_w_m2 = lit_from_w_m2(model, band, LightField::total)})
+                                           .colours;
   std::vector<ElementColour> colours(model.canopy.size());
   for (std::size_t e = 0; e < colours.size(); ++e) {
-    for (std::size_t c = 0; c < 3; ++c) colours[e].linear[c] = 0.5 * (surfaces[2 * e][c] + surfaces[2 * e + 1][c]);
+    colours[e].linear = surfaces[2 * e];
     colours[e].srgb = to_srgb(colours[e].linear);
   }
   return colours;

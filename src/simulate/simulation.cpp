@@ -35,7 +35,7 @@ constexpr double least_judged_share = 0.01;
 // Returns the bound on sensors that the scene asks for, if any. A run that is over gives them no more time.
 std::optional<SensorBound> sensor_bound(const SolveSettings& settings, const RadiationResult& result, const Stopwatch& watch) {
   if (settings.accuracy.of != ErrorTarget::sensors || settings.grid_m || settings.passes) return std::nullopt;
-  SensorBound bound{settings.accuracy.indirect, {}, {}};
+  SensorBound bound{settings.accuracy.indirect, {}, {}, {}};
   for (const BandResult& band : result.bands) bound.least_w_m2.push_back(least_judged_share * band.incident);
   bound.time_is_up = [&settings, &watch, is_over = !is_done(result.stop)] {
     return is_over || (settings.max_seconds && watch.seconds() >= *settings.max_seconds);
@@ -119,6 +119,16 @@ RadiationResult Simulation::solve(const SolveSettings& settings, const Monitor& 
   sensors.seed = settings.seed;
   sensors.confidence = settings.accuracy.confidence;
   sensors.bound = sensor_bound(settings, result, watch);
+  if (sensors.bound && monitor.report) {
+    sensors.bound->report = [&, of_run = result.direct.rays + result.indirect.sky_rays + result.indirect.packets](
+                                double relative_error, std::uint64_t rays) {
+      Progress progress{.stage = Progress::Stage::sensors, .rays = of_run + rays, .fraction = 1.0};
+      progress.pass = Progress::Pass::sensors;
+      progress.relative_error = relative_error;
+      progress.bound = sensors.bound->relative;
+      monitor.report(progress);
+    };
+  }
   Stopwatch sensor_watch;
   auto readings = measure_sensors(model, layout(), tracer, sensors, monitor.interrupted);
   if (!readings) {

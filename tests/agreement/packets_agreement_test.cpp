@@ -200,6 +200,18 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
   }
 }
 
+TEST_F(PacketsAgreement, OfAWholeRunWithLightAimedAtAStand) {
+  RadiationModel model = paper_model(random_leaves(20, 0.02, 5), {9.0, 8.0, false}, beijing_sun());
+  model.sky = SkyModel{};
+  for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.4;
+  SolveSettings settings;
+  settings.accuracy.direct = 0.02;
+  settings.accuracy.indirect = 0.05;
+  settings.element_errors = ElementErrors::refine;
+  expect_same_run(model, settings);
+  expect_same_run(without_soil(model), settings);
+}
+
 TEST_F(PacketsAgreement, OfWholeRunsUnderTheSkyWithReceivers) {
   const Mesh leaves = random_leaves(100, 0.12, 5);
   for (const Plot& plot : {unit_plot, unit_stand}) {

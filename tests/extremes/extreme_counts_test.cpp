@@ -187,7 +187,7 @@ TEST(ExtremeQuanta, StayNearTheirNumber) {
   for (const std::uint64_t rays : {std::uint64_t{1}, std::uint64_t{1} << 14U, max_grid_rays}) {
     for (double power = -300.0; power <= 300.0; power += 0.37) {
       model.bands = {{"PAR", 1.0, std::pow(10.0, power)}};
-      const BandQuanta quanta = make_band_quanta(model, {rays, 1.0 / static_cast<double>(rays), 1.0})[0];
+      const BandQuanta quanta = make_band_quanta(model, {rays, rays, 1.0 / static_cast<double>(rays), 1.0})[0];
       const double incident = static_cast<double>(quanta.per_ray) * static_cast<double>(rays) + static_cast<double>(quanta.sky);
       EXPECT_LE(incident, 0x1p47 * (1.0 + 1e-9)) << power;
       EXPECT_GE(incident, 0x1p45) << power;

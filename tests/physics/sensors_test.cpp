@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -387,7 +388,7 @@ TEST(Sensors, IntervalsOfTotalsAndMeansCoverTheTruth) {
 
 SensorSettings bounded(double relative) {
   SensorSettings settings{256, 8, 1, 0.95};
-  settings.bound = SensorBound{relative, {0.015}, {}};
+  settings.bound = SensorBound{relative, {0.015}, {}, {}};
   return settings;
 }
 
@@ -406,6 +407,22 @@ TEST(Sensors, GoOnUntilTheBoundHoldsForEach) {
   const SensorReadings again = readings_of(model, bounded(0.01), CpuWalk::every_element);
   EXPECT_EQ(again.means[0].total[0].value, got.means[0].total[0].value);
   EXPECT_EQ(again.summary.replicates, got.summary.replicates);
+}
+
+TEST(Sensors, TellHowFarTheSearchIs) {
+  SensorSettings settings = bounded(0.005);
+  std::vector<std::uint64_t> rays;
+  double last_error = 0.0;
+  settings.bound->report = [&](double relative_error, std::uint64_t so_far) {
+    rays.push_back(so_far);
+    last_error = relative_error;
+  };
+  const SensorReadings got = readings_of(line_and_ball(), settings);
+  EXPECT_EQ(got.stop, StopReason::bound_reached);
+  ASSERT_GT(rays.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(rays.begin(), rays.end()));
+  EXPECT_LT(rays.front(), rays.back());
+  EXPECT_LE(last_error, 0.005) << "the check before the last is a good one";
 }
 
 // A search that ends at a lucky moment must not make the intervals too narrow.

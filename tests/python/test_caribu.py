@@ -155,3 +155,37 @@ def test_bad_input(name):
 def test_dark():
     _, aggregated = CaribuScene(HALVES, light=[(0.0, (0, 0, -1))], pattern=SQUARE).run(simplify=True)
     assert aggregated["Ei"]["upper"] == 0.0 and sunfleck.__version__
+
+
+def test_the_canopy_is_bounded_and_primitives_have_errors():
+    scene = CaribuScene(HALVES, pattern=SQUARE)
+    told = []
+    _, aggregated = scene.run(error=0.02, simplify=True, progress=told.append)
+    summary = scene.result.summary
+    assert scene.result.complete and summary["settings"]["of"] == "canopy" and told[-1]["fraction"] == 1.0
+    for primitive in HALVES:
+        assert 0.0 < aggregated["Eabs_error"][primitive] < 0.1
+    assert abs(aggregated["Eabs"]["upper"] - 0.87) <= 2.0 * aggregated["Eabs_error"]["upper"]
+    finer = CaribuScene(HALVES, pattern=SQUARE)
+    finer.run(error=0.02, of="triangle")
+    assert finer.result.summary["settings"]["of"] == "triangle"
+    with pytest.raises(ValueError, match="of = 'leaf'"):
+        scene.run(of="leaf")
+
+
+def test_limits_cut_a_simulation_short():
+    scene = CaribuScene(HALVES, pattern=SQUARE)
+    scene.run(error=1e-6, max_rays=200_000)
+    assert not scene.result.complete and scene.result.summary["direct"]["rays"] <= 200_000
+    scene.run(error=1e-6, max_seconds=0.5)
+    assert not scene.result.complete
+
+
+def test_errors_of_primitives_are_those_of_the_organs():
+    scene = CaribuScene(HALVES, pattern=SQUARE)
+    _, aggregated = scene.run(error=0.02, simplify=True)
+    organs = scene.result.organs
+    for number, primitive in enumerate(HALVES, 1):
+        (row,) = np.flatnonzero(organs["plant"] == number)
+        assert aggregated["Eabs_error"][primitive] > 0.0
+        assert aggregated["area"][primitive] == pytest.approx(organs["area_m2"][row])

@@ -32,7 +32,7 @@ def test_arrays_hold_what_the_files_hold(scene_file, tmp_path):
     result.save(tmp_path / "module", export=["nc"])
     with netCDF4.Dataset(tmp_path / "module" / "results.nc") as file:
         for name, values in result.triangles.items():
-            if isinstance(values, np.ndarray):
+            if name in file.variables and values.dtype.kind != "U":
                 stored = np.ma.filled(file[name][:].astype(float), np.nan)
                 assert np.array_equal(stored, values.astype(float), equal_nan=True), name
         corners = np.stack([file[f"corner_{axis}"][:] for axis in "xyz"], axis=2)
@@ -84,7 +84,7 @@ def test_organs_plants_and_placement_of_arrays():
     scene = with_arrays(plant=[2, 2, 5], organ=["leaf", "leaf", "stem"], rank=[1, 3, 0], at=[[0, 0, 0], [0.1, 0, 0.1]])
     result = sunfleck.run(scene, **WORK)
     assert list(result.organs["plant"]) == [2, 2, 5, 7, 7, 10]
-    assert result.organs["organ"] == ["leaf", "leaf", "stem"] * 2
+    assert result.organs["organ"].tolist() == ["leaf", "leaf", "stem"] * 2
     assert list(result.organs["rank"]) == [1, 3, 0] * 2
     assert list(result["plant"]) == [2, 2, 5, 7, 7, 10]
 

@@ -105,7 +105,8 @@ TEST_F(Fields, EachPlantIsTheSumOfItsOrgans) {
       EXPECT_GT(error, 0.0);
       EXPECT_LT(error, 0.2 * plants.number(p, band + "_absorbed"));
     }
-    EXPECT_NEAR(plants.number(p, "PAR_absorbed_umol_s"), 4.57 * plants.number(p, "PAR_absorbed"), 1e-6);
+    const double umol_s = 4.57 * plants.number(p, "PAR_absorbed");
+    EXPECT_NEAR(plants.number(p, "PAR_absorbed_umol_s"), umol_s, 1e-8 * umol_s) << "nine digits are written";
   }
   EXPECT_NEAR(plants.number(0, "leaf_area_m2"), 0.25 * plants.number(1, "leaf_area_m2"), 1e-6) << "half as large";
   EXPECT_NEAR(plants.number(2, "height_m"), 0.6, 1e-6) << "0.4 m times 1.5";

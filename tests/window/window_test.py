@@ -266,7 +266,7 @@ class WindowTest(unittest.TestCase):
         window = self.open()
         before = window.picture()
         self.screen.drag(window.in_picture(0.4, 0.6), window.in_picture(0.6, 0.5))
-        self.wait_until_picture(window, lambda after: changed_share(before, after) > 0.05)
+        self.wait_until_picture(window, lambda after: changed_share(before, after) > 0.02)
         orbited = window.picture()
         self.screen.do("mousemove", *map(int, window.in_picture(0.5, 0.5)))
         self.screen.do("click", 4)  # the wheel
@@ -374,7 +374,7 @@ class WindowTest(unittest.TestCase):
     def plot_to_screen(self, window, seen, place):
         """Finds a place of the square plot (X, Z in metres) in a picture from above: north is up and east right, the plot's western
         and southern borders are black, its eastern border is the red axis."""
-        black = numpy.all(seen < 100, axis=2)
+        black = numpy.all(seen < 40, axis=2)
         red = (seen[:, :, 0] > 150) & (seen[:, :, 1] < 80) & (seen[:, :, 2] < 80)
         west, east, south = black.mean(axis=0).argmax(), red.mean(axis=0).argmax(), black.mean(axis=1).argmax()
         x, z = place
@@ -406,7 +406,8 @@ class WindowTest(unittest.TestCase):
         self.run_program("render", "leaves.toml", "--device", "lavapipe", "--chart", "hue", "--size",
                          f"{SIZE[0]}x{SIZE[1]}", "-o", "rendered.png", "--quiet")
         rendered = read_png(os.path.join(self.folder, "rendered.png"))
-        far = numpy.any(numpy.abs(shown.astype(int) - rendered.astype(int)) > 1, axis=2)
+        above_footer = slice(0, int(0.93 * SIZE[1]))  # the footer of `render` ends with the error of triangles, which it estimates
+        far = numpy.any(numpy.abs(shown.astype(int) - rendered.astype(int)) > 1, axis=2)[above_footer]
         self.assertLessEqual(far.mean(), 0.001)
         summary = json.loads(self.run_program("run", "leaves.toml", "--device", "lavapipe", "--images", "none", "--json"))
         band = summary["bands"][0]

@@ -33,7 +33,7 @@ fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, con
   access.files->note(folder / name);
   const fs::file_status status = fs::status(file, code);
   if (status.type() == fs::file_type::not_found) {
-    table.refuse(key, "there is no such file; names are relative to the scene's folder", "correct the name");
+    table.refuse_missing_file(key);
   }
   if (!fs::is_regular_file(status)) table.refuse(key, "it is not a regular file", wanted);
   return file;

@@ -184,6 +184,11 @@ void TomlTable::refuse(std::string_view key, std::string_view why, std::string_v
   throw_input(place(key) + (node == nullptr ? "" : assigned(*node)), why, cure);
 }
 
+void TomlTable::refuse_missing_file(std::string_view key) const {
+  throw MissingFile(three_part_message(place(key) + assigned(*find(key)),
+                                       "there is no such file; names are relative to the scene's folder", "correct the name"));
+}
+
 void TomlTable::refuse_table(std::string_view why, std::string_view cure) const {
   throw_input(place(), why, cure);
 }

@@ -84,6 +84,8 @@ class TomlTable {
 
   // Throw Error: the key with its value, (why); cure. `refuse_table` refers to the table as a whole.
   [[noreturn]] void refuse(std::string_view key, std::string_view why, std::string_view cure) const;
+  // Throws MissingFile for a key that names a file, relative to the scene's folder.
+  [[noreturn]] void refuse_missing_file(std::string_view key) const;
   [[noreturn]] void refuse_table(std::string_view why, std::string_view cure) const;
 
   // Return "file:line: dotted.key" of an existing key, and the same of the table itself.

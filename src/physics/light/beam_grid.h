@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 namespace sunfleck {
 
@@ -33,5 +34,23 @@ inline constexpr std::uint64_t max_grid_rays = std::uint64_t{1} << 28U;
 // Returns the grid before an isolated stand: the rectangle perpendicular to the beam that just covers the shadow of the box
 // lo_m..hi_m.
 [[nodiscard]] BeamGrid isolated_beam_grid(glm::dvec3 lo_m, glm::dvec3 hi_m, glm::dvec3 to_sun, double rays);
+
+// A box with two opposite corners.
+struct BeamBox {
+  glm::dvec3 lo_m{0.0}, hi_m{0.0};
+};
+
+// A grid whose rays each carry the flux of `weight` rays of a finer one.
+struct WeightedBeamGrid {
+  BeamGrid grid;
+  std::uint32_t weight = 1;
+};
+
+// Returns grids before a small stand on a wide plot. The first one, with weight 1, is the rectangle perpendicular to the beam that just
+// covers the shadow of the stand's box, in about `rays` cells. The others surround it without overlap and cover the shadow of the
+// scene's box, in about half as many cells. All rays together represent less than 2^31 rays of the first grid, which therefore gets
+// fewer than `rays` where the scene is very wide.
+[[nodiscard]] std::vector<WeightedBeamGrid> aimed_beam_grids(const BeamBox& stand, const BeamBox& scene, glm::dvec3 to_sun,
+                                                             double rays);
 
 }  // namespace sunfleck

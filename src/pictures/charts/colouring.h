@@ -6,6 +6,7 @@
 #include "pictures/drawing/chart.h"
 #include "pictures/drawing/colour_scale.h"
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,8 +31,18 @@ struct SurfaceColours {
 };
 [[nodiscard]] SurfaceColours surface_colours(const RadiationModel& model, const CounterLayout& layout);
 
-// Returns the colours and the legend of a field. `title` is the field's, with its unit; `top_w_m2` is as in PictureOptions.
+// What the scales of a field depend on besides its values.
+struct ScaleLimits {
+  std::optional<double> top_w_m2;  // as in PictureOptions
+  double lit_from_w_m2 = 0.0;      // less than this is unlit in a rank chart
+  // No scale ends above it, so that the noise of a sliver stretches none.
+  double largest_w_m2 = std::numeric_limits<double>::infinity();
+  double largest_on_soil_w_m2 = std::numeric_limits<double>::infinity();
+};
+
+// Returns the colours and the legend of a field; for a rank chart, `values` are those of leaf_values. `title` is the field's, with its
+// unit.
 [[nodiscard]] Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces,
-                                     const std::string& title, std::optional<double> top_w_m2 = {});
+                                     const std::string& title, const ScaleLimits& limits = {});
 
 }  // namespace sunfleck

@@ -9,7 +9,7 @@ std::vector<std::string> field_names() {
 }
 
 std::vector<std::string> chart_names() {
-  return {"rank", "rank-interval", "hue", "map"};
+  return {"rank", "rank-interval", "rank-log", "hue", "map"};
 }
 
 std::vector<std::string> view_names() {

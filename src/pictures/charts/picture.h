@@ -12,7 +12,8 @@ namespace sunfleck {
 // except the beam and unscattered sky light, that is by scattered light and the light of lamps.
 enum class LightField { direct, sky, indirect, total, absorbed, scattered };
 
-enum class ChartKind { rank, rank_interval, hue, map };
+// rank, rank_interval and rank_log divide the leaf area into five classes: of equal area, of equal width, of equal ratio.
+enum class ChartKind { rank, rank_interval, rank_log, hue, map };
 
 // The scene's camera, a view from above, from the south, or upwards from the middle of the plot's ground.
 enum class ViewKind { camera, top, side, fisheye };
@@ -29,11 +30,21 @@ struct PictureOptions {
   ViewKind view = ViewKind::camera;
   int width = 1600, height = 1200;
   int samples = 4;  // per pixel
-  // Plots shown along X and along Z if the plot is periodic; odd, with the plot itself in the middle.
-  int repeat = 1;
-  // Upper end of the scales of rank_interval and map; none: chosen from the values.
+  // Plots shown along X and along Z if the plot is periodic; odd, with the plot itself in the middle. None: as many as the view needs.
+  std::optional<int> repeat;
+  // Upper end of the scales of rank_interval, rank_log and map; none: chosen from the values.
   std::optional<double> top_w_m2;
 };
+
+// Returns whether the chart divides the leaf area into classes.
+[[nodiscard]] constexpr bool is_rank(ChartKind chart) {
+  return chart == ChartKind::rank || chart == ChartKind::rank_interval || chart == ChartKind::rank_log;
+}
+
+// Returns whether the chart's scale can be given an upper end.
+[[nodiscard]] constexpr bool has_top(ChartKind chart) {
+  return chart != ChartKind::rank && chart != ChartKind::hue;
+}
 
 // Return the names used on the command line, in the order of the enumerations.
 [[nodiscard]] std::vector<std::string> field_names();

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "devices/tracers/canopy_view.h"
+#include "physics/transport/model/surfaces.h"
 #include "pictures/charts/colouring.h"
 #include "pictures/charts/fields.h"
 #include "pictures/charts/open_spot.h"
@@ -15,8 +16,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <utility>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -33,7 +36,7 @@ std::string subtitle_line(const RadiationModel& model, const RadiationResult& re
   return line + fmt::format("{} triangles, leaf area index {:.2f}", model.canopy.size(), result.leaf_area_index);
 }
 
-std::string footer_line(LightField field, const RadiationResult& result, const std::string& note) {
+std::string footer_line(LightField field, const RadiationResult& result, std::size_t band, const std::string& note) {
   std::string line;
   const auto add = [&](std::uint64_t count, const char* what, const std::optional<double>& error) {
     if (count == 0) return;
@@ -43,6 +46,9 @@ std::string footer_line(LightField field, const RadiationResult& result, const s
   add(result.direct.rays, "rays", result.direct.relative_error);
   if (field != LightField::direct) {
     add(result.indirect.packets + result.indirect.sky_rays, "packets", result.indirect.relative_error);
+  }
+  if (band < result.triangle_relative_error.size() && !std::isnan(result.triangle_relative_error[band])) {
+    line += fmt::format("; what a triangle absorbs is known to {:.2g} %", 100.0 * result.triangle_relative_error[band]);
   }
   return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
 }
@@ -103,6 +109,56 @@ bool draw_together(const Drawing& drawing, const PictureOptions& options, const 
   return true;
 }
 
+constexpr double least_filled_share = 0.6;
+
+// Returns the corners of plants, of large stands those of a sample.
+std::vector<glm::dvec3> plant_points(const RadiationModel& model) {
+  constexpr std::size_t most_elements = std::size_t{1} << 17U;
+  const Surfaces surfaces(model);
+  const std::size_t step = 1 + model.canopy.size() / most_elements;
+  std::vector<glm::dvec3> points_m;
+  for (std::size_t e = 0; e < model.canopy.size(); e += step) {
+    const Triangle corners = model.canopy.corners[e];
+    if (!is_vegetation(surfaces.at(e).role) || area_m2(corners) == 0.0) continue;
+    for (const glm::vec3& corner : corners) points_m.push_back(glm::dvec3(corner) + model.canopy.origin_m);
+  }
+  return points_m;
+}
+
+// Returns the part of the picture's width or height, whichever is larger, that the points take up.
+double filled_share(const Camera& camera, std::span<const glm::dvec3> points_m) {
+  glm::dvec2 lo(1.0), hi(0.0);
+  for (const glm::dvec3& point : points_m) {
+    const auto seen = project(camera, point);
+    if (!seen) continue;
+    lo = glm::min(lo, seen->at);
+    hi = glm::max(hi, seen->at);
+  }
+  return std::max(hi.x - lo.x, hi.y - lo.y);
+}
+
+// Returns a camera between two of one direction, as little nearer than `far` as lets the points fill `share` of the picture.
+Camera near_enough(const Camera& far, const Camera& near, std::span<const glm::dvec3> points_m, double share) {
+  constexpr int halvings = 8;
+  const auto at = [&](double way) {
+    Camera camera = far;
+    camera.position_m = glm::mix(far.position_m, near.position_m, way);
+    camera.half_height_m = glm::mix(far.half_height_m, near.half_height_m, way);
+    return camera;
+  };
+  double too_far = 0.0, enough = 1.0;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (too_far + enough);
+    (filled_share(at(middle), points_m) < share ? too_far : enough) = middle;
+  }
+  return at(enough);
+}
+
+Camera view_of(ViewKind view, std::span<const glm::dvec3> points_m, double aspect) {
+  if (view == ViewKind::top) return top_view(points_m, aspect);
+  return view == ViewKind::side ? side_view(points_m, aspect) : three_quarter_view(points_m, aspect);
+}
+
 }  // namespace
 
 std::size_t picture_band(const RadiationModel& model, const std::string& name) {
@@ -117,8 +173,8 @@ std::size_t picture_band(const RadiationModel& model, const std::string& name) {
 
 void check_view(const RadiationModel& model, const PictureOptions& options) {
   static_cast<void>(picture_band(model, options.band));
-  if (options.repeat == 1 || model.plot.periodic) return;
-  throw_input(fmt::format("--repeat {}", options.repeat), "the plot is isolated: it has no neighbours",
+  if (options.repeat.value_or(1) == 1 || model.plot.periodic) return;
+  throw_input(fmt::format("--repeat {}", *options.repeat), "the plot is isolated: it has no neighbours",
               "leave --repeat out, or make the scene periodic");
 }
 
@@ -140,6 +196,17 @@ ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout) {
   return box;
 }
 
+int plots_shown(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options) {
+  constexpr double reach_in_heights = 2.0;
+  constexpr int most = 9;
+  if (options.repeat) return *options.repeat;
+  if (options.view != ViewKind::fisheye || !model.plot.periodic) return 1;
+  const double plots_aside = reach_in_heights * layout.layers.height_m / std::min(model.plot.size_x_m, model.plot.size_z_m);
+  int plots = 1;
+  while (plots < most && 0.5 * plots < plots_aside) plots += 2;
+  return plots;
+}
+
 Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options) {
   const RadiationModel& model = scene.model;
   const double aspect = static_cast<double>(options.width) / options.height;
@@ -147,12 +214,13 @@ Camera picture_camera(const Scene& scene, const CounterLayout& layout, const Pic
   if (options.view == ViewKind::camera && pose) return look_at(pose->position_m, pose->look_at_m, pose->fov_rad, aspect);
   if (options.view == ViewKind::fisheye) return fisheye_view(open_spot(model, fisheye_height_m), aspect);
   auto [lo, hi] = shown_box(model, layout);
-  const glm::dvec3 beside = 0.5 * (options.repeat - 1) * glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
-  lo -= beside;
-  hi += beside;
-  const Axes axes = model.plot.axes;
-  if (options.view == ViewKind::top) return top_view(lo, hi, aspect, axes);
-  return options.view == ViewKind::side ? side_view(lo, hi, aspect, axes) : three_quarter_view(lo, hi, aspect, axes);
+  const int plots = plots_shown(model, layout, options);
+  const glm::dvec3 beside = 0.5 * (plots - 1) * glm::dvec3(model.plot.size_x_m, 0.0, model.plot.size_z_m);
+  const Camera camera = view_of(options.view, box_with_axes(lo - beside, hi + beside, model.plot.axes), aspect);
+  if (plots > 1) return camera;
+  const std::vector<glm::dvec3> plants_m = plant_points(model);
+  if (plants_m.empty() || filled_share(camera, plants_m) >= least_filled_share) return camera;
+  return near_enough(camera, view_of(options.view, plants_m, aspect), plants_m, least_filled_share);
 }
 
 CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options,
@@ -162,11 +230,11 @@ CanopyLook picture_look(const RadiationModel& model, const CounterLayout& layout
   look.view.elements = static_cast<std::uint32_t>(model.canopy.size());
   look.view.ground = make_ground_map(layout);
   look.offsets = sample_offsets(options.samples);
-  if (options.repeat == 1) return look;
+  const int plots = plots_shown(model, layout, options);
+  if (plots == 1) return look;
   // In a side view, copies in front would hide the plot itself.
   const bool from_the_side = options.view == ViewKind::camera || options.view == ViewKind::side;
-  look.copies = {options.repeat, model.canopy.period_m,
-                 from_the_side ? SeenCopies::Which::not_before_plot : SeenCopies::Which::all};
+  look.copies = {plots, model.canopy.period_m, from_the_side ? SeenCopies::Which::not_before_plot : SeenCopies::Which::all};
   return look;
 }
 
@@ -176,11 +244,12 @@ SurfaceImage surface_image(const std::vector<shared::SeenSurface>& samples, cons
   SurfaceImage image{options.width, rows.count, options.samples, {}, {}, {}, rows.first};
   image.surface.reserve(samples.size());
   image.depth_m.reserve(samples.size());
-  if (options.repeat > 1) image.neighbour.reserve(samples.size());
+  const bool neighbours = std::any_of(samples.begin(), samples.end(), [](const auto& sample) { return sample.copy != 0; });
+  if (neighbours) image.neighbour.reserve(samples.size());
   for (const shared::SeenSurface& sample : samples) {
     image.surface.push_back(sample.surface);
     image.depth_m.push_back(sample.depth);
-    if (options.repeat > 1) image.neighbour.push_back(sample.copy != 0 ? 1 : 0);
+    if (neighbours) image.neighbour.push_back(sample.copy != 0 ? 1 : 0);
   }
   return image;
 }
@@ -189,12 +258,18 @@ ChartContent chart_content(const ChartSource& source, const PictureOptions& opti
                            const SurfaceColours& surfaces) {
   const RadiationModel& model = source.model;
   const std::size_t band = picture_band(model, options.band);
-  const FieldValues values = field_values(model, source.layout, source.result, band, picture.field);
-  Colouring colouring =
-      colour_field(picture.chart, values, surfaces, field_title(picture.field, model.bands[band].name), options.top_w_m2);
+  FieldValues values = field_values(model, source.layout, source.result, band, picture.field);
+  const bool of_leaves = is_rank(picture.chart);
+  if (of_leaves) values = leaf_values(model, std::move(values), picture.field);
+  const int faces = of_leaves || picture.field == LightField::absorbed ? 2 : 1;
+  const ScaleLimits limits{options.top_w_m2, of_leaves ? lit_from_w_m2(model, band, picture.field) : 0.0,
+                           largest_possible_w_m2(model, band, picture.field, faces),
+                           largest_on_soil_w_m2(model, band, picture.field)};
+  const std::string title = field_title(picture.field, model.bands[band].name, of_leaves);
+  Colouring colouring = colour_field(picture.chart, values, surfaces, title, limits);
   return {std::move(colouring.colours),
           {source.title, subtitle_line(model, source.result), colouring.legend_title, colouring.legend,
-           footer_line(picture.field, source.result, colouring.note), colouring.bar}};
+           footer_line(picture.field, source.result, band, colouring.note), colouring.bar}};
 }
 
 double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,

@@ -4,7 +4,6 @@
 #include "base/units.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -58,28 +57,6 @@ glm::dvec3 fitting_position(const Camera& camera, const FreeWindow& window, std:
   const double a0 = 0.5 * (across.lo + window.left * d0 + across.hi + window.right * d0);
   const double b0 = 0.5 * (upwards.lo + window.bottom * d0 + upwards.hi + window.top * d0);
   return a0 * camera.right + b0 * camera.up + d0 * camera.forward;
-}
-
-// Returns the corners of the box and the tips of the user's axes, which extend beyond it.
-std::array<glm::dvec3, 11> points_to_show(glm::dvec3 lo_m, glm::dvec3 hi_m, Axes axes) {
-  const glm::dvec3 extent_m = hi_m - lo_m;
-  const double overhang_m = axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
-  EXPECT(std::min({extent_m.x, extent_m.y, extent_m.z}), >=, 0.0);
-  EXPECT(overhang_m, >, 0.0);
-  std::array<glm::dvec3, 11> points_m;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    points_m[corner] = {(corner & 1U) != 0 ? hi_m.x : lo_m.x, (corner & 2U) != 0 ? hi_m.y : lo_m.y,
-                        (corner & 4U) != 0 ? hi_m.z : lo_m.z};
-  }
-  // The axes of east_north_up run from the south-west corner towards lower X and Z.
-  const bool from_south_west = axes == Axes::east_north_up;
-  const glm::dvec3 origin_m = from_south_west ? glm::dvec3(hi_m.x, lo_m.y, hi_m.z) : lo_m;
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 tip_m = origin_m;
-    tip_m[axis] = from_south_west && axis != 1 ? lo_m[axis] - overhang_m : hi_m[axis] + overhang_m;
-    points_m[8U + static_cast<std::size_t>(axis)] = tip_m;
-  }
-  return points_m;
 }
 
 // Returns an orthographic camera of that direction that shows the smallest picture containing the points and stands in front of
@@ -151,11 +128,31 @@ Camera look_at(glm::dvec3 position_m, glm::dvec3 look_at_m, double vertical_fov_
   return camera;
 }
 
-Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes) {
+std::vector<glm::dvec3> box_with_axes(glm::dvec3 lo_m, glm::dvec3 hi_m, Axes axes) {
+  const glm::dvec3 extent_m = hi_m - lo_m;
+  const double overhang_m = axis_overhang * std::max({extent_m.x, extent_m.y, extent_m.z});
+  EXPECT(std::min({extent_m.x, extent_m.y, extent_m.z}), >=, 0.0);
+  EXPECT(overhang_m, >, 0.0);
+  std::vector<glm::dvec3> points_m;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    points_m.emplace_back((corner & 1U) != 0 ? hi_m.x : lo_m.x, (corner & 2U) != 0 ? hi_m.y : lo_m.y,
+                          (corner & 4U) != 0 ? hi_m.z : lo_m.z);
+  }
+  // The axes of east_north_up run from the south-west corner towards lower X and Z.
+  const bool from_south_west = axes == Axes::east_north_up;
+  const glm::dvec3 origin_m = from_south_west ? glm::dvec3(hi_m.x, lo_m.y, hi_m.z) : lo_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 tip_m = origin_m;
+    tip_m[axis] = from_south_west && axis != 1 ? lo_m[axis] - overhang_m : hi_m[axis] + overhang_m;
+    points_m.push_back(tip_m);
+  }
+  return points_m;
+}
+
+Camera three_quarter_view(std::span<const glm::dvec3> points_m, double aspect) {
   constexpr double vertical_fov_rad = 26.0 * degree;  // mild perspective, as of a telephoto lens
   constexpr double elevation_rad = 27.0 * degree;
   constexpr double from_south_rad = 38.0 * degree;  // towards the west
-  const std::array<glm::dvec3, 11> points_m = points_to_show(lo_m, hi_m, axes);
   const glm::dvec3 towards_camera(std::cos(elevation_rad) * std::cos(from_south_rad), std::sin(elevation_rad),
                                   std::cos(elevation_rad) * std::sin(from_south_rad));
   Camera camera = look_at(towards_camera, glm::dvec3(0.0), vertical_fov_rad, aspect);
@@ -163,12 +160,12 @@ Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes 
   return camera;
 }
 
-Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes) {
-  return fitting_orthographic({0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}, aspect, points_to_show(lo_m, hi_m, axes));
+Camera top_view(std::span<const glm::dvec3> points_m, double aspect) {
+  return fitting_orthographic({0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}, aspect, points_m);
 }
 
-Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes) {
-  return fitting_orthographic({-1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, aspect, points_to_show(lo_m, hi_m, axes));
+Camera side_view(std::span<const glm::dvec3> points_m, double aspect) {
+  return fitting_orthographic({-1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, aspect, points_m);
 }
 
 Camera fisheye_view(glm::dvec3 position_m, double aspect) {

@@ -6,6 +6,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace sunfleck {
 
@@ -35,17 +37,31 @@ struct Camera {
 // Length by which a chart's axes extend beyond the box of plot and canopy, as a share of its largest extent.
 inline constexpr double axis_overhang = 0.08;
 
-// Returns a three-quarter view from the south-west and above that fits the whole box with a margin, including axes from the
-// corner of its ground where those of the user begin, which extend beyond it. The margin leaves room for titles at the top and
-// a legend at the right.
-[[nodiscard]] Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west);
+// Returns the corners of a box and the tips of the user's axes, which begin in a corner of its ground and extend beyond it.
+[[nodiscard]] std::vector<glm::dvec3> box_with_axes(glm::dvec3 lo_m, glm::dvec3 hi_m, Axes axes = Axes::south_up_west);
 
-// Returns an orthographic view straight down that fits the whole box: north is up, east is right. Margins are as above.
-[[nodiscard]] Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west);
+// Returns a three-quarter view from the south-west and above that just fits all points with a margin. The margin leaves room for titles
+// at the top and a legend at the right. Views need at least two different points.
+[[nodiscard]] Camera three_quarter_view(std::span<const glm::dvec3> points_m, double aspect);
 
-// Returns a level orthographic view from the south that fits the whole box: east is right, and rows, which run north-south,
+// Returns an orthographic view straight down that just fits all points: north is up, east is right. Margins are as above.
+[[nodiscard]] Camera top_view(std::span<const glm::dvec3> points_m, double aspect);
+
+// Returns a level orthographic view from the south that just fits all points: east is right, and rows, which run north-south,
 // appear side by side as in a section across them. Margins are as above.
-[[nodiscard]] Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west);
+[[nodiscard]] Camera side_view(std::span<const glm::dvec3> points_m, double aspect);
+
+// Return the views that fit a box with its axes.
+[[nodiscard]] inline Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect,
+                                               Axes axes = Axes::south_up_west) {
+  return three_quarter_view(box_with_axes(lo_m, hi_m, axes), aspect);
+}
+[[nodiscard]] inline Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west) {
+  return top_view(box_with_axes(lo_m, hi_m, axes), aspect);
+}
+[[nodiscard]] inline Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west) {
+  return side_view(box_with_axes(lo_m, hi_m, axes), aspect);
+}
 
 // Returns a view straight up from a point that shows the upper hemisphere as a circle, as in canopy photographs: the zenith in
 // the centre, the horizon on the edge, north up and therefore east left. Leaves room for titles, the legend and the letters

@@ -139,7 +139,7 @@ void draw_fitting(Image& image, const Typeface& face, std::string_view line, glm
                   double room_px, const std::array<std::uint8_t, 3>& colour) {
   if (line.empty()) return;
   const double fit = std::min(1.0, room_px / face.width_px(line, size_px));
-  face.draw(image, line, baseline_px, size_px * fit, from_srgb(colour));
+  draw_with_halo(image, face, line, baseline_px, size_px * fit, from_srgb(colour));
 }
 
 void draw_titles(Image& image, const Typeface& face, const ChartText& text, const Layout& layout) {

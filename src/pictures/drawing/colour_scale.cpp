@@ -18,6 +18,9 @@ constexpr int rank_count = 5;
 constexpr std::array<std::array<std::uint8_t, 3>, rank_count> rank_srgb = {
     {{0x24, 0x1a, 0x63}, {0x20, 0x64, 0xb4}, {0x17, 0xa2, 0x7f}, {0xe8, 0xa5, 0x3a}, {0xff, 0xef, 0x8a}}};
 
+// Darker than the second class and lighter than the first, and without their hue.
+constexpr std::array<std::uint8_t, 3> unlit_srgb = {0x4f, 0x4c, 0x48};
+
 // Equal values and their total weight; no class boundary can separate them.
 struct Group {
   double value = 0.0;
@@ -84,6 +87,14 @@ RankScale equal_interval_ranks(std::span<const Group> groups, std::span<const do
   return scale;
 }
 
+// Returns the scale with the bounds between its ends in equal steps of their logarithm.
+RankScale in_logarithms(RankScale scale) {
+  constexpr double decades_a_class = 0.4;
+  for (int k = 1; k < rank_count; ++k)
+    scale.bounds[k] = scale.bounds.back() * std::pow(10.0, -decades_a_class * (rank_count - k));
+  return scale;
+}
+
 }  // namespace
 
 double weighted_quantile(std::span<const double> values, std::span<const double> weights, double share) {
@@ -92,13 +103,21 @@ double weighted_quantile(std::span<const double> values, std::span<const double>
   return quantile(groups_by_value(values, weights), share);
 }
 
-RankScale equal_count_ranks(std::span<const double> values, std::span<const double> weights) {
-  const std::vector<Group> groups = groups_by_value(values, weights);
-  if (groups.size() < 2) return equal_interval_ranks(groups, values);
+RankScale equal_count_ranks(std::span<const double> values, std::span<const double> weights, double lit_from) {
+  std::vector<Group> groups = groups_by_value(values, weights);
+  const auto unlit =
+      std::find_if(groups.begin(), groups.end(), [lit_from](const Group& group) { return group.value >= lit_from; });
+  groups.erase(groups.begin(), unlit);
+  if (groups.size() < 2) {
+    RankScale scale = equal_interval_ranks(groups, values);
+    scale.lit_from = lit_from;
+    return scale;
+  }
   const std::span<const Group> lit = above_zero(groups);
   const double lit_weight = weight_of(lit);
 
   RankScale scale;
+  scale.lit_from = lit_from;
   scale.bounds.fill(quantile(lit, rank_top_share));
   scale.bounds[0] = groups.front().value;
   // A group belongs to the class that contains its middle, so that a boundary is off by at most half a group.
@@ -116,6 +135,27 @@ RankScale equal_count_ranks(std::span<const double> values, std::span<const doub
 
 RankScale equal_interval_ranks(std::span<const double> values, std::span<const double> weights) {
   return equal_interval_ranks(groups_by_value(values, weights), values);
+}
+
+RankScale logarithmic_ranks(std::span<const double> values, std::span<const double> weights) {
+  return in_logarithms(equal_interval_ranks(values, weights));
+}
+
+RankScale logarithmic_ranks_to(double top, std::span<const double> values) {
+  return in_logarithms(rank_scale_to(top, values));
+}
+
+std::array<double, 6> rank_shares(const RankScale& scale, std::span<const double> values, std::span<const double> weights) {
+  EXPECT(values.size(), ==, weights.size());
+  std::array<double, 6> shares{};
+  double all = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int rank = rank_of(scale, values[i]);
+    shares[rank == unlit_rank ? 5 : static_cast<std::size_t>(rank)] += weights[i];
+    all += weights[i];
+  }
+  for (double& share : shares) share = all > 0.0 ? share / all : 0.0;
+  return shares;
 }
 
 RankScale rank_scale_to(double top, std::span<const double> values) {
@@ -143,6 +183,7 @@ Colour map_colour(const MapScale& scale, double value) {
 }
 
 int rank_of(const RankScale& scale, double value) {
+  if (scale.lit_from > 0.0 && value < scale.lit_from) return unlit_rank;
   if (!(scale.bounds.front() < scale.bounds.back())) return 0;
   int rank = 0;
   while (rank + 1 < rank_count && value >= scale.bounds[rank + 1]) ++rank;
@@ -150,8 +191,9 @@ int rank_of(const RankScale& scale, double value) {
 }
 
 Colour rank_colour(int rank) {
-  EXPECT(rank, >=, 0);
+  EXPECT(rank, >=, unlit_rank);
   EXPECT(rank, <, rank_count);
+  if (rank == unlit_rank) return from_srgb(unlit_srgb);
   return from_srgb(rank_srgb[rank]);
 }
 

@@ -155,7 +155,7 @@ void draw_bar(const LegendPen& pen, const ColourBar& bar) {
 
 }  // namespace
 
-std::vector<LegendEntry> rank_legend(const RankScale& scale) {
+std::vector<LegendEntry> rank_legend(const RankScale& scale, const std::optional<std::array<double, 6>>& shares) {
   const double largest = scale.open ? scale.bounds[scale.bounds.size() - 2] : scale.bounds.back();  // the largest printed bound
   int decimals = largest > 0.0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(largest))), 0, 12) : 0;
   const auto number = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
@@ -166,18 +166,25 @@ std::vector<LegendEntry> rank_legend(const RankScale& scale) {
     if (printed.size() == different.size()) break;
     ++decimals;
   }
+  const auto share = [&](std::size_t rank) {
+    if (!shares) return std::string();
+    const std::string percent = fmt::format("{:.0f}", 100.0 * (*shares)[rank]);
+    return (percent.size() < 2 ? "   \u2007" : "   ") + percent + " %";  // padded by a space as wide as a digit
+  };
   std::vector<LegendEntry> legend;
   for (int rank = static_cast<int>(scale.bounds.size()) - 2; rank >= 0; --rank) {
     const double from = scale.bounds[rank];
     const double to = scale.bounds[rank + 1];
     if (scale.open && legend.empty()) {
-      legend.push_back({rank_colour(rank), "≥ " + number(from)});
+      legend.push_back({rank_colour(rank), "≥ " + number(from) + share(rank)});
     } else if (from < to) {
-      legend.push_back({rank_colour(rank), number(from).append(range_dash).append(number(to))});
+      legend.push_back({rank_colour(rank), number(from).append(range_dash).append(number(to)) + share(rank)});
     } else if (rank == rank_of(scale, from)) {
-      legend.push_back({rank_colour(rank), number(from)});
+      legend.push_back({rank_colour(rank), number(from) + share(rank)});
     }
   }
+  constexpr std::size_t unlit = 5;
+  if (shares && (*shares)[unlit] > 0.0) legend.push_back({rank_colour(unlit_rank), "unlit" + share(unlit)});
   return legend;
 }
 

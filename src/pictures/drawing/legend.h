@@ -5,6 +5,7 @@
 #include "pictures/drawing/image.h"
 #include "pictures/drawing/text.h"
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -34,8 +35,10 @@ struct Legend {
 };
 
 // Returns the entries of a rank chart, full sun first. Labels show the bounds to three digits of the largest, or as many more
-// as are needed to distinguish them; "≥ FROM" for the last class of an open scale. Empty classes are left out.
-[[nodiscard]] std::vector<LegendEntry> rank_legend(const RankScale& scale);
+// as are needed to distinguish them; "≥ FROM" for the last class of an open scale. Empty classes are left out. With shares, those of
+// rank_shares, each label ends with its own, and the unlit class has an entry if it holds anything.
+[[nodiscard]] std::vector<LegendEntry> rank_legend(const RankScale& scale,
+                                                   const std::optional<std::array<double, 6>>& shares = {});
 
 // Returns the numbers from lo to hi, inclusive, that are multiples of 1, 2 or 5 times a power of ten, four to eight of them,
 // with labels that all have the same number of decimals.

@@ -96,16 +96,21 @@ void Typeface::draw(Image& image, std::string_view line, glm::dvec2 baseline_px,
   }
 }
 
+void draw_with_halo(Image& image, const Typeface& face, std::string_view line, glm::dvec2 baseline_px, double size_px,
+                    const Colour& colour) {
+  const double edge_px = std::max(1.0, 0.07 * size_px);
+  for (int y = -2; y <= 2; ++y) {
+    for (int x = -2; x <= 2; ++x) {
+      face.draw(image, line, baseline_px + edge_px * glm::dvec2(x, y), size_px, from_srgb(sky_top));
+    }
+  }
+  face.draw(image, line, baseline_px, size_px, colour);
+}
+
 void draw_letter(Image& image, const Typeface& face, std::string_view letter, glm::dvec2 at_px, double size_px,
                  const Colour& colour) {
   const glm::dvec2 baseline_px = at_px + 0.5 * size_px * glm::dvec2(-face.width_px(letter, 1.0), Typeface::cap_height);
-  const double edge_px = std::max(1.0, 0.07 * size_px);
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      face.draw(image, letter, baseline_px + edge_px * glm::dvec2(x, y), size_px, from_srgb(sky_top));
-    }
-  }
-  face.draw(image, letter, baseline_px, size_px, colour);
+  draw_with_halo(image, face, letter, baseline_px, size_px, colour);
 }
 
 }  // namespace sunfleck

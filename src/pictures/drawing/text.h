@@ -39,7 +39,11 @@ class Typeface {
   std::unique_ptr<stbtt_fontinfo> font_;
 };
 
-// Draws a letter centred on `at_px`, with a thin pale edge that keeps it legible on any background.
+// Draws a line as Typeface::draw, with a thin pale edge that keeps it legible on any background.
+void draw_with_halo(Image& image, const Typeface& face, std::string_view line, glm::dvec2 baseline_px, double size_px,
+                    const Colour& colour);
+
+// Draws a letter centred on `at_px`, with such an edge.
 void draw_letter(Image& image, const Typeface& face, std::string_view letter, glm::dvec2 at_px, double size_px,
                  const Colour& colour);
 

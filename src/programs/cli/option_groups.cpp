@@ -93,7 +93,7 @@ void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words
   group.add_option("--band", options.band, "Waveband to show (default: the scene's first)")->check(not_empty());
   group
       .add_option("--chart", words.chart,
-                  "Classes of equal count, classes of equal width, hue mapping or a continuous map: " + list_of(chart_names()))
+                  "Classes of leaf of equal area, width or ratio, hue mapping or a continuous map: " + list_of(chart_names()))
       ->check(one_of(chart_names()))
       ->capture_default_str();
   group.add_option("--view", words.view, "The scene's camera, from above, from the south or upwards: " + list_of(view_names()))
@@ -101,13 +101,14 @@ void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words
       ->capture_default_str();
   group
       .add_option("--range", options.top_w_m2,
-                  "Upper end of the scale of rank-interval and map, W m-2 (default: close to the largest value)")
+                  "Upper end of the scale of rank-interval, rank-log and map, W m-2 (default: close to the largest value)")
       ->check(positive());
   group.add_option("--size", words.size, "Picture size in pixels, WxH")->capture_default_str();
   group.add_option("--samples", options.samples, "Samples per pixel")->transform(whole_number(1, 256))->capture_default_str();
-  group.add_option("--repeat", options.repeat, "Show N x N copies of a periodic plot (N odd)")
-      ->transform(whole_number(1, most_repeat))
-      ->capture_default_str();
+  group
+      .add_option("--repeat", options.repeat,
+                  "Show N x N copies of a periodic plot, N odd (default: 1; enough for a horizon in a view upwards)")
+      ->transform(whole_number(1, most_repeat));
 }
 
 std::vector<std::string> image_words() {

@@ -47,9 +47,9 @@ Picture read_picture(const OptionWords& words) {
 void read_pictures(const OptionWords& words, PictureOptions& options) {
   read_size(words.size, options);
   options.view = choice_of<ViewKind>(view_names(), words.view);
-  if (options.repeat % 2 == 0) {
-    throw_input(fmt::format("--repeat {}", options.repeat), "must be odd: the plot is in the middle of its copies",
-                fmt::format("give {}", options.repeat + 1));
+  if (options.repeat && *options.repeat % 2 == 0) {
+    throw_input(fmt::format("--repeat {}", *options.repeat), "must be odd: the plot is in the middle of its copies",
+                fmt::format("give {}", *options.repeat + 1));
   }
 }
 

@@ -27,10 +27,11 @@ std::string device_line(const TracerDevice& device) {
 ProgressLine::State progress_state(const Progress& progress) {
   ProgressLine::State state{.rays = progress.rays, .fraction = progress.fraction, .seconds_left = progress.seconds_left};
   if (progress.stage == Progress::Stage::pilot) state.stage = "pilot";
+  if (progress.stage == Progress::Stage::sensors) state.stage = "sensors";
   if (progress.relative_error) {
     state.relative_error = progress.relative_error;
     state.bound = progress.bound;
-    state.error_of = progress.pass == Progress::Pass::direct ? "direct" : "indirect";
+    state.error_of = pass_name(progress.pass);
   }
   return state;
 }

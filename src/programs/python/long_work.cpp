@@ -29,11 +29,12 @@ struct Desk {
 py::dict as_dict(const Progress& progress) {
   py::dict dict;
   const bool pilot = progress.stage == Progress::Stage::pilot;
-  dict["stage"] = pilot ? "pilot" : "run";
+  const bool sensors = progress.stage == Progress::Stage::sensors;
+  dict["stage"] = pilot ? "pilot" : sensors ? "sensors" : "run";
   dict["rays"] = progress.rays;
   dict["fraction"] = progress.fraction;
   dict["seconds_left"] = progress.seconds_left ? py::object(py::float_(*progress.seconds_left)) : py::object(py::none());
-  dict["pass"] = progress.pass == Progress::Pass::direct ? "direct" : "indirect";
+  dict["pass"] = pass_name(progress.pass);
   dict["relative_error"] = progress.relative_error ? py::object(py::float_(*progress.relative_error)) : py::object(py::none());
   dict["bound"] = progress.bound;
   return dict;

@@ -20,6 +20,7 @@ namespace py = pybind11;
 void translate(const sunfleck::Error& error, const py::object& errors) {
   const char* name = "SunfleckError";
   if (error.kind() == sunfleck::ErrorKind::input) name = "InputError";
+  if (dynamic_cast<const sunfleck::MissingFile*>(&error) != nullptr) name = "MissingFileError";
   if (error.kind() == sunfleck::ErrorKind::device) name = "DeviceError";
   PyErr_SetString(errors.attr(name).ptr(), error.what());
 }

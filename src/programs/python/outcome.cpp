@@ -1,17 +1,52 @@
 #include "programs/python/outcome.h"
 
+#include "base/error.h"
 #include "files/results/tables/plane_writer.h"
 #include "files/results/tables/result_tables.h"
+#include "pictures/charts/pictures.h"
 #include "programs/python/arrays.h"
 #include "programs/python/columns.h"
 #include "simulate/result_folder.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/stl.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
 
 namespace sunfleck {
 namespace {
 
 namespace py = pybind11;
+
+// Returns the choice of that name. Throws Error (input) if there is none.
+template <class Choice>
+Choice choice_of(const char* option, const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<Choice>(found - names.begin());
+  throw_input(fmt::format("{} = '{}'", option, name), "no such choice", fmt::format("use {}", fmt::join(names, ", ")));
+}
+
+Picture picture_of(const std::string& chart, const std::string& field) {
+  return {choice_of<ChartKind>("chart", chart_names(), chart), choice_of<LightField>("field", field_names(), field)};
+}
+
+// `size` is width and height in pixels.
+PictureOptions picture_options(std::string band, const std::string& view, std::pair<int, int> size, int samples,
+                               std::optional<int> repeat, std::optional<double> top_w_m2) {
+  PictureOptions options;
+  options.band = std::move(band);
+  options.view = choice_of<ViewKind>("view", view_names(), view);
+  std::tie(options.width, options.height) = size;
+  options.samples = samples;
+  options.repeat = repeat;
+  options.top_w_m2 = top_w_m2;
+  return options;
+}
 
 }  // namespace
 
@@ -106,6 +141,27 @@ void Outcome::write(const ResultRequest& request) const {
   write_whole_result(folder, request, simulated_, record).throw_if_any();
 }
 
+py::array Outcome::organ_rows(const py::object& self) const {
+  return view_of(simulated_.scene->model.canopy.organ_of, self);
+}
+
+py::array Outcome::render(const Picture& picture, const PictureOptions& options) const {
+  std::vector<std::uint8_t> bytes;
+  {
+    const py::gil_scoped_release release;
+    check_view(simulated_.scene->model, options);
+    check_field(simulated_.scene->model, picture);
+    const auto never = [] { return false; };
+    const bool done =
+        draw_charts(simulated_.drawing(), options, std::span(&picture, 1), never, [&](const Picture&, const Image& image) {
+          bytes.reserve(3 * image.pixels.size());
+          for (const auto& pixel : image.pixels) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
+        });
+    if (!done) throw_failure("render", "it was stopped", "draw again");
+  }
+  return array_of(std::move(bytes), {options.height, options.width, 3});
+}
+
 py::array Outcome::corners() const {
   const RadiationModel& model = simulated_.scene->model;
   std::vector<double> corners;
@@ -133,6 +189,14 @@ void bind_outcome(py::module_& module) {
       .def("sensors", &Outcome::sensors)
       .def("sensor_means", &Outcome::sensor_means)
       .def("corners", &Outcome::corners)
+      .def("organ_rows", [](const py::object& self) { return self.cast<Outcome&>().organ_rows(self); })
+      .def("render",
+           [](const Outcome& outcome, const std::string& chart, const std::string& field, std::string band,
+              const std::string& view, std::pair<int, int> size, int samples, std::optional<int> repeat,
+              std::optional<double> top_w_m2) {
+             return outcome.render(picture_of(chart, field),
+                                   picture_options(std::move(band), view, size, samples, repeat, top_w_m2));
+           })
       .def("triangles", [](const py::object& self) { return self.cast<Outcome&>().triangles(self); })
       .def("write", [](const Outcome& outcome, const std::string& folder, std::vector<std::string> exports,
                        std::vector<std::string> images) {

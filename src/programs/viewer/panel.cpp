@@ -238,12 +238,12 @@ void draw_picture(ViewerState& state) {
   std::size_t band = state.band();
   if (choose(state, "band", "Band", band, state.bands)) state.options.band = state.bands[band];
   choose(state, "chart", "Chart", state.picture.chart, {"rank", "rank, equal steps", "hue", "continuous"});
-  if (state.picture.chart == ChartKind::rank_interval || state.picture.chart == ChartKind::map) {
+  if (has_top(state.picture.chart)) {
     ImGui::Checkbox("Own range", &state.own_range);
     note(state, "own_range");
     if (state.own_range) slider(state, "range", "up to, W m⁻²", state.range_top_w_m2, {1.0, 1500.0, "%.0f"});
   }
-  const bool scaled = state.picture.chart == ChartKind::rank_interval || state.picture.chart == ChartKind::map;
+  const bool scaled = has_top(state.picture.chart);
   state.options.top_w_m2 = scaled && state.own_range ? std::optional(state.range_top_w_m2) : std::nullopt;
   slider(state, "samples", "Samples per pixel", state.options.samples, 1, 16);
 }

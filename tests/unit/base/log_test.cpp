@@ -14,6 +14,16 @@ TEST(progress_text, says_what_is_done_and_what_is_left) {
   EXPECT_EQ(progress_text("direct", state, 10.0, 8), "direct [##......] 25 %, 12.3 M rays, error 0.0023 of 0.001, 30 s left");
 }
 
+TEST(progress_text, names_a_stage_and_its_error) {
+  ProgressLine::State state{.rays = 12'300'000};
+  state.stage = "sensors";
+  EXPECT_EQ(progress_text("simulating", state, 10.0, 8), "simulating, sensors, 12.3 M rays");
+  state.relative_error = 0.0234;
+  state.bound = 0.01;
+  state.error_of = "sensors";
+  EXPECT_EQ(progress_text("simulating", state, 10.0, 8), "simulating, sensors, 12.3 M rays, sensors error 0.023 of 0.01");
+}
+
 TEST(progress_text, leaves_out_what_is_not_known) {
   EXPECT_EQ(progress_text("direct", {}, 3.0, 0), "direct 0 %, 0.0 M rays");
   EXPECT_EQ(progress_text("direct", {.rays = 2'500'000'000, .fraction = 1.0}, 3.0, 4), "direct [####] 100 %, 2.50 G rays");

@@ -3,6 +3,7 @@
 #include "shared/beam.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace sunfleck {
 namespace {
@@ -29,12 +30,13 @@ bool fell_through_plot(const shared::BeamBlock& beam, const shared::Packet& ray)
   return shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), beam.ground);
 }
 
-}  // namespace
+using TakeLanding = std::function<void(const shared::Packet& ray, const shared::Landing& landing)>;
 
-TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout, const PlaneReceivers& planes,
-                                 Tracer& tracer, const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                 PlaneSums& sums, const StopQuestion& stop) {
+// Traces all rays of a part, counts them, and hands those over that were not lost.
+TraceOutcome trace_part(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const BeamPart& part,
+                        std::span<std::uint32_t> counters, const StopQuestion& stop, const TakeLanding& take) {
   const shared::PacketBlock scene = make_packet_block(model, layout);
+  const shared::BeamBlock& beam = part.block;
   const std::uint32_t rays = beam.columns * beam.rows;
   std::vector<shared::Packet> packets(std::min(rays, rays_at_once));
   std::vector<shared::Landing> landings(packets.size());
@@ -50,29 +52,45 @@ TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayou
     for (std::uint32_t k = 0; k < count; ++k) {
       const shared::Landing& landing = landings[k];
       if (landing.surface == shared::lost_on_its_way) {
-        ++counters[shared::counter_lost];
+        counters[shared::counter_lost] += part.weight;
         continue;
       }
       const bool left = landing.surface > shared::landed_on_ground;
       const bool met = model.plot.periodic || !left || fell_through_plot(beam, sent[k]);
-      if (!left) ++counters[counter_word(model, layout, beam, landing)];
-      if (left) ++counters[met ? shared::counter_transmitted : shared::counter_missed];
-      if (!model.plot.periodic && met) ++counters[shared::counter_met];
-      const std::size_t zone = planes.zone_of(landing);
-      if (!left && landing.surface != shared::landed_on_ground) {
-        const std::size_t optics = model.canopy.optics_of[landing.surface / 2];
-        BeamLandings& in_zone = sums.zone_landings[zone * model.optics.size() + optics];
-        ++(landing.surface % 2 == 0 ? in_zone.upper : in_zone.lower);
-      }
-      for (std::size_t p = 0; p < planes.size(); ++p) {
-        const std::size_t cell = planes.cell_at(p, sent[k].origin, sent[k].direction);
-        if (cell == PlaneReceivers::no_cell) continue;
-        ++sums.crossing[cell];
-        if (p >= zone) ++sums.reached[cell];
-      }
+      if (!left) counters[counter_word(model, layout, beam, landing)] += part.weight;
+      if (left) counters[met ? shared::counter_transmitted : shared::counter_missed] += part.weight;
+      if (!model.plot.periodic && met) counters[shared::counter_met] += part.weight;
+      if (take) take(sent[k], landing);
     }
   }
   return TraceOutcome::finished;
+}
+
+}  // namespace
+
+TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const BeamPart& part,
+                                 std::span<std::uint32_t> counters, const StopQuestion& stop) {
+  return trace_part(model, layout, tracer, part, counters, stop, nullptr);
+}
+
+TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout, const PlaneReceivers& planes,
+                                 Tracer& tracer, const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                 PlaneSums& sums, const StopQuestion& stop) {
+  return trace_part(model, layout, tracer, {beam, 1}, counters, stop,
+                    [&](const shared::Packet& ray, const shared::Landing& landing) {
+                      const std::size_t zone = planes.zone_of(landing);
+                      if (landing.surface < shared::landed_on_ground) {
+                        const std::size_t optics = model.canopy.optics_of[landing.surface / 2];
+                        BeamLandings& in_zone = sums.zone_landings[zone * model.optics.size() + optics];
+                        ++(landing.surface % 2 == 0 ? in_zone.upper : in_zone.lower);
+                      }
+                      for (std::size_t p = 0; p < planes.size(); ++p) {
+                        const std::size_t cell = planes.cell_at(p, ray.origin, ray.direction);
+                        if (cell == PlaneReceivers::no_cell) continue;
+                        ++sums.crossing[cell];
+                        if (p >= zone) ++sums.reached[cell];
+                      }
+                    });
 }
 
 }  // namespace sunfleck

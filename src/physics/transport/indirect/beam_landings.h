@@ -1,7 +1,8 @@
 #pragma once
-// The direct pass ray by ray, for scenes whose receivers need to know where each ray passed. It is slower than
-// Tracer::count_beam, which records only where rays land, and gives the same counts.
+// The direct pass ray by ray, for scenes whose receivers need to know where each ray passed, and for rays of other weights. It is
+// slower than Tracer::count_beam, which records only where rays land, and gives the same counts.
 
+#include "physics/transport/model/beam_block.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/tracer.h"
@@ -13,8 +14,13 @@
 
 namespace sunfleck {
 
-// Traces all beam rays of one replicate. Adds their landings to `counters` as Tracer::count_beam does, and their crossings
-// of the receivers to `sums`.
+// Traces all rays of a part of the beam. Adds their weight to the counters of what they meet, as Tracer::count_beam does for rays of
+// weight 1.
+[[nodiscard]] TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
+                                               const BeamPart& part, std::span<std::uint32_t> counters,
+                                               const StopQuestion& stop);
+
+// Does the same, and adds the crossings of the receivers to `sums`; the part must have weight 1.
 [[nodiscard]] TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout,
                                                const PlaneReceivers& planes, Tracer& tracer, const shared::BeamBlock& beam,
                                                std::span<std::uint32_t> counters, PlaneSums& sums, const StopQuestion& stop);

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace sunfleck {
 namespace {
 
@@ -24,6 +27,12 @@ std::vector<QuantaSplit> split_rays(const RadiationModel& model, const std::vect
   }
   return splits;
 }
+
+// What vegetation as a whole is judged against at least, as a share of what it would receive with nothing around it; the same
+// number is the least share of the plot that its area is taken as.
+constexpr double least_exposed_share = 1e-3;
+// And as a share of what it absorbs in all.
+constexpr double least_absorbed_share = 0.01;
 
 }  // namespace
 
@@ -104,6 +113,33 @@ void Conversion::check(const DirectSums& sums) const {
   throw_failure(fmt::format("direct pass: {} of {} rays landed, {} were followed", landed, sent, followed),
                 "every ray sent must land, leave or be counted as lost",
                 "run it with --device cpu, and report the device and the scene");
+}
+
+double Conversion::least_share_of_vegetation() const {
+  return least_exposed_share * std::clamp(areas.vegetation_m2 / model.plot.area_m2(), least_exposed_share, 1.0);
+}
+
+double Conversion::least_of_vegetation_w_m2(std::size_t band) const {
+  const double absorptance = areas.vegetation_absorptance[band];
+  if (absorptance <= 0.0) return std::numeric_limits<double>::infinity();
+  const double lamps_w_m2 = static_cast<double>(quanta[band].lamps) * quanta[band].w_m2_per_quantum;
+  const double sky_w_m2 = model.has_sky() ? model.bands[band].diffuse_w_m2 : 0.0;
+  return least_share_of_vegetation() * absorptance * (beam_w_m2(band) + sky_w_m2 + lamps_w_m2);
+}
+
+std::vector<double> Conversion::least_of_vegetation(const DirectSums& sums) const {
+  std::vector<double> least;
+  for (std::size_t b = 0; b < quanta.size(); ++b) {
+    double absorbed = 0.0;
+    for (std::size_t s = 0; s < surfaces.of.size(); ++s) {
+      const Surface& surface = surfaces.of[s];
+      if (!is_vegetation(surface.role)) continue;
+      absorbed += static_cast<double>(sums.surface[s].upper) * static_cast<double>(split(surface.optics, 0, b).absorbed) +
+                  static_cast<double>(sums.surface[s].lower) * static_cast<double>(split(surface.optics, 1, b).absorbed);
+    }
+    least.push_back(std::max(least_absorbed_share * absorbed, least_of_vegetation_w_m2(b) / quanta[b].w_m2_per_quantum));
+  }
+  return least;
 }
 
 std::int64_t Conversion::scattered_of(const BeamLandings& landings, std::size_t optics, std::size_t band) const {

@@ -74,12 +74,13 @@ class IndirectPass {
   // A side that the light of a sampled beam ray leaves, and the optics of the face on which it landed.
   struct Source {
     EmissionPoint place;
+    double rays = 1.0;                              // that the sampled one stands for, by weight, up to a common factor
     const std::vector<FaceOptics>* face = nullptr;  // null for the soil plane
     bool transmitted = false;
 
     [[nodiscard]] double weight(const Soil* soil, std::size_t band) const {
-      if (face == nullptr) return soil != nullptr ? soil->reflectance[band] : 0.0;
-      return transmitted ? (*face)[band].transmittance : (*face)[band].reflectance;
+      if (face == nullptr) return soil != nullptr ? rays * soil->reflectance[band] : 0.0;
+      return rays * (transmitted ? (*face)[band].transmittance : (*face)[band].reflectance);
     }
   };
   // The start and the ray that lead to a landing.
@@ -92,9 +93,9 @@ class IndirectPass {
   // Sends the sky rays, each with its share of the sky's flux, and leaves the scattered flux waiting. Returns false if
   // stopped.
   [[nodiscard]] bool let_sky_in() {
-    if (scene_.sky == nullptr) return true;
+    if (first_.sky == nullptr) return true;
     const std::size_t bands = start_.size();
-    const std::vector<shared::Packet> rays = scene_.sky->draw(order_.sky_rays, random_);
+    const std::vector<shared::Packet> rays = first_.sky->draw(order_.sky_rays, random_);
     std::vector<shared::Landing> landings(rays.size());
     if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
     EmissionPoint above;
@@ -102,7 +103,7 @@ class IndirectPass {
     above.level = scene_.layout.layers.count;
     std::vector<std::int64_t> given(bands), own(bands);
     for (std::size_t k = 0; k < rays.size(); ++k) {
-      const double share = static_cast<double>(k + 1) / static_cast<double>(rays.size());
+      const double share = first_.sky->share_of_first(k + 1, rays.size());
       for (std::size_t b = 0; b < bands; ++b) {
         const auto up_to = static_cast<std::int64_t>(share * static_cast<double>(quanta_[b].sky));
         own[b] = up_to - given[b];
@@ -131,33 +132,48 @@ class IndirectPass {
     return !shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), scene_.block.ground);
   }
 
-  // Traces a systematic sample of the beam rays again to find the points where they landed. If there are no more rays than
-  // packets, every ray is taken. Returns nothing if stopped.
+  // Traces a systematic sample of the beam rays again to find the points where they landed: as many as there are packets, half of
+  // them from the first of several parts, or every ray where there are no more. Returns nothing if stopped.
   [[nodiscard]] std::optional<std::vector<Source>> sample_first_landings() {
     std::vector<Source> sources;
-    if (first_.beam == nullptr) return sources;
-    const auto count = static_cast<std::size_t>(std::min(order_.packets, static_cast<double>(order_.grid_rays)));
-    const double stride = static_cast<double>(order_.grid_rays) / static_cast<double>(count);
+    double around = 0.0;
+    for (std::size_t k = 1; k < first_.beam.size(); ++k) around += weighted_rays(first_.beam[k]);
+    for (std::size_t k = 0; k < first_.beam.size(); ++k) {
+      const double part = around == 0.0 ? 1.0 : k == 0 ? 0.5 : 0.5 * weighted_rays(first_.beam[k]) / around;
+      if (!sample_landings(first_.beam[k], std::max(1.0, part * order_.packets), sources)) return std::nullopt;
+    }
+    return sources;
+  }
+
+  [[nodiscard]] static double weighted_rays(const BeamPart& part) {
+    return static_cast<double>(part.weight) * static_cast<double>(part.rays());
+  }
+
+  // Adds the sources of a sample of at most `most` rays of a part. Returns false if stopped.
+  [[nodiscard]] bool sample_landings(const BeamPart& part, double most, std::vector<Source>& sources) {
+    const auto count = static_cast<std::size_t>(std::min(most, static_cast<double>(part.rays())));
+    const double stride = static_cast<double>(part.rays()) / static_cast<double>(count);
+    const double rays_each = first_.beam.size() == 1 ? 1.0 : stride * part.weight;
     const double offset = random_.unit();
     std::vector<shared::Packet> rays(count);
     for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t ray = sampled_ray(k, offset, stride, order_.grid_rays);
-      rays[k] = {shared::beam_origin(*first_.beam, ray), shared::no_element, first_.beam->direction, 0};
+      const std::uint32_t ray = sampled_ray(k, offset, stride, part.rays());
+      rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
     }
     std::vector<shared::Landing> landings(count);
-    if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return std::nullopt;
+    if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
     for (const shared::Landing& landing : landings) {
       const EmissionPoint place = place_of(landing);
-      if (landing.surface == shared::landed_on_ground) sources.push_back({place, nullptr, false});
+      if (landing.surface == shared::landed_on_ground) sources.push_back({place, rays_each, nullptr, false});
       if (landing.surface >= shared::landed_on_ground) continue;
       const SurfaceOptics& optics = scene_.model.optics[scene_.model.canopy.optics_of[landing.surface / 2]];
       const auto* face = landing.surface % 2 == 0 ? &optics.upper : &optics.lower;
       EmissionPoint other = place;
       other.surface ^= 1U;
-      sources.push_back({place, face, false});
-      sources.push_back({other, face, true});
+      sources.push_back({place, rays_each, face, false});
+      sources.push_back({other, rays_each, face, true});
     }
-    return sources;
+    return true;
   }
 
   // Distributes the flux scattered by all beam rays over the sampled sources, band by band.
@@ -228,7 +244,7 @@ class IndirectPass {
   }
 
   // Returns how many packets are drawn from each candidate on average.
-  [[nodiscard]] std::vector<double> expected_draws() const {
+  [[nodiscard]] std::vector<double> expected_draws() {
     const std::size_t bands = start_.size();
     double lit = 0.0;
     for (const double start : start_) lit += start > 0.0 ? 1.0 : 0.0;
@@ -242,10 +258,36 @@ class IndirectPass {
       expected[k] *= order_.packets / lit;
       total += expected[k];
     }
+    if (first_.aim != nullptr) total = aim_draws(expected, total);
     if (total < least_packets && total > 0.0) {
       for (double& e : expected) e *= least_packets / total;
     }
     return expected;
+  }
+
+  // Draws more packets near the stand and fewer far away, as many as before in the first round. Returns the new total.
+  double aim_draws(std::vector<double>& expected, double before) {
+    double after = 0.0;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      expected[k] *= packets_per_flux(waiting_.place(k)) * aimed_draws_;
+      after += expected[k];
+    }
+    if (sums_.rounds > 0 || after == 0.0) return after;
+    aimed_draws_ = before / after;
+    for (double& e : expected) e *= aimed_draws_;
+    return before;
+  }
+
+  [[nodiscard]] double packets_per_flux(const EmissionPoint& place) const {
+    if (place.surface == shared::landed_on_ground)
+      return first_.aim->packets_per_flux({place.a, scene_.frame.ground_y_m, place.b});
+    const std::uint32_t element = place.surface / 2;
+    if (!scene_.surfaces.at(element).soil()) return 1.0;
+    const Triangle corners = scene_.model.canopy.corners[element];
+    const double b = place.a == anywhere ? 1.0 / 3.0 : place.a;
+    const double c = place.a == anywhere ? 1.0 / 3.0 : place.b;
+    const glm::dvec3 corner(corners[0]);
+    return first_.aim->packets_per_flux(corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c);
   }
 
   // Books the flux that packets carry away and takes off the flux that waited, for the bands that are drawn.
@@ -288,8 +330,9 @@ class IndirectPass {
       const double incident = static_cast<double>(quanta_[b].per_ray) * static_cast<double>(first_.met) +
                               static_cast<double>(quanta_[b].lamps + sky_[b]);
       const FluxLedger& ledger = sums_.ledger[b];
-      const double judged = std::max(least_judged_share * incident,
-                                     static_cast<double>(std::min(ledger.absorbed_vegetation, ledger.absorbed_soil)));
+      const double vegetation = std::max(first_.least_of_vegetation[b], static_cast<double>(ledger.absorbed_vegetation));
+      const double judged =
+          std::min(vegetation, std::max(least_judged_share * incident, static_cast<double>(ledger.absorbed_soil)));
       if (static_cast<double>(unshot) < unshot_part_of_bound * order_.bound * judged) {
         sums_.ledger[b].unshot += unshot;
         waiting_.retire(b);
@@ -436,6 +479,7 @@ class IndirectPass {
   // Flux after the first landings, lamps included, [band]; the shares of a round are relative to it.
   std::vector<double> start_;
   std::vector<std::int64_t> sky_;                      // [band], sky flux that met something
+  double aimed_draws_ = 1.0;                           // factor that makes up for what aim_draws takes from the first round
   PlaneFlux layers_, receivers_;                       // through the planes of the layers, and the horizontal receivers
   std::vector<std::int64_t> reflected_, transmitted_;  // [band], of the current landing
 };
@@ -443,12 +487,11 @@ class IndirectPass {
 }  // namespace
 
 IndirectScene::IndirectScene(const RadiationModel& of_model, const CounterLayout& of_layout, const Surfaces& of_surfaces,
-                             Tracer& by_tracer, const SkyRays* sky_rays, const PlaneReceivers* plane_receivers)
+                             Tracer& by_tracer, const PlaneReceivers* plane_receivers)
     : model(of_model),
       layout(of_layout),
       surfaces(of_surfaces),
       tracer(by_tracer),
-      sky(sky_rays),
       receivers(plane_receivers),
       block(make_packet_block(of_model, of_layout)),
       frame{std::ldexp(of_layout.box.extent_m(), -17), block.ground.y} {}

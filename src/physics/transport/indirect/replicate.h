@@ -74,14 +74,14 @@ struct Replicate {
 struct ReplicateOrder {
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.beam_rays, self.grid_rays, self.packets, self.sky_rays, self.bound, self.seed, self.number);
+    archive(self.beam_rays, self.aimed, self.packets, self.sky_rays, self.bound, self.seed, self.number);
   }
 
-  double beam_rays = 0.0;       // approximate number
-  std::uint64_t grid_rays = 0;  // actual number of rays on the grid
-  double packets = 0.0;         // in the first round; 0: no indirect pass
-  std::size_t sky_rays = 0;     // if there is a sky
-  double bound = 0.003;         // of the indirect pass; its stop rule leaves a tenth of it unshot
+  double beam_rays = 0.0;    // approximate number, of the first part if there are several
+  bool aimed = false;        // if the scene has a StandAim, light is aimed at the stand
+  double packets = 0.0;      // in the first round; 0: no indirect pass
+  std::size_t sky_rays = 0;  // if there is a sky
+  double bound = 0.003;      // of the indirect pass; its stop rule leaves a tenth of it unshot
   std::uint64_t seed = 1;
   std::uint64_t number = 0;
 };

@@ -30,20 +30,25 @@ TraceOutcome ReplicateMaker::OneAtATime::trace(const shared::PacketBlock& scene,
 }
 
 ReplicateMaker::ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer)
-    : model_(model), layout_(layout), surfaces_(model), tracer_(tracer) {
+    : model_(model), layout_(layout), surfaces_(model), aim_(make_stand_aim(model, layout)), tracer_(tracer) {
   if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
-  if (model.has_sky()) sky_.emplace(model, layout);
+  if (model.has_sky()) sky_.emplace(model, layout, nullptr);
+  if (model.has_sky() && aim_) aimed_sky_.emplace(model, layout, &*aim_);
   if (!scatters(model) && !sky_) return;
-  indirect_.emplace(model, layout, surfaces_, tracer_, sky_ ? &*sky_ : nullptr, receivers());
+  indirect_.emplace(model, layout, surfaces_, tracer_, receivers());
 }
 
-Incidence ReplicateMaker::incidence(double beam_rays) const {
+Incidence ReplicateMaker::incidence(double beam_rays, bool aimed) const {
   Incidence incidence;
-  incidence.sky_ground_m2 = sky_ ? sky_->ground_m2() : 0.0;
+  incidence.sky_ground_m2 = sky_ ? sky(aimed).ground_m2() : 0.0;
+  incidence.sky_weight = sky_ ? sky(aimed).largest_weight() : 1.0;
   if (!model_.has_beam()) return incidence;
-  const BeamGrid grid = make_grid(model_, layout_, beam_rays);
-  incidence.rays = grid.rays();
-  incidence.ground_per_ray_m2 = grid.horizontal_area_per_ray_m2();
+  const std::vector<WeightedBeamGrid> grids = make_grids(model_, layout_, aim(aimed), beam_rays);
+  incidence.ground_per_ray_m2 = grids.front().grid.horizontal_area_per_ray_m2();
+  for (const WeightedBeamGrid& part : grids) {
+    incidence.rays += part.weight * part.grid.rays();
+    incidence.traced_rays += part.grid.rays();
+  }
   return incidence;
 }
 
@@ -78,9 +83,18 @@ double ReplicateMaker::most_side_bytes() const {
   return sides * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
 }
 
-TraceOutcome ReplicateMaker::count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop) {
-  if (!receivers_) return tracer_.count_beam(beam, replicate.counters, stop);
-  return count_beam_landings(model_, layout_, *receivers_, tracer_, beam, replicate.counters, replicate.passed, stop);
+// Light is not aimed in a scene with receivers.
+TraceOutcome ReplicateMaker::count_beam(std::span<const BeamPart> beam, Replicate& replicate, const StopQuestion& stop) {
+  const shared::BeamBlock& first = beam.front().block;
+  if (receivers_) {
+    return count_beam_landings(model_, layout_, *receivers_, tracer_, first, replicate.counters, replicate.passed, stop);
+  }
+  TraceOutcome outcome = tracer_.count_beam(first, replicate.counters, stop);
+  for (const BeamPart& part : beam.subspan(1)) {
+    if (outcome == TraceOutcome::stopped) break;
+    outcome = count_beam_landings(model_, layout_, tracer_, part, replicate.counters, stop);
+  }
+  return outcome;
 }
 
 std::optional<Replicate> ReplicateMaker::make(const ReplicateOrder& order, const Conversion& conversion,
@@ -90,16 +104,21 @@ std::optional<Replicate> ReplicateMaker::make(const ReplicateOrder& order, const
   std::optional<Replicate> replicate(std::in_place);
   replicate->counters.resize(layout_.words());
   if (receivers_) replicate->passed = PlaneSums(*receivers_, model_);
-  std::optional<shared::BeamBlock> beam;
+  std::vector<BeamPart> beam;
   if (model_.has_beam()) {
-    beam = make_beam_block(model_, layout_, order.beam_rays, order.seed, order.number);
-    if (count_beam(*beam, *replicate, stop) == TraceOutcome::stopped) return std::nullopt;
+    beam = make_beam_parts(model_, layout_, aim(order.aimed), order.beam_rays, order.seed, order.number);
+    if (count_beam(beam, *replicate, stop) == TraceOutcome::stopped) return std::nullopt;
   }
   replicate->direct = conversion.sum(replicate->counters);
   replicate->direct_s = seconds_since(start);
   if (!indirect_ || order.packets == 0.0) return replicate;
-  const FirstLandings first{beam ? &*beam : nullptr, replicate->direct.met, conversion.scattered(replicate->direct),
-                            conversion.scattered_by_zone(replicate->direct, replicate->passed)};
+  const FirstLandings first{beam,
+                            aim(order.aimed),
+                            sky_ ? &sky(order.aimed) : nullptr,
+                            replicate->direct.met,
+                            conversion.scattered(replicate->direct),
+                            conversion.scattered_by_zone(replicate->direct, replicate->passed),
+                            conversion.least_of_vegetation(replicate->direct)};
   replicate->packets = run_indirect_pass(*indirect_, order, first, conversion.quanta, stop);
   replicate->indirect_s = seconds_since(start) - replicate->direct_s;
   if (!replicate->packets) return std::nullopt;

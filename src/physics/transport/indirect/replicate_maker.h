@@ -6,6 +6,8 @@
 #include "physics/transport/indirect/indirect.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/indirect/sky_rays.h"
+#include "physics/transport/model/beam_block.h"
+#include "physics/transport/model/stand_aim.h"
 #include "physics/transport/model/surfaces.h"
 #include "physics/transport/model/tracer.h"
 #include "physics/transport/receivers/planes.h"
@@ -24,9 +26,11 @@ class ReplicateMaker {
 
   [[nodiscard]] bool has_indirect_pass() const { return indirect_.has_value(); }
   [[nodiscard]] bool has_sky() const { return sky_.has_value(); }
+  // Returns whether light can be aimed at the scene's stand.
+  [[nodiscard]] bool aims() const { return aim_.has_value(); }
 
-  // Returns the incidence of replicates with about this many beam rays.
-  [[nodiscard]] Incidence incidence(double beam_rays) const;
+  // Returns the incidence of replicates with about this many beam rays; `aimed` as in ReplicateOrder.
+  [[nodiscard]] Incidence incidence(double beam_rays, bool aimed) const;
 
   // Returns the conversion for replicates of that incidence. The maker must outlive it.
   [[nodiscard]] Conversion conversion(const Incidence& incidence) const;
@@ -61,15 +65,18 @@ class ReplicateMaker {
     std::mutex mutex_;
   };
 
-  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, Replicate& replicate, const StopQuestion& stop);
+  [[nodiscard]] TraceOutcome count_beam(std::span<const BeamPart> beam, Replicate& replicate, const StopQuestion& stop);
 
+  [[nodiscard]] const StandAim* aim(bool aimed) const { return aimed && aim_ ? &*aim_ : nullptr; }
+  [[nodiscard]] const SkyRays& sky(bool aimed) const { return aimed && aimed_sky_ ? *aimed_sky_ : *sky_; }
   [[nodiscard]] const PlaneReceivers* receivers() const { return receivers_ ? &*receivers_ : nullptr; }
 
   const RadiationModel& model_;
   const CounterLayout& layout_;
   Surfaces surfaces_;
   std::optional<PlaneReceivers> receivers_;
-  std::optional<SkyRays> sky_;
+  std::optional<StandAim> aim_;
+  std::optional<SkyRays> sky_, aimed_sky_;
   OneAtATime tracer_;
   std::optional<IndirectScene> indirect_;  // empty without a sky if no light is scattered after its first landing
 };

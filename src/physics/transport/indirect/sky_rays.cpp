@@ -38,7 +38,7 @@ double jittered(std::size_t cell, std::size_t cells, RandomStream& random) {
 
 }  // namespace
 
-SkyRays::SkyRays(const RadiationModel& model, const CounterLayout& layout)
+SkyRays::SkyRays(const RadiationModel& model, const CounterLayout& layout, const StandAim* aim)
     : sky_(*model.sky, model.sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0})),
       periodic_(model.plot.periodic),
       period_m_(model.canopy.period_m),
@@ -49,6 +49,11 @@ SkyRays::SkyRays(const RadiationModel& model, const CounterLayout& layout)
   centre_m_.y = layout.box.lo_m.y + 0.5 * size_m.y;
   // The radius is enlarged by 2^-16, so that rounding to single precision leaves nothing outside.
   radius_m_ = 0.5 * glm::length(size_m) * (1.0 + 0x1p-16);
+  if (aim != nullptr) {
+    centre_m_ = aim->centre_m;
+    radius_m_ = aim->reach_m;
+    inner_share_ = aim->radius_m * aim->radius_m / (radius_m_ * radius_m_);
+  }
   ground_m2_ = periodic_ ? period_m_.x * period_m_.y : sky_.spherical_irradiance() * std::numbers::pi * radius_m_ * radius_m_;
 }
 
@@ -67,22 +72,38 @@ glm::dvec3 SkyRays::origin_around(const glm::dvec3& to_sky, double u, double v) 
 std::vector<shared::Packet> SkyRays::draw(std::size_t count, RandomStream& random) const {
   const auto wanted = static_cast<double>(count);
   const std::size_t directions = root_of(std::pow(wanted, direction_exponent));
-  const std::size_t origins = root_of(wanted / static_cast<double>(directions * directions));
+  const std::size_t rings = aimed() ? 2 : 1;
+  const std::size_t origins = root_of(wanted / static_cast<double>(rings * directions * directions));
   const std::vector<std::size_t> parts = shuffled(directions * directions, random);
-  std::vector<shared::Packet> rays;
-  rays.reserve(directions * directions * origins * origins);
+  std::vector<shared::Packet> rays, ring;
+  rays.reserve(rings * directions * directions * origins * origins);
   for (std::size_t k = 0; k < directions * directions; ++k) {
     const double along_u = jittered(k % directions, directions, random);
     const double along_v = jittered(k / directions, directions, random);
     const glm::dvec3 to_sky =
         periodic_ ? sky_.draw_by_horizontal_irradiance(along_u, along_v) : sky_.draw_by_radiance(along_u, along_v);
-    for (std::size_t cell = 0; cell < origins * origins; ++cell) {
-      const double u = jittered(cell % origins * directions + parts[k] % directions, origins * directions, random);
+    for (std::size_t ray = 0; ray < rings * origins * origins; ++ray) {
+      const std::size_t cell = ray % (origins * origins);
+      double u = jittered(cell % origins * directions + parts[k] % directions, origins * directions, random);
       const double v = jittered(cell / origins * directions + parts[k] / directions, origins * directions, random);
-      rays.push_back({periodic_ ? origin_above(u, v) : origin_around(to_sky, u, v), shared::no_element, -to_sky, 0});
+      const bool inner = ray == cell;
+      if (aimed()) u = inner ? u * inner_share_ : inner_share_ + u * (1.0 - inner_share_);
+      const shared::Packet packet{periodic_ ? origin_above(u, v) : origin_around(to_sky, u, v), shared::no_element, -to_sky, 0};
+      (inner ? rays : ring).push_back(packet);
     }
   }
+  rays.insert(rays.end(), ring.begin(), ring.end());
   return rays;
+}
+
+double SkyRays::share_of_first(std::size_t k, std::size_t rays) const {
+  const double part = static_cast<double>(k) / static_cast<double>(rays);
+  if (!aimed()) return part;
+  return part <= 0.5 ? 2.0 * part * inner_share_ : inner_share_ + (2.0 * part - 1.0) * (1.0 - inner_share_);
+}
+
+double SkyRays::largest_weight() const {
+  return aimed() ? 2.0 * std::max(inner_share_, 1.0 - inner_share_) : 1.0;
 }
 
 }  // namespace sunfleck

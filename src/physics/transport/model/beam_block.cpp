@@ -6,18 +6,9 @@
 
 namespace sunfleck {
 
-BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays) {
-  const glm::dvec3 to_sun = direction_to_sun(*model.sun);
-  if (model.plot.periodic) return endless_beam_grid(model.canopy.period_m, layout.box.above_m(), to_sun, rays);
-  const glm::dvec3 seen_hi_m(layout.box.hi_m.x, layout.box.seen_y_m, layout.box.hi_m.z);
-  return isolated_beam_grid(layout.box.lo_m, seen_hi_m, to_sun, rays);
-}
+namespace {
 
-shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays, std::uint64_t seed,
-                                  std::uint64_t replicate) {
-  EXPECT(model.has_beam(), ==, true);
-  const BeamGrid grid = make_grid(model, layout, rays);
-  const std::uint64_t key = RandomStream(seed, replicate).word();
+shared::BeamBlock block_of(const RadiationModel& model, const CounterLayout& layout, const BeamGrid& grid, std::uint64_t key) {
   shared::BeamBlock beam;
   beam.corner = grid.corner_m;
   beam.edge_u = grid.edge_u_m;
@@ -35,6 +26,42 @@ shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayo
   beam.layers_per_metre = layout.layers.per_metre;
   beam.layers = static_cast<std::uint32_t>(layout.layers.count);
   return beam;
+}
+
+// Returns the box that beam rays must cover.
+BeamBox seen_box(const CounterLayout& layout) {
+  return {layout.box.lo_m, {layout.box.hi_m.x, layout.box.seen_y_m, layout.box.hi_m.z}};
+}
+
+}  // namespace
+
+BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays) {
+  const glm::dvec3 to_sun = direction_to_sun(*model.sun);
+  if (model.plot.periodic) return endless_beam_grid(model.canopy.period_m, layout.box.above_m(), to_sun, rays);
+  const BeamBox box = seen_box(layout);
+  return isolated_beam_grid(box.lo_m, box.hi_m, to_sun, rays);
+}
+
+std::vector<WeightedBeamGrid> make_grids(const RadiationModel& model, const CounterLayout& layout, const StandAim* aim,
+                                         double rays) {
+  if (aim == nullptr) return {{make_grid(model, layout, rays), 1}};
+  return aimed_beam_grids({aim->lo_m, aim->hi_m}, seen_box(layout), direction_to_sun(*model.sun), rays);
+}
+
+shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays, std::uint64_t seed,
+                                  std::uint64_t replicate) {
+  return make_beam_parts(model, layout, nullptr, rays, seed, replicate).front().block;
+}
+
+std::vector<BeamPart> make_beam_parts(const RadiationModel& model, const CounterLayout& layout, const StandAim* aim,
+                                      double rays, std::uint64_t seed, std::uint64_t replicate) {
+  EXPECT(model.has_beam(), ==, true);
+  RandomStream keys(seed, replicate);
+  std::vector<BeamPart> parts;
+  for (const WeightedBeamGrid& part : make_grids(model, layout, aim, rays)) {
+    parts.push_back({block_of(model, layout, part.grid, keys.word()), part.weight});
+  }
+  return parts;
 }
 
 }  // namespace sunfleck

@@ -4,9 +4,11 @@
 #include "physics/light/beam_grid.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/model.h"
+#include "physics/transport/model/stand_aim.h"
 #include "shared/layout.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace sunfleck {
 
@@ -16,5 +18,22 @@ namespace sunfleck {
 // Returns one replicate's beam rays in the form that tracers take; `rays` is their approximate number.
 [[nodiscard]] shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays,
                                                 std::uint64_t seed, std::uint64_t replicate);
+
+// Beam rays that each carry the flux of `weight` rays of the replicate's first part.
+struct BeamPart {
+  shared::BeamBlock block;
+  std::uint32_t weight = 1;
+
+  [[nodiscard]] std::uint64_t rays() const { return std::uint64_t{block.columns} * block.rows; }
+};
+
+// Returns the grids of all beam rays, the first with weight 1. `aim` may be null: there is then one grid, that of make_grid.
+[[nodiscard]] std::vector<WeightedBeamGrid> make_grids(const RadiationModel& model, const CounterLayout& layout,
+                                                       const StandAim* aim, double rays);
+
+// Returns one replicate's beam rays on these grids. The first part does not depend on the presence of others.
+[[nodiscard]] std::vector<BeamPart> make_beam_parts(const RadiationModel& model, const CounterLayout& layout,
+                                                    const StandAim* aim, double rays, std::uint64_t seed,
+                                                    std::uint64_t replicate);
 
 }  // namespace sunfleck

@@ -32,6 +32,7 @@ CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layou
     const bool soil = role == Role::soil;
     const bool plant = is_vegetation(role);
     foliage[e] = role == Role::leaf;
+    if (plant && !hidden[e]) vegetation_m2 += area;
     if (!soil && !plant) on_structures[canopy.optics_of[e]] = true;
     beam_meets_vegetation = beam_meets_vegetation || (plant && exposure.can_hit(e));
     beam_meets_structure = beam_meets_structure || (!plant && !soil && exposure.can_hit(e));

@@ -24,6 +24,7 @@ struct CanopyAreas {
   std::vector<bool> layer_holds_vegetation, layer_holds_structure;
   std::vector<bool> on_structures;  // [optics], of structures and lamps, which share no optics with vegetation
   double foliage_m2 = 0.0, facing_m2 = 0.0;
+  double vegetation_m2 = 0.0;                                        // that light can reach
   bool beam_meets_vegetation = false, beam_meets_structure = false;  // the beam can hit some of it
   std::vector<double> organ_absorptance;                             // [organ * bands + band], the largest of its faces
   // [band], the largest of all such surfaces

@@ -35,7 +35,8 @@ LightEvents make_light_events(const RadiationModel& model, const std::vector<Ban
     const double beam_w_m2 = model.has_beam() ? events.beam_share * model.bands[b].direct_w_m2 : 0.0;
     const double sky_w_m2 = static_cast<double>(quanta[b].sky) * quanta[b].w_m2_per_quantum;
     const double lamps_w_m2 = static_cast<double>(quanta[b].lamps) * quanta[b].w_m2_per_quantum;
-    double other_w_m2 = incidence.sky_rays > 0 ? sky_w_m2 / static_cast<double>(incidence.sky_rays) : 0.0;
+    double other_w_m2 = 0.0;
+    if (incidence.sky_rays > 0) other_w_m2 = sky_w_m2 * incidence.sky_weight / static_cast<double>(incidence.sky_rays);
     if (scatters(model, b) && incidence.packets > 0.0) {
       const double first_w_m2 = beam_w_m2 * static_cast<double>(incidence.rays) + sky_w_m2;
       const double start_w_m2 = lamps_w_m2 + first_w_m2 * largest_scattering(model, b);

@@ -276,6 +276,7 @@ class SensorMeasurement {
     const SensorBound& bound = *settings_.bound;
     std::vector<int> good(model_.sensors.size());
     std::size_t next = first_check;
+    std::uint64_t rays = all_.size() * static_cast<std::size_t>(settings_.replicates) * settings_.rays;
     while (true) {
       const std::size_t done = means_[sensors.front()].replicates();
       if (done >= next) {
@@ -290,13 +291,16 @@ class SensorMeasurement {
         if (left.empty()) return StopReason::bound_reached;
         sensors = std::move(left);
         next = next_check(done, largest / bound.relative);
+        if (bound.report) bound.report(largest, rays);
       }
       if (done >= most_replicates) return StopReason::replicates_spent;
       if (bound.time_is_up && bound.time_is_up()) return StopReason::time_spent;
       std::size_t points = 0;
       for (const std::size_t s : sensors) points += points_of(s);
       const std::size_t at_once = std::max<std::size_t>(1, most_rays_of_a_batch / (points * settings_.rays));
-      if (!add_replicates(sensors, std::min(at_once, next - done))) return std::nullopt;
+      const std::size_t count = std::min(at_once, next - done);
+      if (!add_replicates(sensors, count)) return std::nullopt;
+      rays += std::uint64_t{points} * count * settings_.rays;
     }
   }
 

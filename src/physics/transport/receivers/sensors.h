@@ -20,6 +20,8 @@ struct SensorBound {
   double relative = 0.01;
   std::vector<double> least_w_m2;    // [band], the least total that a half-width is compared with
   std::function<bool()> time_is_up;  // asked between replicates; may be empty
+  // Receives the largest error so far, and the number of rays to the sky and of scattered paths; may be empty.
+  std::function<void(double relative_error, std::uint64_t rays)> report;
 };
 
 struct SensorSettings {

@@ -8,8 +8,8 @@
 namespace sunfleck {
 namespace {
 
-// Figures are judged against at least this share of the incident flux (design: an aggregate below 1 % is judged against that
-// 1 %).
+// The soil is judged against at least this share of the incident flux, and the light that vegetation absorbs after the first landings
+// against at least this share of all light that it absorbs.
 constexpr double least_judged_share = 0.01;
 
 // Organs are judged if they receive at least this share of the mean organ's flux.
@@ -78,15 +78,16 @@ JudgedError direct_error(const RunSums& sums, const Accuracy& accuracy) {
   const double quantile = t_quantile(accuracy.confidence, sums.replicates);
   if (std::isnan(quantile)) return {no_value, {}};
   JudgedError largest;
-  const double least = least_judged_share * sums.met.mean();
-  if (!(least > 0.0)) return largest;
+  const double met = sums.met.mean();
+  if (!(met > 0.0)) return largest;
   const double one_ray = sums.unseen(conversion.events.beam_share, accuracy.confidence);
-  const auto judge = [&](const ReplicateMean& mean, bool can_vary, JudgedFigure::Of of) {
+  const auto judge = [&](const ReplicateMean& mean, bool can_vary, double least, JudgedFigure::Of of) {
     largest.raise({mean.estimate(quantile, can_vary ? one_ray : 0.0).half_width / std::max(mean.mean(), least), {.of = of}});
   };
-  judge(sums.first_vegetation, conversion.areas.beam_meets_vegetation, JudgedFigure::Of::vegetation);
+  judge(sums.first_vegetation, conversion.areas.beam_meets_vegetation, conversion.least_share_of_vegetation() * met,
+        JudgedFigure::Of::vegetation);
   // With nothing in its way the whole beam is known to reach the ground.
-  judge(sums.first_ground, conversion.areas.beam_meets_canopy(), JudgedFigure::Of::soil);
+  judge(sums.first_ground, conversion.areas.beam_meets_canopy(), least_judged_share * met, JudgedFigure::Of::soil);
   if (accuracy.of == ErrorTarget::organ) {
     largest.raise(organ_error(sums, quantile, false));
   }
@@ -108,12 +109,15 @@ JudgedError indirect_error(const RunSums& sums, const Accuracy& accuracy) {
     if (!(least > 0.0)) continue;
     const double unshot = static_cast<double>(sums.ledgers[b].unshot) * per_quantum / n;
     const double one_packet = sums.unseen(conversion.events.other_w_m2[b], accuracy.confidence);
-    const auto judge = [&](const ReplicateMean& mean, double absorptance, JudgedFigure::Of of) {
+    const auto judge = [&](const ReplicateMean& mean, double absorptance, double at_least, JudgedFigure::Of of) {
       const double half_width = mean.estimate(quantile, one_packet * absorptance).half_width;
-      largest.raise({(half_width + unshot) / std::max(mean.mean(), least), {.of = of, .band = b}});
+      largest.raise({(half_width + unshot) / std::max(mean.mean(), at_least), {.of = of, .band = b}});
     };
-    judge(sums.bands[b].indirect_vegetation, conversion.areas.vegetation_absorptance[b], JudgedFigure::Of::vegetation);
-    judge(sums.bands[b].indirect_soil, conversion.areas.soil_absorptance[b], JudgedFigure::Of::soil);
+    const double of_vegetation =
+        std::max(least_judged_share * sums.bands[b].vegetation.mean(), conversion.least_of_vegetation_w_m2(b));
+    judge(sums.bands[b].indirect_vegetation, conversion.areas.vegetation_absorptance[b], of_vegetation,
+          JudgedFigure::Of::vegetation);
+    judge(sums.bands[b].indirect_soil, conversion.areas.soil_absorptance[b], least, JudgedFigure::Of::soil);
   }
   if (accuracy.of == ErrorTarget::organ) {
     largest.raise(organ_error(sums, quantile, true));

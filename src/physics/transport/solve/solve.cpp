@@ -32,14 +32,14 @@ double steady_clock_s() {
 // Holds replicates with the same work.
 struct Series {
   Series(const ReplicateMaker& maker, const Incidence& incidence, ElementErrors element_errors)
-      : conversion(maker.conversion(incidence)), sums(conversion, element_errors), grid_rays(incidence.rays) {}
+      : conversion(maker.conversion(incidence)), sums(conversion, element_errors), grid_rays(incidence.traced_rays) {}
 
   // Returns the number of rays and packets.
   [[nodiscard]] std::uint64_t traced() const { return sums.replicates * grid_rays + sums.packets + sums.sky_rays; }
 
   Conversion conversion;
   RunSums sums;             // refers to the conversion, so that a series cannot be copied or moved
-  std::uint64_t grid_rays;  // of each replicate
+  std::uint64_t grid_rays;  // traced in each replicate
 };
 
 class Solver {
@@ -121,13 +121,13 @@ class Solver {
     begun_s_ = seconds();
     completion_ = {};
     triangles_.forget();
-    Incidence incidence = maker_.incidence(work.rays);
+    const bool aimed = !settings_.grid_m;  // a grid that is asked for is the same everywhere
+    Incidence incidence = maker_.incidence(work.rays, aimed);
     incidence.packets = work.packets;
     incidence.sky_rays = planner_.sky_rays(work);
     series_ = std::make_unique<Series>(maker_, incidence, settings_.element_errors);
-    queue_.begin(
-        {work.rays, incidence.rays, work.packets, incidence.sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
-        series_->conversion, planner_.at_once(work));
+    queue_.begin({work.rays, aimed, work.packets, incidence.sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
+                 series_->conversion, planner_.at_once(work));
   }
 
   // Adds one replicate, and starts others: among the first `certain` ones or, where workers would be idle, among the first

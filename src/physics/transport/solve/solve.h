@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 namespace sunfleck {
 
@@ -42,8 +43,9 @@ struct SolveSettings {
 };
 
 struct Progress {
-  enum class Stage { pilot, run };  // pilots choose the work; nothing of the run is done before they end
-  enum class Pass { direct, indirect };
+  // Pilots choose the work; nothing of the run is done before they end. Sensors with a bound are measured after the run.
+  enum class Stage { pilot, run, sensors };
+  enum class Pass { direct, indirect, sensors };
 
   Stage stage = Stage::run;
   std::uint64_t rays = 0;                // rays and packets, including the pilots'
@@ -53,6 +55,12 @@ struct Progress {
   std::optional<double> relative_error;  // of that pass
   double bound = 0.0;                    // of that pass
 };
+
+// Returns "direct", "indirect" or "sensors".
+[[nodiscard]] constexpr std::string_view pass_name(Progress::Pass pass) {
+  if (pass == Progress::Pass::sensors) return "sensors";
+  return pass == Progress::Pass::direct ? "direct" : "indirect";
+}
 
 // The functions by which a caller watches and stops a run. All may be empty.
 struct Monitor {

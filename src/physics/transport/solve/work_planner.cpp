@@ -22,6 +22,8 @@ constexpr double packet_slope = 0.5;
 constexpr double aimed_part_of_bound = 0.7;
 // Sky rays per packet of the first round when the work is not fixed, and the largest number of sky rays in one replicate.
 constexpr double sky_rays_per_packet = 2.0;
+// Light that reaches a small stand by way of a wide floor needs more packets, not more sky rays.
+constexpr double aimed_sky_rays_per_packet = 0.5;
 constexpr double most_sky_rays = 0x1p22;
 // A replicate whose packets take more memory than this gains nothing: more replicates do the same work.
 constexpr double comfortable_bytes = 0x1p28;
@@ -137,7 +139,8 @@ Work WorkPlanner::next(const Work& work, const SeriesOutcome& run) const {
 // A fixed grid sets the number of sky rays too.
 std::size_t WorkPlanner::sky_rays(const Work& work) const {
   if (!maker_.has_sky()) return 0;
-  const double rays = settings_.grid_m && !settings_.packets ? work.rays : sky_rays_per_packet * work.packets;
+  const double per_packet = maker_.aims() && !settings_.grid_m ? aimed_sky_rays_per_packet : sky_rays_per_packet;
+  const double rays = settings_.grid_m && !settings_.packets ? work.rays : per_packet * work.packets;
   return static_cast<std::size_t>(std::clamp(rays, 1.0, most_sky_rays));
 }
 

@@ -15,12 +15,12 @@ simulates one or more days; `sun_position` and `sky` need no canopy; `sunfleck.c
 from ._core import commit as __commit__
 from ._core import version as __version__
 from ._day import DayResult, day
-from ._errors import DeviceError, InputError, SunfleckError
+from ._errors import DeviceError, Error, InputError, MissingFileError, SunfleckError
 from ._light import Sky, sky, sun_position
 from ._result import Result
 from ._simulation import UNCHANGED, Simulation, run
 
 __all__ = [
-    "UNCHANGED", "DayResult", "DeviceError", "InputError", "Result", "Simulation", "Sky", "SunfleckError", "day", "run", "sky",
-    "sun_position",
+    "UNCHANGED", "DayResult", "DeviceError", "Error", "InputError", "MissingFileError", "Result", "Simulation", "Sky",
+    "SunfleckError", "__commit__", "__version__", "day", "run", "sky", "sun_position",
 ]  # fmt: skip

@@ -1,9 +1,14 @@
 """The exceptions of the module. Every message is one line: where and what (why); what to do."""
 
 import re
+from typing import NoReturn
 
 
-class SunfleckError(RuntimeError):
+class Error(Exception):
+    """Any error of the module."""
+
+
+class SunfleckError(Error, RuntimeError):
     """The work could not be finished: the disk is full, the device was lost or memory ran out."""
 
 
@@ -11,11 +16,15 @@ class DeviceError(SunfleckError):
     """There is no device of the requested kind."""
 
 
-class InputError(ValueError):
+class InputError(Error, ValueError):
     """A scene, an array or an option is invalid."""
 
 
-def refuse(what: str, why: str, cure: str) -> None:
+class MissingFileError(InputError, FileNotFoundError):
+    """A scene, or a file that it names, does not exist."""
+
+
+def refuse(what: str, why: str, cure: str) -> NoReturn:
     """Raises InputError with the message `what (why); cure`."""
     raise InputError(f"{what} ({why}); {cure}")
 
@@ -23,7 +32,7 @@ def refuse(what: str, why: str, cure: str) -> None:
 def in_python(message: str) -> str:
     """Returns a message about a scene file in the words of a dict: "band": [{...}] for [[band]], "sun": {...} for [sun]."""
 
-    def table(found: re.Match) -> str:
+    def table(found: re.Match[str]) -> str:
         text = "{...}"
         for name in reversed(found.group(1).split(".")):
             text = f'{{"{name}": {text}}}'

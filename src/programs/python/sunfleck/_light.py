@@ -96,16 +96,20 @@ def sky(
     model: Union[str, Mapping[str, Any]],
     *,
     sun: Optional[Mapping[str, Any]] = None,
-    folder: Union[str, os.PathLike] = ".",
+    type: Optional[int] = None,
+    dni: Optional[float] = None,
+    dhi: Optional[float] = None,
+    file: Union[str, "os.PathLike[str]", None] = None,
+    folder: Union[str, "os.PathLike[str]"] = ".",
     allow_outside: bool = False,
-    **more: Any,
 ) -> Sky:
     """Returns the sky described by a scene's [sky] table: sky("cie", type=12, sun={"elevation": 40, "azimuth": 120}).
 
-    model: uniform, cie-overcast, cie-clear, cie (with type=1..15), perez (with dni=, dhi=, W m-2), lights (with file=); or the
+    model: uniform, cie-overcast, cie-clear, cie (with type, 1..15), perez (with dni and dhi, W m-2), lights (with file); or the
         whole table as a dict. sun: as a scene's [sun]; models that follow the sun need it.
     """
-    table = {**(model if isinstance(model, Mapping) else {"model": model}), **more}
+    given = {"type": type, "dni": dni, "dhi": dhi, "file": file}
+    table = {**(model if isinstance(model, Mapping) else {"model": model}), **{key: value for key, value in given.items() if value is not None}}
     tables: dict[str, Any] = {"plot": {"size": [1.0, 1.0]}, "sky": _plain(table, "sky"), "band": [{"name": "all", "diffuse": 1.0}]}
     if sun is not None:
         tables["sun"] = _plain(sun, "sun")

@@ -15,7 +15,7 @@ import tomli_w
 from . import _core
 from ._errors import refuse
 
-Scene = Union[str, os.PathLike, Mapping[str, Any]]
+Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
 _MESH_KEYS = ("vertices", "triangles", "optics", "organ", "plant", "rank")
 _PLACE_KEYS = ("up", "scale", "heading", "at", "positions")
@@ -26,7 +26,7 @@ _DICT_NAME = "scene"  # name in messages of a scene that is not a file
 class SceneSource:
     """A scene in parts: text for the reader, meshes, and the folder in which files are looked up."""
 
-    def __init__(self, scene: Scene, folder: Union[str, os.PathLike, None] = None) -> None:
+    def __init__(self, scene: Scene, folder: Union[str, "os.PathLike[str]", None] = None) -> None:
         self.meshes: dict[str, Any] = {}
         self._tables: Union[dict[str, Any], None] = None
         if isinstance(scene, Mapping):
@@ -91,7 +91,7 @@ class SceneSource:
 
 
 def _toml(tables: Mapping[str, Any]) -> str:
-    return tomli_w.dumps(tables)
+    return tomli_w.dumps(dict(tables))
 
 
 def _plain(value: Any, place: str) -> Any:

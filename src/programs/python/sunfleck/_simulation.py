@@ -6,16 +6,17 @@ import contextlib
 import os
 import re
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _core
 from ._errors import InputError, in_python
 from ._options import whole, work_options
+from ._progress import Progress, reporting
 from ._result import Result
 from ._scene import Scene, SceneSource
 
-Progress = Callable[[Mapping[str, Any]], object]
+Path = Union[str, "os.PathLike[str]"]
 
 
 class _Unchanged:
@@ -23,7 +24,7 @@ class _Unchanged:
         return "UNCHANGED"
 
 
-UNCHANGED: Any = _Unchanged()
+UNCHANGED: Any = _Unchanged()  # the default of what a call leaves as it is
 
 
 @contextlib.contextmanager
@@ -32,7 +33,7 @@ def without_line_numbers(source: SceneSource) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(_of_dict(str(error), source)) from None
+        raise type(error)(_of_dict(str(error), source)) from None
 
 
 def _of_dict(message: str, source: SceneSource) -> str:
@@ -61,7 +62,7 @@ class Simulation:
         self,
         scene: Scene,
         *,
-        folder: Union[str, os.PathLike, None] = None,
+        folder: Optional[Path] = None,
         device: str = "auto",
         threads: int = 0,
         allow_outside: bool = False,
@@ -91,7 +92,7 @@ class Simulation:
         sun, sky and weather replace the whole table (None removes it), band replaces all bands; soil and optics replace only the
         keys and names that they contain. Raises InputError and changes nothing if the new scene is invalid.
         """
-        given = {"sun": sun, "sky": sky, "band": band, "weather": weather, "soil": soil, "optics": optics}
+        given: dict[str, Any] = {"sun": sun, "sky": sky, "band": band, "weather": weather, "soil": soil, "optics": optics}
         changes = {key: value for key, value in given.items() if value is not UNCHANGED}
         if not changes:
             return
@@ -123,7 +124,7 @@ class Simulation:
         memory: Optional[int] = None,
         seed: int = 1,
         triangle_errors: bool = True,
-        progress: Optional[Progress] = None,
+        progress: Progress = None,
     ) -> Result:
         """Simulates the scene. Gives the numbers of `sunfleck run` with the same options, bit for bit.
 
@@ -133,9 +134,9 @@ class Simulation:
             `complete` False.
         memory: bytes for replicates in progress, by default a quarter of the free memory.
         triangle_errors: whether the errors of single triangles are kept, at 32 bytes per triangle and band.
-        progress: called about ten times a second with {"stage", "rays", "fraction", "seconds_left", "pass",
-            "relative_error", "bound"}. An exception from it ends the simulation and is raised here, as is KeyboardInterrupt
-            after Ctrl-C.
+        progress: True shows a bar, that of tqdm if it is installed, else a line on stderr. A function is called about ten
+            times a second with {"stage", "rays", "fraction", "seconds_left", "pass", "relative_error", "bound"}. An exception
+            from it ends the simulation and is raised here, as is KeyboardInterrupt after Ctrl-C.
         """
         options = work_options(
             {
@@ -145,7 +146,8 @@ class Simulation:
             }
         )  # fmt: skip
         self.relight(sun=sun, sky=sky, band=band, weather=weather, soil=soil, optics=optics)
-        return Result(self._core.run(options, progress))
+        with reporting(progress) as report:
+            return Result(self._core.run(options, report))
 
     @property
     def device(self) -> dict[str, str]:
@@ -176,11 +178,37 @@ class Simulation:
             warnings.warn(_of_dict(line, self._source) if is_text else line, stacklevel=3)
 
 
-def run(scene: Scene, **options: Any) -> Result:
-    """Simulates a scene once: Simulation(scene, folder=, device=, threads=, allow_outside=).run(...).
+def run(
+    scene: Scene,
+    *,
+    folder: Optional[Path] = None,
+    device: str = "auto",
+    threads: int = 0,
+    allow_outside: bool = False,
+    sun: Optional[Mapping[str, Any]] = UNCHANGED,
+    sky: Optional[Mapping[str, Any]] = UNCHANGED,
+    band: Sequence[Mapping[str, Any]] = UNCHANGED,
+    weather: Optional[Mapping[str, Any]] = UNCHANGED,
+    soil: Mapping[str, Any] = UNCHANGED,
+    optics: Mapping[str, Mapping[str, Any]] = UNCHANGED,
+    error: Optional[float] = None,
+    direct_error: Optional[float] = None,
+    indirect_error: Optional[float] = None,
+    grid: Optional[float] = None,
+    passes: Optional[int] = None,
+    max_seconds: Optional[float] = None,
+    max_rays: Optional[int] = None,
+    memory: Optional[int] = None,
+    seed: int = 1,
+    triangle_errors: bool = True,
+    progress: Progress = None,
+) -> Result:
+    """Simulates a scene once. scene, folder, device, threads, allow_outside: as for `Simulation`; all others: as for its `run`.
 
-    The four options named above go to `Simulation`, all others to its `run`. For several simulations of one scene under
-    different light, a Simulation is faster.
+    For several simulations of one scene under different light, a Simulation is faster.
     """
-    kept = {name: options.pop(name) for name in ("folder", "device", "threads", "allow_outside") if name in options}
-    return Simulation(scene, **kept).run(**options)
+    return Simulation(scene, folder=folder, device=device, threads=threads, allow_outside=allow_outside).run(
+        sun=sun, sky=sky, band=band, weather=weather, soil=soil, optics=optics, error=error, direct_error=direct_error,
+        indirect_error=indirect_error, grid=grid, passes=passes, max_seconds=max_seconds, max_rays=max_rays, memory=memory,
+        seed=seed, triangle_errors=triangle_errors, progress=progress,
+    )  # fmt: skip

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Optional, Union
 
@@ -24,13 +24,15 @@ import numpy as np
 
 from ._errors import refuse
 from ._options import bound, real
+from ._progress import Progress
 from ._result import Result
 from ._simulation import Simulation
 
 Light = tuple[float, Sequence[float]]
-Material = Union[tuple[float], tuple[float, float], tuple[float, float, float, float]]
+Material = tuple[float, ...]  # one, two or four fractions
 
 _METRES = {"mm": 0.001, "cm": 0.01, "dm": 0.1, "m": 1.0, "dam": 10.0, "hm": 100.0, "km": 1000.0}
+_BOUNDED = {"canopy": "canopy", "primitive": "organ", "triangle": "triangle"}  # what `error` bounds, and the scene's word for it
 _LEAST_SHARE_OF_EXTENT = 1e-3  # gives a canopy that is a line or a point from above a plot
 
 
@@ -95,22 +97,29 @@ class CaribuScene:
         simplify: bool = False,
         *,
         error: float = 0.01,
+        of: str = "canopy",
+        max_seconds: Optional[float] = None,
+        max_rays: Optional[int] = None,
         seed: int = 1,
         device: str = "auto",
         threads: int = 0,
+        progress: Progress = None,
     ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Returns the light on every triangle and on every primitive: (raw, aggregated).
 
         direct: True counts only the first landing, False scattered light too. infinite: repeats the pattern without end.
         d_sphere, layers, height, screen_size, screen_resolution, split_face: accepted for CARIBU's own methods and ignored.
         simplify: leaves out the level of bands if there is only one.
-        error: relative error bound of the light the primitives receive; seed, device, threads: as in sunfleck.run.
+        error: relative error bound of what `of` names: "canopy", the light that the whole canopy and the soil absorb; "primitive",
+            that of every primitive, which takes hundreds of times as long where there are thousands of them; or "triangle".
+            With "canopy" a single primitive is less exact, as its Eabs_error says.
+        max_seconds, max_rays, seed, device, threads, progress: as in sunfleck.run. result.complete is False if a limit cut the
+            simulation short.
 
         raw[band][quantity][primitive] is a list by triangle; aggregated[band][quantity][primitive] is the mean weighted by area,
         or the sum for area. Quantities: area (m2, one-sided), Eabs, Ei, Ei_sup, Ei_inf (absorbed, incident on both faces, on the
         upper and on the lower face, per area of one face, in the lights' unit), and Eabs_error, the half-width of the 95 %
-        confidence interval of Eabs (for an aggregate as if the errors of its triangles were independent; NaN if there are too few
-        rays). The upper face is the one from which the corners run counter-clockwise. Sets soil_aggregated, and result to the
+        confidence interval of Eabs (NaN if there are too few rays). The upper face is the one from which the corners run counter-clockwise. Sets soil_aggregated, and result to the
         simulation's own result.
         """
         if sensors is not None:
@@ -118,12 +127,19 @@ class CaribuScene:
         if infinite and self.pattern is None:
             refuse("pattern", "an infinite canopy needs one to repeat", "give (xmin, ymin, xmax, ymax)")
         error = bound(error, "error")
+        if of not in _BOUNDED:
+            refuse(f"of = {of!r}", "unknown", f"use {', '.join(_BOUNDED)}")
         with tempfile.TemporaryDirectory(prefix="sunfleck") as folder:
             tables = self._tables(direct, infinite, Path(folder))
+            tables["accuracy"] = {"of": _BOUNDED[of]}
             simulation = Simulation(tables, folder=folder, device=device, threads=threads)
-        self.result = simulation.run(error=error, seed=seed)
-        raw = {band: self._raw(band, number, direct) for number, band in enumerate(self.material)}
-        aggregated = {band: _aggregated(values) for band, values in raw.items()}
+        self.result = simulation.run(error=error, max_seconds=max_seconds, max_rays=max_rays, seed=seed, progress=progress)
+        of_triangles = {band: self._columns(band, number, direct) for number, band in enumerate(self.material)}
+        raw = {band: self._raw(columns) for band, columns in of_triangles.items()}
+        aggregated = {}
+        for number, band in enumerate(self.material):
+            half_widths = self._half_widths(band, number, direct)
+            aggregated[band] = self._aggregated(of_triangles[band], half_widths)
         self._book_soil(direct, infinite)
         if simplify and len(raw) == 1:
             return next(iter(raw.values())), next(iter(aggregated.values()))
@@ -154,11 +170,10 @@ class CaribuScene:
         x_lo, y_lo, x_hi, y_hi = self._domain(corners, unit)
         lowest = float(corners[..., 2].min())
         z_soil = min(0.0, lowest) if self.z_soil is None else unit * self.z_soil
-        counts = [len(triangles) for triangles in self.scene.values()]
+        counts = self._counts()
         tables: dict[str, Any] = {
             "title": "CARIBU scene",
             "plot": {"size": [y_hi - y_lo, x_hi - x_lo], "periodic": infinite},
-            "accuracy": {"of": "organ"},
             "geometry": [
                 {
                     "vertices": corners,
@@ -180,11 +195,11 @@ class CaribuScene:
 
     def _domain(self, corners: np.ndarray, unit: float) -> tuple[float, float, float, float]:
         if self.pattern is not None:
-            return tuple(unit * edge for edge in self.pattern)
+            return _four(unit * edge for edge in self.pattern)
         lo, hi = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
         least = max(_LEAST_SHARE_OF_EXTENT * float((hi - lo).max()), 1e-6)
         spare = np.maximum(0.5 * (least - (hi - lo)), 0.0)
-        return tuple(float(edge) for edge in (*(lo - spare)[:2], *(hi + spare)[:2]))
+        return _four(float(edge) for edge in (*(lo - spare)[:2], *(hi + spare)[:2]))
 
     def _band_names(self, direct: bool) -> list[str]:
         """Returns band names valid in tables. Without scattered light one band represents all."""
@@ -228,31 +243,71 @@ class CaribuScene:
             "band": [{"name": band, "direct": energy} for band in bands],
         }
 
-    def _raw(self, band: str, number: int, direct: bool) -> dict[str, dict[Any, list[float]]]:
+    def _columns(self, band: str, number: int, direct: bool) -> dict[str, np.ndarray]:
+        """Returns each quantity by triangle."""
+        assert self.result is not None
         name = "b0" if direct else f"b{number}"
         column = self.result.triangles
         upper = column[f"{name}_direct_upper"] + column[f"{name}_indirect_upper"]
         lower = column[f"{name}_direct_lower"] + column[f"{name}_indirect_lower"]
         absorbed, half_width = column[f"{name}_absorbed"], column[f"{name}_absorbed_error"]
         if direct:
-            counts = [len(triangles) for triangles in self.scene.values()]
+            counts = self._counts()
             faces = np.array([_absorptances(self.material[band][primitive]) for primitive in self.scene])
             upper_share, lower_share = np.repeat(faces, counts, axis=0).T
             absorbed = upper * upper_share + lower * lower_share
             half_width = half_width * np.maximum(upper_share, lower_share)
-        values = {
+        return {
             "area": column["area_m2"], "Eabs": absorbed, "Ei": upper + lower, "Ei_sup": upper, "Ei_inf": lower,
             "Eabs_error": half_width,
         }  # fmt: skip
-        return {quantity: self._by_primitive(array) for quantity, array in values.items()}
 
-    def _by_primitive(self, values: np.ndarray) -> dict[Any, list[float]]:
-        ends = np.cumsum([len(triangles) for triangles in self.scene.values()])[:-1]
-        return {primitive: part.tolist() for primitive, part in zip(self.scene, np.split(values, ends))}
+    def _raw(self, columns: Mapping[str, np.ndarray]) -> dict[str, dict[Any, list[float]]]:
+        """Returns lists by primitive. Lists are cut, since cutting an array a hundred thousand times takes seconds."""
+        ends = np.cumsum(self._counts()).tolist()
+        begins = [0, *ends]
+        raw = {}
+        for quantity, values in columns.items():
+            numbers = values.tolist()
+            raw[quantity] = {primitive: numbers[begin:end] for primitive, begin, end in zip(self.scene, begins, ends)}
+        return raw
+
+    def _counts(self) -> list[int]:
+        return [len(triangles) for triangles in self.scene.values()]
+
+    def _half_widths(self, band: str, number: int, direct: bool) -> np.ndarray:
+        """Returns the half-width of what each primitive absorbs per area, NaN for one without triangles."""
+        assert self.result is not None
+        name, organs = "b0" if direct else f"b{number}", self.result.organs
+        of_organs = organs[f"{name}_absorbed_error"]
+        half_widths = np.full(len(self.scene), np.nan)
+        half_widths[organs["plant"].astype(int) - 1] = of_organs
+        if direct:
+            half_widths *= np.array([max(_absorptances(self.material[band][primitive])) for primitive in self.scene])
+        return half_widths
+
+    def _aggregated(self, columns: Mapping[str, np.ndarray], half_widths: np.ndarray) -> dict[str, dict[Any, float]]:
+        """Returns sums of area and means weighted by area, by primitive."""
+        number = np.repeat(np.arange(len(self.scene)), self._counts())
+        area = columns["area"]
+
+        def total(values: np.ndarray) -> np.ndarray:
+            return np.bincount(number, values, minlength=len(self.scene))
+
+        areas = total(area)
+        has_area = areas > 0.0
+
+        def mean(values: np.ndarray) -> np.ndarray:
+            weighted = total(np.where(area > 0.0, area * values, 0.0))
+            return np.divide(weighted, areas, out=np.zeros_like(areas), where=has_area)
+
+        sums = {quantity: mean(values) for quantity, values in columns.items()}
+        sums["area"], sums["Eabs_error"] = areas, np.where(has_area, half_widths, 0.0)
+        return {quantity: dict(zip(self.scene, values.tolist())) for quantity, values in sums.items()}
 
     def _book_soil(self, direct: bool, infinite: bool) -> None:
         self.soil_aggregated = {}
-        if not infinite and self.soil_mesh is None:
+        if (not infinite and self.soil_mesh is None) or self.result is None:
             return
         area = self.result.summary["plot_area_m2"]
         for number, band in enumerate(self.material):
@@ -273,7 +328,12 @@ def _absorptances(material: Material) -> tuple[float, float]:
 def _faces(material: Material) -> tuple[float, float, float, float]:
     if len(material) == 1:
         return material[0], 0.0, material[0], 0.0
-    return material if len(material) == 4 else (*material, *material)
+    return _four(material if len(material) == 4 else (*material, *material))
+
+
+def _four(numbers: Iterable[float]) -> tuple[float, float, float, float]:
+    a, b, c, d = numbers
+    return a, b, c, d
 
 
 def _surface(materials: list[Material], bands: list[str]) -> dict[str, Any]:
@@ -284,25 +344,6 @@ def _surface(materials: list[Material], bands: list[str]) -> dict[str, Any]:
         "transmittance": {band: face[first + 1] for band, face in zip(bands, faces)},
     }
     return {"upper": side(0), "lower": side(2)}
-
-
-def _aggregated(raw: Mapping[str, Mapping[Any, list[float]]]) -> dict[str, dict[Any, float]]:
-    sums: dict[str, dict[Any, float]] = {quantity: {} for quantity in raw}
-    for primitive, areas in raw["area"].items():
-        area = np.asarray(areas)
-        total = float(area.sum())
-        for quantity, values in raw.items():
-            value = np.asarray(values[primitive])
-            if quantity == "area":
-                sums[quantity][primitive] = total
-            elif total == 0.0:
-                sums[quantity][primitive] = 0.0
-            elif quantity == "Eabs_error":
-                lit = area > 0.0
-                sums[quantity][primitive] = float(np.sqrt(((area * value)[lit] ** 2).sum())) / total
-            else:
-                sums[quantity][primitive] = float((area * value).sum()) / total
-    return sums
 
 
 def _checked_scene(scene: Any) -> dict[Any, np.ndarray]:

@@ -197,7 +197,8 @@ TEST(DrawChart, KeepsTextOfAnyLengthWithinTheMargins) {
       const Image plain = draw_chart(seen, leaf_colours, averted_view(), chart_plot, chart_height_m, {});
       const Image written = draw_chart(seen, leaf_colours, averted_view(), chart_plot, chart_height_m, text);
       const auto [left, right, top, bottom] = changed_box(plain, written);
-      const double margin = 0.035 * height - 2.5;  // allows for bearings and rounding to whole pixels
+      const double halo = 2.0 * std::max(1.0, 0.07 * 0.030 * height);  // around the largest type
+      const double margin = 0.035 * height - halo - 2.5;               // allows for bearings and rounding to whole pixels
       EXPECT_GE(left, margin);
       EXPECT_LE(right, width - margin);
       EXPECT_GE(top, margin);

@@ -263,7 +263,7 @@ TEST(RankColour, IsToldApartWithoutColourVision) {
       return result;
     };
     for (int a = 0; a < 5; ++a) {
-      for (int b = 0; b < a; ++b) EXPECT_GE(difference(seen(a), seen(b)), 23.0) << a << " and " << b;
+      for (int b = unlit_rank; b < a; ++b) EXPECT_GE(difference(seen(a), seen(b)), 23.0) << a << " and " << b;
     }
   }
 }
@@ -280,6 +280,31 @@ TEST(Srgb, FollowsTheStandard) {
   // 1.055 x 0.5^(1/2.4) - 0.055 = 0.735357 and 12.92 x 0.002 = 0.02584, which are 187.5 and 6.6 of 255.
   EXPECT_EQ(to_srgb({0.5, 0.002, 1.0}), (std::array<std::uint8_t, 3>{188, 7, 255}));
   EXPECT_EQ(to_srgb({-1.0, 2.0, 0.0}), (std::array<std::uint8_t, 3>{0, 255, 0}));
+}
+
+TEST(Unlit, IsAClassOfItsOwn) {
+  const std::vector<double> values{0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
+  const RankScale scale = equal_count_ranks(values, ones(7), 1.0);
+  EXPECT_EQ(scale.bounds, (std::array<double, 6>{1.0, 2.0, 3.0, 4.0, 5.0, 5.0}));
+  EXPECT_EQ(rank_of(scale, 0.99), unlit_rank);
+  EXPECT_EQ(rank_of(scale, 1.0), 0);
+  const std::array<double, 6> shares = rank_shares(scale, values, ones(7));
+  for (int rank = 0; rank < 5; ++rank) EXPECT_NEAR(shares[rank], 1.0 / 7.0, 1e-12);
+  EXPECT_NEAR(shares[5], 2.0 / 7.0, 1e-12);
+  const RankScale dark = equal_count_ranks(values, ones(7), 10.0);
+  EXPECT_EQ(rank_of(dark, 5.0), unlit_rank);
+  EXPECT_EQ(rank_shares(dark, values, ones(7))[5], 1.0);
+}
+
+TEST(LogarithmicRanks, HaveBoundsInEqualRatios) {
+  const RankScale scale = logarithmic_ranks_to(100.0, std::vector<double>{1.0, 120.0});
+  for (int k = 2; k <= 5; ++k) EXPECT_NEAR(scale.bounds[k] / scale.bounds[k - 1], std::pow(10.0, 0.4), 1e-12);
+  EXPECT_EQ(scale.bounds.front(), 0.0);
+  EXPECT_EQ(scale.bounds.back(), 100.0);
+  EXPECT_TRUE(scale.open);
+  EXPECT_EQ(rank_of(scale, 2.0), 0);
+  EXPECT_EQ(rank_of(scale, 3.0), 1);
+  EXPECT_EQ(logarithmic_ranks(std::vector<double>{1.0, 50.0}, ones(2)).bounds.back(), 50.0);
 }
 
 TEST(GivenTop, EndsBothScalesThere) {

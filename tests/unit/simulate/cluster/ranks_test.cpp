@@ -80,7 +80,7 @@ class RanksTest : public ::testing::Test {
       service.set_stage = [this](std::uint64_t stage) { stages_ |= std::uint64_t{1} << stage; };
       service.make = [&](const ReplicateOrder& order, const StopQuestion& stop) {
         ++made_;
-        const Conversion conversion = maker.conversion(maker.incidence(order.beam_rays));
+        const Conversion conversion = maker.conversion(maker.incidence(order.beam_rays, order.aimed));
         return make(maker, order, conversion, stop);
       };
       service.interrupted = interrupted;

@@ -26,14 +26,14 @@ void expect_whole_only(const Bytes& good, const Unpack& unpack) {
 }
 
 TEST(Orders, ArriveAsTheyWereSent) {
-  const OrderMessage sent{{3, 17}, 5, {1e6 / 7.0, 142884, 4096.5, 1U << 22U, 0.003, ~0ULL, (1ULL << 40U) + 17}};
+  const OrderMessage sent{{3, 17}, 5, {1e6 / 7.0, true, 4096.5, 1U << 22U, 0.003, ~0ULL, (1ULL << 40U) + 17}};
   const Bytes bytes = pack(sent);
   const OrderMessage got = unpack<OrderMessage>(bytes);
   EXPECT_EQ(got.key.series, 3U);
   EXPECT_EQ(got.key.number, 17U);
   EXPECT_EQ(got.stage, 5U);
   EXPECT_EQ(got.order.beam_rays, sent.order.beam_rays);
-  EXPECT_EQ(got.order.grid_rays, sent.order.grid_rays);
+  EXPECT_EQ(got.order.aimed, sent.order.aimed);
   EXPECT_EQ(got.order.packets, sent.order.packets);
   EXPECT_EQ(got.order.sky_rays, sent.order.sky_rays);
   EXPECT_EQ(got.order.bound, sent.order.bound);
@@ -65,12 +65,10 @@ class Replicates : public ::testing::Test {
  protected:
   // Makes a replicate just as for the scene.
   [[nodiscard]] Replicate make(const ReplicateOrder& order) {
-    const Conversion conversion = maker_.conversion(maker_.incidence(order.beam_rays));
+    const Conversion conversion = maker_.conversion(maker_.incidence(order.beam_rays, order.aimed));
     return *maker_.make(order, conversion, [] { return false; });
   }
-  [[nodiscard]] ReplicateOrder order(double packets) const {
-    return {4000.0, maker_.incidence(4000.0).rays, packets, 500, 0.01, 1, 7};
-  }
+  [[nodiscard]] ReplicateOrder order(double packets) const { return {4000.0, true, packets, 500, 0.01, 1, 7}; }
 
   RadiationModel model_ = test::light_mix();
   test::Prepared prepared_{model_};

@@ -1,0 +1,132 @@
+// A small stand on a wide plot: light is aimed at it, so that its own figures are exact, and nothing else changes.
+#include "physics/transport/model/stand_aim.h"
+#include "support/comparison.h"
+#include "support/leaf_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace sunfleck::test {
+namespace {
+
+constexpr Plot own_plot{0.2, 0.2, false};
+constexpr Plot wide_plot{4.0, 3.0, false};
+
+// Returns leaves 0.1 m high, under sun and sky, in a corner of a plot that is as wide as they are or far wider.
+RadiationModel few_leaves(const Plot& plot, bool black_soil) {
+  RadiationModel model = paper_model(random_leaves(25, 6e-4, own_plot, 0.1, 4), plot, sun_at(45.0, 130.0));
+  if (black_soil) model.soil->reflectance = {0.0, 0.0};
+  model.sky = SkyModel{};
+  for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.4;
+  return model;
+}
+
+SolveSettings to_bounds(double bound, std::uint64_t seed) {
+  SolveSettings settings;
+  settings.accuracy.direct = bound;
+  settings.accuracy.indirect = bound;
+  settings.seed = seed;
+  return settings;
+}
+
+// Returns a flux per ground area in W of the whole plot.
+Estimate in_watts(const RadiationModel& model, const Estimate& per_ground) {
+  return per_ground.scaled(model.plot.area_m2());
+}
+
+TEST(AimedLight, IsForSmallStandsAloneOnTheirPlots) {
+  const auto aims = [](const RadiationModel& model) { return make_stand_aim(model, make_counter_layout(model)).has_value(); };
+  EXPECT_TRUE(aims(few_leaves(wide_plot, false)));
+  EXPECT_FALSE(aims(few_leaves(own_plot, false)));
+  EXPECT_FALSE(aims(few_leaves({4.0, 3.0, true}, false)));
+  RadiationModel mapped = few_leaves(wide_plot, false);
+  mapped.planes = {{0.05, 10, 10}};
+  EXPECT_FALSE(aims(mapped));
+  EXPECT_FALSE(aims(black_model({}, wide_plot, sun_at(45.0, 130.0))));
+}
+
+TEST(AimedLight, SpendsFewerPacketsFarFromTheStand) {
+  const RadiationModel model = few_leaves(wide_plot, false);
+  const StandAim aim = make_stand_aim(model, make_counter_layout(model)).value();
+  EXPECT_EQ(aim.packets_per_flux(aim.centre_m), 1.0);
+  double last = 1.0;
+  for (const double distance_m : {0.3, 0.6, 1.2, 4.0}) {
+    const double here = aim.packets_per_flux(aim.centre_m + glm::dvec3(distance_m, 0.0, 0.0));
+    EXPECT_LT(here, last);
+    EXPECT_NEAR(here, std::pow(aim.radius_m / distance_m, 1.5), 1e-12);
+    last = here;
+  }
+  EXPECT_EQ(aim.packets_per_flux({1e9, 0.0, 0.0}), 0x1p-10);
+}
+
+// Black soil sends nothing back, so that the leaves of an isolated stand get the same light on a plot of any size.
+TEST(AimedLight, OverBlackSoilIsThatOnAPlotOfTheStandsOwnSize) {
+  const RadiationModel wide = few_leaves(wide_plot, true), own = few_leaves(own_plot, true);
+  const RadiationResult aimed = simulate(wide, to_bounds(0.005, 1));
+  const RadiationResult even = simulate(own, to_bounds(0.005, 2));
+  const std::size_t replicates = std::min(aimed.direct.replicates, even.direct.replicates);
+  for (std::size_t b = 0; b < wide.bands.size(); ++b) {
+    const Estimate got = in_watts(wide, aimed.bands[b].absorbed_vegetation);
+    const Estimate expected = in_watts(own, even.bands[b].absorbed_vegetation);
+    expect_same(got, expected, replicates, 0.005 * expected.value, 29, "absorbed by leaves");
+    EXPECT_LE(got.half_width, 0.005 * got.value);
+    EXPECT_EQ(aimed.bands[b].ledger.residual(), 0);
+  }
+  for (std::size_t organ = 0; organ < aimed.organs.size(); ++organ) {
+    const OrganResult& got = aimed.organs[organ];
+    const OrganResult& expected = even.organs[organ];
+    expect_same(got.absorbed[0], expected.absorbed[0], replicates, 0.05 * expected.absorbed[0].value, 29, "absorbed by a leaf");
+  }
+}
+
+// The figures of evenly spread rays are exact for the soil and noisy for the leaves.
+TEST(AimedLight, OverReflectingSoilIsThatOfEvenlySpreadRays) {
+  const RadiationModel model = few_leaves(wide_plot, false);
+  const RadiationResult aimed = simulate(model, to_bounds(0.01, 1));
+  const RadiationResult even = simulate(model, fixed_scatter(model, {.rays = 4e6, .packets = 1e5, .bound = 1e-3}));
+  EXPECT_LT(aimed.direct.rays, even.direct.rays);
+  const std::size_t replicates = std::min(aimed.direct.replicates, even.direct.replicates);
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const BandResult& got = aimed.bands[b];
+    const BandResult& expected = even.bands[b];
+    EXPECT_LE(got.absorbed_vegetation.half_width, 0.01 * got.absorbed_vegetation.value);
+    const double all = got.incident;
+    EXPECT_NEAR(all / expected.incident, 1.0, 2e-3);
+    expect_same(got.absorbed_vegetation, expected.absorbed_vegetation, replicates, 0.05 * expected.absorbed_vegetation.value, 6,
+                "absorbed by leaves");
+    expect_same(got.absorbed_soil, expected.absorbed_soil, replicates, 0.005 * all, 6, "absorbed by soil");
+    expect_same(got.reflected, expected.reflected, replicates, 0.005 * all, 6, "reflected");
+    EXPECT_EQ(got.ledger.residual(), 0);
+  }
+  EXPECT_NEAR(soil_irradiance_w_m2(model, aimed, 0) / soil_irradiance_w_m2(model, even, 0), 1.0, 5e-3);
+}
+
+// Without its own bound the light of a few leaves in an endless plot would be judged against what falls on the plot.
+TEST(JudgedError, OfSparseLeavesIsTheirOwn) {
+  const RadiationModel model = paper_model(random_leaves(10, 1e-4, unit_plot, 0.1, 4), unit_plot, sun_at(45.0, 130.0));
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const RadiationResult result = simulate(model, to_bounds(0.05, seed));
+    ASSERT_EQ(result.stop, StopReason::bound_reached);
+    for (const BandResult& band : result.bands) {
+      EXPECT_GT(band.absorbed_vegetation.value, 0.0);
+      EXPECT_LE(band.absorbed_vegetation.half_width, 0.05 * band.absorbed_vegetation.value);
+    }
+  }
+}
+
+// A leaf below an opaque roof gets next to nothing, and the run still ends.
+TEST(JudgedError, OfAShadedLeafReachesItsBound) {
+  MeshMaker maker;
+  maker.organ("roof");
+  maker.level(-0.5, 1.5, -0.5, 1.5, 0.5);
+  maker.organ("leaf");
+  maker.level(0.4, 0.6, 0.4, 0.6, 0.2);
+  RadiationModel model = black_model(maker.mesh(), unit_stand, sun_at(90.0, 0.0));
+  const RadiationResult result = simulate(model, to_bounds(0.05, 1));
+  EXPECT_EQ(result.stop, StopReason::bound_reached);
+  EXPECT_EQ(result.bands[0].ledger.absorbed_vegetation, 0);
+}
+
+}  // namespace
+}  // namespace sunfleck::test
