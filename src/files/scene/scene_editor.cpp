@@ -1,30 +1,37 @@
 #include "files/scene/scene_editor.h"
 
-#include "base/error.h"
+#include "base/check.h"
 #include "files/scene/toml_parse.h"
 
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 namespace sunfleck {
 namespace {
 
-using NewName = std::function<std::optional<std::string>(const std::string&)>;
+using BandNames = std::vector<std::string>;
+using RenamedFile = std::function<std::optional<std::string>(const std::string&)>;
 
-void rename(toml::node& node, const NewName& new_name) {
-  if (toml::value<std::string>* text = node.as_string()) {
-    if (const auto name = new_name(text->get())) *text = *name;
-  } else if (toml::array* items = node.as_array()) {
-    for (toml::node& item : *items) rename(item, new_name);
-  } else if (toml::table* table = node.as_table()) {
-    for (auto&& [key, item] : *table) {
-      if (key.str() != "title" && key.str() != "name") rename(item, new_name);
+constexpr std::array<std::string_view, 4> keys_of_files = {"file", "positions", "spectrum", "light_spectrum"};
+
+void rename_files(toml::table& table, const RenamedFile& renamed) {
+  for (auto&& [key, item] : table) {
+    if (toml::table* below = item.as_table()) {
+      rename_files(*below, renamed);
+    } else if (toml::array* list = item.as_array()) {
+      for (toml::node& entry : *list) {
+        if (toml::table* in_list = entry.as_table()) rename_files(*in_list, renamed);
+      }
+    } else if (toml::value<std::string>* text = item.as_string()) {
+      if (std::find(keys_of_files.begin(), keys_of_files.end(), key.str()) == keys_of_files.end()) continue;
+      if (auto name = renamed(text->get())) *text = std::move(*name);
     }
   }
 }
@@ -33,129 +40,127 @@ void erase(toml::table& table, std::initializer_list<std::string_view> keys) {
   for (const std::string_view key : keys) table.erase(key);
 }
 
+// Returns the table of that name, which is added if it is missing.
 toml::table& table_in(toml::table& root, std::string_view key) {
   return *root.insert(key, toml::table()).first->second.as_table();
 }
 
-// Returns nothing for a sky of listed directions.
-std::optional<toml::table> sky_table(const SkyModel& sky) {
+toml::table sun_table(const SunByAngles& sun) {
+  return toml::table{{"elevation", sun.elevation_deg}, {"azimuth", sun.azimuth_deg}};
+}
+
+toml::table sun_table(const SunByClock& sun) {
+  const UtcTime& local = sun.local_time;
+  const toml::date date(local.year, local.month, local.day);
+  const toml::time time(local.hour, local.minute, static_cast<int>(std::lround(local.second)));
+  toml::time_offset offset;
+  offset.minutes = static_cast<std::int16_t>(sun.offset_minutes);
+  return toml::table{
+      {"time", toml::date_time(date, time, offset)}, {"latitude", sun.latitude_deg}, {"longitude", sun.longitude_deg}};
+}
+
+toml::table sky_table(const SkyModel& sky) {
+  EXPECT(sky.kind == SkyKind::lights, ==, false);
   switch (sky.kind) {
     case SkyKind::uniform:
-      return toml::table{{"model", "uniform"}};
+    case SkyKind::lights:
+      break;
     case SkyKind::overcast:
       return toml::table{{"model", "cie-overcast"}};
     case SkyKind::general:
       return toml::table{{"model", "cie"}, {"type", sky.cie_type}};
     case SkyKind::all_weather:
       return toml::table{{"model", "perez"}, {"dni", sky.dni_w_m2}, {"dhi", sky.dhi_w_m2}};
-    case SkyKind::lights:
-      break;
   }
-  return std::nullopt;
+  return toml::table{{"model", "uniform"}};
 }
 
-// Writes out the bands that a scene gives by number or width.
-void list_bands(toml::table& root, const RadiationModel& model) {
-  if (!root.contains("bands")) return;
+// Writes, removes or keeps one table of the scene.
+struct PutTable {
+  toml::table& root;
+  std::string_view key;
+
+  void operator()(Unchanged /*table*/) const {}
+  void operator()(Absent /*table*/) const { root.erase(key); }
+  void operator()(const SunByAngles& sun) const { root.insert_or_assign(key, sun_table(sun)); }
+  void operator()(const SunByClock& sun) const { root.insert_or_assign(key, sun_table(sun)); }
+  void operator()(const SkyModel& sky) const { root.insert_or_assign(key, sky_table(sky)); }
+};
+
+// Replaces bands of equal width by a list of them.
+void list_bands(toml::table& root, const std::vector<Waveband>& bands) {
   root.erase("bands");
-  toml::array all;
-  for (const Waveband& band : model.bands) {
-    all.push_back(toml::table{{"name", band.name}, {"range_nm", toml::array{band.from_nm, band.to_nm}}});
+  toml::array list;
+  for (const Waveband& band : bands) {
+    list.push_back(toml::table{{"name", band.name}, {"range_nm", toml::array{band.from_nm, band.to_nm}}});
   }
-  root.insert_or_assign("band", std::move(all));
+  root.insert_or_assign("band", std::move(list));
 }
 
-toml::table by_band(const RadiationModel& model, const std::vector<double>& values) {
-  toml::table table;
-  for (std::size_t b = 0; b < model.bands.size(); ++b) table.insert_or_assign(model.bands[b].name, values[b]);
-  return table;
-}
-
-toml::table face_table(const RadiationModel& model, const std::vector<FaceOptics>& face) {
-  std::vector<double> reflectance, transmittance;
-  for (const FaceOptics& optics : face) {
-    reflectance.push_back(optics.reflectance);
-    transmittance.push_back(optics.transmittance);
-  }
-  return toml::table{{"reflectance", by_band(model, reflectance)}, {"transmittance", by_band(model, transmittance)}};
-}
-
-}  // namespace
-
-SceneEditor::SceneEditor(const Scene& scene)
-    : root_(std::make_shared<toml::table>(*parse_toml(printable(scene.file.string()), scene.text))) {}
-
-void SceneEditor::rename_files(const NewName& new_name) {
-  rename(*root_, new_name);
-}
-
-void SceneEditor::set_title(const std::string& title) {
-  root_->insert_or_assign("title", title);
-}
-
-void SceneEditor::set_accuracy(const Accuracy& accuracy) {
-  toml::table& table = table_in(*root_, "accuracy");
-  table.insert_or_assign("direct", accuracy.direct);
-  table.insert_or_assign("indirect", accuracy.indirect);
-}
-
-void SceneEditor::set_sun_moment(const SunTime& moment) {
-  constexpr double seconds_per_minute = 60.0;
-  const UtcTime local = plus_seconds(moment.time, seconds_per_minute * moment.offset_minutes);
-  const toml::date date(local.year, local.month, local.day);
-  const toml::time time(local.hour, local.minute, static_cast<int>(std::lround(local.second)));
-  toml::time_offset offset;
-  offset.minutes = static_cast<std::int16_t>(moment.offset_minutes);
-  root_->insert_or_assign("sun", toml::table{{"time", toml::date_time(date, time, offset)},
-                                             {"latitude", moment.latitude_deg},
-                                             {"longitude", moment.longitude_deg}});
-}
-
-void SceneEditor::set_sun_angles_deg(double elevation, double azimuth) {
-  root_->insert_or_assign("sun", toml::table{{"elevation", elevation}, {"azimuth", azimuth}});
-}
-
-void SceneEditor::remove_sun() {
-  root_->erase("sun");
-}
-
-void SceneEditor::set_light(const RadiationModel& model) {
-  root_->erase("weather");
-  list_bands(*root_, model);
-  toml::array& bands = *(*root_)["band"].as_array();
-  for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    toml::table& table = *bands[b].as_table();
-    const Waveband& band = model.bands[b];
+void put_irradiances(toml::table& root, const std::vector<Waveband>& bands) {
+  root.erase("weather");
+  if (root.contains("bands")) list_bands(root, bands);
+  toml::array& list = *root["band"].as_array();
+  EXPECT(list.size(), ==, bands.size());
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    toml::table& table = *list[b].as_table();
+    const Waveband& band = bands[b];
     erase(table, {"direct", "direct_normal", "diffuse", "share", "unit"});
     table.insert_or_assign("direct", band.direct_w_m2);
     table.insert_or_assign("diffuse", band.diffuse_w_m2);
     if (band.umol_per_joule > 0.0) table.insert_or_assign("umol_per_joule", band.umol_per_joule);
   }
-  if (!model.sky) {
-    root_->erase("sky");
-  } else if (auto sky = sky_table(*model.sky)) {
-    root_->insert_or_assign("sky", std::move(*sky));
-  }
 }
 
-void SceneEditor::set_optics(const RadiationModel& model, std::size_t optics) {
-  const SurfaceOptics& surface = model.optics[optics];
-  toml::table& table = table_in(table_in(*root_, "optics"), surface.name);
-  erase(table, {"reflectance", "transmittance", "spectrum", "upper", "lower"});
-  table.insert_or_assign("upper", face_table(model, surface.upper));
-  table.insert_or_assign("lower", face_table(model, surface.lower));
+template <class ValueOf>
+toml::table by_band(const BandNames& names, const ValueOf& value_of) {
+  toml::table table;
+  for (std::size_t b = 0; b < names.size(); ++b) table.insert_or_assign(names[b], value_of(b));
+  return table;
 }
 
-void SceneEditor::set_soil(const RadiationModel& model) {
-  toml::table& soil = table_in(*root_, "soil");
-  erase(soil, {"reflectance", "spectrum"});
-  soil.insert_or_assign("reflectance", by_band(model, model.soil->reflectance));
+toml::table face_table(const BandNames& names, const std::vector<FaceOptics>& face) {
+  EXPECT(face.size(), ==, names.size());
+  return toml::table{{"reflectance", by_band(names, [&](std::size_t b) { return face[b].reflectance; })},
+                     {"transmittance", by_band(names, [&](std::size_t b) { return face[b].transmittance; })}};
 }
 
-std::string SceneEditor::text() const {
-  std::ostringstream text;
-  text << *root_;
-  return text.str();
+void put_optics(toml::table& root, const BandNames& names, const SurfaceOptics& optics) {
+  toml::table& table = table_in(table_in(root, "optics"), optics.name);
+  erase(table, {"reflectance", "transmittance", "spectrum"});
+  table.insert_or_assign("upper", face_table(names, optics.upper));
+  table.insert_or_assign("lower", face_table(names, optics.lower));
+}
+
+void put_soil(toml::table& root, const BandNames& names, const std::vector<double>& reflectance) {
+  EXPECT(reflectance.size(), ==, names.size());
+  toml::table& soil = table_in(root, "soil");
+  soil.erase("spectrum");
+  soil.insert_or_assign("reflectance", by_band(names, [&](std::size_t b) { return reflectance[b]; }));
+}
+
+void put_accuracy(toml::table& root, const Accuracy& accuracy) {
+  toml::table& table = table_in(root, "accuracy");
+  table.insert_or_assign("direct", accuracy.direct);
+  table.insert_or_assign("indirect", accuracy.indirect);
+}
+
+}  // namespace
+
+std::string edited_scene_text(const std::string& file, std::string_view text, const std::vector<std::string>& band_names,
+                              const SceneEdits& edits) {
+  toml::table root = *parse_toml(file, text);
+  if (edits.renamed_file) rename_files(root, edits.renamed_file);
+  if (edits.title) root.insert_or_assign("title", *edits.title);
+  std::visit(PutTable{root, "sun"}, edits.sun);
+  std::visit(PutTable{root, "sky"}, edits.sky);
+  if (!edits.irradiances.empty()) put_irradiances(root, edits.irradiances);
+  for (const SurfaceOptics& optics : edits.optics) put_optics(root, band_names, optics);
+  if (!edits.soil_reflectance.empty()) put_soil(root, band_names, edits.soil_reflectance);
+  if (edits.accuracy) put_accuracy(root, *edits.accuracy);
+  std::ostringstream written;
+  written << root << '\n';
+  return written.str();
 }
 
 }  // namespace sunfleck

@@ -1,57 +1,51 @@
 #pragma once
-// Changes the text of a scene file: what a user of a window can change, so that the scene can be saved as shown.
+// Writes a scene again with another title, light, optics or bounds. It knows the keys of a scene file, as scene_reader does.
 
-#include "files/scene/scene_reader.h"
+#include "physics/canopy/optics.h"
+#include "physics/light/sky_model.h"
+#include "physics/light/sun.h"
 #include "physics/transport/model/accuracy.h"
-#include "physics/transport/model/model.h"
 
-#include <toml++/impl/forward_declarations.h>
-
-#include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace sunfleck {
 
-// As the scene file has it: whole seconds and degrees.
-struct SunTime {
-  UtcTime time;
+// A table of the scene that stays as the text has it.
+struct Unchanged {};
+// A table that the scene shall not have.
+struct Absent {};
+
+struct SunByAngles {
+  double elevation_deg = 0.0, azimuth_deg = 0.0;  // -90..90, -360..360
+};
+struct SunByClock {
+  UtcTime local_time;      // as the clocks of the place show it, to the second
   int offset_minutes = 0;  // local time minus UTC
   double latitude_deg = 0.0, longitude_deg = 0.0;
 };
 
-// Holds the keys and values of a scene's text; comments are lost. The scene must have been read from that text.
-class SceneEditor {
- public:
-  explicit SceneEditor(const Scene& scene);
-
-  // Calls `new_name` with every text but titles and names of parts, and replaces it by what it returns, if anything.
-  void rename_files(const std::function<std::optional<std::string>(const std::string&)>& new_name);
-
-  void set_title(const std::string& title);
-  void set_accuracy(const Accuracy& accuracy);
-
-  // Set the sun by time and place or by its angles, or take it away.
-  void set_sun_moment(const SunTime& moment);
-  void set_sun_angles_deg(double elevation, double azimuth);
-  void remove_sun();
-
-  // Gives all bands and the sky the model's light in W m-2, in place of the weather and of other units. A sky of listed directions, which
-  // only a file can hold, stays as it was.
-  void set_light(const RadiationModel& model);
-
-  // Give a surface or the soil the model's reflectance and transmittance, by band, in place of spectra. `soil` exists in the model.
-  void set_optics(const RadiationModel& model, std::size_t optics);
-  void set_soil(const RadiationModel& model);
-
-  // Returns the text, without a line break at its end.
-  [[nodiscard]] std::string text() const;
-
- private:
-  std::shared_ptr<toml::table> root_;
+// What is to differ from a scene. Members left as they are here change nothing.
+struct SceneEdits {
+  std::optional<std::string> title;
+  std::variant<Unchanged, Absent, SunByAngles, SunByClock> sun;
+  std::variant<Unchanged, Absent, SkyModel> sky;  // of any kind but `lights`, which only a file holds
+  // All bands, in the scene's order, with irradiances that then replace its weather and whatever else it says of their light.
+  std::vector<Waveband> irradiances;
+  std::vector<SurfaceOptics> optics;     // surfaces whose coefficients change; rgb, role and emission stay
+  std::vector<double> soil_reflectance;  // [band]
+  std::optional<Accuracy> accuracy;      // its `direct` and `indirect`
+  // Returns the new name of a file that the scene names, or nothing where it keeps its name.
+  std::function<std::optional<std::string>(const std::string&)> renamed_file;
 };
+
+// Returns the text of a scene with these edits; its comments are lost. `band_names` are the names of the scene's bands, in its
+// order. Messages refer to the text as `file`, a printable name. Throws Error (input) for a text that is not valid TOML.
+[[nodiscard]] std::string edited_scene_text(const std::string& file, std::string_view text,
+                                            const std::vector<std::string>& band_names, const SceneEdits& edits);
 
 }  // namespace sunfleck

@@ -2,7 +2,6 @@
 
 #include "base/check.h"
 #include "physics/canopy/axes.h"
-#include "pictures/drawing/north_arrow.h"
 #include "pictures/drawing/overlay.h"
 #include "pictures/drawing/palette.h"
 #include "pictures/drawing/scene_lines.h"
@@ -127,13 +126,6 @@ void draw_horizon(Image& image, const Typeface& face, const Camera& camera, cons
   }
 }
 
-// Returns the lower right corner, above the footer.
-NorthArrowPlace north_arrow_place(const ChartFrame& frame, const Layout& layout) {
-  const double radius_px = 0.055 * frame.height;
-  const double footer_top = frame.height - layout.margin - 2.0 * layout.footer;
-  return {{frame.width - layout.margin - radius_px, footer_top - radius_px}, radius_px};
-}
-
 // Draws a line of text at `size_px`, or smaller so that it is no wider than `room_px`.
 void draw_fitting(Image& image, const Typeface& face, std::string_view line, glm::dvec2 baseline_px, double size_px,
                   double room_px, const std::array<std::uint8_t, 3>& colour) {
@@ -152,6 +144,13 @@ void draw_titles(Image& image, const Typeface& face, const ChartText& text, cons
 }
 
 }  // namespace
+
+NorthArrowPlace north_arrow_place(double width_px, double height_px) {
+  const Layout layout(height_px);
+  const double radius_px = 0.055 * height_px;
+  const double footer_top = height_px - layout.margin - 2.0 * layout.footer;
+  return {{width_px - layout.margin - radius_px, footer_top - radius_px}, radius_px};
+}
 
 ChartCanvas::ChartCanvas(const ChartFrame& frame, std::vector<Colour> colours)
     : frame_(frame), colours_(std::move(colours)), image_{frame.width, frame.height, {}} {
@@ -186,7 +185,7 @@ Image ChartCanvas::finish(const ChartText& text) {
   } else {
     draw_axis_letters(image_, face, frame_, layout);
     const glm::dvec3 middle_m(0.5 * frame_.plot.size_x_m, 0.0, 0.5 * frame_.plot.size_z_m);
-    draw_north_arrow(image_, face, frame_.camera, middle_m, north_arrow_place(frame_, layout));
+    draw_north_arrow(image_, face, frame_.camera, middle_m, north_arrow_place(frame_.width, frame_.height));
   }
   draw_titles(image_, face, text, layout);
   const double top_px = 0.135 * frame_.height;

@@ -6,6 +6,7 @@
 #include "pictures/drawing/colour_scale.h"
 #include "pictures/drawing/image.h"
 #include "pictures/drawing/legend.h"
+#include "pictures/drawing/north_arrow.h"
 #include "pictures/drawing/surface_image.h"
 
 #include <optional>
@@ -33,6 +34,9 @@ struct ChartFrame {
   Plot plot;
   double height_m = 0.0;  // of the canopy, for the length of the axes
 };
+
+// Returns where a chart of that size has its north arrow: in the lower right corner, above the footer.
+[[nodiscard]] NorthArrowPlace north_arrow_place(double width_px, double height_px);
 
 // A chart that is painted in bands of rows; the division into bands does not affect any pixel.
 //

@@ -1,5 +1,6 @@
 #pragma once
-// The compass over a window's picture: the points of the compass as the camera sees them, and the sun.
+// The compass over a window's picture: the points of the compass as the camera sees them, and the sun. It takes the place of the
+// picture's north arrow.
 
 #include "physics/light/sun.h"
 #include "pictures/drawing/camera.h"
@@ -16,9 +17,10 @@ namespace sunfleck {
 // Where the compass lies in the window, px.
 struct CompassPlace {
   glm::vec2 centre_px{0.0F};
-  float radius_px = 0.0F;
+  float radius_px = 0.0F;  // of the horizon
+  float reach_px = 0.0F;   // of the disc, which holds the letters too
 };
-// Returns a place at the right edge of a picture that begins at `left_px`, between its legend and its north arrow.
+// Returns the place over the north arrow of a picture that begins at `left_px`, which the disc covers.
 [[nodiscard]] CompassPlace compass_place(float left_px, float width_px, float height_px);
 
 // Draws it with Dear ImGui within a frame, below the panels. The sun is shown while it is above the horizon.

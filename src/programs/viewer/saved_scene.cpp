@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <optional>
 #include <system_error>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -41,45 +42,57 @@ std::optional<std::string> saved_name(const Scene& scene, const std::string& nam
   return inside.empty() ? meant.generic_string() : (fs::path(saved_scene_files) / inside).generic_string();
 }
 
-void put_light(SceneEditor& editor, const SceneToSave& scene) {
-  const LightRequest own = request_of(scene.original);
-  const SunRequest& sun = scene.request.sun;
-  const bool other_sun = !same_sun(own.sun, sun);
-  const bool other_sky = !same_sky(own.sky, scene.request.sky);
-  if (!other_sun && !other_sky && !scene.request.own_irradiance) return;
-  if (!scene.granted.model.sun) {
-    editor.remove_sun();
-  } else if (other_sun && sun.by_clock) {
-    editor.set_sun_moment({time_of(sun), sun.offset_minutes, sun.latitude_deg, sun.longitude_deg});
-  } else if (other_sun) {
-    editor.set_sun_angles_deg(sun.elevation_deg, sun.azimuth_deg);
-  }
-  // Where only the sun has moved, the scene's own keys say what the light is, unless weather needs the time.
-  const bool by_keys =
-      !other_sky && !scene.request.own_irradiance && sun.shines && (sun.by_clock || !scene.original.light.weather);
-  if (!by_keys) editor.set_light(scene.granted.model);
+SunByClock clock_of(const SunRequest& sun) {
+  SunRequest without_offset = sun;
+  without_offset.offset_minutes = 0;
+  return {time_of(without_offset), sun.offset_minutes, sun.latitude_deg, sun.longitude_deg};
 }
 
-void put_optics(SceneEditor& editor, const SceneToSave& scene) {
-  const LightRequest own = request_of(scene.original);
-  for (std::size_t i = 0; i < own.optics.size(); ++i) {
-    if (own.optics[i] != scene.request.optics[i]) editor.set_optics(scene.granted.model, i);
+void edit_light(const SceneToSave& scene, const LightRequest& own, SceneEdits& edits) {
+  const RadiationModel& model = scene.granted.model;
+  const SunRequest& sun = scene.request.sun;
+  const bool other_sun = !same_sun(own.sun, sun);
+  const bool other_light = !same_sky(own.sky, scene.request.sky) || scene.request.own_irradiance;
+  if (!other_sun && !other_light) return;
+  if (!model.sun) {
+    edits.sun = Absent();
+  } else if (other_sun && sun.by_clock) {
+    edits.sun = clock_of(sun);
+  } else if (other_sun) {
+    edits.sun = SunByAngles{sun.elevation_deg, sun.azimuth_deg};
   }
-  if (own.soil_reflectance != scene.request.soil_reflectance) editor.set_soil(scene.granted.model);
+  // Where only the sun has moved, the scene's own keys say what the light is, unless weather needs the time.
+  if (!other_light && sun.shines && (sun.by_clock || !scene.original.light.weather)) return;
+  edits.irradiances = model.bands;
+  if (!model.sky) {
+    edits.sky = Absent();
+  } else if (model.sky->kind != SkyKind::lights) {
+    edits.sky = *model.sky;
+  }
+}
+
+void edit_optics(const SceneToSave& scene, const LightRequest& own, SceneEdits& edits) {
+  for (std::size_t i = 0; i < own.optics.size(); ++i) {
+    if (own.optics[i] != scene.request.optics[i]) edits.optics.push_back(scene.granted.model.optics[i]);
+  }
+  if (own.soil_reflectance != scene.request.soil_reflectance) edits.soil_reflectance = scene.request.soil_reflectance;
 }
 
 }  // namespace
 
 std::string saved_scene_text(const SceneToSave& scene) {
-  SceneEditor editor(scene.original);
-  editor.rename_files([&](const std::string& name) { return saved_name(scene.original, name); });
-  editor.set_title(scene.granted.title);
-  put_light(editor, scene);
-  put_optics(editor, scene);
-  editor.set_accuracy(scene.accuracy);
+  const LightRequest own = request_of(scene.original);
+  SceneEdits edits;
+  edits.title = scene.granted.title;
+  edits.accuracy = scene.accuracy;
+  edits.renamed_file = [&](const std::string& name) { return saved_name(scene.original, name); };
+  edit_light(scene, own, edits);
+  edit_optics(scene, own, edits);
+  std::vector<std::string> band_names;
+  for (const Waveband& band : scene.original.model.bands) band_names.push_back(band.name);
   std::string text = "# The scene of this result, as `sunfleck view` showed it.\n";
   if (scene.seed != 1) text += fmt::format("# Run it with --seed {}.\n", scene.seed);
-  return text + editor.text() + '\n';
+  return text + edited_scene_text(printable(scene.original.file.string()), scene.original.text, band_names, edits);
 }
 
 void save_scene(const SceneToSave& scene, const fs::path& folder) {

@@ -54,8 +54,8 @@ std::optional<Work> WorkPlanner::choose(const RunPilots& run_pilots) {
   return work;
 }
 
-// Returns the work of a replicate such that the planned number of replicates reaches the bounds: pilots of the direct pass alone
-// determine the rays, then pilots with half those rays determine the packets. Returns nothing if stopped.
+// Returns the work of a replicate such that the planned number of replicates reaches the bounds: pilots, as a rule of the
+// direct pass alone, determine the rays, then pilots with half those rays determine the packets. Returns nothing if stopped.
 std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
   double most = static_cast<double>(max_grid_rays);
   if (settings_.max_rays) most = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * pilot_replicates));
@@ -63,7 +63,8 @@ std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
   if (settings_.grid_m) {
     work.rays = grid_rays_asked();
   } else if (model_.has_beam()) {
-    const Work pilot{std::min(first_pilot.rays, most), 0.0};
+    const bool all_light = settings_.pilots_of_all_light && maker_.has_indirect_pass();
+    const Work pilot{std::min(first_pilot.rays, most), all_light ? std::min(first_pilot.packets, most) : 0.0};
     const auto rays = grow_pilots(run_pilots, pilot, &Work::rays, &WorkPlanner::ray_growth, [&] { return most; });
     if (!rays) return std::nullopt;
     work.rays = rays->chosen;

@@ -188,6 +188,32 @@ TEST(Monitor, IsHandedWhatIsKnownAfterEachReplicate) {
   expect_same(seen.back(), end);
 }
 
+// Sky light is as old as the beam's: no picture shows one without the other.
+TEST(Monitor, IsHandedSkyLightFromTheFirstReplicateOn) {
+  const TempFolder folder;
+  const test::LiveScene live(test::write_live_scene(folder));
+  CpuTracer tracer(live.simulation.tracing().tree.bvh, {true, true});
+  std::optional<RadiationResult> first;
+  Monitor monitor;
+  monitor.wants_result = [&] { return !first; };
+  monitor.receive_result = [&](RadiationResult result) { first = std::move(result); };
+  SolveSettings settings = solve_settings(live.options, live.scene);
+  settings.pilots_of_all_light = true;
+  const RadiationResult end = solve(live.scene.model, live.simulation.layout(), tracer, settings, monitor);
+  expect_same(end, run_of(live, live.scene.model));
+  ASSERT_TRUE(first);
+  const auto sky_w = [&](const RadiationResult& result) {
+    double sum_w = 0.0;
+    for (std::size_t e = 0; e < live.scene.model.canopy.size(); ++e) {
+      const double area = area_m2(live.scene.model.canopy.corners[e]);
+      for (const std::size_t side : {2 * e, 2 * e + 1}) sum_w += area * result.side_sky_w_m2(side, area, 0);
+    }
+    return sum_w;
+  };
+  EXPECT_GT(sky_w(end), 0.0);
+  EXPECT_NEAR(sky_w(*first), sky_w(end), 0.3 * sky_w(end));
+}
+
 TEST(LightRequest, OfTheSceneChangesNothing) {
   const TempFolder folder;
   const Scene scene = read_scene(test::write_live_scene(folder));
