@@ -181,7 +181,10 @@ void draw_sky(ViewerState& state) {
 // Says what light comes in, always on three lines.
 void draw_incoming(const ViewerState& state) {
   const LightNews& news = state.news;
-  if (state.band() >= news.incoming.size()) return text("\n\n");
+  if (state.band() >= news.incoming.size()) {
+    for (int line = 0; line < 3; ++line) text(" ");
+    return;
+  }
   const Waveband& shown = news.incoming[state.band()];
   text(fmt::format("{}: beam {:.4g}, sky {:.4g} W m⁻²", shown.name, shown.direct_w_m2, shown.diffuse_w_m2));
   const bool sky = state.light.sky.kind != SkyRequestKind::none;
