@@ -27,11 +27,11 @@ RadiationResult result_of(const LiveLight& light) {
   return copy;
 }
 
-// Returns what `run` would compute for the model as it is, with the light of triangles.
-RadiationResult run_of(const test::LiveScene& live, const RadiationModel& model) {
+// Returns what `run` would compute for the model as it is, by default with the light of triangles.
+RadiationResult run_of(const test::LiveScene& live, const RadiationModel& model, ElementErrors errors = ElementErrors::refine) {
   CpuTracer tracer(live.simulation.tracing().tree.bvh, {model.plot.periodic, model.soil.has_value()});
   SolveSettings settings = solve_settings(live.options, live.scene);
-  settings.element_errors = ElementErrors::refine;
+  settings.element_errors = errors;
   return solve(model, live.simulation.layout(), tracer, settings, {});
 }
 
@@ -177,7 +177,7 @@ TEST(Monitor, IsHandedWhatIsKnownAfterEachReplicate) {
   monitor.wants_result = [] { return true; };
   monitor.receive_result = [&](RadiationResult result) { seen.push_back(std::move(result)); };
   const RadiationResult end = solve(live.scene.model, live.simulation.layout(), tracer, settings, monitor);
-  expect_same(end, run_of(live, live.scene.model));
+  expect_same(end, run_of(live, live.scene.model, settings.element_errors));
   ASSERT_GE(seen.size(), 8U + end.direct.replicates);
   for (const RadiationResult& result : seen) {
     EXPECT_EQ(result.stop, StopReason::interrupted);
@@ -200,7 +200,7 @@ TEST(Monitor, IsHandedSkyLightFromTheFirstReplicateOn) {
   SolveSettings settings = solve_settings(live.options, live.scene);
   settings.pilots_of_all_light = true;
   const RadiationResult end = solve(live.scene.model, live.simulation.layout(), tracer, settings, monitor);
-  expect_same(end, run_of(live, live.scene.model));
+  expect_same(end, run_of(live, live.scene.model, settings.element_errors));
   ASSERT_TRUE(first);
   const auto sky_w = [&](const RadiationResult& result) {
     double sum_w = 0.0;
