@@ -63,6 +63,28 @@ TEST(ShadeClasses, OfALeafInHalfShade) {
   }
 }
 
+// One leaf with a level half and a half inclined by 60 degrees, which absorbs half as much per area.
+TEST(ShadeClasses, KnowHowUnequalTheSunlitAreaIs) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.polygon({0.25, 0.5, 0.25}, inclined(0.0, 0.0), 0.03, 4, 0.0);
+  maker.polygon({0.75, 0.5, 0.75}, inclined(radians(60.0), 0.0), 0.03, 4, 0.0);
+  maker.organ("leaf", 1, 2);
+  maker.polygon({0.75, 0.5, 0.25}, inclined(radians(60.0), 1.0), 0.02, 4, 0.0);
+  const RadiationModel model = black_model(maker.mesh(), unit_plot, sun_at(90.0, 180.0));
+  const RadiationResult result = simulate(model, fixed_work(model, 2e5));
+  const double full_sun_w_m2 = model.bands[0].direct_w_m2;
+  const Estimate mixed = result.organs[0].classes.sunlit_sd[0];
+  EXPECT_NEAR(mixed.value, 0.25 * full_sun_w_m2, 2.0 * mixed.half_width);
+  EXPECT_LT(mixed.half_width, 0.01 * full_sun_w_m2);
+  EXPECT_GT(mixed.half_width, 0.0);
+  EXPECT_NEAR(result.organs[1].classes.sunlit_sd[0].value, 0.0, 1e-3 * full_sun_w_m2);
+  // Area of 0.03 m2 in full light, and of 0.05 m2 in half of it.
+  const double share = 0.03 / 0.08;
+  const double expected_w_m2 = 0.5 * full_sun_w_m2 * std::sqrt(share * (1.0 - share));
+  EXPECT_NEAR(result.leaf_classes.sunlit_sd[0].value, expected_w_m2, 2.0 * result.leaf_classes.sunlit_sd[0].half_width);
+}
+
 TEST(ShadeClasses, WithoutABeamAllIsShaded) {
   RadiationModel model = light_mix();
   model.sun.reset();
@@ -82,7 +104,7 @@ TEST(ShadeClasses, HaveHonestErrors) {
   };
   const ShadeClassResult truth = run(8e6, 2e5, 1000);
   constexpr int seeds = 100;
-  int sunlit = 0, shaded = 0;
+  int sunlit = 0, shaded = 0, spread = 0;
   const auto covers = [](const Estimate& got, const Estimate& right) {
     return std::abs(got.value - right.value) <= std::hypot(got.half_width, right.half_width) ? 1 : 0;
   };
@@ -90,10 +112,12 @@ TEST(ShadeClasses, HaveHonestErrors) {
     const ShadeClassResult got = run(1e5, 2000, seed);
     sunlit += covers(got.absorbed_sunlit[1], truth.absorbed_sunlit[1]);
     shaded += covers(got.absorbed_shaded[1], truth.absorbed_shaded[1]);
+    spread += covers(got.sunlit_sd[1], truth.sunlit_sd[1]);
   }
   // A binomial count with probability 0.95 falls below 87 of 100 once in a thousand times.
   EXPECT_GE(sunlit, 87);
   EXPECT_GE(shaded, 87);
+  EXPECT_GE(spread, 87);
 }
 
 TEST(RatioMean, ErrorsThatRiseAndFallTogetherCancel) {
@@ -108,6 +132,21 @@ TEST(RatioMean, ErrorsThatRiseAndFallTogetherCancel) {
   EXPECT_LT(together.estimate(2.0, 0.0).half_width, 1e-6);
   EXPECT_GT(apart.estimate(2.0, 0.0).half_width, 0.1);
   EXPECT_TRUE(std::isnan(RatioMean().estimate(2.0, 0.0).value));
+}
+
+TEST(SpreadMean, IsTheDeviationOfADensityOverAnArea) {
+  SpreadMean equal, halves;
+  RandomStream random(5, 6);
+  for (int k = 0; k < 50; ++k) {
+    const double area = 1.0 + 0.1 * random.unit();
+    equal.add(area, 3.0 * area, 9.0 * area);
+    halves.add(area, 2.0 * area, 5.0 * area);  // half of it with 1, half with 3
+  }
+  EXPECT_NEAR(equal.estimate(2.0).value, 0.0, 1e-6);
+  EXPECT_LT(equal.estimate(2.0).half_width, 1e-4) << "the root of a rounding error";
+  EXPECT_NEAR(halves.estimate(2.0).value, 1.0, 1e-12);
+  EXPECT_LT(halves.estimate(2.0).half_width, 1e-6);
+  EXPECT_TRUE(std::isnan(SpreadMean().estimate(2.0).value));
 }
 
 }  // namespace

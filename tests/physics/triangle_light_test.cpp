@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <vector>
 
@@ -137,6 +139,68 @@ TEST_P(TriangleLight, ServesALightCurve) {
   }
   // Light counted triangle by triangle is biased by its noise.
   EXPECT_LT(photosynthesis(leaves(to_five_percent, 1, ElementErrors::skip)) / truth, 0.85);
+}
+
+// Light is all or nothing at a point, so that half of a half-lit triangle does photosynthesis in full light. The sum is linear in the
+// share of each triangle that is lit, and noise in it adds no bias.
+double photosynthesis_at_points(const RadiationModel& model, const RadiationResult& result) {
+  const Surfaces surfaces(model);
+  const glm::dvec3 to_sun = direction_to_sun(*model.sun);
+  double sum = 0.0;
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+    if (surfaces.at(e).role != Role::leaf) continue;
+    const double area = area_m2(model.canopy.corners[e]);
+    const double cosine = glm::dot(unit_normal(model.canopy.corners[e]), to_sun);
+    const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
+    const double beam_w_m2 = model.bands[0].direct_w_m2 * std::abs(cosine) / to_sun.y;
+    const double in_sun_w_m2 = beam_w_m2 * (cosine > 0.0 ? optics.upper : optics.lower)[0].absorptance();
+    double lit_w_m2 = 0.0, other_w_m2 = 0.0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      lit_w_m2 += result.side_direct_w_m2(2 * e + side, area, model.bands[0].direct_w_m2);
+      other_w_m2 +=
+          result.side_indirect_w_m2(2 * e + side, area, 0) * (side == 0 ? optics.upper : optics.lower)[0].absorptance();
+    }
+    const double lit = beam_w_m2 > 0.0 ? lit_w_m2 / beam_w_m2 : 0.0;
+    const double all_w_m2 = in_sun_w_m2 + other_w_m2;
+    sum += area * (lit * all_w_m2 / (all_w_m2 + 150.0) + (1.0 - lit) * other_w_m2 / (other_w_m2 + 150.0));
+  }
+  return sum;
+}
+
+// The guide's rule: Gauss and Legendre's three points for light that is spread evenly about the mean of the sunlit area.
+double photosynthesis_of(const ShadeClassResult& classes) {
+  const auto rate = [](double absorbed_w_m2) { return absorbed_w_m2 / (absorbed_w_m2 + 150.0); };
+  double sum = 0.0;
+  if (!std::isnan(classes.absorbed_sunlit[0].value)) {
+    const double mean = classes.absorbed_sunlit[0].value;
+    const double away = std::sqrt(1.8) * classes.sunlit_sd[0].value;
+    sum +=
+        classes.sunlit_m2.value * (5.0 * rate(std::max(0.0, mean - away)) + 8.0 * rate(mean) + 5.0 * rate(mean + away)) / 18.0;
+  }
+  if (!std::isnan(classes.absorbed_shaded[0].value)) sum += classes.shaded_m2.value * rate(classes.absorbed_shaded[0].value);
+  return sum;
+}
+
+// In the sun the classes of organs are as good as points; those of layers also mix leaves of one layer that are lit unequally by
+// scattered light. Under an overcast sky there is one class only, and no beam whose spread would be known.
+TEST_P(TriangleLight, InClassesServesALightCurve) {
+  const double truth = photosynthesis_at_points(model_, run(to_the_truth, 99));
+  const RadiationResult got = run(to_default, 4, ElementErrors::skip);
+  double organs = 0.0, layers = 0.0, mean_of_organs = 0.0;
+  for (std::size_t o = 0; o < got.organs.size(); ++o) {
+    if (!model_.canopy.organs[o].name.starts_with("leaf")) continue;
+    organs += photosynthesis_of(got.organs[o].classes);
+    const double absorbed_w_m2 = got.organs[o].absorbed[0].value;
+    mean_of_organs += got.organs[o].area_m2 * absorbed_w_m2 / (absorbed_w_m2 + 150.0);
+  }
+  for (std::size_t k = 0; k + 1 < got.layers.size(); ++k) layers += photosynthesis_of(got.layers[k].leaf_classes);
+  std::printf("organs %+.2f %%, layers %+.2f %%, whole organs %+.2f %%\n", 100.0 * (organs / truth - 1.0),
+              100.0 * (layers / truth - 1.0), 100.0 * (mean_of_organs / truth - 1.0));
+  EXPECT_NEAR(organs / truth, 1.0, model_.has_beam() ? 0.01 : 0.035);
+  EXPECT_NEAR(layers / truth, 1.0, 0.015);
+  if (model_.has_beam()) {
+    EXPECT_GT(mean_of_organs / truth, 1.2);
+  }
 }
 
 TEST_P(TriangleLight, HasHonestErrors) {

@@ -22,7 +22,7 @@ constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
-constexpr int step_format = 3;  // of the steps, and of the tables that a finished day has
+constexpr int step_format = 4;  // of the steps, and of the tables that a finished day has
 
 // Writes or reads a step; its light has the sizes of the model.
 template <class Archive, class Step>
@@ -137,6 +137,7 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
     light.plant_absorbed_w.resize(plants_ * bands_);
     light.leaf_classes.absorbed_sunlit.resize(bands_);
     light.leaf_classes.absorbed_shaded.resize(bands_);
+    light.leaf_classes.sunlit_sd.resize(bands_);
     visit(StoreReader(*content), stored, field_values_);
     return stored;
   } catch (const json::exception&) {

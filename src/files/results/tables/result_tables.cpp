@@ -95,20 +95,23 @@ void add_classes(Table& table, const RadiationModel& model, const char* of, std:
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const std::string& band = model.bands[b].name;
     const double umol_per_joule = model.bands[b].umol_per_joule;
-    const auto add = [&](const char* name, std::vector<Estimate> ShadeClassResult::*absorbed) {
+    const auto add = [&](const std::string& name, const std::string& flux, const std::string& photons,
+                         std::vector<Estimate> ShadeClassResult::*absorbed) {
       const auto value = [&, b](std::size_t i, double factor) {
         return get(i, [&](const auto& classes) { return (classes.*absorbed).at(b).scaled(factor); });
       };
-      table.add({fmt::format("{}_absorbed_{}", band, name), "W m-2",
-                 fmt::format("flux absorbed by both faces per {} area {}", name, of), outputs},
+      table.add({fmt::format("{}_absorbed_{}", band, name), "W m-2", fmt::format("{} {}", flux, of), outputs},
                 [&](std::size_t i) { return value(i, 1.0); });
       if (!(umol_per_joule > 0.0)) return;
-      table.add({fmt::format("{}_absorbed_{}_umol_m2_s", band, name), "umol m-2 s-1",
-                 fmt::format("photons absorbed by both faces per {} area {}", name, of), outputs},
-                [&](std::size_t i) { return value(i, umol_per_joule); });
+      table.add(
+          {fmt::format("{}_absorbed_{}_umol_m2_s", band, name), "umol m-2 s-1", fmt::format("{} {}", photons, of), outputs},
+          [&](std::size_t i) { return value(i, umol_per_joule); });
     };
-    add("sunlit", &ShadeClassResult::absorbed_sunlit);
-    add("shaded", &ShadeClassResult::absorbed_shaded);
+    const std::string absorbed = " absorbed by both faces per ";
+    add("sunlit", "flux" + absorbed + "sunlit area", "photons" + absorbed + "sunlit area", &ShadeClassResult::absorbed_sunlit);
+    const std::string spread = "standard deviation, over the sunlit area, of the ";
+    add("sunlit_sd", spread + "beam flux absorbed there", spread + "beam photons absorbed there", &ShadeClassResult::sunlit_sd);
+    add("shaded", "flux" + absorbed + "shaded area", "photons" + absorbed + "shaded area", &ShadeClassResult::absorbed_shaded);
   }
 }
 

@@ -84,8 +84,11 @@ ordered_json leaf_classes_json(const RadiationModel& model, const RadiationResul
     for (std::size_t b = 0; b < absorbed.size(); ++b) bands[model.bands[b].name] = estimate_json(absorbed[b]);
     return ordered_json{{"leaf_area_m2", estimate_json(leaf_m2)}, {"absorbed", bands}};
   };
-  return {{"sunlit", of_class(classes.sunlit_m2, classes.absorbed_sunlit)},
-          {"shaded", of_class(classes.shaded_m2, classes.absorbed_shaded)}};
+  ordered_json sunlit = of_class(classes.sunlit_m2, classes.absorbed_sunlit);
+  for (std::size_t b = 0; b < classes.sunlit_sd.size(); ++b) {
+    sunlit["absorbed_sd"][model.bands[b].name] = estimate_json(classes.sunlit_sd[b]);
+  }
+  return {{"sunlit", sunlit}, {"shaded", of_class(classes.shaded_m2, classes.absorbed_shaded)}};
 }
 
 ordered_json sun_json(const RadiationModel& model) {

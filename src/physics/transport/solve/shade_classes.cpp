@@ -52,6 +52,38 @@ Estimate RatioMean::estimate(double t_quantile, double unseen) const {
   return {ratio, half_width / denominator_.mean()};
 }
 
+void SpreadMean::add(double area, double integral, double square) {
+  const std::array<double, 3> values{area, integral, square};
+  std::array<double, 3> from_old_means{};
+  ++count_;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    from_old_means[i] = values[i] - means_[i];
+    means_[i] += from_old_means[i] / static_cast<double>(count_);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t j = 0; j < values.size(); ++j) products_[i * 3 + j] += from_old_means[i] * (values[j] - means_[j]);
+  }
+}
+
+Estimate SpreadMean::estimate(double t_quantile) const {
+  const auto n = static_cast<double>(count_);
+  const double to_variance = 1.0 / (n - 1.0) / n;
+  const auto [area, integral, square] = means_;
+  if (!(area > t_quantile * std::sqrt(products_[0] * to_variance))) return {no_value, no_value};
+  const double mean = integral / area;
+  const double variance = std::max(0.0, square / area - mean * mean);
+  // Derivatives of the variance by the three means.
+  const std::array<double, 3> by{(2.0 * mean * mean - square / area) / area, -2.0 * mean / area, 1.0 / area};
+  double squares = 0.0;
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    for (std::size_t j = 0; j < by.size(); ++j) squares += by[i] * by[j] * products_[i * 3 + j];
+  }
+  const double half_width = t_quantile * std::sqrt(std::max(0.0, squares) * to_variance);
+  // Where the deviation is no larger than its error, the root of the variance's error bounds both.
+  const double root = std::sqrt(variance);
+  return {root, root > 0.0 ? std::min(half_width / (2.0 * root), std::sqrt(half_width)) : std::sqrt(half_width)};
+}
+
 ShadeClasses::ShadeClasses(const Conversion& conversion)
     : conversion_(conversion),
       organ_open_m2_(conversion.model.canopy.organs.size()),
@@ -71,6 +103,7 @@ ShadeClasses::ShadeClasses(const Conversion& conversion)
   }
   ShadeMeans means;
   for (auto* ratios : {&means.sunlit, &means.shaded}) ratios->resize(model.bands.size());
+  means.sunlit_beam.resize(model.bands.size());
   organs_.assign(organ_open_m2_.size(), means);
   layers_.assign(layer_open_m2_.size(), means);
   leaves_.assign(1, means);
@@ -79,7 +112,7 @@ ShadeClasses::ShadeClasses(const Conversion& conversion)
 void ShadeClasses::add(const Replicate& replicate) {
   const std::size_t bands = conversion_.quanta.size();
   ShadeSums none;
-  for (auto* sums : {&none.direct_w, &none.indirect_w, &none.lit_indirect_w}) sums->resize(bands);
+  for (auto* sums : {&none.direct_w, &none.indirect_w, &none.lit_indirect_w, &none.direct_square}) sums->resize(bands);
   Groups groups{std::vector(organs_.size(), none), std::vector(layers_.size(), none), std::vector(1, none)};
   if (conversion_.model.has_beam()) add_beam(replicate, groups);
   if (replicate.packets) add_other_light(replicate, groups);
@@ -89,6 +122,7 @@ void ShadeClasses::add(const Replicate& replicate) {
       means[i].lit_m2.add(sums[i].lit_m2);
       for (std::size_t b = 0; b < bands; ++b) {
         means[i].sunlit[b].add(sums[i].direct_w[b] + sums[i].lit_indirect_w[b], sums[i].lit_m2);
+        means[i].sunlit_beam[b].add(sums[i].lit_m2, sums[i].direct_w[b], sums[i].direct_square[b]);
         means[i].shaded[b].add(sums[i].indirect_w[b] - sums[i].lit_indirect_w[b], open_m2[i] - sums[i].lit_m2);
       }
     }
@@ -113,8 +147,12 @@ void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
         sums.lit_m2 += (upper + lower) * lit_m2_per_landing;
         for (std::size_t b = 0; b < sums.direct_w.size(); ++b) {
           const double per_landing_w = conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
-          sums.direct_w[b] += per_landing_w * (upper * conversion_.absorptance(canopy.optics_of[e], 0, b) +
-                                               lower * conversion_.absorptance(canopy.optics_of[e], 1, b));
+          const double upper_w = per_landing_w * conversion_.absorptance(canopy.optics_of[e], 0, b);
+          const double lower_w = per_landing_w * conversion_.absorptance(canopy.optics_of[e], 1, b);
+          sums.direct_w[b] += upper * upper_w + lower * lower_w;
+          if (lit_m2_per_landing > 0.0) {
+            sums.direct_square[b] += (upper * upper_w * upper_w + lower * lower_w * lower_w) / lit_m2_per_landing;
+          }
         }
       };
       if (upper + lower == 0.0) continue;
@@ -164,6 +202,7 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, c
       return absorbed;
     };
     result.absorbed_sunlit.push_back(of_class(means.sunlit[b]));
+    result.sunlit_sd.push_back(means.sunlit_beam[b].estimate(errors.t_quantile));
     result.absorbed_shaded.push_back(of_class(means.shaded[b]));
   }
   return result;

@@ -7,6 +7,7 @@
 #include "physics/transport/model/result.h"
 #include "physics/transport/model/statistics.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -32,19 +33,44 @@ class RatioMean {
   double products_ = 0.0;  // sum of the products of both deviations
 };
 
+// The standard deviation of a density over an area, from what every replicate finds.
+class SpreadMean {
+ public:
+  // Adds a replicate's area, and the integrals of the density and of its square over it.
+  void add(double area, double integral, double square);
+
+  // Passes the whole state to `archive`.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.count_, self.means_, self.products_);
+  }
+
+  // Returns the square root of mean square / mean area - (mean integral / mean area)^2; NaN unless the area is known to be above 0.
+  // Its half-width follows from the first-order expansion in the three means, whose covariances are those of the replicates (the
+  // delta method, e.g. Cochran 1977, Sampling Techniques, section 6.3).
+  [[nodiscard]] Estimate estimate(double t_quantile) const;
+
+ private:
+  std::size_t count_ = 0;
+  std::array<double, 3> means_{};     // area, integral, square
+  std::array<double, 9> products_{};  // sums of products of two deviations
+};
+
 // Sums of one replicate over the parts of a group: an organ, the leaves in a layer, or all leaves.
 struct ShadeSums {
   double lit_m2 = 0.0;
   std::vector<double> direct_w, indirect_w, lit_indirect_w;  // [band], absorbed; the last one where the sun shines
+  std::vector<double> direct_square;  // [band], W2 m-2, integral of (W m-2 of absorbed beam)^2 over lit area
 };
 
 struct ShadeMeans {
   ReplicateMean lit_m2;
   std::vector<RatioMean> sunlit, shaded;  // [band], W m-2 of the class's area
+  std::vector<SpreadMean> sunlit_beam;    // [band], W m-2
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.lit_m2, self.sunlit, self.shaded);
+    archive(self.lit_m2, self.sunlit, self.shaded, self.sunlit_beam);
   }
 };
 
