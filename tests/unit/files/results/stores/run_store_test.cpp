@@ -82,7 +82,7 @@ TEST_F(RunStoreTest, ReadsNoStateThatIsDamaged) {
     folder_.write(run_state_file, bad);
     EXPECT_NE(refusal().find("it is damaged"), std::string::npos) << "byte " << at;
   }
-  for (const std::string& bad : {std::string(100000, '\x81'), std::string("SUNSTEP2") + good.substr(8)}) {
+  for (const std::string& bad : {std::string(100000, '\x81'), std::string("SUNSTEP3") + good.substr(8)}) {
     folder_.write(run_state_file, bad);
     EXPECT_NE(refusal().find("it is damaged"), std::string::npos);
   }
@@ -101,9 +101,9 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherVersion) {
 // The checksum is right, but this program writes other maps.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   store_.write(state_);
-  const json good = *unsealed("SUNRUNS3", bytes());
+  const json good = *unsealed("SUNRUNS4", bytes());
   const auto expect_refused = [&](const json& content) {
-    folder_.write(run_state_file, sealed("SUNRUNS3", content));
+    folder_.write(run_state_file, sealed("SUNRUNS4", content));
     EXPECT_NE(refusal().find("it is damaged"), std::string::npos)
         << content.dump(-1, ' ', true, json::error_handler_t::replace);
   };
