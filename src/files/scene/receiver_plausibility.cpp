@@ -4,6 +4,7 @@
 #include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
