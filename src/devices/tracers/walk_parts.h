@@ -7,14 +7,12 @@
 #include <array>
 #include <bit>
 
-// The walks are compiled for several kinds of processor; the choice is made when the program starts. All find the same hits: box
-// tests need not be exact, and triangles are computed alike.
-#if !defined(__x86_64__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define WALK_FOR_EACH_PROCESSOR
-#elif defined(__clang__) || __GNUC__ < 12  // do not choose by level
+// The walks are compiled twice, for processors with eight lanes and for all others; the choice is made when the program starts.
+// Both find the same hits: box tests need not be exact, and triangles are computed alike.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define WALK_FOR_EACH_PROCESSOR [[gnu::target_clones("avx2", "default")]]
 #else
-#define WALK_FOR_EACH_PROCESSOR [[gnu::target_clones("arch=x86-64-v4", "avx2", "default")]]
+#define WALK_FOR_EACH_PROCESSOR
 #endif
 #define INLINED [[gnu::always_inline]] inline
 // Vectors cross no call boundary, since all functions that take them are inlined.
