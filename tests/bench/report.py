@@ -23,7 +23,7 @@ RAYS = {"beam": "sun's beam", "leaf": "packets from leaves"}
 GOALS = {
     "beam/device": (0.50, 0.65),
     "leaf/device": (0.45, 0.60),
-    "beam/cpu": (0.35, 0.6),
+    "beam/cpu": (1.2, 2.0),
     "leaf/cpu": (0.35, 0.6),
 }
 

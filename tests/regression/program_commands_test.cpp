@@ -2,6 +2,8 @@
 
 #include "regression/program.h"
 
+#include <algorithm>
+
 namespace sunfleck::regression {
 namespace {
 
@@ -38,9 +40,9 @@ TEST_F(Commands, InfoNamesTheDevices) {
   for (const json& device : info["devices"]) {
     EXPECT_NE(text.out.find(device["name"].get<std::string>()), std::string::npos) << text.out;
   }
-  if (info["devices"].empty()) {
-    EXPECT_NE(text.out.find("CPU path"), std::string::npos) << text.out;
-  }
+  const bool any_gpu = std::any_of(info["devices"].begin(), info["devices"].end(),
+                                   [](const json& device) { return device["kind"] == "GPU" && device["usable"]; });
+  EXPECT_EQ(text.out.find("CPU path") == std::string::npos, any_gpu) << text.out;
 }
 
 TEST_F(Commands, InfoTellsOfAScene) {

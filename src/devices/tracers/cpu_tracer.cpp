@@ -1,6 +1,6 @@
 #include "devices/tracers/cpu_tracer.h"
 
-#include "base/check.h"
+#include "devices/tracers/beam_bundles.h"
 #include "shared/beam.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -9,7 +9,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 
 namespace sunfleck {
 namespace {
@@ -17,10 +16,6 @@ namespace {
 // Largest number of rays between two checks whether to stop: a fraction of a second.
 constexpr std::uint32_t rays_per_slice = 1U << 18U;
 constexpr std::uint32_t packets_per_slice = 1U << 17U;
-
-void count(std::span<std::uint32_t> counters, std::size_t word) {
-  std::atomic_ref<std::uint32_t>(counters[word]).fetch_add(1, std::memory_order_relaxed);
-}
 
 shared::Landing landing_of(const CpuHit& hit) {
   return {2 * hit.element + hit.lower, hit.triangle, hit.weight_b, hit.weight_c};
@@ -49,57 +44,29 @@ CpuHit CpuTracer::nearest(const shared::Ray& ray, float limit, OwnElement own) c
   return walk_ == CpuWalk::tree ? nearest_hit(bvh_, ray, limit, Images::all, own) : nearest_hit_of_all(bvh_, ray, limit, own);
 }
 
-void CpuTracer::count_element(const shared::BeamBlock& beam, const CpuHit& hit, std::span<std::uint32_t> counters) const {
-  const BvhTriangle& reference = bvh_.triangles[hit.reference];
-  const auto layer_at = [&](float y) { return shared::layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers); };
-  if (bvh_.copies.empty()) {
-    const float y = shared::landing_y(reference.a[1], reference.b[1], reference.c[1], hit.weight_b, hit.weight_c);
-    count(counters, reference.counter + 2 * layer_at(y) + hit.lower);
-  } else {
-    const BvhCopy copy = copy_at(bvh_, hit.copy);
-    const shared::CopyTurn turn = turn_of(copy);
-    const float a = shared::placed_height(turn, reference.a[1]);
-    const float b = shared::placed_height(turn, reference.b[1]);
-    const float c = shared::placed_height(turn, reference.c[1]);
-    const std::uint32_t bin = layer_at(shared::landing_y(a, b, c, hit.weight_b, hit.weight_c)) - layer_at(std::min({a, b, c}));
-    count(counters, copy.first_counter + reference.counter + 2 * bin + hit.lower);
-  }
-  if (!domain_.periodic) count(counters, shared::counter_met);
-}
-
-void CpuTracer::count_ground(const shared::BeamBlock& beam, const shared::Ray& ray, float t,
-                             std::span<std::uint32_t> counters) const {
-  if (domain_.has_soil) {
-    count(counters, shared::counter_first_cell + shared::soil_cell(beam.ground, shared::ground_point(ray, t)));
-  } else {
-    count(counters, shared::counter_transmitted);
-  }
-  if (!domain_.periodic) count(counters, shared::counter_met);
-}
-
 void CpuTracer::follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray,
-                                         std::span<std::uint32_t> counters) const {
+                                         const LandingCounter& landings) const {
   const shared::Ground ground = shared::meet_ground(ray, beam.ground);
   const bool over_plot = shared::falls_on_plot(ray, beam.ground);
   const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F);
   if (hit.found) {
-    count_element(beam, hit, counters);
+    landings.count_element(hit);
   } else if (over_plot) {
-    count_ground(beam, ray, ground.t, counters);
+    landings.count_ground(ray, ground.t);
   } else {
-    count(counters, shared::counter_missed);
+    landings.count(shared::counter_missed);
   }
 }
 
 void CpuTracer::follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
-                                         std::span<std::uint32_t> counters) const {
+                                         const LandingCounter& landings) const {
   while (true) {
     const shared::Ground ground = shared::meet_ground(ray, beam.ground);
     const shared::Crossing crossing = shared::next_crossing(ray, beam.period, beam.overlap);
     const CpuHit hit = nearest(ray, ground.limit < crossing.limit ? ground.limit : crossing.limit);
-    if (hit.found) return count_element(beam, hit, counters);
-    if (ground.t <= crossing.t) return count_ground(beam, ray, ground.t, counters);
-    if (++crossings > shared::max_crossings) return count(counters, shared::counter_lost);
+    if (hit.found) return landings.count_element(hit);
+    if (ground.t <= crossing.t) return landings.count_ground(ray, ground.t);
+    if (++crossings > shared::max_crossings) return landings.count(shared::counter_lost);
     ray.origin = shared::enter_next_period(ray, crossing, beam.period);
   }
 }
@@ -107,20 +74,23 @@ void CpuTracer::follow_in_endless_canopy(const shared::BeamBlock& beam, shared::
 void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused,
                            std::span<std::uint32_t> counters) const {
   const shared::Ray ray = shared::make_ray(paused.origin, beam.direction);
+  const LandingCounter landings(bvh_, domain_, beam, counters);
   if (domain_.periodic) {
-    follow_in_endless_canopy(beam, ray, paused.crossings, counters);
+    follow_in_endless_canopy(beam, ray, paused.crossings, landings);
   } else {
-    follow_in_isolated_stand(beam, ray, counters);
+    follow_in_isolated_stand(beam, ray, landings);
   }
 }
 
 TraceOutcome CpuTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters, const StopQuestion& stop) {
   const std::uint32_t rays = beam.columns * beam.rows;
+  const LandingCounter landings(bvh_, domain_, beam, counters);
   for (std::uint32_t first = 0; first < rays;) {
     if (stop && stop()) return TraceOutcome::stopped;
     const DispatchClock clock;
     const std::uint32_t end = first + std::min(beam_budget_.rays(), rays - first);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, 256), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, rays_per_batch), [&](const auto& range) {
+      if (walk_ == CpuWalk::tree) return count_in_bundles(bvh_, domain_, beam, range.begin(), range.end(), landings);
       for (std::uint32_t ray = range.begin(); ray < range.end(); ++ray) {
         finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, counters);
       }

@@ -1,9 +1,10 @@
 #pragma once
-// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, or tests every element when
-// the tree itself is in doubt.
+// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, beam rays in bundles; or tests
+// every element, ray by ray, when the tree itself is in doubt.
 
 #include "devices/tracers/cpu_walk.h"
 #include "devices/tracers/dispatch_budget.h"
+#include "devices/tracers/landing_counter.h"
 #include "devices/tracers/trace_domain.h"
 #include "physics/bvh/bvh.h"
 #include "physics/transport/model/tracer.h"
@@ -43,11 +44,9 @@ class CpuTracer final : public Tracer {
                                                          OwnElement own) const;
   [[nodiscard]] shared::Landing follow_in_endless_canopy(const shared::PacketBlock& scene, shared::Ray ray, OwnElement own,
                                                          std::uint32_t crossings) const;
-  void count_element(const shared::BeamBlock& beam, const CpuHit& hit, std::span<std::uint32_t> counters) const;
-  void count_ground(const shared::BeamBlock& beam, const shared::Ray& ray, float t, std::span<std::uint32_t> counters) const;
-  void follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray, std::span<std::uint32_t> counters) const;
+  void follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray, const LandingCounter& landings) const;
   void follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
-                                std::span<std::uint32_t> counters) const;
+                                const LandingCounter& landings) const;
 
   const Bvh& bvh_;
   TraceDomain domain_;

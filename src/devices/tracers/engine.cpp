@@ -17,8 +17,7 @@ constexpr double dispatch_while_drawing_s = 0.02;
 
 DeviceSelector selector_of(const DeviceChoice& device) {
   const std::string& name = device.name;
-  if (name == "auto") return {DeviceSelector::Kind::any, 0, "", device.turn};
-  if (name == "gpu") return {DeviceSelector::Kind::hardware, 0, "", device.turn};
+  if (name == "auto" || name == "gpu") return {DeviceSelector::Kind::hardware, 0, "", device.turn};
   if (name == "lavapipe") return {DeviceSelector::Kind::software, 0, ""};
   int index = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
@@ -26,15 +25,17 @@ DeviceSelector selector_of(const DeviceChoice& device) {
   return {DeviceSelector::Kind::name, 0, name, device.turn};
 }
 
-bool any_usable_device() {
+// Software Vulkan does not count: the CPU path is faster on the same cores.
+bool any_usable_gpu() {
   const std::vector<DeviceDescription> devices = list_devices();
-  return std::any_of(devices.begin(), devices.end(), [](const DeviceDescription& device) { return device.unusable.empty(); });
+  return std::any_of(devices.begin(), devices.end(),
+                     [](const DeviceDescription& device) { return !device.software && device.unusable.empty(); });
 }
 
 }  // namespace
 
 std::unique_ptr<GpuContext> open_device(const DeviceChoice& device) {
-  if (device.name == "cpu" || (device.name == "auto" && !any_usable_device())) return nullptr;
+  if (device.name == "cpu" || (device.name == "auto" && !any_usable_gpu())) return nullptr;
   return std::make_unique<GpuContext>(selector_of(device), build_validation);
 }
 

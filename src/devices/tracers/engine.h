@@ -23,8 +23,8 @@ inline constexpr Validation build_validation = Validation::off;
 inline constexpr Validation build_validation = Validation::on;
 #endif
 
-// A device as named on the command line (auto | gpu | lavapipe | cpu | INDEX | NAME). Processes that share a machine take turns
-// at its devices: DeviceSelector::turn.
+// A device as named on the command line (auto | gpu | lavapipe | cpu | INDEX | NAME); auto is a GPU if there is one, else the
+// CPU path. Processes that share a machine take turns at its devices: DeviceSelector::turn.
 struct DeviceChoice {
   DeviceChoice(std::string chosen, int own_turn = 0) : name(std::move(chosen)), turn(own_turn) {}
   std::string name;

@@ -189,7 +189,9 @@ void print_roles(const ordered_json& info) {
 }
 
 void print_lines(const ordered_json& info) {
-  if (info["devices"].empty()) fmt::print("no Vulkan device: the CPU path is used\n");
+  const bool any_gpu = std::any_of(info["devices"].begin(), info["devices"].end(),
+                                   [](const ordered_json& device) { return device["kind"] == "GPU" && device["usable"]; });
+  if (!any_gpu) fmt::print("no GPU: the CPU path is used\n");
   int index = 0;
   for (const ordered_json& device : info["devices"]) {
     fmt::print("device {}: {} ({}; {}){}\n", index++, device["name"].get<std::string>(), device["kind"].get<std::string>(),

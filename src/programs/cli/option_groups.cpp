@@ -74,7 +74,9 @@ void add_stand(CLI::App& command, StandFiles& stand) {
 
 template <class Options>
 void add_device(CLI::App& command, Options& options) {
-  command.add_option("--device", options.device, "auto, gpu, lavapipe, cpu, a device number or part of a device name")
+  command
+      .add_option("--device", options.device,
+                  "auto (a GPU if there is one, else cpu), gpu, lavapipe, cpu, a device number or part of a device name")
       ->transform(device_kind())
       ->check(not_empty())
       ->capture_default_str();

@@ -50,7 +50,8 @@ class Simulation:
         `organ` (names; default: as optics), `plant` and `rank` (whole numbers; default 1 and 0), one for all triangles or m of
         them; `up` ("y" or "z"), `scale`, `heading` and `at`, or `positions`, work as for files.
     folder: folder in which the files of a dict are looked up (default: the current folder).
-    device: auto, gpu, lavapipe, cpu, a device number or part of a device name, as with the program's --device.
+    device: auto (a GPU if there is one, else cpu), gpu, lavapipe, cpu, a device number or part of a device name, as with the
+        program's --device.
     threads: number of threads of the CPU path, 0 for all cores. (For lavapipe the first simulation of a process decides.)
     allow_outside: whether files may lie outside the scene's folder.
 

@@ -1,0 +1,157 @@
+#include "devices/tracers/beam_bundles.h"
+
+#include "devices/tracers/bundle_walk.h"
+#include "shared/beam.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+using Origins = std::vector<glm::vec3>;
+
+// Largest distance between a ray and the first of its bundle, in cells of the beam's grid. A square of 4 x 4 cells needs six.
+// Bundles of neighbours with gaps between them are wider; limits of 8 to 20 cells take equally long.
+constexpr float widest_cells = 12.0F;
+
+// Returns the square of the distance between two parallel rays, of which one starts at `apart` from the other.
+float distance_squared(const glm::vec3& apart, const glm::vec3& direction) {
+  const glm::vec3 across = glm::cross(apart, direction);
+  return glm::dot(across, across);
+}
+
+float widest_squared(const shared::BeamBlock& beam) {
+  const float cell = std::max(distance_squared(beam.edge_u * beam.per_column, beam.direction),
+                              distance_squared(beam.edge_v * beam.per_row, beam.direction));
+  return widest_cells * widest_cells * cell;
+}
+
+// Where rays leave a period, or end on the ground.
+struct Ways {
+  std::array<shared::Ground, rays_per_bundle> ground;
+  std::array<shared::Crossing, rays_per_bundle> crossing;  // in an endless canopy
+  std::array<bool, rays_per_bundle> over_plot;             // in an isolated stand
+};
+
+class Batch {
+ public:
+  Batch(const Bvh& bvh, const shared::BeamBlock& beam, const LandingCounter& landings)
+      : bvh_(bvh), beam_(beam), landings_(landings), widest_squared_(widest_squared(beam)) {
+    bundle_.along = shared::make_ray({}, beam.direction);
+  }
+
+  void follow_in_isolated_stand(const Origins& origins) {
+    for (std::span<const glm::vec3> left = origins; !left.empty(); left = left.subspan(bundle_.rays)) {
+      take_bundle(left);
+      look_around_stand();
+      nearest_hits(bvh_, bundle_, hits_);
+      for (std::uint32_t k = 0; k < bundle_.rays; ++k) land_in_isolated_stand(k);
+    }
+  }
+
+  void follow_in_endless_canopy(Origins origins) {
+    for (std::uint32_t crossings = 0; !origins.empty(); ++crossings) {
+      along_x_.clear();
+      along_z_.clear();
+      for (std::span<const glm::vec3> left = origins; !left.empty(); left = left.subspan(bundle_.rays)) {
+        take_bundle(left);
+        look_ahead_in_period();
+        nearest_hits(bvh_, bundle_, hits_);
+        for (std::uint32_t k = 0; k < bundle_.rays; ++k) land_or_cross(k, crossings + 1);
+      }
+      origins.swap(along_x_);
+      origins.insert(origins.end(), along_z_.begin(), along_z_.end());
+    }
+  }
+
+ private:
+  // Takes the first ray and those of the next that are near it.
+  void take_bundle(std::span<const glm::vec3> origins) {
+    const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(origins.size(), rays_per_bundle));
+    const auto near_first = [&](const glm::vec3& origin) {
+      return distance_squared(origin - origins.front(), bundle_.along.direction) <= widest_squared_;
+    };
+    bundle_.rays = 0;
+    do {
+      bundle_.origins[bundle_.rays] = origins[bundle_.rays];
+      ++bundle_.rays;
+    } while (bundle_.rays < most && near_first(origins[bundle_.rays]));
+  }
+
+  [[nodiscard]] shared::Ray ray(std::uint32_t k) const {
+    shared::Ray result = bundle_.along;
+    result.origin = bundle_.origins[k];
+    return result;
+  }
+
+  void look_around_stand() {
+    for (std::uint32_t k = 0; k < bundle_.rays; ++k) {
+      ways_.ground[k] = shared::meet_ground(ray(k), beam_.ground);
+      ways_.over_plot[k] = shared::falls_on_plot(ray(k), beam_.ground);
+      bundle_.limits[k] = ways_.over_plot[k] ? ways_.ground[k].limit : 1e30F;
+    }
+  }
+
+  void land_in_isolated_stand(std::uint32_t k) const {
+    if (hits_[k].found) {
+      landings_.count_element(hits_[k]);
+    } else if (ways_.over_plot[k]) {
+      landings_.count_ground(ray(k), ways_.ground[k].t);
+    } else {
+      landings_.count(shared::counter_missed);
+    }
+  }
+
+  void look_ahead_in_period() {
+    for (std::uint32_t k = 0; k < bundle_.rays; ++k) {
+      ways_.ground[k] = shared::meet_ground(ray(k), beam_.ground);
+      ways_.crossing[k] = shared::next_crossing(ray(k), beam_.period, beam_.overlap);
+      bundle_.limits[k] = std::min(ways_.ground[k].limit, ways_.crossing[k].limit);
+    }
+  }
+
+  void land_or_cross(std::uint32_t k, std::uint32_t crossings) {
+    const shared::Crossing& crossing = ways_.crossing[k];
+    if (hits_[k].found) {
+      landings_.count_element(hits_[k]);
+    } else if (ways_.ground[k].t <= crossing.t) {
+      landings_.count_ground(ray(k), ways_.ground[k].t);
+    } else if (crossings > shared::max_crossings) {
+      landings_.count(shared::counter_lost);
+    } else {
+      (crossing.along_x ? along_x_ : along_z_).push_back(shared::enter_next_period(ray(k), crossing, beam_.period));
+    }
+  }
+
+  const Bvh& bvh_;
+  const shared::BeamBlock& beam_;
+  const LandingCounter& landings_;
+  float widest_squared_;
+  RayBundle bundle_;
+  BundleHits hits_;
+  Ways ways_;
+  Origins along_x_, along_z_;  // rays that go on in the next period, by the border that they cross
+};
+
+}  // namespace
+
+void count_in_bundles(const Bvh& bvh, TraceDomain domain, const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end,
+                      const LandingCounter& landings) {
+  Origins origins;
+  origins.reserve(end - first);
+  for (std::uint32_t ray = first; ray < end; ++ray) origins.push_back(shared::beam_origin(beam, ray));
+  Batch batch(bvh, beam, landings);
+  if (domain.periodic) {
+    batch.follow_in_endless_canopy(std::move(origins));
+  } else {
+    batch.follow_in_isolated_stand(origins);
+  }
+}
+
+}  // namespace sunfleck
