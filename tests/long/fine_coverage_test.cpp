@@ -23,9 +23,9 @@ namespace {
 
 constexpr int seeds = 400;
 // Intervals of 95 % hold between 92 and 98 %, less what four hundred seeds leave uncertain.
-constexpr double least_covered = 0.915, most_covered = 0.98;
+constexpr double least_share = 0.915, most_share = 0.98;
 // Nearly all triangles that few rays hit lie in the shade, where points tell their light better than the variance of their kind says.
-constexpr double most_covered_with_few_hits = 0.995;
+constexpr double most_share_with_few_hits = 0.995;
 constexpr const char* few_hits = "triangles with few hits";
 
 // Returns a maize plant in a stand without end, of a resolution that keeps the test quick.
@@ -41,7 +41,7 @@ RadiationModel coarse_maize(double spacing_in_row_m) {
   return model;
 }
 
-SolveSettings with_work(const RadiationModel& model, double rays_per_triangle, std::uint64_t seed) {
+SolveSettings fine_work(const RadiationModel& model, double rays_per_triangle, std::uint64_t seed) {
   const double rays = rays_per_triangle * static_cast<double>(model.canopy.size());
   constexpr int replicates = 16;
   SolveSettings settings = fixed_scatter(
@@ -64,8 +64,8 @@ class Tally {
     for (const auto& [kind, share] : shares_) {
       const double covered = share.held / share.all;
       std::printf("%-40s %.3f\n", kind.c_str(), covered);
-      EXPECT_GE(covered, least_covered) << kind;
-      EXPECT_LE(covered, kind == few_hits ? most_covered_with_few_hits : most_covered) << kind;
+      EXPECT_GE(covered, least_share) << kind;
+      EXPECT_LE(covered, kind == few_hits ? most_share_with_few_hits : most_share) << kind;
     }
   }
 
@@ -159,11 +159,11 @@ INSTANTIATE_TEST_SUITE_P(Maize, FineCoverage, testing::Values(0.6, 0.3),
                          [](const auto& spacing) { return std::string(spacing.param > 0.5 ? "Sparse" : "Dense"); });
 
 TEST_P(FineCoverage, IntervalsOfFourHundredRunsHoldTheTruth) {
-  const RadiationResult truth = simulate(model_, prepared_, with_work(model_, 1200.0, 1000001));
+  const RadiationResult truth = simulate(model_, prepared_, fine_work(model_, 1200.0, 1000001));
   const std::vector<double> sunlit = sunlit_shares(truth);
   Tally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const RadiationResult got = simulate(model_, prepared_, with_work(model_, 24.0, seed));
+    const RadiationResult got = simulate(model_, prepared_, fine_work(model_, 24.0, seed));
     add_triangles(got, truth, sunlit, tally);
     add_groups(got, truth, tally);
   }
