@@ -1,4 +1,4 @@
-// Tests which device a name on the command line stands for.
+// Tests which device a name on the command line stands for. It is no unit test: drivers leak in the sanitizers' eyes.
 #include "devices/tracers/engine.h"
 
 #include <gtest/gtest.h>
