@@ -3,7 +3,6 @@
 import ctypes
 import gc
 import os
-import resource
 import sys
 
 import numpy as np
@@ -131,9 +130,20 @@ def test_folders_that_cannot_be_written_are_told(result, tmp_path):
         result.save(tmp_path / "file" / "out")
 
 
-def memory_kib():
-    with open("/proc/self/statm") as stream:
-        return int(stream.read().split()[1]) * resource.getpagesize() // 1024
+class HeapStatistics(ctypes.Structure):
+    """The C library's struct mallinfo2."""
+
+    _fields_ = [(name, ctypes.c_size_t) for name in (
+        "arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")]
+
+
+def bytes_in_use():
+    """Returns the bytes that the program and Python hold, without the free memory that allocators keep for their threads."""
+    mallinfo = ctypes.CDLL(None).mallinfo2
+    mallinfo.restype = HeapStatistics
+    gc.collect()
+    statistics = mallinfo()
+    return statistics.uordblks + statistics.hblkhd
 
 
 BLACK = {
@@ -162,28 +172,12 @@ def test_calls_leak_nothing(device, calls, scene):
     descriptors = len(os.listdir("/proc/self/fd"))
     for number in range(calls // 4):
         call(number)
-    settled = memory_kib()
+    settled = bytes_in_use()
     for number in range(calls - calls // 4):
         call(number)
-    # A leak of 8 KiB per call would show in 750 calls; the allocator keeps less for itself.
-    assert memory_kib() - settled < 4096
+    # A leak of 8 KiB per call would show in 750 calls.
+    assert bytes_in_use() - settled < 4096 * 1024
     assert len(os.listdir("/proc/self/fd")) <= descriptors
-
-
-class HeapStatistics(ctypes.Structure):
-    """The C library's struct mallinfo2."""
-
-    _fields_ = [(name, ctypes.c_size_t) for name in (
-        "arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")]
-
-
-def bytes_in_use():
-    """Returns the bytes that the program and Python hold, without the free memory that allocators keep for their threads."""
-    mallinfo = ctypes.CDLL(None).mallinfo2
-    mallinfo.restype = HeapStatistics
-    gc.collect()
-    statistics = mallinfo()
-    return statistics.uordblks + statistics.hblkhd
 
 
 def test_simulations_leak_nothing():
