@@ -357,6 +357,7 @@ class WindowTest(unittest.TestCase):
         window = self.open()
         window.heard_or_awaited("converged", wish=1)
         window.heard_or_awaited("picture", wish=1)
+        window.wait_until_input_is_taken()  # a click may be lost while the window is opening
         self.click(window.place("own_size", 0.1))
         self.click(window.place("save_picture"))
         saved = read_png(os.path.join(self.folder, window.wait_for("saved")["file"]))
