@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace sunfleck::test {
 namespace {
@@ -85,6 +86,43 @@ TEST(ShadeClasses, KnowHowUnequalTheSunlitAreaIs) {
   EXPECT_NEAR(result.leaf_classes.sunlit_sd[0].value, expected_w_m2, 2.0 * result.leaf_classes.sunlit_sd[0].half_width);
 }
 
+// Returns the deviation over all leaves of what their triangles absorb in a band, W m-2, as one run finds it, noise included.
+double spread_of_triangles(const RadiationModel& model, const RadiationResult& result, std::size_t band) {
+  double area = 0.0, sum = 0.0, squares = 0.0;
+  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+    const double element_m2 = area_m2(model.canopy.corners[e]);
+    const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
+    double absorbed = 0.0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      absorbed += result.side_indirect_w_m2(2 * e + side, element_m2, band) *
+                  (side == 0 ? optics.upper : optics.lower)[band].absorptance();
+    }
+    area += element_m2;
+    sum += element_m2 * absorbed;
+    squares += element_m2 * absorbed * absorbed;
+  }
+  return std::sqrt(squares / area - sum * sum / area / area);
+}
+
+TEST(ShadeClasses, KnowHowUnequalTheShadedAreaIs) {
+  RadiationModel model = light_mix();
+  model.sun.reset();
+  for (Waveband& band : model.bands) band.direct_w_m2 = 0.0;
+  const Prepared prepared(model);
+  const auto run = [&](double packets) {
+    return simulate(model, prepared, fixed_scatter(model, {.rays = 1.0, .packets = packets, .replicates = 16, .seed = 1}));
+  };
+  const RadiationResult truth = run(1e5);
+  const RadiationResult coarse = run(120.0);
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    const double expected_w_m2 = spread_of_triangles(model, truth, b);
+    const Estimate spread = coarse.leaf_classes.shaded_sd[b];
+    EXPECT_NEAR(spread.value, expected_w_m2, 1.5 * spread.half_width);
+    EXPECT_LT(spread.half_width, 0.6 * expected_w_m2);
+    EXPECT_GT(spread_of_triangles(model, coarse, b), 1.15 * expected_w_m2) << "noise must matter here";
+  }
+}
+
 TEST(ShadeClasses, WithoutABeamAllIsShaded) {
   RadiationModel model = light_mix();
   model.sun.reset();
@@ -104,7 +142,7 @@ TEST(ShadeClasses, HaveHonestErrors) {
   };
   const ShadeClassResult truth = run(8e6, 2e5, 1000);
   constexpr int seeds = 100;
-  int sunlit = 0, shaded = 0, spread = 0;
+  int sunlit = 0, shaded = 0, sunlit_sd = 0, shaded_sd = 0;
   const auto covers = [](const Estimate& got, const Estimate& right) {
     return std::abs(got.value - right.value) <= std::hypot(got.half_width, right.half_width) ? 1 : 0;
   };
@@ -112,12 +150,14 @@ TEST(ShadeClasses, HaveHonestErrors) {
     const ShadeClassResult got = run(1e5, 2000, seed);
     sunlit += covers(got.absorbed_sunlit[1], truth.absorbed_sunlit[1]);
     shaded += covers(got.absorbed_shaded[1], truth.absorbed_shaded[1]);
-    spread += covers(got.sunlit_sd[1], truth.sunlit_sd[1]);
+    sunlit_sd += covers(got.sunlit_sd[1], truth.sunlit_sd[1]);
+    shaded_sd += covers(got.shaded_sd[1], truth.shaded_sd[1]);
   }
   // A binomial count with probability 0.95 falls below 87 of 100 once in a thousand times.
   EXPECT_GE(sunlit, 87);
   EXPECT_GE(shaded, 87);
-  EXPECT_GE(spread, 87);
+  EXPECT_GE(sunlit_sd, 87);
+  EXPECT_GE(shaded_sd, 87);
 }
 
 TEST(RatioMean, ErrorsThatRiseAndFallTogetherCancel) {
@@ -139,14 +179,47 @@ TEST(SpreadMean, IsTheDeviationOfADensityOverAnArea) {
   RandomStream random(5, 6);
   for (int k = 0; k < 50; ++k) {
     const double area = 1.0 + 0.1 * random.unit();
-    equal.add(area, 3.0 * area, 9.0 * area);
-    halves.add(area, 2.0 * area, 5.0 * area);  // half of it with 1, half with 3
+    equal.add({area, 3.0 * area, 9.0 * area, 0.0});
+    halves.add({area, 2.0 * area, 5.0 * area, 0.0});  // half of it with 1, half with 3
   }
   EXPECT_NEAR(equal.estimate(2.0).value, 0.0, 1e-6);
   EXPECT_LT(equal.estimate(2.0).half_width, 1e-4) << "the root of a rounding error";
   EXPECT_NEAR(halves.estimate(2.0).value, 1.0, 1e-12);
   EXPECT_LT(halves.estimate(2.0).half_width, 1e-6);
   EXPECT_TRUE(std::isnan(SpreadMean().estimate(2.0).value));
+}
+
+// A hundred places of equal area with densities from 1 to 3, of which every replicate finds estimates that are three times as wide.
+TEST(SpreadMean, LeavesOutTheNoiseOfEstimates) {
+  constexpr std::size_t places = 100;
+  constexpr int runs = 400;
+  const auto density = [](std::size_t place) { return 1.0 + 2.0 * (static_cast<double>(place) + 0.5) / places; };
+  double variance = 0.0;
+  for (std::size_t place = 0; place < places; ++place) variance += std::pow(density(place) - 2.0, 2) / places;
+  RandomStream random(7, 8);
+  int held = 0;
+  double sum = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    SpreadMean spread;
+    std::vector<double> earlier(places);
+    for (int replicate = 0; replicate < 16; ++replicate) {
+      SpreadMean::Sums sums{.area = 1.0};
+      for (std::size_t place = 0; place < places; ++place) {
+        const double estimate = density(place) + 6.0 * (random.unit() - 0.5);
+        sums.density += estimate / places;
+        sums.noisy_square += estimate * earlier[place] / places;
+        earlier[place] += estimate;
+      }
+      spread.add(sums);
+    }
+    const Estimate estimate = spread.estimate(t_quantile(0.95, 16));
+    sum += estimate.value * estimate.value / runs;
+    held += std::abs(estimate.value - std::sqrt(variance)) <= estimate.half_width ? 1 : 0;
+  }
+  // The variance of a run's own mean, 3 / 1600, is part of it: 0.6 %; the noise alone is 9 times as large as the variance.
+  EXPECT_NEAR(sum / variance, 1.0, 0.03);
+  // A binomial count with probability 0.95 falls below 366 of 400 once in a thousand times.
+  EXPECT_GE(held, 366);
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST_F(Day, TablesAreAsTheManualSays) {
       ",sunlit_leaf_fraction,sunlit_leaf_fraction_error,sunlit_leaf_area_index,sunlit_leaf_area_index_error,"
       "shaded_leaf_area_index,shaded_leaf_area_index_error";
   for (const char* band : bands) {
-    for (const char* part : {"_sunlit", "_sunlit_sd", "_shaded"}) {
+    for (const char* part : {"_sunlit", "_sunlit_sd", "_shaded", "_shaded_sd"}) {
       for (const char* unit : {"", "_umol_m2_s"}) {
         if (*unit != '\0' && std::string(band) != "PAR") continue;
         header += ',' + column(band, "absorbed") + part + unit + ',' + column(band, "absorbed") + part + unit + "_error";

@@ -60,7 +60,7 @@ class Scenes : public ProgramTest, public ::testing::WithParamInterface<std::str
     const auto add = [&](const std::string& name) { columns += "," + name + "," + name + "_error"; };
     for (const char* part : {"sunlit_", "shaded_"}) add(part + area);
     for (const json& band : summary_["bands"]) {
-      for (const char* part : {"_absorbed_sunlit", "_absorbed_sunlit_sd", "_absorbed_shaded"}) {
+      for (const char* part : {"_absorbed_sunlit", "_absorbed_sunlit_sd", "_absorbed_shaded", "_absorbed_shaded_sd"}) {
         add(band["name"].get<std::string>() + part);
         if (band.contains("umol_m2_s")) add(band["name"].get<std::string>() + part + "_umol_m2_s");
       }

@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view step_mark = "SUNSTEP4";
+constexpr std::string_view step_mark = "SUNSTEP5";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
-constexpr int step_format = 4;  // of the steps, and of the tables that a finished day has
+constexpr int step_format = 5;  // of the steps, and of the tables that a finished day has
 
 // Writes or reads a step; its light has the sizes of the model.
 template <class Archive, class Step>
@@ -138,6 +138,7 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
     light.leaf_classes.absorbed_sunlit.resize(bands_);
     light.leaf_classes.absorbed_shaded.resize(bands_);
     light.leaf_classes.sunlit_sd.resize(bands_);
+    light.leaf_classes.shaded_sd.resize(bands_);
     visit(StoreReader(*content), stored, field_values_);
     return stored;
   } catch (const json::exception&) {

@@ -56,7 +56,7 @@ struct StepLight {
   static void visit(Self& self, Archive& archive) {
     archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction, self.plant_absorbed_w, self.leaf_classes.sunlit_m2,
             self.leaf_classes.shaded_m2, self.leaf_classes.absorbed_sunlit, self.leaf_classes.absorbed_shaded,
-            self.leaf_classes.sunlit_sd);
+            self.leaf_classes.sunlit_sd, self.leaf_classes.shaded_sd);
   }
 };
 

@@ -109,9 +109,13 @@ void add_classes(Table& table, const RadiationModel& model, const char* of, std:
     };
     const std::string absorbed = " absorbed by both faces per ";
     add("sunlit", "flux" + absorbed + "sunlit area", "photons" + absorbed + "sunlit area", &ShadeClassResult::absorbed_sunlit);
-    const std::string spread = "standard deviation, over the sunlit area, of the ";
-    add("sunlit_sd", spread + "beam flux absorbed there", spread + "beam photons absorbed there", &ShadeClassResult::sunlit_sd);
+    const auto add_spread = [&](const std::string& part, std::vector<Estimate> ShadeClassResult::*spread) {
+      const std::string over = "standard deviation, over the " + part + " area, of the ";
+      add(part + "_sd", over + "flux absorbed there", over + "photons absorbed there", spread);
+    };
+    add_spread("sunlit", &ShadeClassResult::sunlit_sd);
     add("shaded", "flux" + absorbed + "shaded area", "photons" + absorbed + "shaded area", &ShadeClassResult::absorbed_shaded);
+    add_spread("shaded", &ShadeClassResult::shaded_sd);
   }
 }
 

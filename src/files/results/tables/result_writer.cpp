@@ -79,16 +79,17 @@ ordered_json estimate_json(const Estimate& estimate) {
 // Returns the sunlit and the shaded leaf area and what each absorbs by band, W m-2 of its own area.
 ordered_json leaf_classes_json(const RadiationModel& model, const RadiationResult& result) {
   const ShadeClassResult& classes = result.leaf_classes;
-  const auto of_class = [&](const Estimate& leaf_m2, const std::vector<Estimate>& absorbed) {
+  const auto of_bands = [&](const std::vector<Estimate>& figures) {
     ordered_json bands = ordered_json::object();
-    for (std::size_t b = 0; b < absorbed.size(); ++b) bands[model.bands[b].name] = estimate_json(absorbed[b]);
-    return ordered_json{{"leaf_area_m2", estimate_json(leaf_m2)}, {"absorbed", bands}};
+    for (std::size_t b = 0; b < figures.size(); ++b) bands[model.bands[b].name] = estimate_json(figures[b]);
+    return bands;
   };
-  ordered_json sunlit = of_class(classes.sunlit_m2, classes.absorbed_sunlit);
-  for (std::size_t b = 0; b < classes.sunlit_sd.size(); ++b) {
-    sunlit["absorbed_sd"][model.bands[b].name] = estimate_json(classes.sunlit_sd[b]);
-  }
-  return {{"sunlit", sunlit}, {"shaded", of_class(classes.shaded_m2, classes.absorbed_shaded)}};
+  const auto of_class = [&](const Estimate& leaf_m2, const std::vector<Estimate>& absorbed, const std::vector<Estimate>& spread) {
+    return ordered_json{
+        {"leaf_area_m2", estimate_json(leaf_m2)}, {"absorbed", of_bands(absorbed)}, {"absorbed_sd", of_bands(spread)}};
+  };
+  return {{"sunlit", of_class(classes.sunlit_m2, classes.absorbed_sunlit, classes.sunlit_sd)},
+          {"shaded", of_class(classes.shaded_m2, classes.absorbed_shaded, classes.shaded_sd)}};
 }
 
 ordered_json sun_json(const RadiationModel& model) {

@@ -97,4 +97,18 @@ void PlaceSums::keep_within_limit() {
   all_ = true;
 }
 
+PlaceSums::Finder::Finder(const PlaceSums& sums) : sums_(sums) {
+  if (!sums.is_list()) return;
+  PlaceSums ordered = sums.merged();
+  at_ = std::move(ordered.at_);
+  values_ = std::move(ordered.values_);
+}
+
+std::span<const std::int64_t> PlaceSums::Finder::at(std::size_t place) const {
+  if (!sums_.is_list()) return {&sums_.values_[place * sums_.width_], sums_.width_};
+  const auto found = std::lower_bound(at_.begin(), at_.end(), place);
+  if (found == at_.end() || *found != place) return {};
+  return {&values_[static_cast<std::size_t>(found - at_.begin()) * sums_.width_], sums_.width_};
+}
+
 }  // namespace sunfleck

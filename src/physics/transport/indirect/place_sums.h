@@ -51,6 +51,20 @@ class PlaceSums {
     }
   }
 
+  // Finds the sums of single places, as they are when it is made. The sums must outlive it and not change meanwhile.
+  class Finder {
+   public:
+    explicit Finder(const PlaceSums& sums);
+
+    // Returns the sums of a place; empty if there are none, or perhaps if all are 0.
+    [[nodiscard]] std::span<const std::int64_t> at(std::size_t place) const;
+
+   private:
+    const PlaceSums& sums_;
+    std::vector<std::uint32_t> at_;  // a list's places in ascending order, and their sums
+    std::vector<std::int64_t> values_;
+  };
+
   // Passes all sums to `archive` in their order, one by one; those of a const object are written, others are filled.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {

@@ -61,9 +61,8 @@ struct ShadeClassResult {
   // [waveband], W m-2 of the class's own area, absorbed by both faces; NaN unless the class is known to
   // have an area
   std::vector<Estimate> absorbed_sunlit, absorbed_shaded;
-  // [waveband], W m-2, standard deviation over the sunlit area of the beam light that its places absorb, which face the sun at
-  // different angles
-  std::vector<Estimate> sunlit_sd;
+  // [waveband], W m-2, standard deviation over the class's area of what its places absorb per area; noise is no part of it
+  std::vector<Estimate> sunlit_sd, shaded_sd;
 };
 
 // The light of one organ, W m-2 of its one-sided area. Here and in all finer figures the half-width of `absorbed` includes

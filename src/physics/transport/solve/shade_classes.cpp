@@ -52,31 +52,40 @@ Estimate RatioMean::estimate(double t_quantile, double unseen) const {
   return {ratio, half_width / denominator_.mean()};
 }
 
-void SpreadMean::add(double area, double integral, double square) {
-  const std::array<double, 3> values{area, integral, square};
-  std::array<double, 3> from_old_means{};
-  ++count_;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    from_old_means[i] = values[i] - means_[i];
-    means_[i] += from_old_means[i] / static_cast<double>(count_);
+void SpreadMean::add(const Sums& sums) {
+  const auto earlier = static_cast<double>(count_++);
+  const std::array<double, size> values{sums.area, sums.density, sums.square, earlier > 0.0 ? sums.noisy_square / earlier : 0.0};
+  for (std::size_t i = 0; i < means_.size(); ++i) means_[i] += (values[i] - means_[i]) / static_cast<double>(count_);
+  if (earlier == 0.0) return;
+  // West 1979, Commun. ACM 22:532, eq. 2, for weights `earlier`, whose sum is count * (count - 1) / 2.
+  const double part = 2.0 / static_cast<double>(count_);
+  std::array<double, size> from_old_means{};
+  for (std::size_t i = 0; i < size; ++i) {
+    from_old_means[i] = values[i] - weighted_means_[i];
+    weighted_means_[i] += from_old_means[i] * part;
   }
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    for (std::size_t j = 0; j < values.size(); ++j) products_[i * 3 + j] += from_old_means[i] * (values[j] - means_[j]);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      products_[i * size + j] += earlier * from_old_means[i] * (values[j] - weighted_means_[j]);
+    }
   }
 }
 
 Estimate SpreadMean::estimate(double t_quantile) const {
   const auto n = static_cast<double>(count_);
-  const double to_variance = 1.0 / (n - 1.0) / n;
-  const auto [area, integral, square] = means_;
-  if (!(area > t_quantile * std::sqrt(products_[0] * to_variance))) return {no_value, no_value};
-  const double mean = integral / area;
-  const double variance = std::max(0.0, square / area - mean * mean);
-  // Derivatives of the variance by the three means.
-  const std::array<double, 3> by{(2.0 * mean * mean - square / area) / area, -2.0 * mean / area, 1.0 / area};
+  // Turns a weighted sum of squares into the variance of a mean.
+  const double to_variance = 2.0 / (n * (n - 1.0)) / (n - 1.0);
+  const auto [area, density, square] = means_;
+  if (count_ < 2 || !(area > 0.0)) return {no_value, no_value};
+  const double noisy_square = weighted_means_[3];
+  const double mean = density / area;
+  const double mean_square = (square + noisy_square) / area;
+  const double variance = std::max(0.0, mean_square - mean * mean);
+  // Derivatives of the variance by the four means; the last twice, as the header says.
+  const std::array<double, size> by{(2.0 * mean * mean - mean_square) / area, -2.0 * mean / area, 1.0 / area, 2.0 / area};
   double squares = 0.0;
-  for (std::size_t i = 0; i < by.size(); ++i) {
-    for (std::size_t j = 0; j < by.size(); ++j) squares += by[i] * by[j] * products_[i * 3 + j];
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) squares += by[i] * by[j] * products_[i * size + j];
   }
   const double half_width = t_quantile * std::sqrt(std::max(0.0, squares) * to_variance);
   // Where the deviation is no larger than its error, the root of the variance's error bounds both.
@@ -103,27 +112,33 @@ ShadeClasses::ShadeClasses(const Conversion& conversion)
   }
   ShadeMeans means;
   for (auto* ratios : {&means.sunlit, &means.shaded}) ratios->resize(model.bands.size());
-  means.sunlit_beam.resize(model.bands.size());
+  for (auto* spreads : {&means.sunlit_spread, &means.shaded_spread}) spreads->resize(model.bands.size());
   organs_.assign(organ_open_m2_.size(), means);
   layers_.assign(layer_open_m2_.size(), means);
   leaves_.assign(1, means);
 }
 
-void ShadeClasses::add(const Replicate& replicate) {
+void ShadeClasses::add(const Replicate& replicate, const PlaceSums& earlier) {
   const std::size_t bands = conversion_.quanta.size();
   ShadeSums none;
-  for (auto* sums : {&none.direct_w, &none.indirect_w, &none.lit_indirect_w, &none.direct_square}) sums->resize(bands);
+  for (auto* sums : {&none.direct_w, &none.indirect_w, &none.lit_indirect_w, &none.lit_square, &none.indirect_square,
+                     &none.lit_indirect_square}) {
+    sums->resize(bands);
+  }
   Groups groups{std::vector(organs_.size(), none), std::vector(layers_.size(), none), std::vector(1, none)};
   if (conversion_.model.has_beam()) add_beam(replicate, groups);
-  if (replicate.packets) add_other_light(replicate, groups);
+  if (replicate.packets) add_other_light(replicate, earlier, groups);
   const auto add_all = [&](const std::vector<ShadeSums>& sums, const std::vector<double>& open_m2,
                            std::vector<ShadeMeans>& means) {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       means[i].lit_m2.add(sums[i].lit_m2);
       for (std::size_t b = 0; b < bands; ++b) {
         means[i].sunlit[b].add(sums[i].direct_w[b] + sums[i].lit_indirect_w[b], sums[i].lit_m2);
-        means[i].sunlit_beam[b].add(sums[i].lit_m2, sums[i].direct_w[b], sums[i].direct_square[b]);
         means[i].shaded[b].add(sums[i].indirect_w[b] - sums[i].lit_indirect_w[b], open_m2[i] - sums[i].lit_m2);
+        means[i].sunlit_spread[b].add({sums[i].lit_m2, sums[i].direct_w[b] + sums[i].lit_indirect_w[b], sums[i].lit_square[b],
+                                       sums[i].lit_indirect_square[b]});
+        means[i].shaded_spread[b].add({open_m2[i] - sums[i].lit_m2, sums[i].indirect_w[b] - sums[i].lit_indirect_w[b], 0.0,
+                                       sums[i].indirect_square[b] - sums[i].lit_indirect_square[b]});
       }
     }
   };
@@ -151,7 +166,7 @@ void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
           const double lower_w = per_landing_w * conversion_.absorptance(canopy.optics_of[e], 1, b);
           sums.direct_w[b] += upper * upper_w + lower * lower_w;
           if (lit_m2_per_landing > 0.0) {
-            sums.direct_square[b] += (upper * upper_w * upper_w + lower * lower_w * lower_w) / lit_m2_per_landing;
+            sums.lit_square[b] += (upper * upper_w * upper_w + lower * lower_w * lower_w) / lit_m2_per_landing;
           }
         }
       };
@@ -164,22 +179,35 @@ void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
   }
 }
 
-void ShadeClasses::add_other_light(const Replicate& replicate, Groups& groups) const {
+void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& earlier, Groups& groups) const {
   const Canopy& canopy = conversion_.model.canopy;
   const std::size_t bands = conversion_.quanta.size();
+  const PlaceSums::Finder earlier_sides(earlier);
   LayerShares shares(conversion_.layout);
+  std::vector<double> absorbed_w(bands), earlier_w_m2(bands), beam_w_m2(bands);
   replicate.packets->side_landed.for_each([&](std::size_t side, std::span<const std::int64_t> quanta) {
     const std::size_t e = side / 2;
     const Triangle& corners = canopy.corners[e];
     const double element_m2 = area_m2(corners);
-    const auto landings = static_cast<double>(conversion_.element_landings(replicate.counters, e).both());
-    const double lit = element_m2 > 0.0 ? landings * conversion_.exposure.lit_m2_per_landing(e) / element_m2 : 0.0;
+    const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
+    const BeamLandings landings = conversion_.element_landings(replicate.counters, e);
+    const double lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
+    for (std::size_t b = 0; b < bands; ++b) {
+      absorbed_w[b] = absorbed_other_w(side, quanta, b);
+      earlier_w_m2[b] = 0.0;
+      for (const std::size_t of : {2 * e, 2 * e + 1}) {
+        if (const auto landed = earlier_sides.at(of); !landed.empty()) earlier_w_m2[b] += absorbed_other_w(of, landed, b) * per_m2;
+      }
+      beam_w_m2[b] = absorbed_beam_w(e, landings, b) * per_m2;
+    }
     const auto add_to = [&](ShadeSums& sums, double share) {
       for (std::size_t b = 0; b < bands; ++b) {
-        const double absorbed_w = share * static_cast<double>(quanta[b]) * conversion_.quanta[b].w_m2_per_quantum *
-                                  conversion_.model.plot.area_m2() * conversion_.absorptance(canopy.optics_of[e], side % 2, b);
-        sums.indirect_w[b] += absorbed_w;
-        sums.lit_indirect_w[b] += lit * absorbed_w;
+        const double part_w = share * absorbed_w[b];
+        sums.indirect_w[b] += part_w;
+        sums.lit_indirect_w[b] += lit * part_w;
+        sums.lit_square[b] += 2.0 * beam_w_m2[b] * part_w;
+        sums.indirect_square[b] += earlier_w_m2[b] * part_w;
+        sums.lit_indirect_square[b] += lit * earlier_w_m2[b] * part_w;
       }
     };
     add_to(groups.organs[canopy.organ_of[e]], 1.0);
@@ -189,6 +217,19 @@ void ShadeClasses::add_other_light(const Replicate& replicate, Groups& groups) c
   });
 }
 
+double ShadeClasses::absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const {
+  const std::size_t optics = conversion_.model.canopy.optics_of[element];
+  return conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(band) *
+         (static_cast<double>(landings.upper) * conversion_.absorptance(optics, 0, band) +
+          static_cast<double>(landings.lower) * conversion_.absorptance(optics, 1, band));
+}
+
+double ShadeClasses::absorbed_other_w(std::size_t side, std::span<const std::int64_t> quanta, std::size_t band) const {
+  const RadiationModel& model = conversion_.model;
+  return static_cast<double>(quanta[band]) * conversion_.quanta[band].w_m2_per_quantum * model.plot.area_m2() *
+         conversion_.absorptance(model.canopy.optics_of[side / 2], side % 2, band);
+}
+
 ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, const Errors& errors) const {
   ShadeClassResult result;
   result.sunlit_m2 = means.lit_m2.estimate(errors.t_quantile, errors.unseen_events * conversion_.ground_per_ray_m2);
@@ -196,14 +237,14 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, c
   result.sunlit_m2.value = std::clamp(result.sunlit_m2.value, 0.0, open_m2);
   result.shaded_m2 = {open_m2 - result.sunlit_m2.value, result.sunlit_m2.half_width};
   for (std::size_t b = 0; b < means.sunlit.size(); ++b) {
-    const auto of_class = [&](const RatioMean& ratio) {
-      Estimate absorbed = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]);
-      absorbed.half_width += absorbed.value * errors.unshot_share[b];
-      return absorbed;
+    const auto add_class = [&](const RatioMean& ratio, const SpreadMean& spread, auto& absorbed, auto& spreads) {
+      Estimate flux = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]);
+      flux.half_width += flux.value * errors.unshot_share[b];
+      absorbed.push_back(flux);
+      spreads.push_back(std::isnan(flux.value) ? Estimate{no_value, no_value} : spread.estimate(errors.t_quantile));
     };
-    result.absorbed_sunlit.push_back(of_class(means.sunlit[b]));
-    result.sunlit_sd.push_back(means.sunlit_beam[b].estimate(errors.t_quantile));
-    result.absorbed_shaded.push_back(of_class(means.shaded[b]));
+    add_class(means.sunlit[b], means.sunlit_spread[b], result.absorbed_sunlit, result.sunlit_sd);
+    add_class(means.shaded[b], means.shaded_spread[b], result.absorbed_shaded, result.shaded_sd);
   }
   return result;
 }

@@ -9,6 +9,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sunfleck {
@@ -33,44 +35,63 @@ class RatioMean {
   double products_ = 0.0;  // sum of the products of both deviations
 };
 
-// The standard deviation of a density over an area, from what every replicate finds.
+// The standard deviation of a density over an area, from what every replicate finds. One part of the density is known without noise
+// wherever the area is found, such as a beam's; the other only as a noisy estimate of each triangle's, whose square would be too
+// large: its mean square comes from products of different replicates, each multiplied with the sum of all before.
 class SpreadMean {
  public:
-  // Adds a replicate's area, and the integrals of the density and of its square over it.
-  void add(double area, double integral, double square);
+  // What a replicate finds: integrals over the area, except for `noisy_square`.
+  struct Sums {
+    double area = 0.0;
+    double density = 0.0;
+    double square = 0.0;        // of the density's square, except the square of its noisy part
+    double noisy_square = 0.0;  // of the noisy part's estimate times the sum of the estimates of all earlier replicates
+  };
+
+  // Adds a replicate.
+  void add(const Sums& sums);
 
   // Passes the whole state to `archive`.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.count_, self.means_, self.products_);
+    archive(self.count_, self.means_, self.weighted_means_, self.products_);
   }
 
-  // Returns the square root of mean square / mean area - (mean integral / mean area)^2; NaN unless the area is known to be above 0.
-  // Its half-width follows from the first-order expansion in the three means, whose covariances are those of the replicates (the
-  // delta method, e.g. Cochran 1977, Sampling Techniques, section 6.3).
+  // Returns the square root of mean square / mean area - (mean integral / mean area)^2; NaN below two replicates or without area.
+  // Its half-width follows from the first-order expansion in the means, whose covariances are those of the replicates (the delta
+  // method, e.g. Cochran 1977, Sampling Techniques, section 6.3). The mean product of different replicates counts twice there, since
+  // each replicate is a factor on either side (Hoeffding 1948, Ann. Math. Stat. 19:293, the first projection of a U-statistic).
   [[nodiscard]] Estimate estimate(double t_quantile) const;
 
  private:
+  static constexpr std::size_t size = 4;
+
   std::size_t count_ = 0;
-  std::array<double, 3> means_{};     // area, integral, square
-  std::array<double, 9> products_{};  // sums of products of two deviations
+  std::array<double, size - 1> means_{};  // area, density, square
+  // The same and the product with the mean of all earlier replicates, each weighted by their number: the products of later
+  // replicates are less noisy, and this is the weight of all products of two different replicates.
+  std::array<double, size> weighted_means_{};
+  std::array<double, size * size> products_{};  // weighted sums of products of two deviations
 };
 
 // Sums of one replicate over the parts of a group: an organ, the leaves in a layer, or all leaves.
 struct ShadeSums {
   double lit_m2 = 0.0;
   std::vector<double> direct_w, indirect_w, lit_indirect_w;  // [band], absorbed; the last one where the sun shines
-  std::vector<double> direct_square;  // [band], W2 m-2, integral of (W m-2 of absorbed beam)^2 over lit area
+  // [band], W2 m-2, integrals over the lit area of the squared density of absorbed beam light and of twice its product with that of
+  // other light; and over all area, over the lit area, of the product of other light with the sum of all earlier replicates' other
+  // light
+  std::vector<double> lit_square, indirect_square, lit_indirect_square;
 };
 
 struct ShadeMeans {
   ReplicateMean lit_m2;
   std::vector<RatioMean> sunlit, shaded;  // [band], W m-2 of the class's area
-  std::vector<SpreadMean> sunlit_beam;    // [band], W m-2
+  std::vector<SpreadMean> sunlit_spread, shaded_spread;  // [band], W m-2
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.lit_m2, self.sunlit, self.shaded, self.sunlit_beam);
+    archive(self.lit_m2, self.sunlit, self.shaded, self.sunlit_spread, self.shaded_spread);
   }
 };
 
@@ -81,8 +102,9 @@ class ShadeClasses {
   explicit ShadeClasses(const Conversion& conversion);
 
   // Adds a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the beam's landings on
-  // it and the packets that land there are independent, so the product has no bias if both are even over the triangle.
-  void add(const Replicate& replicate);
+  // it and the packets that land there are independent, so the product has no bias if both are even over the triangle. `earlier` is
+  // what landed on each side in all replicates added before.
+  void add(const Replicate& replicate, const PlaceSums& earlier);
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
@@ -105,7 +127,10 @@ class ShadeClasses {
   };
 
   void add_beam(const Replicate& replicate, Groups& groups) const;
-  void add_other_light(const Replicate& replicate, Groups& groups) const;
+  void add_other_light(const Replicate& replicate, const PlaceSums& earlier, Groups& groups) const;
+  // Return what an element absorbs of the beam, and what a side absorbs of other light, W.
+  [[nodiscard]] double absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const;
+  [[nodiscard]] double absorbed_other_w(std::size_t side, std::span<const std::int64_t> quanta, std::size_t band) const;
   [[nodiscard]] ShadeClassResult result(const ShadeMeans& means, double open_m2, const Errors& errors) const;
 
   const Conversion& conversion_;
