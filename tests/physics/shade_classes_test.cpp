@@ -212,7 +212,7 @@ TEST(SpreadMean, LeavesOutTheNoiseOfEstimates) {
       }
       spread.add(sums);
     }
-    const Estimate estimate = spread.estimate(t_quantile(0.95, 16));
+    const Estimate estimate = spread.estimate(t_quantile(0.95, SpreadMean::effective(16)));
     sum += estimate.value * estimate.value / runs;
     held += std::abs(estimate.value - std::sqrt(variance)) <= estimate.half_width ? 1 : 0;
   }

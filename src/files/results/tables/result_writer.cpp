@@ -84,7 +84,8 @@ ordered_json leaf_classes_json(const RadiationModel& model, const RadiationResul
     for (std::size_t b = 0; b < figures.size(); ++b) bands[model.bands[b].name] = estimate_json(figures[b]);
     return bands;
   };
-  const auto of_class = [&](const Estimate& leaf_m2, const std::vector<Estimate>& absorbed, const std::vector<Estimate>& spread) {
+  const auto of_class = [&](const Estimate& leaf_m2, const std::vector<Estimate>& absorbed,
+                            const std::vector<Estimate>& spread) {
     return ordered_json{
         {"leaf_area_m2", estimate_json(leaf_m2)}, {"absorbed", of_bands(absorbed)}, {"absorbed_sd", of_bands(spread)}};
   };

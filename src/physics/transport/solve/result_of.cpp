@@ -67,7 +67,8 @@ class ResultMaker {
   [[nodiscard]] double unseen(double event) const { return sums_.unseen(event, confidence_); }
 
   [[nodiscard]] ShadeClasses::Errors class_errors() const {
-    ShadeClasses::Errors errors{quantile_, unseen(1.0), {}, {}};
+    ShadeClasses::Errors errors{
+        quantile_, t_quantile(confidence_, SpreadMean::effective(sums_.replicates)), unseen(1.0), {}, {}};
     for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
       errors.unshot_share.push_back(sums_.ledgers[b].unshot_share());
       errors.event_w.push_back(events_.largest_w_m2(b) * model_.plot.area_m2());

@@ -54,7 +54,8 @@ Estimate RatioMean::estimate(double t_quantile, double unseen) const {
 
 void SpreadMean::add(const Sums& sums) {
   const auto earlier = static_cast<double>(count_++);
-  const std::array<double, size> values{sums.area, sums.density, sums.square, earlier > 0.0 ? sums.noisy_square / earlier : 0.0};
+  const std::array<double, size> values{sums.area, sums.density, sums.square,
+                                        earlier > 0.0 ? sums.noisy_square / earlier : 0.0};
   for (std::size_t i = 0; i < means_.size(); ++i) means_[i] += (values[i] - means_[i]) / static_cast<double>(count_);
   if (earlier == 0.0) return;
   // West 1979, Commun. ACM 22:532, eq. 2, for weights `earlier`, whose sum is count * (count - 1) / 2.
@@ -73,8 +74,9 @@ void SpreadMean::add(const Sums& sums) {
 
 Estimate SpreadMean::estimate(double t_quantile) const {
   const auto n = static_cast<double>(count_);
-  // Turns a weighted sum of squares into the variance of a mean.
-  const double to_variance = 2.0 / (n * (n - 1.0)) / (n - 1.0);
+  // Turns a weighted sum of squares into the variance of a mean: the weights add up to n (n - 1) / 2, their squares to
+  // n (n - 1) (2 n - 1) / 6.
+  const double to_variance = 2.0 / (n * (n - 1.0)) / (n - (4.0 * n - 2.0) / (3.0 * (n - 1.0)));
   const auto [area, density, square] = means_;
   if (count_ < 2 || !(area > 0.0)) return {no_value, no_value};
   const double noisy_square = weighted_means_[3];
@@ -196,7 +198,8 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
       absorbed_w[b] = absorbed_other_w(side, quanta, b);
       earlier_w_m2[b] = 0.0;
       for (const std::size_t of : {2 * e, 2 * e + 1}) {
-        if (const auto landed = earlier_sides.at(of); !landed.empty()) earlier_w_m2[b] += absorbed_other_w(of, landed, b) * per_m2;
+        if (const auto landed = earlier_sides.at(of); !landed.empty())
+          earlier_w_m2[b] += absorbed_other_w(of, landed, b) * per_m2;
       }
       beam_w_m2[b] = absorbed_beam_w(e, landings, b) * per_m2;
     }
@@ -241,7 +244,7 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, c
       Estimate flux = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]);
       flux.half_width += flux.value * errors.unshot_share[b];
       absorbed.push_back(flux);
-      spreads.push_back(std::isnan(flux.value) ? Estimate{no_value, no_value} : spread.estimate(errors.t_quantile));
+      spreads.push_back(std::isnan(flux.value) ? Estimate{no_value, no_value} : spread.estimate(errors.spread_quantile));
     };
     add_class(means.sunlit[b], means.sunlit_spread[b], result.absorbed_sunlit, result.sunlit_sd);
     add_class(means.shaded[b], means.shaded_spread[b], result.absorbed_shaded, result.shaded_sd);

@@ -61,7 +61,11 @@ class SpreadMean {
   // Its half-width follows from the first-order expansion in the means, whose covariances are those of the replicates (the delta
   // method, e.g. Cochran 1977, Sampling Techniques, section 6.3). The mean product of different replicates counts twice there, since
   // each replicate is a factor on either side (Hoeffding 1948, Ann. Math. Stat. 19:293, the first projection of a U-statistic).
+  // `t_quantile` is that of effective(replicates).
   [[nodiscard]] Estimate estimate(double t_quantile) const;
+
+  // Returns the number of equally weighted replicates that tell as much of the covariances, (sum w)^2 / sum w^2.
+  [[nodiscard]] static std::size_t effective(std::size_t replicates) { return replicates * 3 / 4; }
 
  private:
   static constexpr std::size_t size = 4;
@@ -86,7 +90,7 @@ struct ShadeSums {
 
 struct ShadeMeans {
   ReplicateMean lit_m2;
-  std::vector<RatioMean> sunlit, shaded;  // [band], W m-2 of the class's area
+  std::vector<RatioMean> sunlit, shaded;                 // [band], W m-2 of the class's area
   std::vector<SpreadMean> sunlit_spread, shaded_spread;  // [band], W m-2
 
   template <class Self, class Archive>
@@ -114,7 +118,7 @@ class ShadeClasses {
   // Return the classes of an organ, of the leaves in a layer, or of all leaves. `unshot_share` is [band], and `event_w` the flux
   // that one event brings, [band].
   struct Errors {
-    double t_quantile = 0.0, unseen_events = 0.0;
+    double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
     std::vector<double> unshot_share, event_w;
   };
   [[nodiscard]] ShadeClassResult organ(std::size_t organ, const Errors& errors) const;

@@ -159,14 +159,37 @@ std::optional<std::vector<ElementShade>> ask_shadow_points(const RadiationModel&
     }
   }
   if (!points.ask(requests)) return std::nullopt;
+  requests.clear();
+  for (const std::uint32_t e : tree.order) {
+    if (shades[e].kind == ShadeKind::mixed || !points.disagree(e)) continue;
+    shades[e].kind = ShadeKind::found;
+    requests.push_back({e, first_points + edge_points, mixed_points - edge_points});
+  }
+  if (!points.ask(requests)) return std::nullopt;
   for (const std::uint32_t e : tree.order) {
     ElementShade& shade = shades[e];
     if (shade.kind == ShadeKind::unasked) continue;
-    if (shade.kind != ShadeKind::mixed && points.disagree(e)) shade.kind = ShadeKind::found;
     shade.points = points.asked(e);
     shade.share = static_cast<float>(points.lit(e)) / static_cast<float>(shade.points);
   }
   return shades;
+}
+
+bool ask_doubted(const RadiationModel& model, const CounterLayout& layout, std::span<const std::uint32_t> elements,
+                 Tracer& tracer, std::uint64_t seed, const StopQuestion& stop, std::vector<ElementShade>& shades) {
+  ShadowPoints points(model, layout, tracer, seed, stop);
+  std::vector<Request> requests;
+  for (const std::uint32_t e : elements)
+    requests.push_back({e, shades[e].points, first_points + mixed_points - shades[e].points});
+  if (!points.ask(requests)) return false;
+  for (const std::uint32_t e : elements) {
+    ElementShade& shade = shades[e];
+    const float lit = shade.share * static_cast<float>(shade.points) + static_cast<float>(points.lit(e));
+    shade.points = static_cast<std::uint16_t>(shade.points + points.asked(e));
+    shade.share = lit / static_cast<float>(shade.points);
+    shade.kind = ShadeKind::doubted;
+  }
+  return true;
 }
 
 }  // namespace sunfleck

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sunfleck {
@@ -21,9 +22,10 @@ enum class ShadeKind : std::uint8_t {
   edge_shade,   // no point of it sees the sun, but one of a neighbour does
   edge_light,   // all of its points see the sun, but one of a neighbour does not
   found,        // mixed, which only additional points showed
+  doubted,      // the beam landed on it, although none of its first points sees the sun: it has more of them
   mixed
 };
-inline constexpr std::size_t shade_kinds = 7;
+inline constexpr std::size_t shade_kinds = 8;
 
 struct ElementShade {
   float share = 0.0F;  // of its points that see the sun
@@ -40,5 +42,11 @@ struct ElementShade {
                                                                          const BeamExposure& exposure, const SurfaceTree& tree,
                                                                          Tracer& tracer, std::uint64_t seed,
                                                                          const StopQuestion& stop);
+
+// Asks further points of some elements, as many in all as for elements whose own disagree, and makes them `doubted`. Returns false if
+// stopped.
+[[nodiscard]] bool ask_doubted(const RadiationModel& model, const CounterLayout& layout,
+                               std::span<const std::uint32_t> elements, Tracer& tracer, std::uint64_t seed,
+                               const StopQuestion& stop, std::vector<ElementShade>& shades);
 
 }  // namespace sunfleck

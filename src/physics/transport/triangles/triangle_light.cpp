@@ -1,6 +1,7 @@
 #include "physics/transport/triangles/triangle_light.h"
 
 #include "physics/light/sun.h"
+#include "physics/transport/triangles/beam_shares.h"
 #include "physics/transport/triangles/pooling.h"
 #include "physics/transport/triangles/shadow_points.h"
 #include "physics/transport/triangles/surface_tree.h"
@@ -17,9 +18,6 @@ namespace {
 constexpr std::size_t tree_count = 4;
 // Replicates of a normal distribution, for the quantile of pooled variances.
 constexpr std::size_t many = 1000000;
-// The least variance of the sunlit share of each kind of shade. The beam's landings show the variances themselves, but only
-// as exactly as there are landings. For mixed elements it is a quarter of what an additive sequence of so many points leaves.
-constexpr std::array<double, shade_kinds> least_variance = {0.0, 1e-5, 1e-5, 1e-4, 1e-4, 1e-3, 3e-4};
 
 // Returns whole numbers in proportion to `values` whose sum is `total`; `values` of which none is positive count as equal.
 void apportion(std::span<const double> values, std::int64_t total, std::span<std::int64_t> parts) {
@@ -117,15 +115,10 @@ class Estimation {
     divide(pooled.flux, 1, all, at, result);
   }
 
-  // Returns the number of landings expected on an element in full sun, in that many replicates.
-  [[nodiscard]] double landings_in_sun(std::size_t e, std::size_t replicates) const {
-    const double lit_m2 = scene_.exposure.lit_m2_per_landing(e);
-    return lit_m2 > 0.0 ? areas_m2_[e] / lit_m2 * static_cast<double>(replicates) : 0.0;
-  }
-
   void estimate_beam() {
-    light_.direct_variance.resize(elements_);
-    const std::vector<double> landings = shades_ != nullptr ? join(*shades_) : pooled_landings();
+    const BeamShares shares(scene_.exposure, sums_, areas_m2_);
+    BeamLight beam = shades_ != nullptr ? shares.join(*shades_) : pooled_landings(shares);
+    light_.direct_variance = std::move(beam.variance);
     std::vector<std::int64_t> landed(2 * elements_);
     for (std::size_t e = 0; e < elements_; ++e) {
       landed[2 * e] = static_cast<std::int64_t>(sums_.landings[e].upper);
@@ -138,7 +131,7 @@ class Estimation {
       std::vector<double> on_side(elements_);
       for (std::size_t e = 0; e < elements_; ++e) {
         const bool upper = glm::dot(unit_normal(scene_.model.canopy.corners[e]), to_sun) > 0.0;
-        if (upper == (side == 0)) on_side[e] = landings[e];
+        if (upper == (side == 0)) on_side[e] = beam.landings[e];
       }
       divide(
           on_side, RadiationResult::parts_per_landing, landed, [side](std::size_t e) { return 2 * e + side; },
@@ -146,77 +139,15 @@ class Estimation {
     }
   }
 
-  [[nodiscard]] std::vector<double> pooled_landings() {
+  [[nodiscard]] BeamLight pooled_landings(const BeamShares& shares) const {
     std::vector<double> weights(elements_), a(elements_), b(elements_);
     for (std::size_t e = 0; e < elements_; ++e) {
-      weights[e] = landings_in_sun(e, 1);
+      weights[e] = shares.landings_in_sun(e, 1);
       a[e] = static_cast<double>(sums_.half_landings[e].both());
       b[e] = static_cast<double>(sums_.landings[e].both()) - a[e];
     }
     PooledLight pooled = pool(trees_, weights, a, b);
-    light_.direct_variance = std::move(pooled.variance);
-    return std::move(pooled.flux);
-  }
-
-  // Variance of shares from points, by kind of shade.
-  using PointVariance = std::array<double, shade_kinds>;
-
-  // Returns the variance of an element's share from landings, times the landings expected in full sun, relative to the share:
-  // 1 for rays without any order, less for a grid.
-  [[nodiscard]] double landing_spread(const std::vector<ElementShade>& shades) const {
-    double squares = 0.0, expected = 0.0;
-    const std::size_t others = sums_.replicates - sums_.half_replicates;
-    for (std::size_t e = 0; e < elements_; ++e) {
-      if (shades[e].kind == ShadeKind::unasked || !(shades[e].share > 0.0F)) continue;
-      const auto in_half = static_cast<double>(sums_.half_landings[e].both());
-      const double in_others = static_cast<double>(sums_.landings[e].both()) - in_half;
-      const double half = landings_in_sun(e, sums_.half_replicates);
-      const double other = landings_in_sun(e, others);
-      const double difference = in_half / half - in_others / other;
-      // Weighted by the landings, so that elements with few of them do not rule.
-      squares += difference * difference / (1.0 / half + 1.0 / other);
-      expected += shades[e].share;
-    }
-    return expected > 0.0 ? squares / expected : 1.0;
-  }
-
-  [[nodiscard]] double seen_share(std::size_t e) const {
-    return static_cast<double>(sums_.landings[e].both()) / landings_in_sun(e, sums_.replicates);
-  }
-
-  [[nodiscard]] PointVariance point_variance(const std::vector<ElementShade>& shades, double spread) const {
-    PointVariance squares{}, weights{};
-    for (std::size_t e = 0; e < elements_; ++e) {
-      const auto kind = static_cast<std::size_t>(shades[e].kind);
-      if (shades[e].kind == ShadeKind::unasked) continue;
-      const double weight = landings_in_sun(e, sums_.replicates);
-      const double difference = shades[e].share - seen_share(e);
-      squares[kind] += weight * (difference * difference - spread * shades[e].share / weight);
-      weights[kind] += weight;
-    }
-    for (std::size_t k = 0; k < shade_kinds; ++k) {
-      squares[k] = std::max(least_variance[k], weights[k] > 0.0 ? squares[k] / weights[k] : 0.0);
-    }
-    return squares;
-  }
-
-  // Returns the landings expected on each element, and sets their variance.
-  [[nodiscard]] std::vector<double> join(const std::vector<ElementShade>& shades) {
-    const double spread = landing_spread(shades);
-    const PointVariance of_points = point_variance(shades, spread);
-    std::vector<double> landings(elements_);
-    for (std::size_t e = 0; e < elements_; ++e) {
-      const ElementShade& shade = shades[e];
-      if (shade.kind == ShadeKind::unasked) continue;
-      const double in_sun = landings_in_sun(e, sums_.replicates);
-      const double of_point = of_points[static_cast<std::size_t>(shade.kind)];
-      const double seen_at_least = 0.5 / (shade.points + 1.0);
-      const double of_landings = spread * std::max<double>(shade.share, seen_at_least) / in_sun;
-      const double weight = of_landings / (of_landings + of_point);
-      landings[e] = in_sun * (weight * shade.share + (1.0 - weight) * seen_share(e));
-      light_.direct_variance[e] = in_sun * in_sun * weight * of_point;
-    }
-    return landings;
+    return {std::move(pooled.flux), std::move(pooled.variance)};
   }
 
   const TriangleScene& scene_;
@@ -246,7 +177,12 @@ TriangleLight TriangleEstimator::estimate(const BeamExposure& exposure, const Tr
   if (!shades_ && model_.has_beam()) {
     shades_ = ask_shadow_points(model_, layout_, exposure, trees_.front(), tracer_, seed_, stop);
   }
-  return Estimation({model_, layout_, surfaces_, exposure}, sums, areas_m2_, trees_, shades_ ? &*shades_ : nullptr).run();
+  std::optional<std::vector<ElementShade>> shades = shades_;
+  if (shades) {
+    const std::vector<std::uint32_t> doubted = BeamShares(exposure, sums, areas_m2_).doubted(*shades);
+    if (!ask_doubted(model_, layout_, doubted, tracer_, seed_, stop, *shades)) shades.reset();
+  }
+  return Estimation({model_, layout_, surfaces_, exposure}, sums, areas_m2_, trees_, shades ? &*shades : nullptr).run();
 }
 
 TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence) {

@@ -9,6 +9,7 @@
 #include "physics/transport/model/tracer.h"
 #include "physics/transport/triangles/shadow_points.h"
 #include "physics/transport/triangles/surface_tree.h"
+#include "physics/transport/triangles/triangle_sums.h"
 
 #include <cstdint>
 #include <optional>
@@ -16,14 +17,6 @@
 #include <vector>
 
 namespace sunfleck {
-
-// What landed on elements in all replicates of a run, and in every other one of them.
-struct TriangleSums {
-  std::size_t replicates = 0, half_replicates = 0;
-  std::span<const BeamLandings> landings, half_landings;  // [element]
-  std::span<const std::int64_t> indirect, half_indirect;  // [(2 * element + side) * bands + band]; empty without any
-  std::span<const std::int64_t> sky, half_sky;            // the part of it that comes unscattered from the sky
-};
 
 struct TriangleLight {
   std::vector<std::int64_t> side_direct;              // [2 * element + side], in parts of a landing as in RadiationResult
@@ -55,8 +48,8 @@ class TriangleEstimator {
 
   // Estimates the light of each element and side. Scattered light and sky light are pooled over neighbours (pooling.h). Of the
   // beam, points of the element are asked whether they see the sun (shadow_points.h), and their share is joined with the
-  // beam's landings by the variances of both, which the scatter of the one around the other shows; if `stop` ends that, the
-  // landings are pooled too. The sums over each side of a surface stay what landed there, to the last quantum.
+  // beam's landings by the variances of both, which the scatter of the one around the other shows (beam_shares.h); if `stop` ends
+  // that, the landings are pooled too. The sums over each side of a surface stay what landed there, to the last quantum.
   [[nodiscard]] TriangleLight estimate(const BeamExposure& exposure, const TriangleSums& sums, const StopQuestion& stop);
 
  private:
