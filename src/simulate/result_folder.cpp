@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 namespace sunfleck {
@@ -195,11 +196,14 @@ bool write_pictures(const std::filesystem::path& folder, const ResultRequest& re
   const std::vector<Picture> wanted = wanted_pictures(request, drawing.scene.model, drawing.result);
   if (wanted.empty()) return true;
   bool finished = true;
+  std::vector<std::optional<std::string>> pngs(wanted.size());  // compressed by several threads, written in order
   unwritten.attempt("the pictures", [&] {
-    finished = draw_charts(drawing, request.pictures, wanted, interrupted, [&](const Picture& picture, const Image& image) {
-      unwritten.attempt(file_of(picture), [&] { write_png(image, folder / file_of(picture)); });
-    });
+    finished = draw_charts(drawing, request.pictures, wanted, interrupted,
+                           [&](std::size_t k, const Image& image) { pngs[k] = encoded_png(image); });
   });
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    if (pngs[k]) unwritten.attempt(file_of(wanted[k]), [&] { write_encoded_png(*pngs[k], folder / file_of(wanted[k])); });
+  }
   return finished;
 }
 

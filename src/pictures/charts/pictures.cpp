@@ -14,8 +14,10 @@
 #include "pictures/drawing/view_block.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <utility>
@@ -89,24 +91,26 @@ bool draw_together(const Drawing& drawing, const PictureOptions& options, const 
   const RadiationModel& model = drawing.scene.model;
   const Camera camera = picture_camera(drawing.scene, drawing.layout, options);
   const ChartFrame frame{options.width, options.height, camera, model.plot, drawing.layout.layers.height_m};
+  std::vector<ChartContent> contents(pictures.size());
+  tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t k) {
+    contents[k] = chart_content({drawing.scene.title, model, drawing.layout, drawing.result}, options, pictures[k], surfaces);
+  });
   std::vector<ChartCanvas> canvases;
-  std::vector<ChartText> texts;
-  for (const Picture& picture : pictures) {
-    ChartContent content =
-        chart_content({drawing.scene.title, model, drawing.layout, drawing.result}, options, picture, surfaces);
-    canvases.emplace_back(frame, std::move(content.colours));
-    texts.push_back(std::move(content.text));
-  }
+  for (ChartContent& content : contents) canvases.emplace_back(frame, std::move(content.colours));
   const Look look(drawing, options, camera);
   const bool seen = look.each_band(stop, [&](const SurfaceImage& rows) {
-    for (ChartCanvas& canvas : canvases) canvas.paint(rows);
+    tbb::parallel_for(std::size_t{0}, canvases.size(), [&](std::size_t k) { canvases[k].paint(rows); });
   });
   if (!seen) return false;
-  for (std::size_t k = 0; k < pictures.size(); ++k) {
-    if (stop && stop()) return false;
-    receive(pictures[k], canvases[k].finish(texts[k]));
-  }
-  return true;
+  std::atomic<bool> finished = true;
+  tbb::parallel_for(std::size_t{0}, canvases.size(), [&](std::size_t k) {
+    if (stop && stop()) {
+      finished = false;
+    } else {
+      receive(k, canvases[k].finish(contents[k].text));
+    }
+  });
+  return finished;
 }
 
 constexpr double least_filled_share = 0.6;
@@ -295,7 +299,8 @@ bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::spa
   const std::size_t at_once = charts_at_once(drawing.layout, drawing.scene.model);
   for (std::size_t first = 0; first < pictures.size(); first += at_once) {
     const auto some = pictures.subspan(first, std::min(at_once, pictures.size() - first));
-    if (!draw_together(drawing, options, surfaces, some, stop, receive)) return false;
+    const auto receive_some = [&](std::size_t k, const Image& image) { receive(first + k, image); };
+    if (!draw_together(drawing, options, surfaces, some, stop, receive_some)) return false;
   }
   return true;
 }

@@ -82,9 +82,9 @@ struct ChartSource {
                                    std::size_t pictures);
 
 // Draws charts of one view: the scene is looked at once for all of them or, in a scene of millions of triangles, for as many as
-// have their colours in half a gibibyte. Passes each on as soon as it is finished, in
-// order. Returns false if stopped before the last.
-using ChartReceiver = std::function<void(const Picture& picture, const Image& image)>;
+// have their colours in half a gibibyte. Passes each on as soon as it is finished, with its index in `pictures`; several
+// threads may do so at once. Returns false if stopped before the last.
+using ChartReceiver = std::function<void(std::size_t picture, const Image& image)>;
 [[nodiscard]] bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,
                                const StopQuestion& stop, const ChartReceiver& receive);
 

@@ -8,11 +8,9 @@
 
 #include <fmt/format.h>
 
-#include <string>
-
 namespace sunfleck {
 
-void write_png(const Image& image, const std::filesystem::path& file) {
+std::string encoded_png(const Image& image) {
   EXPECT(image.width, >, 0);
   EXPECT(image.height, >, 0);
   EXPECT(image.pixels.size(), ==, static_cast<std::size_t>(image.width) * image.height);
@@ -23,11 +21,18 @@ void write_png(const Image& image, const std::filesystem::path& file) {
   std::string bytes;
   const int encoded =
       stbi_write_png_to_func(append, &bytes, image.width, image.height, channels, image.pixels.data(), image.width * channels);
-  if (encoded == 0 || bytes.empty()) {
-    throw_failure(fmt::format("{}: cannot encode {} x {} pixels as PNG", file.string(), image.width, image.height),
-                  "out of memory", "ask for a smaller picture");
+  return encoded == 0 ? std::string() : bytes;
+}
+
+void write_encoded_png(const std::string& bytes, const std::filesystem::path& file) {
+  if (bytes.empty()) {
+    throw_failure(fmt::format("{}: cannot be encoded as PNG", file.string()), "out of memory", "ask for a smaller picture");
   }
   write_file(file, bytes);
+}
+
+void write_png(const Image& image, const std::filesystem::path& file) {
+  write_encoded_png(encoded_png(image), file);
 }
 
 }  // namespace sunfleck

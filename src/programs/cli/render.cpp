@@ -79,7 +79,7 @@ Source read_source(const RenderOptions& options, bool finished_run) {
 bool write_picture(const Drawing& drawing, const RenderOptions& options, const fs::path& file) {
   if (!is_exr(file)) {
     return draw_charts(drawing, options.run.pictures, std::span(&options.picture, 1), interrupted,
-                       [&](const Picture&, const Image& image) { write_png(image, file); });
+                       [&](std::size_t, const Image& image) { write_png(image, file); });
   }
   const std::optional<ExrImage> image = draw_values(drawing, options.run.pictures, options.picture.field, interrupted);
   if (image) write_exr(*image, file);

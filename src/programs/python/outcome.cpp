@@ -153,7 +153,7 @@ py::array Outcome::render(const Picture& picture, const PictureOptions& options)
     check_field(simulated_.scene->model, picture);
     const auto never = [] { return false; };
     const bool done =
-        draw_charts(simulated_.drawing(), options, std::span(&picture, 1), never, [&](const Picture&, const Image& image) {
+        draw_charts(simulated_.drawing(), options, std::span(&picture, 1), never, [&](std::size_t, const Image& image) {
           bytes.reserve(3 * image.pixels.size());
           for (const auto& pixel : image.pixels) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
         });

@@ -115,7 +115,7 @@ StepLight night_light(const RadiationModel& model) {
   return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
           std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
           zero,
-          {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark},
+          {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark, dark},
           std::vector<Estimate>(count_plants(model) * bands, zero)};
 }
 

@@ -47,7 +47,7 @@ TEST_F(LivePictures, EndAsRenderDrawsThem) {
     ASSERT_TRUE(light_.with_result([&](const Scene& scene, const RadiationResult& result, const LightStamp&) {
       const Drawing drawing{scene, live_.simulation.layout(), result, live_.simulation.tracing().engine};
       EXPECT_TRUE(draw_charts(drawing, request_.options, std::span(&picture, 1), {},
-                              [&](const Picture&, const Image& image) { expected = image; }));
+                              [&](std::size_t, const Image& image) { expected = image; }));
     }));
     const auto same = [&] {
       const auto frame = picture_->frame();

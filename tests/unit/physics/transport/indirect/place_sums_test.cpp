@@ -50,6 +50,23 @@ TEST_P(PlaceSumsTest, AreTheSameInBothForms) {
   }
 }
 
+TEST_P(PlaceSumsTest, AreFoundPlaceByPlace) {
+  constexpr std::size_t places = 5000;
+  std::vector<std::int64_t> plain(places * width);
+  PlaceSums sums(places, width);
+  land(sums, plain, GetParam(), places, 4);
+  const PlaceSums::Finder finder(sums);
+  for (std::size_t place = 0; place < places; ++place) {
+    const auto found = finder.at(place);
+    for (std::size_t j = 0; j < width; ++j) {
+      const std::int64_t expected = plain[place * width + j];
+      ASSERT_EQ(found.empty() ? 0 : found[j], expected) << place;
+    }
+  }
+  const PlaceSums none;
+  EXPECT_TRUE(PlaceSums::Finder(none).at(3).empty());
+}
+
 TEST_P(PlaceSumsTest, AreReadAsTheyWereWritten) {
   constexpr std::size_t places = 5000;
   std::vector<std::int64_t> plain(places * width);
