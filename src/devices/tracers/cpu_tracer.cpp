@@ -1,6 +1,8 @@
 #include "devices/tracers/cpu_tracer.h"
 
 #include "devices/tracers/beam_bundles.h"
+#include "devices/tracers/packet_way.h"
+#include "devices/tracers/side_by_side.h"
 #include "shared/beam.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -9,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
 namespace sunfleck {
 namespace {
@@ -17,14 +20,39 @@ namespace {
 constexpr std::uint32_t rays_per_slice = 1U << 18U;
 constexpr std::uint32_t packets_per_slice = 1U << 17U;
 
-shared::Landing landing_of(const CpuHit& hit) {
-  return {2 * hit.element + hit.lower, hit.triangle, hit.weight_b, hit.weight_c};
-}
+// Follows packets side by side.
+class PacketSearches final : public SearchSource {
+ public:
+  PacketSearches(const shared::PacketBlock& scene, TraceDomain domain, std::span<const shared::Packet> packets,
+                 std::span<shared::Landing> landings)
+      : scene_(scene), domain_(domain), packets_(packets), landings_(landings) {}
 
-shared::Landing ground_landing(const shared::Ray& ray, float t, bool has_soil) {
-  const glm::vec2 at = shared::ground_point(ray, t);
-  return {has_soil ? shared::landed_on_ground : shared::left_downwards, 0, at.x, at.y};
-}
+  bool begin(std::size_t slot, Search& search) override {
+    if (begun_ == packets_.size()) return false;
+    packet_of_[slot] = begun_;
+    ways_[slot] = PacketWay(scene_, domain_, packets_[begun_++]);
+    search = ways_[slot].search();
+    return true;
+  }
+
+  bool next(std::size_t slot, const CpuHit& hit, Search& search) override {
+    if (ways_[slot].goes_on(hit)) {
+      search = ways_[slot].search();
+      return true;
+    }
+    landings_[packet_of_[slot]] = ways_[slot].landing();
+    return begin(slot, search);
+  }
+
+ private:
+  const shared::PacketBlock& scene_;
+  TraceDomain domain_;
+  std::span<const shared::Packet> packets_;
+  std::span<shared::Landing> landings_;
+  std::size_t begun_ = 0;
+  std::array<std::size_t, searches_at_once> packet_of_{};
+  std::array<PacketWay, searches_at_once> ways_;
+};
 
 }  // namespace
 
@@ -101,39 +129,12 @@ TraceOutcome CpuTracer::count_beam(const shared::BeamBlock& beam, std::span<std:
   return TraceOutcome::finished;
 }
 
-shared::Landing CpuTracer::follow_in_isolated_stand(const shared::PacketBlock& scene, const shared::Ray& ray,
-                                                    OwnElement own) const {
-  const bool down = ray.inverse.y < 0.0F;
-  const shared::Ground ground = shared::meet_ground(ray, scene.ground);
-  const bool over_plot = down && shared::falls_on_plot(ray, scene.ground);
-  const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F, own);
-  if (hit.found) return landing_of(hit);
-  if (over_plot) return ground_landing(ray, ground.t, domain_.has_soil);
-  return {down ? shared::left_downwards : shared::left_upwards, 0, 0.0F, 0.0F};
-}
-
-shared::Landing CpuTracer::follow_in_endless_canopy(const shared::PacketBlock& scene, shared::Ray ray, OwnElement own,
-                                                    std::uint32_t crossings) const {
-  const bool down = ray.inverse.y < 0.0F;
-  while (true) {
-    const shared::Ground end = down ? shared::meet_ground(ray, scene.ground) : shared::meet_top(ray, scene.top_y);
-    const shared::Crossing crossing = shared::next_crossing(ray, scene.period, scene.overlap);
-    const CpuHit hit = nearest(ray, end.limit < crossing.limit ? end.limit : crossing.limit, own);
-    if (hit.found) return landing_of(hit);
-    if (end.t <= crossing.t) {
-      return down ? ground_landing(ray, end.t, domain_.has_soil) : shared::Landing{shared::left_upwards, 0, 0.0F, 0.0F};
-    }
-    if (++crossings > shared::max_crossings) return {shared::lost_on_its_way, 0, 0.0F, 0.0F};
-    ray.origin = shared::enter_next_period(ray, crossing, scene.period);
-    own.image = shared::image_in_next_period(own.image, ray, crossing.along_x);
-  }
-}
-
 shared::Landing CpuTracer::follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
                                          std::uint32_t crossings) const {
-  const shared::Ray ray = shared::make_ray(packet.origin, packet.direction);
-  const OwnElement own{packet.element, packet.image};
-  return domain_.periodic ? follow_in_endless_canopy(scene, ray, own, crossings) : follow_in_isolated_stand(scene, ray, own);
+  PacketWay way(scene, domain_, packet, crossings);
+  while (way.goes_on(nearest(way.search().ray, way.search().limit, way.search().own))) {
+  }
+  return way.landing();
 }
 
 TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
@@ -143,6 +144,11 @@ TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const 
     const DispatchClock clock;
     const std::size_t end = std::min(packets.size(), first + packet_budget_.rays());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, 256), [&](const auto& range) {
+      if (walk_ == CpuWalk::tree && bvh_.copies.empty()) {
+        PacketSearches searches(scene, domain_, packets.subspan(range.begin(), range.size()),
+                                landings.subspan(range.begin(), range.size()));
+        return search_side_by_side(bvh_, searches);
+      }
       for (std::size_t k = range.begin(); k < range.end(); ++k) landings[k] = follow_packet(scene, packets[k], 0);
     });
     packet_budget_.record_duration(static_cast<std::uint32_t>(end - first), clock.seconds());

@@ -1,6 +1,6 @@
 #pragma once
-// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, beam rays in bundles; or tests
-// every element, ray by ray, when the tree itself is in doubt.
+// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, beam rays in bundles and packets
+// side by side; or tests every element, ray by ray, when the tree itself is in doubt.
 
 #include "devices/tracers/cpu_walk.h"
 #include "devices/tracers/dispatch_budget.h"
@@ -40,10 +40,6 @@ class CpuTracer final : public Tracer {
 
  private:
   [[nodiscard]] CpuHit nearest(const shared::Ray& ray, float limit, OwnElement own = {}) const;
-  [[nodiscard]] shared::Landing follow_in_isolated_stand(const shared::PacketBlock& scene, const shared::Ray& ray,
-                                                         OwnElement own) const;
-  [[nodiscard]] shared::Landing follow_in_endless_canopy(const shared::PacketBlock& scene, shared::Ray ray, OwnElement own,
-                                                         std::uint32_t crossings) const;
   void follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray, const LandingCounter& landings) const;
   void follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
                                 const LandingCounter& landings) const;

@@ -7,44 +7,6 @@ namespace {
 
 using namespace walk_parts;
 
-// Vector with one lane per corner.
-using Int4 [[gnu::vector_size(16)]] = std::int32_t;
-using Long2 [[gnu::vector_size(16)]] = std::int64_t;
-using Float4 [[gnu::vector_size(16)]] = float;
-
-// A ray as shared::meet_triangle sees it, with its axes already in order.
-struct EdgeRay {
-  std::size_t x, y, z;
-  float origin[3];
-  float shear_x, shear_y;
-};
-
-INLINED EdgeRay edge_ray(const shared::Ray& ray) {
-  const std::size_t z = ray.axis;
-  const std::size_t x = z == 2 ? 0 : z + 1;
-  const std::size_t y = x == 2 ? 0 : x + 1;
-  const float origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
-  return {x, y, z, {origin[x], origin[y], origin[z]}, ray.shear.x, ray.shear.y};
-}
-
-INLINED bool any(Int4 holds) {
-  const Long2 halves = std::bit_cast<Long2>(holds);
-  return (halves[0] | halves[1]) != 0;
-}
-
-// Returns false only if shared::meet_triangle finds the ray outside the edges: computes the same u, v and w in parallel.
-INLINED bool within_edges(const EdgeRay& ray, const BvhTriangle& t) {
-  const Float4 z = Float4{t.a[ray.z], t.b[ray.z], t.c[ray.z], ray.origin[2]} - ray.origin[2];
-  const Float4 x = Float4{t.a[ray.x], t.b[ray.x], t.c[ray.x], ray.origin[0]} - ray.origin[0] - ray.shear_x * z;
-  const Float4 y = Float4{t.a[ray.y], t.b[ray.y], t.c[ray.y], ray.origin[1]} - ray.origin[1] - ray.shear_y * z;
-  const Float4 x_cab = __builtin_shufflevector(x, x, 2, 0, 1, 3);
-  const Float4 y_cab = __builtin_shufflevector(y, y, 2, 0, 1, 3);
-  const Float4 x_bca = __builtin_shufflevector(x, x, 1, 2, 0, 3);
-  const Float4 y_bca = __builtin_shufflevector(y, y, 1, 2, 0, 3);
-  const Float4 uvw = x_cab * y_bca - y_cab * x_bca;
-  return !(any(uvw < 0.0F) && any(uvw > 0.0F));
-}
-
 // Walks the tree below `root`. A tree of copies calls enter_copy(node number) for each copy that the ray may meet.
 template <bool of_copies, class EnterCopy>
 INLINED void walk(const Bvh& bvh, std::uint32_t root, const shared::Ray& ray, float limit, Images images, OwnElement own,

@@ -33,6 +33,13 @@ struct OwnElement {
   std::uint32_t image = 0;
 };
 
+// What to search: the nearest hit with 0 < t <= limit.
+struct Search {
+  shared::Ray ray;
+  float limit = 0.0F;
+  OwnElement own;
+};
+
 // Returns where a copy of the tree stands.
 [[nodiscard]] shared::CopyTurn turn_of(const BvhCopy& copy);
 

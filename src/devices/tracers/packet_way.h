@@ -1,0 +1,42 @@
+#pragma once
+// The way of one packet on the CPU, from period to period until it lands.
+
+#include "devices/tracers/cpu_walk.h"
+#include "devices/tracers/trace_domain.h"
+#include "shared/beam.h"
+#include "shared/layout.h"
+
+#include <cstdint>
+
+namespace sunfleck {
+
+class PacketWay {
+ public:
+  PacketWay() = default;  // no way
+
+  // Begins where the packet is after that many crossings of periods. `scene` must outlive the way.
+  PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet, std::uint32_t crossings = 0);
+
+  // Returns the search in the period that the packet has reached.
+  [[nodiscard]] const Search& search() const { return search_; }
+
+  // Takes the hit of that search; returns false if the packet has landed, else there is another search.
+  [[nodiscard]] bool goes_on(const CpuHit& hit);
+
+  [[nodiscard]] const shared::Landing& landing() const { return landing_; }
+
+ private:
+  void look_ahead();
+  [[nodiscard]] bool land(const shared::Landing& landing);
+
+  const shared::PacketBlock* scene_ = nullptr;
+  TraceDomain domain_;
+  Search search_;
+  std::uint32_t crossings_ = 0;
+  bool down_ = false, over_plot_ = false;
+  shared::Ground end_{};  // the soil, or the plane above the canopy
+  shared::Crossing crossing_{};
+  shared::Landing landing_{};
+};
+
+}  // namespace sunfleck
