@@ -64,7 +64,7 @@ void feed_step_settings(std::string_view bytes) {
 }
 
 void feed_run_state(std::string_view bytes) {
-  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS4", bytes)));
+  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS5", bytes)));
   SolveState blank;
   blank.work.rays = 1.0;
   blank.sums.integers.resize(3);

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view state_mark = "SUNRUNS4";
+constexpr std::string_view state_mark = "SUNRUNS5";
 
 // Returns whether the file begins with the letters of a run's state and the digit of another version.
 bool is_of_another_version(std::string_view bytes) {
@@ -33,7 +33,6 @@ void visit(const Archive& archive, State& state, const SolveState& blank) {
   archive["rays"].value(state.work.rays);
   archive["packets"].value(state.work.packets);
   archive["next_check"].value(state.next_check);
-  archive["good_checks"].value(state.good_checks);
   archive["integers"].packed(state.sums.integers, blank.sums.integers.size());
   archive["reals"].packed(state.sums.reals, blank.sums.reals.size());
 }
