@@ -18,11 +18,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// next_work sizes replicates so that sixteen of them reach 0.7 of the bounds and a run rarely fails its checks: half of its
-// work is spare. With fewer packets in each replicate, a step makes as many replicates as it needs, and the spare work is only
-// that between two checks. Rays cost little compared with packets, and a beam that lags behind would cost all packets of more
-// replicates.
-constexpr double share_of_next_packets = 0.4;
+// next_work sizes replicates so that sixteen of them just reach the bounds. With fewer packets in each replicate, a step whose
+// light is easier than the last one's has not yet made too many when its bounds are checked first. Rays cost little compared with packets,
+// and a beam that lags behind would cost all packets of more replicates.
+constexpr double share_of_next_packets = 0.8;
+constexpr double share_of_next_rays = 1.6;
 // The sun may have moved to where much more work is needed, for example when the first beams reach the ground. If the error is
 // still this many times the bound after this many replicates, the step starts again with pilots: otherwise it would need 75
 // replicates instead of about 20.
@@ -69,7 +69,7 @@ class DayRun {
     SolveSettings settings = settings_;
     settings.seed = RandomStream(settings_.seed, step).word();
     if (next_work_ && !settings.grid_m && !settings.passes) {
-      settings.begin_with = Work{next_work_->rays, share_of_next_packets * next_work_->packets};
+      settings.begin_with = Work{share_of_next_rays * next_work_->rays, share_of_next_packets * next_work_->packets};
     }
     Stopwatch watch;
     std::optional<RadiationResult> attempt = solve(settings);

@@ -24,7 +24,9 @@ double absorbed_w(const ShadeClassResult& classes, std::size_t band) {
 
 TEST(ShadeClasses, AddUpToWhatOrgansLayersAndLeavesAbsorb) {
   const RadiationModel model = light_mix();
-  const RadiationResult result = simulate(model, to_a_wide_bound());
+  SolveSettings settings = to_a_wide_bound();
+  settings.accuracy.direct = settings.accuracy.indirect = 0.005;
+  const RadiationResult result = simulate(model, settings);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     double organs_w = 0.0;
     for (const OrganResult& organ : result.organs) {

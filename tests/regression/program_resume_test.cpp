@@ -71,13 +71,13 @@ TEST_F(Resume, GoesOnWhereItWasKilledAndStopped) {
   expect_same_tables("whole", "out");
 }
 
-// --resume is given from the start, so that the clock determines no work. Six seconds are 600 readings of this clock.
+// --resume is given from the start, so that the clock determines no work. Twelve seconds are 1200 readings of this clock.
 TEST_F(Resume, GoesOnAfterALimitOfTime) {
   go({}, 0, "whole");
   preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
-  const Outcome stopped = go({"--resume", "--max-seconds", "6"}, 1);
+  const Outcome stopped = go({"--resume", "--max-seconds", "12"}, 1);
   preload_nothing();
-  EXPECT_NE(stopped.err.find("--max-seconds 6"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("--max-seconds 12"), std::string::npos) << stopped.err;
   EXPECT_TRUE(exists("run_state.bin"));
   EXPECT_NE(go({"--resume", "--max-seconds", "1e9"}).err.find("resuming after "), std::string::npos);
   expect_same_tables("whole", "out");

@@ -38,7 +38,6 @@ Scene light_of_scene(Scene& scene) {
 
 SolveSettings live_settings(const RunOptions& options, const Scene& scene) {
   SolveSettings settings = solve_settings(options, scene, options.threads);
-  settings.pilots_of_all_light = true;
   const std::size_t side_bytes = 2 * scene.model.canopy.size() * scene.model.bands.size() * 2 * sizeof(double);
   if (side_bytes <= most_side_bytes) settings.element_errors = ElementErrors::keep_sides_and_refine;
   return settings;

@@ -33,7 +33,6 @@ void visit(const Archive& archive, State& state, const SolveState& blank) {
   archive["rays"].value(state.work.rays);
   archive["packets"].value(state.work.packets);
   archive["next_check"].value(state.next_check);
-  archive["good_checks"].value(state.good_checks);
   archive["integers"].packed(state.sums.integers, blank.sums.integers.size());
   archive["reals"].packed(state.sums.reals, blank.sums.reals.size());
 }

@@ -1,5 +1,6 @@
 #include "physics/transport/solve/foresight.h"
 
+#include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/statistics.h"
 
 #include <algorithm>
@@ -17,6 +18,12 @@ std::size_t replicates_needed(double error, double bound, double confidence, std
         std::clamp(std::ceil(static_cast<double>(done) * ratio * ratio), static_cast<double>(done), static_cast<double>(most));
   }
   return static_cast<std::size_t>(needed);
+}
+
+std::size_t check_after(std::size_t done, std::size_t needed, ErrorTarget of) {
+  const std::size_t least = of == ErrorTarget::triangle ? std::max<std::size_t>(4, done / 8) : 2;
+  const std::size_t half_way = needed > done ? (needed - done) / 2 : 0;
+  return std::min(most_replicates, done + std::max(least, half_way));
 }
 
 double Completion::update(double done, double expected) {

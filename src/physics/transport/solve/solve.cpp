@@ -219,21 +219,14 @@ class Solver {
     return most;
   }
 
-  // Returns the number of replicates after which a run to its bounds is expected to end: at the second good check in a
-  // row.
-  [[nodiscard]] std::size_t expected_replicates() const {
+  // Returns how many replicates bring both errors down to their bounds, as far as this run shows.
+  [[nodiscard]] std::size_t needed_replicates() const {
     const std::size_t done = series_->sums.replicates;
-    std::size_t needed = planned_replicates;
-    if (done >= 2) {
-      const auto needs = [&](double error, double bound) {
-        return replicates_needed(error, bound, settings_.accuracy.confidence, done, most_replicates);
-      };
-      needed = std::max(needs(direct_error(), settings_.accuracy.direct), needs(indirect_error(), settings_.accuracy.indirect));
-    }
-    std::size_t check = next_check_;
-    if (good_checks_ > 0 && needed <= check) return check;
-    while (check < std::min(needed, most_replicates)) check = check_after(check);
-    return check_after(check);
+    if (done < 2) return planned_replicates;
+    const auto needs = [&](double error, double bound) {
+      return replicates_needed(error, bound, settings_.accuracy.confidence, done, most_replicates);
+    };
+    return std::max(needs(direct_error(), settings_.accuracy.direct), needs(indirect_error(), settings_.accuracy.indirect));
   }
 
   // Frees the pilots' sums as soon as no result will be made from them.
@@ -254,7 +247,6 @@ class Solver {
     begun_with_ = series_->sums.replicates;
     traced_ = series_->traced();
     next_check_ = state.next_check;
-    good_checks_ = state.good_checks;
     return run_on();
   }
 
@@ -270,30 +262,26 @@ class Solver {
     return finish(StopReason::work_done);
   }
 
+  // The run ends at the first good check. That keeps the intervals true: with at least 12 replicates, ending where the error
+  // happens to be small costs less than one percent of coverage.
   RadiationResult run_to_bound() {
     while (true) {
-      // The run cannot end before the next check, nor at it if it were the first good one.
-      const std::size_t certain = good_checks_ == 0 ? check_after(next_check_) : next_check_;
-      if (spent() || !add_replicate(certain, most_replicates)) return finish(stop_);
-      report(expected_replicates());
-      if (series_->sums.replicates >= next_check_) {
-        judge_triangles();
-        good_checks_ = bounds_hold() ? good_checks_ + 1 : 0;
-        if (good_checks_ == 2) return finish(StopReason::bound_reached);
-        if (series_->sums.replicates >= most_replicates) return finish(StopReason::replicates_spent);
-        next_check_ = check_after(next_check_);
-      }
+      if (spent() || !add_replicate(next_check_, most_replicates)) return finish(stop_);
+      const std::size_t done = series_->sums.replicates;
+      const bool due = done >= next_check_;
+      if (due) judge_triangles();
+      const bool good = due && bounds_hold();
+      report(good ? done : std::max(needed_replicates(), due ? done + 1 : next_check_));
+      if (good) return finish(StopReason::bound_reached);
+      if (done >= most_replicates) return finish(StopReason::replicates_spent);
+      if (due) next_check_ = check_after(done, needed_replicates(), settings_.accuracy.of);
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
     }
   }
 
-  [[nodiscard]] static std::size_t check_after(std::size_t check) {
-    return std::min(most_replicates, check + std::max<std::size_t>(4, check / 8));
-  }
-
   void keep_state() const {
     if (!monitor_.receive_state || series_->sums.replicates < 2 || planner_.fitted_to_time()) return;
-    monitor_.receive_state({work_, next_check_, good_checks_, pieces_of(series_->sums)});
+    monitor_.receive_state({work_, next_check_, pieces_of(series_->sums)});
   }
 
   // Returns true if the next replicate would need more rays than are left.
@@ -363,7 +351,7 @@ class Solver {
   StopReason stop_ = StopReason::interrupted;
   Work work_;
   std::uint64_t traced_ = 0;
-  std::size_t next_check_ = first_check, good_checks_ = 0;
+  std::size_t next_check_ = first_check;
   std::size_t begun_with_ = 0;  // replicates that an earlier process made
   double begun_s_ = 0.0;        // time at which this series began
   Completion completion_;

@@ -60,15 +60,14 @@ PlainSums plain_sums(const RunSums& sums) {
   return copied(pieces_of(sums));
 }
 
-SolveStateView::SolveStateView(Work of_work, std::size_t check, std::size_t good, SumPieces pieces)
-    : work(of_work), next_check(check), good_checks(good), sums(std::move(pieces)) {}
+SolveStateView::SolveStateView(Work of_work, std::size_t check, SumPieces pieces)
+    : work(of_work), next_check(check), sums(std::move(pieces)) {}
 
 SolveStateView::SolveStateView(const SolveState& state)
-    : SolveStateView(state.work, state.next_check, state.good_checks,
-                     {one_piece(state.sums.integers), one_piece(state.sums.reals)}) {}
+    : SolveStateView(state.work, state.next_check, {one_piece(state.sums.integers), one_piece(state.sums.reals)}) {}
 
 SolveStateView::operator SolveState() const {
-  return {work, next_check, good_checks, copied(sums)};
+  return {work, next_check, copied(sums)};
 }
 
 bool restore(RunSums& sums, const PlainSums& plain) {
@@ -106,8 +105,7 @@ bool is_state_of(const SolveState& state, const SolveState& blank) {
   return state.sums.integers.size() == blank.sums.integers.size() && state.sums.reals.size() == blank.sums.reals.size() &&
          is_in(state.replicates(), std::size_t{2}, most_replicates) &&
          is_in(state.work.rays, blank.work.rays, static_cast<double>(max_grid_rays)) &&
-         is_in(state.work.packets, 0.0, most_first_packets) && is_in(state.next_check, first_check, most_replicates) &&
-         state.good_checks < 2;
+         is_in(state.work.packets, 0.0, most_first_packets) && is_in(state.next_check, first_check, most_replicates);
 }
 
 }  // namespace sunfleck

@@ -44,7 +44,6 @@ struct SumPieces {
 struct SolveState {
   Work work;                             // of each replicate
   std::size_t next_check = first_check;  // number of replicates at which it is due; unused if the work is fixed
-  std::size_t good_checks = 0;           // in a row, up to the last check
   PlainSums sums;
 
   [[nodiscard]] std::size_t replicates() const;
@@ -52,13 +51,12 @@ struct SolveState {
 
 // A state as it is handed over and written; what it is made of must outlive it.
 struct SolveStateView {
-  SolveStateView(Work of_work, std::size_t check, std::size_t good, SumPieces pieces);
+  SolveStateView(Work of_work, std::size_t check, SumPieces pieces);
   SolveStateView(const SolveState& state);  // NOLINT(google-explicit-constructor): a view of the state
   operator SolveState() const;              // NOLINT(google-explicit-constructor): a copy
 
   Work work;
   std::size_t next_check = first_check;
-  std::size_t good_checks = 0;
   SumPieces sums;
 };
 

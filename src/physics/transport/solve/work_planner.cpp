@@ -10,16 +10,29 @@
 namespace sunfleck {
 namespace {
 
-// A pilot is trusted to forecast work up to this multiple of its own; beyond it a larger pilot follows, at a few percent of
-// the cost.
-constexpr double trusted_refinement = 16;
+// How far pilots forecast.
+struct Forecast {
+  double trusted;  // largest multiple of the pilots' own work that they are trusted to forecast
+  double next;     // larger pilots have the forecast work divided by this
+
+  // Returns the work of the next pilots; that of these if their forecast is trusted.
+  [[nodiscard]] double next_pilot(double pilot, double forecast) const {
+    return forecast > trusted * pilot ? forecast / next : pilot;
+  }
+};
+// Pilots with a sixteenth of the rays cost a sixteenth of the run. Over larger multiples the slope of the error is uncertain; that
+// of packets is known.
+constexpr Forecast ray_forecast{32, 16};
+constexpr Forecast packet_forecast{128, 64};
+// Largest multiple by which a run changes the work for the next one.
+constexpr double most_change = 16;
+// Half of a limit on rays or time is enough for this many replicates.
+constexpr int least_replicates = 8;
 // Exponents by which errors fall. The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation
-// G3), and more slowly while its cells are not yet small compared with the leaves: rays^-0.6 gave the best forecasts from
-// pilots on maize. The error of packets falls with packets^-1/2.
-constexpr double ray_slope = 0.6;
+// G3), and more slowly while its cells are not yet small compared with the leaves: with rays^-0.68 neither pass waited for the
+// other in maize. The error of packets falls with packets^-1/2.
+constexpr double ray_slope = 0.68;
 constexpr double packet_slope = 0.5;
-// Part of the bound to aim at, so that the checks rarely fail by chance.
-constexpr double aimed_part_of_bound = 0.7;
 // Sky rays per packet of the first round when the work is not fixed, and the largest number of sky rays in one replicate.
 constexpr double sky_rays_per_packet = 2.0;
 // Light that reaches a small stand by way of a wide floor needs more packets, not more sky rays.
@@ -28,9 +41,9 @@ constexpr double most_sky_rays = 0x1p22;
 // A replicate whose packets take more memory than this gains nothing: more replicates do the same work.
 constexpr double comfortable_bytes = 0x1p28;
 
-// Returns the factor by which the work must grow for an error to fall to the part of its bound that is aimed at.
+// Returns the factor by which the work must grow for an error to fall to its bound.
 double growth(double error, double bound, double slope) {
-  return std::pow(error / (aimed_part_of_bound * bound), 1.0 / slope);
+  return std::pow(error / bound, 1.0 / slope);
 }
 
 // Returns the ratio of the half-widths that `replicates` would give to those that `done` gave.
@@ -54,54 +67,55 @@ std::optional<Work> WorkPlanner::choose(const RunPilots& run_pilots) {
   return work;
 }
 
-// Returns the work of a replicate such that the planned number of replicates reaches the bounds: pilots, as a rule of the
-// direct pass alone, determine the rays, then pilots with half those rays determine the packets. Returns nothing if stopped.
+// Returns the work of a replicate such that the planned number of replicates reaches the bounds. Pilots trace all light: each tells
+// how many rays and how many packets the run needs, and larger ones follow until both forecasts can be trusted. Returns
+// nothing if stopped.
 std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
-  double most = static_cast<double>(max_grid_rays);
-  if (settings_.max_rays) most = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * pilot_replicates));
-  Work work;
-  if (settings_.grid_m) {
-    work.rays = grid_rays_asked();
-  } else if (model_.has_beam()) {
-    const bool all_light = settings_.pilots_of_all_light && maker_.has_indirect_pass();
-    const Work pilot{std::min(first_pilot.rays, most), all_light ? std::min(first_pilot.packets, most) : 0.0};
-    const auto rays = grow_pilots(run_pilots, pilot, &Work::rays, &WorkPlanner::ray_growth, [&] { return most; });
-    if (!rays) return std::nullopt;
-    work.rays = rays->chosen;
-  }
-  if (!maker_.has_indirect_pass()) return work;
+  double most_rays = static_cast<double>(max_grid_rays);
+  if (settings_.max_rays) most_rays = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * least_replicates));
   // On a fixed grid there is at most one packet per ray, and at least as many packets as in the first pilot.
-  if (settings_.grid_m) most = std::min(most, std::max(first_pilot.packets, work.rays));
-  if (most <= first_pilot.packets) {
-    work.packets = most;
-    return work;
-  }
-  const Work pilot{std::max(std::min(first_pilot.rays, work.rays), 0.5 * work.rays), std::min(first_pilot.packets, most)};
-  const auto packets = grow_pilots(run_pilots, pilot, &Work::packets, &WorkPlanner::packet_growth,
-                                   [&] { return std::min(most, most_packets(work)); });
-  if (!packets) return std::nullopt;
-  work.packets = packets->chosen;
-  // More replicates make up for packets that do not fit the memory, and each of them then needs fewer rays.
-  const bool held_back = !fixed() && packets->chosen == most_packets(work);
-  if (held_back) work.rays *= std::pow(packets->wanted / packets->chosen, -0.5 / ray_slope);
-  if (held_back && model_.has_beam()) work.rays = std::max(first_pilot.rays, work.rays);
-  return work;
-}
-
-// Runs pilots until one is large enough to forecast `part` of the work, which is at most `most()`.
-std::optional<WorkPlanner::Part> WorkPlanner::grow_pilots(const RunPilots& run_pilots, Work pilot, double Work::*part,
-                                                          Growth growth, const std::function<double()>& most) {
+  const double grid_rays = settings_.grid_m ? grid_rays_asked() : 0.0;
+  double most = most_rays;
+  if (settings_.grid_m) most = std::min(most, std::max(first_pilot.packets, grid_rays));
+  const bool chooses_rays = model_.has_beam() && !settings_.grid_m;
+  Work pilot;
+  if (model_.has_beam()) pilot.rays = std::min(first_pilot.rays, settings_.grid_m ? grid_rays : most_rays);
+  if (settings_.grid_m) pilot.rays = std::max(pilot.rays, grid_rays / ray_forecast.next);
+  if (maker_.has_indirect_pass()) pilot.packets = std::min(first_pilot.packets, most);
   while (true) {
     const std::optional<SeriesOutcome> pilots = run_pilots(pilot);
     if (!pilots) return std::nullopt;
-    const double wanted = pilot.*part * std::max(0.25, (this->*growth)(*pilots, asked_replicates()));
-    const double possible = std::min(wanted, most());
-    const double affordable = pilot.*part * affordable_growth(*pilots);
-    if (affordable < possible) fitted_to_time_ = true;
-    const double next = std::max(1.0, std::min(possible, affordable));
-    if (next <= trusted_refinement * pilot.*part || next < wanted) return Part{wanted, next};
-    pilot.*part *= trusted_refinement;
+    Part rays{grid_rays, grid_rays};
+    if (chooses_rays)
+      rays = forecast(pilot.rays, ray_growth(*pilots, asked_replicates()), affordable_growth(*pilots), most_rays);
+    Part packets;
+    if (pilot.packets > 0.0) {
+      const double fits = std::min(most, most_packets({rays.chosen, 0.0}));
+      packets = forecast(pilot.packets, packet_growth(*pilots, asked_replicates()), affordable_growth(*pilots), fits);
+    }
+    const Work larger{chooses_rays ? ray_forecast.next_pilot(pilot.rays, rays.chosen) : pilot.rays,
+                      packet_forecast.next_pilot(pilot.packets, packets.chosen)};
+    if (fitted_to_time_ || (larger.rays == pilot.rays && larger.packets == pilot.packets)) return balanced(rays, packets);
+    pilot = larger;
   }
+}
+
+// Returns the part of the work that such growth of the pilots' part requests, and how much of it is possible.
+WorkPlanner::Part WorkPlanner::forecast(double pilot, double growth, double affordable_growth, double most) {
+  const double wanted = pilot * std::max(1.0, growth);
+  const double possible = std::min(wanted, most);
+  const double affordable = pilot * affordable_growth;
+  if (affordable < possible) fitted_to_time_ = true;
+  return {wanted, std::max(1.0, std::min(possible, affordable))};
+}
+
+// More replicates make up for packets that do not fit the memory, and each of them then needs fewer rays.
+Work WorkPlanner::balanced(const Part& rays, const Part& packets) const {
+  Work work{rays.chosen, packets.chosen};
+  const bool held_back = !fixed() && packets.chosen > 0.0 && packets.chosen == most_packets(work);
+  if (!held_back || !model_.has_beam()) return work;
+  work.rays = std::max(first_pilot.rays, work.rays * std::pow(packets.wanted / packets.chosen, -packet_slope / ray_slope));
+  return work;
 }
 
 double WorkPlanner::ray_growth(const SeriesOutcome& series, int replicates) const {
@@ -114,10 +128,10 @@ double WorkPlanner::packet_growth(const SeriesOutcome& series, int replicates) c
   return growth(series.indirect_error * fewer, settings_.accuracy.indirect, packet_slope);
 }
 
-// With a limit on time, replicates must be small enough for pilot_replicates of them to be done in time.
+// With a limit on time, replicates must be small enough for least_replicates of them to be done in time.
 double WorkPlanner::affordable_growth(const SeriesOutcome& pilots) const {
   if (!settings_.max_seconds || !settings_.fit_to_time) return std::numeric_limits<double>::infinity();
-  return pilots.seconds_left / (2.0 * pilot_replicates * std::max(pilots.seconds_each, 1e-6));
+  return pilots.seconds_left / (2.0 * least_replicates * std::max(pilots.seconds_each, 1e-6));
 }
 
 Work WorkPlanner::begin_with(Work earlier) const {
@@ -129,7 +143,7 @@ Work WorkPlanner::begin_with(Work earlier) const {
 Work WorkPlanner::next(const Work& work, const SeriesOutcome& run) const {
   Work next = work;
   if (run.replicates < 2) return next;
-  const auto trusted = [](double factor) { return std::clamp(factor, 1.0 / trusted_refinement, trusted_refinement); };
+  const auto trusted = [](double factor) { return std::clamp(factor, 1.0 / most_change, most_change); };
   next.rays *= trusted(ray_growth(run, planned_replicates));
   next.packets *= trusted(packet_growth(run, planned_replicates));
   next.rays = std::min(next.rays, static_cast<double>(max_grid_rays));

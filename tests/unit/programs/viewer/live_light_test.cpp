@@ -197,8 +197,7 @@ TEST(Monitor, IsHandedSkyLightFromTheFirstReplicateOn) {
   Monitor monitor;
   monitor.wants_result = [&] { return !first; };
   monitor.receive_result = [&](RadiationResult result) { first = std::move(result); };
-  SolveSettings settings = solve_settings(live.options, live.scene);
-  settings.pilots_of_all_light = true;
+  const SolveSettings settings = solve_settings(live.options, live.scene);
   const RadiationResult end = solve(live.scene.model, live.simulation.layout(), tracer, settings, monitor);
   expect_same(end, run_of(live, live.scene.model, settings.element_errors));
   ASSERT_TRUE(first);

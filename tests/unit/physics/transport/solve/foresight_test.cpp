@@ -1,5 +1,6 @@
 #include "physics/transport/solve/foresight.h"
 
+#include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/statistics.h"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,20 @@ TEST(ReplicatesNeeded, FollowTheSquareOfTheError) {
   EXPECT_NEAR(static_cast<double>(needed), 64.0 * quantiles * quantiles, 1.0);
   EXPECT_EQ(replicates_needed(1.0, 1e-9, 0.95, 16, 65536), 65536U);
   EXPECT_EQ(replicates_needed(0.0, 1e-9, 0.95, 2, 65536), 2U);
+}
+
+TEST(CheckAfter, ComesCloserToWhatIsNeeded) {
+  EXPECT_EQ(check_after(12, 13, ErrorTarget::canopy), 14U);
+  EXPECT_EQ(check_after(12, 16, ErrorTarget::canopy), 14U);
+  EXPECT_EQ(check_after(12, 40, ErrorTarget::organ), 26U);
+  EXPECT_EQ(check_after(200, 200, ErrorTarget::canopy), 202U);
+  EXPECT_EQ(check_after(most_replicates - 1, most_replicates, ErrorTarget::canopy), most_replicates);
+}
+
+TEST(CheckAfter, IsRareForTriangles) {
+  EXPECT_EQ(check_after(12, 13, ErrorTarget::triangle), 16U);
+  EXPECT_EQ(check_after(64, 66, ErrorTarget::triangle), 72U);
+  EXPECT_EQ(check_after(64, 128, ErrorTarget::triangle), 96U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "physics/transport/solve/solve_state.h"
 
+#include "physics/transport/solve/work_planner.h"
 #include "support/light_mix.h"
 #include "support/result_numbers.h"
 
@@ -43,13 +44,15 @@ class SolveStateTest : public ::testing::Test {
 };
 
 TEST_F(SolveStateTest, GoesOnToABoundAsIfNeverStopped) {
+  settings_.begin_with = first_pilot;  // so little that the first checks fail
+  settings_.accuracy.direct = settings_.accuracy.indirect = 0.01;
   const RadiationResult whole = solve_from(nullptr);
   ASSERT_EQ(whole.stop, StopReason::bound_reached);
   ASSERT_GE(whole.direct.replicates, 16U);
   SolveState state = stopped_after(2);
   for (const std::size_t replicates : {5, 12, 13, 15}) {  // the bounds are checked after 12
     state = stopped_after(replicates, &state);
-    EXPECT_EQ(state.next_check, replicates < 12 ? 12U : 16U);
+    EXPECT_TRUE(replicates < 12 ? state.next_check == 12U : state.next_check > replicates) << state.next_check;
     const RadiationResult resumed = solve_from(&state);
     EXPECT_EQ(resumed.stop, StopReason::bound_reached);
     EXPECT_TRUE(test::all_numbers(resumed) == test::all_numbers(whole)) << replicates;
@@ -136,7 +139,6 @@ TEST_F(SolveStateTest, ThatNoRunCanHaveIsRefused) {
   expect_refused("more rays than a grid has", [](SolveState& s) { s.work.rays = 1e12; });
   expect_refused("packets below 0", [](SolveState& s) { s.work.packets = -1.0; });
   expect_refused("endless packets", [](SolveState& s) { s.work.packets = std::numeric_limits<double>::infinity(); });
-  expect_refused("a third good check", [](SolveState& s) { s.good_checks = 2; });
   expect_refused("no further check", [](SolveState& s) { s.next_check = 0; });
   expect_refused("a check that never comes", [](SolveState& s) { s.next_check = 100000; });
 }

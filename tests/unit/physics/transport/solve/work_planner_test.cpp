@@ -1,0 +1,98 @@
+// Tests the planner with pilots whose errors follow a known law.
+
+#include "physics/transport/solve/work_planner.h"
+
+#include "physics/transport/model/statistics.h"
+#include "support/light_mix.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace sunfleck {
+namespace {
+
+class WorkPlannerTest : public ::testing::Test {
+ protected:
+  // Returns the errors of a series, with slopes of -0.68 (rays) and -0.5 (packets).
+  [[nodiscard]] SeriesOutcome outcome(const Work& work, std::size_t replicates) const {
+    const double half_width =
+        t_quantile(settings_.accuracy.confidence, replicates) / std::sqrt(static_cast<double>(replicates));
+    return {replicates, direct_of_one_ray_ * half_width * std::pow(work.rays, -0.68),
+            indirect_of_one_packet_ * half_width / std::sqrt(work.packets)};
+  }
+
+  // Returns the chosen work, and records that of the pilots.
+  std::optional<Work> choose() {
+    pilots_.clear();
+    WorkPlanner planner(model_, settings_, maker_);
+    return planner.choose([this](const Work& pilot) {
+      pilots_.push_back(pilot);
+      return outcome(pilot, pilot_replicates);
+    });
+  }
+
+  RadiationModel model_ = test::light_mix();
+  test::Prepared prepared_{model_};
+  CpuTracer tracer_{prepared_.bvh, test::tracer_scene(model_)};
+  ReplicateMaker maker_{model_, prepared_.layout, tracer_};
+  SolveSettings settings_;
+  double direct_of_one_ray_ = 1.0, indirect_of_one_packet_ = 0.5;
+  std::vector<Work> pilots_;
+};
+
+TEST_F(WorkPlannerTest, ChoosesWorkThatMeetsBothBoundsAtTheSameTime) {
+  for (const double tighter : {1.0, 0.3, 0.2}) {
+    settings_.accuracy.direct = 0.001 * tighter;
+    settings_.accuracy.indirect = 0.003 * tighter;
+    const std::optional<Work> work = choose();
+    ASSERT_TRUE(work);
+    const SeriesOutcome run = outcome(*work, planned_replicates);
+    EXPECT_NEAR(run.direct_error, settings_.accuracy.direct, 1e-6 * settings_.accuracy.direct);
+    EXPECT_NEAR(run.indirect_error, settings_.accuracy.indirect, 1e-6 * settings_.accuracy.indirect);
+  }
+}
+
+TEST_F(WorkPlannerTest, SpendsAtMostATenthOfTheRunOnPilots) {
+  for (const double tighter : {1.0, 0.5, 0.2}) {
+    settings_.accuracy.direct = 0.0002 * tighter;
+    settings_.accuracy.indirect = 0.001 * tighter;
+    const std::optional<Work> work = choose();
+    ASSERT_TRUE(work);
+    Work of_pilots;
+    for (const Work& pilot : pilots_) {
+      of_pilots.rays += pilot.rays * pilot_replicates;
+      of_pilots.packets += pilot.packets * pilot_replicates;
+    }
+    EXPECT_LE(of_pilots.rays, 0.1 * work->rays * planned_replicates) << tighter;
+    EXPECT_LE(of_pilots.packets, 0.1 * work->packets * planned_replicates) << tighter;
+  }
+}
+
+// A run never has fewer rays than the pilots that were sufficient for it.
+TEST_F(WorkPlannerTest, KeepsThePilotsWorkWhereTheBoundsAreWide) {
+  settings_.accuracy.direct = settings_.accuracy.indirect = 0.5;
+  const std::optional<Work> work = choose();
+  ASSERT_TRUE(work);
+  EXPECT_EQ(pilots_.size(), 1U);
+  EXPECT_EQ(work->rays, first_pilot.rays);
+  EXPECT_EQ(work->packets, first_pilot.packets);
+}
+
+TEST_F(WorkPlannerTest, LeavesTheGridAsItIs) {
+  settings_.grid_m = std::sqrt(model_.plot.area_m2() / (fixed_grid_replicates * 1e5));
+  const std::optional<Work> work = choose();
+  ASSERT_TRUE(work);
+  EXPECT_NEAR(work->rays, 1e5, 1.0);
+  EXPECT_LE(work->packets, work->rays);
+  for (const Work& pilot : pilots_) EXPECT_LT(pilot.rays, 0.1 * work->rays);
+}
+
+TEST_F(WorkPlannerTest, ChoosesNothingIfStopped) {
+  WorkPlanner planner(model_, settings_, maker_);
+  EXPECT_FALSE(planner.choose([](const Work&) { return std::optional<SeriesOutcome>(); }));
+}
+
+}  // namespace
+}  // namespace sunfleck
