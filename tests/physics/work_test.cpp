@@ -16,7 +16,7 @@ double median(std::vector<double> values) {
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-RadiationModel scattering_leaves() {
+RadiationModel leaves_that_scatter() {
   RadiationModel model = black_model(random_leaves(150, 0.01, unit_plot, 1.0, 7), unit_plot, beijing_sun());
   for (SurfaceOptics& optics : model.optics) optics.upper = optics.lower = {{0.45, 0.45}};
   model.soil->reflectance = {0.3};
@@ -24,7 +24,7 @@ RadiationModel scattering_leaves() {
 }
 
 TEST(Work, EndsCloseBelowBothBounds) {
-  const RadiationModel model = scattering_leaves();
+  const RadiationModel model = leaves_that_scatter();
   const Prepared prepared(model);
   SolveSettings settings;
   settings.accuracy.direct = 0.002;
