@@ -8,7 +8,7 @@
 namespace sunfleck {
 
 // Number of searches that go on side by side.
-inline constexpr std::size_t searches_at_once = 8;
+inline constexpr std::size_t searches_at_once = 4;
 
 // Where searches come from, and where hits go.
 class SearchSource {
