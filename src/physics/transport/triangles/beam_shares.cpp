@@ -82,6 +82,9 @@ std::vector<double> BeamShares::point_variance(std::span<const ElementShade> sha
   for (std::size_t k = 0; k < shade_kinds; ++k) {
     squares[k] = std::max(least_variance[k], weights[k] > 0.0 ? squares[k] / weights[k] : 0.0);
   }
+  // Elements are doubted because the beam landed on them, so that their landings say nothing about their points, which are as many as
+  // those of mixed elements.
+  squares[static_cast<std::size_t>(ShadeKind::doubted)] = squares[static_cast<std::size_t>(ShadeKind::mixed)];
   return squares;
 }
 
