@@ -18,7 +18,9 @@ set datafile columnheaders
 after(text) = (at = strstrt(remarks, "\n# " . text)) == 0 ? '' : up_to("\n", remarks[at + 3 + strlen(text):*])
 past(mark, text) = (at = strstrt(text, mark)) == 0 ? '' : text[at + strlen(mark):*]
 up_to(end, text) = (at = strstrt(text, end)) == 0 ? text : text[1:at - 1]
+# The number that a text is. gnuplot 5.4 reads 5.0e-05 but refuses 5e-05.
+real_of(text) = (e = strstrt(text, 'e'), real(e > 0 && strstrt(text, '.') == 0 ? text[1:e - 1] . '.0' . text[e:*] : text))
 # The number at the start of a text, NaN for any other text.
-number(text) = (first = up_to(';', up_to(',', word(text . ' -', 1))), first eq '' || strstrt('-0123456789', first[1:1]) == 0 || first eq '-' ? NaN : real(first))
+number(text) = (first = up_to(';', up_to(',', word(text . ' -', 1))), first eq '' || strstrt('-0123456789', first[1:1]) == 0 || first eq '-' ? NaN : real_of(first))
 # The column of that name; 0 if there is none.
 column_of(name) = (at = strstrt(',' . header . ',', ',' . name . ',')) == 0 ? 0 : (sum [k = 1:at] ((',' . header)[k:k] eq ','))

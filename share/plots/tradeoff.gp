@@ -1,4 +1,4 @@
-# tradeoff.png: error against time, a panel for each kind of setting.
+# tradeoff.png: error against rays for each pass, and against time for whole runs.
 #   gnuplot tradeoff.gp > tradeoff.png
 # reads tradeoff.csv in the current folder. The program sets these variables before it loads this file:
 if (!exists("table")) table = 'tradeoff.csv'
@@ -90,21 +90,23 @@ centimetres(m) = m < 0.01 ? sprintf('%.3g mm', 1000 * m) : sprintf('%.3g cm', 10
 name(kind, value) = kind eq 'grid' ? centimetres(value) : kind eq 'mesh' ? sprintf('mesh %.3g', value) : kind eq 'error' ? sprintf('%.3g', value) \
   : value >= 1024 ? sprintf('%.0f k', value / 1024) : sprintf('%.0f', value)
 apart(a, b, ratio) = a > ratio * b || b > ratio * a
+across(i, p) = p < 3 ? rays[i] : time[i]
+array across_title[3] = ['Rays', 'Packets', 'Time of a run (s)']
 signed(x) = x == x ? (x < 0 ? '−' : '') . sprintf('%.2f', abs(x)) : ''
 
-array end_time[4]; array end_error[4]
+array end_place[4]; array end_error[4]
 do for [p = 1:3] {
-  # Columns: time, the errors of the four quantities, their fitted laws, whether the mesh is coarser.
+  # Columns: rays or time, the errors of the four quantities, their fitted laws, whether the mesh is coarser.
   first = 1e300; last = 0.0
-  at_time = 0.0; at_error = 0.0
+  at_place = 0.0; at_error = 0.0; lines_up = 0.75
   unset label; unset arrow
   set print $points
   print 'NaN NaN NaN NaN NaN NaN NaN NaN NaN 0'
   do for [i = 1:n] {
-    if (of_kind(i, p) && time[i] > 0) {
-      first = time[i] < first ? time[i] : first
-      last = time[i] > last ? time[i] : last
-      top = 0.0; row = sprintf('%.9g', time[i])
+    if (of_kind(i, p) && across(i, p) > 0) {
+      first = across(i, p) < first ? across(i, p) : first
+      last = across(i, p) > last ? across(i, p) : last
+      top = 0.0; row = sprintf('%.9g', across(i, p))
       do for [q = 1:4] {
         top = percent[4 * i + q] > top ? percent[4 * i + q] : top
         row = row . sprintf(' %.9g', percent[4 * i + q])
@@ -114,18 +116,19 @@ do for [p = 1:3] {
         row = row . sprintf(' %.9g', percent[4 * i + q] > 0 ? fitted : NaN)
       }
       print row . (word(settings, 2 * i - 1) eq 'mesh' ? ' 1' : ' 0')
-      if (top > 0 && (apart(time[i], at_time, 1.15) || apart(top, at_error, 1.3))) {
-        at_time = time[i]; at_error = top
-        set label name(word(settings, 2 * i - 1), real(word(settings, 2 * i))) at time[i],top left offset 0.6,0.75 font ',16' textcolor '#404040' front
+      if (top > 0 && (apart(across(i, p), at_place, 1.15) || apart(top, at_error, 1.3))) {
+        lines_up = apart(across(i, p), at_place, 1.6) || lines_up > 1 ? 0.75 : 1.7
+        at_place = across(i, p); at_error = top
+        set label name(word(settings, 2 * i - 1), real_of(word(settings, 2 * i))) at across(i, p),top left offset 0.6,lines_up font ',16' textcolor '#404040' front
       }
     }
   }
   unset print
   # Places the slopes next to the ends of their curves, from the lowest to the highest, each at least a line above the previous one.
   line = p < 3 ? (highest * 25 / lowest) ** (25 / 555.0) : 1
-  do for [q = 1:4] { end_time[q] = NaN; end_error[q] = NaN }
+  do for [q = 1:4] { end_place[q] = NaN; end_error[q] = NaN }
   do for [i = 1:n] {
-    do for [q = 1:4] { if (p < 3 && of_kind(i, p) && percent[4 * i + q] > 0) { end_time[q] = time[i]; end_error[q] = percent[4 * i + q] } }
+    do for [q = 1:4] { if (p < 3 && of_kind(i, p) && percent[4 * i + q] > 0) { end_place[q] = across(i, p); end_error[q] = percent[4 * i + q] } }
   }
   free = 0.0
   do for [rank = 1:4] {
@@ -134,7 +137,7 @@ do for [p = 1:3] {
     if (next > 0) {
       at_error = end_error[next] > free ? end_error[next] : free
       free = at_error * line
-      set label signed(slope[4 * p - 4 + next]) at end_time[next],at_error left offset 1.2,0 font ',17' textcolor rgb colour[next]
+      set label signed(slope[4 * p - 4 + next]) at end_place[next],at_error left offset 1.2,0 font ',17' textcolor rgb colour[next]
       end_error[next] = NaN
     }
   }
@@ -155,18 +158,20 @@ do for [p = 1:3] {
       at screen 0.5,(1 - 82 / height) center font ',18' textcolor '#101010'
     set label 'Relative error (%), root mean square' at screen 30 / width,402 / height center rotate by 90
     do for [i = 1:n] {
-      if (of_kind(i, 1) && abs(real(word(settings, 2 * i)) / grid - 1) < 1e-6) {
-        set arrow from time[i],graph 0 to time[i],graph 1 nohead back linestyle 9
-        set label sprintf('%.3g cm grid', 100 * grid) at time[i],graph 0.95 right offset -0.8,0 font ',17' front
+      if (of_kind(i, 1) && abs(real_of(word(settings, 2 * i)) / grid - 1) < 1e-6) {
+        set arrow from across(i, p),graph 0 to across(i, p),graph 1 nohead back linestyle 9
+        set label sprintf('%.3g cm grid', 100 * grid) at across(i, p),graph 0.95 right offset -0.8,0 font ',17' front
       }
     }
   }
   left = 150 + 490 * (p - 1)
   set lmargin at screen left / width
   set rmargin at screen (left + 440) / width
-  set xrange [first / 2.2:last * 7]
+  room = (last / first) ** 0.35
+  set xrange [first / 2.2:last * (room > 7 ? room : 7)]
   set title panel[p] offset 0,-0.3
-  set xlabel 'Time of a run (s)' offset 0,0.2
+  set xlabel across_title[p] offset 0,0.2
+  set format x p < 3 ? '%.0s %c' : '%g'
   if (p > 1) { unset key } else { set key at screen 150 / width,(1 - 104 / height) left top vertical maxrows 1 Left reverse samplen 2 font ',19' }
   plot for [q = 1:4] $points using 1:(column(5 + q)) with lines linestyle q notitle, \
     for [q = 1:4] $points using (column(10) > 0 ? NaN : column(1)):(column(1 + q)) with points linestyle q notitle, \

@@ -118,6 +118,18 @@ TEST_F(TradeoffPlot, WholeRunsAndCoarserMeshesAreDrawnToo) {
   EXPECT_LT(picture(report).count(green), all);
 }
 
+// gnuplot 5.4 does not take 5e-05, which has no decimal point, for a number.
+TEST_F(TradeoffPlot, SubtractsTheReferencesOwnErrorHoweverItIsWritten) {
+  TradeoffReport report = maize_report();
+  report.levels = {level(TradeoffSeries::grids, 1e-5, 1.0, 1000, {8e-5, 0.001, 0.01, 0.1}),
+                   level(TradeoffSeries::grids, 2e-5, 2.0, 4000, {8e-5, 0.001, 0.01, 0.1})};
+  report.reference_rays[0] = 1'000'000;
+  report.reference_error[0] = {5e-5, 5e-5, 5e-5, 5e-5};
+  const std::size_t below_half = picture(report).count(blue);
+  report.reference_error[0] = {7e-5, 5e-5, 5e-5, 5e-5};
+  EXPECT_GT(below_half, picture(report).count(blue) + 100) << "points whose error is mostly the reference's are left out";
+}
+
 TEST_F(TradeoffPlot, OfAnythingThatCanBeMeasured) {
   const TradeoffReport whole = maize_report();
   TradeoffReport report;
