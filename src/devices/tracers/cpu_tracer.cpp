@@ -144,7 +144,7 @@ TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const 
     const DispatchClock clock;
     const std::size_t end = std::min(packets.size(), first + packet_budget_.rays());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, 256), [&](const auto& range) {
-      if (walk_ == CpuWalk::tree && bvh_.copies.empty()) {
+      if (walk_ == CpuWalk::tree) {
         PacketSearches searches(scene, domain_, packets.subspan(range.begin(), range.size()),
                                 landings.subspan(range.begin(), range.size()));
         return search_side_by_side(bvh_, searches);

@@ -1,107 +1,196 @@
 #include "devices/tracers/side_by_side.h"
 
-#include "devices/tracers/walk_parts.h"
-
 #include <array>
 
-namespace sunfleck {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "devices/tracers/side_by_side.cpp"
+#include <hwy/foreach_target.h>
+
+#include "devices/tracers/walk_vectors.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sunfleck::HWY_NAMESPACE {
 
 using namespace walk_parts;
+using namespace walk_parts::HWY_NAMESPACE;
+
+// A node of which no ray meets any child, for a search that only waits for its triangles.
+constexpr BvhNode make_node_without_children() {
+  BvhNode node{};
+  for (auto* const lo : {&node.lo_x, &node.lo_y, &node.lo_z}) lo->fill(255);
+  node.exponent.fill(127);
+  return node;
+}
+constexpr BvhNode node_without_children = make_node_without_children();
 
 // One search on its way.
 struct Walker {
   Search search;
+  CpuHit best;
+  const BvhNode* node = nullptr;  // to be visited next
+  // The ray in the frame of the canopy or of the copy in which it is.
+  shared::Ray ray;
   BoxPath path;
   EdgeRay edges;
-  CpuHit best;
-  bool active = false;
-  const BvhNode* node = nullptr;  // whose leaves are still to be tested
-  unsigned met = 0;               // slots of its leaves that the ray meets
-  std::size_t depth = 0;
+  Numbering add;
+  bool in_copy = false;
+  std::uint32_t base = 0;  // levels of the stack that lie outside the copy
   VisitStack stack;
 };
 
-// Asks memory for what lies there, so that it has come when the walker's next turn comes.
+// A triangle that a walker's ray may meet.
+struct Candidate {
+  std::uint32_t slot;
+  std::uint32_t triangle;
+};
+
+// Asks memory for what lies there, so that it has come when the next round needs it.
 template <class Part>
-INLINED void prefetch(const Part& part) {
+HWY_INLINE void prefetch(const Part& part) {
   const char* const bytes = reinterpret_cast<const char*>(&part);
   __builtin_prefetch(bytes);
   __builtin_prefetch(bytes + sizeof(Part) - 1);
 }
 
-INLINED void begin(const Bvh& bvh, Walker& walker) {
-  walker.path = box_path(walker.search.ray);
-  walker.edges = edge_ray(walker.search.ray);
-  walker.best = no_hit(walker.search.limit);
-  walker.node = nullptr;
-  walker.met = 0;
-  walker.stack[0] = {0, 0.0F};
-  walker.depth = bvh.nodes.empty() ? 0 : 1;
-}
+// Goes in rounds, each of which does one thing for all walkers before the next: tests of boxes and of edges do not depend on one
+// another then, so that the processor can do several at once, and what branches on them finds them done.
+class Rounds {
+ public:
+  Rounds(const Bvh& bvh, SearchSource& source) : bvh_(bvh), source_(source) {
+    for (std::size_t slot = 0; slot < searches_at_once; ++slot) {
+      if (source_.begin(slot, walkers_[slot].search)) active_[actives_++] = slot;
+    }
+    for (std::size_t k = 0; k < actives_; ++k) begin(walkers_[active_[k]]);
+  }
 
-INLINED void test_leaves(const Bvh& bvh, Walker& walker) {
-  for_triangles(
-      *walker.node, walker.met, walker.path.octant, [&](std::uint32_t triangle) __attribute__((always_inline)) {
-        if (within_edges(walker.edges, bvh.triangles[triangle])) {
-          meet(bvh, triangle, walker.search.ray, walker.search.limit, walker.search.own, {}, walker.best);
+  void go() {
+    while (actives_ > 0) {
+      test_boxes();
+      test_triangles();
+      for (std::size_t k = 0; k < actives_;) {
+        if (advance(active_[k])) {
+          ++k;
+        } else {
+          active_[k] = active_[--actives_];
         }
-      });
-}
-
-INLINED void prefetch_leaves(const Bvh& bvh, const BvhNode& node, unsigned met) {
-  for (; met != 0; met &= met - 1) {
-    prefetch(bvh.triangles[node.triangle_base + (node.meta[static_cast<unsigned>(std::countr_zero(met))] & 31U)]);
-  }
-}
-
-// Tests the leaves of the node before and visits the next one; returns false if there is none.
-INLINED bool step(const Bvh& bvh, Walker& walker) {
-  if (walker.met != 0) test_leaves(bvh, walker);
-  const shared::Ray& ray = walker.search.ray;
-  const float origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
-  while (walker.depth > 0) {
-    const Visit visit = walker.stack[--walker.depth];
-    if (visit.enter > walker.best.t) continue;
-    const BvhNode& node = bvh.nodes[visit.node];
-    Float8 enter;
-    const unsigned met = enter_children(node, walker.path, origin, origin, walker.best.t, enter);
-    push_inner(node, met, walker.path.octant, enter, walker.best.t, walker.stack, walker.depth);
-    walker.node = &node;
-    walker.met = met & ~unsigned{node.inner_mask};
-    prefetch_leaves(bvh, node, walker.met);
-    if (walker.depth > 0) prefetch(bvh.nodes[walker.stack[walker.depth - 1].node]);
-    return true;
-  }
-  return false;
-}
-
-}  // namespace
-
-WALK_FOR_EACH_PROCESSOR
-void search_side_by_side(const Bvh& bvh, SearchSource& source) {
-  EXPECT(bvh.copies.size(), ==, std::size_t{0});
-  std::array<Walker, searches_at_once> walkers;
-  std::size_t active = 0;
-  for (std::size_t slot = 0; slot < walkers.size(); ++slot) {
-    Walker& walker = walkers[slot];
-    walker.active = source.begin(slot, walker.search);
-    if (!walker.active) continue;
-    begin(bvh, walker);
-    ++active;
-  }
-  while (active > 0) {
-    for (std::size_t slot = 0; slot < walkers.size(); ++slot) {
-      Walker& walker = walkers[slot];
-      if (!walker.active || step(bvh, walker)) continue;
-      walker.active = source.next(slot, walker.best, walker.search);
-      if (walker.active) {
-        begin(bvh, walker);
-      } else {
-        --active;
       }
     }
   }
+
+ private:
+  HWY_INLINE void test_boxes() {
+    for (std::size_t k = 0; k < actives_; ++k) {
+      Walker& walker = walkers_[active_[k]];
+      met_[active_[k]] = enter_children(*walker.node, walker.path, walker.edges.origin, walker.edges.origin, walker.best.t,
+                                        walker.stack.next().enter);
+    }
+  }
+
+  HWY_INLINE void test_triangles() {
+    std::size_t within = 0;
+    for (std::size_t k = 0; k < candidates_; ++k) {
+      const Candidate candidate = candidate_[k];
+      const bool inside = within_edges(walkers_[candidate.slot].edges, bvh_.triangles[candidate.triangle]);
+      candidate_[within] = candidate;
+      within += inside ? 1U : 0U;  // without a branch, which the processor would often guess wrong
+    }
+    for (std::size_t k = 0; k < within; ++k) {
+      Walker& walker = walkers_[candidate_[k].slot];
+      meet(bvh_, candidate_[k].triangle, walker.ray, walker.search.limit, walker.search.own, walker.add, walker.best);
+    }
+    candidates_ = 0;
+  }
+
+  // Takes what the walker met in its node, and finds its next node; returns false if there is no other search.
+  HWY_INLINE bool advance(std::size_t slot) {
+    Walker& walker = walkers_[slot];
+    const std::size_t before = candidates_;
+    for_triangles(*walker.node, met_[slot], [&](std::uint32_t triangle) HWY_ATTR {
+      candidate_[candidates_++] = {static_cast<std::uint32_t>(slot), triangle};
+      prefetch(bvh_.triangles[triangle]);
+    });
+    walker.stack.push(*walker.node, met_[slot], walker.path.octant);
+    std::uint32_t next = 0;
+    while (!walker.stack.pop(walker.path.octant, walker.best.t, walker.base, next)) {
+      if (candidates_ > before) {
+        walker.node = &node_without_children;
+        return true;
+      }
+      if (!walker.in_copy) return finish(slot);
+      leave_copy(walker);
+    }
+    walker.node = &bvh_.nodes[next];
+    prefetch(*walker.node);
+    if (!bvh_.copies.empty() && is_copy(*walker.node)) enter_copy(walker, next);
+    return true;
+  }
+
+  bool finish(std::size_t slot) {
+    Walker& walker = walkers_[slot];
+    if (!source_.next(slot, walker.best, walker.search)) return false;
+    begin(walker);
+    return true;
+  }
+
+  static void set_ray(Walker& walker, const shared::Ray& ray) {
+    walker.ray = ray;
+    walker.path = box_path(ray);
+    walker.edges = edge_ray(ray);
+  }
+
+  void begin(Walker& walker) {
+    set_ray(walker, walker.search.ray);
+    walker.best = no_hit(walker.search.limit);
+    walker.add = {};
+    walker.base = 0;
+    walker.in_copy = false;
+    walker.stack.clear();
+    walker.node = bvh_.nodes.empty() ? &node_without_children : bvh_.nodes.data();
+    if (!bvh_.copies.empty() && is_copy(*walker.node)) enter_copy(walker, 0);
+  }
+
+  // Nodes above the copies have no triangles, and those in a copy have no copies below them.
+  void enter_copy(Walker& walker, std::uint32_t node) {
+    const BvhCopy copy = copy_at(bvh_, node);
+    set_ray(walker, shared::turned_ray(turn_of(copy), walker.search.ray));
+    walker.add = numbering_of(copy, node);
+    walker.base = walker.stack.depth();
+    walker.in_copy = true;
+    walker.node = &bvh_.nodes[copy.root];
+    prefetch(*walker.node);
+  }
+
+  static void leave_copy(Walker& walker) {
+    set_ray(walker, walker.search.ray);
+    walker.base = 0;
+    walker.in_copy = false;
+  }
+
+  const Bvh& bvh_;
+  SearchSource& source_;
+  std::array<Walker, searches_at_once> walkers_;
+  std::array<std::size_t, searches_at_once> active_{};  // slots
+  std::size_t actives_ = 0;
+  std::array<unsigned, searches_at_once> met_{};              // children of the walkers' nodes
+  std::array<Candidate, 24 * searches_at_once> candidate_{};  // a node has up to 24 triangles
+  std::size_t candidates_ = 0;
+};
+
+void search_side_by_side(const Bvh& bvh, SearchSource& source) {
+  Rounds(bvh, source).go();
+}
+
+}  // namespace sunfleck::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sunfleck {
+
+HWY_EXPORT(search_side_by_side);
+
+void search_side_by_side(const Bvh& bvh, SearchSource& source) {
+  HWY_DYNAMIC_DISPATCH(search_side_by_side)(bvh, source);
 }
 
 }  // namespace sunfleck
+#endif

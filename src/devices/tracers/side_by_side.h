@@ -1,5 +1,6 @@
 #pragma once
-// Walks the tree with several rays in turn: while one waits for its next node to come from memory, the others go on.
+// Walks the tree with several rays side by side: what one ray waits for, memory or a test on which its way depends, comes while the
+// others go on.
 
 #include "devices/tracers/cpu_walk.h"
 
@@ -8,7 +9,7 @@
 namespace sunfleck {
 
 // Number of searches that go on side by side.
-inline constexpr std::size_t searches_at_once = 4;
+inline constexpr std::size_t searches_at_once = 8;
 
 // Where searches come from, and where hits go.
 class SearchSource {
@@ -22,7 +23,7 @@ class SearchSource {
   [[nodiscard]] virtual bool next(std::size_t slot, const CpuHit& hit, Search& search) = 0;
 };
 
-// Makes all searches of the source in a tree without copies. The hits are those of nearest_hit().
+// Makes all searches of the source. The hits are those of nearest_hit().
 void search_side_by_side(const Bvh& bvh, SearchSource& source);
 
 }  // namespace sunfleck
