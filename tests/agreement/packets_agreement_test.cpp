@@ -7,6 +7,7 @@
 #include "support/copies.h"
 #include "support/device.h"
 #include "support/leaf_scenes.h"
+#include "support/processor_kinds.h"
 #include "support/result_numbers.h"
 
 #include <gtest/gtest.h>
@@ -210,6 +211,23 @@ TEST_F(PacketsAgreement, OfAWholeRunWithLightAimedAtAStand) {
   settings.element_errors = ElementErrors::refine;
   expect_same_run(model, settings);
   expect_same_run(without_soil(model), settings);
+}
+
+// Beam, packets, sky light and the points of the triangles' refinement, in vectors of every width.
+TEST(ProcessorsAgreement, OfWholeRuns) {
+  RadiationModel of_copies = stand_of_copies({unit_plot, 10, true, 4}, true);
+  shine_from_sky(of_copies, {});
+  for (const RadiationModel& model : {paper_model(random_leaves(100, 0.12, 5), unit_plot, beijing_sun()), of_copies}) {
+    const Prepared prepared(model);
+    SolveSettings settings = fixed_scatter(model, {.rays = 2e4, .packets = 1000, .replicates = 4});
+    settings.element_errors = ElementErrors::refine;
+    const auto run = [&] {
+      CpuTracer tracer(prepared.bvh, tracer_scene(model));
+      return all_numbers(solve(model, prepared.layout, tracer, settings, {}));
+    };
+    const auto expected = run();
+    for_each_processor_kind([&] { EXPECT_TRUE(run() == expected); });
+  }
 }
 
 TEST_F(PacketsAgreement, OfWholeRunsUnderTheSkyWithReceivers) {

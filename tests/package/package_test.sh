@@ -30,7 +30,7 @@ there=$(dpkg-query -W -f '${db:Status-Status} ${Package} ${Provides}\n' | sed -n
 for needed in $(echo "$depends" | tr ',' '\n' | sed 's/|.*//; s/(.*//'); do
   grep -qxF "$needed" <<< "$there" || fail "depends on $needed, which is not installed"
 done
-for needed in libc6 libtbb12 libnetcdf19 libvulkan1; do
+for needed in libc6 libhwy1 libtbb12 libnetcdf19 libvulkan1; do
   echo "$depends" | grep -q "$needed" || fail "$needed is no dependency: $depends"
 done
 

@@ -6,6 +6,7 @@
 #include "support/bvh_check.h"
 #include "support/copies.h"
 #include "support/models.h"
+#include "support/processor_kinds.h"
 
 #include <gtest/gtest.h>
 
@@ -114,14 +115,16 @@ TEST(BundleWalk, InEachDirectionFindsTheHitsOfSingleRays) {
 }
 
 // The rays differ along all axes, as after crossing borders, and most start among the triangles.
-TEST(BundleWalk, OfScatteredOriginsFindsTheHitsOfSingleRays) {
-  Random random(5);
+TEST(BundleWalk, OfScatteredOriginsFindsTheHitsOfSingleRaysOnEachKindOfProcessor) {
   const Bvh bvh = tree_of(scattered(300, 0.5, 0.2, 6));
-  for (const glm::vec3& direction : many_directions) {
-    std::vector<glm::vec3> origins;
-    for (std::uint32_t k = 0; k < rays_per_bundle; ++k) origins.push_back(testing_bvh::point(random, 0.7));
-    EXPECT_GT(expect_hits_of_single_rays(bvh, bundle_of(direction, origins)), 1U);
-  }
+  test::for_each_processor_kind([&] {
+    Random random(5);
+    for (const glm::vec3& direction : many_directions) {
+      std::vector<glm::vec3> origins;
+      for (std::uint32_t k = 0; k < rays_per_bundle; ++k) origins.push_back(testing_bvh::point(random, 0.7));
+      EXPECT_GT(expect_hits_of_single_rays(bvh, bundle_of(direction, origins)), 1U);
+    }
+  });
 }
 
 TEST(BundleWalk, LooksWithEachRayOnlyAsFarAsItsLimit) {
@@ -177,17 +180,19 @@ TEST(BundleWalk, WithoutTrianglesOrRaysFindsNothing) {
   EXPECT_EQ(expect_hits_of_single_rays(tree_of(scattered(20, 0.5, 0.2, 9)), bundle_of({0.0F, -1.0F, 0.0F}, {})), 0U);
 }
 
-TEST(BundleWalk, AmongCopiesThatShareATreeFindsTheHitsOfSingleRays) {
-  Random random(10);
+TEST(BundleWalk, AmongCopiesThatShareATreeFindsTheHitsOfSingleRaysOnEachKindOfProcessor) {
   const RadiationModel model = test::stand_of_copies({test::unit_plot, 12, true, 3}, true);
   const test::Prepared prepared(model);
   ASSERT_FALSE(prepared.bvh.copies.empty());
-  std::size_t found = 0;
-  for (const glm::vec3& direction : many_directions) {
-    const glm::vec3 corner = glm::vec3(0.3F, 0.4F, 0.3F) - direction;
-    found += expect_hits_of_single_rays(prepared.bvh, bundle_of(direction, square_of(random, corner, 0.1, rays_per_bundle)));
-  }
-  EXPECT_GT(found, 20U);
+  test::for_each_processor_kind([&] {
+    Random random(10);
+    std::size_t found = 0;
+    for (const glm::vec3& direction : many_directions) {
+      const glm::vec3 corner = glm::vec3(0.3F, 0.4F, 0.3F) - direction;
+      found += expect_hits_of_single_rays(prepared.bvh, bundle_of(direction, square_of(random, corner, 0.1, rays_per_bundle)));
+    }
+    EXPECT_GT(found, 20U);
+  });
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include "physics/bvh/build.h"
 #include "support/bvh_check.h"
+#include "support/copies.h"
 #include "support/models.h"
+#include "support/processor_kinds.h"
 
 #include <gtest/gtest.h>
 
@@ -39,9 +41,16 @@ class ListedSearches final : public SearchSource {
   }
 
   void expect_hits_of_single_searches(const Bvh& bvh) const {
+    std::vector<CpuHit> expected;
+    for (const Search& search : searches_) {
+      expected.push_back(nearest_hit(bvh, search.ray, search.limit, Images::all, search.own));
+    }
+    expect_hits(expected);
+  }
+
+  void expect_hits(const std::vector<CpuHit>& all_expected) const {
     for (std::size_t k = 0; k < searches_.size(); ++k) {
-      const Search& search = searches_[k];
-      const CpuHit expected = nearest_hit(bvh, search.ray, search.limit, Images::all, search.own);
+      const CpuHit& expected = all_expected[k];
       ASSERT_TRUE(hits_[k]) << k;
       EXPECT_EQ(hits_[k]->found, expected.found) << k;
       EXPECT_EQ(hits_[k]->t, expected.t) << k;
@@ -50,6 +59,8 @@ class ListedSearches final : public SearchSource {
       EXPECT_EQ(hits_[k]->lower, expected.lower) << k;
       EXPECT_EQ(hits_[k]->element, expected.element) << k;
       EXPECT_EQ(hits_[k]->triangle, expected.triangle) << k;
+      EXPECT_EQ(hits_[k]->reference, expected.reference) << k;
+      EXPECT_EQ(hits_[k]->copy, expected.copy) << k;
     }
   }
 
@@ -89,6 +100,36 @@ TEST(SideBySide, AnyNumberOfSearchesFindsTheHitsOfSingleOnes) {
     EXPECT_GT(searches.found(), count / 4);
     EXPECT_LT(searches.found(), count) << "some rays must miss";
   }
+}
+
+// Expects that searches in vectors of every width find what a test of every triangle finds.
+void expect_nearest_on_each_processor(const Bvh& bvh, std::uint32_t elements) {
+  constexpr std::size_t count = 400;
+  const std::vector<Search> searches = random_searches(count, elements, 5);
+  std::vector<CpuHit> expected;
+  for (const Search& search : searches) {
+    expected.push_back(nearest_hit_of_all(bvh, search.ray, search.limit, search.own));
+  }
+  test::for_each_processor_kind([&] {
+    ListedSearches listed(searches);
+    search_side_by_side(bvh, listed);
+    listed.expect_hits_of_single_searches(bvh);
+    listed.expect_hits(expected);
+    EXPECT_GT(listed.found(), count / 4);
+    EXPECT_LT(listed.found(), count) << "some rays must miss";
+  });
+}
+
+TEST(SideBySide, OnEachKindOfProcessorFindsTheHitsOfATestOfEveryTriangle) {
+  constexpr std::uint32_t triangles = 600;
+  expect_nearest_on_each_processor(build_bvh(isolated(scattered(triangles, 0.5, 0.1, 4)), 1e-5F), triangles);
+}
+
+TEST(SideBySide, AmongCopiesOnEachKindOfProcessorFindsTheHitsOfATestOfEveryTriangle) {
+  const RadiationModel model = test::stand_of_copies({test::unit_plot, 12, true, 3}, true);
+  const test::Prepared prepared(model);
+  ASSERT_FALSE(prepared.bvh.copies.empty());
+  expect_nearest_on_each_processor(prepared.bvh, static_cast<std::uint32_t>(model.canopy.size()));
 }
 
 TEST(SideBySide, WithoutTrianglesNothingIsFound) {
