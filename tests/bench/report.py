@@ -24,7 +24,7 @@ GOALS = {
     "beam/device": (0.50, 0.65),
     "leaf/device": (0.45, 0.60),
     "beam/cpu": (1.2, 2.0),
-    "leaf/cpu": (0.35, 0.6),
+    "leaf/cpu": (0.9, 1.1),
 }
 
 
@@ -134,8 +134,8 @@ def plot_growth(grown, file):
     """Plots time per ray against triangles, log-log, with a line for each tracer and kind of rays."""
     lines = sorted({tuple(name.split("/")[1:3]) for name in grown})
     script = [f'set terminal pngcairo size 1000,640 font "DejaVu Sans,13"; set output "{file}"',
-              'set logscale xy; set grid; set key right bottom reverse Left; set format x "10^{%T}"',
-              'set xlabel "Triangles"; set ylabel "Time of a ray (ns)"; set xrange [2e4:2e7]; set yrange [30:2000]']
+              'set logscale xy; set grid; set key left top reverse Left; set format x "10^{%T}"',
+              'set xlabel "Triangles"; set ylabel "Time of a ray (ns)"; set xrange [2e4:2e7]; set yrange [30:5000]']
     blocks = []
     for rays, who in lines:
         points = sorted((entry["triangles"], 1e9 / entry["items_per_second"]) for name, entry in grown.items()
