@@ -6,8 +6,9 @@
 namespace sunfleck {
 namespace {
 
-// The least variance of the sunlit share of each kind of shade. The beam's landings show the variances themselves, but only
-// as exactly as there are landings. For mixed elements it is a quarter of what an additive sequence of so many points leaves.
+// The least variance of the sunlit share of each kind of shade. The beam's landings show the variances themselves, but the fewer
+// landings there are, the less exactly. For mixed elements the least variance is a quarter of that which remains when the share is
+// sampled by as many points of an additive sequence.
 constexpr std::array<double, shade_kinds> least_variance = {0.0, 1e-6, 1e-5, 1e-5, 1e-4, 3e-4, 3e-4, 3e-4};
 
 }  // namespace
