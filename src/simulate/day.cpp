@@ -5,6 +5,7 @@
 #include "base/version.h"
 #include "files/results/tables/day_fields.h"
 #include "files/results/tables/work_settings.h"
+#include "simulate/day_blocks.h"
 #include "simulate/ranks.h"
 
 #include <algorithm>
@@ -38,21 +39,12 @@ class DayRun {
   }
 
   SimulatedDay run() {
-    for (std::size_t i = 0; i < plan_.course.steps.size(); ++i) {
+    for (const DayBlock& block : plan_.blocks) {
       if (stopped()) break;
-      if (plan_.course.steps[i].night()) {
-        day_.lights.push_back(night_light(simulation_.model()));
-        continue;
-      }
-      std::optional<StoredStep> step = sink_.find(i);
-      if (!step) {
-        step = simulate(i);
-        if (!step) break;
-        sink_.take(i, *step);
-      }
-      count(*step);
-      day_.lights.push_back(std::move(step->light));
+      add_nights(block.first);
+      if (!find(block) && !simulate(block)) return std::move(day_);
     }
+    if (!stopped()) add_nights(plan_.course.steps.size());
     return std::move(day_);
   }
 
@@ -62,40 +54,40 @@ class DayRun {
            (hooks_.ranks != nullptr && hooks_.ranks->interrupted());
   }
 
-  // Simulates a daytime step; returns nothing if it was stopped meanwhile.
-  std::optional<StoredStep> simulate(std::size_t step) {
-    if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(step);
-    set_light(simulation_.scene().model, plan_.lights[step]);
+  void add_nights(std::size_t end) {
+    while (day_.lights.size() < end) day_.lights.push_back(night_light(simulation_.model()));
+  }
+
+  // Takes over a block whose steps were all simulated earlier.
+  [[nodiscard]] bool find(const DayBlock& block) {
+    std::vector<StoredStep> steps;
+    for (std::size_t i = block.first; i < block.end; ++i) {
+      std::optional<StoredStep> step = sink_.find(i);
+      if (!step) return false;
+      steps.push_back(*std::move(step));
+    }
+    for (StoredStep& step : steps) count(step);
+    return true;
+  }
+
+  // Simulates the daytime steps of a block; returns false if it was stopped meanwhile.
+  [[nodiscard]] bool simulate(const DayBlock& block) {
+    if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(static_cast<std::uint64_t>(&block - plan_.blocks.data()));
     SolveSettings settings = settings_;
-    settings.seed = RandomStream(settings_.seed, step).word();
+    settings.seed = RandomStream(settings_.seed, block.first).word();
     if (next_work_ && !settings.grid_m && !settings.passes) {
       settings.begin_with = Work{share_of_next_rays * next_work_->rays, share_of_next_packets * next_work_->packets};
     }
-    Stopwatch watch;
-    std::optional<RadiationResult> attempt = solve(settings);
-    if (!attempt) {
+    if (!solve(block, settings)) {
       settings.begin_with.reset();
-      attempt = solve(settings);
+      static_cast<void>(solve(block, settings));
     }
-    const RadiationResult& result = *attempt;
     simulation_.check_validation();
-    if (result.stop == StopReason::interrupted) return std::nullopt;
-    StoredStep stored;
-    stored.light = step_light(simulation_.model(), result);
-    stored.fields = day_fields(simulation_.model(), result);
-    stored.next_work = result.next_work;
-    stored.rays = result.direct.rays;
-    stored.packets = result.indirect.packets;
-    stored.lost_rays = result.lost_rays;
-    stored.direct_error = result.direct.relative_error;
-    stored.indirect_error = result.indirect.relative_error;
-    stored.reached_bound = is_done(result.stop);
-    stored.seconds = watch.lap();
-    return stored;
+    return day_.lights.size() == block.end;
   }
 
-  // Returns nothing if the step began with far too little work; counts decide that, not the clock.
-  std::optional<RadiationResult> solve(const SolveSettings& settings) {
+  // Returns false if the block began with far too little work; counts decide that, not the clock.
+  [[nodiscard]] bool solve(const DayBlock& block, const SolveSettings& settings) {
     std::atomic<bool> too_little = false;  // the solver's threads read it
     int replicates = 0;
     Monitor monitor;
@@ -104,26 +96,56 @@ class DayRun {
       ++replicates;
       const bool judged = settings.begin_with && replicates == judged_replicates;
       if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
-      report(state);
+      report(block, state);
     };
-    RadiationResult result = simulation_.solve(settings, monitor, hooks_.ranks != nullptr ? hooks_.ranks->helpers() : nullptr);
-    if (too_little) return std::nullopt;
-    return result;
+    const std::vector<RadiationModel> lights = lights_of(simulation_.model(), plan_, block);
+    LightSum sum;
+    for (std::size_t k = 0; k < lights.size(); ++k) sum.push_back({k, plan_.course.steps[block.first + k].length_s});
+    const std::vector<LightSum> sums(lights.size() > 1 ? 1 : 0, sum);
+    Stopwatch watch;
+    const auto take = [&](std::size_t light, const RadiationResult& result, const SharedOutcome& outcome) {
+      if (outcome.stop == StopReason::interrupted) return;
+      StoredStep step = stored_step(lights[light], result);
+      step.seconds = watch.lap();
+      step.light.shares_packets = lights.size() > 1;
+      if (light > 0) step.packets = 0;  // they are those of the first step
+      if (light + 1 == lights.size() && lights.size() > 1) step.light.of_shared = outcome.sum_errors.front();
+      sink_.take(block.first + light, step);
+      count(step);
+    };
+    static_cast<void>(simulation_.solve_lights(lights, settings, monitor,
+                                               hooks_.ranks != nullptr ? hooks_.ranks->helpers() : nullptr, sums, take));
+    return !too_little;
   }
 
-  // Reports a step's progress as progress of the day.
-  void report(const Progress& state) const {
+  [[nodiscard]] static StoredStep stored_step(const RadiationModel& model, const RadiationResult& result) {
+    StoredStep stored;
+    stored.light = step_light(model, result);
+    stored.fields = day_fields(model, result);
+    stored.next_work = result.next_work;
+    stored.rays = result.direct.rays;
+    stored.packets = result.indirect.packets;
+    stored.lost_rays = result.lost_rays;
+    stored.direct_error = result.direct.relative_error;
+    stored.indirect_error = result.indirect.relative_error;
+    stored.reached_bound = is_done(result.stop);
+    return stored;
+  }
+
+  // Reports a block's progress as progress of the day.
+  void report(const DayBlock& block, const Progress& state) const {
     if (!hooks_.monitor.report) return;
     Progress whole = state;
     whole.rays += day_.totals.rays + day_.totals.packets;
-    whole.fraction = (static_cast<double>(day_.totals.simulated) + state.fraction) / lit_steps_;
+    const double of_block = state.fraction * static_cast<double>(block.size());
+    whole.fraction = (static_cast<double>(day_.totals.simulated) + of_block) / lit_steps_;
     whole.seconds_left.reset();
     if (day_.totals.simulated > 0) whole.stage = Progress::Stage::run;
     hooks_.monitor.report(whole);
   }
 
-  // Adds a step to the totals, whether it was simulated now or earlier.
-  void count(const StoredStep& step) {
+  // Adds a step to the day, whether it was simulated now or earlier.
+  void count(StoredStep& step) {
     const auto worse = [](std::optional<double>& worst, const std::optional<double>& error) {
       if (error) worst = std::max(worst.value_or(0.0), *error);
     };
@@ -137,6 +159,7 @@ class DayRun {
     worse(totals.indirect_error, step.indirect_error);
     totals.seconds += step.seconds;
     next_work_ = step.next_work;
+    day_.lights.push_back(std::move(step.light));
   }
 
   Simulation& simulation_;
@@ -151,6 +174,13 @@ class DayRun {
 
 }  // namespace
 
+DayPlan plan_day_in_blocks(const DayRequest& request, const WorkRequest& work, const Scene& scene,
+                           const SolveSettings& settings) {
+  DayPlan plan = plan_day(request, scene);
+  plan_blocks(scene.model, most_lights(scene.model, settings, work.memory_bytes.has_value()), plan);
+  return plan;
+}
+
 SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads) {
   WorkRequest of_triangles = work;
   of_triangles.triangle_light = true;
@@ -160,6 +190,8 @@ SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, in
 }
 
 ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan) {
+  std::size_t most_together = 0;
+  for (const DayBlock& block : plan.blocks) most_together = std::max(most_together, block.size());
   ordered_json noted = {{"sunfleck", version()},
                         {"scene_digest", scene.digest},
                         {"date", plan.course.dates.front()},
@@ -167,15 +199,10 @@ ordered_json day_settings(const DayRequest& request, const Scene& scene, const S
                         {"step_min", request.step_min},
                         {"from", clock_text(plan.from_min)},
                         {"to", clock_text(plan.to_min)},
+                        {"steps_together", most_together},
                         {"seed", settings.seed}};
   add_work_settings(noted, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
   return noted;
-}
-
-void set_light(RadiationModel& model, const MomentLight& light) {
-  model.sun = light.sun;
-  model.bands = light.bands;
-  model.sky = light.sky;
 }
 
 SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings, DaySink& sink,

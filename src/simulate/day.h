@@ -1,9 +1,9 @@
 #pragma once
-// Simulates the steps of one or several days, one after the other with one tree.
+// Simulates the steps of one or several days, block by block with one tree. The steps of a block are simulated together.
 //
-// Step n, from 0, has the seed RandomStream(seed, n).word(). Its replicates begin at the size that the last simulated step
-// would now choose (RadiationResult::next_work), which is stored with the step: a day that was stopped anywhere and is resumed
-// gives the same bytes as one that was not.
+// A block whose first step is n, from 0, has the seed RandomStream(seed, n).word(). Its replicates begin at the size that the last
+// simulated block would now choose (RadiationResult::next_work), which is stored with its steps: a day that was stopped anywhere and
+// is resumed gives the same bytes as one that was not.
 
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"
@@ -35,6 +35,10 @@ struct SimulatedDay {
   DayTotals totals;
 };
 
+// Returns the plan of the request, with its blocks.
+[[nodiscard]] DayPlan plan_day_in_blocks(const DayRequest& request, const WorkRequest& work, const Scene& scene,
+                                         const SolveSettings& settings);
+
 // Returns the solver's settings for the steps. They contain no time limit: --max-seconds interrupts a day between rays instead
 // of making replicates smaller, so that its bytes do not depend on the clock.
 [[nodiscard]] SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads);
@@ -43,10 +47,7 @@ struct SimulatedDay {
 [[nodiscard]] nlohmann::ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings,
                                                   const DayPlan& plan);
 
-// Sets the light of a moment in a model.
-void set_light(RadiationModel& model, const MomentLight& light);
-
-// Simulates the steps of the plan in their order, until hooks.monitor.interrupted stops them, which discards the step in
+// Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them, which discards the block in
 // progress. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps. Throws as
 // Simulation::solve does, and what the sink throws.
 [[nodiscard]] SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings,

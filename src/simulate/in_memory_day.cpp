@@ -26,8 +26,8 @@ InMemoryDay simulate_in_memory(Scene scene, const DayRequest& request, const Wor
                                const Monitor& monitor) {
   Stopwatch total;
   remove_receivers(scene);
-  const DayPlan plan = plan_day(request, scene);
   const SolveSettings settings = day_solve_settings(work, scene, device.threads);
+  const DayPlan plan = plan_day_in_blocks(request, work, scene, settings);
   check_grid(work, scene);
   Simulation simulation(std::move(scene), device);
   RunHooks hooks{monitor};

@@ -13,6 +13,8 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -23,32 +25,37 @@ std::string what_is_simulated(const Simulation& simulation) {
                      version(), commit());
 }
 
-// Makes replicates in the light of one stage.
+// Makes replicates in the lights of one stage.
 class ReplicateBench {
  public:
-  explicit ReplicateBench(Simulation& simulation)
-      : maker_(simulation.model(), simulation.layout(), simulation.tracing().engine.tracer()) {}
+  ReplicateBench(Simulation& simulation, std::vector<RadiationModel> lights)
+      : lights_(std::move(lights)), maker_(lights_, simulation.layout(), simulation.tracing().engine.tracer()) {}
 
-  std::optional<Replicate> make(const ReplicateOrder& order, const StopQuestion& stop) {
-    const std::shared_ptr<const Conversion> conversion = conversion_of(order);
-    return maker_.make(order, *conversion, stop);
+  std::optional<ReplicateSet> make(const ReplicateOrder& order, const StopQuestion& stop) {
+    const auto conversions = conversions_of(order);
+    return maker_.make(order, *conversions, stop);
   }
 
  private:
-  // Returns the conversion of the last order if it fits this one, which is nearly always the case.
-  std::shared_ptr<const Conversion> conversion_of(const ReplicateOrder& order) {
+  // Returns the conversions of the last order if they fit this one, which is nearly always the case.
+  std::shared_ptr<const std::vector<Conversion>> conversions_of(const ReplicateOrder& order) {
     const std::lock_guard lock(mutex_);
-    if (!conversion_ || order.beam_rays != beam_rays_) {
-      beam_rays_ = order.beam_rays;
-      conversion_ = std::make_shared<const Conversion>(maker_.conversion(maker_.incidence(beam_rays_, order.aimed)));
+    if (conversions_ && order.beam_rays == beam_rays_) return conversions_;
+    beam_rays_ = order.beam_rays;
+    auto conversions = std::make_shared<std::vector<Conversion>>();
+    conversions->reserve(lights_.size());
+    for (std::size_t k = 0; k < lights_.size(); ++k) {
+      conversions->push_back(maker_.conversion(maker_.incidence(beam_rays_, order.aimed, k), k));
     }
-    return conversion_;
+    conversions_ = std::move(conversions);
+    return conversions_;
   }
 
+  std::vector<RadiationModel> lights_;
   ReplicateMaker maker_;
   std::mutex mutex_;
   double beam_rays_ = 0.0;
-  std::shared_ptr<const Conversion> conversion_;
+  std::shared_ptr<const std::vector<Conversion>> conversions_;
 };
 
 }  // namespace
@@ -115,8 +122,7 @@ void Ranks::make_replicates(const Task& task) {
   service.host = job_->seat().host;
   service.scene = what_is_simulated(task.simulation);
   service.set_stage = [&](std::uint64_t stage) {
-    if (task.set_light) task.set_light(stage);
-    bench.emplace(task.simulation);
+    bench.emplace(task.simulation, task.lights ? task.lights(stage) : std::vector{task.simulation.model()});
   };
   service.make = [&](const ReplicateOrder& order, const StopQuestion& stop) { return bench->make(order, stop); };
   service.interrupted = sunfleck::interrupted;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace sunfleck {
 
@@ -33,7 +34,7 @@ class Ranks {
   void gather(const Simulation& simulation, const SolveSettings& settings);
   // Returns the helpers that make replicates for `solve`; null without workers.
   [[nodiscard]] ReplicateHelpers* helpers() { return helpers_.get(); }
-  void set_stage(std::uint64_t stage);  // selects the light for Task::set_light
+  void set_stage(std::uint64_t stage);  // selects the lights of Task::lights
   [[nodiscard]] bool interrupted() const { return helpers_ && helpers_->interrupted(); }
   // Tells the workers that no more replicates are needed.
   void release();
@@ -42,7 +43,8 @@ class Ranks {
   struct Task {
     Simulation& simulation;
     const SolveSettings& settings;
-    std::function<void(std::uint64_t stage)> set_light;  // may be empty
+    // Returns the lights of a stage; empty for the light of the simulation's scene.
+    std::function<std::vector<RadiationModel>(std::uint64_t stage)> lights;
   };
   // Makes replicates in a worker until rank 0 needs no more. `begin` prepares the task as rank 0 does, and passes it to the
   // function that it receives; rank 0 reports its errors. Returns whether the job ended properly.

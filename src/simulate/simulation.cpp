@@ -143,6 +143,13 @@ RadiationResult Simulation::solve(const SolveSettings& settings, const Monitor& 
   return result;
 }
 
+SharedOutcome Simulation::solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,
+                                       ReplicateHelpers* helpers, std::span<const LightSum> sums, const TakeLight& take) {
+  const CpuThreads limit(threads_);
+  Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
+  return sunfleck::solve_lights(lights, layout(), tracer, settings, monitor, helpers, sums, take);
+}
+
 SimulatedScene Simulation::run(const SolveSettings& settings, const RunHooks& hooks) {
   Stopwatch watch;
   Monitor monitor = hooks.monitor;

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace sunfleck {
 
@@ -58,6 +59,11 @@ class Simulation {
   // Simulates the scene, sensors included. Throws as `solve` of physics/transport/solve/solve.h does.
   [[nodiscard]] RadiationResult solve(const SolveSettings& settings, const Monitor& monitor,
                                       ReplicateHelpers* helpers = nullptr);
+
+  // Simulates the scene in several lights that share packets, without sensors; see solve_lights of physics/transport/solve/solve.h.
+  // The models must be the scene's apart from their light.
+  [[nodiscard]] SharedOutcome solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,
+                                           ReplicateHelpers* helpers, std::span<const LightSum> sums, const TakeLight& take);
 
   // Simulates the scene and returns the result with its record, which describes how it was computed.
   [[nodiscard]] SimulatedScene run(const SolveSettings& settings, const RunHooks& hooks = {});

@@ -31,7 +31,7 @@ std::vector<double> expectation(const Candidates& candidates, double packets) {
   std::vector<double> expected(candidates.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     for (std::size_t b = 0; b < 3; ++b) {
-      expected[k] += packets / 3.0 * static_cast<double>(candidates.quanta(k)[b]) / static_cast<double>(candidates.total(b));
+      expected[k] += packets / 3.0 * static_cast<double>(candidates.quanta(k)[b]) / static_cast<double>(candidates.totals()[b]);
     }
   }
   return expected;
@@ -44,7 +44,7 @@ TEST(Packets, APlaceWithoutFluxIsNoCandidate) {
   candidates.add({}, std::array<std::int64_t, 2>{0, 1});
   EXPECT_EQ(candidates.size(), 1U);
   candidates.retire(1);
-  EXPECT_EQ(candidates.total(1), 0);
+  EXPECT_EQ(candidates.totals()[1], 0);
 }
 
 // Places are sorted by side first: if both sides of one landing were neighbours, every draw would take the same side wherever a
@@ -82,7 +82,7 @@ void expect_books_closed(const Candidates& candidates, const Draw& draw) {
       carried[b] += draw.quanta[3 * p + b];
     }
   }
-  for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(carried[b], draw.kept[b] ? 0 : candidates.total(b));
+  for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(carried[b], draw.kept[b] ? 0 : candidates.totals()[b]);
 }
 
 TEST(Packets, DrawingKeepsTotalsAndExpectations) {
@@ -159,7 +159,7 @@ double landed_share(const Scattered& places, const Draw& draw, std::size_t band)
   for (std::size_t k = 0; k < places.candidates.size(); ++k) {
     if (draw.kept[band]) landed += static_cast<double>(places.candidates.quanta(k)[band]) * places.landing[k];
   }
-  return landed / static_cast<double>(places.candidates.total(band));
+  return landed / static_cast<double>(places.candidates.totals()[band]);
 }
 
 // Scaling to the waiting flux is a ratio estimate: the mean of ten thousand draws equals the exact sum within its own error. A
@@ -181,7 +181,7 @@ TEST(Packets, DrawingIsUnbiased) {
         for (std::size_t k = 0; k < places.landing.size(); ++k) {
           exact += static_cast<double>(places.candidates.quanta(k)[b]) * places.landing[k];
         }
-        exact /= static_cast<double>(places.candidates.total(b));
+        exact /= static_cast<double>(places.candidates.totals()[b]);
         expect_agrees(estimate_of(means[b]), exact, draws, 1e-3, 12, packets < 1000.0 ? "256 packets" : "1024 packets");
       }
     }

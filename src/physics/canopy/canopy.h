@@ -1,6 +1,7 @@
 #pragma once
 // The canopy as it is traced: single-precision triangles ("elements") in a local frame, wrapped into the plot.
 
+#include "base/shared_vector.h"
 #include "physics/canopy/copies.h"
 #include "physics/canopy/element_corners.h"
 #include "physics/canopy/mesh.h"
@@ -24,16 +25,17 @@ struct Box {
 
 // The elements, numbered in the order of the files, copy by copy. Local frame = scene frame - origin_m. In a periodic plot
 // the corners and the periods are whole multiples of a power of two (about 1e-7 of the period), so that a shift by whole
-// periods is exact in single precision and neighbouring triangles stay sealed across the plot's border.
+// periods is exact in single precision and neighbouring triangles stay sealed across the plot's border. Copies of a canopy share its large arrays, so that models with other light
+// take little memory.
 struct Canopy {
   glm::dvec3 origin_m{0.0};               // scene position of the local frame's origin
   glm::dvec2 period_m{0.0};               // period along X and Z on that grid; 0 for an isolated stand
   ElementCorners corners;                 // [element], m, local frame
-  std::vector<std::uint32_t> organ_of;    // [element]
-  std::vector<std::uint16_t> optics_of;   // [element]
+  SharedVector<std::uint32_t> organ_of;   // [element]
+  SharedVector<std::uint16_t> optics_of;  // [element]
   std::vector<Organ> organs;              // [organ]
   std::vector<std::string> optics_names;  // [optics]
-  std::vector<std::uint64_t> labels;      // [element], as in Mesh
+  SharedVector<std::uint64_t> labels;     // [element], as in Mesh
   std::vector<Copy> copies;               // ascending by element; copies neither receive nor emit light
   std::vector<PlantSite> plants;          // ascending by number; plant 0, the soil, is not among them
 

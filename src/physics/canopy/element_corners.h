@@ -1,6 +1,7 @@
 #pragma once
 // The corners of all elements. Those of meshes that stand many times in a large canopy are kept once for each mesh.
 
+#include "base/shared_vector.h"
 #include "physics/canopy/triangle.h"
 #include "shared/turn.h"
 
@@ -75,11 +76,11 @@ class ElementCorners {
   // Appends the elements of a copy.
   void add_copy(std::uint32_t mesh, const shared::CopyTurn& turn);
 
-  [[nodiscard]] std::span<const SharedMesh> meshes() const { return meshes_; }
-  [[nodiscard]] std::span<const MeshCopy> copies() const { return copies_; }  // in ascending order of elements
+  [[nodiscard]] std::span<const SharedMesh> meshes() const { return meshes_.get(); }
+  [[nodiscard]] std::span<const MeshCopy> copies() const { return copies_.get(); }  // in ascending order of elements
 
   // Return the corners of the elements that have their own, and the numbers of these elements, ascending.
-  [[nodiscard]] std::span<const Triangle> own() const { return own_; }
+  [[nodiscard]] std::span<const Triangle> own() const { return own_.get(); }
   [[nodiscard]] std::vector<std::uint32_t> own_elements() const;
 
   // Returns all corners as one array.
@@ -101,12 +102,12 @@ class ElementCorners {
   [[nodiscard]] Triangle in_run(std::size_t element) const;
   void add_run(const Run& run, std::size_t elements);
 
-  std::vector<Triangle> own_;
+  SharedVector<Triangle> own_;
   std::size_t shared_ = 0;  // number of elements that belong to copies
-  std::vector<SharedMesh> meshes_;
-  std::vector<MeshCopy> copies_;
-  std::vector<Run> runs_;                 // empty without copies
-  std::vector<std::uint32_t> run_index_;  // [element >> index_shift]: the run of the first of these elements
+  SharedVector<SharedMesh> meshes_;
+  SharedVector<MeshCopy> copies_;
+  SharedVector<Run> runs_;                 // empty without copies
+  SharedVector<std::uint32_t> run_index_;  // [element >> index_shift]: the run of the first of these elements
 };
 
 }  // namespace sunfleck

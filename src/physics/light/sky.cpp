@@ -111,15 +111,20 @@ void Sky::take_lights(const std::vector<SkyLight>& lights) {
 }
 
 void Sky::take_shape(const SkyShape& shape, const SunPosition& sun) {
-  constexpr std::size_t cells = std::size_t{rows} * columns;
-  radiance_.assign(cells, 0.0);
-  column_.resize(cells);
+  radiance_.assign(std::size_t{rows} * columns, 0.0);
+  for (int row = 0; row < rows; ++row) {
+    fill_row(row, shape, sun, std::span(radiance_).subspan(static_cast<std::size_t>(row) * columns, columns));
+  }
+  take_radiance();
+}
+
+void Sky::take_radiance() {
+  column_.resize(radiance_.size());
   row_cosine_.resize(rows);
   row_plain_.resize(rows);
   for (int row = 0; row < rows; ++row) {
     const std::size_t first = static_cast<std::size_t>(row) * columns;
-    const std::span<double> radiance(&radiance_[first], columns);
-    fill_row(row, shape, sun, radiance);
+    const std::span<const double> radiance(&radiance_[first], columns);
     const std::span<double> shares(&column_[first], columns);
     std::copy(radiance.begin(), radiance.end(), shares.begin());
     const double sum = accumulate_shares(shares);
@@ -133,15 +138,30 @@ void Sky::take_shape(const SkyShape& shape, const SunPosition& sun) {
   for (double& value : radiance_) value /= horizontal;
 }
 
-double Sky::radiance(const glm::dvec3& to_sky) const {
-  EXPECT(radiance_.size(), >, std::size_t{0});
-  if (to_sky.y <= 0.0) return 0.0;
+Sky Sky::mean_of(std::span<const Sky> skies) {
+  Sky mean;
+  if (skies.front().is_list()) return skies.front();
+  mean.radiance_.assign(std::size_t{rows} * columns, 0.0);
+  for (const Sky& sky : skies) {
+    EXPECT(sky.radiance_.size(), ==, mean.radiance_.size());
+    for (std::size_t cell = 0; cell < sky.radiance_.size(); ++cell) mean.radiance_[cell] += sky.radiance_[cell];
+  }
+  mean.take_radiance();
+  return mean;
+}
+
+std::size_t Sky::cell_of(const glm::dvec3& to_sky) {
   const double zenith = std::atan2(std::hypot(to_sky.x, to_sky.z), to_sky.y);
   double azimuth = std::atan2(-to_sky.z, -to_sky.x);
   if (azimuth < 0.0) azimuth += full_turn;
   const int row = std::min(static_cast<int>(zenith / row_height_rad), rows - 1);
   const int column = std::min(static_cast<int>(azimuth / column_width_rad), columns - 1);
-  return radiance_[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)];
+  return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+}
+
+double Sky::radiance(const glm::dvec3& to_sky) const {
+  EXPECT(radiance_.size(), >, std::size_t{0});
+  return to_sky.y > 0.0 ? radiance_[cell_of(to_sky)] : 0.0;
 }
 
 glm::dvec3 Sky::draw_by_horizontal_irradiance(double u, double v) const {

@@ -5,7 +5,9 @@
 #include "physics/light/sky_model.h"
 #include "physics/light/sun.h"
 
+#include <cstddef>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 namespace sunfleck {
@@ -20,6 +22,13 @@ class Sky {
   // `sun` matters only if model.follows_sun(); a sun below the horizon counts as on it. Throws Error (input) for a list
   // whose weights are all zero.
   Sky(const SkyModel& model, const SunPosition& sun);
+
+  // Returns a sky whose radiance is the mean of these skies' radiances. All of them must be of cells, or all the same list (EXPECT).
+  [[nodiscard]] static Sky mean_of(std::span<const Sky> skies);
+
+  // Returns the cell that holds the direction, and the radiance of a cell, sr-1. Must not be called for lights.
+  [[nodiscard]] static std::size_t cell_of(const glm::dvec3& to_sky);
+  [[nodiscard]] double radiance_of_cell(std::size_t cell) const { return radiance_[cell]; }
 
   // Returns the radiance, sr-1, of the cell that holds the direction; 0 below the horizon. Must not be called for lights
   // (EXPECT).
@@ -41,7 +50,10 @@ class Sky {
   [[nodiscard]] const std::vector<SkyLight>& lights() const { return lights_; }
 
  private:
+  Sky() = default;
+
   void take_lights(const std::vector<SkyLight>& lights);
+  void take_radiance();  // that of the cells, of any unit
   void take_shape(const SkyShape& shape, const SunPosition& sun);
   [[nodiscard]] double azimuth_in_row(std::size_t row, double v) const;
 

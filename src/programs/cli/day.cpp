@@ -12,6 +12,7 @@
 #include "files/results/tables/day_tables.h"
 #include "programs/cli/terminal.h"
 #include "simulate/day.h"
+#include "simulate/day_blocks.h"
 #include "simulate/interrupt.h"
 #include "simulate/ranks.h"
 #include "simulate/result_folder.h"
@@ -183,11 +184,11 @@ Scene read_day_scene(const RunOptions& options) {
 int help_with_day(const DayOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
     Scene scene = read_day_scene(options.run);
-    const DayPlan plan = plan_day(options, scene);
+    const SolveSettings settings = day_solve_settings(options.run, scene, options.run.threads);
+    const DayPlan plan = plan_day_in_blocks(options, options.run, scene, settings);
     Simulation simulation(std::move(scene), options.run);
-    const SolveSettings settings = day_solve_settings(options.run, simulation.scene(), options.run.threads);
-    make_replicates(
-        {simulation, settings, [&](std::uint64_t step) { set_light(simulation.scene().model, plan.lights.at(step)); }});
+    make_replicates({simulation, settings,
+                     [&](std::uint64_t block) { return lights_of(simulation.model(), plan, plan.blocks.at(block)); }});
   });
   return served ? exit_done : exit_failed;
 }
@@ -216,8 +217,8 @@ int run_day(const DayOptions& asked) {
   FolderLock lock(folder);
 
   Scene scene = read_day_scene(run);
-  const DayPlan plan = plan_day(options, scene);
   const SolveSettings settings = day_solve_settings(run, scene, run.threads);
+  const DayPlan plan = plan_day_in_blocks(options, run, scene, settings);
   check_inputs(folder, scene);
   check_grid(run, scene);
   static_cast<void>(picture_band(scene.model, run.pictures.band));

@@ -40,12 +40,12 @@ void RankHelpers::begin(const ReplicateOrder& order) {
                 pack(OrderMessage{{series_, order.number}, stage_, order}));
 }
 
-std::optional<MadeReplicate> RankHelpers::take(const Replicate& blank) {
+std::optional<MadeReplicate> RankHelpers::take(const ReplicateSet& blank) {
   while (const std::optional<Letter> letter = hear()) {
     if (letter->kind != LetterKind::made) continue;
     const ReplicateKey key = unpack_key(letter->content);
     if (key.series != series_) continue;
-    return MadeReplicate{key.number, unpack_replicate(letter->content, blank)};
+    return MadeReplicate{key.number, unpack_replicates(letter->content, blank)};
   }
   expect_sound();
   return std::nullopt;

@@ -32,7 +32,7 @@ class RankHelpers final : public ReplicateHelpers {
   [[nodiscard]] std::size_t slots() const override;
   [[nodiscard]] std::size_t free_slots() const override;
   void begin(const ReplicateOrder& order) override;
-  [[nodiscard]] std::optional<MadeReplicate> take(const Replicate& blank) override;
+  [[nodiscard]] std::optional<MadeReplicate> take(const ReplicateSet& blank) override;
   void drop() override;
 
   // Dismisses all ranks: no more orders will follow.

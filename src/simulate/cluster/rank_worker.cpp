@@ -44,7 +44,7 @@ class Worker {
   struct Making {
     ReplicateKey key;
     std::shared_ptr<std::atomic<bool>> dropped;
-    std::future<std::optional<Replicate>> result;
+    std::future<std::optional<ReplicateSet>> result;
   };
 
   bool work() {
@@ -115,7 +115,7 @@ class Worker {
         ++making;
         continue;
       }
-      std::optional<Replicate> made;
+      std::optional<ReplicateSet> made;
       guarded([&] { made = making->result.get(); });
       if (made && !*making->dropped) {
         mailbox_.post(0, LetterKind::made, pack(making->key, *made));

@@ -20,7 +20,7 @@ struct RankService {
   // Sets the light of the orders that follow; called only while no replicate is being made.
   std::function<void(std::uint64_t stage)> set_stage;
   // Makes a replicate, as ReplicateMaker::make; called by several threads at the same time.
-  std::function<std::optional<Replicate>(const ReplicateOrder&, const StopQuestion&)> make;
+  std::function<std::optional<ReplicateSet>(const ReplicateOrder&, const StopQuestion&)> make;
   // Returns true if this process received a request to stop; it is reported to rank 0, which decides.
   StopQuestion interrupted;
   // Rank 0 is lost if nothing was heard from it for this long while this rank was listening. Rank 0 does not listen while

@@ -114,9 +114,10 @@ template OrderMessage unpack(std::span<const std::byte>);
 template ReadyMessage unpack(std::span<const std::byte>);
 template FailedMessage unpack(std::span<const std::byte>);
 
-std::vector<std::byte> pack(const ReplicateKey& key, const Replicate& replicate) {
+std::vector<std::byte> pack(const ReplicateKey& key, const ReplicateSet& replicates) {
   Writer writer;
-  writer(key, static_cast<std::uint8_t>(replicate.packets ? 1 : 0), replicate);
+  writer(key, static_cast<std::uint8_t>(replicates.front().packets ? 1 : 0));
+  for (const Replicate& replicate : replicates) writer(replicate);
   return std::move(writer).bytes();
 }
 
@@ -126,16 +127,16 @@ ReplicateKey unpack_key(std::span<const std::byte> bytes) {
   return key;
 }
 
-Replicate unpack_replicate(std::span<const std::byte> bytes, const Replicate& blank) {
+ReplicateSet unpack_replicates(std::span<const std::byte> bytes, const ReplicateSet& blank) {
   Reader reader(bytes);
   ReplicateKey key;
   std::uint8_t packets = 0;
   reader(key, packets);
-  Reader::expect(packets == (blank.packets ? 1 : 0));
-  Replicate replicate = blank;
-  reader(replicate);
+  Reader::expect(packets == (blank.front().packets ? 1 : 0));
+  ReplicateSet replicates = blank;
+  for (Replicate& replicate : replicates) reader(replicate);
   reader.expect_end();
-  return replicate;
+  return replicates;
 }
 
 }  // namespace sunfleck

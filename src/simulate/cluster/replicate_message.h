@@ -59,13 +59,13 @@ struct FailedMessage {
 // Packs one of these structs.
 template <class Message>
 [[nodiscard]] std::vector<std::byte> pack(const Message& message);
-[[nodiscard]] std::vector<std::byte> pack(const ReplicateKey& key, const Replicate& replicate);
+[[nodiscard]] std::vector<std::byte> pack(const ReplicateKey& key, const ReplicateSet& replicates);
 
 // These functions throw Error (failure) for bytes that are not such a message.
 template <class Message>
 [[nodiscard]] Message unpack(std::span<const std::byte> bytes);
 [[nodiscard]] ReplicateKey unpack_key(std::span<const std::byte> bytes);  // of a replicate, too
 // `blank` gives the sizes of the arrays; its `sums` are left as they are.
-[[nodiscard]] Replicate unpack_replicate(std::span<const std::byte> bytes, const Replicate& blank);
+[[nodiscard]] ReplicateSet unpack_replicates(std::span<const std::byte> bytes, const ReplicateSet& blank);
 
 }  // namespace sunfleck

@@ -100,8 +100,8 @@ void visit_canopy(const Archive& archive, Canopy& canopy) {
   visit_vector(archive["origin_m"], farthest_stored_m, canopy.origin_m);
   archive["period_m"].row(0.0, farthest_stored_m, canopy.period_m.x, canopy.period_m.y);
   visit_corners(archive["corners_m"], canopy.corners, triangles);
-  archive["organ_of"].packed(canopy.organ_of, triangles);
-  archive["optics_of"].packed(canopy.optics_of, triangles);
+  archive["organ_of"].packed(SharedVector<std::uint32_t>::of(canopy.organ_of), triangles);
+  archive["optics_of"].packed(SharedVector<std::uint16_t>::of(canopy.optics_of), triangles);
 }
 
 template <class Archive, class Model>

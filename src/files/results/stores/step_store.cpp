@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view step_mark = "SUNSTEP5";
+constexpr std::string_view step_mark = "SUNSTEP6";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
-constexpr int step_format = 5;  // of the steps, and of the tables that a finished day has
+constexpr int step_format = 6;  // of the steps, and of the tables that a finished day has
 
 // Writes or reads a step; its light has the sizes of the model.
 template <class Archive, class Step>
@@ -34,6 +34,7 @@ void visit(const Archive& archive, Step& step, std::size_t field_values) {
     auto next = light.begin();
     EachNumber([&](double& number) { number = *next++; })(step.light);
   }
+  archive["shares_packets"].value(step.light.shares_packets);
   archive["fields"].packed(step.fields, field_values);
   archive["next_rays"].value(step.next_work.rays);
   archive["next_packets"].value(step.next_work.packets);
@@ -135,6 +136,7 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
     light.bands.resize(bands_);
     light.organ_absorbed.resize(organs_ * bands_);
     light.plant_absorbed_w.resize(plants_ * bands_);
+    light.of_shared = no_joint_errors(bands_, organs_, plants_);
     light.leaf_classes.absorbed_sunlit.resize(bands_);
     light.leaf_classes.absorbed_shaded.resize(bands_);
     light.leaf_classes.sunlit_sd.resize(bands_);

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <numeric>
+#include <optional>
 
 namespace sunfleck {
 namespace {
@@ -26,9 +28,9 @@ struct Sum {
   Estimate random{0.0, 0.0};
   double unshot = 0.0;
 
-  void add(const Estimate& flux, double unshot_part, double length_s) {
+  void add(const Estimate& flux, double unshot_part, double length_s, std::optional<double> shared_half_width) {
     random.value += flux.value * length_s;
-    random.half_width = std::hypot(random.half_width, (flux.half_width - unshot_part) * length_s);
+    random.half_width = std::hypot(random.half_width, shared_half_width.value_or((flux.half_width - unshot_part) * length_s));
     unshot += unshot_part * length_s;
   }
   [[nodiscard]] Estimate estimate() const { return {random.value, random.half_width + unshot}; }
@@ -49,17 +51,32 @@ struct Sums {
       const StepBand& band = light.bands[b];
       for (std::size_t t = 0; t < std::size(terms); ++t) {
         const Estimate& flux = band.*terms[t];
-        bands[b][t].add(flux, std::min(flux.half_width, band.unshot), length_s);
+        bands[b][t].add(flux, std::min(flux.half_width, band.unshot), length_s, shared(light, shared_term(light, b, t)));
       }
       const double absorbed = band.absorbed_vegetation.value + band.absorbed_structure.value + band.absorbed_soil.value;
       const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
-      const auto add_to = [&](std::vector<Sum>& sums, const std::vector<Estimate>& fluxes) {
+      const auto add_to = [&](std::vector<Sum>& sums, const std::vector<Estimate>& fluxes,
+                              const std::vector<double>& of_shared) {
         for (std::size_t i = b; i < sums.size(); i += bands.size())
-          sums[i].add(fluxes[i], std::min(fluxes[i].half_width, fluxes[i].value * unshot_share), length_s);
+          sums[i].add(fluxes[i], std::min(fluxes[i].half_width, fluxes[i].value * unshot_share), length_s,
+                      shared(light, of_shared[i]));
       };
-      add_to(organs, light.organ_absorbed);
-      add_to(plants, light.plant_absorbed_w);
+      add_to(organs, light.organ_absorbed, light.of_shared.organs);
+      add_to(plants, light.plant_absorbed_w, light.of_shared.plants);
     }
+  }
+
+  // Returns the half-width if the step shares its packets with others; nothing otherwise.
+  static std::optional<double> shared(const StepLight& light, double half_width) {
+    return light.shares_packets ? std::optional(half_width) : std::nullopt;
+  }
+  // Returns the error of a term of `terms`. That of the incident flux is bounded by the sum over its parts; in an endless canopy the
+  // flux is exact.
+  static double shared_term(const StepLight& light, std::size_t band, std::size_t term) {
+    const JointErrors::Band& errors = light.of_shared.bands[band];
+    const double parts[] = {errors.vegetation, errors.structure, errors.soil, errors.reflected, errors.transmitted};
+    if (term > 0) return parts[term - 1];
+    return light.bands[band].incident.half_width > 0.0 ? std::accumulate(std::begin(parts), std::end(parts), 0.0) : 0.0;
   }
 
   [[nodiscard]] DateSums sums() const {
@@ -106,6 +123,7 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
   }
   light.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
   light.leaf_classes = result.leaf_classes;
+  light.of_shared = no_joint_errors(result.bands.size(), result.organs.size(), result.plants.size());
   return light;
 }
 
@@ -116,7 +134,13 @@ StepLight night_light(const RadiationModel& model) {
           std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
           zero,
           {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark, dark},
-          std::vector<Estimate>(count_plants(model) * bands, zero)};
+          std::vector<Estimate>(count_plants(model) * bands, zero),
+          false,
+          no_joint_errors(bands, model.canopy.organs.size(), count_plants(model))};
+}
+
+JointErrors no_joint_errors(std::size_t bands, std::size_t organs, std::size_t plants) {
+  return {std::vector<JointErrors::Band>(bands), std::vector<double>(organs * bands), std::vector<double>(plants * bands)};
 }
 
 std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {

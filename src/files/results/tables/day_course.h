@@ -51,12 +51,16 @@ struct StepLight {
   Estimate sunlit_leaf_fraction;
   ShadeClassResult leaf_classes;
   std::vector<Estimate> plant_absorbed_w;  // [plant * bands + band], plants as in PlantAreas
+  // Whether the step was simulated together with others of its date. Their errors are correlated, because they share packets: in the
+  // last of them `of_shared` holds the errors of the sum over all of them, J m-2 of ground or organ and J of the plant. It is 0 elsewhere.
+  bool shares_packets = false;
+  JointErrors of_shared;
 
   template <class Self, class Archive>
-  static void visit(Self& self, Archive& archive) {
+  static void visit(Self& self, Archive& archive) {  // all but shares_packets
     archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction, self.plant_absorbed_w, self.leaf_classes.sunlit_m2,
             self.leaf_classes.shaded_m2, self.leaf_classes.absorbed_sunlit, self.leaf_classes.absorbed_shaded,
-            self.leaf_classes.sunlit_sd, self.leaf_classes.shaded_sd);
+            self.leaf_classes.sunlit_sd, self.leaf_classes.shaded_sd, self.of_shared);
   }
 };
 
@@ -65,8 +69,11 @@ struct StepLight {
 [[nodiscard]] StepLight step_light(const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] StepLight night_light(const RadiationModel& model);
 
-// Sums over the steps of a date, J m-2. The random errors of the steps are independent, because each step has its own random
-// numbers, and add in quadrature. The unshot flux in the half-widths may err in the same direction in all steps and adds
+// Returns errors of 0 for every figure of a sum.
+[[nodiscard]] JointErrors no_joint_errors(std::size_t bands, std::size_t organs, std::size_t plants);
+
+// Sums over the steps of a date, J m-2. The random errors of steps that share packets follow from StepLight::of_shared. Other steps are
+// independent, because each has its own random numbers, and their errors add in quadrature. The unshot flux in the half-widths may err in the same direction in all steps and adds
 // linearly.
 struct DateSums {
   std::size_t steps = 0;

@@ -55,30 +55,16 @@ struct PacketNumbers {
 
 shared::Packet start_packet(const Canopy& canopy, const EmissionPoint& place, const EmissionFrame& frame,
                             const PacketNumbers& numbers) {
-  shared::Packet packet;
-  packet.element = shared::no_element;
-  packet.image = 0;
-  glm::dvec3 point_m(place.a, frame.ground_y_m, place.b);
-  glm::dvec3 normal(0.0, 1.0, 0.0);
-  if (place.surface != shared::landed_on_ground) {
-    packet.element = place.surface / 2;
-    const Triangle& corners = canopy.corners[packet.element];
-    double b = place.a;
-    double c = place.b;
-    if (place.a == anywhere) {  // uniform over the triangle (Turk 1990, Graphics Gems)
-      const double root = std::sqrt(numbers.place_u);
-      b = root * (1.0 - numbers.place_v);
-      c = root * numbers.place_v;
-    }
-    const glm::dvec3 corner(corners[0]);
-    point_m = corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c;
-    normal = unit_normal(corners) * (place.surface % 2 == 0 ? 1.0 : -1.0);
+  double b = place.a;
+  double c = place.b;
+  if (place.a == anywhere) {  // uniform over the triangle (Turk 1990, Graphics Gems)
+    const double root = std::sqrt(numbers.place_u);
+    b = root * (1.0 - numbers.place_v);
+    c = root * numbers.place_v;
   }
-  point_m += normal * frame.offset_m;
-  if (canopy.period_m.x > 0.0) point_m = wrapped(point_m, canopy.period_m, packet.image);
-  packet.origin = point_m;
-  packet.direction = cosine_direction(normal, numbers.direction_u, numbers.direction_v);
-  return packet;
+  PacketStart start = start_at(canopy, place, b, c, frame);
+  start.packet.direction = cosine_direction(start.normal, numbers.direction_u, numbers.direction_v);
+  return start.packet;
 }
 
 // Returns the numbers of the places in ascending order of `order`. The sort is stable: a radix sort in three passes of
@@ -134,43 +120,49 @@ void Candidates::sort() {
   quanta_ = std::move(sorted);
 }
 
-std::int64_t Candidates::total(std::size_t band) const {
-  std::int64_t sum = 0;
-  for (std::size_t k = band; k < quanta_.size(); k += bands_) sum += quanta_[k];
-  return sum;
+std::vector<std::int64_t> Candidates::totals() const {
+  std::vector<std::int64_t> sums(columns_);
+  for (auto row = quanta_.begin(); row != quanta_.end(); row += static_cast<std::ptrdiff_t>(columns_)) {
+    for (std::size_t c = 0; c < columns_; ++c) sums[c] += row[static_cast<std::ptrdiff_t>(c)];
+  }
+  return sums;
 }
 
-void Candidates::retire(std::size_t band) {
-  for (std::size_t k = band; k < quanta_.size(); k += bands_) quanta_[k] = 0;
+void Candidates::retire(std::size_t column) {
+  for (std::size_t k = column; k < quanta_.size(); k += columns_) quanta_[k] = 0;
 }
 
 namespace {
 
-// Gives a band's quanta to the drawn packets: cumulative shares of the total are rounded down, so their differences add up
+// Gives each column's quanta to the drawn packets: cumulative shares of the total are rounded down, so their differences add up
 // to it.
-void share_out(const Candidates& candidates, std::span<const double> expected, std::size_t band, Draw& draw) {
-  const std::size_t bands = draw.kept.size();
-  const std::int64_t total = candidates.total(band);
-  std::vector<double> weights(draw.candidate.size());
-  double total_weight = 0.0;
-  std::size_t last = 0;
-  for (std::size_t p = 0; p < weights.size(); ++p) {
+void share_out(const Candidates& candidates, std::span<const double> expected, Draw& draw) {
+  const std::size_t columns = draw.kept.size();
+  const std::vector<std::int64_t> totals = candidates.totals();
+  std::vector<double> total_weights(columns), sums(columns);
+  std::vector<std::size_t> last(columns);
+  const auto weight = [&](std::uint32_t k, std::int64_t quanta) { return static_cast<double>(quanta) / expected[k]; };
+  for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
     const std::uint32_t k = draw.candidate[p];
-    weights[p] = static_cast<double>(candidates.quanta(k)[band]) / expected[k];
-    total_weight += weights[p];
-    if (weights[p] > 0.0) last = p;
+    const auto quanta = candidates.quanta(k);
+    for (std::size_t c = 0; c < columns; ++c) {
+      total_weights[c] += weight(k, quanta[c]);
+      last[c] = quanta[c] > 0 ? p : last[c];
+    }
   }
-  draw.kept[band] = total > 0 && total_weight == 0.0;
-  if (total_weight == 0.0) return;
-  double sum = 0.0;
-  std::int64_t given = 0;
-  for (std::size_t p = 0; p <= last; ++p) {
-    if (weights[p] == 0.0) continue;
-    sum += weights[p];
-    const auto share = static_cast<std::int64_t>(sum / total_weight * static_cast<double>(total));
-    const std::int64_t up_to = p == last ? total : std::clamp(share, given, total);
-    draw.quanta[p * bands + band] = up_to - given;
-    given = up_to;
+  for (std::size_t c = 0; c < columns; ++c) draw.kept[c] = totals[c] > 0 && total_weights[c] == 0.0;
+  std::vector<std::int64_t> given(columns);
+  for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
+    const std::uint32_t k = draw.candidate[p];
+    const auto quanta = candidates.quanta(k);
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (quanta[c] == 0) continue;
+      sums[c] += weight(k, quanta[c]);
+      const auto share = static_cast<std::int64_t>(sums[c] / total_weights[c] * static_cast<double>(totals[c]));
+      const std::int64_t up_to = p == last[c] ? totals[c] : std::clamp(share, given[c], totals[c]);
+      draw.quanta[p * columns + c] = up_to - given[c];
+      given[c] = up_to;
+    }
   }
 }
 
@@ -185,27 +177,29 @@ Draw draw_packets(const Candidates& candidates, std::span<const double> expected
     reached += expected[k];
     for (; taken <= reached; taken += 1.0) draw.candidate.push_back(static_cast<std::uint32_t>(k));
   }
-  const std::size_t bands = candidates.size() > 0 ? candidates.quanta(0).size() : 0;
-  draw.quanta.resize(draw.candidate.size() * bands);
-  draw.kept.assign(bands, false);
-  for (std::size_t b = 0; b < bands; ++b) share_out(candidates, expected, b, draw);
+  const std::size_t columns = candidates.size() > 0 ? candidates.quanta(0).size() : 0;
+  draw.quanta.resize(draw.candidate.size() * columns);
+  draw.kept.assign(columns, false);
+  share_out(candidates, expected, draw);
   return draw;
 }
 
-QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmittance, double u) {
-  const auto whole = static_cast<double>(quanta);
-  const bool absorbs = 1.0 - reflectance - transmittance > 1e-12;
-  QuantaSplit split;
-  if (transmittance == 0.0 && !absorbs) {
-    split.reflected = quanta;
-    return split;
+PacketStart start_at(const Canopy& canopy, const EmissionPoint& place, double b, double c, const EmissionFrame& frame) {
+  PacketStart start;
+  start.packet.element = shared::no_element;
+  start.packet.image = 0;
+  glm::dvec3 point_m(place.a, frame.ground_y_m, place.b);
+  if (place.surface != shared::landed_on_ground) {
+    start.packet.element = place.surface / 2;
+    const Triangle& corners = canopy.corners[start.packet.element];
+    const glm::dvec3 corner(corners[0]);
+    point_m = corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c;
+    start.normal = unit_normal(corners) * (place.surface % 2 == 0 ? 1.0 : -1.0);
   }
-  if (reflectance > 0.0) split.reflected = std::min(quanta, static_cast<std::int64_t>(whole * reflectance + u));
-  const std::int64_t both =
-      absorbs ? std::min(quanta, static_cast<std::int64_t>(whole * (reflectance + transmittance) + u)) : quanta;
-  if (transmittance > 0.0) split.transmitted = std::max<std::int64_t>(0, both - split.reflected);
-  split.absorbed = quanta - split.reflected - split.transmitted;
-  return split;
+  point_m += start.normal * frame.offset_m;
+  if (canopy.period_m.x > 0.0) point_m = wrapped(point_m, canopy.period_m, start.packet.image);
+  start.packet.origin = point_m;
+  return start;
 }
 
 std::vector<shared::Packet> start_packets(const Canopy& canopy, const Candidates& candidates, const Draw& draw,

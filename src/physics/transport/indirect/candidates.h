@@ -5,7 +5,9 @@
 #include "physics/canopy/canopy.h"
 #include "shared/layout.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -28,11 +30,12 @@ struct EmissionPoint {
 // Value of EmissionPoint::a that stands for a point chosen uniformly on the element: packets of lamps start there.
 inline constexpr float anywhere = -1.0F;
 
+// Places with quanta in several columns: the bands of one light or of several (physics/transport/model/lights.h).
 class Candidates {
  public:
-  explicit Candidates(std::size_t bands) : bands_(bands) {}
+  explicit Candidates(std::size_t columns) : columns_(columns) {}
 
-  // Adds a place with its quanta, [waveband]. A place without quanta is dropped.
+  // Adds a place with its quanta, [column]. A place without quanta is dropped.
   void add(const EmissionPoint& place, std::span<const std::int64_t> quanta);
   void clear();
   // Sorts the places by `order`; places of equal order keep the order in which they were added.
@@ -41,27 +44,28 @@ class Candidates {
   [[nodiscard]] std::size_t size() const { return places_.size(); }
   [[nodiscard]] const EmissionPoint& place(std::size_t candidate) const { return places_[candidate]; }
   [[nodiscard]] std::span<const std::int64_t> quanta(std::size_t candidate) const {
-    return std::span(quanta_).subspan(candidate * bands_, bands_);
+    return std::span(quanta_).subspan(candidate * columns_, columns_);
   }
-  [[nodiscard]] std::int64_t total(std::size_t band) const;
-  // Removes all quanta of a band.
-  void retire(std::size_t band);
+  // Returns the quanta of all places together, [column].
+  [[nodiscard]] std::vector<std::int64_t> totals() const;
+  // Removes all quanta of a column.
+  void retire(std::size_t column);
 
  private:
-  std::size_t bands_;
+  std::size_t columns_;
   std::vector<EmissionPoint> places_;  // [candidate]
-  std::vector<std::int64_t> quanta_;   // [candidate * bands + band]
+  std::vector<std::int64_t> quanta_;   // [candidate * columns + column]
 };
 
 // Packets drawn from candidates.
 struct Draw {
   std::vector<std::uint32_t> candidate;  // [packet], ascending
-  std::vector<std::int64_t> quanta;      // [packet * bands + band]
-  std::vector<bool> kept;                // [band]; true if no packet carries the band: its flux then stays with the candidates
+  std::vector<std::int64_t> quanta;      // [packet * columns + column]
+  std::vector<bool> kept;                // [column]; true if no packet carries it: its flux then stays with the candidates
 };
 
 // Draws packets by systematic sampling with one random offset: a candidate is drawn expected[candidate] times on average,
-// rounded down or up. A packet carries its candidate's quanta divided by that expectation; each band is then scaled so that
+// rounded down or up. A packet carries its candidate's quanta divided by that expectation; each column is then scaled so that
 // all packets together carry exactly its total. (Scaling level by level would be biased, since it would be a ratio of a few
 // packets each.)
 [[nodiscard]] Draw draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random);
@@ -72,15 +76,40 @@ struct QuantaSplit {
   std::int64_t absorbed = 0, reflected = 0, transmitted = 0;
   [[nodiscard]] std::int64_t scattered() const { return reflected + transmitted; }
 };
-[[nodiscard]] QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmittance, double u);
+[[nodiscard]] inline QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmittance, double u) {
+  const auto whole = static_cast<double>(quanta);
+  const bool absorbs = 1.0 - reflectance - transmittance > 1e-12;
+  QuantaSplit split;
+  if (transmittance == 0.0 && !absorbs) {
+    split.reflected = quanta;
+    return split;
+  }
+  if (reflectance > 0.0) split.reflected = std::min(quanta, static_cast<std::int64_t>(whole * reflectance + u));
+  const std::int64_t both =
+      absorbs ? std::min(quanta, static_cast<std::int64_t>(whole * (reflectance + transmittance) + u)) : quanta;
+  if (transmittance > 0.0) split.transmitted = std::max<std::int64_t>(0, both - split.reflected);
+  split.absorbed = quanta - split.reflected - split.transmitted;
+  return split;
+}
 
-// Returns the drawn packets with their origins and cosine-distributed directions. The directions of all packets of a round
-// form one additive sequence with a random start (based on the plastic number, as in canopy_view.h), so that neighbours in
-// the drawing order complement each other.
+// How far the origin of a packet lies from its surface, and the height of the ground.
 struct EmissionFrame {
   double offset_m = 0.0;  // distance of the origin in front of the surface
   double ground_y_m = 0.0;
 };
+
+// Returns a packet without direction that starts at a place, and the normal of the side there. `b` and `c` are the barycentric
+// weights of the corners on an element.
+struct PacketStart {
+  shared::Packet packet;
+  glm::dvec3 normal{0.0, 1.0, 0.0};
+};
+[[nodiscard]] PacketStart start_at(const Canopy& canopy, const EmissionPoint& place, double b, double c,
+                                   const EmissionFrame& frame);
+
+// Returns the drawn packets with their origins and cosine-distributed directions. The directions of all packets of a round
+// form one additive sequence with a random start (based on the plastic number, as in canopy_view.h), so that neighbours in
+// the drawing order complement each other.
 [[nodiscard]] std::vector<shared::Packet> start_packets(const Canopy& canopy, const Candidates& candidates, const Draw& draw,
                                                         const EmissionFrame& frame, RandomStream& random);
 

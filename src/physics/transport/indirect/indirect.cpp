@@ -1,6 +1,7 @@
 #include "physics/transport/indirect/indirect.h"
 
 #include "base/random.h"
+#include "physics/transport/indirect/landing_points.h"
 #include "physics/transport/receivers/plane_flux.h"
 #include "shared/beam.h"
 
@@ -20,69 +21,107 @@ constexpr double least_judged_share = 0.01;
 constexpr std::uint64_t most_rounds = 20000;
 // First stream of random numbers, apart from those of the beam.
 constexpr std::uint64_t indirect_stream = std::uint64_t{1} << 48U;
-// Drawing order of the first ground cell: the ground comes after all elements, ordered by cells of its map.
-constexpr std::uint32_t ground_order = 0x80000000U;
+// Where lights share the packets, points where beams landed, per packet of the first round. A ray towards each sun goes out from
+// every point.
+constexpr double shared_landings_per_packet = 0.25;
+
+// Shares of the skies' flux that the rays drawn so far carry.
+class SkyShares {
+ public:
+  // Both arguments must outlive the object.
+  SkyShares(const SkyRays& sky, std::span<const shared::Packet> rays) : sky_(sky), rays_(rays), lights_(sky.lights()) {
+    if (sky.alike()) {
+      sums_.resize(lights_);
+      return;
+    }
+    totals_.resize(lights_);
+    for (std::size_t r = 0; r < rays.size(); ++r) add(r, totals_);
+    sums_.resize(lights_);
+    shares_.resize(lights_);
+  }
+
+  // Returns the share of each light's flux that the rays up to the next one carry together, [light]: exactly 1 after the last ray.
+  std::span<const double> next() {
+    const std::size_t ray = taken_++;
+    if (sky_.alike()) {
+      std::fill(sums_.begin(), sums_.end(), sky_.share_of_first(ray + 1, rays_.size()));
+      return sums_;
+    }
+    add(ray, sums_);
+    for (std::size_t k = 0; k < lights_; ++k) {
+      shares_[k] = totals_[k] > 0.0 && taken_ < rays_.size() ? std::min(1.0, sums_[k] / totals_[k]) : 1.0;
+    }
+    return shares_;
+  }
+
+ private:
+  void add(std::size_t ray, std::vector<double>& sums) const {
+    const double share = sky_.share_of_first(ray + 1, rays_.size()) - sky_.share_of_first(ray, rays_.size());
+    const std::span<const float> weights = sky_.weights(rays_[ray].direction);
+    for (std::size_t k = 0; k < lights_; ++k) sums[k] += share * double{weights[k]};
+  }
+
+  const SkyRays& sky_;
+  std::span<const shared::Packet> rays_;
+  std::size_t lights_;
+  std::size_t taken_ = 0;
+  std::vector<double> totals_, sums_, shares_;  // [light]; the first and the last are empty if all skies are alike
+};
 
 // The pass of one replicate, with the flux that is still on its way.
 class IndirectPass {
  public:
-  IndirectPass(const IndirectScene& scene, const ReplicateOrder& order, const FirstLandings& first,
-               const std::vector<BandQuanta>& quanta, const StopQuestion& stop)
+  IndirectPass(const IndirectScene& scene, const ReplicateOrder& order, const LightFromAbove& light, const StopQuestion& stop)
       : scene_(scene),
         order_(order),
-        first_(first),
-        quanta_(quanta),
+        light_(light),
         stop_(stop),
+        lights_(scene.lights.size()),
+        bands_(scene.model.bands.size()),
+        columns_(lights_ * bands_),
         random_(order.seed, indirect_stream + order.number),
-        sums_(scene.model, scene.layout, scene.surfaces),
-        waiting_(quanta.size()),
-        next_(quanta.size()),
-        start_(quanta.size()),
-        sky_(quanta.size()),
-        layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, quanta.size()),
-        receivers_(scene.receivers != nullptr ? scene.receivers->size() : 0, quanta.size()),
-        reflected_(quanta.size()),
-        transmitted_(quanta.size()) {
-    if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model);
+        sums_(scene.model, scene.layout, scene.surfaces, lights_),
+        waiting_(columns_),
+        next_(columns_),
+        start_(columns_),
+        sky_(columns_),
+        layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, columns_),
+        receivers_(scene.receivers != nullptr ? scene.receivers->size() : 0, columns_),
+        reflected_(columns_),
+        transmitted_(columns_) {
+    if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
+    for (std::size_t b = 0; b < bands_; ++b) {
+      for (std::size_t k = 0; k < lights_; ++k) quanta_.push_back(&(*light.quanta[k])[b]);
+    }
   }
 
   std::optional<IndirectSums> run() {
     if (!let_sky_in()) return std::nullopt;
-    for (std::size_t b = 0; b < start_.size(); ++b) {
-      start_[b] = static_cast<double>(quanta_[b].lamps + waiting_.total(b));
-      for (std::size_t k = b; k < first_.scattered.size(); k += start_.size()) {
-        start_[b] += static_cast<double>(first_.scattered[k]);
-      }
-      sums_.ledger[b].incident += quanta_[b].lamps;
+    const std::vector<std::int64_t> from_sky = waiting_.totals();
+    for (std::size_t c = 0; c < columns_; ++c) {
+      start_[c] = static_cast<double>(quanta_[c]->lamps + from_sky[c]);
+      const std::vector<std::int64_t>& scattered = first(c).scattered;
+      for (std::size_t k = band(c); k < scattered.size(); k += bands_) start_[c] += static_cast<double>(scattered[k]);
+      sums_.ledger[c].incident += quanta_[c]->lamps;
     }
-    const std::optional<std::vector<Source>> sources = sample_first_landings();
-    if (!sources) return std::nullopt;
-    add_first_candidates(*sources);
+    const std::optional<LandingPoints> points =
+        sample_landings(scene_, light_, order_.packets * (lights_ > 1 ? shared_landings_per_packet : 1.0), random_, stop_);
+    if (!points) return std::nullopt;
+    add_first_candidates(*points);
     add_lamps();
     sums_.first_candidates = waiting_.size();
-    retire_faint_bands();
+    retire_faint_columns();
     while (waiting_.size() > 0 && sums_.rounds < most_rounds) {
       if (!shoot()) return std::nullopt;
-      retire_faint_bands();
+      retire_faint_columns();
     }
-    for (std::size_t b = 0; b < start_.size(); ++b) sums_.ledger[b].unshot += waiting_.total(b);
+    const std::vector<std::int64_t> unshot = waiting_.totals();
+    for (std::size_t c = 0; c < columns_; ++c) sums_.ledger[c].unshot += unshot[c];
     close_planes();
     return std::move(sums_);
   }
 
  private:
-  // A side that the light of a sampled beam ray leaves, and the optics of the face on which it landed.
-  struct Source {
-    EmissionPoint place;
-    double rays = 1.0;                              // that the sampled one stands for, by weight, up to a common factor
-    const std::vector<FaceOptics>* face = nullptr;  // null for the soil plane
-    bool transmitted = false;
-
-    [[nodiscard]] double weight(const Soil* soil, std::size_t band) const {
-      if (face == nullptr) return soil != nullptr ? rays * soil->reflectance[band] : 0.0;
-      return rays * (transmitted ? (*face)[band].transmittance : (*face)[band].reflectance);
-    }
-  };
   // The start and the ray that lead to a landing.
   struct Way {
     EmissionPoint from;
@@ -90,34 +129,38 @@ class IndirectPass {
     const shared::Packet& packet;
   };
 
-  // Sends the sky rays, each with its share of the sky's flux, and leaves the scattered flux waiting. Returns false if
+  [[nodiscard]] std::size_t band(std::size_t column) const { return column / lights_; }
+  // Returns what the direct pass found in the light of a column.
+  [[nodiscard]] const FirstLandings& first(std::size_t column) const { return light_.first[column % lights_]; }
+
+  // Sends the sky rays, each with its share of the skies' flux, and leaves the scattered flux waiting. Returns false if
   // stopped.
   [[nodiscard]] bool let_sky_in() {
-    if (first_.sky == nullptr) return true;
-    const std::size_t bands = start_.size();
-    const std::vector<shared::Packet> rays = first_.sky->draw(order_.sky_rays, random_);
+    if (light_.sky == nullptr) return true;
+    const std::vector<shared::Packet> rays = light_.sky->draw(order_.sky_rays, random_);
     std::vector<shared::Landing> landings(rays.size());
     if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
     EmissionPoint above;
     above.surface = shared::left_upwards;
     above.level = scene_.layout.layers.count;
-    std::vector<std::int64_t> given(bands), own(bands);
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      const double share = first_.sky->share_of_first(k + 1, rays.size());
-      for (std::size_t b = 0; b < bands; ++b) {
-        const auto up_to = static_cast<std::int64_t>(share * static_cast<double>(quanta_[b].sky));
-        own[b] = up_to - given[b];
-        given[b] = up_to;
+    SkyShares shares(*light_.sky, rays);
+    std::vector<std::int64_t> given(columns_), own(columns_);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      const std::span<const double> up_to_ray = shares.next();
+      for (std::size_t c = 0; c < columns_; ++c) {
+        const auto up_to = static_cast<std::int64_t>(up_to_ray[c % lights_] * static_cast<double>(quanta_[c]->sky));
+        own[c] = up_to - given[c];
+        given[c] = up_to;
       }
-      const Way way = way_from(above, rays[k]);
-      if (fell_beside_plot(landings[k], rays[k])) {
-        pass_receivers(landings[k], way, own);
+      const Way way = way_from(above, rays[r]);
+      if (fell_beside_plot(landings[r], rays[r])) {
+        pass_receivers(landings[r], way, own);
         continue;
       }
-      for (std::size_t b = 0; b < bands; ++b) sky_[b] += own[b];
-      land(landings[k], way, own);
+      for (std::size_t c = 0; c < columns_; ++c) sky_[c] += own[c];
+      land(landings[r], way, own);
     }
-    for (std::size_t b = 0; b < bands; ++b) sums_.ledger[b].incident += sky_[b];
+    for (std::size_t c = 0; c < columns_; ++c) sums_.ledger[c].incident += sky_[c];
     sums_.side_sky = sums_.side_landed;
     sums_.cell_sky = sums_.cell_landed;
     sums_.sky_rays = rays.size();
@@ -132,86 +175,86 @@ class IndirectPass {
     return !shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), scene_.block.ground);
   }
 
-  // Traces a systematic sample of the beam rays again to find the points where they landed: as many as there are packets, half of
-  // them from the first of several parts, or every ray where there are no more. Returns nothing if stopped.
-  [[nodiscard]] std::optional<std::vector<Source>> sample_first_landings() {
-    std::vector<Source> sources;
-    double around = 0.0;
-    for (std::size_t k = 1; k < first_.beam.size(); ++k) around += weighted_rays(first_.beam[k]);
-    for (std::size_t k = 0; k < first_.beam.size(); ++k) {
-      const double part = around == 0.0 ? 1.0 : k == 0 ? 0.5 : 0.5 * weighted_rays(first_.beam[k]) / around;
-      if (!sample_landings(first_.beam[k], std::max(1.0, part * order_.packets), sources)) return std::nullopt;
-    }
-    return sources;
-  }
+  // The flux that leaves both sides of an element at a point, or the ground, [column], relative to all points.
+  struct PointFlux {
+    explicit PointFlux(std::size_t columns) : landed_side(columns), other_side(columns) {}
+    std::vector<double> landed_side, other_side;
+  };
 
-  [[nodiscard]] static double weighted_rays(const BeamPart& part) {
-    return static_cast<double>(part.weight) * static_cast<double>(part.rays());
-  }
-
-  // Adds the sources of a sample of at most `most` rays of a part. Returns false if stopped.
-  [[nodiscard]] bool sample_landings(const BeamPart& part, double most, std::vector<Source>& sources) {
-    const auto count = static_cast<std::size_t>(std::min(most, static_cast<double>(part.rays())));
-    const double stride = static_cast<double>(part.rays()) / static_cast<double>(count);
-    const double rays_each = first_.beam.size() == 1 ? 1.0 : stride * part.weight;
-    const double offset = random_.unit();
-    std::vector<shared::Packet> rays(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t ray = sampled_ray(k, offset, stride, part.rays());
-      rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
-    }
-    std::vector<shared::Landing> landings(count);
-    if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
-    for (const shared::Landing& landing : landings) {
-      const EmissionPoint place = place_of(landing);
-      if (landing.surface == shared::landed_on_ground) sources.push_back({place, rays_each, nullptr, false});
-      if (landing.surface >= shared::landed_on_ground) continue;
-      const SurfaceOptics& optics = scene_.model.optics[scene_.model.canopy.optics_of[landing.surface / 2]];
-      const auto* face = landing.surface % 2 == 0 ? &optics.upper : &optics.lower;
-      EmissionPoint other = place;
-      other.surface ^= 1U;
-      sources.push_back({place, rays_each, face, false});
-      sources.push_back({other, rays_each, face, true});
-    }
-    return true;
-  }
-
-  // Distributes the flux scattered by all beam rays over the sampled sources, band by band.
-  void add_first_candidates(const std::vector<Source>& sources) {
-    const std::size_t bands = start_.size();
-    const Soil* soil = scene_.model.soil ? &*scene_.model.soil : nullptr;
-    std::vector<std::int64_t> scattered(bands), given(bands), own(bands);
-    for (std::size_t k = 0; k < first_.scattered.size(); ++k) scattered[k % bands] += first_.scattered[k];
-    std::vector<double> total(bands), sum(bands);
-    for (const Source& source : sources) {
-      for (std::size_t b = 0; b < bands; ++b) total[b] += source.weight(soil, b);
-    }
-    for (std::size_t k = 0; k < first_.scattered.size(); ++k) layers_.move(k / bands, k % bands, -first_.scattered[k]);
-    for (std::size_t k = 0; k < first_.scattered_by_zone.size(); ++k) {
-      receivers_.move(k / bands, k % bands, -first_.scattered_by_zone[k]);
-    }
-    for (const Source& source : sources) {
-      for (std::size_t b = 0; b < bands; ++b) {
-        own[b] = 0;
-        const double weight = source.weight(soil, b);
-        if (weight == 0.0) continue;
-        sum[b] += weight;
-        const auto up_to = static_cast<std::int64_t>(std::min(1.0, sum[b] / total[b]) * static_cast<double>(scattered[b]));
-        own[b] = up_to - given[b];
-        given[b] = up_to;
+  void set_flux(const LandingPoints& points, std::size_t point, PointFlux& flux) const {
+    const std::uint32_t landed = points.places[point].surface;
+    const double* const weights = &points.weights[point * lights_];
+    for (std::size_t b = 0; b < bands_; ++b) {
+      FaceOptics front, back;
+      if (landed == shared::landed_on_ground) {
+        front.reflectance = scene_.model.soil ? scene_.model.soil->reflectance[b] : 0.0;
+      } else {
+        const SurfaceOptics& optics = scene_.model.optics[scene_.model.canopy.optics_of[landed / 2]];
+        front = (landed % 2 == 0 ? optics.upper : optics.lower)[b];
+        back = (landed % 2 == 0 ? optics.lower : optics.upper)[b];
       }
-      move(source.place, own);
-      waiting_.add(source.place, own);
+      for (std::size_t k = 0; k < lights_; ++k) {
+        const double weight = weights[k];
+        const std::size_t c = column_of(b, k, lights_);
+        flux.landed_side[c] = weight >= 0.0 ? weight * front.reflectance : -weight * back.transmittance;
+        flux.other_side[c] = weight >= 0.0 ? weight * front.transmittance : -weight * back.reflectance;
+      }
     }
-    for (std::size_t b = 0; b < bands; ++b) sums_.ledger[b].unshot += scattered[b] - given[b];
+  }
+
+  // Calls take(place, flux) for every side that light leaves at the points.
+  template <class Take>
+  void for_each_source(const LandingPoints& points, const Take& take) const {
+    PointFlux flux(columns_);
+    for (std::size_t p = 0; p < points.places.size(); ++p) {
+      set_flux(points, p, flux);
+      EmissionPoint place = points.places[p];
+      take(place, flux.landed_side);
+      if (place.surface == shared::landed_on_ground) continue;
+      place.surface ^= 1U;
+      take(place, flux.other_side);
+    }
+  }
+
+  // Distributes the flux scattered by all beam rays over the sampled points, column by column.
+  void add_first_candidates(const LandingPoints& points) {
+    std::vector<std::int64_t> scattered(columns_), given(columns_), own(columns_);
+    for (std::size_t c = 0; c < columns_; ++c) {
+      const FirstLandings& landings = first(c);
+      for (std::size_t k = band(c); k < landings.scattered.size(); k += bands_) {
+        scattered[c] += landings.scattered[k];
+        layers_.move(k / bands_, c, -landings.scattered[k]);
+      }
+      for (std::size_t k = band(c); k < landings.scattered_by_zone.size(); k += bands_) {
+        receivers_.move(k / bands_, c, -landings.scattered_by_zone[k]);
+      }
+    }
+    std::vector<double> total(columns_), sum(columns_);
+    for_each_source(points, [&](const EmissionPoint&, std::span<const double> flux) {
+      for (std::size_t c = 0; c < columns_; ++c) total[c] += flux[c];
+    });
+    for_each_source(points, [&](const EmissionPoint& place, std::span<const double> flux) {
+      for (std::size_t c = 0; c < columns_; ++c) {
+        own[c] = 0;
+        if (flux[c] == 0.0) continue;
+        sum[c] += flux[c];
+        const auto up_to = static_cast<std::int64_t>(std::min(1.0, sum[c] / total[c]) * static_cast<double>(scattered[c]));
+        own[c] = up_to - given[c];
+        given[c] = up_to;
+      }
+      move(place, own);
+      waiting_.add(place, own);
+    });
+    for (std::size_t c = 0; c < columns_; ++c) sums_.ledger[c].unshot += scattered[c] - given[c];
   }
 
   // Adds the flux that the lamps emit; its packets start anywhere on them.
   void add_lamps() {
-    const std::size_t bands = start_.size();
-    std::vector<std::int64_t> own(bands);
+    const auto has_lamps = [](const BandQuanta* quanta) { return !quanta->lamp.empty(); };
+    if (std::none_of(quanta_.begin(), quanta_.end(), has_lamps)) return;
+    std::vector<std::int64_t> own(columns_);
     for (std::size_t e = 0; e < scene_.model.canopy.size(); ++e) {
-      for (std::size_t b = 0; b < bands; ++b) own[b] = quanta_[b].lamp.empty() ? 0 : quanta_[b].lamp[e];
+      for (std::size_t c = 0; c < columns_; ++c) own[c] = has_lamps(quanta_[c]) ? quanta_[c]->lamp[e] : 0;
       EmissionPoint place;
       place.surface = static_cast<std::uint32_t>(2 * e);
       place.order = static_cast<std::uint32_t>(e);
@@ -223,7 +266,6 @@ class IndirectPass {
 
   // Draws packets from the waiting flux, traces them and leaves what they scatter waiting. Returns false if stopped.
   [[nodiscard]] bool shoot() {
-    const std::size_t bands = start_.size();
     waiting_.sort();
     const Draw draw = draw_packets(waiting_, expected_draws(), random_);
     move_drawn(draw);
@@ -233,7 +275,7 @@ class IndirectPass {
     next_.clear();
     for (std::size_t p = 0; p < packets.size(); ++p) {
       const Way way = way_from(waiting_.place(draw.candidate[p]), packets[p]);
-      land(landings[p], way, std::span(draw.quanta).subspan(p * bands, bands));
+      land(landings[p], way, std::span(draw.quanta).subspan(p * columns_, columns_));
     }
     if (std::find(draw.kept.begin(), draw.kept.end(), true) != draw.kept.end()) keep_undrawn(draw);
     std::swap(waiting_, next_);
@@ -245,20 +287,19 @@ class IndirectPass {
 
   // Returns how many packets are drawn from each candidate on average.
   [[nodiscard]] std::vector<double> expected_draws() {
-    const std::size_t bands = start_.size();
     double lit = 0.0;
     for (const double start : start_) lit += start > 0.0 ? 1.0 : 0.0;
     std::vector<double> expected(waiting_.size());
     double total = 0.0;
     for (std::size_t k = 0; k < expected.size(); ++k) {
       const auto quanta = waiting_.quanta(k);
-      for (std::size_t b = 0; b < bands; ++b) {
-        if (start_[b] > 0.0) expected[k] += static_cast<double>(quanta[b]) / start_[b];
+      for (std::size_t c = 0; c < columns_; ++c) {
+        if (start_[c] > 0.0) expected[k] += static_cast<double>(quanta[c]) / start_[c];
       }
       expected[k] *= order_.packets / lit;
       total += expected[k];
     }
-    if (first_.aim != nullptr) total = aim_draws(expected, total);
+    if (light_.aim != nullptr) total = aim_draws(expected, total);
     if (total < least_packets && total > 0.0) {
       for (double& e : expected) e *= least_packets / total;
     }
@@ -280,62 +321,60 @@ class IndirectPass {
 
   [[nodiscard]] double packets_per_flux(const EmissionPoint& place) const {
     if (place.surface == shared::landed_on_ground)
-      return first_.aim->packets_per_flux({place.a, scene_.frame.ground_y_m, place.b});
+      return light_.aim->packets_per_flux({place.a, scene_.frame.ground_y_m, place.b});
     const std::uint32_t element = place.surface / 2;
     if (!scene_.surfaces.at(element).soil()) return 1.0;
     const Triangle corners = scene_.model.canopy.corners[element];
     const double b = place.a == anywhere ? 1.0 / 3.0 : place.a;
     const double c = place.a == anywhere ? 1.0 / 3.0 : place.b;
     const glm::dvec3 corner(corners[0]);
-    return first_.aim->packets_per_flux(corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c);
+    return light_.aim->packets_per_flux(corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c);
   }
 
-  // Books the flux that packets carry away and takes off the flux that waited, for the bands that are drawn.
+  // Books the flux that packets carry away and takes off the flux that waited, for the columns that are drawn.
   void move_drawn(const Draw& draw) {
-    const std::size_t bands = start_.size();
-    std::vector<std::int64_t> own(bands);
+    std::vector<std::int64_t> own(columns_);
     const auto move_own = [&](const EmissionPoint& place, std::span<const std::int64_t> quanta, std::int64_t sign) {
-      for (std::size_t b = 0; b < bands; ++b) own[b] = draw.kept[b] ? 0 : sign * quanta[b];
+      for (std::size_t c = 0; c < columns_; ++c) own[c] = draw.kept[c] ? 0 : sign * quanta[c];
       move(place, own);
     };
     for (std::size_t k = 0; k < waiting_.size(); ++k) move_own(waiting_.place(k), waiting_.quanta(k), -1);
     for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
-      move_own(waiting_.place(draw.candidate[p]), std::span(draw.quanta).subspan(p * bands, bands), 1);
+      move_own(waiting_.place(draw.candidate[p]), std::span(draw.quanta).subspan(p * columns_, columns_), 1);
     }
   }
 
   // Books quanta that are shot from a place although they waited elsewhere.
   void move(const EmissionPoint& place, std::span<const std::int64_t> quanta) {
-    const std::size_t zone = scene_.receivers != nullptr ? zone_of(place) : 0;
-    for (std::size_t b = 0; b < quanta.size(); ++b) {
-      layers_.move(level_index(place.level), b, quanta[b]);
-      receivers_.move(zone, b, quanta[b]);
-    }
+    layers_.move(level_index(place.level), quanta);
+    if (scene_.receivers != nullptr) receivers_.move(zone_of(place), quanta);
   }
 
   // Leaves the flux that no packet carried in place for the next round.
   void keep_undrawn(const Draw& draw) {
-    for (std::size_t b = 0; b < draw.kept.size(); ++b) {
-      if (!draw.kept[b]) waiting_.retire(b);
+    for (std::size_t c = 0; c < columns_; ++c) {
+      if (!draw.kept[c]) waiting_.retire(c);
     }
     for (std::size_t k = 0; k < waiting_.size(); ++k) next_.add(waiting_.place(k), waiting_.quanta(k));
   }
 
-  // Ends the bands with too little flux left to matter.
-  void retire_faint_bands() {
+  // Ends the columns with too little flux left to matter.
+  void retire_faint_columns() {
     bool any = false;
-    for (std::size_t b = 0; b < start_.size(); ++b) {
-      const std::int64_t unshot = waiting_.total(b);
+    const std::vector<std::int64_t> waiting = waiting_.totals();
+    for (std::size_t c = 0; c < columns_; ++c) {
+      const std::int64_t unshot = waiting[c];
       if (unshot == 0) continue;
-      const double incident = static_cast<double>(quanta_[b].per_ray) * static_cast<double>(first_.met) +
-                              static_cast<double>(quanta_[b].lamps + sky_[b]);
-      const FluxLedger& ledger = sums_.ledger[b];
-      const double vegetation = std::max(first_.least_of_vegetation[b], static_cast<double>(ledger.absorbed_vegetation));
+      const double incident = static_cast<double>(quanta_[c]->per_ray) * static_cast<double>(first(c).met) +
+                              static_cast<double>(quanta_[c]->lamps + sky_[c]);
+      const FluxLedger& ledger = sums_.ledger[c];
+      const double vegetation =
+          std::max(first(c).least_of_vegetation[band(c)], static_cast<double>(ledger.absorbed_vegetation));
       const double judged =
           std::min(vegetation, std::max(least_judged_share * incident, static_cast<double>(ledger.absorbed_soil)));
       if (static_cast<double>(unshot) < unshot_part_of_bound * order_.bound * judged) {
-        sums_.ledger[b].unshot += unshot;
-        waiting_.retire(b);
+        sums_.ledger[c].unshot += unshot;
+        waiting_.retire(c);
       } else {
         any = true;
       }
@@ -347,11 +386,11 @@ class IndirectPass {
   void land(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta) {
     if (landing.surface < shared::landed_on_ground) return land_on_element(landing, way, quanta);
     if (landing.surface == shared::landed_on_ground) return land_on_soil(landing, way, quanta);
-    for (std::size_t b = 0; b < quanta.size(); ++b) {
-      FluxLedger& ledger = sums_.ledger[b];
-      if (landing.surface == shared::left_upwards) ledger.reflected += quanta[b];
-      if (landing.surface == shared::left_downwards) ledger.transmitted += quanta[b];
-      if (landing.surface == shared::lost_on_its_way) ledger.unshot += quanta[b];
+    for (std::size_t c = 0; c < columns_; ++c) {
+      FluxLedger& ledger = sums_.ledger[c];
+      if (landing.surface == shared::left_upwards) ledger.reflected += quanta[c];
+      if (landing.surface == shared::left_downwards) ledger.transmitted += quanta[c];
+      if (landing.surface == shared::lost_on_its_way) ledger.unshot += quanta[c];
     }
     if (landing.surface == shared::lost_on_its_way) {
       ++sums_.lost;
@@ -361,31 +400,20 @@ class IndirectPass {
   }
 
   void land_on_element(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta) {
-    const std::size_t bands = quanta.size();
     const std::uint32_t element = landing.surface / 2;
     const std::uint32_t side = landing.surface % 2;
     const std::uint32_t surface_number = scene_.surfaces.number_of[element];
     const Surface& surface = scene_.surfaces.of[surface_number];
     const SurfaceOptics& optics = scene_.model.optics[surface.optics];
-    const std::vector<FaceOptics>& face = side == 0 ? optics.upper : optics.lower;
-    const EmissionPoint place = place_of(landing);
+    const EmissionPoint place = place_of(scene_, landing);
     ++sums_.element_hits[element];
     sums_.side_landed.add(landing.surface, quanta);
-    std::fill(reflected_.begin(), reflected_.end(), 0);
-    std::fill(transmitted_.begin(), transmitted_.end(), 0);
-    for (std::size_t b = 0; b < bands; ++b) {
-      if (quanta[b] == 0) continue;
-      sums_.surface_landed[(surface_number * 2 + side) * bands + b] += quanta[b];
-      if (!surface.soil()) {
-        const std::size_t layer = static_cast<std::size_t>(place.level);
-        sums_.layer_landed[((layer * scene_.model.optics.size() + surface.optics) * 2 + side) * bands + b] += quanta[b];
-      }
-      const QuantaSplit split = split_quanta(quanta[b], face[b].reflectance, face[b].transmittance, random_.unit());
-      FluxLedger& ledger = sums_.ledger[b];
-      ledger.absorbed_by(surface.role) += split.absorbed;
-      reflected_[b] = split.reflected;
-      transmitted_[b] = split.transmitted;
+    add_to(sums_.surface_landed, surface_number * 2 + side, quanta);
+    if (!surface.soil()) {
+      const std::size_t layer = static_cast<std::size_t>(place.level);
+      add_to(sums_.layer_landed, (layer * scene_.model.optics.size() + surface.optics) * 2 + side, quanta);
     }
+    split(side == 0 ? optics.upper : optics.lower, surface.role, quanta);
     pass(landing, way, place.level, quanta);
     next_.add(place, reflected_);
     EmissionPoint other = place;
@@ -394,18 +422,34 @@ class IndirectPass {
   }
 
   void land_on_soil(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta) {
-    const std::size_t bands = quanta.size();
-    const std::size_t cell = shared::soil_cell(scene_.block.ground, {landing.place_a, landing.place_b});
-    std::fill(reflected_.begin(), reflected_.end(), 0);
-    for (std::size_t b = 0; b < bands; ++b) {
-      if (quanta[b] == 0) continue;
-      sums_.cell_landed[cell * bands + b] += quanta[b];
-      const QuantaSplit split = split_quanta(quanta[b], scene_.model.soil->reflectance[b], 0.0, random_.unit());
-      sums_.ledger[b].absorbed_soil += split.absorbed;
-      reflected_[b] = split.reflected;
-    }
+    add_to(sums_.cell_landed, shared::soil_cell(scene_.block.ground, {landing.place_a, landing.place_b}), quanta);
+    std::vector<FaceOptics>& soil = soil_face_;
+    soil.resize(bands_);
+    for (std::size_t b = 0; b < bands_; ++b) soil[b].reflectance = scene_.model.soil->reflectance[b];
+    split(soil, Role::soil, quanta);
     pass(landing, way, -1, quanta);
-    next_.add(place_of(landing), reflected_);
+    next_.add(place_of(scene_, landing), reflected_);
+  }
+
+  // Adds a place's quanta to its sums, [place * columns + column].
+  void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const {
+    std::int64_t* const own = &sums[place * columns_];
+    for (std::size_t c = 0; c < columns_; ++c) own[c] += quanta[c];
+  }
+
+  // Splits quanta that landed on a face, and books what it absorbs. The lights share one random number for each band.
+  void split(const std::vector<FaceOptics>& face, Role role, std::span<const std::int64_t> quanta) {
+    for (std::size_t b = 0; b < bands_; ++b) {
+      const auto of_band = quanta.subspan(b * lights_, lights_);
+      const bool any = std::any_of(of_band.begin(), of_band.end(), [](std::int64_t own) { return own != 0; });
+      const double u = any ? random_.unit() : 0.0;
+      for (std::size_t c = b * lights_; c < (b + 1) * lights_; ++c) {
+        const QuantaSplit parts = split_quanta(quanta[c], face[b].reflectance, face[b].transmittance, u);
+        sums_.ledger[c].absorbed_by(role) += parts.absorbed;
+        reflected_[c] = parts.reflected;
+        transmitted_[c] = parts.transmitted;
+      }
+    }
   }
 
   // Adds the flux that passes the planes of the layers and the receivers.
@@ -421,7 +465,7 @@ class IndirectPass {
     for (std::size_t p = to_zone; p < way.from_zone; ++p) {
       const std::size_t cell = scene_.receivers->cell_at(p, way.packet.origin, way.packet.direction);
       if (cell == PlaneReceivers::no_cell) continue;
-      for (std::size_t b = 0; b < quanta.size(); ++b) sums_.receivers.down[cell * quanta.size() + b] += quanta[b];
+      add_to(sums_.receivers.down, cell, quanta);
     }
   }
 
@@ -433,22 +477,6 @@ class IndirectPass {
     receivers_.close([this](std::size_t plane) { return scene_.receivers->at_ground(plane); });
     sums_.receivers.through_down = receivers_.down();
     sums_.receivers.through_up = receivers_.up();
-  }
-
-  [[nodiscard]] EmissionPoint place_of(const shared::Landing& landing) const {
-    EmissionPoint place{landing.surface, landing.triangle, landing.place_a, landing.place_b, -1};
-    if (landing.surface < shared::landed_on_ground) {
-      const std::uint32_t element = landing.surface / 2;
-      if (scene_.surfaces.at(element).soil()) return place;
-      const Triangle& corners = scene_.model.canopy.corners[element];
-      const float y_m = shared::landing_y(corners[0].y, corners[1].y, corners[2].y, landing.place_a, landing.place_b);
-      place.level = static_cast<int>(layer_at(scene_.layout.layers, y_m));
-    } else if (landing.surface == shared::landed_on_ground) {
-      place.order = ground_order + shared::soil_cell(scene_.block.ground, {landing.place_a, landing.place_b});
-    } else if (landing.surface == shared::left_upwards) {
-      place.level = scene_.layout.layers.count;
-    }
-    return place;
   }
 
   [[nodiscard]] std::size_t zone_of(const EmissionPoint& place) const {
@@ -470,40 +498,27 @@ class IndirectPass {
 
   const IndirectScene& scene_;
   const ReplicateOrder& order_;
-  const FirstLandings& first_;
-  const std::vector<BandQuanta>& quanta_;
+  const LightFromAbove& light_;
   const StopQuestion& stop_;
+  std::size_t lights_, bands_, columns_;
+  std::vector<const BandQuanta*> quanta_;  // [column]
   RandomStream random_;
   IndirectSums sums_;
   Candidates waiting_, next_;
-  // Flux after the first landings, lamps included, [band]; the shares of a round are relative to it.
+  // Flux after the first landings, lamps included, [column]; the shares of a round are relative to it.
   std::vector<double> start_;
-  std::vector<std::int64_t> sky_;                      // [band], sky flux that met something
+  std::vector<std::int64_t> sky_;                      // [column], sky flux that met something
   double aimed_draws_ = 1.0;                           // factor that makes up for what aim_draws takes from the first round
   PlaneFlux layers_, receivers_;                       // through the planes of the layers, and the horizontal receivers
-  std::vector<std::int64_t> reflected_, transmitted_;  // [band], of the current landing
+  std::vector<std::int64_t> reflected_, transmitted_;  // [column], of the current landing
+  std::vector<FaceOptics> soil_face_;                  // [band]
 };
 
 }  // namespace
 
-IndirectScene::IndirectScene(const RadiationModel& of_model, const CounterLayout& of_layout, const Surfaces& of_surfaces,
-                             Tracer& by_tracer, const PlaneReceivers* plane_receivers)
-    : model(of_model),
-      layout(of_layout),
-      surfaces(of_surfaces),
-      tracer(by_tracer),
-      receivers(plane_receivers),
-      block(make_packet_block(of_model, of_layout)),
-      frame{std::ldexp(of_layout.box.extent_m(), -17), block.ground.y} {}
-
 std::optional<IndirectSums> run_indirect_pass(const IndirectScene& scene, const ReplicateOrder& order,
-                                              const FirstLandings& first, const std::vector<BandQuanta>& quanta,
-                                              const StopQuestion& stop) {
-  return IndirectPass(scene, order, first, quanta, stop).run();
-}
-
-std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays) {
-  return static_cast<std::uint32_t>(std::min((static_cast<double>(k) + offset) * stride, static_cast<double>(rays - 1)));
+                                              const LightFromAbove& light, const StopQuestion& stop) {
+  return IndirectPass(scene, order, light, stop).run();
 }
 
 }  // namespace sunfleck

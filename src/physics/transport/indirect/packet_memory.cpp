@@ -25,7 +25,8 @@ double first_landings(const RayCounts& counts) {
 
 }  // namespace
 
-PacketMemory::PacketMemory(const RadiationModel& model) : bands_(model.bands.size()), lamps_(lamp_count(model)) {}
+PacketMemory::PacketMemory(const RadiationModel& model, std::size_t lights)
+    : columns_(model.bands.size() * lights), lights_(lights), lamps_(lamp_count(model)) {}
 
 void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
   const double landings = first_landings(counts);
@@ -35,7 +36,9 @@ void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
   per_landing_ = learned_ ? std::max(per_landing_, per_landing) : per_landing;
   per_packet_ = learned_ ? std::max(per_packet_, per_packet) : per_packet;
   if (counts.packets > 0.0) {
-    const auto side_bytes = static_cast<double>(sums.side_landed.bytes() + sums.side_sky.bytes());
+    // The sums of several lights are dealt to them from joint ones.
+    const std::size_t copies = lights_ == 1 ? 1 : 2 * lights_;
+    const auto side_bytes = static_cast<double>(copies * (sums.side_landed.bytes() + sums.side_sky.bytes()));
     side_bytes_per_packet_ = std::max(side_bytes_per_packet_, side_bytes / counts.packets);
   }
   learned_ = true;
@@ -48,7 +51,7 @@ double PacketMemory::side_bytes(const RayCounts& counts, double most) const {
 // Returns the larger of two peaks: while candidates are copied into their order, and when packets have landed and left new
 // candidates.
 double PacketMemory::bytes(const RayCounts& counts) const {
-  const double quanta_bytes = static_cast<double>(bands_) * sizeof(std::int64_t);
+  const double quanta_bytes = static_cast<double>(columns_) * sizeof(std::int64_t);
   const double candidate_bytes = sizeof(EmissionPoint) + quanta_bytes;
   const double waiting = lamps_ + per_landing_ * first_landings(counts);
   const double sorting = waiting * (2.0 * candidate_bytes + 2.0 * sizeof(std::uint32_t));

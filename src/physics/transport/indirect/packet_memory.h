@@ -17,9 +17,9 @@ struct RayCounts {
 
 class PacketMemory {
  public:
-  explicit PacketMemory(const RadiationModel& model);
+  explicit PacketMemory(const RadiationModel& model, std::size_t lights = 1);
 
-  // Records how many candidates a replicate with these rays had, and the memory of its sums by side.
+  // Records how many candidates a replicate with these rays had, and the memory of its sums by side. `sums` are those of one light.
   void learn(const RayCounts& counts, const IndirectSums& sums);
 
   // Returns the peak memory of such a replicate, in bytes: an upper limit until something has been learned, then an
@@ -31,7 +31,7 @@ class PacketMemory {
   [[nodiscard]] double side_bytes(const RayCounts& counts, double most) const;
 
  private:
-  std::size_t bands_;
+  std::size_t columns_, lights_;
   double lamps_;  // candidates present before any landing
   bool learned_ = false;
   double per_landing_ = 2.0;  // candidates per first landing

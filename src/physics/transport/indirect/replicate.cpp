@@ -1,9 +1,59 @@
 #include "physics/transport/indirect/replicate.h"
 
+#include "physics/transport/model/lights.h"
+
+#include <span>
+#include <utility>
+
 namespace sunfleck {
 
-IndirectSums::IndirectSums(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces)
-    : bands(model.bands.size()),
+namespace {
+
+// Returns the columns of one light out of [place * columns + column].
+std::vector<std::int64_t> of_light(const std::vector<std::int64_t>& joint, std::size_t light, std::size_t lights) {
+  std::vector<std::int64_t> own(joint.size() / lights);
+  for (std::size_t k = 0; k < own.size(); ++k) own[k] = joint[k * lights + light];
+  return own;
+}
+
+// Deals the sums by side to the lights. Places without quanta of a light are left out of its list.
+template <class Member>
+void deal(const PlaceSums& joint, Member member, std::vector<IndirectSums>& dealt) {
+  const std::size_t lights = dealt.size();
+  std::vector<std::int64_t> own(dealt.front().bands);
+  joint.for_each([&](std::size_t place, std::span<const std::int64_t> quanta) {
+    for (std::size_t k = 0; k < lights; ++k) {
+      bool any = false;
+      for (std::size_t b = 0; b < own.size(); ++b) {
+        own[b] = quanta[column_of(b, k, lights)];
+        any = any || own[b] != 0;
+      }
+      if (any) (dealt[k].*member).add(place, own);
+    }
+  });
+}
+
+// Returns the sums with all arrays that have columns, which `joint` then lacks.
+IndirectSums take_arrays(IndirectSums& joint) {
+  IndirectSums taken = std::exchange(joint, IndirectSums());
+  joint.element_hits = taken.element_hits;
+  joint.sky_rays = taken.sky_rays;
+  joint.packets = taken.packets;
+  joint.rounds = taken.rounds;
+  joint.lost = taken.lost;
+  joint.first_candidates = taken.first_candidates;
+  joint.most_candidates = taken.most_candidates;
+  joint.receivers.reached = taken.receivers.reached;
+  joint.receivers.crossing = taken.receivers.crossing;
+  joint.receivers.zone_landings = taken.receivers.zone_landings;
+  return taken;
+}
+
+}  // namespace
+
+IndirectSums::IndirectSums(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
+                           std::size_t lights)
+    : bands(model.bands.size() * lights),
       surface_landed(surfaces.of.size() * 2 * bands),
       layer_landed(static_cast<std::size_t>(layout.layers.count) * model.optics.size() * 2 * bands),
       side_landed(model.canopy.size() * 2, bands),
@@ -12,5 +62,35 @@ IndirectSums::IndirectSums(const RadiationModel& model, const CounterLayout& lay
       down((static_cast<std::size_t>(layout.layers.count) + 1) * bands),
       up(down.size()),
       ledger(bands) {}
+
+std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights) {
+  std::vector<IndirectSums> dealt;
+  if (lights == 1) {
+    dealt.push_back(std::move(joint));
+    return dealt;
+  }
+  const IndirectSums all = take_arrays(joint);
+  joint.bands = all.bands / lights;
+  const std::size_t sides = all.side_landed.size() / all.bands;
+  joint.side_landed = PlaceSums(sides, joint.bands);
+  if (all.side_sky.size() > 0) joint.side_sky = joint.side_landed;
+  dealt.assign(lights, joint);
+  for (std::size_t k = 0; k < lights; ++k) {
+    IndirectSums& own = dealt[k];
+    own.surface_landed = of_light(all.surface_landed, k, lights);
+    own.layer_landed = of_light(all.layer_landed, k, lights);
+    own.cell_landed = of_light(all.cell_landed, k, lights);
+    own.cell_sky = of_light(all.cell_sky, k, lights);
+    own.down = of_light(all.down, k, lights);
+    own.up = of_light(all.up, k, lights);
+    own.receivers.down = of_light(all.receivers.down, k, lights);
+    own.receivers.through_down = of_light(all.receivers.through_down, k, lights);
+    own.receivers.through_up = of_light(all.receivers.through_up, k, lights);
+    for (std::size_t b = 0; b < own.bands; ++b) own.ledger.push_back(all.ledger[column_of(b, k, lights)]);
+  }
+  deal(all.side_landed, &IndirectSums::side_landed, dealt);
+  deal(all.side_sky, &IndirectSums::side_sky, dealt);
+  return dealt;
+}
 
 }  // namespace sunfleck

@@ -25,9 +25,10 @@ struct DirectSums {
 };
 
 // Quanta carried by one replicate's sky rays and packets. The `landed` arrays count all flux that arrived, before it is
-// split.
+// split. The sums of a single light have a column for each band; those of several have one for each band and light (column_of).
 struct IndirectSums {
-  IndirectSums(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
+  IndirectSums() = default;  // without any place
+  IndirectSums(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, std::size_t lights = 1);
 
   // Passes every sum to `archive`.
   template <class Self, class Archive>
@@ -37,7 +38,7 @@ struct IndirectSums {
             self.first_candidates, self.most_candidates, self.lost);
   }
 
-  std::size_t bands;
+  std::size_t bands = 0;                     // number of columns
   std::vector<std::int64_t> surface_landed;  // [(surface * 2 + side) * bands + band]
   std::vector<std::int64_t> layer_landed;    // [((layer * optics + optics) * 2 + side) * bands + band], without soil
   PlaceSums side_landed;                     // [(2 * element + side) * bands + band]
@@ -53,7 +54,10 @@ struct IndirectSums {
   std::uint64_t first_candidates = 0, most_candidates = 0;
 };
 
-// The sums that one replicate contributes to a run.
+// Returns the sums of each light out of those of all. Numbers of rays, packets and hits are the same for each. [light]
+[[nodiscard]] std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights);
+
+// The sums that one replicate contributes to a run in one light.
 struct Replicate {
   // Passes everything to `archive` but `direct`, which follows from the counters.
   template <class Self, class Archive>
@@ -69,6 +73,9 @@ struct Replicate {
   double direct_s = 0.0;                // wall time, including the wait for the tracer
   double indirect_s = 0.0;
 };
+
+// One replicate in all lights of a simulation. [light]
+using ReplicateSet = std::vector<Replicate>;
 
 // Describes one replicate. Replicates with the same seed and number are identical, whatever else is made at the same time.
 struct ReplicateOrder {

@@ -1,5 +1,6 @@
 #include "physics/transport/indirect/replicate_maker.h"
 
+#include "base/random.h"
 #include "physics/light/beam_grid.h"
 #include "physics/transport/indirect/beam_landings.h"
 #include "physics/transport/model/beam_block.h"
@@ -10,6 +11,9 @@ namespace sunfleck {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Number of the first light's stream of random numbers, apart from those of replicates.
+constexpr std::uint64_t light_stream = std::uint64_t{1} << 56U;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -29,21 +33,26 @@ TraceOutcome ReplicateMaker::OneAtATime::trace(const shared::PacketBlock& scene,
   return tracer_.trace(scene, packets, landings, stop);
 }
 
-ReplicateMaker::ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer)
-    : model_(model), layout_(layout), surfaces_(model), aim_(make_stand_aim(model, layout)), tracer_(tracer) {
-  if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
-  if (model.has_sky()) sky_.emplace(model, layout, nullptr);
-  if (model.has_sky() && aim_) aimed_sky_.emplace(model, layout, &*aim_);
-  if (!scatters(model) && !sky_) return;
-  indirect_.emplace(model, layout, surfaces_, tracer_, receivers());
+ReplicateMaker::ReplicateMaker(Lights lights, const CounterLayout& layout, Tracer& tracer)
+    : lights_(lights),
+      model_(lights.front()),
+      layout_(layout),
+      surfaces_(model_),
+      aim_(make_stand_aim(model_, layout)),
+      tracer_(tracer) {
+  if (!model_.planes.empty()) receivers_.emplace(model_, layout, surfaces_);
+  if (any_sky(lights)) sky_.emplace(lights, layout, nullptr);
+  if (any_sky(lights) && aim_) aimed_sky_.emplace(lights, layout, &*aim_);
+  if (!scatters(model_) && !sky_) return;
+  indirect_.emplace(lights, layout, surfaces_, tracer_, receivers());
 }
 
-Incidence ReplicateMaker::incidence(double beam_rays, bool aimed) const {
+Incidence ReplicateMaker::incidence(double beam_rays, bool aimed, std::size_t light) const {
   Incidence incidence;
-  incidence.sky_ground_m2 = sky_ ? sky(aimed).ground_m2() : 0.0;
-  incidence.sky_weight = sky_ ? sky(aimed).largest_weight() : 1.0;
-  if (!model_.has_beam()) return incidence;
-  const std::vector<WeightedBeamGrid> grids = make_grids(model_, layout_, aim(aimed), beam_rays);
+  incidence.sky_ground_m2 = sky_ ? sky(aimed).ground_m2(light) : 0.0;
+  incidence.sky_weight = sky_ ? sky(aimed).largest_weight(light) : 1.0;
+  if (!lights_[light].has_beam()) return incidence;
+  const std::vector<WeightedBeamGrid> grids = make_grids(lights_[light], layout_, aim(aimed), beam_rays);
   incidence.ground_per_ray_m2 = grids.front().grid.horizontal_area_per_ray_m2();
   for (const WeightedBeamGrid& part : grids) {
     incidence.rays += part.weight * part.grid.rays();
@@ -52,27 +61,29 @@ Incidence ReplicateMaker::incidence(double beam_rays, bool aimed) const {
   return incidence;
 }
 
-Conversion ReplicateMaker::conversion(const Incidence& incidence) const {
-  return {model_, layout_, surfaces_, receivers(), incidence};
+Conversion ReplicateMaker::conversion(const Incidence& incidence, std::size_t light) const {
+  return {lights_[light], layout_, surfaces_, receivers(), incidence};
 }
 
-Replicate ReplicateMaker::blank(const ReplicateOrder& order) const {
+ReplicateSet ReplicateMaker::blank(const ReplicateOrder& order) const {
   Replicate blank;
   blank.counters.resize(layout_.words());
   if (receivers_) blank.passed = PlaneSums(*receivers_, model_);
-  if (!indirect_ || order.packets == 0.0) return blank;
+  if (!indirect_ || order.packets == 0.0) return ReplicateSet(lights_.size(), blank);
   blank.packets.emplace(model_, layout_, surfaces_);
   if (receivers_) blank.packets->receivers = blank.passed;
-  if (!sky_) return blank;
-  blank.packets->side_sky = blank.packets->side_landed;
-  blank.packets->cell_sky.resize(blank.packets->cell_landed.size());
-  return blank;
+  if (sky_) {
+    blank.packets->side_sky = blank.packets->side_landed;
+    blank.packets->cell_sky.resize(blank.packets->cell_landed.size());
+  }
+  return ReplicateSet(lights_.size(), blank);
 }
 
 double ReplicateMaker::sum_bytes() const {
-  double bytes = static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
+  const auto lights = static_cast<double>(lights_.size());
+  double bytes = lights * static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
   if (!indirect_) return bytes;
-  const double cells = static_cast<double>(layout_.cells()) * static_cast<double>(model_.bands.size());
+  const double cells = static_cast<double>(layout_.cells()) * static_cast<double>(model_.bands.size()) * lights;
   bytes += cells * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0) + most_side_bytes();
   return bytes + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
 }
@@ -80,7 +91,9 @@ double ReplicateMaker::sum_bytes() const {
 double ReplicateMaker::most_side_bytes() const {
   if (!indirect_) return 0.0;
   const double sides = 2.0 * static_cast<double>(model_.canopy.size()) * static_cast<double>(model_.bands.size());
-  return sides * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
+  // The sums of several lights are dealt to them from joint ones.
+  const auto copies = static_cast<double>(lights_.size() == 1 ? 1 : 2 * lights_.size());
+  return copies * sides * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
 }
 
 // Light is not aimed in a scene with receivers.
@@ -97,32 +110,51 @@ TraceOutcome ReplicateMaker::count_beam(std::span<const BeamPart> beam, Replicat
   return outcome;
 }
 
-std::optional<Replicate> ReplicateMaker::make(const ReplicateOrder& order, const Conversion& conversion,
-                                              const StopQuestion& stop) {
+bool ReplicateMaker::make_direct(const ReplicateOrder& order, std::size_t light, const Conversion& conversion,
+                                 Replicate& replicate, FirstLandings& first, const StopQuestion& stop) {
+  replicate.counters.resize(layout_.words());
+  if (receivers_) replicate.passed = PlaneSums(*receivers_, model_);
+  if (lights_[light].has_beam()) {
+    // The rays of different lights are independent of each other.
+    const std::uint64_t seed = light == 0 ? order.seed : RandomStream(order.seed, light_stream + light).word();
+    first.beam = make_beam_parts(lights_[light], layout_, aim(order.aimed), order.beam_rays, seed, order.number);
+    if (count_beam(first.beam, replicate, stop) == TraceOutcome::stopped) return false;
+  }
+  replicate.direct = conversion.sum(replicate.counters);
+  if (!indirect_ || order.packets == 0.0) return true;
+  first.ground_per_ray_m2 = conversion.ground_per_ray_m2;
+  first.met = replicate.direct.met;
+  first.scattered = conversion.scattered(replicate.direct);
+  first.scattered_by_zone = conversion.scattered_by_zone(replicate.direct, replicate.passed);
+  first.least_of_vegetation = conversion.least_of_vegetation(replicate.direct);
+  return true;
+}
+
+std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, std::span<const Conversion> conversions,
+                                                 const StopQuestion& stop) {
   if (stop()) return std::nullopt;
   const Clock::time_point start = Clock::now();
-  std::optional<Replicate> replicate(std::in_place);
-  replicate->counters.resize(layout_.words());
-  if (receivers_) replicate->passed = PlaneSums(*receivers_, model_);
-  std::vector<BeamPart> beam;
-  if (model_.has_beam()) {
-    beam = make_beam_parts(model_, layout_, aim(order.aimed), order.beam_rays, order.seed, order.number);
-    if (count_beam(beam, *replicate, stop) == TraceOutcome::stopped) return std::nullopt;
+  ReplicateSet replicates(lights_.size());
+  LightFromAbove light{aim(order.aimed), sky_ ? &sky(order.aimed) : nullptr, std::vector<FirstLandings>(lights_.size()), {}};
+  for (std::size_t k = 0; k < lights_.size(); ++k) {
+    if (!make_direct(order, k, conversions[k], replicates[k], light.first[k], stop)) return std::nullopt;
+    light.quanta.push_back(&conversions[k].quanta);
   }
-  replicate->direct = conversion.sum(replicate->counters);
-  replicate->direct_s = seconds_since(start);
-  if (!indirect_ || order.packets == 0.0) return replicate;
-  const FirstLandings first{beam,
-                            aim(order.aimed),
-                            sky_ ? &sky(order.aimed) : nullptr,
-                            replicate->direct.met,
-                            conversion.scattered(replicate->direct),
-                            conversion.scattered_by_zone(replicate->direct, replicate->passed),
-                            conversion.least_of_vegetation(replicate->direct)};
-  replicate->packets = run_indirect_pass(*indirect_, order, first, conversion.quanta, stop);
-  replicate->indirect_s = seconds_since(start) - replicate->direct_s;
-  if (!replicate->packets) return std::nullopt;
-  return replicate;
+  const double direct_s = seconds_since(start);
+  std::optional<IndirectSums> packets;
+  if (indirect_ && order.packets > 0.0) {
+    packets = run_indirect_pass(*indirect_, order, light, stop);
+    if (!packets) return std::nullopt;
+    std::vector<IndirectSums> by_light = sums_by_light(*std::move(packets), lights_.size());
+    for (std::size_t k = 0; k < lights_.size(); ++k) replicates[k].packets = std::move(by_light[k]);
+  }
+  const auto lights = static_cast<double>(lights_.size());
+  const double indirect_s = packets ? seconds_since(start) - direct_s : 0.0;
+  for (Replicate& replicate : replicates) {
+    replicate.direct_s = direct_s / lights;
+    replicate.indirect_s = indirect_s / lights;
+  }
+  return replicates;
 }
 
 }  // namespace sunfleck

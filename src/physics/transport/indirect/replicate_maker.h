@@ -1,6 +1,6 @@
 #pragma once
-// Makes replicates. Several may be made at the same time: while the tracer works on one, the host draws and books the
-// packets of another.
+// Makes replicates, each in all lights of a simulation. Several may be made at the same time: while the tracer works on one, the
+// host draws and books the packets of another.
 
 #include "physics/transport/indirect/conversion.h"
 #include "physics/transport/indirect/indirect.h"
@@ -21,22 +21,24 @@ namespace sunfleck {
 
 class ReplicateMaker {
  public:
-  // All arguments must outlive the maker, and the model must not change.
-  ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer);
+  // All arguments must outlive the maker, and the models must not change.
+  ReplicateMaker(Lights lights, const CounterLayout& layout, Tracer& tracer);
+
+  [[nodiscard]] Lights lights() const { return lights_; }
 
   [[nodiscard]] bool has_indirect_pass() const { return indirect_.has_value(); }
   [[nodiscard]] bool has_sky() const { return sky_.has_value(); }
   // Returns whether light can be aimed at the scene's stand.
   [[nodiscard]] bool aims() const { return aim_.has_value(); }
 
-  // Returns the incidence of replicates with about this many beam rays; `aimed` as in ReplicateOrder.
-  [[nodiscard]] Incidence incidence(double beam_rays, bool aimed) const;
+  // Returns the incidence of a light in replicates with about this many beam rays; `aimed` as in ReplicateOrder.
+  [[nodiscard]] Incidence incidence(double beam_rays, bool aimed, std::size_t light = 0) const;
 
-  // Returns the conversion for replicates of that incidence. The maker must outlive it.
-  [[nodiscard]] Conversion conversion(const Incidence& incidence) const;
+  // Returns the conversion of a light for replicates of that incidence. The maker must outlive it.
+  [[nodiscard]] Conversion conversion(const Incidence& incidence, std::size_t light = 0) const;
 
   // Returns a replicate without landings, with all arrays as large as those of an ordered one.
-  [[nodiscard]] Replicate blank(const ReplicateOrder& order) const;
+  [[nodiscard]] ReplicateSet blank(const ReplicateOrder& order) const;
 
   // Returns the size of a replicate's counters and sums in bytes; it does not depend on the numbers of rays and packets.
   [[nodiscard]] double sum_bytes() const;
@@ -44,10 +46,10 @@ class ReplicateMaker {
   // Returns the part of it that sums by side take if light lands on many of them; see PlaceSums.
   [[nodiscard]] double most_side_bytes() const;
 
-  // Makes a replicate of the conversion's incidence; returns nothing if stopped. Several threads may call this at the same
+  // Makes a replicate of the conversions' incidence, [light]; returns nothing if stopped. Several threads may call this at the same
   // time; all of them call `stop`.
-  [[nodiscard]] std::optional<Replicate> make(const ReplicateOrder& order, const Conversion& conversion,
-                                              const StopQuestion& stop);
+  [[nodiscard]] std::optional<ReplicateSet> make(const ReplicateOrder& order, std::span<const Conversion> conversions,
+                                                 const StopQuestion& stop);
 
  private:
   // A tracer that serves one thread at a time.
@@ -66,12 +68,16 @@ class ReplicateMaker {
   };
 
   [[nodiscard]] TraceOutcome count_beam(std::span<const BeamPart> beam, Replicate& replicate, const StopQuestion& stop);
+  // Traces the beam of one light; returns false if stopped.
+  [[nodiscard]] bool make_direct(const ReplicateOrder& order, std::size_t light, const Conversion& conversion,
+                                 Replicate& replicate, FirstLandings& first, const StopQuestion& stop);
 
   [[nodiscard]] const StandAim* aim(bool aimed) const { return aimed && aim_ ? &*aim_ : nullptr; }
   [[nodiscard]] const SkyRays& sky(bool aimed) const { return aimed && aimed_sky_ ? *aimed_sky_ : *sky_; }
   [[nodiscard]] const PlaneReceivers* receivers() const { return receivers_ ? &*receivers_ : nullptr; }
 
-  const RadiationModel& model_;
+  Lights lights_;
+  const RadiationModel& model_;  // the first light
   const CounterLayout& layout_;
   Surfaces surfaces_;
   std::optional<PlaneReceivers> receivers_;

@@ -36,14 +36,36 @@ double jittered(std::size_t cell, std::size_t cells, RandomStream& random) {
   return (static_cast<double>(cell) + random.unit()) / static_cast<double>(cells);
 }
 
+// The numbers of the lights that have a sky.
+std::vector<std::size_t> lights_with_sky(Lights lights) {
+  std::vector<std::size_t> lit;
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    if (lights[k].has_sky()) lit.push_back(k);
+  }
+  return lit;
+}
+
+std::vector<Sky> skies_of(Lights lights) {
+  std::vector<Sky> skies;
+  for (const std::size_t k : lights_with_sky(lights)) {
+    skies.emplace_back(*lights[k].sky, lights[k].sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0}));
+  }
+  return skies;
+}
+
 }  // namespace
 
-SkyRays::SkyRays(const RadiationModel& model, const CounterLayout& layout, const StandAim* aim)
-    : sky_(*model.sky, model.sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0})),
-      periodic_(model.plot.periodic),
-      period_m_(model.canopy.period_m),
+SkyRays::SkyRays(Lights lights, const CounterLayout& layout, const StandAim* aim)
+    : SkyRays(lights, layout, aim, skies_of(lights)) {}
+
+SkyRays::SkyRays(Lights lights, const CounterLayout& layout, const StandAim* aim, const std::vector<Sky>& skies)
+    : sky_(skies.size() == 1 ? skies.front() : Sky::mean_of(skies)),
+      most_weight_(lights.size(), 1.0),
+      periodic_(lights.front().plot.periodic),
+      period_m_(lights.front().canopy.period_m),
       top_y_m_(layout.box.above_m()),
-      centre_m_(0.5 * (layout.box.lo_m + layout.box.hi_m)) {
+      centre_m_(0.5 * (layout.box.lo_m + layout.box.hi_m)),
+      ground_m2_(lights.size()) {
   glm::dvec3 size_m = layout.box.hi_m - layout.box.lo_m;
   size_m.y = layout.box.seen_y_m - layout.box.lo_m.y;
   centre_m_.y = layout.box.lo_m.y + 0.5 * size_m.y;
@@ -54,7 +76,37 @@ SkyRays::SkyRays(const RadiationModel& model, const CounterLayout& layout, const
     radius_m_ = aim->reach_m;
     inner_share_ = aim->radius_m * aim->radius_m / (radius_m_ * radius_m_);
   }
-  ground_m2_ = periodic_ ? period_m_.x * period_m_.y : sky_.spherical_irradiance() * std::numbers::pi * radius_m_ * radius_m_;
+  const std::vector<std::size_t> lit = lights_with_sky(lights);
+  for (std::size_t k = 0; k < lit.size(); ++k) {
+    ground_m2_[lit[k]] =
+        periodic_ ? period_m_.x * period_m_.y : skies[k].spherical_irradiance() * std::numbers::pi * radius_m_ * radius_m_;
+  }
+  if (!sky_.is_list()) weigh(skies, lit, lights.size());
+}
+
+void SkyRays::weigh(std::span<const Sky> skies, const std::vector<std::size_t>& lit, std::size_t lights) {
+  const auto same = [&](const Sky& sky) {
+    for (std::size_t cell = 0; cell < std::size_t{Sky::rows} * Sky::columns; ++cell) {
+      if (sky.radiance_of_cell(cell) != skies.front().radiance_of_cell(cell)) return false;
+    }
+    return true;
+  };
+  if (std::all_of(skies.begin() + 1, skies.end(), same)) return;
+  weights_.resize(std::size_t{Sky::rows} * Sky::columns * lights);
+  for (std::size_t k = 0; k < lit.size(); ++k) {
+    const double mean_weight = periodic_ ? 1.0 : skies[k].spherical_irradiance() / sky_.spherical_irradiance();
+    for (std::size_t cell = 0; cell < std::size_t{Sky::rows} * Sky::columns; ++cell) {
+      const double mean = sky_.radiance_of_cell(cell);
+      const double weight = mean > 0.0 ? skies[k].radiance_of_cell(cell) / mean : 0.0;
+      weights_[cell * lights + lit[k]] = static_cast<float>(weight);
+      most_weight_[lit[k]] = std::max(most_weight_[lit[k]], weight / mean_weight);
+    }
+  }
+}
+
+std::span<const float> SkyRays::weights(const glm::vec3& direction) const {
+  const std::size_t lights = most_weight_.size();
+  return std::span(weights_).subspan(Sky::cell_of(-glm::dvec3(direction)) * lights, lights);
 }
 
 glm::dvec3 SkyRays::origin_above(double u, double v) const {
@@ -102,8 +154,8 @@ double SkyRays::share_of_first(std::size_t k, std::size_t rays) const {
   return part <= 0.5 ? 2.0 * part * inner_share_ : inner_share_ + (2.0 * part - 1.0) * (1.0 - inner_share_);
 }
 
-double SkyRays::largest_weight() const {
-  return aimed() ? 2.0 * std::max(inner_share_, 1.0 - inner_share_) : 1.0;
+double SkyRays::largest_weight(std::size_t light) const {
+  return most_weight_[light] * (aimed() ? 2.0 * std::max(inner_share_, 1.0 - inner_share_) : 1.0);
 }
 
 }  // namespace sunfleck

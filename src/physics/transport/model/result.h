@@ -99,6 +99,27 @@ struct LayerResult {
   ShadeClassResult leaf_classes;  // empty in the top plane
 };
 
+// The half-widths of a sum over several lights of one simulation, without unshot flux, in the figures' units times that of the weights.
+struct JointErrors {
+  struct Band {
+    double vegetation = 0.0, structure = 0.0, soil = 0.0, reflected = 0.0, transmitted = 0.0;
+
+    template <class Self, class Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive(self.vegetation, self.structure, self.soil, self.reflected, self.transmitted);
+    }
+  };
+
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.bands, self.organs, self.plants);
+  }
+
+  std::vector<Band> bands;     // [band], absorbed by these or leaving, W m-2 of ground
+  std::vector<double> organs;  // [organ * bands + band], absorbed, W m-2 of organ
+  std::vector<double> plants;  // [plant * bands + band], absorbed, W of the plant
+};
+
 // Landings of beam rays on the two sides of an element or a surface.
 struct BeamLandings {
   std::uint64_t upper = 0;

@@ -27,6 +27,7 @@ class ReplicateMean {
     const double delta = value - mean_;
     mean_ += delta / static_cast<double>(count_);
     squares_ += delta * (value - mean_);
+    last_ = value;
   }
 
   // Passes the whole state to `archive`.
@@ -37,6 +38,8 @@ class ReplicateMean {
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] double mean() const { return mean_; }
+  // Returns the value that was added last; it is no part of the state that `visit` passes.
+  [[nodiscard]] double last() const { return last_; }
   [[nodiscard]] double squares() const { return squares_; }
   // Returns the standard error of the mean; NaN below two replicates.
   [[nodiscard]] double standard_error() const;
@@ -49,6 +52,7 @@ class ReplicateMean {
   std::size_t count_ = 0;
   double mean_ = 0.0;
   double squares_ = 0.0;
+  double last_ = 0.0;
 };
 
 // Returns the largest expected number of events that is consistent with none having been seen: the upper end of the

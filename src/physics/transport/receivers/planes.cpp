@@ -80,11 +80,14 @@ std::size_t PlaneReceivers::cell_at(std::size_t plane, const glm::vec3& point_m,
 }
 
 PlaneSums::PlaneSums(const PlaneReceivers& planes, const RadiationModel& model)
+    : PlaneSums(planes, model, model.bands.size()) {}
+
+PlaneSums::PlaneSums(const PlaneReceivers& planes, const RadiationModel& model, std::size_t columns)
     : reached(planes.cells()),
       crossing(planes.cells()),
       zone_landings((planes.size() + 1) * model.optics.size()),
-      down(planes.cells() * model.bands.size()),
-      through_down(planes.size() * model.bands.size()),
+      down(planes.cells() * columns),
+      through_down(planes.size() * columns),
       through_up(through_down.size()) {}
 
 PlaneTally::PlaneTally(const PlaneReceivers& planes, const RadiationModel& model)

@@ -60,7 +60,9 @@ class PlaneReceivers {
 // Sums over everything that passed the planes in one replicate.
 struct PlaneSums {
   PlaneSums() = default;
+  // Packets carry `columns` quanta, by default one for each band.
   PlaneSums(const PlaneReceivers& planes, const RadiationModel& model);
+  PlaneSums(const PlaneReceivers& planes, const RadiationModel& model, std::size_t columns);
 
   // Passes every sum to `archive`.
   template <class Self, class Archive>
@@ -70,8 +72,8 @@ struct PlaneSums {
 
   std::vector<std::uint32_t> reached, crossing;        // [cell], beam rays, as in PlaneResult
   std::vector<BeamLandings> zone_landings;             // [zone * optics + optics]
-  std::vector<std::int64_t> down;                      // [cell * bands + band], quanta of packets and sky rays
-  std::vector<std::int64_t> through_down, through_up;  // [plane * bands + band], the same summed over whole planes
+  std::vector<std::int64_t> down;                      // [cell * columns + column], quanta of packets and sky rays
+  std::vector<std::int64_t> through_down, through_up;  // [plane * columns + column], the same summed over whole planes
 };
 
 // Sums over all replicates.

@@ -11,7 +11,7 @@ namespace sunfleck {
 
 struct MadeReplicate {
   std::uint64_t number = 0;
-  Replicate replicate;  // without its `direct`
+  ReplicateSet replicates;  // without their `direct`
 };
 
 // The interface to the workers; one thread may use it.
@@ -29,7 +29,7 @@ class ReplicateHelpers {
 
   // Returns a finished replicate, in any order, or nothing if none is ready. `blank` gives the sizes of its arrays. Throws
   // Error if a worker failed or is lost.
-  [[nodiscard]] virtual std::optional<MadeReplicate> take(const Replicate& blank) = 0;
+  [[nodiscard]] virtual std::optional<MadeReplicate> take(const ReplicateSet& blank) = 0;
 
   // Cancels everything that was begun and not taken.
   virtual void drop() = 0;

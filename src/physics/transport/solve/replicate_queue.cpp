@@ -10,7 +10,7 @@
 namespace sunfleck {
 namespace {
 
-bool is_ready(const std::future<std::optional<Replicate>>& future) {
+bool is_ready(const std::future<std::optional<ReplicateSet>>& future) {
   return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
@@ -23,22 +23,22 @@ ReplicateQueue::~ReplicateQueue() {
   dropped_ = true;
 }
 
-void ReplicateQueue::begin(const ReplicateOrder& first, const Conversion& conversion, std::size_t at_once) {
+void ReplicateQueue::begin(const ReplicateOrder& first, std::span<const Conversion> conversions, std::size_t at_once) {
   end();
   at_once_ = std::max<std::size_t>(1, at_once);
   order_ = first;
-  conversion_ = &conversion;
+  conversions_ = conversions;
   taken_ = 0;
   if (helpers_ != nullptr) blank_ = maker_.blank(first);
 }
 
-std::optional<Replicate> ReplicateQueue::next(std::size_t certain, std::size_t possible) {
+std::optional<ReplicateSet> ReplicateQueue::next(std::size_t certain, std::size_t possible) {
   Pause pause;
   while (true) {
     fill(std::max(certain, taken_ + 1), possible);
     if (helpers_ != nullptr) collect();
     Making& first = ahead_.front();
-    std::optional<Replicate> made;
+    std::optional<ReplicateSet> made;
     if (first.here.valid() && (helpers_ == nullptr || is_ready(first.here))) {
       made = first.here.get();
     } else if (first.elsewhere) {
@@ -82,7 +82,7 @@ void ReplicateQueue::fill(std::size_t certain, std::size_t possible) {
 void ReplicateQueue::begin_here() {
   ReplicateOrder order = order_;
   order.number += taken_ + ahead_.size();
-  const auto make = [this, order] { return maker_.make(order, *conversion_, [this] { return dropped_ || stop_(); }); };
+  const auto make = [this, order] { return maker_.make(order, conversions_, [this] { return dropped_ || stop_(); }); };
   const bool beside = at_once_ > 1 || helpers_ != nullptr;
   ahead_.emplace_back().here = std::async(beside ? std::launch::async : std::launch::deferred, make);
 }
@@ -91,8 +91,10 @@ void ReplicateQueue::collect() {
   while (std::optional<MadeReplicate> made = helpers_->take(blank_)) {
     const std::uint64_t place = made->number - order_.number - taken_;
     EXPECT(place, <, ahead_.size());
-    made->replicate.direct = conversion_->sum(made->replicate.counters);
-    ahead_[place].elsewhere = std::move(made->replicate);
+    for (std::size_t k = 0; k < made->replicates.size(); ++k) {
+      made->replicates[k].direct = conversions_[k].sum(made->replicates[k].counters);
+    }
+    ahead_[place].elsewhere = std::move(made->replicates);
   }
 }
 

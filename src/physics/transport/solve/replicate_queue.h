@@ -11,6 +11,7 @@
 #include <deque>
 #include <future>
 #include <optional>
+#include <span>
 
 namespace sunfleck {
 
@@ -22,23 +23,23 @@ class ReplicateQueue {
   ReplicateQueue(const ReplicateQueue&) = delete;
   ReplicateQueue& operator=(const ReplicateQueue&) = delete;
 
-  // Starts a series of replicates like `first`, beginning with it, and ends the series before. `conversion` is that
-  // of their incidence. At most `at_once` are made at the same time in this process; if that is 1
+  // Starts a series of replicates like `first`, beginning with it, and ends the series before. `conversions` are those
+  // of their incidence, [light]. At most `at_once` are made at the same time in this process; if that is 1
   // and there are no workers, the thread that calls next() makes the replicate.
-  void begin(const ReplicateOrder& first, const Conversion& conversion, std::size_t at_once);
+  void begin(const ReplicateOrder& first, std::span<const Conversion> conversions, std::size_t at_once);
 
   // Returns the next replicate, or nothing if stopped, which ends the series. Starts others: in this process only among
   // the first `certain` ones of the series, which will all be needed, and by workers also among the first `possible` ones.
   // Throws Error if one could not be made.
-  [[nodiscard]] std::optional<Replicate> next(std::size_t certain, std::size_t possible);
+  [[nodiscard]] std::optional<ReplicateSet> next(std::size_t certain, std::size_t possible);
 
   // Ends the series; stops the replicates being made in this process and waits for them.
   void end();
 
  private:
   struct Making {
-    std::future<std::optional<Replicate>> here;  // invalid if a worker makes it
-    std::optional<Replicate> elsewhere;
+    std::future<std::optional<ReplicateSet>> here;  // invalid if a worker makes it
+    std::optional<ReplicateSet> elsewhere;
   };
 
   void fill(std::size_t certain, std::size_t possible);
@@ -52,8 +53,8 @@ class ReplicateQueue {
   StopQuestion stop_;
   std::atomic<bool> dropped_ = false;
   ReplicateOrder order_;
-  const Conversion* conversion_ = nullptr;
-  Replicate blank_;
+  std::span<const Conversion> conversions_;
+  ReplicateSet blank_;
   std::size_t taken_ = 0;
   std::deque<Making> ahead_;  // from the next one on; declared last, so that it is destroyed first
 };

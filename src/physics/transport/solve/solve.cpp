@@ -4,6 +4,7 @@
 #include "physics/transport/indirect/replicate_maker.h"
 #include "physics/transport/solve/darkness.h"
 #include "physics/transport/solve/foresight.h"
+#include "physics/transport/solve/joint_sums.h"
 #include "physics/transport/solve/judged_error.h"
 #include "physics/transport/solve/replicate_helpers.h"
 #include "physics/transport/solve/replicate_queue.h"
@@ -12,12 +13,17 @@
 #include "physics/transport/solve/run_triangles.h"
 #include "physics/transport/solve/work_planner.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -29,32 +35,79 @@ double steady_clock_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// Lights with less than this share of the brightest one's flux are not compared with the bounds.
+constexpr double least_bright_share = 0.01;
+
 // Holds replicates with the same work.
 struct Series {
-  Series(const ReplicateMaker& maker, const Incidence& incidence, ElementErrors element_errors)
-      : conversion(maker.conversion(incidence)), sums(conversion, element_errors), grid_rays(incidence.traced_rays) {}
+  Series(const ReplicateMaker& maker, std::span<const Incidence> incidences, ElementErrors element_errors,
+         std::span<const LightSum> wanted)
+      : sums(incidences.size()), joint(wanted.begin(), wanted.end()) {
+    conversions.reserve(incidences.size());
+    for (std::size_t k = 0; k < incidences.size(); ++k) {
+      conversions.push_back(maker.conversion(incidences[k], k));
+      light_rays.push_back(incidences[k].traced_rays);
+      grid_rays += incidences[k].traced_rays;
+    }
+    tbb::parallel_for(std::size_t{0}, sums.size(),
+                      [&](std::size_t k) { sums[k] = std::make_unique<RunSums>(conversions[k], element_errors); });
+  }
 
+  void add(const ReplicateSet& replicates) {
+    tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) { sums[k]->add(replicates[k]); });
+    for (JointSums& sum : joint) sum.add(sums);
+  }
+
+  // The first light's sums; the numbers of replicates, rays and packets are those of all lights.
+  [[nodiscard]] RunSums& front() const { return *sums.front(); }
+  [[nodiscard]] std::size_t replicates() const { return front().replicates; }
   // Returns the number of rays and packets.
-  [[nodiscard]] std::uint64_t traced() const { return sums.replicates * grid_rays + sums.packets + sums.sky_rays; }
+  [[nodiscard]] std::uint64_t traced() const { return replicates() * grid_rays + front().packets + front().sky_rays; }
 
-  Conversion conversion;
-  RunSums sums;             // refers to the conversion, so that a series cannot be copied or moved
-  std::uint64_t grid_rays;  // traced in each replicate
+  std::vector<Conversion> conversions;         // [light]
+  std::vector<std::unique_ptr<RunSums>> sums;  // [light]; they refer to the conversions, so that a series cannot be copied
+  std::vector<JointSums> joint;
+  std::vector<std::uint64_t> light_rays;  // [light], beam rays traced in each replicate
+  std::uint64_t grid_rays = 0;            // of all lights together
 };
+
+// Returns which lights are compared with the bounds.
+std::vector<bool> judged_lights(Lights lights) {
+  std::vector<double> flux_w_m2;
+  for (const RadiationModel& light : lights) {
+    double flux = 0.0;
+    for (const Waveband& band : light.bands) {
+      flux += (light.has_beam() ? band.direct_w_m2 : 0.0) + (light.has_sky() ? band.diffuse_w_m2 : 0.0);
+    }
+    flux_w_m2.push_back(flux);
+  }
+  const double brightest = *std::max_element(flux_w_m2.begin(), flux_w_m2.end());
+  std::vector<bool> judged;
+  for (const double flux : flux_w_m2) judged.push_back(flux >= least_bright_share * brightest);
+  return judged;
+}
 
 class Solver {
  public:
-  Solver(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
-         const Monitor& monitor, ReplicateHelpers* helpers)
-      : model_(model),
+  Solver(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings, const Monitor& monitor,
+         ReplicateHelpers* helpers, std::span<const LightSum> wanted_sums = {}, TakeLight take = nullptr)
+      : lights_(lights),
+        model_(lights.front()),
         settings_(settings),
         monitor_(monitor),
-        maker_(model, layout, tracer),
-        planner_(model, settings, maker_),
-        triangles_(tracer, settings.seed, [&monitor] { return monitor.interrupted && monitor.interrupted(); }),
-        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
+        wanted_sums_(wanted_sums),
+        take_(std::move(take)),
+        judged_(judged_lights(lights)),
+        maker_(lights, layout, tracer),
+        planner_(model_, settings, maker_),
+        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {
+    triangles_.reserve(lights.size());
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      triangles_.emplace_back(tracer, settings.seed, [&monitor] { return monitor.interrupted && monitor.interrupted(); });
+    }
+  }
 
-  RadiationResult run() {
+  SharedOutcome run() {
     if (settings_.resume_from != nullptr) return resume(*settings_.resume_from);
     const bool told = settings_.begin_with && !planner_.fixed();
     const std::optional<Work> work = told ? planner_.begin_with(*settings_.begin_with) : choose_work();
@@ -96,7 +149,7 @@ class Solver {
   std::optional<SeriesOutcome> run_pilots(const Work& pilot) {
     const double before = seconds();
     begin(pilot, pilot_stream);
-    while (series_->sums.replicates < pilot_replicates) {
+    while (series_->replicates() < pilot_replicates) {
       if (!add_replicate(pilot_replicates, pilot_replicates)) {
         keep_fallback();
         return std::nullopt;
@@ -111,7 +164,7 @@ class Solver {
     return pilots;
   }
 
-  [[nodiscard]] SeriesOutcome outcome() const { return {series_->sums.replicates, direct_error(), indirect_error()}; }
+  [[nodiscard]] SeriesOutcome outcome() const { return {series_->replicates(), direct_error(), indirect_error()}; }
 
   // Begins a series of replicates; those of pilots have separate numbers.
   void begin(const Work& work, std::uint64_t stream = 0) {
@@ -120,31 +173,36 @@ class Solver {
     begun_with_ = 0;
     begun_s_ = seconds();
     completion_ = {};
-    triangles_.forget();
+    for (RunTriangles& of_light : triangles_) of_light.forget();
     const bool aimed = !settings_.grid_m;  // a grid that is asked for is the same everywhere
-    Incidence incidence = maker_.incidence(work.rays, aimed);
-    incidence.packets = work.packets;
-    incidence.sky_rays = planner_.sky_rays(work);
-    series_ = std::make_unique<Series>(maker_, incidence, settings_.element_errors);
-    queue_.begin({work.rays, aimed, work.packets, incidence.sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
-                 series_->conversion, planner_.at_once(work));
+    const std::size_t sky_rays = planner_.sky_rays(work);
+    std::vector<Incidence> incidences;
+    for (std::size_t k = 0; k < lights_.size(); ++k) {
+      Incidence& incidence = incidences.emplace_back(maker_.incidence(work.rays, aimed, k));
+      incidence.packets = work.packets;
+      incidence.sky_rays = sky_rays;
+    }
+    series_ = std::make_unique<Series>(maker_, incidences, settings_.element_errors, wanted_sums_);
+    queue_.begin({work.rays, aimed, work.packets, sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
+                 series_->conversions, planner_.at_once(work));
   }
 
   // Adds one replicate, and starts others: among the first `certain` ones or, where workers would be idle, among the first
   // `possible` ones. Returns false if the run has to end before the replicate is complete.
   bool add_replicate(std::size_t certain, std::size_t possible) {
-    const std::optional<Replicate> replicate =
-        queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
-    if (!replicate) return false;
-    series_->sums.add(*replicate);
+    const std::optional<ReplicateSet> made = queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
+    if (!made) return false;
+    series_->add(*made);
     release_fallback();
     traced_ += series_->grid_rays;
-    if (replicate->packets) {
-      traced_ += replicate->packets->packets + replicate->packets->sky_rays;
-      planner_.learn(work_, *replicate->packets);
+    if (const auto& packets = made->front().packets) {
+      traced_ += packets->packets + packets->sky_rays;
+      planner_.learn(work_, *packets);
     }
-    direct_s_ += replicate->direct_s;
-    indirect_s_ += replicate->indirect_s;
+    for (const Replicate& replicate : *made) {
+      direct_s_ += replicate.direct_s;
+      indirect_s_ += replicate.indirect_s;
+    }
     hand_over();
     return true;
   }
@@ -154,26 +212,42 @@ class Solver {
     if (!monitor_.wants_result || !monitor_.wants_result()) return;
     const bool use_fallback = fallback_ && series_->traced() < fallback_->traced();
     const Series& shown = use_fallback ? *fallback_ : *series_;
-    RadiationResult result = figures_of_series(shown, StopReason::interrupted);
-    copy_arrays(shown.sums, result);
+    RadiationResult result = figures_of_series(shown, 0, StopReason::interrupted);
+    copy_arrays(shown.front(), result);
     monitor_.receive_result(std::move(result));
   }
 
-  // The two errors are empty for a pass without any light in the scene.
-  [[nodiscard]] std::optional<JudgedError> direct_error(const RunSums& sums) const {
-    if (!model_.has_beam()) return std::nullopt;
-    JudgedError error = sunfleck::direct_error(sums, settings_.accuracy);
-    error.raise(triangles_.direct_error());
+  // The two errors of a light are empty for a pass without any light in the scene.
+  [[nodiscard]] std::optional<JudgedError> direct_error(const Series& series, std::size_t light) const {
+    if (!lights_[light].has_beam()) return std::nullopt;
+    JudgedError error = sunfleck::direct_error(*series.sums[light], settings_.accuracy);
+    error.raise(triangles_[light].direct_error());
     return error;
   }
-  [[nodiscard]] std::optional<JudgedError> indirect_error(const RunSums& sums) const {
+  [[nodiscard]] std::optional<JudgedError> indirect_error(const Series& series, std::size_t light) const {
     if (!has_indirect()) return std::nullopt;
-    JudgedError error = sunfleck::indirect_error(sums, settings_.accuracy);
-    error.raise(triangles_.indirect_error());
+    JudgedError error = sunfleck::indirect_error(*series.sums[light], settings_.accuracy);
+    error.raise(triangles_[light].indirect_error());
     return error;
   }
-  [[nodiscard]] double direct_error() const { return direct_error(series_->sums).value_or(JudgedError{}).relative; }
-  [[nodiscard]] double indirect_error() const { return indirect_error(series_->sums).value_or(JudgedError{}).relative; }
+  // Return the largest error of all judged lights.
+  [[nodiscard]] double direct_error() const {
+    return largest([this](std::size_t light) { return direct_error(*series_, light); });
+  }
+  [[nodiscard]] double indirect_error() const {
+    return largest([this](std::size_t light) { return indirect_error(*series_, light); });
+  }
+  template <class Error>
+  [[nodiscard]] double largest(const Error& error_of) const {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < lights_.size(); ++k) {
+      if (!judged_[k]) continue;
+      const double error = error_of(k).value_or(JudgedError{}).relative;
+      if (std::isnan(error)) return error;
+      largest = std::max(largest, error);
+    }
+    return largest;
+  }
 
   [[nodiscard]] bool bounds_hold() const {
     return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
@@ -181,7 +255,8 @@ class Solver {
 
   // Between two calls the errors of the triangles stay the same: estimating them takes a while.
   void judge_triangles() {
-    if (settings_.accuracy.of == ErrorTarget::triangle) triangles_.judge(series_->sums, settings_.accuracy);
+    if (settings_.accuracy.of != ErrorTarget::triangle) return;
+    for (std::size_t k = 0; k < lights_.size(); ++k) triangles_[k].judge(*series_->sums[k], settings_.accuracy);
   }
 
   void report_pilot() const {
@@ -199,7 +274,7 @@ class Solver {
     progress.pass = direct_lags ? Progress::Pass::direct : Progress::Pass::indirect;
     progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
     if (!std::isnan(direct + indirect)) progress.relative_error = direct_lags ? direct : indirect;
-    const auto done = static_cast<double>(series_->sums.replicates);
+    const auto done = static_cast<double>(series_->replicates());
     const double each_s = (seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
     const double left = std::min(static_cast<double>(expected) - done, affordable_replicates(each_s));
     progress.fraction = completion_.update(done, done + left);
@@ -211,9 +286,9 @@ class Solver {
   [[nodiscard]] double affordable_replicates(double seconds_each) const {
     double most = std::numeric_limits<double>::infinity();
     if (settings_.max_seconds) most = std::max(0.0, *settings_.max_seconds - seconds()) / std::max(seconds_each, 1e-9);
-    if (settings_.max_rays && series_->sums.replicates > 0) {
+    if (settings_.max_rays && series_->replicates() > 0) {
       const auto traced = static_cast<double>(series_->traced());
-      const double each = std::max(1.0, traced / static_cast<double>(series_->sums.replicates));
+      const double each = std::max(1.0, traced / static_cast<double>(series_->replicates()));
       most = std::min(most, std::floor(std::max(0.0, static_cast<double>(*settings_.max_rays) - traced) / each));
     }
     return most;
@@ -221,7 +296,7 @@ class Solver {
 
   // Returns how many replicates bring both errors down to their bounds, as far as this run shows.
   [[nodiscard]] std::size_t needed_replicates() const {
-    const std::size_t done = series_->sums.replicates;
+    const std::size_t done = series_->replicates();
     if (done < 2) return planned_replicates;
     const auto needs = [&](double error, double bound) {
       return replicates_needed(error, bound, settings_.accuracy.confidence, done, most_replicates);
@@ -231,30 +306,30 @@ class Solver {
 
   // Frees the pilots' sums as soon as no result will be made from them.
   void release_fallback() {
-    if (fallback_ && series_->sums.replicates >= 2 && series_->traced() >= fallback_->traced()) fallback_.reset();
+    if (fallback_ && series_->replicates() >= 2 && series_->traced() >= fallback_->traced()) fallback_.reset();
   }
 
   void keep_fallback() {
-    if (series_ && series_->sums.replicates >= 2) {
+    if (series_ && series_->replicates() >= 2) {
       fallback_ = std::move(series_);
     }
     series_.reset();
   }
 
-  RadiationResult resume(const SolveState& state) {
+  SharedOutcome resume(const SolveState& state) {
     begin(state.work, state.replicates());
-    ENSURE(restore(series_->sums, state.sums), ==, true);
-    begun_with_ = series_->sums.replicates;
+    ENSURE(restore(series_->front(), state.sums), ==, true);
+    begun_with_ = series_->replicates();
     traced_ = series_->traced();
     next_check_ = state.next_check;
     return run_on();
   }
 
-  RadiationResult run_on() { return planner_.fixed() ? run_fixed() : run_to_bound(); }
+  SharedOutcome run_on() { return planner_.fixed() ? run_fixed() : run_to_bound(); }
 
-  RadiationResult run_fixed() {
+  SharedOutcome run_fixed() {
     const auto all = static_cast<std::size_t>(planner_.asked_replicates());
-    while (series_->sums.replicates < all) {
+    while (series_->replicates() < all) {
       if (spent() || !add_replicate(all, all)) return finish(stop_);
       report(all);
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
@@ -264,10 +339,10 @@ class Solver {
 
   // The run ends at the first good check. That keeps the intervals true: with at least 12 replicates, ending where the error
   // happens to be small costs less than one percent of coverage.
-  RadiationResult run_to_bound() {
+  SharedOutcome run_to_bound() {
     while (true) {
       if (spent() || !add_replicate(next_check_, most_replicates)) return finish(stop_);
-      const std::size_t done = series_->sums.replicates;
+      const std::size_t done = series_->replicates();
       const bool due = done >= next_check_;
       if (due) judge_triangles();
       const bool good = due && bounds_hold();
@@ -280,14 +355,14 @@ class Solver {
   }
 
   void keep_state() const {
-    if (!monitor_.receive_state || series_->sums.replicates < 2 || planner_.fitted_to_time()) return;
-    monitor_.receive_state({work_, next_check_, pieces_of(series_->sums)});
+    if (!monitor_.receive_state || series_->replicates() < 2 || planner_.fitted_to_time()) return;
+    monitor_.receive_state({work_, next_check_, pieces_of(series_->front())});
   }
 
   // Returns true if the next replicate would need more rays than are left.
   bool spent() {
     if (!settings_.max_rays) return false;
-    const std::size_t done = series_->sums.replicates;
+    const std::size_t done = series_->replicates();
     const std::uint64_t run = series_->traced();
     const std::uint64_t next = done > 0 ? run / done : series_->grid_rays;
     if (run + next <= *settings_.max_rays) return false;
@@ -295,29 +370,37 @@ class Solver {
     return true;
   }
 
-  RadiationResult finish(StopReason reason) {
+  SharedOutcome finish(StopReason reason) {
     queue_.end();
     const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
     if (stopped && series_) keep_state();
-    const bool use_fallback = fallback_ && (!series_ || series_->sums.replicates < 2);
+    const bool use_fallback = fallback_ && (!series_ || series_->replicates() < 2);
     if (use_fallback) {
       series_ = std::move(fallback_);
     } else if (!series_) {
       begin(first_pilot);
     }
-    RadiationResult result = figures_of_series(*series_, reason);
-    result.work = work_;
-    result.next_work = planner_.next(work_, outcome());
-    move_arrays(series_->sums, result);
-    triangles_.refine(series_->sums, settings_.accuracy.confidence, result);
-    return result;
+    SharedOutcome outcome_of_all{reason, planner_.next(work_, outcome()), {}};
+    const double quantile = t_quantile(settings_.accuracy.confidence, series_->replicates());
+    if (lights_.size() > 1 && reason == StopReason::interrupted) return outcome_of_all;
+    for (const JointSums& sum : series_->joint) outcome_of_all.sum_errors.push_back(sum.errors(quantile));
+    for (std::size_t k = 0; k < lights_.size(); ++k) {
+      RunSums& sums = *series_->sums[k];
+      RadiationResult result = figures_of_series(*series_, k, reason);
+      result.work = work_;
+      result.next_work = outcome_of_all.next_work;
+      move_arrays(sums, result);
+      triangles_[k].refine(sums, settings_.accuracy.confidence, result);
+      take_(k, std::move(result), outcome_of_all);
+    }
+    return outcome_of_all;
   }
 
-  [[nodiscard]] RadiationResult figures_of_series(const Series& series, StopReason reason) const {
-    RadiationResult result = figures_of(series.sums, settings_.accuracy.confidence);
+  [[nodiscard]] RadiationResult figures_of_series(const Series& series, std::size_t light, StopReason reason) const {
+    RadiationResult result = figures_of(*series.sums[light], settings_.accuracy.confidence);
     result.stop = reason;
-    result.direct.replicates = series.sums.replicates;
-    result.direct.rays = series.sums.replicates * series.grid_rays;
+    result.direct.replicates = series.replicates();
+    result.direct.rays = series.replicates() * series.light_rays[light];
     if (result.direct.rays > 0) {
       result.direct.grid_m = std::sqrt(model_.plot.area_m2() / static_cast<double>(result.direct.rays));
     }
@@ -326,9 +409,9 @@ class Solver {
       summary.relative_error = error->relative;
       summary.judged = error->figure;
     };
-    tell(direct_error(series.sums), result.direct);
-    tell(indirect_error(series.sums), result.indirect);
-    if (!model_.has_beam()) result.direct.relative_error = 0.0;
+    tell(direct_error(series, light), result.direct);
+    tell(indirect_error(series, light), result.indirect);
+    if (!lights_[light].has_beam()) result.direct.relative_error = 0.0;
     // Replicates overlap, so the elapsed time is divided in proportion to the time spent in each pass.
     const double busy_s = direct_s_ + indirect_s_;
     result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
@@ -340,9 +423,13 @@ class Solver {
     return result;
   }
 
-  const RadiationModel& model_;
+  Lights lights_;
+  const RadiationModel& model_;  // the first light
   const SolveSettings& settings_;
   const Monitor& monitor_;
+  std::span<const LightSum> wanted_sums_;
+  TakeLight take_;
+  std::vector<bool> judged_;  // [light]
   ReplicateMaker maker_;
   WorkPlanner planner_;
   double start_s_ = clock_s();
@@ -356,8 +443,8 @@ class Solver {
   double begun_s_ = 0.0;        // time at which this series began
   Completion completion_;
   double direct_s_ = 0.0, indirect_s_ = 0.0;
-  RunTriangles triangles_;
-  ReplicateQueue queue_;  // declared last, so that it is destroyed first
+  std::vector<RunTriangles> triangles_;  // [light]
+  ReplicateQueue queue_;                 // declared last, so that it is destroyed first
 };
 
 }  // namespace
@@ -365,13 +452,26 @@ class Solver {
 std::optional<RunForecast> forecast(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
                                     const SolveSettings& settings, const Monitor& monitor) {
   if (is_dark(model)) return RunForecast{};
-  return Solver(model, layout, tracer, settings, monitor, nullptr).forecast();
+  return Solver({&model, 1}, layout, tracer, settings, monitor, nullptr).forecast();
 }
 
 RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
                       const Monitor& monitor, ReplicateHelpers* helpers) {
-  if (is_dark(model)) return dark_result(model, layout, settings);
-  return Solver(model, layout, tracer, settings, monitor, helpers).run();
+  std::optional<RadiationResult> result;
+  const auto take = [&](std::size_t, RadiationResult of_light, const SharedOutcome&) { result = std::move(of_light); };
+  static_cast<void>(solve_lights({&model, 1}, layout, tracer, settings, monitor, helpers, {}, take));
+  return *std::move(result);
+}
+
+SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
+                           const Monitor& monitor, ReplicateHelpers* helpers, std::span<const LightSum> sums,
+                           const TakeLight& take) {
+  if (lights.size() == 1 && is_dark(lights.front())) {
+    const SharedOutcome outcome{StopReason::bound_reached, {}, {}};
+    take(0, dark_result(lights.front(), layout, settings), outcome);
+    return outcome;
+  }
+  return Solver(lights, layout, tracer, settings, monitor, helpers, sums, take).run();
 }
 
 }  // namespace sunfleck

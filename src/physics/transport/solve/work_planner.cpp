@@ -77,9 +77,9 @@ std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
   const double grid_rays = settings_.grid_m ? grid_rays_asked() : 0.0;
   double most = most_rays;
   if (settings_.grid_m) most = std::min(most, std::max(first_pilot.packets, grid_rays));
-  const bool chooses_rays = model_.has_beam() && !settings_.grid_m;
+  const bool chooses_rays = has_beam_ && !settings_.grid_m;
   Work pilot;
-  if (model_.has_beam()) pilot.rays = std::min(first_pilot.rays, settings_.grid_m ? grid_rays : most_rays);
+  if (has_beam_) pilot.rays = std::min(first_pilot.rays, settings_.grid_m ? grid_rays : most_rays);
   if (settings_.grid_m) pilot.rays = std::max(pilot.rays, grid_rays / ray_forecast.next);
   if (maker_.has_indirect_pass()) pilot.packets = std::min(first_pilot.packets, most);
   while (true) {
@@ -113,7 +113,7 @@ WorkPlanner::Part WorkPlanner::forecast(double pilot, double growth, double affo
 Work WorkPlanner::balanced(const Part& rays, const Part& packets) const {
   Work work{rays.chosen, packets.chosen};
   const bool held_back = !fixed() && packets.chosen > 0.0 && packets.chosen == most_packets(work);
-  if (!held_back || !model_.has_beam()) return work;
+  if (!held_back || !has_beam_) return work;
   work.rays = std::max(first_pilot.rays, work.rays * std::pow(packets.wanted / packets.chosen, -packet_slope / ray_slope));
   return work;
 }
@@ -135,7 +135,7 @@ double WorkPlanner::affordable_growth(const SeriesOutcome& pilots) const {
 }
 
 Work WorkPlanner::begin_with(Work earlier) const {
-  if (model_.has_beam()) earlier.rays = std::max(first_pilot.rays, earlier.rays);
+  if (has_beam_) earlier.rays = std::max(first_pilot.rays, earlier.rays);
   if (maker_.has_indirect_pass()) earlier.packets = std::max(first_pilot.packets, earlier.packets);
   return earlier;
 }
@@ -195,7 +195,7 @@ double WorkPlanner::most_packets(Work work) const {
 }
 
 RayCounts WorkPlanner::ray_counts(const Work& work) const {
-  return {model_.has_beam() ? work.rays : 0.0, static_cast<double>(sky_rays(work)), work.packets};
+  return {has_beam_ ? work.rays : 0.0, static_cast<double>(sky_rays(work)), work.packets};
 }
 
 }  // namespace sunfleck

@@ -4,6 +4,7 @@
 
 #include "physics/transport/indirect/packet_memory.h"
 #include "physics/transport/indirect/replicate_maker.h"
+#include "physics/transport/model/lights.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
 #include "physics/transport/solve/solve.h"
@@ -37,7 +38,11 @@ class WorkPlanner {
 
   // All arguments must outlive the planner.
   WorkPlanner(const RadiationModel& model, const SolveSettings& settings, const ReplicateMaker& maker)
-      : model_(model), settings_(settings), maker_(maker), memory_(model) {}
+      : model_(model),
+        settings_(settings),
+        maker_(maker),
+        memory_(model, maker.lights().size()),
+        has_beam_(any_beam(maker.lights())) {}
 
   // Returns true if the settings give the work, so that no error ends the run.
   [[nodiscard]] bool fixed() const { return settings_.grid_m || settings_.passes; }
@@ -86,6 +91,7 @@ class WorkPlanner {
   const SolveSettings& settings_;
   const ReplicateMaker& maker_;
   PacketMemory memory_;
+  bool has_beam_;  // in any of the lights
   bool fitted_to_time_ = false;
 };
 

@@ -1,0 +1,197 @@
+#include "physics/transport/indirect/landing_points.h"
+
+#include "physics/light/sun.h"
+#include "shared/beam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sunfleck {
+namespace {
+
+// Drawing order of the first ground cell: the ground comes after all elements, ordered by cells of its map.
+constexpr std::uint32_t ground_order = 0x80000000U;
+// Rays towards the suns are traced in parts of about this many.
+constexpr std::size_t rays_at_once = std::size_t{1} << 18U;
+
+double weighted_rays(const BeamPart& part) {
+  return static_cast<double>(part.weight) * static_cast<double>(part.rays());
+}
+
+// One part of a light's beam with its sample.
+struct SampledPart {
+  const BeamPart* part = nullptr;
+  double ground_m2 = 0.0;  // level ground that a sampled ray represents
+};
+
+// A light's beam.
+struct SampledBeam {
+  std::size_t light = 0;
+  glm::dvec3 to_sun{0.0, 1.0, 0.0};
+  std::vector<SampledPart> parts;
+
+  // Returns the level ground that a sampled ray through the point represents.
+  [[nodiscard]] double ground_m2(const glm::dvec3& point_m) const {
+    for (const SampledPart& sampled : parts) {
+      if (&sampled == &parts.back()) break;
+      const shared::BeamBlock& block = sampled.part->block;
+      const glm::dvec3 u(block.edge_u), v(block.edge_v);
+      const glm::dvec3 from_corner = point_m - glm::dvec3(block.corner);
+      const double along_u = glm::dot(from_corner, u) / glm::dot(u, u);
+      const double along_v = glm::dot(from_corner, v) / glm::dot(v, v);
+      if (along_u >= 0.0 && along_u < 1.0 && along_v >= 0.0 && along_v < 1.0) return sampled.ground_m2;
+    }
+    return parts.back().ground_m2;
+  }
+};
+
+class LandingSampler {
+ public:
+  LandingSampler(const IndirectScene& scene, const LightFromAbove& light, const StopQuestion& stop)
+      : scene_(scene), light_(light), stop_(stop) {
+    for (std::size_t k = 0; k < light.first.size(); ++k) {
+      if (!light.first[k].beam.empty()) beams_.push_back({k, direction_to_sun(*scene.lights[k].sun), {}});
+    }
+  }
+
+  std::optional<LandingPoints> sample(double most, RandomStream& random) {
+    for (std::size_t k = 0; k < beams_.size(); ++k) {
+      if (!sample_beam(k, most / static_cast<double>(beams_.size()), random)) return std::nullopt;
+    }
+    if (beams_.size() > 1 && !share_points()) return std::nullopt;
+    return std::move(points_);
+  }
+
+ private:
+  [[nodiscard]] bool sample_beam(std::size_t number, double most, RandomStream& random) {
+    const std::vector<BeamPart>& beam = light_.first[beams_[number].light].beam;
+    double around = 0.0;
+    for (std::size_t k = 1; k < beam.size(); ++k) around += weighted_rays(beam[k]);
+    for (std::size_t k = 0; k < beam.size(); ++k) {
+      const double share = around == 0.0 ? 1.0 : k == 0 ? 0.5 : 0.5 * weighted_rays(beam[k]) / around;
+      if (!sample_part(number, beam[k], std::max(1.0, share * most), random)) return false;
+    }
+    return true;
+  }
+
+  // Traces at most `most` rays of a part again to find the points where they landed. Returns false if stopped.
+  [[nodiscard]] bool sample_part(std::size_t number, const BeamPart& part, double most, RandomStream& random) {
+    const FirstLandings& first = light_.first[beams_[number].light];
+    const auto count = static_cast<std::size_t>(std::min(most, static_cast<double>(part.rays())));
+    const double stride = static_cast<double>(part.rays()) / static_cast<double>(count);
+    const double offset = random.unit();
+    beams_[number].parts.push_back({&part, first.ground_per_ray_m2 * stride * part.weight});
+    std::vector<shared::Packet> rays(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t ray = sampled_ray(k, offset, stride, part.rays());
+      rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
+    }
+    std::vector<shared::Landing> landings(count);
+    if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
+    // Only the parts of one beam differ in weight, and only while no other light shares the points.
+    const double alone = first.beam.size() == 1 ? 1.0 : stride * part.weight;
+    for (const shared::Landing& landing : landings) {
+      if (landing.surface > shared::landed_on_ground) continue;
+      points_.places.push_back(place_of(scene_, landing));
+      points_.weights.resize(points_.weights.size() + light_.first.size());
+      points_.weights[points_.weights.size() - light_.first.size() + beams_[number].light] = alone;
+      sampled_by_.push_back(number);
+    }
+    return true;
+  }
+
+  // Finds which other lights shine on the points, and weighs these. Returns false if stopped.
+  [[nodiscard]] bool share_points() {
+    const std::size_t points_at_once = std::max<std::size_t>(1, rays_at_once / beams_.size());
+    for (std::size_t first = 0; first < points_.places.size(); first += points_at_once) {
+      if (!share_points(first, std::min(points_.places.size(), first + points_at_once))) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool share_points(std::size_t first, std::size_t end) {
+    std::vector<shared::Packet> rays;
+    rays.reserve((end - first) * (beams_.size() - 1));
+    for (std::size_t p = first; p < end; ++p) {
+      const Faces faces = faces_at(p);
+      for (std::size_t k = 0; k < beams_.size(); ++k) {
+        if (k != sampled_by_[p]) rays.push_back(faces.towards(beams_[k].to_sun));
+      }
+    }
+    std::vector<shared::Landing> ends(rays.size());
+    if (scene_.tracer.trace(scene_.block, rays, ends, stop_) == TraceOutcome::stopped) return false;
+    auto ray_end = ends.begin();
+    for (std::size_t p = first; p < end; ++p) {
+      const Faces faces = faces_at(p);
+      const glm::dvec3 point_m(faces.front.origin);
+      double density = 0.0;
+      double* const weights = &points_.weights[p * light_.first.size()];
+      for (std::size_t k = 0; k < beams_.size(); ++k) {
+        const bool shines = k == sampled_by_[p] || (ray_end++)->surface == shared::left_upwards;
+        const double per_ground = shines ? glm::dot(faces.normal, beams_[k].to_sun) / beams_[k].to_sun.y : 0.0;
+        weights[beams_[k].light] = per_ground;
+        density += std::abs(per_ground) / beams_[k].ground_m2(point_m);
+      }
+      for (std::size_t k = 0; k < beams_.size(); ++k) weights[beams_[k].light] /= density;
+    }
+    return true;
+  }
+
+  // Both faces at a point; the ground has only its upper one.
+  struct Faces {
+    shared::Packet front, back;
+    glm::dvec3 normal{0.0, 1.0, 0.0};
+
+    [[nodiscard]] shared::Packet towards(const glm::dvec3& to_sun) const {
+      shared::Packet ray = glm::dot(normal, to_sun) >= 0.0 ? front : back;
+      ray.direction = to_sun;
+      return ray;
+    }
+  };
+  [[nodiscard]] Faces faces_at(std::size_t point) const {
+    EmissionPoint place = points_.places[point];
+    const PacketStart front = start_at(scene_.model.canopy, place, place.a, place.b, scene_.frame);
+    Faces faces{front.packet, front.packet, front.normal};
+    if (place.surface == shared::landed_on_ground) return faces;
+    place.surface ^= 1U;
+    faces.back = start_at(scene_.model.canopy, place, place.a, place.b, scene_.frame).packet;
+    return faces;
+  }
+
+  const IndirectScene& scene_;
+  const LightFromAbove& light_;
+  const StopQuestion& stop_;
+  std::vector<SampledBeam> beams_;
+  LandingPoints points_;
+  std::vector<std::size_t> sampled_by_;  // [point], number of the beam
+};
+
+}  // namespace
+
+std::optional<LandingPoints> sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most,
+                                             RandomStream& random, const StopQuestion& stop) {
+  return LandingSampler(scene, light, stop).sample(most, random);
+}
+
+EmissionPoint place_of(const IndirectScene& scene, const shared::Landing& landing) {
+  EmissionPoint place{landing.surface, landing.triangle, landing.place_a, landing.place_b, -1};
+  if (landing.surface < shared::landed_on_ground) {
+    const std::uint32_t element = landing.surface / 2;
+    if (scene.surfaces.at(element).soil()) return place;
+    const Triangle& corners = scene.model.canopy.corners[element];
+    const float y_m = shared::landing_y(corners[0].y, corners[1].y, corners[2].y, landing.place_a, landing.place_b);
+    place.level = static_cast<int>(layer_at(scene.layout.layers, y_m));
+  } else if (landing.surface == shared::landed_on_ground) {
+    place.order = ground_order + shared::soil_cell(scene.block.ground, {landing.place_a, landing.place_b});
+  } else if (landing.surface == shared::left_upwards) {
+    place.level = scene.layout.layers.count;
+  }
+  return place;
+}
+
+std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays) {
+  return static_cast<std::uint32_t>(std::min((static_cast<double>(k) + offset) * stride, static_cast<double>(rays - 1)));
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,40 @@
+#pragma once
+// The points from which the packets of the first round start: where beam rays landed.
+//
+// Each point is the landing of a beam ray of one light, taken in a systematic sample of its rays. Where several lights share the
+// packets, rays from the point towards the other suns tell which of them shine there too. With n_i samples of beam i for each area of
+// level ground, light i lands at the point with n_i |n . s_i| V_i / sin h_i samples per area, n being the normal, s_i the direction
+// to the sun, h_i its elevation, and V_i 1 where it shines and 0 elsewhere. The point then stands for the flux
+// E_k |n . s_k| V_k / sin h_k of each light k divided by the sum of these densities over all lights (the balance heuristic, Veach
+// and Guibas 1995, SIGGRAPH, eq. 14), so that each light is estimated from all points on which it shines.
+
+#include "physics/transport/indirect/indirect_scene.h"
+
+#include "base/random.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sunfleck {
+
+struct LandingPoints {
+  std::vector<EmissionPoint> places;  // [point], on the side on which the sampled ray landed
+  // [point * lights + light], the flux of that light that lands there, relative to all points; below 0 where it lands on the other
+  // side of the element.
+  std::vector<double> weights;
+};
+
+// Samples about `most` landings, the same number for each light with a beam; of several parts of a beam the first one gets half. Where
+// there are fewer rays, all of them are taken. Returns nothing if stopped.
+[[nodiscard]] std::optional<LandingPoints> sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most,
+                                                           RandomStream& random, const StopQuestion& stop);
+
+// Returns the place of a landing, from which the flux that it scatters back is shot.
+[[nodiscard]] EmissionPoint place_of(const IndirectScene& scene, const shared::Landing& landing);
+
+// Returns the k-th ray of a systematic sample that takes one ray in `stride`. The offset is uniform over [0, 1). The last
+// sum may round up to `rays`.
+[[nodiscard]] std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays);
+
+}  // namespace sunfleck

@@ -1,0 +1,31 @@
+#pragma once
+// The lights of one simulation. They share its packets: a packet's way through the canopy does not depend on the light it carries.
+
+#include "physics/transport/model/model.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// Models that differ in nothing but the sun, the sky and the flux of the bands, at least one. [light]
+using Lights = std::span<const RadiationModel>;
+
+// Packets carry quanta for each light in each band. Returns the number of that column, [waveband][light].
+[[nodiscard]] constexpr std::size_t column_of(std::size_t band, std::size_t light, std::size_t lights) {
+  return band * lights + light;
+}
+
+// A light and its weight in a sum.
+struct LightShare {
+  std::size_t light = 0;
+  double weight = 1.0;
+};
+// A sum of lights, such as that of the steps of a date.
+using LightSum = std::vector<LightShare>;
+
+[[nodiscard]] bool any_beam(Lights lights);
+[[nodiscard]] bool any_sky(Lights lights);
+
+}  // namespace sunfleck
