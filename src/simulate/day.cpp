@@ -186,6 +186,7 @@ SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, in
   of_triangles.triangle_light = true;
   SolveSettings settings = solve_settings(of_triangles, scene, threads);
   settings.max_seconds.reset();
+  settings.shade_groups = ShadeGroups::leaves;
   return settings;
 }
 

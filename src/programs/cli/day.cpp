@@ -10,6 +10,7 @@
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"
 #include "files/results/tables/day_tables.h"
+#include "programs/cli/process.h"
 #include "programs/cli/terminal.h"
 #include "simulate/day.h"
 #include "simulate/day_blocks.h"
@@ -207,6 +208,7 @@ void open_day_folder(const fs::path& folder, FolderLock& lock, StepStore& store,
 
 int run_day(const DayOptions& asked) {
   start_at_terminal(asked.run);
+  keep_freed_memory();
   Stopwatch watch;
   Ranks ranks;
   DayOptions options = asked;

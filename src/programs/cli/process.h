@@ -8,6 +8,9 @@ namespace sunfleck {
 // the system.
 void prepare_process();
 
+// Keeps freed memory for later use, up to a quarter of a gigabyte, where the same large arrays come back again and again.
+void keep_freed_memory();
+
 // Call at the very end. Flushes standard output; if that fails the run failed, unless the reader merely stopped reading.
 // Returns the exit status.
 [[nodiscard]] int finish_output(int status);

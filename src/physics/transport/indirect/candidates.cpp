@@ -107,17 +107,17 @@ void Candidates::clear() {
 void Candidates::sort() {
   std::vector<std::uint32_t> order = sorted_by_order(places_);
   std::stable_partition(order.begin(), order.end(), [this](std::uint32_t k) { return !on_lower_side(places_[k]); });
-  std::vector<EmissionPoint> places;
-  std::vector<std::int64_t> sorted;
-  places.reserve(places_.size());
-  sorted.reserve(quanta_.size());
+  sorted_places_.clear();
+  sorted_quanta_.clear();
+  sorted_places_.reserve(places_.size());
+  sorted_quanta_.reserve(quanta_.size());
   for (const std::uint32_t candidate : order) {
-    places.push_back(places_[candidate]);
+    sorted_places_.push_back(places_[candidate]);
     const auto own = quanta(candidate);
-    sorted.insert(sorted.end(), own.begin(), own.end());
+    sorted_quanta_.insert(sorted_quanta_.end(), own.begin(), own.end());
   }
-  places_ = std::move(places);
-  quanta_ = std::move(sorted);
+  std::swap(places_, sorted_places_);
+  std::swap(quanta_, sorted_quanta_);
 }
 
 std::vector<std::int64_t> Candidates::totals() const {

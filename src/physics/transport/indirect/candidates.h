@@ -55,6 +55,9 @@ class Candidates {
   std::size_t columns_;
   std::vector<EmissionPoint> places_;  // [candidate]
   std::vector<std::int64_t> quanta_;   // [candidate * columns + column]
+  // Memory into which they are sorted; kept, because every round needs it again.
+  std::vector<EmissionPoint> sorted_places_;
+  std::vector<std::int64_t> sorted_quanta_;
 };
 
 // Packets drawn from candidates.

@@ -22,8 +22,10 @@ constexpr std::uint64_t most_rounds = 20000;
 // First stream of random numbers, apart from those of the beam.
 constexpr std::uint64_t indirect_stream = std::uint64_t{1} << 48U;
 // Where lights share the packets, points where beams landed, per packet of the first round. A ray towards each sun goes out from
-// every point.
+// every point. Scaling a column to its exact total is a ratio estimate, whose bias falls as 1 / landings: the second number is the least for
+// each light.
 constexpr double shared_landings_per_packet = 0.25;
+constexpr double least_shared_landings = 64;
 
 // Shares of the skies' flux that the rays drawn so far carry.
 class SkyShares {
@@ -104,8 +106,7 @@ class IndirectPass {
       for (std::size_t k = band(c); k < scattered.size(); k += bands_) start_[c] += static_cast<double>(scattered[k]);
       sums_.ledger[c].incident += quanta_[c]->lamps;
     }
-    const std::optional<LandingPoints> points =
-        sample_landings(scene_, light_, order_.packets * (lights_ > 1 ? shared_landings_per_packet : 1.0), random_, stop_);
+    const std::optional<LandingPoints> points = sample_landings(scene_, light_, wanted_landings(), random_, stop_);
     if (!points) return std::nullopt;
     add_first_candidates(*points);
     add_lamps();
@@ -132,6 +133,12 @@ class IndirectPass {
   [[nodiscard]] std::size_t band(std::size_t column) const { return column / lights_; }
   // Returns what the direct pass found in the light of a column.
   [[nodiscard]] const FirstLandings& first(std::size_t column) const { return light_.first[column % lights_]; }
+
+  // Returns how many landings of beam rays packets start from.
+  [[nodiscard]] double wanted_landings() const {
+    if (lights_ == 1) return order_.packets;
+    return std::max(shared_landings_per_packet * order_.packets, least_shared_landings * static_cast<double>(lights_));
+  }
 
   // Sends the sky rays, each with its share of the skies' flux, and leaves the scattered flux waiting. Returns false if
   // stopped.

@@ -20,6 +20,13 @@ class PlaceSums {
   // Holds `width` sums, all 0, for each of `places` places. There are fewer than 2^32 places.
   PlaceSums(std::size_t places, std::size_t width) : places_(places), width_(width) {}
 
+  // Does the same, in the form of all sums if those of `like` have it.
+  PlaceSums(std::size_t places, std::size_t width, const PlaceSums& like) : PlaceSums(places, width) {
+    if (like.is_list()) return;
+    all_ = true;
+    values_.resize(size());
+  }
+
   // Returns the number of sums, places times width.
   [[nodiscard]] std::size_t size() const { return places_ * width_; }
 

@@ -23,6 +23,8 @@ class ReplicateMaker {
  public:
   // All arguments must outlive the maker, and the models must not change.
   ReplicateMaker(Lights lights, const CounterLayout& layout, Tracer& tracer);
+  ReplicateMaker(const RadiationModel& light, const CounterLayout& layout, Tracer& tracer)
+      : ReplicateMaker(Lights(&light, 1), layout, tracer) {}
 
   [[nodiscard]] Lights lights() const { return lights_; }
 

@@ -21,6 +21,10 @@ enum class ElementErrors {
   return errors == ElementErrors::refine || errors == ElementErrors::keep_sides_and_refine;
 }
 
+// Selects the groups whose light is divided between sunlit and shaded area: organs, the leaves in layers and all leaves, or all leaves
+// alone, which takes less time.
+enum class ShadeGroups { all, leaves };
+
 // Relative half-widths of the confidence intervals, and the figures to which they apply.
 struct Accuracy {
   double direct = 0.001;  // > 0

@@ -343,12 +343,12 @@ double Spread::half_width(double t_quantile, std::size_t replicates) const {
   return t_quantile * std::sqrt(std::max(0.0, squares - sum * sum / n) / (n - 1.0) / n);
 }
 
-RunSums::RunSums(const Conversion& of, ElementErrors element_errors)
+RunSums::RunSums(const Conversion& of, ElementErrors element_errors, ShadeGroups shade_groups)
     : conversion(of),
       landed(of.quanta.size()),
       ledgers(of.quanta.size()),
       bands(of.quanta.size()),
-      classes(of),
+      classes(of, shade_groups),
       elements(of.model.canopy.size()),
       soil_cells(of.layout.cells()) {
   const RadiationModel& model = of.model;

@@ -50,7 +50,7 @@ struct Spread {
 
 struct RunSums {
   // All replicates have the incidence of `conversion`, which must outlive the sums.
-  RunSums(const Conversion& conversion, ElementErrors element_errors);
+  RunSums(const Conversion& conversion, ElementErrors element_errors, ShadeGroups shade_groups = ShadeGroups::all);
 
   // Adds a replicate. Without an indirect pass the flux scattered by first landings counts as unshot, as does the sky's flux
   // in an endless canopy. Throws Error (failure) if the sums over all replicates would overflow: light between mirrors can

@@ -14,7 +14,9 @@ TriangleScene scene_of(const RunSums& sums) {
 
 TriangleLight RunTriangles::estimate(const RunSums& sums, std::span<const BeamLandings> landings,
                                      std::span<const std::int64_t> indirect, std::span<const std::int64_t> sky) {
-  if (!estimator_) estimator_.emplace(scene_of(sums), tracer_, seed_);
+  const TriangleScene scene = scene_of(sums);
+  if (!*neighbours_) neighbours_->emplace(scene.model, scene.layout, scene.surfaces);
+  if (!estimator_) estimator_.emplace(scene, **neighbours_, tracer_, seed_);
   const std::vector<std::int64_t> half_indirect = sums.half_side_landed.all();
   const std::vector<std::int64_t> half_sky = sums.half_side_sky.all();
   const std::size_t half = (sums.replicates + 1) / 2;
@@ -39,6 +41,7 @@ void RunTriangles::refine(const RunSums& sums, double confidence, RadiationResul
   if (!sums.keeps_half || sums.replicates < 2) return;
   TriangleLight light = estimate(sums, result.elements, result.side_indirect, result.side_sky);
   set_triangle_light(scene_of(sums), std::move(light), confidence, result);
+  estimator_.reset();
 }
 
 }  // namespace sunfleck

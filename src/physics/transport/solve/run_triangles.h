@@ -8,13 +8,19 @@
 #include "physics/transport/triangles/triangle_light.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace sunfleck {
 
+// The neighbours of a canopy's triangles, found when they are first needed; all lights share them.
+using LateNeighbours = std::shared_ptr<std::optional<TriangleNeighbours>>;
+
 class RunTriangles {
  public:
-  RunTriangles(Tracer& tracer, std::uint64_t seed, StopQuestion stop) : tracer_(tracer), seed_(seed), stop_(std::move(stop)) {}
+  RunTriangles(Tracer& tracer, std::uint64_t seed, LateNeighbours neighbours, StopQuestion stop)
+      : tracer_(tracer), seed_(seed), neighbours_(std::move(neighbours)), stop_(std::move(stop)) {}
 
   // Estimates the light of the triangles and keeps the errors that are compared with the bounds.
   void judge(const RunSums& sums, const Accuracy& accuracy);
@@ -25,7 +31,7 @@ class RunTriangles {
   [[nodiscard]] const JudgedError& direct_error() const { return direct_; }
   [[nodiscard]] const JudgedError& indirect_error() const { return indirect_; }
 
-  // Gives a result with all figures and arrays the light of its triangles.
+  // Gives a result with all figures and arrays the light of its triangles, and forgets what shadow points showed.
   void refine(const RunSums& sums, double confidence, RadiationResult& result);
 
  private:
@@ -34,6 +40,7 @@ class RunTriangles {
 
   Tracer& tracer_;
   std::uint64_t seed_;
+  LateNeighbours neighbours_;
   StopQuestion stop_;
   std::optional<TriangleEstimator> estimator_;
   JudgedError direct_, indirect_;

@@ -95,10 +95,11 @@ Estimate SpreadMean::estimate(double t_quantile) const {
   return {root, root > 0.0 ? std::min(half_width / (2.0 * root), std::sqrt(half_width)) : std::sqrt(half_width)};
 }
 
-ShadeClasses::ShadeClasses(const Conversion& conversion)
+ShadeClasses::ShadeClasses(const Conversion& conversion, ShadeGroups groups)
     : conversion_(conversion),
-      organ_open_m2_(conversion.model.canopy.organs.size()),
-      layer_open_m2_(conversion.areas.layer_foliage_m2.size()),
+      all_groups_(groups == ShadeGroups::all),
+      organ_open_m2_(all_groups_ ? conversion.model.canopy.organs.size() : 0),
+      layer_open_m2_(all_groups_ ? conversion.areas.layer_foliage_m2.size() : 0),
       leaf_open_m2_(1) {
   const RadiationModel& model = conversion.model;
   const std::vector<bool> hidden = hidden_elements(model, conversion.layout);
@@ -107,9 +108,10 @@ ShadeClasses::ShadeClasses(const Conversion& conversion)
     if (hidden[e]) continue;
     const Triangle& corners = model.canopy.corners[e];
     const double element_m2 = area_m2(corners);
-    organ_open_m2_[model.canopy.organ_of[e]] += element_m2;
+    if (all_groups_) organ_open_m2_[model.canopy.organ_of[e]] += element_m2;
     if (!conversion.areas.foliage[e]) continue;
     leaf_open_m2_[0] += element_m2;
+    if (!all_groups_) continue;
     shares.visit(e, corners, [&](std::size_t k, double share) { layer_open_m2_[k] += share * element_m2; });
   }
   ShadeMeans means;
@@ -155,6 +157,7 @@ void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
     if (conversion_.element_landings(replicate.counters, e).both() == 0) continue;
     const double lit_m2_per_landing = conversion_.exposure.lit_m2_per_landing(e);
     const bool foliage = conversion_.areas.foliage[e];
+    if (!all_groups_ && !foliage) continue;
     const std::size_t first = first_layer(conversion_.layout, canopy.corners[e]);
     std::size_t word = conversion_.layout.first_bin_word + 2 * std::size_t{conversion_.layout.first_bin[e]};
     for (std::size_t k = first; k < conversion_.layout.end_layer(e, first); ++k, word += 2) {
@@ -173,10 +176,10 @@ void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
         }
       };
       if (upper + lower == 0.0) continue;
+      if (foliage) add_to(groups.leaves[0]);
+      if (!all_groups_) continue;
       add_to(groups.organs[canopy.organ_of[e]]);
-      if (!foliage) continue;
-      add_to(groups.layers[k]);
-      add_to(groups.leaves[0]);
+      if (foliage) add_to(groups.layers[k]);
     }
   }
 }
@@ -189,6 +192,7 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
   std::vector<double> absorbed_w(bands), earlier_w_m2(bands), beam_w_m2(bands);
   replicate.packets->side_landed.for_each([&](std::size_t side, std::span<const std::int64_t> quanta) {
     const std::size_t e = side / 2;
+    if (!all_groups_ && !conversion_.areas.foliage[e]) return;
     const Triangle& corners = canopy.corners[e];
     const double element_m2 = area_m2(corners);
     const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
@@ -213,9 +217,10 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
         sums.lit_indirect_square[b] += lit * earlier_w_m2[b] * part_w;
       }
     };
+    if (conversion_.areas.foliage[e]) add_to(groups.leaves[0], 1.0);
+    if (!all_groups_) return;
     add_to(groups.organs[canopy.organ_of[e]], 1.0);
     if (!conversion_.areas.foliage[e]) return;
-    add_to(groups.leaves[0], 1.0);
     shares.visit(e, corners, [&](std::size_t k, double share) { add_to(groups.layers[k], share); });
   });
 }
@@ -253,11 +258,11 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, c
 }
 
 ShadeClassResult ShadeClasses::organ(std::size_t organ, const Errors& errors) const {
-  return result(organs_[organ], organ_open_m2_[organ], errors);
+  return all_groups_ ? result(organs_[organ], organ_open_m2_[organ], errors) : ShadeClassResult{};
 }
 
 ShadeClassResult ShadeClasses::layer(std::size_t layer, const Errors& errors) const {
-  return result(layers_[layer], layer_open_m2_[layer], errors);
+  return all_groups_ ? result(layers_[layer], layer_open_m2_[layer], errors) : ShadeClassResult{};
 }
 
 ShadeClassResult ShadeClasses::leaves(const Errors& errors) const {

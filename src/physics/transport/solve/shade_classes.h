@@ -4,6 +4,7 @@
 
 #include "physics/transport/indirect/conversion.h"
 #include "physics/transport/indirect/replicate.h"
+#include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/result.h"
 #include "physics/transport/model/statistics.h"
 
@@ -103,7 +104,7 @@ struct ShadeMeans {
 class ShadeClasses {
  public:
   // The conversion must outlive the object.
-  explicit ShadeClasses(const Conversion& conversion);
+  explicit ShadeClasses(const Conversion& conversion, ShadeGroups groups = ShadeGroups::all);
 
   // Adds a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the beam's landings on
   // it and the packets that land there are independent, so the product has no bias if both are even over the triangle. `earlier` is
@@ -115,7 +116,7 @@ class ShadeClasses {
     for (auto* groups : {&self.organs_, &self.layers_, &self.leaves_}) archive(*groups);
   }
 
-  // Return the classes of an organ, of the leaves in a layer, or of all leaves. `unshot_share` is [band], and `event_w` the flux
+  // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are kept. `unshot_share` is [band], and `event_w` the flux
   // that one event brings, [band].
   struct Errors {
     double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
@@ -138,6 +139,7 @@ class ShadeClasses {
   [[nodiscard]] ShadeClassResult result(const ShadeMeans& means, double open_m2, const Errors& errors) const;
 
   const Conversion& conversion_;
+  bool all_groups_;
   std::vector<double> organ_open_m2_, layer_open_m2_, leaf_open_m2_;  // of triangles that light can reach
   std::vector<ShadeMeans> organs_, layers_, leaves_;                  // the last has one entry
 };

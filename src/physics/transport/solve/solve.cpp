@@ -40,7 +40,7 @@ constexpr double least_bright_share = 0.01;
 
 // Holds replicates with the same work.
 struct Series {
-  Series(const ReplicateMaker& maker, std::span<const Incidence> incidences, ElementErrors element_errors,
+  Series(const ReplicateMaker& maker, std::span<const Incidence> incidences, const SolveSettings& settings,
          std::span<const LightSum> wanted)
       : sums(incidences.size()), joint(wanted.begin(), wanted.end()) {
     conversions.reserve(incidences.size());
@@ -49,8 +49,9 @@ struct Series {
       light_rays.push_back(incidences[k].traced_rays);
       grid_rays += incidences[k].traced_rays;
     }
-    tbb::parallel_for(std::size_t{0}, sums.size(),
-                      [&](std::size_t k) { sums[k] = std::make_unique<RunSums>(conversions[k], element_errors); });
+    tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) {
+      sums[k] = std::make_unique<RunSums>(conversions[k], settings.element_errors, settings.shade_groups);
+    });
   }
 
   void add(const ReplicateSet& replicates) {
@@ -101,9 +102,10 @@ class Solver {
         maker_(lights, layout, tracer),
         planner_(model_, settings, maker_),
         queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {
+    const auto neighbours = std::make_shared<std::optional<TriangleNeighbours>>();
     triangles_.reserve(lights.size());
     for (std::size_t k = 0; k < lights.size(); ++k) {
-      triangles_.emplace_back(tracer, settings.seed, [&monitor] { return monitor.interrupted && monitor.interrupted(); });
+      triangles_.emplace_back(tracer, settings.seed, neighbours, [&monitor] { return monitor.interrupted && monitor.interrupted(); });
     }
   }
 
@@ -182,7 +184,7 @@ class Solver {
       incidence.packets = work.packets;
       incidence.sky_rays = sky_rays;
     }
-    series_ = std::make_unique<Series>(maker_, incidences, settings_.element_errors, wanted_sums_);
+    series_ = std::make_unique<Series>(maker_, incidences, settings_, wanted_sums_);
     queue_.begin({work.rays, aimed, work.packets, sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
                  series_->conversions, planner_.at_once(work));
   }

@@ -39,6 +39,7 @@ struct SolveSettings {
   // speed of the machine, and such a run has no state: a run resumed from it would end in different bytes each time.
   bool fit_to_time = true;
   ElementErrors element_errors = ElementErrors::skip;
+  ShadeGroups shade_groups = ShadeGroups::all;  // states and resumed runs have all
   // Number of replicates made at the same time if there is an indirect pass and no max_rays.
   int replicates_at_once = 2;
   std::optional<double> memory_bytes;       // limit for all replicates being made; empty: no limit

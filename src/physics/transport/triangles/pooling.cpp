@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace sunfleck {
@@ -118,16 +119,17 @@ class TreePooling {
   }
 
   void shrink() {
-    for (std::size_t scale = 0; scale < scales; ++scale) {
+    std::array<std::vector<std::uint32_t>, scales> of_scale;
+    for (std::uint32_t k = 0; k < splits_.size(); ++k) of_scale[splits_[k].scale].push_back(k);
+    for (const std::vector<std::uint32_t>& numbers : of_scale) {
       std::vector<double> differences, noise;
-      for (const Split& split : splits_) {
-        if (split.scale != scale) continue;
-        differences.push_back(split.difference);
-        noise.push_back(noise_of(split));
+      for (const std::uint32_t k : numbers) {
+        differences.push_back(splits_[k].difference);
+        noise.push_back(noise_of(splits_[k]));
       }
       const Shrinkage shrinkage(differences, noise);
-      for (Split& split : splits_) {
-        if (split.scale != scale) continue;
+      for (const std::uint32_t k : numbers) {
+        Split& split = splits_[k];
         const Posterior posterior = shrinkage.of(split.difference, noise_of(split));
         split.correction = posterior.mean * split.spread();
         split.variance = posterior.variance * split.spread() * split.spread();

@@ -37,11 +37,11 @@ void apportion(std::span<const double> values, std::int64_t total, std::span<std
   }
 }
 
-std::vector<double> areas_within_reach_m2(const TriangleScene& scene) {
-  const std::vector<bool> hidden = hidden_elements(scene.model, scene.layout);
+std::vector<double> areas_within_reach_m2(const RadiationModel& model, const CounterLayout& layout) {
+  const std::vector<bool> hidden = hidden_elements(model, layout);
   std::vector<double> areas;
   areas.reserve(hidden.size());
-  for (std::size_t e = 0; e < hidden.size(); ++e) areas.push_back(hidden[e] ? 0.0 : area_m2(scene.model.canopy.corners[e]));
+  for (std::size_t e = 0; e < hidden.size(); ++e) areas.push_back(hidden[e] ? 0.0 : area_m2(model.canopy.corners[e]));
   return areas;
 }
 
@@ -161,28 +161,32 @@ class Estimation {
 
 }  // namespace
 
-TriangleEstimator::TriangleEstimator(const TriangleScene& scene, Tracer& tracer, std::uint64_t seed)
+TriangleNeighbours::TriangleNeighbours(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces)
+    : areas_m2(areas_within_reach_m2(model, layout)) {
+  for (std::size_t t = 0; t < tree_count; ++t) {
+    trees.push_back(make_surface_tree(model.canopy, surfaces.number_of, areas_m2, t));
+  }
+}
+
+TriangleEstimator::TriangleEstimator(const TriangleScene& scene, const TriangleNeighbours& neighbours, Tracer& tracer,
+                                     std::uint64_t seed)
     : model_(scene.model),
       layout_(scene.layout),
       surfaces_(scene.surfaces),
       tracer_(tracer),
       seed_(seed),
-      areas_m2_(areas_within_reach_m2(scene)) {
-  for (std::size_t t = 0; t < tree_count; ++t) {
-    trees_.push_back(make_surface_tree(model_.canopy, surfaces_.number_of, areas_m2_, t));
-  }
-}
+      neighbours_(neighbours) {}
 
 TriangleLight TriangleEstimator::estimate(const BeamExposure& exposure, const TriangleSums& sums, const StopQuestion& stop) {
   if (!shades_ && model_.has_beam()) {
-    shades_ = ask_shadow_points(model_, layout_, exposure, trees_.front(), tracer_, seed_, stop);
+    shades_ = ask_shadow_points(model_, layout_, exposure, neighbours_.trees.front(), tracer_, seed_, stop);
   }
   std::optional<std::vector<ElementShade>> shades = shades_;
   if (shades) {
-    const std::vector<std::uint32_t> doubted = BeamShares(exposure, sums, areas_m2_).doubted(*shades);
+    const std::vector<std::uint32_t> doubted = BeamShares(exposure, sums, neighbours_.areas_m2).doubted(*shades);
     if (!ask_doubted(model_, layout_, doubted, tracer_, seed_, stop, *shades)) shades.reset();
   }
-  return Estimation({model_, layout_, surfaces_, exposure}, sums, areas_m2_, trees_, shades ? &*shades : nullptr).run();
+  return Estimation({model_, layout_, surfaces_, exposure}, sums, neighbours_.areas_m2, neighbours_.trees, shades ? &*shades : nullptr).run();
 }
 
 TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence) {

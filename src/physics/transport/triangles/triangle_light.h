@@ -40,11 +40,19 @@ struct TriangleErrors {
   std::vector<double> indirect;  // [band], of all other light on both sides together
 };
 
+// What the estimates in all lights of a canopy share.
+struct TriangleNeighbours {
+  TriangleNeighbours(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
+
+  std::vector<double> areas_m2;  // [element]; 0 where no light comes
+  std::vector<SurfaceTree> trees;
+};
+
 class TriangleEstimator {
  public:
   // All arguments must outlive the estimator, which keeps what the points showed: `exposure` of later scenes may differ only in
   // the number of rays.
-  TriangleEstimator(const TriangleScene& scene, Tracer& tracer, std::uint64_t seed);
+  TriangleEstimator(const TriangleScene& scene, const TriangleNeighbours& neighbours, Tracer& tracer, std::uint64_t seed);
 
   // Estimates the light of each element and side. Scattered light and sky light are pooled over neighbours (pooling.h). Of the
   // beam, points of the element are asked whether they see the sun (shadow_points.h), and their share is joined with the
@@ -58,8 +66,7 @@ class TriangleEstimator {
   const Surfaces& surfaces_;
   Tracer& tracer_;
   std::uint64_t seed_;
-  std::vector<double> areas_m2_;  // [element]; 0 where no light comes
-  std::vector<SurfaceTree> trees_;
+  const TriangleNeighbours& neighbours_;
   std::optional<std::vector<ElementShade>> shades_;
 };
 

@@ -210,5 +210,25 @@ TEST(Sky, IsContinuousAtTheZenithAndEndsAtTheHorizon) {
   }
 }
 
+// The mean of several skies has the mean of their radiances everywhere, and draws directions accordingly.
+TEST(MeanSky, HasTheMeanRadiance) {
+  const std::vector<Sky> skies{Sky(SkyModel{}, low_sun), Sky(general(12), low_sun),
+                               Sky(general(12), paper_sun)};
+  const Sky mean = Sky::mean_of(skies);
+  double sum = 0.0;
+  for (std::size_t cell = 0; cell < std::size_t{Sky::rows} * Sky::columns; cell += 97) {
+    double radiance = 0.0;
+    for (const Sky& sky : skies) radiance += sky.radiance_of_cell(cell) / 3.0;
+    EXPECT_NEAR(mean.radiance_of_cell(cell), radiance, 1e-12);
+    sum += radiance;
+  }
+  EXPECT_GT(sum, 0.0);
+  double spherical = 0.0;
+  for (const Sky& sky : skies) spherical += sky.spherical_irradiance() / 3.0;
+  EXPECT_NEAR(mean.spherical_irradiance(), spherical, 1e-12);
+  const glm::dvec3 drawn = mean.draw_by_horizontal_irradiance(0.4, 0.7);
+  EXPECT_EQ(mean.radiance(drawn), mean.radiance_of_cell(Sky::cell_of(drawn)));
+}
+
 }  // namespace
 }  // namespace sunfleck::test

@@ -65,7 +65,7 @@ class LocalMailbox final : public Mailbox {
 class RanksTest : public ::testing::Test {
  protected:
   using Make =
-      std::function<std::optional<Replicate>(ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&)>;
+      std::function<std::optional<ReplicateSet>(ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&)>;
 
   // Starts a worker with this rank; `make` may replace its way of making replicates.
   void start(int rank, const Make& make, const StopQuestion& interrupted = {}) {
@@ -113,7 +113,7 @@ class RanksTest : public ::testing::Test {
   }
 
   static constexpr auto usual_ = [](ReplicateMaker& maker, const ReplicateOrder& order, const Conversion& conversion,
-                                    const StopQuestion& stop) { return maker.make(order, conversion, stop); };
+                                    const StopQuestion& stop) { return maker.make(order, {&conversion, 1}, stop); };
 
   RadiationModel model_ = test::light_mix();
   test::Prepared prepared_{model_};
@@ -154,7 +154,7 @@ TEST_F(RanksTest, MayBeSlowAndOutOfTurn) {
   const auto alone = test::all_numbers(solve_alone());
   start_all([](ReplicateMaker& maker, const ReplicateOrder& order, const Conversion& conversion, const StopQuestion& stop) {
     std::this_thread::sleep_for(std::chrono::milliseconds(order.number % 3 * 10));
-    return maker.make(order, conversion, stop);
+    return maker.make(order, {&conversion, 1}, stop);
   });
   EXPECT_TRUE(test::all_numbers(solve_with_helpers()) == alone);
 }
@@ -163,12 +163,12 @@ TEST_F(RanksTest, MayBeSlowAndOutOfTurn) {
 TEST_F(RanksTest, DropWhatIsNotNeeded) {
   const std::size_t needed = solve_alone().direct.replicates;
   start_all([needed](ReplicateMaker& maker, const ReplicateOrder& order, const Conversion& conversion,
-                     const StopQuestion& stop) -> std::optional<Replicate> {
+                     const StopQuestion& stop) -> std::optional<ReplicateSet> {
     if (order.number < most_replicates && order.number >= needed) {  // excludes the pilot's replicates
       while (!stop()) std::this_thread::sleep_for(1ms);
       return std::nullopt;
     }
-    return maker.make(order, conversion, stop);
+    return maker.make(order, {&conversion, 1}, stop);
   });
   EXPECT_EQ(solve_with_helpers().direct.replicates, needed);
   EXPECT_EQ(solve_with_helpers().direct.replicates, needed);
@@ -199,7 +199,7 @@ TEST_F(RanksTest, TellOfASignal) {
 }
 
 TEST_F(RanksTest, ThatFailEndTheRun) {
-  start_all([](ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&) -> std::optional<Replicate> {
+  start_all([](ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&) -> std::optional<ReplicateSet> {
     throw_device("its card", "gone", "get another");
   });
   const std::string message = refusal_of([this] { static_cast<void>(solve_with_helpers()); }, ErrorKind::device);

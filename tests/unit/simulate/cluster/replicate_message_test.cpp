@@ -64,9 +64,9 @@ TEST(Words, OfEndlessLengthTakeNoMemory) {
 class Replicates : public ::testing::Test {
  protected:
   // Makes a replicate just as for the scene.
-  [[nodiscard]] Replicate make(const ReplicateOrder& order) {
+  [[nodiscard]] ReplicateSet make(const ReplicateOrder& order) {
     const Conversion conversion = maker_.conversion(maker_.incidence(order.beam_rays, order.aimed));
-    return *maker_.make(order, conversion, [] { return false; });
+    return *maker_.make(order, {&conversion, 1}, [] { return false; });
   }
   [[nodiscard]] ReplicateOrder order(double packets) const { return {4000.0, true, packets, 500, 0.01, 1, 7}; }
 
@@ -79,11 +79,13 @@ class Replicates : public ::testing::Test {
 // Packed again, they give the same bytes, which contain the whole replicate.
 TEST_F(Replicates, ArriveAsTheyWereMade) {
   for (const double packets : {0.0, 1000.0}) {
-    const Replicate made = make(order(packets));
-    const Bytes bytes = pack(ReplicateKey{1, 7}, made);
+    const ReplicateSet all_made = make(order(packets));
+    const Bytes bytes = pack(ReplicateKey{1, 7}, all_made);
     EXPECT_EQ(unpack_key(bytes).number, 7U);
-    const Replicate got = unpack_replicate(bytes, maker_.blank(order(packets)));
-    EXPECT_TRUE(pack(ReplicateKey{1, 7}, got) == bytes);
+    const ReplicateSet all_got = unpack_replicates(bytes, maker_.blank(order(packets)));
+    EXPECT_TRUE(pack(ReplicateKey{1, 7}, all_got) == bytes);
+    const Replicate& made = all_made.front();
+    const Replicate& got = all_got.front();
     EXPECT_EQ(got.counters, made.counters);
     EXPECT_EQ(got.passed.reached, made.passed.reached);
     ASSERT_EQ(got.packets.has_value(), packets > 0.0);
@@ -98,24 +100,49 @@ TEST_F(Replicates, ArriveAsTheyWereMade) {
 
 TEST_F(Replicates, AreRefusedUnlessWhole) {
   const Bytes good = pack(ReplicateKey{1, 7}, make(order(1000.0)));
-  const Replicate blank = maker_.blank(order(1000.0));
-  expect_whole_only(good, [&](std::span<const std::byte> cut) { static_cast<void>(unpack_replicate(cut, blank)); });
+  const ReplicateSet blank = maker_.blank(order(1000.0));
+  expect_whole_only(good, [&](std::span<const std::byte> cut) { static_cast<void>(unpack_replicates(cut, blank)); });
 }
 
 TEST_F(Replicates, OfOtherSizesAreRefused) {
   const Bytes good = pack(ReplicateKey{1, 7}, make(order(1000.0)));
   const auto expect_refused = [&](const auto& change) {
-    Replicate blank = maker_.blank(order(1000.0));
-    change(blank);
-    EXPECT_THROW(static_cast<void>(unpack_replicate(good, blank)), Error);
+    ReplicateSet blank = maker_.blank(order(1000.0));
+    change(blank.front());
+    EXPECT_THROW(static_cast<void>(unpack_replicates(good, blank)), Error);
   };
   expect_refused([](Replicate& r) { r.counters.pop_back(); });
   expect_refused([](Replicate& r) { r.passed.down.push_back(0); });
   expect_refused([](Replicate& r) { r.packets.reset(); });
   expect_refused([](Replicate& r) { r.packets->side_sky = PlaceSums(); });
   expect_refused([](Replicate& r) { r.packets->ledger.emplace_back(); });
-  EXPECT_THROW(static_cast<void>(unpack_replicate(pack(ReplicateKey{1, 7}, make(order(0.0))), maker_.blank(order(1000.0)))),
+  ReplicateSet of_two_lights = maker_.blank(order(1000.0));
+  of_two_lights.push_back(of_two_lights.front());
+  EXPECT_THROW(static_cast<void>(unpack_replicates(good, of_two_lights)), Error);
+  EXPECT_THROW(static_cast<void>(unpack_replicates(pack(ReplicateKey{1, 7}, make(order(0.0))), maker_.blank(order(1000.0)))),
                Error);
+}
+
+// A replicate in several lights arrives with the sums of each.
+TEST_F(Replicates, ArriveInAllTheirLights) {
+  std::vector<RadiationModel> lights(3, model_);
+  for (std::size_t k = 0; k < lights.size(); ++k) lights[k].bands[0].direct_w_m2 *= 1.0 + static_cast<double>(k);
+  ReplicateMaker maker(lights, prepared_.layout, tracer_);
+  const ReplicateOrder of_all = order(1000.0);
+  std::vector<Conversion> conversions;
+  conversions.reserve(lights.size());
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    conversions.push_back(maker.conversion(maker.incidence(of_all.beam_rays, of_all.aimed, k), k));
+  }
+  const ReplicateSet made = *maker.make(of_all, conversions, [] { return false; });
+  const ReplicateSet got = unpack_replicates(pack(ReplicateKey{1, 7}, made), maker.blank(of_all));
+  ASSERT_EQ(got.size(), lights.size());
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    EXPECT_EQ(got[k].counters, made[k].counters);
+    EXPECT_EQ(got[k].packets->side_landed.all(), made[k].packets->side_landed.all());
+    EXPECT_EQ(got[k].packets->receivers.down, made[k].packets->receivers.down);
+    EXPECT_EQ(got[k].packets->ledger[0].absorbed_vegetation, made[k].packets->ledger[0].absorbed_vegetation);
+  }
 }
 
 }  // namespace
