@@ -27,7 +27,7 @@ constexpr std::uint32_t ground_order = 0x80000000U;
 class IndirectPass {
  public:
   IndirectPass(const IndirectScene& scene, const ReplicateOrder& order, const FirstLandings& first,
-               const std::vector<BandQuanta>& quanta, const StopQuestion& stop)
+               const std::vector<BandQuanta>& quanta, PassArrays& arrays, const StopQuestion& stop)
       : scene_(scene),
         order_(order),
         first_(first),
@@ -35,8 +35,9 @@ class IndirectPass {
         stop_(stop),
         random_(order.seed, indirect_stream + order.number),
         sums_(scene.model, scene.layout, scene.surfaces),
-        waiting_(quanta.size()),
-        next_(quanta.size()),
+        arrays_(arrays),
+        waiting_(arrays.waiting),
+        next_(arrays.next),
         start_(quanta.size()),
         sky_(quanta.size()),
         layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, quanta.size()),
@@ -44,6 +45,9 @@ class IndirectPass {
         reflected_(quanta.size()),
         transmitted_(quanta.size()) {
     if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model);
+    arrays_.sources.clear();
+    waiting_.clear();
+    next_.clear();
   }
 
   std::optional<IndirectSums> run() {
@@ -55,9 +59,8 @@ class IndirectPass {
       }
       sums_.ledger[b].incident += quanta_[b].lamps;
     }
-    const std::optional<std::vector<Source>> sources = sample_first_landings();
-    if (!sources) return std::nullopt;
-    add_first_candidates(*sources);
+    if (!sample_first_landings()) return std::nullopt;
+    add_first_candidates();
     add_lamps();
     sums_.first_candidates = waiting_.size();
     retire_faint_bands();
@@ -71,18 +74,6 @@ class IndirectPass {
   }
 
  private:
-  // A side that the light of a sampled beam ray leaves, and the optics of the face on which it landed.
-  struct Source {
-    EmissionPoint place;
-    double rays = 1.0;                              // that the sampled one stands for, by weight, up to a common factor
-    const std::vector<FaceOptics>* face = nullptr;  // null for the soil plane
-    bool transmitted = false;
-
-    [[nodiscard]] double weight(const Soil* soil, std::size_t band) const {
-      if (face == nullptr) return soil != nullptr ? rays * soil->reflectance[band] : 0.0;
-      return rays * (transmitted ? (*face)[band].transmittance : (*face)[band].reflectance);
-    }
-  };
   // The start and the ray that lead to a landing.
   struct Way {
     EmissionPoint from;
@@ -132,17 +123,17 @@ class IndirectPass {
     return !shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), scene_.block.ground);
   }
 
-  // Traces a systematic sample of the beam rays again to find the points where they landed: as many as there are packets, half of
-  // them from the first of several parts, or every ray where there are no more. Returns nothing if stopped.
-  [[nodiscard]] std::optional<std::vector<Source>> sample_first_landings() {
-    std::vector<Source> sources;
+  // Traces a systematic sample of the beam rays again to find the points where they landed: as many as there are packets or as the
+  // order allows, half of them from the first of several parts, or every ray where there are no more. Returns false if stopped.
+  [[nodiscard]] bool sample_first_landings() {
+    const double most = std::min(order_.packets, order_.sampled_rays);
     double around = 0.0;
     for (std::size_t k = 1; k < first_.beam.size(); ++k) around += weighted_rays(first_.beam[k]);
     for (std::size_t k = 0; k < first_.beam.size(); ++k) {
       const double part = around == 0.0 ? 1.0 : k == 0 ? 0.5 : 0.5 * weighted_rays(first_.beam[k]) / around;
-      if (!sample_landings(first_.beam[k], std::max(1.0, part * order_.packets), sources)) return std::nullopt;
+      if (!sample_landings(first_.beam[k], std::max(1.0, part * most))) return false;
     }
-    return sources;
+    return true;
   }
 
   [[nodiscard]] static double weighted_rays(const BeamPart& part) {
@@ -150,50 +141,63 @@ class IndirectPass {
   }
 
   // Adds the sources of a sample of at most `most` rays of a part. Returns false if stopped.
-  [[nodiscard]] bool sample_landings(const BeamPart& part, double most, std::vector<Source>& sources) {
+  [[nodiscard]] bool sample_landings(const BeamPart& part, double most) {
     const auto count = static_cast<std::size_t>(std::min(most, static_cast<double>(part.rays())));
     const double stride = static_cast<double>(part.rays()) / static_cast<double>(count);
     const double rays_each = first_.beam.size() == 1 ? 1.0 : stride * part.weight;
     const double offset = random_.unit();
-    std::vector<shared::Packet> rays(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t ray = sampled_ray(k, offset, stride, part.rays());
-      rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
-    }
-    std::vector<shared::Landing> landings(count);
-    if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
-    for (const shared::Landing& landing : landings) {
-      const EmissionPoint place = place_of(landing);
-      if (landing.surface == shared::landed_on_ground) sources.push_back({place, rays_each, nullptr, false});
-      if (landing.surface >= shared::landed_on_ground) continue;
-      const SurfaceOptics& optics = scene_.model.optics[scene_.model.canopy.optics_of[landing.surface / 2]];
-      const auto* face = landing.surface % 2 == 0 ? &optics.upper : &optics.lower;
-      EmissionPoint other = place;
-      other.surface ^= 1U;
-      sources.push_back({place, rays_each, face, false});
-      sources.push_back({other, rays_each, face, true});
+    for (std::size_t first = 0; first < count; first += most_at_a_time) {
+      std::vector<shared::Packet>& rays = arrays_.packets;
+      rays.resize(std::min(most_at_a_time, count - first));
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        const std::uint32_t ray = sampled_ray(first + k, offset, stride, part.rays());
+        rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
+      }
+      if (!trace_packets()) return false;
+      for (const shared::Landing& landing : arrays_.landings) add_sources(landing, rays_each);
     }
     return true;
   }
 
+  // Traces arrays_.packets. Returns false if stopped.
+  [[nodiscard]] bool trace_packets() {
+    arrays_.landings.resize(arrays_.packets.size());
+    return scene_.tracer.trace(scene_.block, arrays_.packets, arrays_.landings, stop_) != TraceOutcome::stopped;
+  }
+
+  // Adds the sides that light leaves where a sampled ray landed.
+  void add_sources(const shared::Landing& landing, double rays_each) {
+    const EmissionPoint place = place_of(landing);
+    if (landing.surface == shared::landed_on_ground) arrays_.sources.push_back({place, false, rays_each, nullptr});
+    if (landing.surface >= shared::landed_on_ground) return;
+    const SurfaceOptics& optics = scene_.model.optics[scene_.model.canopy.optics_of[landing.surface / 2]];
+    const auto* face = landing.surface % 2 == 0 ? &optics.upper : &optics.lower;
+    EmissionPoint other = place;
+    other.surface ^= 1U;
+    arrays_.sources.push_back({place, false, rays_each, face});
+    arrays_.sources.push_back({other, true, rays_each, face});
+  }
+
   // Distributes the flux scattered by all beam rays over the sampled sources, band by band.
-  void add_first_candidates(const std::vector<Source>& sources) {
+  void add_first_candidates() {
+    const std::vector<BeamSource>& sources = arrays_.sources;
     const std::size_t bands = start_.size();
     const Soil* soil = scene_.model.soil ? &*scene_.model.soil : nullptr;
     std::vector<std::int64_t> scattered(bands), given(bands), own(bands);
     for (std::size_t k = 0; k < first_.scattered.size(); ++k) scattered[k % bands] += first_.scattered[k];
     std::vector<double> total(bands), sum(bands);
-    for (const Source& source : sources) {
-      for (std::size_t b = 0; b < bands; ++b) total[b] += source.weight(soil, b);
+    for (const BeamSource& source : sources) {
+      for (std::size_t b = 0; b < bands; ++b) total[b] += weight_of(source, soil, b);
     }
     for (std::size_t k = 0; k < first_.scattered.size(); ++k) layers_.move(k / bands, k % bands, -first_.scattered[k]);
     for (std::size_t k = 0; k < first_.scattered_by_zone.size(); ++k) {
       receivers_.move(k / bands, k % bands, -first_.scattered_by_zone[k]);
     }
-    for (const Source& source : sources) {
+    waiting_.reserve(waiting_.size() + sources.size());
+    for (const BeamSource& source : sources) {
       for (std::size_t b = 0; b < bands; ++b) {
         own[b] = 0;
-        const double weight = source.weight(soil, b);
+        const double weight = weight_of(source, soil, b);
         if (weight == 0.0) continue;
         sum[b] += weight;
         const auto up_to = static_cast<std::int64_t>(std::min(1.0, sum[b] / total[b]) * static_cast<double>(scattered[b]));
@@ -204,6 +208,11 @@ class IndirectPass {
       waiting_.add(source.place, own);
     }
     for (std::size_t b = 0; b < bands; ++b) sums_.ledger[b].unshot += scattered[b] - given[b];
+  }
+
+  [[nodiscard]] static double weight_of(const BeamSource& source, const Soil* soil, std::size_t band) {
+    if (source.face == nullptr) return soil != nullptr ? source.rays * soil->reflectance[band] : 0.0;
+    return source.rays * (source.transmitted ? (*source.face)[band].transmittance : (*source.face)[band].reflectance);
   }
 
   // Adds the flux that the lamps emit; its packets start anywhere on them.
@@ -224,31 +233,40 @@ class IndirectPass {
   // Draws packets from the waiting flux, traces them and leaves what they scatter waiting. Returns false if stopped.
   [[nodiscard]] bool shoot() {
     const std::size_t bands = start_.size();
-    waiting_.sort();
-    const Draw draw = draw_packets(waiting_, expected_draws(), random_);
+    next_.take_sorted(waiting_, arrays_.sorting);
+    std::swap(waiting_, next_);
+    find_expected_draws();
+    Draw& draw = arrays_.draw;
+    draw_packets(waiting_, arrays_.expected, random_, draw);
     move_drawn(draw);
-    const std::vector<shared::Packet> packets = start_packets(scene_.model.canopy, waiting_, draw, scene_.frame, random_);
-    std::vector<shared::Landing> landings(packets.size());
-    if (scene_.tracer.trace(scene_.block, packets, landings, stop_) == TraceOutcome::stopped) return false;
+    const PacketStarts starts(scene_.model.canopy, waiting_, draw, scene_.frame, random_);
+    const std::size_t count = draw.candidate.size();
     next_.clear();
-    for (std::size_t p = 0; p < packets.size(); ++p) {
-      const Way way = way_from(waiting_.place(draw.candidate[p]), packets[p]);
-      land(landings[p], way, std::span(draw.quanta).subspan(p * bands, bands));
+    next_.reserve(2 * count);
+    for (std::size_t first = 0; first < count; first += most_at_a_time) {
+      arrays_.packets.resize(std::min(most_at_a_time, count - first));
+      starts.write(first, arrays_.packets);
+      if (!trace_packets()) return false;
+      for (std::size_t p = 0; p < arrays_.packets.size(); ++p) {
+        const Way way = way_from(waiting_.place(draw.candidate[first + p]), arrays_.packets[p]);
+        land(arrays_.landings[p], way, std::span(draw.quanta).subspan((first + p) * bands, bands));
+      }
     }
     if (std::find(draw.kept.begin(), draw.kept.end(), true) != draw.kept.end()) keep_undrawn(draw);
     std::swap(waiting_, next_);
     sums_.most_candidates = std::max<std::uint64_t>(sums_.most_candidates, waiting_.size());
-    sums_.packets += packets.size();
+    sums_.packets += count;
     ++sums_.rounds;
     return true;
   }
 
-  // Returns how many packets are drawn from each candidate on average.
-  [[nodiscard]] std::vector<double> expected_draws() {
+  // Finds how many packets are drawn from each candidate on average.
+  void find_expected_draws() {
     const std::size_t bands = start_.size();
     double lit = 0.0;
     for (const double start : start_) lit += start > 0.0 ? 1.0 : 0.0;
-    std::vector<double> expected(waiting_.size());
+    std::vector<double>& expected = arrays_.expected;
+    expected.assign(waiting_.size(), 0.0);
     double total = 0.0;
     for (std::size_t k = 0; k < expected.size(); ++k) {
       const auto quanta = waiting_.quanta(k);
@@ -262,7 +280,6 @@ class IndirectPass {
     if (total < least_packets && total > 0.0) {
       for (double& e : expected) e *= least_packets / total;
     }
-    return expected;
   }
 
   // Draws more packets near the stand and fewer far away, as many as before in the first round. Returns the new total.
@@ -475,7 +492,8 @@ class IndirectPass {
   const StopQuestion& stop_;
   RandomStream random_;
   IndirectSums sums_;
-  Candidates waiting_, next_;
+  PassArrays& arrays_;
+  Candidates &waiting_, &next_;
   // Flux after the first landings, lamps included, [band]; the shares of a round are relative to it.
   std::vector<double> start_;
   std::vector<std::int64_t> sky_;                      // [band], sky flux that met something
@@ -498,8 +516,8 @@ IndirectScene::IndirectScene(const RadiationModel& of_model, const CounterLayout
 
 std::optional<IndirectSums> run_indirect_pass(const IndirectScene& scene, const ReplicateOrder& order,
                                               const FirstLandings& first, const std::vector<BandQuanta>& quanta,
-                                              const StopQuestion& stop) {
-  return IndirectPass(scene, order, first, quanta, stop).run();
+                                              PassArrays& arrays, const StopQuestion& stop) {
+  return IndirectPass(scene, order, first, quanta, arrays, stop).run();
 }
 
 std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays) {

@@ -3,6 +3,7 @@
 // round by round, from the points where it landed, until too little is left to matter.
 
 #include "physics/transport/indirect/candidates.h"
+#include "physics/transport/indirect/pass_arrays.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/indirect/sky_rays.h"
 #include "physics/transport/model/band_quanta.h"
@@ -52,10 +53,10 @@ struct IndirectScene {
 
 // Shoots until every band is retired, that is, until its unshot flux is below a tenth of the order's bound times the smaller
 // of the fluxes absorbed by vegetation and by soil, taken as at least first.least_of_vegetation and 1 % of the incident flux. Returns
-// nothing if stopped. Several threads may call this for the same scene if the tracer allows it.
+// nothing if stopped. Several threads may call this for the same scene, each with its own arrays, if the tracer allows it.
 [[nodiscard]] std::optional<IndirectSums> run_indirect_pass(const IndirectScene& scene, const ReplicateOrder& order,
                                                             const FirstLandings& first, const std::vector<BandQuanta>& quanta,
-                                                            const StopQuestion& stop);
+                                                            PassArrays& arrays, const StopQuestion& stop);
 
 // Returns the k-th ray of a systematic sample that takes one ray in `stride`. The offset is uniform over [0, 1). The last
 // sum may round up to `rays`.

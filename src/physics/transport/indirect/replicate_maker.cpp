@@ -5,6 +5,7 @@
 #include "physics/transport/model/beam_block.h"
 
 #include <chrono>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -30,7 +31,12 @@ TraceOutcome ReplicateMaker::OneAtATime::trace(const shared::PacketBlock& scene,
 }
 
 ReplicateMaker::ReplicateMaker(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer)
-    : model_(model), layout_(layout), surfaces_(model), aim_(make_stand_aim(model, layout)), tracer_(tracer) {
+    : model_(model),
+      layout_(layout),
+      surfaces_(model),
+      aim_(make_stand_aim(model, layout)),
+      tracer_(tracer),
+      spare_(model.bands.size()) {
   if (!model.planes.empty()) receivers_.emplace(model, layout, surfaces_);
   if (model.has_sky()) sky_.emplace(model, layout, nullptr);
   if (model.has_sky() && aim_) aimed_sky_.emplace(model, layout, &*aim_);
@@ -119,7 +125,9 @@ std::optional<Replicate> ReplicateMaker::make(const ReplicateOrder& order, const
                             conversion.scattered(replicate->direct),
                             conversion.scattered_by_zone(replicate->direct, replicate->passed),
                             conversion.least_of_vegetation(replicate->direct)};
-  replicate->packets = run_indirect_pass(*indirect_, order, first, conversion.quanta, stop);
+  std::unique_ptr<PassArrays> arrays = spare_.take();
+  replicate->packets = run_indirect_pass(*indirect_, order, first, conversion.quanta, *arrays, stop);
+  spare_.give_back(std::move(arrays));
   replicate->indirect_s = seconds_since(start) - replicate->direct_s;
   if (!replicate->packets) return std::nullopt;
   return replicate;
