@@ -126,7 +126,8 @@ class Solver {
     incidence.packets = work.packets;
     incidence.sky_rays = planner_.sky_rays(work);
     series_ = std::make_unique<Series>(maker_, incidence, settings_.element_errors);
-    queue_.begin({work.rays, aimed, work.packets, incidence.sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
+    queue_.begin({work.rays, aimed, work.packets, incidence.sky_rays, settings_.accuracy.indirect, settings_.seed, stream,
+                  planner_.sampled_rays(work)},
                  series_->conversion, planner_.at_once(work));
   }
 
@@ -297,6 +298,7 @@ class Solver {
 
   RadiationResult finish(StopReason reason) {
     queue_.end();
+    maker_.free_spare_memory();
     const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
     if (stopped && series_) keep_state();
     const bool use_fallback = fallback_ && (!series_ || series_->sums.replicates < 2);
