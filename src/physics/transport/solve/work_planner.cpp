@@ -21,18 +21,18 @@ struct Forecast {
     return forecast > trusted * pilot ? forecast / next : pilot;
   }
 };
-// Pilots with a sixteenth of the rays cost a sixteenth of the run. Over larger multiples the slope of the error is uncertain; that
-// of packets is known.
-constexpr Forecast ray_forecast{32, 16};
+// Pilots with a twentieth of the rays cost about a tenth of the run: their rays lie further apart, which makes each dearer. Over larger
+// multiples the slope of the error is uncertain; that of packets is known.
+constexpr Forecast ray_forecast{32, 20};
 constexpr Forecast packet_forecast{128, 64};
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
 // Half of a limit on rays or time is enough for this many replicates.
 constexpr int least_replicates = 8;
 // Exponents by which errors fall. The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation
-// G3), and more slowly while its cells are not yet small compared with the leaves: with rays^-0.68 neither pass waited for the
+// G3), and more slowly while its cells are not yet small compared with the leaves: with rays^-0.7 neither pass waited for the
 // other in maize. The error of packets falls with packets^-1/2.
-constexpr double ray_slope = 0.68;
+constexpr double ray_slope = 0.70;
 constexpr double packet_slope = 0.5;
 // Sky rays per packet of the first round when the work is not fixed, and the largest number of sky rays in one replicate.
 constexpr double sky_rays_per_packet = 2.0;
