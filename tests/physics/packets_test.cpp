@@ -14,6 +14,30 @@
 namespace sunfleck::test {
 namespace {
 
+Candidates sorted(const Candidates& candidates) {
+  Candidates result = candidates;
+  SortSpace space;
+  result.take_sorted(candidates, space);
+  return result;
+}
+
+Draw drawn(const Candidates& candidates, std::span<const double> expected, RandomStream& random) {
+  Draw draw;
+  draw_packets(candidates, expected, random, draw);
+  return draw;
+}
+
+// Starts the packets in two parts, as long rounds are.
+std::vector<shared::Packet> started(const Canopy& canopy, const Candidates& candidates, const Draw& draw,
+                                    const EmissionFrame& frame, RandomStream& random) {
+  const PacketStarts starts(canopy, candidates, draw, frame, random);
+  std::vector<shared::Packet> packets(draw.candidate.size());
+  const std::size_t part = packets.size() / 3;
+  starts.write(0, std::span(packets).first(part));
+  starts.write(part, std::span(packets).subspan(part));
+  return packets;
+}
+
 // Returns places with quanta of very different sizes in three bands, the last nearly empty, at levels from -1 (soil) upwards.
 Candidates scattered_candidates(std::size_t count, std::uint32_t levels, std::uint32_t seed) {
   Random random(seed);
@@ -63,7 +87,7 @@ TEST(Packets, PlacesAreDrawnBySideAndOrder) {
     candidates.add({shared::landed_on_ground, 0x80000000U + cell, number, 0.0F, -1}, some);
     number += 1.0F;
   }
-  candidates.sort();
+  candidates = sorted(candidates);
   std::vector<int> added;
   for (std::size_t k = 0; k < candidates.size(); ++k) added.push_back(static_cast<int>(candidates.place(k).a));
   EXPECT_EQ(added, (std::vector<int>{2, 4, 6, 0, 9, 8, 3, 5, 7, 1}));
@@ -92,7 +116,7 @@ TEST(Packets, DrawingKeepsTotalsAndExpectations) {
       const std::vector<double> expected = expectation(candidates, packets);
       for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         RandomStream random(seed, 0);
-        const Draw draw = draw_packets(candidates, expected, random);
+        const Draw draw = drawn(candidates, expected, random);
         EXPECT_TRUE(std::is_sorted(draw.candidate.begin(), draw.candidate.end()));
         ASSERT_EQ(draw.quanta.size(), 3 * draw.candidate.size());
         EXPECT_LE(std::abs(static_cast<double>(draw.candidate.size()) - packets), 1.0);
@@ -117,7 +141,7 @@ TEST(Packets, BandThatIsNotDrawnIsKept) {
   constexpr int draws = 20000;
   for (int k = 0; k < draws; ++k) {
     RandomStream random(9, static_cast<std::uint64_t>(k));
-    const Draw draw = draw_packets(candidates, std::array{3.0, 0.25}, random);
+    const Draw draw = drawn(candidates, std::array{3.0, 0.25}, random);
     ASSERT_FALSE(draw.kept[0]);
     kept += draw.kept[1] ? 1 : 0;
     ASSERT_EQ(draw.candidate.size(), draw.kept[1] ? 3U : 4U);
@@ -141,7 +165,7 @@ Scattered clustered_places(std::uint32_t levels) {
     };
     scattered.candidates.add({2 * k, k, 0.0F, 0.0F, level}, std::array{size(1.0), size(0.7), size(0.2)});
   }
-  scattered.candidates.sort();
+  scattered.candidates = sorted(scattered.candidates);
   for (std::size_t k = 0; k < scattered.candidates.size(); ++k) {
     const double order = scattered.candidates.place(k).order;
     scattered.landing.push_back(0.5 + 0.5 * std::sin(0.013 * order * order));
@@ -173,7 +197,7 @@ TEST(Packets, DrawingIsUnbiased) {
       std::array<ReplicateMean, 3> means;
       for (int k = 0; k < draws; ++k) {
         RandomStream random(11, static_cast<std::uint64_t>(k));
-        const Draw draw = draw_packets(places.candidates, expected, random);
+        const Draw draw = drawn(places.candidates, expected, random);
         for (std::size_t b = 0; b < 3; ++b) means[b].add(landed_share(places, draw, b));
       }
       for (std::size_t b = 0; b < 3; ++b) {
@@ -243,7 +267,7 @@ TEST(Packets, DirectionsAreCosineDistributedAboutTheSide) {
         RandomStream random(20, k);
         Draw draw;
         draw.candidate = {0};
-        const shared::Packet packet = start_packets(canopy, candidates, draw, {1e-5, 0.0}, random)[0];
+        const shared::Packet packet = started(canopy, candidates, draw, {1e-5, 0.0}, random)[0];
         const glm::dvec3 direction = glm::normalize(glm::dvec3(packet.direction));
         EXPECT_EQ(packet.element, 0U);
         const double cosine = glm::dot(direction, own) * (side == 0 ? 1.0 : -1.0);
@@ -274,7 +298,7 @@ TEST(Packets, LampsGlowEvenly) {
     RandomStream random(21, k);
     Draw draw;
     draw.candidate = {0};
-    const shared::Packet packet = start_packets(canopy, candidates, draw, {0.0, 0.0}, random)[0];
+    const shared::Packet packet = started(canopy, candidates, draw, {0.0, 0.0}, random)[0];
     const glm::dvec3 at = glm::dvec3(packet.origin) - a;
     const double b = cells * glm::dot(glm::cross(at, ac), unit_normal(canopy.corners[0])) / twice_m2;
     const double c = cells * glm::dot(glm::cross(ab, at), unit_normal(canopy.corners[0])) / twice_m2;
@@ -309,7 +333,7 @@ TEST(Packets, StartsAreWrappedIntoThePlot) {
   }
   const double offset_m = 1e-4;
   RandomStream random(1, 1);
-  const std::vector<shared::Packet> packets = start_packets(canopy, candidates, draw, {offset_m, 0.0}, random);
+  const std::vector<shared::Packet> packets = started(canopy, candidates, draw, {offset_m, 0.0}, random);
   int wrapped = 0;
   for (std::uint32_t k = 0; k < packets.size(); ++k) {
     const shared::Packet& packet = packets[k];
@@ -344,7 +368,7 @@ TEST(Packets, GroundSendsLightUp) {
   Draw draw;
   draw.candidate.assign(1000, 0);
   RandomStream random(1, 1);
-  for (const shared::Packet& packet : start_packets(canopy, candidates, draw, {1e-4, 0.125}, random)) {
+  for (const shared::Packet& packet : started(canopy, candidates, draw, {1e-4, 0.125}, random)) {
     EXPECT_EQ(packet.element, shared::no_element);
     EXPECT_NEAR(packet.origin.x, 0.25F, 1e-6F);
     EXPECT_NEAR(packet.origin.y, 0.1251F, 1e-6F);

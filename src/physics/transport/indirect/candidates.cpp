@@ -67,28 +67,37 @@ shared::Packet start_packet(const Canopy& canopy, const EmissionPoint& place, co
   return start.packet;
 }
 
-// Returns the numbers of the places in ascending order of `order`. The sort is stable: a radix sort in three passes of
-// eleven bits, several times faster here than std::stable_sort.
-std::vector<std::uint32_t> sorted_by_order(const std::vector<EmissionPoint>& places) {
-  constexpr unsigned bits = 11;
-  constexpr std::uint32_t mask = (1U << bits) - 1U;
-  std::vector<std::uint32_t> from(places.size());
-  std::vector<std::uint32_t> to(places.size());
-  std::iota(from.begin(), from.end(), 0U);
-  for (unsigned shift = 0; shift < 32; shift += bits) {
-    std::array<std::uint32_t, mask + 2> start{};
-    for (const EmissionPoint& place : places) ++start[(place.order >> shift & mask) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    for (const std::uint32_t k : from) to[start[places[k].order >> shift & mask]++] = k;
-    std::swap(from, to);
-  }
-  return from;
+// Bits of a key below the number of its candidate.
+constexpr unsigned number_bits = 31;
+constexpr std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1U;
+
+// Returns the place's rank in the drawing order. Upper sides are drawn before lower ones: with both sides of one landing next to each
+// other, systematic sampling would take the same side every time when a landing's expectation is one packet (rho + tau = 1).
+std::uint64_t rank_of(const EmissionPoint& place) {
+  return std::uint64_t{place.surface % 2} << 32U | place.order;
 }
 
-// Returns true for a lower side. Upper sides are drawn before lower ones: with both sides of one landing next to each other,
-// systematic sampling would take the same side every time when a landing's expectation is one packet (rho + tau = 1).
-bool on_lower_side(const EmissionPoint& place) {
-  return place.surface % 2 == 1;
+// Leaves keys in ascending order of rank in space.from: a rank of 33 bits above the number of the candidate. The sort is stable: a
+// radix sort in three passes of eleven bits, several times faster here than std::stable_sort. Keys hold their ranks, so that no pass
+// looks up a place.
+void sort_by_rank(const std::vector<EmissionPoint>& places, SortSpace& space) {
+  constexpr unsigned bits = 11;
+  constexpr unsigned passes = 3;
+  constexpr std::uint64_t mask = (1U << bits) - 1U;
+  EXPECT(places.size(), <=, number_mask);
+  space.from.resize(places.size());
+  space.to.resize(places.size());
+  std::array<std::array<std::uint32_t, mask + 2>, passes> start{};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::uint64_t rank = rank_of(places[k]);
+    space.from[k] = rank << number_bits | k;
+    for (unsigned pass = 0; pass < passes; ++pass) ++start[pass][(rank >> pass * bits & mask) + 1];
+  }
+  for (unsigned pass = 0; pass < passes; ++pass) {
+    std::partial_sum(start[pass].begin(), start[pass].end(), start[pass].begin());
+    for (const std::uint64_t key : space.from) space.to[start[pass][key >> (number_bits + pass * bits) & mask]++] = key;
+    std::swap(space.from, space.to);
+  }
 }
 
 }  // namespace
@@ -104,20 +113,20 @@ void Candidates::clear() {
   quanta_.clear();
 }
 
-void Candidates::sort() {
-  std::vector<std::uint32_t> order = sorted_by_order(places_);
-  std::stable_partition(order.begin(), order.end(), [this](std::uint32_t k) { return !on_lower_side(places_[k]); });
-  sorted_places_.clear();
-  sorted_quanta_.clear();
-  sorted_places_.reserve(places_.size());
-  sorted_quanta_.reserve(quanta_.size());
-  for (const std::uint32_t candidate : order) {
-    sorted_places_.push_back(places_[candidate]);
-    const auto own = quanta(candidate);
-    sorted_quanta_.insert(sorted_quanta_.end(), own.begin(), own.end());
+void Candidates::reserve(std::size_t candidates) {
+  places_.reserve(candidates);
+  quanta_.reserve(candidates * columns_);
+}
+
+void Candidates::take_sorted(const Candidates& other, SortSpace& space) {
+  sort_by_rank(other.places_, space);
+  places_.resize(other.places_.size());
+  quanta_.resize(other.quanta_.size());
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const std::size_t candidate = space.from[k] & number_mask;
+    places_[k] = other.places_[candidate];
+    for (std::size_t c = 0; c < columns_; ++c) quanta_[k * columns_ + c] = other.quanta_[candidate * columns_ + c];
   }
-  std::swap(places_, sorted_places_);
-  std::swap(quanta_, sorted_quanta_);
 }
 
 std::vector<std::int64_t> Candidates::totals() const {
@@ -168,9 +177,9 @@ void share_out(const Candidates& candidates, std::span<const double> expected, D
 
 }  // namespace
 
-Draw draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random) {
+void draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random, Draw& draw) {
   EXPECT(expected.size(), ==, candidates.size());
-  Draw draw;
+  draw.candidate.clear();
   double reached = random.unit();
   double taken = 1.0;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -178,10 +187,9 @@ Draw draw_packets(const Candidates& candidates, std::span<const double> expected
     for (; taken <= reached; taken += 1.0) draw.candidate.push_back(static_cast<std::uint32_t>(k));
   }
   const std::size_t columns = candidates.size() > 0 ? candidates.quanta(0).size() : 0;
-  draw.quanta.resize(draw.candidate.size() * columns);
+  draw.quanta.assign(draw.candidate.size() * columns, 0);
   draw.kept.assign(columns, false);
   share_out(candidates, expected, draw);
-  return draw;
 }
 
 PacketStart start_at(const Canopy& canopy, const EmissionPoint& place, double b, double c, const EmissionFrame& frame) {
@@ -202,21 +210,28 @@ PacketStart start_at(const Canopy& canopy, const EmissionPoint& place, double b,
   return start;
 }
 
-std::vector<shared::Packet> start_packets(const Canopy& canopy, const Candidates& candidates, const Draw& draw,
-                                          const EmissionFrame& frame, RandomStream& random) {
-  const PacketNumbers start{random.unit(), random.unit(), random.unit(), random.unit()};
+PacketStarts::PacketStarts(const Canopy& canopy, const Candidates& candidates, const Draw& draw, const EmissionFrame& frame,
+                           RandomStream& random)
+    : canopy_(canopy),
+      candidates_(candidates),
+      draw_(draw),
+      frame_(frame),
+      direction_u_(random.unit()),
+      direction_v_(random.unit()),
+      place_u_(random.unit()),
+      place_v_(random.unit()) {}
+
+void PacketStarts::write(std::size_t first, std::span<shared::Packet> packets) const {
   // Places on a lamp use the same sequence with the dimensions exchanged and a different step.
   constexpr double pace = 0.6180339887498949;
-  std::vector<shared::Packet> packets(draw.candidate.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 1024), [&](const auto& range) {
     for (std::size_t p = range.begin(); p < range.end(); ++p) {
-      const auto k = static_cast<double>(p);
-      const PacketNumbers numbers{fraction(start.direction_u + k * step_1), fraction(start.direction_v + k * step_2),
-                                  fraction(start.place_u + k * pace), fraction(start.place_v + k * pace * pace * step_1)};
-      packets[p] = start_packet(canopy, candidates.place(draw.candidate[p]), frame, numbers);
+      const auto k = static_cast<double>(first + p);
+      const PacketNumbers numbers{fraction(direction_u_ + k * step_1), fraction(direction_v_ + k * step_2),
+                                  fraction(place_u_ + k * pace), fraction(place_v_ + k * pace * pace * step_1)};
+      packets[p] = start_packet(canopy_, candidates_.place(draw_.candidate[first + p]), frame_, numbers);
     }
   });
-  return packets;
 }
 
 }  // namespace sunfleck

@@ -30,6 +30,11 @@ struct EmissionPoint {
 // Value of EmissionPoint::a that stands for a point chosen uniformly on the element: packets of lamps start there.
 inline constexpr float anywhere = -1.0F;
 
+// Arrays that sorting needs, kept from one sort to the next.
+struct SortSpace {
+  std::vector<std::uint64_t> from, to;
+};
+
 // Places with quanta in several columns: the bands of one light or of several (physics/transport/model/lights.h).
 class Candidates {
  public:
@@ -38,8 +43,10 @@ class Candidates {
   // Adds a place with its quanta, [column]. A place without quanta is dropped.
   void add(const EmissionPoint& place, std::span<const std::int64_t> quanta);
   void clear();
-  // Sorts the places by `order`; places of equal order keep the order in which they were added.
-  void sort();
+  void reserve(std::size_t candidates);
+  // Replaces these candidates by those of `other`, sorted by `order`, upper sides before lower ones. Places of equal order keep the
+  // order in which they were added.
+  void take_sorted(const Candidates& other, SortSpace& space);
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
   [[nodiscard]] const EmissionPoint& place(std::size_t candidate) const { return places_[candidate]; }
@@ -55,9 +62,6 @@ class Candidates {
   std::size_t columns_;
   std::vector<EmissionPoint> places_;  // [candidate]
   std::vector<std::int64_t> quanta_;   // [candidate * columns + column]
-  // Memory into which they are sorted; kept, because every round needs it again.
-  std::vector<EmissionPoint> sorted_places_;
-  std::vector<std::int64_t> sorted_quanta_;
 };
 
 // Packets drawn from candidates.
@@ -71,7 +75,8 @@ struct Draw {
 // rounded down or up. A packet carries its candidate's quanta divided by that expectation; each column is then scaled so that
 // all packets together carry exactly its total. (Scaling level by level would be biased, since it would be a ratio of a few
 // packets each.)
-[[nodiscard]] Draw draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random);
+// The arrays of `draw` are filled anew.
+void draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random, Draw& draw);
 
 // Splits landed quanta into parts that add up to them exactly. Each part is its exact share rounded down or up at random, so
 // that its expectation is right; a part whose coefficient is 0 gets exactly 0. `u` is uniform over [0, 1).
@@ -110,10 +115,24 @@ struct PacketStart {
 [[nodiscard]] PacketStart start_at(const Canopy& canopy, const EmissionPoint& place, double b, double c,
                                    const EmissionFrame& frame);
 
-// Returns the drawn packets with their origins and cosine-distributed directions. The directions of all packets of a round
+// Starts the drawn packets of a round with their origins and cosine-distributed directions. The directions of all packets of a round
 // form one additive sequence with a random start (based on the plastic number, as in canopy_view.h), so that neighbours in
 // the drawing order complement each other.
-[[nodiscard]] std::vector<shared::Packet> start_packets(const Canopy& canopy, const Candidates& candidates, const Draw& draw,
-                                                        const EmissionFrame& frame, RandomStream& random);
+class PacketStarts {
+ public:
+  // Draws four random numbers. All other arguments must outlive the starts.
+  PacketStarts(const Canopy& canopy, const Candidates& candidates, const Draw& draw, const EmissionFrame& frame,
+               RandomStream& random);
+
+  // Writes the packets that begin with number `first`.
+  void write(std::size_t first, std::span<shared::Packet> packets) const;
+
+ private:
+  const Canopy& canopy_;
+  const Candidates& candidates_;
+  const Draw& draw_;
+  const EmissionFrame& frame_;
+  double direction_u_, direction_v_, place_u_, place_v_;
+};
 
 }  // namespace sunfleck

@@ -73,7 +73,8 @@ class SkyShares {
 // The pass of one replicate, with the flux that is still on its way.
 class IndirectPass {
  public:
-  IndirectPass(const IndirectScene& scene, const ReplicateOrder& order, const LightFromAbove& light, const StopQuestion& stop)
+  IndirectPass(const IndirectScene& scene, const ReplicateOrder& order, const LightFromAbove& light, PassArrays& arrays,
+               const StopQuestion& stop)
       : scene_(scene),
         order_(order),
         light_(light),
@@ -83,8 +84,9 @@ class IndirectPass {
         columns_(lights_ * bands_),
         random_(order.seed, indirect_stream + order.number),
         sums_(scene.model, scene.layout, scene.surfaces, lights_),
-        waiting_(columns_),
-        next_(columns_),
+        arrays_(arrays),
+        waiting_(arrays.waiting),
+        next_(arrays.next),
         start_(columns_),
         sky_(columns_),
         layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, columns_),
@@ -92,6 +94,8 @@ class IndirectPass {
         reflected_(columns_),
         transmitted_(columns_) {
     if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
+    waiting_.clear();
+    next_.clear();
     for (std::size_t b = 0; b < bands_; ++b) {
       for (std::size_t k = 0; k < lights_; ++k) quanta_.push_back(&(*light.quanta[k])[b]);
     }
@@ -106,9 +110,8 @@ class IndirectPass {
       for (std::size_t k = band(c); k < scattered.size(); k += bands_) start_[c] += static_cast<double>(scattered[k]);
       sums_.ledger[c].incident += quanta_[c]->lamps;
     }
-    const std::optional<LandingPoints> points = sample_landings(scene_, light_, wanted_landings(), random_, stop_);
-    if (!points) return std::nullopt;
-    add_first_candidates(*points);
+    if (!sample_landings(scene_, light_, wanted_landings(), random_, stop_, arrays_)) return std::nullopt;
+    add_first_candidates(arrays_.points);
     add_lamps();
     sums_.first_candidates = waiting_.size();
     retire_faint_columns();
@@ -136,8 +139,9 @@ class IndirectPass {
 
   // Returns how many landings of beam rays packets start from.
   [[nodiscard]] double wanted_landings() const {
-    if (lights_ == 1) return order_.packets;
-    return std::max(shared_landings_per_packet * order_.packets, least_shared_landings * static_cast<double>(lights_));
+    const double most = std::min(order_.packets, order_.sampled_rays);
+    if (lights_ == 1) return most;
+    return std::max(shared_landings_per_packet * most, least_shared_landings * static_cast<double>(lights_));
   }
 
   // Sends the sky rays, each with its share of the skies' flux, and leaves the scattered flux waiting. Returns false if
@@ -236,6 +240,7 @@ class IndirectPass {
         receivers_.move(k / bands_, c, -landings.scattered_by_zone[k]);
       }
     }
+    waiting_.reserve(waiting_.size() + 2 * points.places.size());
     std::vector<double> total(columns_), sum(columns_);
     for_each_source(points, [&](const EmissionPoint&, std::span<const double> flux) {
       for (std::size_t c = 0; c < columns_; ++c) total[c] += flux[c];
@@ -273,30 +278,45 @@ class IndirectPass {
 
   // Draws packets from the waiting flux, traces them and leaves what they scatter waiting. Returns false if stopped.
   [[nodiscard]] bool shoot() {
-    waiting_.sort();
-    const Draw draw = draw_packets(waiting_, expected_draws(), random_);
+    next_.take_sorted(waiting_, arrays_.sorting);
+    std::swap(waiting_, next_);
+    find_expected_draws();
+    Draw& draw = arrays_.draw;
+    draw_packets(waiting_, arrays_.expected, random_, draw);
     move_drawn(draw);
-    const std::vector<shared::Packet> packets = start_packets(scene_.model.canopy, waiting_, draw, scene_.frame, random_);
-    std::vector<shared::Landing> landings(packets.size());
-    if (scene_.tracer.trace(scene_.block, packets, landings, stop_) == TraceOutcome::stopped) return false;
+    const PacketStarts starts(scene_.model.canopy, waiting_, draw, scene_.frame, random_);
+    const std::size_t count = draw.candidate.size();
     next_.clear();
-    for (std::size_t p = 0; p < packets.size(); ++p) {
-      const Way way = way_from(waiting_.place(draw.candidate[p]), packets[p]);
-      land(landings[p], way, std::span(draw.quanta).subspan(p * columns_, columns_));
+    next_.reserve(2 * count);
+    for (std::size_t first = 0; first < count; first += most_at_a_time) {
+      arrays_.packets.resize(std::min(most_at_a_time, count - first));
+      starts.write(first, arrays_.packets);
+      if (!trace_packets()) return false;
+      for (std::size_t p = 0; p < arrays_.packets.size(); ++p) {
+        const Way way = way_from(waiting_.place(draw.candidate[first + p]), arrays_.packets[p]);
+        land(arrays_.landings[p], way, std::span(draw.quanta).subspan((first + p) * columns_, columns_));
+      }
     }
     if (std::find(draw.kept.begin(), draw.kept.end(), true) != draw.kept.end()) keep_undrawn(draw);
     std::swap(waiting_, next_);
     sums_.most_candidates = std::max<std::uint64_t>(sums_.most_candidates, waiting_.size());
-    sums_.packets += packets.size();
+    sums_.packets += count;
     ++sums_.rounds;
     return true;
   }
 
-  // Returns how many packets are drawn from each candidate on average.
-  [[nodiscard]] std::vector<double> expected_draws() {
+  // Traces arrays_.packets. Returns false if stopped.
+  [[nodiscard]] bool trace_packets() {
+    arrays_.landings.resize(arrays_.packets.size());
+    return scene_.tracer.trace(scene_.block, arrays_.packets, arrays_.landings, stop_) != TraceOutcome::stopped;
+  }
+
+  // Finds how many packets are drawn from each candidate on average.
+  void find_expected_draws() {
     double lit = 0.0;
     for (const double start : start_) lit += start > 0.0 ? 1.0 : 0.0;
-    std::vector<double> expected(waiting_.size());
+    std::vector<double>& expected = arrays_.expected;
+    expected.assign(waiting_.size(), 0.0);
     double total = 0.0;
     for (std::size_t k = 0; k < expected.size(); ++k) {
       const auto quanta = waiting_.quanta(k);
@@ -310,7 +330,6 @@ class IndirectPass {
     if (total < least_packets && total > 0.0) {
       for (double& e : expected) e *= least_packets / total;
     }
-    return expected;
   }
 
   // Draws more packets near the stand and fewer far away, as many as before in the first round. Returns the new total.
@@ -511,7 +530,8 @@ class IndirectPass {
   std::vector<const BandQuanta*> quanta_;  // [column]
   RandomStream random_;
   IndirectSums sums_;
-  Candidates waiting_, next_;
+  PassArrays& arrays_;
+  Candidates &waiting_, &next_;
   // Flux after the first landings, lamps included, [column]; the shares of a round are relative to it.
   std::vector<double> start_;
   std::vector<std::int64_t> sky_;                      // [column], sky flux that met something
@@ -524,8 +544,8 @@ class IndirectPass {
 }  // namespace
 
 std::optional<IndirectSums> run_indirect_pass(const IndirectScene& scene, const ReplicateOrder& order,
-                                              const LightFromAbove& light, const StopQuestion& stop) {
-  return IndirectPass(scene, order, light, stop).run();
+                                              const LightFromAbove& light, PassArrays& arrays, const StopQuestion& stop) {
+  return IndirectPass(scene, order, light, arrays, stop).run();
 }
 
 }  // namespace sunfleck

@@ -7,6 +7,7 @@
 // packets start is described in landing_points.h.
 
 #include "physics/transport/indirect/indirect_scene.h"
+#include "physics/transport/indirect/pass_arrays.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/model/tracer.h"
 
@@ -18,6 +19,7 @@ namespace sunfleck {
 // of the fluxes absorbed by vegetation and by soil, taken as at least least_of_vegetation and 1 % of the incident flux. Returns
 // the sums of all columns, or nothing if stopped. Several threads may call this for the same scene if the tracer allows it.
 [[nodiscard]] std::optional<IndirectSums> run_indirect_pass(const IndirectScene& scene, const ReplicateOrder& order,
-                                                            const LightFromAbove& light, const StopQuestion& stop);
+                                                            const LightFromAbove& light, PassArrays& arrays,
+                                                            const StopQuestion& stop);
 
 }  // namespace sunfleck

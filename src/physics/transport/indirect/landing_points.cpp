@@ -12,8 +12,6 @@ namespace {
 
 // Drawing order of the first ground cell: the ground comes after all elements, ordered by cells of its map.
 constexpr std::uint32_t ground_order = 0x80000000U;
-// Rays towards the suns are traced in parts of about this many.
-constexpr std::size_t rays_at_once = std::size_t{1} << 18U;
 
 double weighted_rays(const BeamPart& part) {
   return static_cast<double>(part.weight) * static_cast<double>(part.rays());
@@ -48,19 +46,20 @@ struct SampledBeam {
 
 class LandingSampler {
  public:
-  LandingSampler(const IndirectScene& scene, const LightFromAbove& light, const StopQuestion& stop)
-      : scene_(scene), light_(light), stop_(stop) {
+  LandingSampler(const IndirectScene& scene, const LightFromAbove& light, const StopQuestion& stop, PassArrays& arrays)
+      : scene_(scene), light_(light), stop_(stop), arrays_(arrays), points_(arrays.points) {
+    points_.places.clear();
+    points_.weights.clear();
     for (std::size_t k = 0; k < light.first.size(); ++k) {
       if (!light.first[k].beam.empty()) beams_.push_back({k, direction_to_sun(*scene.lights[k].sun), {}});
     }
   }
 
-  std::optional<LandingPoints> sample(double most, RandomStream& random) {
+  [[nodiscard]] bool sample(double most, RandomStream& random) {
     for (std::size_t k = 0; k < beams_.size(); ++k) {
-      if (!sample_beam(k, most / static_cast<double>(beams_.size()), random)) return std::nullopt;
+      if (!sample_beam(k, most / static_cast<double>(beams_.size()), random)) return false;
     }
-    if (beams_.size() > 1 && !share_points()) return std::nullopt;
-    return std::move(points_);
+    return beams_.size() < 2 || share_points();
   }
 
  private:
@@ -82,28 +81,39 @@ class LandingSampler {
     const double stride = static_cast<double>(part.rays()) / static_cast<double>(count);
     const double offset = random.unit();
     beams_[number].parts.push_back({&part, first.ground_per_ray_m2 * stride * part.weight});
-    std::vector<shared::Packet> rays(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t ray = sampled_ray(k, offset, stride, part.rays());
-      rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
-    }
-    std::vector<shared::Landing> landings(count);
-    if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
     // Only the parts of one beam differ in weight, and only while no other light shares the points.
     const double alone = first.beam.size() == 1 ? 1.0 : stride * part.weight;
-    for (const shared::Landing& landing : landings) {
-      if (landing.surface > shared::landed_on_ground) continue;
-      points_.places.push_back(place_of(scene_, landing));
-      points_.weights.resize(points_.weights.size() + light_.first.size());
-      points_.weights[points_.weights.size() - light_.first.size() + beams_[number].light] = alone;
-      sampled_by_.push_back(number);
+    for (std::size_t begin = 0; begin < count; begin += most_at_a_time) {
+      std::vector<shared::Packet>& rays = arrays_.packets;
+      rays.resize(std::min(most_at_a_time, count - begin));
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        const std::uint32_t ray = sampled_ray(begin + k, offset, stride, part.rays());
+        rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
+      }
+      if (!trace()) return false;
+      for (const shared::Landing& landing : arrays_.landings) add_point(landing, number, alone);
     }
     return true;
   }
 
+  // Traces arrays_.packets. Returns false if stopped.
+  [[nodiscard]] bool trace() {
+    arrays_.landings.resize(arrays_.packets.size());
+    return scene_.tracer.trace(scene_.block, arrays_.packets, arrays_.landings, stop_) != TraceOutcome::stopped;
+  }
+
+  void add_point(const shared::Landing& landing, std::size_t number, double weight) {
+    if (landing.surface > shared::landed_on_ground) return;
+    const std::size_t lights = light_.first.size();
+    points_.places.push_back(place_of(scene_, landing));
+    points_.weights.resize(points_.weights.size() + lights);
+    points_.weights[points_.weights.size() - lights + beams_[number].light] = weight;
+    if (beams_.size() > 1) sampled_by_.push_back(number);
+  }
+
   // Finds which other lights shine on the points, and weighs these. Returns false if stopped.
   [[nodiscard]] bool share_points() {
-    const std::size_t points_at_once = std::max<std::size_t>(1, rays_at_once / beams_.size());
+    const std::size_t points_at_once = std::max<std::size_t>(1, most_at_a_time / beams_.size());
     for (std::size_t first = 0; first < points_.places.size(); first += points_at_once) {
       if (!share_points(first, std::min(points_.places.size(), first + points_at_once))) return false;
     }
@@ -111,7 +121,8 @@ class LandingSampler {
   }
 
   [[nodiscard]] bool share_points(std::size_t first, std::size_t end) {
-    std::vector<shared::Packet> rays;
+    std::vector<shared::Packet>& rays = arrays_.packets;
+    rays.clear();
     rays.reserve((end - first) * (beams_.size() - 1));
     for (std::size_t p = first; p < end; ++p) {
       const Faces faces = faces_at(p);
@@ -119,9 +130,8 @@ class LandingSampler {
         if (k != sampled_by_[p]) rays.push_back(faces.towards(beams_[k].to_sun));
       }
     }
-    std::vector<shared::Landing> ends(rays.size());
-    if (scene_.tracer.trace(scene_.block, rays, ends, stop_) == TraceOutcome::stopped) return false;
-    auto ray_end = ends.begin();
+    if (!trace()) return false;
+    auto ray_end = arrays_.landings.begin();
     for (std::size_t p = first; p < end; ++p) {
       const Faces faces = faces_at(p);
       const glm::dvec3 point_m(faces.front.origin);
@@ -162,16 +172,17 @@ class LandingSampler {
   const IndirectScene& scene_;
   const LightFromAbove& light_;
   const StopQuestion& stop_;
+  PassArrays& arrays_;
+  LandingPoints& points_;
   std::vector<SampledBeam> beams_;
-  LandingPoints points_;
-  std::vector<std::size_t> sampled_by_;  // [point], number of the beam
+  std::vector<std::size_t> sampled_by_;  // [point], number of the beam; empty for a single one
 };
 
 }  // namespace
 
-std::optional<LandingPoints> sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most,
-                                             RandomStream& random, const StopQuestion& stop) {
-  return LandingSampler(scene, light, stop).sample(most, random);
+bool sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most, RandomStream& random,
+                     const StopQuestion& stop, PassArrays& arrays) {
+  return LandingSampler(scene, light, stop, arrays).sample(most, random);
 }
 
 EmissionPoint place_of(const IndirectScene& scene, const shared::Landing& landing) {

@@ -8,27 +8,18 @@
 // E_k |n . s_k| V_k / sin h_k of each light k divided by the sum of these densities over all lights (the balance heuristic, Veach
 // and Guibas 1995, SIGGRAPH, eq. 14), so that each light is estimated from all points on which it shines.
 
-#include "physics/transport/indirect/indirect_scene.h"
-
 #include "base/random.h"
+#include "physics/transport/indirect/indirect_scene.h"
+#include "physics/transport/indirect/pass_arrays.h"
 
 #include <cstdint>
-#include <optional>
-#include <vector>
 
 namespace sunfleck {
 
-struct LandingPoints {
-  std::vector<EmissionPoint> places;  // [point], on the side on which the sampled ray landed
-  // [point * lights + light], the flux of that light that lands there, relative to all points; below 0 where it lands on the other
-  // side of the element.
-  std::vector<double> weights;
-};
-
-// Samples about `most` landings, the same number for each light with a beam; of several parts of a beam the first one gets half. Where
-// there are fewer rays, all of them are taken. Returns nothing if stopped.
-[[nodiscard]] std::optional<LandingPoints> sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most,
-                                                           RandomStream& random, const StopQuestion& stop);
+// Samples about `most` landings into arrays.points, the same number for each light with a beam; of several parts of a beam the first one
+// gets half. Where there are fewer rays, all of them are taken. Returns false if stopped.
+[[nodiscard]] bool sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most, RandomStream& random,
+                                   const StopQuestion& stop, PassArrays& arrays);
 
 // Returns the place of a landing, from which the flux that it scatters back is shot.
 [[nodiscard]] EmissionPoint place_of(const IndirectScene& scene, const shared::Landing& landing);

@@ -1,6 +1,7 @@
 #include "physics/transport/indirect/packet_memory.h"
 
 #include "physics/transport/indirect/candidates.h"
+#include "physics/transport/indirect/pass_arrays.h"
 
 #include <algorithm>
 
@@ -48,17 +49,18 @@ double PacketMemory::side_bytes(const RayCounts& counts, double most) const {
   return learned_ ? PlaceSums::likely_bytes(side_bytes_per_packet_ * counts.packets, most) : most;
 }
 
-// Returns the larger of two peaks: while candidates are copied into their order, and when packets have landed and left new
-// candidates.
+// The arrays of a pass stay for the next one (PassArrays), so that all of them count, each with its peak: those of candidates and of
+// their sorting in the round with most candidates.
 double PacketMemory::bytes(const RayCounts& counts) const {
   const double quanta_bytes = static_cast<double>(columns_) * sizeof(std::int64_t);
   const double candidate_bytes = sizeof(EmissionPoint) + quanta_bytes;
-  const double waiting = lamps_ + per_landing_ * first_landings(counts);
-  const double sorting = waiting * (2.0 * candidate_bytes + 2.0 * sizeof(std::uint32_t));
-  const double per_packet = sizeof(std::uint32_t) + quanta_bytes + ray_bytes + per_packet_ * candidate_bytes;
-  const double landed = waiting * candidate_bytes + counts.packets * per_packet;
-  const double first = counts.sky_rays * ray_bytes + waiting * candidate_bytes;
-  return std::max({sorting, landed, first});
+  const double first = lamps_ + per_landing_ * first_landings(counts);
+  const double most = std::max(first, per_packet_ * counts.packets);
+  const double candidates = most * (2.0 * candidate_bytes + 2.0 * sizeof(std::uint64_t) + sizeof(double));
+  const double draws = counts.packets * (sizeof(std::uint32_t) + quanta_bytes);
+  const double sources = 2.0 * std::min(counts.packets, counts.beam_rays) * sizeof(BeamSource);
+  const double rays = std::min(counts.packets, static_cast<double>(most_at_a_time)) * ray_bytes;
+  return candidates + draws + sources + rays + counts.sky_rays * ray_bytes;
 }
 
 }  // namespace sunfleck

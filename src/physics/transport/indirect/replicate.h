@@ -9,6 +9,7 @@
 #include "physics/transport/receivers/planes.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -81,7 +82,7 @@ using ReplicateSet = std::vector<Replicate>;
 struct ReplicateOrder {
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.beam_rays, self.aimed, self.packets, self.sky_rays, self.bound, self.seed, self.number);
+    archive(self.beam_rays, self.aimed, self.packets, self.sky_rays, self.bound, self.seed, self.number, self.sampled_rays);
   }
 
   double beam_rays = 0.0;    // approximate number, of the first part if there are several
@@ -91,6 +92,8 @@ struct ReplicateOrder {
   double bound = 0.003;      // of the indirect pass; its stop rule leaves a tenth of it unshot
   std::uint64_t seed = 1;
   std::uint64_t number = 0;
+  // Largest number of beam rays that are traced again to find where they landed; there is also at most one for each packet.
+  double sampled_rays = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace sunfleck

@@ -6,6 +6,7 @@
 #include "physics/transport/model/beam_block.h"
 
 #include <chrono>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -39,7 +40,8 @@ ReplicateMaker::ReplicateMaker(Lights lights, const CounterLayout& layout, Trace
       layout_(layout),
       surfaces_(model_),
       aim_(make_stand_aim(model_, layout)),
-      tracer_(tracer) {
+      tracer_(tracer),
+      spare_(lights.size() * model_.bands.size()) {
   if (!model_.planes.empty()) receivers_.emplace(model_, layout, surfaces_);
   if (any_sky(lights)) sky_.emplace(lights, layout, nullptr);
   if (any_sky(lights) && aim_) aimed_sky_.emplace(lights, layout, &*aim_);
@@ -143,7 +145,9 @@ std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, st
   const double direct_s = seconds_since(start);
   std::optional<IndirectSums> packets;
   if (indirect_ && order.packets > 0.0) {
-    packets = run_indirect_pass(*indirect_, order, light, stop);
+    std::unique_ptr<PassArrays> arrays = spare_.take();
+    packets = run_indirect_pass(*indirect_, order, light, *arrays, stop);
+    spare_.give_back(std::move(arrays));
     if (!packets) return std::nullopt;
     std::vector<IndirectSums> by_light = sums_by_light(*std::move(packets), lights_.size());
     for (std::size_t k = 0; k < lights_.size(); ++k) replicates[k].packets = std::move(by_light[k]);

@@ -4,6 +4,7 @@
 
 #include "physics/transport/indirect/conversion.h"
 #include "physics/transport/indirect/indirect.h"
+#include "physics/transport/indirect/pass_arrays.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/indirect/sky_rays.h"
 #include "physics/transport/model/beam_block.h"
@@ -53,6 +54,9 @@ class ReplicateMaker {
   [[nodiscard]] std::optional<ReplicateSet> make(const ReplicateOrder& order, std::span<const Conversion> conversions,
                                                  const StopQuestion& stop);
 
+  // Frees memory that is kept for the next replicate.
+  void free_spare_memory() { spare_.free(); }
+
  private:
   // A tracer that serves one thread at a time.
   class OneAtATime final : public Tracer {
@@ -86,6 +90,7 @@ class ReplicateMaker {
   std::optional<StandAim> aim_;
   std::optional<SkyRays> sky_, aimed_sky_;
   OneAtATime tracer_;
+  SparePassArrays spare_;
   std::optional<IndirectScene> indirect_;  // empty without a sky if no light is scattered after its first landing
 };
 

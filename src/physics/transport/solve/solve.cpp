@@ -105,7 +105,8 @@ class Solver {
     const auto neighbours = std::make_shared<std::optional<TriangleNeighbours>>();
     triangles_.reserve(lights.size());
     for (std::size_t k = 0; k < lights.size(); ++k) {
-      triangles_.emplace_back(tracer, settings.seed, neighbours, [&monitor] { return monitor.interrupted && monitor.interrupted(); });
+      triangles_.emplace_back(tracer, settings.seed, neighbours,
+                              [&monitor] { return monitor.interrupted && monitor.interrupted(); });
     }
   }
 
@@ -185,7 +186,8 @@ class Solver {
       incidence.sky_rays = sky_rays;
     }
     series_ = std::make_unique<Series>(maker_, incidences, settings_, wanted_sums_);
-    queue_.begin({work.rays, aimed, work.packets, sky_rays, settings_.accuracy.indirect, settings_.seed, stream},
+    queue_.begin({work.rays, aimed, work.packets, sky_rays, settings_.accuracy.indirect, settings_.seed, stream,
+                  planner_.sampled_rays(work)},
                  series_->conversions, planner_.at_once(work));
   }
 
@@ -374,6 +376,7 @@ class Solver {
 
   SharedOutcome finish(StopReason reason) {
     queue_.end();
+    maker_.free_spare_memory();
     const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
     if (stopped && series_) keep_state();
     const bool use_fallback = fallback_ && (!series_ || series_->replicates() < 2);

@@ -59,6 +59,8 @@ class WorkPlanner {
   [[nodiscard]] Work next(const Work& work, const SeriesOutcome& run) const;
 
   [[nodiscard]] std::size_t sky_rays(const Work& work) const;
+  // Returns the largest number of beam rays that are traced again to find where they landed.
+  [[nodiscard]] double sampled_rays(const Work& work) const;
   // Returns the number of replicates to make at the same time in this process.
   [[nodiscard]] std::size_t at_once(const Work& work) const;
   // Returns the memory of a replicate while it is made, in bytes.
@@ -72,6 +74,8 @@ class WorkPlanner {
   [[nodiscard]] bool fitted_to_time() const { return fitted_to_time_; }
 
  private:
+  // Returns whether the work is chosen for a bound that holds for each organ.
+  [[nodiscard]] bool for_organs() const { return settings_.accuracy.of == ErrorTarget::organ && !fixed(); }
   // A part of the work as the pilots request it, and as much of it as is possible.
   struct Part {
     double wanted = 0.0, chosen = 0.0;

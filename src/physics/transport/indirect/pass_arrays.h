@@ -1,0 +1,56 @@
+#pragma once
+// The large arrays of an indirect pass. The next pass uses them again, so that their memory is not fetched anew from the system for
+// each replicate: that took an eighth of the processor time of runs with millions of packets.
+
+#include "physics/transport/indirect/candidates.h"
+#include "shared/layout.h"
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace sunfleck {
+
+// Largest number of rays or packets that are started, traced and booked together: enough to keep a GPU busy, and few enough that their
+// arrays stay small beside the candidates.
+inline constexpr std::size_t most_at_a_time = std::size_t{1} << 18U;
+
+// Points at which beam rays landed; see landing_points.h.
+struct LandingPoints {
+  std::vector<EmissionPoint> places;  // [point], on the side on which the sampled ray landed
+  // [point * lights + light], the flux of that light that lands there, relative to all points; below 0 where it lands on the other
+  // side of the element.
+  std::vector<double> weights;
+};
+
+// A pass overwrites what an earlier one left.
+struct PassArrays {
+  explicit PassArrays(std::size_t columns) : waiting(columns), next(columns) {}
+
+  LandingPoints points;
+  Candidates waiting, next;
+  SortSpace sorting;
+  std::vector<double> expected;  // [candidate], number of times that it is drawn on average
+  Draw draw;
+  std::vector<shared::Packet> packets;    // a part of a round
+  std::vector<shared::Landing> landings;  // of these packets
+};
+
+// Lends arrays to passes that run at the same time.
+class SparePassArrays {
+ public:
+  explicit SparePassArrays(std::size_t columns) : columns_(columns) {}
+
+  [[nodiscard]] std::unique_ptr<PassArrays> take();
+  void give_back(std::unique_ptr<PassArrays> arrays);
+  // Frees the arrays that no pass uses.
+  void free();
+
+ private:
+  std::size_t columns_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<PassArrays>> spare_;
+};
+
+}  // namespace sunfleck
