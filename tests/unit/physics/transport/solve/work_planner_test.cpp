@@ -15,11 +15,11 @@ namespace {
 
 class WorkPlannerTest : public ::testing::Test {
  protected:
-  // Returns the errors of a series, with slopes of -0.68 (rays) and -0.5 (packets).
+  // Returns the errors of a series, with slopes of -0.7 (rays) and -0.5 (packets).
   [[nodiscard]] SeriesOutcome outcome(const Work& work, std::size_t replicates) const {
     const double half_width =
         t_quantile(settings_.accuracy.confidence, replicates) / std::sqrt(static_cast<double>(replicates));
-    return {replicates, direct_of_one_ray_ * half_width * std::pow(work.rays, -0.68),
+    return {replicates, direct_of_one_ray_ * half_width * std::pow(work.rays, -0.7),
             indirect_of_one_packet_ * half_width / std::sqrt(work.packets)};
   }
 
