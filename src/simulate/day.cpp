@@ -4,6 +4,7 @@
 #include "base/stopwatch.h"
 #include "base/version.h"
 #include "files/results/tables/day_fields.h"
+#include "files/results/tables/plane_day.h"
 #include "files/results/tables/work_settings.h"
 #include "simulate/ranks.h"
 
@@ -41,7 +42,7 @@ class DayRun {
     for (std::size_t i = 0; i < plan_.course.steps.size(); ++i) {
       if (stopped()) break;
       if (plan_.course.steps[i].night()) {
-        day_.lights.push_back(night_light(simulation_.model()));
+        ++day_.steps;
         continue;
       }
       std::optional<StoredStep> step = sink_.find(i);
@@ -51,9 +52,8 @@ class DayRun {
         sink_.take(i, *step);
       }
       count(*step);
-      day_.lights.push_back(std::move(step->light));
     }
-    return std::move(day_);
+    return day_;
   }
 
  private:
@@ -82,13 +82,15 @@ class DayRun {
     if (result.stop == StopReason::interrupted) return std::nullopt;
     StoredStep stored;
     stored.light = step_light(simulation_.model(), result);
-    stored.fields = day_fields(simulation_.model(), result);
+    if (sink_.fields() == StepFields::kept) stored.fields = day_fields(simulation_.model(), result);
+    stored.maps = plane_maps(simulation_.model(), result);
     stored.next_work = result.next_work;
     stored.rays = result.direct.rays;
     stored.packets = result.indirect.packets;
     stored.lost_rays = result.lost_rays;
     stored.direct_error = result.direct.relative_error;
     stored.indirect_error = result.indirect.relative_error;
+    stored.sensor_error = result.of_sensors.relative_error;
     stored.reached_bound = is_done(result.stop);
     stored.seconds = watch.lap();
     return stored;
@@ -128,6 +130,7 @@ class DayRun {
       if (error) worst = std::max(worst.value_or(0.0), *error);
     };
     DayTotals& totals = day_.totals;
+    ++day_.steps;
     ++totals.simulated;
     totals.short_of_bound += step.reached_bound ? 0 : 1;
     totals.rays += step.rays;
@@ -135,6 +138,7 @@ class DayRun {
     totals.lost_rays += step.lost_rays;
     worse(totals.direct_error, step.direct_error);
     worse(totals.indirect_error, step.indirect_error);
+    worse(totals.sensor_error, step.sensor_error);
     totals.seconds += step.seconds;
     next_work_ = step.next_work;
   }
@@ -152,14 +156,13 @@ class DayRun {
 }  // namespace
 
 SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads) {
-  WorkRequest of_triangles = work;
-  of_triangles.triangle_light = true;
-  SolveSettings settings = solve_settings(of_triangles, scene, threads);
+  SolveSettings settings = solve_settings(work, scene, threads);
   settings.max_seconds.reset();
   return settings;
 }
 
-ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan) {
+ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan,
+                          StepFields fields) {
   ordered_json noted = {{"sunfleck", version()},
                         {"scene_digest", scene.digest},
                         {"date", plan.course.dates.front()},
@@ -167,6 +170,7 @@ ordered_json day_settings(const DayRequest& request, const Scene& scene, const S
                         {"step_min", request.step_min},
                         {"from", clock_text(plan.from_min)},
                         {"to", clock_text(plan.to_min)},
+                        {"triangles", fields == StepFields::kept},
                         {"seed", settings.seed}};
   add_work_settings(noted, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
   return noted;

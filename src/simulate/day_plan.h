@@ -10,7 +10,7 @@
 
 namespace sunfleck {
 
-inline constexpr std::size_t most_day_steps = 10000;
+inline constexpr std::size_t most_day_steps = 60000;  // more than a year of ten-minute steps
 
 struct DayPlan {
   DayCourse course;

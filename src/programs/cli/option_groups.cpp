@@ -182,16 +182,17 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
   day.add_option("--to-date", options.to_date, "Last of several dates, all with the same hours")->check(not_empty());
   day.add_flag("--resume", options.run.resume, "Resume a stopped day; its finished steps are kept");
-  day.add_option("--export", options.run.exports, "nc: day.nc, which is always written")
+  day.add_option("--export", options.run.exports, "nc: day.nc also for several dates, and plane_H_day.nc")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(without_blanks())
       ->check(one_of({"nc"}));
-  day.add_option("--images", options.run.images, "day (the course of the day), none or all (default)")
+  day.add_option("--images", options.run.images,
+                 "day (the course), season (by kind of organ, of several dates), planes, none or all (default)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(without_blanks())
-      ->check(one_of({"day", "all", "none"}));
+      ->check(one_of({"day", "season", "planes", "all", "none"}));
   day.add_option("--band", options.run.pictures.band, "Waveband of the picture (default: the scene's first)")
       ->check(not_empty());
   day.add_flag("--json", options.run.json, "Print only the summary (JSON) on standard output");
