@@ -2,7 +2,6 @@
 
 #include "base/check.h"
 #include "base/units.h"
-#include "files/results/tables/organ_kinds.h"
 #include "physics/transport/model/plant_areas.h"
 #include "physics/transport/model/surfaces.h"
 
@@ -60,6 +59,10 @@ struct Sums {
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       for (std::size_t p = 0; p < std::size(parts); ++p) sensors[i][p].add(light.sensors[i].*parts[p], 0.0, length_s);
     }
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const KindFlux& kind = light.kind_absorbed[i];
+      kinds[i].add(kind.absorbed, kind.unshot, length_s);
+    }
     for (std::size_t i = 0; i < planes.size(); ++i) planes[i].add(light.plane_down[i], 0.0, length_s);
     for (std::size_t b = 0; b < bands.size(); ++b) {
       const StepBand& band = light.bands[b];
@@ -75,7 +78,6 @@ struct Sums {
       };
       add_to(organs, light.organ_absorbed);
       add_to(plants, light.plant_absorbed_w);
-      add_to(kinds, light.kind_absorbed);
     }
   }
 
@@ -188,7 +190,7 @@ StepLight night_light(const RadiationModel& model) {
           zero,
           {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark, dark},
           std::vector<Estimate>(count_plants(model) * bands, zero),
-          std::vector<Estimate>(OrganKinds(model).of.size() * bands, zero),
+          std::vector<KindFlux>(OrganKinds(model).of.size() * bands, {zero, 0.0}),
           std::vector<SensorReading>(sensor_points(model) * bands, no_reading),
           std::vector<SensorReading>(model.sensors.size() * bands, no_reading),
           std::vector<Estimate>(model.planes.size(), {no_value, no_value}),

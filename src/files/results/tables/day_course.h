@@ -1,6 +1,7 @@
 #pragma once
 // The course of one or several days: time and light of each step, and the sums over each date.
 
+#include "files/results/tables/organ_kinds.h"
 #include "files/results/tables/sensor_reading.h"
 #include "physics/light/sun.h"
 #include "physics/transport/model/model.h"
@@ -62,7 +63,7 @@ struct StepLight {
   Estimate sunlit_leaf_fraction;
   ShadeClassResult leaf_classes;
   std::vector<Estimate> plant_absorbed_w;  // [plant * bands + band], plants as in PlantAreas
-  std::vector<Estimate> kind_absorbed;     // [kind * bands + band], W m-2 of ground, kinds as in OrganKinds
+  std::vector<KindFlux> kind_absorbed;     // [kind * bands + band], W m-2 of ground, kinds as in OrganKinds
   std::vector<SensorReading> points;       // [point * bands + band], the points of all sensors one after the other
   std::vector<SensorReading> sensors;      // [sensor * bands + band], the means over the points of each sensor
   std::vector<Estimate> plane_sunfleck;    // [plane], share that the beam reaches; value NaN without a beam

@@ -54,16 +54,17 @@ class BandOfKinds {
     }
   }
 
-  [[nodiscard]] Estimate absorbed(std::size_t kind) const {
+  [[nodiscard]] KindFlux absorbed(std::size_t kind) const {
     const Group group = group_of(kinds_.of[kind].role);
     const Estimate& whole = absorbed_by(band_, group);
     const auto in_group = [&](const OrganKind& other) { return group_of(other.role) == group; };
-    if (std::count_if(kinds_.of.begin(), kinds_.of.end(), in_group) == 1) return whole;
+    if (std::count_if(kinds_.of.begin(), kinds_.of.end(), in_group) == 1)
+      return {whole, std::min(whole.half_width, band_.unshot)};
     const OrganSum& sum = of_kind_[kind];
     const double squares = of_group_[static_cast<std::size_t>(group)].squares;
     const double of_whole = std::max(0.0, whole.half_width - band_.unshot);
     const double raised = squares > 0.0 ? std::max(1.0, of_whole / std::sqrt(squares)) : 1.0;
-    return {sum.value, raised * std::sqrt(sum.squares) + sum.unshot};
+    return {{sum.value, raised * std::sqrt(sum.squares) + sum.unshot}, sum.unshot};
   }
 
  private:
@@ -103,10 +104,10 @@ OrganKinds::OrganKinds(const RadiationModel& model)
   if (!(of.back().area_m2 > 0.0)) of.back().area_m2 = model.plot.area_m2();
 }
 
-std::vector<Estimate> absorbed_by_kinds(const RadiationModel& model, const RadiationResult& result) {
+std::vector<KindFlux> absorbed_by_kinds(const RadiationModel& model, const RadiationResult& result) {
   const OrganKinds kinds(model);
   const std::size_t bands = result.bands.size();
-  std::vector<Estimate> absorbed(kinds.of.size() * bands);
+  std::vector<KindFlux> absorbed(kinds.of.size() * bands);
   for (std::size_t b = 0; b < bands; ++b) {
     const BandOfKinds band(model, kinds, result, b);
     for (std::size_t k = 0; k < kinds.of.size(); ++k) absorbed[k * bands + b] = band.absorbed(k);

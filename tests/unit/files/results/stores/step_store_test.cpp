@@ -43,7 +43,7 @@ StoredStep some_step(const RadiationModel& model) {
   step.light.sunlit_leaf_fraction = {no_value, no_value};
   step.light.plant_absorbed_w[1] = {0.7, 0.1};
   step.fields.assign(2 * 8 * 3, 0.1F);
-  step.light.kind_absorbed[1] = {0.3, 0.01};
+  step.light.kind_absorbed[1] = {{0.3, 0.01}, 0.001};
   step.light.points[3].scattered = {2.0, 0.5};
   step.light.sensors[1].total = {4.0, no_value};
   step.light.plane_sunfleck[0] = {0.25, 0.01};
@@ -94,7 +94,8 @@ TEST_F(StepStoreTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(read->light.plant_absorbed_w[1].half_width, 0.1);
   ASSERT_EQ(read->fields.size(), step.fields.size());
   EXPECT_EQ(std::memcmp(read->fields.data(), step.fields.data(), step.fields.size() * sizeof(float)), 0);
-  EXPECT_EQ(read->light.kind_absorbed[1].value, 0.3);
+  EXPECT_EQ(read->light.kind_absorbed[1].absorbed.value, 0.3);
+  EXPECT_EQ(read->light.kind_absorbed[1].unshot, 0.001);
   ASSERT_EQ(read->light.points.size(), 4U);
   EXPECT_EQ(read->light.points[3].scattered.half_width, 0.5);
   ASSERT_EQ(read->light.sensors.size(), 2U);

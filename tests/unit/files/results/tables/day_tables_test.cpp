@@ -59,7 +59,7 @@ StepLight light(double w_m2, double half_width, double unshot) {
                       {0.0, half_width},
                       unshot};
   StepLight step{{band, band}, {{w_m2, half_width}, {2.0 * w_m2, half_width}, {0.0, 0.0}, {3.0 * w_m2, no_value}}, {0.5, 0.01}};
-  step.kind_absorbed.resize(4, {0.0, 0.0});
+  step.kind_absorbed.resize(4, {{0.0, 0.0}});
   return step;
 }
 
@@ -234,18 +234,19 @@ RadiationResult result_of_four(double vegetation_half_width) {
 TEST(OrganKinds, ErrorsAddInQuadratureAndAreRaisedWhereTheWholeErrsMore) {
   // Without their unshot parts of 0.2, 0.1 and 0.3 the vegetation's organs have half-widths of 4, 3 and 4 W m-2.
   const double leaves = std::hypot(0.3, 0.4), all = std::hypot(leaves, 0.4), unshot = 0.04;
-  const std::vector<Estimate> usual = absorbed_by_kinds(four_organs(), result_of_four(0.2));
+  const std::vector<KindFlux> usual = absorbed_by_kinds(four_organs(), result_of_four(0.2));
   ASSERT_EQ(usual.size(), 4U);
-  EXPECT_DOUBLE_EQ(usual[0].value, 20.0);
-  EXPECT_NEAR(usual[0].half_width, leaves + unshot, 1e-12);
-  EXPECT_DOUBLE_EQ(usual[1].value, 10.0);
-  EXPECT_NEAR(usual[1].half_width, 0.4 + 0.02, 1e-12);
-  EXPECT_EQ(usual[2].value, 10.0) << "the pot is all that the structures are";
-  EXPECT_EQ(usual[2].half_width, 0.7);
-  EXPECT_EQ(usual[3].value, 40.0);
-  EXPECT_EQ(usual[3].half_width, 2.5);
-  const std::vector<Estimate> raised = absorbed_by_kinds(four_organs(), result_of_four(0.1 + 3.0 * all));
-  EXPECT_NEAR(raised[0].half_width, 3.0 * leaves + unshot, 1e-12);
+  EXPECT_DOUBLE_EQ(usual[0].absorbed.value, 20.0);
+  EXPECT_NEAR(usual[0].absorbed.half_width, leaves + unshot, 1e-12);
+  EXPECT_DOUBLE_EQ(usual[1].absorbed.value, 10.0);
+  EXPECT_NEAR(usual[1].absorbed.half_width, 0.4 + 0.02, 1e-12);
+  EXPECT_EQ(usual[2].absorbed.value, 10.0) << "the pot is all that the structures are";
+  EXPECT_EQ(usual[2].absorbed.half_width, 0.7);
+  EXPECT_EQ(usual[3].absorbed.value, 40.0);
+  EXPECT_EQ(usual[3].absorbed.half_width, 2.5);
+  EXPECT_EQ(usual[3].unshot, 0.1) << "all of it may end on the soil";
+  const std::vector<KindFlux> raised = absorbed_by_kinds(four_organs(), result_of_four(0.1 + 3.0 * all));
+  EXPECT_NEAR(raised[0].absorbed.half_width, 3.0 * leaves + unshot, 1e-12);
 }
 
 TEST(DayTables, KindsOfOrgansHaveARowOnEachDate) {
@@ -253,8 +254,8 @@ TEST(DayTables, KindsOfOrgansHaveARowOnEachDate) {
   StepLight first = night_light(model), last = first;
   EXPECT_EQ(first.kind_absorbed.size(), 4U);
   first.bands[0].incident = {100.0, 0.0};
-  first.kind_absorbed[0] = {20.0, 1.0};
-  first.kind_absorbed[3] = {40.0, 2.0};
+  first.kind_absorbed[0] = {{20.0, 1.0}};
+  first.kind_absorbed[3] = {{40.0, 2.0}};
   const regression::Table table(text_of(season_table, model, {first, last, last}));
   EXPECT_EQ(table.header(),
             "date,organ,role,organs,area_m2,area_index,A_absorbed_ground_mj_m2,A_absorbed_ground_mj_m2_error,"
