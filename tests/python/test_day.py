@@ -109,9 +109,9 @@ def test_several_dates_keep_triangles_only_if_asked():
     for name in season.tables:
         assert season.table(name) == whole.table(name), name
     kinds = season.season
-    assert list(kinds["organ"]) == ["leaf", "soil"] and kinds["PAR_absorbed_share"].shape == (3, 2)
-    assert np.allclose(kinds["PAR_absorbed_ground_mj_m2"][:, 1], season.sums["PAR_absorbed_soil_mj_m2"])
-    assert season.to_dataframe("season").loc[(kinds["date"][2], 1), "organ"] == "soil"
+    assert list(kinds["organ"]) == ["leaf", "stem", "soil"] and kinds["PAR_absorbed_share"].shape == (3, 3)
+    assert np.allclose(kinds["PAR_absorbed_ground_mj_m2"][:, 2], season.sums["PAR_absorbed_soil_mj_m2"])
+    assert season.to_dataframe("season").loc[(kinds["date"][2], 2), "organ"] == "soil"
     organs = season.organ_steps
     assert organs["PAR_absorbed"].shape == (6, 2)
     assert np.allclose(7200e-6 * organs["PAR_absorbed"].reshape(3, 2, 2).sum(axis=1), season.organs["PAR_absorbed_mj_m2"])
