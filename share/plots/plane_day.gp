@@ -74,7 +74,7 @@ do for [map = 1:maps] {
   set cbrange [0:(map == 1 ? positive(LIGHT_max, 1) : positive(SUN_max, 1))]
   if (map == 1) { set label 3 (east ? 'y (m), from south to north' : 'X (m), from north to south') at screen (left - 90) / width,(bottom + 0.5 * map_height) / height center rotate by 90 }
   set colorbox vertical user origin screen (left + map_width + 25) / width,base / height size screen 30 / width,bar / height bdefault
-  set label 4 (map == 1 ? band . ' downwards (' . (km > 0 ? 'mol' : 'MJ') . ' m⁻²)' : 'hours') at screen (left + map_width + 145) / width,(bottom + 0.5 * map_height) / height \
+  set label 4 (map == 1 ? band . ' downwards (' . (km > 0 ? 'mol' : 'MJ') . ' m⁻²)' : 'hours') at screen (left + map_width + 170) / width,(bottom + 0.5 * map_height) / height \
     center rotate by 90
   if (boxes) {
     plot table using column_a:column_b:(half_a):(half_b):(cell(k)) with boxxyerror fillcolor palette fillstyle solid notitle

@@ -121,15 +121,16 @@ if (twofold) {
 }
 set key at screen 150 / width,(1 - 104 / height) left top horizontal maxcols 6 Left reverse samplen 2 font ',19'
 # A date's layers fill its day; thin white lines part the days where there is room for them.
-side = 0.5 * 86400 * (span > 90 ? 1.0 : 0.86)
+side = 0.5 * 86400 * (span > 90 ? 1.02 : 0.86)
 # Intervals that would be lower than the line are left out.
 seen = 4.0 * top / (upper - bottom)
+its(l) = half[($1 - 1) * layers + l]
 low(l) = edge[($1 - 1) * (layers + 1) + l]; high(l) = edge[($1 - 1) * (layers + 1) + l + 1]
 set style fill solid 1.0 noborder
 plot for [l = 1:layers] $points using (day_of[$1]):(high(l)):(day_of[$1] - side):(day_of[$1] + side):(low(l)):(high(l)) \
     with boxxyerror linecolor rgb paint[l] notitle, \
-  for [l = 1:layers] $points using (day_of[$1]):(half[($1 - 1) * layers + l] > seen ? high(l) : NaN):(half[($1 - 1) * layers + l]) \
-    with yerrorbars pointtype -1 linecolor '#202020' linewidth 0.9 notitle, \
+  for [l = 1:layers] $points using (day_of[$1]):(its(l) > seen ? high(l) - its(l) : NaN):(0):(2 * its(l)) \
+    with vectors nohead linecolor '#202020' linewidth 0.9 notitle, \
   for [l = 1:layers] keyentry with boxes linecolor rgb paint[l] title label[l]
 
 unset key; unset label; unset y2tics
