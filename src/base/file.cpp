@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr mode_t new_file_mode = 0666;  // before the user's umask
+
 using Handle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 Handle open(const fs::path& file, const char* mode) {
@@ -80,15 +82,18 @@ int put_in_place(const fs::path& file, const fs::path& aside) {
   return sync_folder(file.parent_path());
 }
 
-// Writes all bytes, waits until they are on the disk, and closes the file. Returns 0 or errno.
-int fill(int number, std::string_view bytes) {
+// Says whether writing waits until the bytes are on the disk.
+enum class Wait { no, for_disk };
+
+// Writes all bytes and closes the file. Returns 0 or errno.
+int fill(int number, std::string_view bytes, Wait wait) {
   int code = 0;
   while (!bytes.empty() && code == 0) {
     const ssize_t written = ::write(number, bytes.data(), bytes.size());
     if (written < 0 && errno != EINTR) code = errno;
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (code == 0) code = sync(number);
+  if (code == 0 && wait == Wait::for_disk) code = sync(number);
   if (::close(number) != 0 && code == 0) code = errno;  // a full network disk may be reported only now
   return code;
 }
@@ -190,13 +195,12 @@ std::string_view write_cure(int code) {
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  constexpr mode_t mode = 0666;  // before the user's umask
   check_writable(file);
   const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
   ::unlink(aside.c_str());
-  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, new_file_mode);
   if (number < 0) refuse_write(file, errno);
-  int code = fill(number, bytes);
+  int code = fill(number, bytes, Wait::for_disk);
   if (code == 0) code = put_in_place(file, aside);
   if (code == 0) return;
   ::unlink(aside.c_str());
@@ -210,6 +214,15 @@ void check_writable(const fs::path& file) {
 void replace_file(const fs::path& file, const fs::path& aside) {
   int code = sync_file(aside);
   if (code == 0) code = put_in_place(file, aside);
+  if (code == 0) return;
+  ::unlink(aside.c_str());
+  refuse_write(file, code);
+}
+
+void append_aside(const fs::path& file, const fs::path& aside, std::string_view bytes) {
+  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, new_file_mode);
+  if (number < 0) refuse_write(file, errno);
+  const int code = fill(number, bytes, Wait::no);
   if (code == 0) return;
   ::unlink(aside.c_str());
   refuse_write(file, code);

@@ -31,6 +31,10 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 // (failure) and removes `aside`.
 void replace_file(const std::filesystem::path& file, const std::filesystem::path& aside);
 
+// Appends bytes to `aside`, which is created if it is missing, and which replace_file puts in the place of `file` once it is
+// complete. Throws Error (failure), which names `file`, and removes `aside`.
+void append_aside(const std::filesystem::path& file, const std::filesystem::path& aside, std::string_view bytes);
+
 // Creates the folder and its missing parents, and waits until they are on the disk. Throws Error (failure).
 void make_folder(const std::filesystem::path& folder);
 

@@ -4,6 +4,7 @@
 #include "base/stopwatch.h"
 #include "base/version.h"
 #include "files/results/tables/day_fields.h"
+#include "files/results/tables/plane_day.h"
 #include "files/results/tables/work_settings.h"
 #include "simulate/day_blocks.h"
 #include "simulate/ranks.h"
@@ -41,21 +42,17 @@ class DayRun {
   SimulatedDay run() {
     for (const DayBlock& block : plan_.blocks) {
       if (stopped()) break;
-      add_nights(block.first);
-      if (!find(block) && !simulate(block)) return std::move(day_);
+      day_.steps = block.first;  // the nights before it
+      if (!find(block) && !simulate(block)) return day_;
     }
-    if (!stopped()) add_nights(plan_.course.steps.size());
-    return std::move(day_);
+    if (!stopped()) day_.steps = plan_.course.steps.size();
+    return day_;
   }
 
  private:
   [[nodiscard]] bool stopped() const {
     return (hooks_.monitor.interrupted && hooks_.monitor.interrupted()) ||
            (hooks_.ranks != nullptr && hooks_.ranks->interrupted());
-  }
-
-  void add_nights(std::size_t end) {
-    while (day_.lights.size() < end) day_.lights.push_back(night_light(simulation_.model()));
   }
 
   // Takes over a block whose steps were all simulated earlier.
@@ -66,7 +63,7 @@ class DayRun {
       if (!step) return false;
       steps.push_back(*std::move(step));
     }
-    for (StoredStep& step : steps) count(step);
+    for (const StoredStep& step : steps) count(step);
     return true;
   }
 
@@ -83,7 +80,7 @@ class DayRun {
       static_cast<void>(solve(block, settings));
     }
     simulation_.check_validation();
-    return day_.lights.size() == block.end;
+    return day_.steps == block.end;
   }
 
   // Returns false if the block began with far too little work; counts decide that, not the clock.
@@ -103,13 +100,14 @@ class DayRun {
     for (std::size_t k = 0; k < lights.size(); ++k) sum.push_back({k, plan_.course.steps[block.first + k].length_s});
     const std::vector<LightSum> sums(lights.size() > 1 ? 1 : 0, sum);
     Stopwatch watch;
-    const auto take = [&](std::size_t light, const RadiationResult& result, const SharedOutcome& outcome) {
-      if (outcome.stop == StopReason::interrupted) return;
+    const auto take = [&](std::size_t light, RadiationResult result, const SharedOutcome& outcome) {
+      simulation_.add_sensors(lights[light], settings, monitor, watch, result);
+      if (result.stop == StopReason::interrupted) return;
       StoredStep step = stored_step(lights[light], result);
       step.seconds = watch.lap();
       step.light.shares_packets = lights.size() > 1;
       if (light > 0) step.packets = 0;  // they are those of the first step
-      if (light + 1 == lights.size() && lights.size() > 1) step.light.of_shared = outcome.sum_errors.front();
+      if (light == 0 && lights.size() > 1) step.light.of_shared = outcome.sum_errors.front();
       sink_.take(block.first + light, step);
       count(step);
     };
@@ -118,16 +116,18 @@ class DayRun {
     return !too_little;
   }
 
-  [[nodiscard]] static StoredStep stored_step(const RadiationModel& model, const RadiationResult& result) {
+  [[nodiscard]] StoredStep stored_step(const RadiationModel& model, const RadiationResult& result) const {
     StoredStep stored;
     stored.light = step_light(model, result);
-    stored.fields = day_fields(model, result);
+    if (sink_.fields() == StepFields::kept) stored.fields = day_fields(model, result);
+    stored.maps = plane_maps(model, result);
     stored.next_work = result.next_work;
     stored.rays = result.direct.rays;
     stored.packets = result.indirect.packets;
     stored.lost_rays = result.lost_rays;
     stored.direct_error = result.direct.relative_error;
     stored.indirect_error = result.indirect.relative_error;
+    stored.sensor_error = result.of_sensors.relative_error;
     stored.reached_bound = is_done(result.stop);
     return stored;
   }
@@ -145,11 +145,12 @@ class DayRun {
   }
 
   // Adds a step to the day, whether it was simulated now or earlier.
-  void count(StoredStep& step) {
+  void count(const StoredStep& step) {
     const auto worse = [](std::optional<double>& worst, const std::optional<double>& error) {
       if (error) worst = std::max(worst.value_or(0.0), *error);
     };
     DayTotals& totals = day_.totals;
+    ++day_.steps;
     ++totals.simulated;
     totals.short_of_bound += step.reached_bound ? 0 : 1;
     totals.rays += step.rays;
@@ -157,9 +158,9 @@ class DayRun {
     totals.lost_rays += step.lost_rays;
     worse(totals.direct_error, step.direct_error);
     worse(totals.indirect_error, step.indirect_error);
+    worse(totals.sensor_error, step.sensor_error);
     totals.seconds += step.seconds;
     next_work_ = step.next_work;
-    day_.lights.push_back(std::move(step.light));
   }
 
   Simulation& simulation_;
@@ -174,23 +175,21 @@ class DayRun {
 
 }  // namespace
 
-DayPlan plan_day_in_blocks(const DayRequest& request, const WorkRequest& work, const Scene& scene,
-                           const SolveSettings& settings) {
+DayPlan plan_day_in_blocks(const DayRequest& request, const Scene& scene) {
   DayPlan plan = plan_day(request, scene);
-  plan_blocks(scene.model, most_lights(scene.model, settings, work.memory_bytes.has_value()), plan);
+  plan_blocks(scene.model, static_cast<std::size_t>(request.steps_together), plan);
   return plan;
 }
 
 SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads) {
-  WorkRequest of_triangles = work;
-  of_triangles.triangle_light = true;
-  SolveSettings settings = solve_settings(of_triangles, scene, threads);
+  SolveSettings settings = solve_settings(work, scene, threads);
   settings.max_seconds.reset();
   settings.shade_groups = ShadeGroups::leaves;
   return settings;
 }
 
-ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan) {
+ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan,
+                          StepFields fields) {
   std::size_t most_together = 0;
   for (const DayBlock& block : plan.blocks) most_together = std::max(most_together, block.size());
   ordered_json noted = {{"sunfleck", version()},
@@ -201,6 +200,7 @@ ordered_json day_settings(const DayRequest& request, const Scene& scene, const S
                         {"from", clock_text(plan.from_min)},
                         {"to", clock_text(plan.to_min)},
                         {"steps_together", most_together},
+                        {"triangles", fields == StepFields::kept},
                         {"seed", settings.seed}};
   add_work_settings(noted, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
   return noted;

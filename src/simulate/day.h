@@ -26,26 +26,28 @@ class DaySink {
   virtual ~DaySink() = default;
   // Returns a daytime step that was simulated earlier; empty if it has yet to be simulated.
   [[nodiscard]] virtual std::optional<StoredStep> find(std::size_t step) = 0;
-  // Takes a step that was just simulated; everything except its fields is used afterwards.
+  // Returns whether the steps need the light of every triangle.
+  [[nodiscard]] virtual StepFields fields() const = 0;
+  // Takes a step that was just simulated, in the order of the steps; its light, fields and maps are not used afterwards.
   virtual void take(std::size_t step, StoredStep& simulated) = 0;
 };
 
 struct SimulatedDay {
-  std::vector<StepLight> lights;  // [step]; fewer than the plan has if the day was stopped
+  std::size_t steps = 0;  // number of finished steps, from the first; fewer than the plan has if the day was stopped
   DayTotals totals;
 };
 
 // Returns the plan of the request, with its blocks.
-[[nodiscard]] DayPlan plan_day_in_blocks(const DayRequest& request, const WorkRequest& work, const Scene& scene,
-                                         const SolveSettings& settings);
+[[nodiscard]] DayPlan plan_day_in_blocks(const DayRequest& request, const Scene& scene);
 
-// Returns the solver's settings for the steps. They contain no time limit: --max-seconds interrupts a day between rays instead
-// of making replicates smaller, so that its bytes do not depend on the clock.
+// Returns the solver's settings for the steps, which estimate the light of triangles if work.triangle_light. They contain no time
+// limit: --max-seconds interrupts a day between rays instead of making replicates smaller, so that its bytes do not depend on the
+// clock.
 [[nodiscard]] SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads);
 
 // Returns everything on which the bytes of a finished step depend.
 [[nodiscard]] nlohmann::ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings,
-                                                  const DayPlan& plan);
+                                                  const DayPlan& plan, StepFields fields);
 
 // Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them, which discards the block in
 // progress. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps. Throws as

@@ -6,7 +6,6 @@
 #include "base/stopwatch.h"
 #include "devices/tracers/cpu_tracer.h"
 #include "files/results/exports/exports.h"
-#include "files/results/plots/plots.h"
 #include "files/results/stores/result_store.h"
 #include "files/results/stores/run_store.h"
 #include "files/results/stores/step_store.h"
@@ -15,8 +14,10 @@
 #include "pictures/charts/colouring.h"
 #include "pictures/charts/fields.h"
 #include "pictures/drawing/image_writer.h"
+#include "simulate/day_folder.h"
 #include "simulate/interrupt.h"
 #include "simulate/scene_source.h"
+#include "simulate/table_plots.h"
 
 #include <fmt/format.h>
 
@@ -42,10 +43,10 @@ bool asks_for(const ResultRequest& request, const std::string& image) {
   return std::find(request.images.begin(), request.images.end(), image) != request.images.end();
 }
 
-// Returns whether a run writes a receiver's map or plot under this name.
+// Returns whether a run or a day writes a receiver's map or plot under this name.
 bool is_plane_file(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
-  return file.filename().string().rfind("plane_", 0) == 0 && (extension == ".csv" || extension == ".png");
+  return file.filename().string().rfind("plane_", 0) == 0 && (extension == ".csv" || extension == ".png" || extension == ".nc");
 }
 
 // Returns the pictures that are requested one by one.
@@ -119,24 +120,6 @@ void write_tables(const std::filesystem::path& folder, const RunRecord& record, 
   }
 }
 
-// Draws plots until gnuplot fails; reports that failure and tries no further plots.
-class Plots {
- public:
-  Plots(const std::filesystem::path& folder, UnwrittenFiles& unwritten) : folder_(folder), unwritten_(unwritten) {}
-  void draw(const char* script, const PlotVariables& variables, const std::string& file) {
-    if (given_up_) return;
-    std::optional<std::string> problem;
-    unwritten_.attempt(file, [&] { problem = draw_table(script, variables, folder_ / file); });
-    if (problem) warn(*problem);
-    given_up_ = problem.has_value();
-  }
-
- private:
-  const std::filesystem::path& folder_;
-  UnwrittenFiles& unwritten_;
-  bool given_up_ = false;
-};
-
 PlotVariables profile_variables(const std::filesystem::path& folder, const ResultRequest& request, const std::string& title,
                                 const std::string& band, const ProfileOverlays& overlays, const std::string& agreement) {
   std::vector<std::filesystem::path> tables{folder / profile_file};
@@ -180,7 +163,7 @@ void write_plots(const std::filesystem::path& folder, const ResultRequest& reque
     say(agreement_line(overlays.measured->name, found));
     figures = agreement_figures(found);
   }
-  Plots plots(folder, unwritten);
+  TablePlots plots(folder, unwritten);
   if (asks_for(request, "all") || asks_for(request, "profile"))
     plots.draw("profile.gp", profile_variables(folder, request, record.title, band.name, overlays, figures), profile_plot_file);
   if (!asks_for(request, "all") && !asks_for(request, "planes")) return;
@@ -209,12 +192,11 @@ bool write_pictures(const std::filesystem::path& folder, const ResultRequest& re
 
 // Returns whether a run or a day writes a file of this name, other than the summary.
 bool is_file_of_runs(const std::string& name) {
-  std::vector<std::string> names{profile_file,      profile_plot_file, organs_file,    plants_file, sensors_file,
-                                 sensor_means_file, result_store_file, run_state_file, "day.csv",   "day_sums.csv",
-                                 "organs_day.csv",  "plants_day.csv",  "day.nc",       "day.png"};
+  std::vector<std::string> names{profile_file, profile_plot_file, organs_file,       plants_file,
+                                 sensors_file, sensor_means_file, result_store_file, run_state_file};
   for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
   for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
-  return is_plane_file(name) || std::find(names.begin(), names.end(), name) != names.end();
+  return is_plane_file(name) || is_file_of_days(name) || std::find(names.begin(), names.end(), name) != names.end();
 }
 
 template <class Wanted>

@@ -113,7 +113,15 @@ RadiationResult Simulation::solve(const SolveSettings& settings, const Monitor& 
   const RadiationModel& model = scene_->model;
   Stopwatch watch;
   RadiationResult result = sunfleck::solve(model, layout(), tracer, settings, monitor, helpers);
-  if (model.sensors.empty() || result.stop == StopReason::interrupted) return result;
+  add_sensors(model, settings, monitor, watch, result);
+  return result;
+}
+
+void Simulation::add_sensors(const RadiationModel& model, const SolveSettings& settings, const Monitor& monitor,
+                             const Stopwatch& watch, RadiationResult& result) {
+  if (model.sensors.empty() || result.stop == StopReason::interrupted) return;
+  const CpuThreads limit(threads_);
+  Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
   SensorSettings sensors;
   sensors.rays = sensor_rays(settings);
   sensors.seed = settings.seed;
@@ -133,14 +141,13 @@ RadiationResult Simulation::solve(const SolveSettings& settings, const Monitor& 
   auto readings = measure_sensors(model, layout(), tracer, sensors, monitor.interrupted);
   if (!readings) {
     result.stop = StopReason::interrupted;
-    return result;
+    return;
   }
   if (is_done(result.stop) && !is_done(readings->stop)) result.stop = readings->stop;
   result.sensors = std::move(readings->points);
   result.sensor_means = std::move(readings->means);
   result.of_sensors = readings->summary;
   result.of_sensors.seconds = sensor_watch.seconds();
-  return result;
 }
 
 SharedOutcome Simulation::solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,

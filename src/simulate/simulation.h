@@ -1,6 +1,7 @@
 #pragma once
 // A scene with its tree on a device, with which the commands, the window, Python and the ranks of an MPI job simulate.
 
+#include "base/stopwatch.h"
 #include "devices/tracers/remembered_beams.h"
 #include "files/results/tables/result_writer.h"
 #include "files/scene/scene_reader.h"
@@ -64,6 +65,11 @@ class Simulation {
   // The models must be the scene's apart from their light.
   [[nodiscard]] SharedOutcome solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,
                                            ReplicateHelpers* helpers, std::span<const LightSum> sums, const TakeLight& take);
+
+  // Measures the sensors of the model, in its light, and adds them to its result, whose `stop` tells if that was interrupted. `watch`
+  // has run since the simulation began.
+  void add_sensors(const RadiationModel& model, const SolveSettings& settings, const Monitor& monitor, const Stopwatch& watch,
+                   RadiationResult& result);
 
   // Simulates the scene and returns the result with its record, which describes how it was computed.
   [[nodiscard]] SimulatedScene run(const SolveSettings& settings, const RunHooks& hooks = {});

@@ -102,7 +102,8 @@ TEST_F(Durability, OfAllFilesOfADay) {
   keep_journal();
   const Outcome outcome = run(with(day_, "--images", "all"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* name : {"summary.json", "day.csv", "day.nc", "steps/settings.json"}) EXPECT_TRUE(exists(name)) << name;
+  for (const char* name : {"summary.json", "day.csv", "season.csv", "organs_steps.nc", "day.nc", "steps/settings.json"})
+    EXPECT_TRUE(exists(name)) << name;
   expect_all_durable();
   EXPECT_GE(times_made_durable(journal(), "steps/step_00000.bin"), 1);
   EXPECT_GE(times_made_durable(journal(), "steps/settings.json"), 2) << "at the beginning, and at the end";
@@ -152,7 +153,7 @@ TEST_F(Durability, ThatFailsIsAFailureOfTheFile) {
       std::filesystem::remove_all(folder_ / "out");
     }
   }
-  fail_to_sync("steps/step_fields.tmp", EIO);
+  fail_to_sync("steps/step_day.nc.tmp", EIO);
   expect_one_line(run(day_), "out/day.nc: cannot be written (Input/output error); check the disk");
   fail_to_sync("steps/step_00000.bin", EIO);
   expect_one_line(run(day_), "out/steps/step_00000.bin: cannot be written (Input/output error); check the disk");

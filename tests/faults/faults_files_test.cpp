@@ -80,7 +80,8 @@ TEST_F(Files, WhatWasNotWrittenIsInTheSummary) {
 
 TEST_F(Files, AFullDiskLeavesADayToBeResumed) {
   const auto whole = undisturbed(day_);
-  const auto tables = {"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv", "day.nc"};
+  const auto tables = {"day.csv",    "day_sums.csv",    "organs_day.csv", "plants_day.csv",
+                       "season.csv", "organs_steps.nc", "day.nc"};
   for (const std::size_t bytes : {3000U, 4500U, 6000U, 9000U, 14000U, 30000U}) {
     SCOPED_TRACE(bytes);
     fill_disk_after(bytes);

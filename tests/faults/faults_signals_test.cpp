@@ -115,7 +115,8 @@ TEST_F(Signals, AtAnyTimeLeaveADayToBeResumed) {
       std::filesystem::remove_all(folder_ / "out");
       static_cast<void>(run_and_send(day_, signal, moment));
       EXPECT_EQ(run(day_ + Arguments{"--resume"}).status, 0);
-      for (const char* name : {"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv", "day.nc"})
+      for (const char* name :
+           {"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv", "season.csv", "organs_steps.nc", "day.nc"})
         EXPECT_TRUE(file(name) == whole.at(name)) << name;
       EXPECT_EQ(summary()["complete"], true);
       EXPECT_EQ(files().size(), whole.size());

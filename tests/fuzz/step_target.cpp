@@ -36,24 +36,27 @@ RadiationModel small_model() {
   model.canopy.organs.resize(2);
   model.bands.resize(2);
   model.sky = SkyModel{};
+  model.planes = {{0.5, 2, 1}};
+  model.sensors = {{"point", {{0.5, 0.0, 0.5}}}};
   return model;
 }
 
 StepStore store() {
-  return {folder(), small_model(), {{"scene_digest", "0123"}, {"seed", 1}}};
+  return {folder(), small_model(), {{"scene_digest", "0123"}, {"seed", 1}}, StepFields::kept};
 }
 
 }  // namespace
 
 void feed_step(std::string_view bytes) {
   std::filesystem::create_directories(folder() / "steps");
-  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP5", bytes)));
+  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP6", bytes)));
   read_or_refuse([] {
     const auto step = store().read(7);
     if (step)
-      promise(
-          step->light.bands.size() == 2 && step->light.organ_absorbed.size() == 4 && step->light.plant_absorbed_w.size() == 2,
-          "a step of this scene");
+      promise(step->light.bands.size() == 2 && step->light.organ_absorbed.size() == 4 &&
+                  step->light.plant_absorbed_w.size() == 2 && step->light.points.size() == 2 &&
+                  step->light.plane_down.size() == 2 && step->maps.size() == 10,
+              "a step of this scene");
   });
 }
 

@@ -23,6 +23,8 @@ const std::string day_scene =
     "[[band]]\nname = \"PAR\"\n"
     "[soil]\nreflectance = 0.2\n"
     "[optics.leaf]\nreflectance = 0.3\ntransmittance = 0.2\n"
+    "[[plane]]\nheight = 0.5\ncells = [4, 4]\n"
+    "[[sensor]]\nname = \"a\"\nfrom = [0.5, 0.2, 0.5]\n"
     "[[geometry]]\nfile = \"leaves.obj\"\n";
 
 class Mpi : public regression::PreloadTest {
@@ -139,14 +141,16 @@ TEST_F(Mpi, GivesTheTablesOfThePlainProgram) {
 
 TEST_F(Mpi, GivesTheSameDay) {
   const Files expected = plain(day_);
-  EXPECT_EQ(expected.size(), 4U);  // the steps, the sums of each date, organs and plants
-  const std::string fields = file("day.nc", "plain");
+  // The steps; the sums of each date, and by organ, plant and kind of organ; the planes' and the sensors' steps and sums.
+  EXPECT_EQ(expected.size(), 11U);
+  const std::string fields = file("day.nc", "plain"), organs = file("organs_steps.nc", "plain");
   for (const int ranks : {2, 3}) {
     const std::string out = "by" + std::to_string(ranks);
     const Outcome outcome = run(by(ranks, into(out, day_)));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     expect_same(expected, out);
     EXPECT_TRUE(file("day.nc", out) == fields);
+    EXPECT_TRUE(file("organs_steps.nc", out) == organs);
   }
 }
 

@@ -1,5 +1,7 @@
 """The course of a day: the numbers of `sunfleck day`, bit for bit."""
 
+import pickle
+
 import netCDF4
 import numpy as np
 import pytest
@@ -28,8 +30,14 @@ def test_tables_are_those_of_the_program(day_file, tmp_path, work, options):
     program("day", day_file, "-o", tmp_path / "out", *OPTIONS, *options)
     day = sunfleck.day(day_file, **HOURS, **work)
     files = files_of(tmp_path / "out")
-    for name in ("day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv"):
+    assert {"day.csv", "season.csv", "planes_day.csv", "plane_day_sums.csv"} <= set(day.tables)
+    assert set(day.tables) == {name for name in files if name.endswith(".csv")}
+    for name in day.tables:
         assert day.table(name).encode() == files[name]
+    with netCDF4.Dataset(tmp_path / "out" / "organs_steps.nc") as file:
+        for name in ("PAR_absorbed", "PAR_absorbed_error", "NIR_absorbed"):
+            values = np.ma.filled(file[name][:], np.nan)
+            assert np.array_equal(values, day.organ_steps[name].astype(np.float32), equal_nan=True), name
     with netCDF4.Dataset(tmp_path / "out" / "day.nc") as file:
         for name, values in day.triangles.items():
             assert np.array_equal(np.ma.filled(file[name][:], np.nan), values, equal_nan=True), name
@@ -64,7 +72,8 @@ def test_arrays_hold_what_the_tables_hold():
 
 def test_xarray():
     data = sunfleck.day(with_arrays(DAY), **HOURS, grid=0.05, passes=8).to_xarray()
-    assert data.sizes == {"time": 5, "triangle": 3}
+    assert data.sizes == {"time": 5, "organ": 2, "triangle": 3}
+    assert data["organ_PAR_absorbed"].dims == ("time", "organ") and float(data["organ_PAR_absorbed"][4].min()) > 0.0
     assert data["time"].values[0] == np.datetime64("2002-08-07T20:00")
     assert float(data["PAR_absorbed"].isel(time=0).sum()) == 0.0 < float(data["PAR_absorbed"].isel(time=4).sum())
 
@@ -86,3 +95,40 @@ def test_progress_is_of_the_whole_day():
     sunfleck.day(with_arrays(DAY), **HOURS, error=0.02, progress=told.append)
     fractions = [state["fraction"] for state in told]
     assert told and 0.0 <= min(fractions) and max(fractions) <= 1.0
+
+
+def test_several_dates_keep_triangles_only_if_asked():
+    dates = {**HOURS, "start": "08:00", "stop": "12:00", "step": 120, "to_date": "2002-08-10", "grid": 0.05, "passes": 8}
+    season = sunfleck.day(with_arrays(DAY), **dates)
+    assert not season.has_triangles
+    for name in ("triangles", "plane_steps"):
+        with pytest.raises(ValueError, match="triangles=True"):
+            getattr(season, name)
+    whole = sunfleck.day(with_arrays(DAY), **dates, triangles=True)
+    assert whole.triangles["PAR_absorbed"].shape == (6, 3)
+    for name in season.tables:
+        assert season.table(name) == whole.table(name), name
+    kinds = season.season
+    assert list(kinds["organ"]) == ["leaf", "stem", "soil"] and kinds["PAR_absorbed_share"].shape == (3, 3)
+    assert np.allclose(kinds["PAR_absorbed_ground_mj_m2"][:, 2], season.sums["PAR_absorbed_soil_mj_m2"])
+    assert season.to_dataframe("season").loc[(kinds["date"][2], 2), "organ"] == "soil"
+    organs = season.organ_steps
+    assert organs["PAR_absorbed"].shape == (6, 2)
+    assert np.allclose(7200e-6 * organs["PAR_absorbed"].reshape(3, 2, 2).sum(axis=1), season.organs["PAR_absorbed_mj_m2"])
+    maps, steps = whole.plane_maps[0], whole.plane_steps[0]
+    assert steps["PAR_total"].shape == (6, *maps["PAR_total_mj_m2"].shape)
+    assert np.allclose(7200e-6 * steps["PAR_total"].astype(float).sum(axis=0), maps["PAR_total_mj_m2"])
+
+
+def test_sensors_over_a_day():
+    line = {"name": "line", "from": [0.1, 0.1, 0.1], "to": [0.4, 0.1, 0.1], "points": 3}
+    day = sunfleck.day(with_arrays({**DAY, "sensor": [line]}), **HOURS, grid=0.05, passes=8)
+    assert day.sensors["PAR_total"].shape == (5, 3) and day.sensor_means["PAR_total"].shape == (5, 1)
+    assert np.allclose(day.sensors["PAR_total"].mean(axis=1), day.sensor_means["PAR_total"][:, 0])
+    assert np.allclose(3600e-6 * day.sensor_means["PAR_total"].sum(axis=0), day.sensor_sums["PAR_total_mj_m2"][0])
+    assert day.planes["PAR_down"].shape == (5, len(day.planes["height_m"]))
+    assert len(day.to_dataframe("sensors")) == 15
+    kept = pickle.loads(pickle.dumps(day))
+    assert np.array_equal(kept.sensors["PAR_total"], day.sensors["PAR_total"])
+    assert np.array_equal(kept.triangles["PAR_absorbed"], day.triangles["PAR_absorbed"])
+    assert sunfleck.day(with_arrays(DAY), **HOURS, grid=0.05, passes=8, triangles=False).sensors == {}

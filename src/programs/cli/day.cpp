@@ -5,15 +5,13 @@
 #include "base/log.h"
 #include "base/stopwatch.h"
 #include "base/units.h"
-#include "files/results/exports/day_netcdf.h"
-#include "files/results/plots/plots.h"
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"
-#include "files/results/tables/day_tables.h"
 #include "programs/cli/process.h"
 #include "programs/cli/terminal.h"
 #include "simulate/day.h"
 #include "simulate/day_blocks.h"
+#include "simulate/day_folder.h"
 #include "simulate/interrupt.h"
 #include "simulate/ranks.h"
 #include "simulate/result_folder.h"
@@ -24,6 +22,7 @@
 #include <algorithm>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -31,24 +30,25 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr const char* day_file = "day.csv";
-constexpr const char* sums_file = "day_sums.csv";
-constexpr const char* organs_file = "organs_day.csv";
-constexpr const char* plants_file = "plants_day.csv";
-constexpr const char* fields_file = "day.nc";
-constexpr const char* plot_file = "day.png";
 constexpr const char* resume_hint = ", then continue with --resume";
 
-// Stores the steps in the folder: a step is written to the disk while the next one is simulated.
+// Stores the steps in the folder: a step is written to the disk while the next one is simulated. Reports each step or, of several
+// dates, each date.
 class FolderSink final : public DaySink {
  public:
-  FolderSink(const StepStore& store, const DayCourse& course) : store_(store), course_(course) {}
+  FolderSink(const StepStore& store, const DayCourse& course, StepFields fields)
+      : store_(store), course_(course), fields_(fields) {}
 
   [[nodiscard]] std::optional<StoredStep> find(std::size_t step) override { return store_.read(step); }
+  [[nodiscard]] StepFields fields() const override { return fields_; }
   void take(std::size_t step, StoredStep& simulated) override {
     wait();
     writing_ = store_.begin_write(step, simulated);
-    report(step, simulated);
+    if (course_.dates.size() > 1) {
+      report_date(step, simulated);
+    } else {
+      report_step(step, simulated);
+    }
   }
   // Waits until all steps are on the disk.
   void wait() {
@@ -56,42 +56,40 @@ class FolderSink final : public DaySink {
   }
 
  private:
-  void report(std::size_t i, const StoredStep& step) const {
+  static std::string errors_text(const StoredStep& step) {
+    std::string text;
+    if (step.direct_error) text += fmt::format(", error {:.2g} direct", *step.direct_error);
+    if (step.indirect_error) text += fmt::format(", {:.2g} indirect", *step.indirect_error);
+    return text;
+  }
+  void report_step(std::size_t i, const StoredStep& step) const {
     const DayStep& when = course_.steps[i];
-    std::string line = fmt::format("step {} of {}: {}, sun {:.1f} deg, {:.2f} s", i + 1, course_.steps.size(),
-                                   local_time_text(when.start, course_.offset_minutes).substr(0, 16),
-                                   when.sun.elevation_rad / degree, step.seconds);
-    if (step.direct_error) line += fmt::format(", error {:.2g} direct", *step.direct_error);
-    if (step.indirect_error) line += fmt::format(", {:.2g} indirect", *step.indirect_error);
+    const std::string line = fmt::format("step {} of {}: {}, sun {:.1f} deg, {:.2f} s", i + 1, course_.steps.size(),
+                                         local_time_text(when.start, course_.offset_minutes).substr(0, 16),
+                                         when.sun.elevation_rad / degree, step.seconds) +
+                             errors_text(step);
     say(step.reached_bound ? line : line + ", stopped at --max-rays short of the bound");
+  }
+  // Reports a date after its last daytime step.
+  void report_date(std::size_t i, const StoredStep& step) {
+    ++steps_;
+    seconds_ += step.seconds;
+    const std::size_t date = course_.steps[i].date;
+    std::size_t next = i + 1;
+    while (next < course_.steps.size() && course_.steps[next].night()) ++next;
+    if (next < course_.steps.size() && course_.steps[next].date == date) return;
+    say(fmt::format("date {} of {}: {}, {} steps simulated, {:.2f} s", date + 1, course_.dates.size(), course_.dates[date],
+                    std::exchange(steps_, 0), std::exchange(seconds_, 0.0)));
   }
 
   const StepStore& store_;
   const DayCourse& course_;
+  StepFields fields_;
   std::future<void> writing_;  // writes the last step
+  // The steps of a date that were simulated so far, and the time they took.
+  std::size_t steps_ = 0;
+  double seconds_ = 0.0;
 };
-
-void draw_day(const fs::path& folder, const std::string& title, const std::string& band) {
-  PlotVariables variables;
-  variables.set_file("table", folder / day_file);
-  variables.set_file("sums", folder / sums_file);
-  variables.set_text("title", title);
-  variables.set_text("band", band);
-  if (const std::optional<std::string> problem = draw_table("day.gp", variables, folder / plot_file)) warn(*problem);
-}
-
-void write_fields(const fs::path& folder, const RunRecord& record, const RadiationModel& model, const DayCourse& course,
-                  const SimulatedDay& day, const StepStore& store) {
-  const auto fields = [&store](std::size_t step) {
-    std::optional<StoredStep> stored = store.read(step);
-    if (!stored) throw_failure(fmt::format("step {}", step + 1), "its file is missing or damaged", "run again with --resume");
-    return std::move(stored->fields);
-  };
-  write_day_netcdf(folder / fields_file, store.scratch_file(), {record, model, course, day.lights.size(), fields});
-  std::error_code error;
-  const double megabytes = static_cast<double>(fs::file_size(folder / fields_file, error)) * 1e-6;
-  say(fmt::format("{}: {:.1f} MB", fields_file, megabytes));
-}
 
 // A day and the folder for its results.
 struct DayJob {
@@ -103,45 +101,27 @@ struct DayJob {
   const ordered_json& settings;
 };
 
-UnwrittenFiles write_tables(const DayJob& job, const RunRecord& record, const RadiationModel& model, const SimulatedDay& day) {
-  const DayCourse& course = job.plan.course;
-  UnwrittenFiles unwritten;
-  unwritten.attempt(day_file, [&] { write_file(job.folder / day_file, day_csv(record, model, course, day.lights)); });
-  unwritten.attempt(sums_file, [&] { write_file(job.folder / sums_file, day_sums_csv(record, model, course, day.lights)); });
-  unwritten.attempt(organs_file,
-                    [&] { write_file(job.folder / organs_file, organs_day_csv(record, model, course, day.lights)); });
-  unwritten.attempt(plants_file,
-                    [&] { write_file(job.folder / plants_file, plants_day_csv(record, model, course, day.lights)); });
-  if (day.lights.empty()) return unwritten;
-  unwritten.attempt(fields_file, [&] { write_fields(job.folder, record, model, course, day, job.store); });
-  const std::vector<std::string>& images = job.options.run.images;
-  if (std::find(images.begin(), images.end(), "none") != images.end()) return unwritten;
-  const std::size_t band = picture_band(model, job.options.run.pictures.band);
-  unwritten.attempt(plot_file, [&] { draw_day(job.folder, record.title, model.bands[band].name); });
-  return unwritten;
-}
-
-// Writes tables, fields, plot and summary, and prints the summary or a report.
+// Writes all files, the summary last, and prints the summary or a report.
 void write_day(const DayJob& job, RunRecord record, const RadiationModel& model, const SimulatedDay& day) {
   Stopwatch watch;
   const RunOptions& run = job.options.run;
-  UnwrittenFiles unwritten = write_tables(job, record, model, day);
-  record.not_written = unwritten.names();
+  WrittenDay written = write_day_files(job.folder, run, {record, model, job.plan.course, job.store, day.steps});
+  record.not_written = written.unwritten.names();
   record.complete = record.complete && record.not_written.empty();
   record.seconds.write = watch.lap();
   record.seconds.total += record.seconds.write;
-  const DaySummary summary{record, model, job.plan.course, day.lights, day.totals, job.settings};
+  const DaySummary summary{record, model, job.plan.course, day.steps, written.sums, day.totals, job.settings};
   const std::string text = day_summary_json(summary);
-  unwritten.attempt(summary_file, [&] {
+  written.unwritten.attempt(summary_file, [&] {
     write_file(job.folder / summary_file, text);
-    if (unwritten.names().empty() && day.lights.size() == job.plan.course.steps.size()) job.store.finish();
+    if (written.unwritten.names().empty() && day.steps == job.plan.course.steps.size()) job.store.finish();
   });
   if (run.json) {
     fmt::print("{}", text);
   } else if (!run.quiet) {
     fmt::print("{}{}\n", day_report(summary), job.folder.string());
   }
-  unwritten.throw_if_any(resume_hint);
+  written.unwritten.throw_if_any(resume_hint);
 }
 
 // Simulates the steps until they are done, --max-seconds have passed or Ctrl-C stops them; an error leaves the finished steps
@@ -152,7 +132,7 @@ SimulatedDay run_steps(Simulation& simulation, const DayJob& job, const SolveSet
   const Stopwatch clock;
   const std::optional<double>& max_seconds = job.options.run.max_seconds;
   hooks.monitor.interrupted = [&] { return interrupted() || (max_seconds && clock.seconds() >= *max_seconds); };
-  FolderSink sink(job.store, job.plan.course);
+  FolderSink sink(job.store, job.plan.course, wanted_fields(job.options.run, job.plan.course));
   try {
     SimulatedDay day = simulate_day(simulation, job.plan, settings, sink, hooks);
     sink.wait();
@@ -163,9 +143,9 @@ SimulatedDay run_steps(Simulation& simulation, const DayJob& job, const SolveSet
 }
 
 int warn_if_stopped(const DayCourse& course, const SimulatedDay& day, const RunOptions& options, bool interrupted) {
-  if (day.lights.size() < course.steps.size()) {
+  if (day.steps < course.steps.size()) {
     const std::string why = interrupted ? "interrupted" : fmt::format("stopped after --max-seconds {}", *options.max_seconds);
-    warn(fmt::format("{} after {} of {} steps; they are kept, and --resume continues the day", why, day.lights.size(),
+    warn(fmt::format("{} after {} of {} steps; they are kept, and --resume continues the day", why, day.steps,
                      course.steps.size()));
     return interrupted ? exit_interrupted : exit_short_of_bound;
   }
@@ -175,19 +155,20 @@ int warn_if_stopped(const DayCourse& course, const SimulatedDay& day, const RunO
   return exit_short_of_bound;
 }
 
-Scene read_day_scene(const RunOptions& options) {
-  Scene scene = load_scene_with_warnings(options, ScenePurpose::day);
-  if (remove_receivers(scene)) say("planes and sensors are ignored; only `run` computes them");
-  return scene;
+// Returns the solver's settings for the steps: the light of triangles is estimated only where it is wanted.
+SolveSettings settings_of(const DayOptions& options, const Scene& scene, const DayPlan& plan) {
+  WorkRequest work = options.run;
+  work.triangle_light = wanted_fields(options.run, plan.course) == StepFields::kept;
+  return day_solve_settings(work, scene, options.run.threads);
 }
 
 // Does the part of a rank other than 0 in a day.
 int help_with_day(const DayOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
-    Scene scene = read_day_scene(options.run);
-    const SolveSettings settings = day_solve_settings(options.run, scene, options.run.threads);
-    const DayPlan plan = plan_day_in_blocks(options, options.run, scene, settings);
+    Scene scene = load_scene_with_warnings(options.run, ScenePurpose::day);
+    const DayPlan plan = plan_day_in_blocks(options, scene);
     Simulation simulation(std::move(scene), options.run);
+    const SolveSettings settings = settings_of(options, simulation.scene(), plan);
     make_replicates({simulation, settings,
                      [&](std::uint64_t block) { return lights_of(simulation.model(), plan, plan.blocks.at(block)); }});
   });
@@ -218,14 +199,14 @@ int run_day(const DayOptions& asked) {
   const fs::path folder = result_folder(run, run.scene);
   FolderLock lock(folder);
 
-  Scene scene = read_day_scene(run);
-  const SolveSettings settings = day_solve_settings(run, scene, run.threads);
-  const DayPlan plan = plan_day_in_blocks(options, run, scene, settings);
+  Scene scene = load_scene_with_warnings(run, ScenePurpose::day);
+  const DayPlan plan = plan_day_in_blocks(options, scene);
+  const SolveSettings settings = settings_of(options, scene, plan);
   check_inputs(folder, scene);
   check_grid(run, scene);
   static_cast<void>(picture_band(scene.model, run.pictures.band));
-  const ordered_json kept_settings = day_settings(options, scene, settings, plan);
-  StepStore store(folder, scene.model, kept_settings);
+  const ordered_json kept_settings = day_settings(options, scene, settings, plan, wanted_fields(run, plan.course));
+  StepStore store(folder, scene.model, kept_settings, wanted_fields(run, plan.course));
   const StepStore::Found found = run.resume ? store.find() : StepStore::Found::nothing;
   if (found == StepStore::Found::finished) return report_finished(folder, run, "day");
   const double load_s = watch.lap();

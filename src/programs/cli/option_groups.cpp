@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t least_memory_bytes = 1'000'000;
 constexpr std::uint64_t most_memory_bytes = std::uint64_t{1} << 50U;
+constexpr int most_steps_together = 96;  // more gain little
 constexpr std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -177,21 +178,27 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
   day.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>)")->check(not_empty());
   day.add_option("--from", options.from, "Start of the first step, local time HH:MM (default: sunrise)")->check(not_empty());
   day.add_option("--to", options.to, "End of the last step, which may be shorter (default: sunset)")->check(not_empty());
+  day.add_option(
+         "--together", options.steps_together,
+         "Simulate up to N consecutive steps of a date together: they share packets, which takes less time but memory for each "
+         "step; --max-rays then holds for all of them (default: 1)")
+      ->transform(whole_number(1, most_steps_together));
   day.add_option("--step", options.step_min, "Step length in minutes; each step has the light of its midpoint (default: 60)")
       ->transform(whole_number(1, 1440));
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
   day.add_option("--to-date", options.to_date, "Last of several dates, all with the same hours")->check(not_empty());
   day.add_flag("--resume", options.run.resume, "Resume a stopped day; its finished steps are kept");
-  day.add_option("--export", options.run.exports, "nc: day.nc, which is always written")
+  day.add_option("--export", options.run.exports, "nc: day.nc also for several dates, and plane_H_day.nc")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(without_blanks())
       ->check(one_of({"nc"}));
-  day.add_option("--images", options.run.images, "day (the course of the day), none or all (default)")
+  day.add_option("--images", options.run.images,
+                 "day (the course), season (by kind of organ, of several dates), planes, none or all (default)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(without_blanks())
-      ->check(one_of({"day", "all", "none"}));
+      ->check(one_of({"day", "season", "planes", "all", "none"}));
   day.add_option("--band", options.run.pictures.band, "Waveband of the picture (default: the scene's first)")
       ->check(not_empty());
   day.add_flag("--json", options.run.json, "Print only the summary (JSON) on standard output");

@@ -20,7 +20,7 @@ struct RunOptions : SceneRequest, DeviceRequest, WorkRequest, ResultRequest {
 
 // Options of `day`.
 struct DayOptions : DayRequest {
-  RunOptions run;  // images: all, none or day
+  RunOptions run;  // images: all, none, day, season or planes
 };
 
 struct RenderOptions {

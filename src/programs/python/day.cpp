@@ -5,16 +5,20 @@
 #include "files/results/tables/day_fields.h"
 #include "files/results/tables/day_tables.h"
 #include "files/results/tables/element_fields.h"
+#include "files/results/tables/plane_map.h"
+#include "files/results/tables/table_text.h"
 #include "programs/python/arrays.h"
 #include "programs/python/columns.h"
 #include "programs/python/long_work.h"
 #include "simulate/in_memory_day.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,39 +31,47 @@ namespace py = pybind11;
 
 class Day {
  public:
-  explicit Day(InMemoryDay day) : day_(std::move(day)) {}
+  explicit Day(InMemoryDay day)
+      : day_(std::move(day)),
+        stand_(day_.scene.model),
+        part_(day_.plan.course, day_.lights),
+        tables_(day_tables(day_.scene.model)) {}
 
   [[nodiscard]] bool complete() const { return day_.record.complete; }
   [[nodiscard]] std::string summary() const { return day_.summary; }
   [[nodiscard]] std::vector<std::string> warnings() const { return day_.scene.warnings; }
 
+  // Returns the names of the tables by step, date, organ and plant, and of those of the maps.
+  [[nodiscard]] std::vector<std::string> tables() const {
+    std::vector<std::string> names;
+    for (const DayTable& table : tables_) names.emplace_back(table.file);
+    for (const PlaneReceiver& plane : day_.scene.model.planes) names.push_back(plane_day_stem(plane) + ".csv");
+    return names;
+  }
+
   [[nodiscard]] std::string table(const std::string& name) const {
-    const RadiationModel& model = day_.scene.model;
-    if (name == "day.csv") return day_csv(day_.record, model, day_.plan.course, day_.lights);
-    if (name == "day_sums.csv") return day_sums_csv(day_.record, model, day_.plan.course, day_.lights);
-    if (name == "organs_day.csv") return organs_day_csv(day_.record, model, day_.plan.course, day_.lights);
-    if (name == "plants_day.csv") return plants_day_csv(day_.record, model, day_.plan.course, day_.lights);
-    throw not_a_table(name);
+    if (const std::optional<std::size_t> plane = plane_of(name))
+      return csv_text(day_.record, day_.plane_sums.table(day_.plan.course, *plane));
+    return day_text(table_of(name), day_.record, stand_, part_);
   }
 
   [[nodiscard]] py::dict describe(const std::string& name) const {
-    if (name == "day.csv") return descriptions_of(steps_table());
-    if (name == "day_sums.csv") return descriptions_of(sums_table());
-    if (name == "organs_day.csv") return descriptions_of(organs_table());
-    if (name == "plants_day.csv") return descriptions_of(plants_table());
-    throw not_a_table(name);
+    if (const std::optional<std::size_t> plane = plane_of(name))
+      return descriptions_of(day_.plane_sums.table(day_.plan.course, *plane));
+    return descriptions_of(table_of(name).make(stand_, part_));
   }
 
-  // Returns the columns of day.csv, [step].
-  [[nodiscard]] py::dict steps() const { return columns_of(steps_table()); }
-  // Returns the columns of day_sums.csv, [date].
-  [[nodiscard]] py::dict sums() const { return columns_of(sums_table()); }
+  // Returns the columns of a table, lists first; the arrays have the table's axes.
+  [[nodiscard]] py::dict columns(const std::string& name) const {
+    if (const std::optional<std::size_t> plane = plane_of(name))
+      return columns_of(day_.plane_sums.table(day_.plan.course, *plane));
+    return lists_first(table_of(name).make(stand_, part_));
+  }
 
-  // Returns what organs absorbed, [date, organ], as the columns of organs_day.csv, lists first; dates without a step are left
-  // out.
-  [[nodiscard]] py::dict organs() const { return lists_first(organs_table()); }
-  // Returns what plants absorbed, [date, plant], likewise.
-  [[nodiscard]] py::dict plants() const { return lists_first(plants_table()); }
+  // Returns what organs absorb, [step, organ], lists first.
+  [[nodiscard]] py::dict organ_steps() const { return lists_first(organ_steps_table(stand_, part_)); }
+
+  [[nodiscard]] bool has_triangles() const { return day_.triangle_light; }
 
   // Returns the variables of day.nc, [step, triangle], in single precision; those of a night are zero.
   [[nodiscard]] py::dict triangles() const {
@@ -69,22 +81,65 @@ class Day {
     py::dict columns;
     for (std::size_t b = 0; b < model.bands.size(); ++b) {
       for (std::size_t k = 0; k < kinds.size(); ++k) {
-        std::vector<float> values(day_.fields.size() * elements, 0.0F);
-        for (std::size_t i = 0; i < day_.fields.size(); ++i) {
-          if (day_.fields[i].empty()) continue;
-          const auto begin = day_.fields[i].begin() + signed_size((b * kinds.size() + k) * elements);
-          std::copy(begin, begin + signed_size(elements), values.begin() + signed_size(i * elements));
-        }
-        columns[fmt::format("{}_{}", model.bands[b].name, ending(kinds[k])).c_str()] =
-            array_of(std::move(values), {signed_size(day_.fields.size()), signed_size(elements)});
+        const auto name = fmt::format("{}_{}", model.bands[b].name, ending(kinds[k]));
+        columns[name.c_str()] = array_of(of_steps(day_.fields, (b * kinds.size() + k) * elements, elements, 0.0F),
+                                         {signed_size(day_.fields.size()), signed_size(elements)});
       }
     }
     return columns;
   }
 
+  // Returns the variables of plane_H_day.nc for each plane, [step, row, cell], likewise; shares of a night are NaN.
+  [[nodiscard]] py::list plane_steps() const {
+    const RadiationModel& model = day_.scene.model;
+    py::list planes;
+    std::size_t begin = 0;
+    for (const PlaneReceiver& plane : model.planes) {
+      const UserMap map(plane, model.plot);
+      const std::size_t cells = std::size_t{map.first.cells} * map.second.cells;
+      py::dict columns;
+      columns["height_m"] = plane.height_m;
+      const auto add = [&](const std::string& name, float at_night) {
+        columns[name.c_str()] =
+            array_of(of_steps(day_.maps, begin, cells, at_night),
+                     {signed_size(day_.maps.size()), signed_size(map.second.cells), signed_size(map.first.cells)});
+        begin += cells;
+      };
+      add("sunfleck", std::numeric_limits<float>::quiet_NaN());
+      for (const Waveband& band : model.bands) {
+        add(band.name + "_direct", 0.0F);
+        add(band.name + "_total", 0.0F);
+      }
+      planes.append(columns);
+    }
+    return planes;
+  }
+
  private:
-  [[nodiscard]] static py::value_error not_a_table(const std::string& name) {
-    return py::value_error(name + " (not a table of a day); use day.csv, day_sums.csv, organs_day.csv or plants_day.csv");
+  [[nodiscard]] const DayTable& table_of(const std::string& name) const {
+    const auto found = std::find_if(tables_.begin(), tables_.end(), [&](const DayTable& table) { return table.file == name; });
+    if (found != tables_.end()) return *found;
+    throw py::value_error(fmt::format("{} (not a table of this day); use {}", name, fmt::join(tables(), ", ")));
+  }
+
+  [[nodiscard]] std::optional<std::size_t> plane_of(const std::string& name) const {
+    const std::vector<PlaneReceiver>& planes = day_.scene.model.planes;
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+      if (plane_day_stem(planes[p]) + ".csv" == name) return p;
+    }
+    return std::nullopt;
+  }
+
+  // Returns `count` values of each step, from number `begin` on.
+  [[nodiscard]] static std::vector<float> of_steps(const std::vector<std::vector<float>>& steps, std::size_t begin,
+                                                   std::size_t count, float at_night) {
+    std::vector<float> values(steps.size() * count, at_night);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (steps[i].empty()) continue;
+      const auto from = steps[i].begin() + signed_size(begin);
+      std::copy(from, from + signed_size(count), values.begin() + signed_size(i * count));
+    }
+    return values;
   }
 
   [[nodiscard]] static py::dict lists_first(Table table) {
@@ -95,22 +150,22 @@ class Day {
     return columns_of(table);
   }
 
-  [[nodiscard]] Table steps_table() const { return sunfleck::steps_table(day_.scene.model, day_.plan.course, day_.lights); }
-  [[nodiscard]] Table sums_table() const { return day_sums_table(day_.scene.model, day_.plan.course, day_.lights); }
-  [[nodiscard]] Table organs_table() const { return organs_day_table(day_.scene.model, day_.plan.course, day_.lights); }
-  [[nodiscard]] Table plants_table() const { return plants_day_table(day_.scene.model, day_.plan.course, day_.lights); }
-
   InMemoryDay day_;
+  DayStand stand_;
+  DayPart part_;
+  std::vector<DayTable> tables_;
 };
 
 // Creates a day from its times and the limits of its work.
 std::unique_ptr<Day> day_of(const std::filesystem::path& file, const std::optional<std::string>& text,
                             std::map<std::string, Mesh> meshes, bool allow_outside, const DayRequest& request,
-                            const WorkRequest& limits, const std::string& device, int threads, const py::object& progress) {
+                            WorkRequest limits, std::optional<bool> triangles, const std::string& device, int threads,
+                            const py::object& progress) {
   std::optional<InMemoryDay> day;
   const SceneAccess access{.allow_outside = allow_outside, .purpose = ScenePurpose::day};
   const auto work = [&](const Monitor& monitor) {
     Scene scene = text ? read_scene(SceneText{file, *text, std::move(meshes)}, access) : read_scene(file, access);
+    limits.triangle_light = triangles ? *triangles : keeps_triangles(request, scene);
     day = simulate_in_memory(std::move(scene), request, limits, {device, 0, threads}, monitor);
   };
   do_long_work(work, progress);
@@ -131,11 +186,12 @@ void bind_day(py::module_& module) {
       .def("summary", &Day::summary)
       .def("table", &Day::table)
       .def("describe", &Day::describe)
-      .def("steps", &Day::steps)
-      .def("organs", &Day::organs)
-      .def("sums", &Day::sums)
-      .def("plants", &Day::plants)
-      .def("triangles", &Day::triangles);
+      .def("tables", &Day::tables)
+      .def("columns", &Day::columns)
+      .def("organ_steps", &Day::organ_steps)
+      .def_property_readonly("has_triangles", &Day::has_triangles)
+      .def("triangles", &Day::triangles)
+      .def("plane_steps", &Day::plane_steps);
   module.def("day", &day_of);
 }
 

@@ -142,7 +142,7 @@ void Outcome::write(const ResultRequest& request) const {
 }
 
 py::array Outcome::organ_rows(const py::object& self) const {
-  return view_of(simulated_.scene->model.canopy.organ_of, self);
+  return view_of(simulated_.scene->model.canopy.organ_of.get(), self);
 }
 
 py::array Outcome::render(const Picture& picture, const PictureOptions& options) const {

@@ -244,10 +244,10 @@ TEST(HostileFiles, DeepStoresAreRefused) {
   expect_refusal([&] { static_cast<void>(read_result_store(folder.write("pictures.cbor", deep))); }, "damaged");
   RadiationModel model;
   model.bands.resize(1);
-  const StepStore store(folder.path(), model, {{"seed", 1}});
+  const StepStore store(folder.path(), model, {{"seed", 1}}, StepFields::kept);
   fs::create_directory(folder / "steps");
   const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(deep.data()), deep.size()));
-  std::string step = "SUNSTEP5";
+  std::string step = "SUNSTEP6";
   append(step, sum);
   static_cast<void>(folder.write("steps/step_00000.bin", step + deep));
   EXPECT_FALSE(store.read(0));

@@ -1,15 +1,13 @@
 #include "files/results/exports/day_netcdf.h"
 
 #include "base/check.h"
-#include "base/error.h"
 #include "base/file.h"
+#include "files/results/exports/day_time_axis.h"
 #include "files/results/exports/netcdf_file.h"
 #include "files/results/exports/netcdf_writer.h"
 #include "files/results/tables/day_fields.h"
 
 #include <fmt/format.h>
-
-#include <numbers>
 
 namespace sunfleck {
 namespace {
@@ -20,13 +18,11 @@ class DayWriter {
       : day_(day),
         columns_(day_columns(day.model)),
         file_("day.nc", file),
-        time_(file_.dimension("time", day.steps)),
-        end_(file_.dimension("bound", 2)),
+        time_(add_time_axis(file_, day.course, day.steps)),
         triangle_(file_.dimension("triangle", day.model.canopy.size())) {}
 
   void write() {
     add_record(file_, "day", day_.record, day_.model);
-    add_times();
     add_triangles();
     define_light();
     const std::size_t elements = day_.model.canopy.size();
@@ -35,40 +31,13 @@ class DayWriter {
       const std::vector<float> fields = day_.course.steps[step].night() ? dark : day_.fields(step);
       EXPECT(fields.size(), ==, dark.size());
       for (std::size_t i = 0; i < light_.size(); ++i) {
-        file_.put_row(light_[i], step, std::span(fields).subspan(i * elements, elements));
+        file_.put_rows(light_[i], step, 1, std::span(fields).subspan(i * elements, elements));
       }
     }
     file_.finish();
   }
 
  private:
-  void add_times() {
-    constexpr double per_degree = 180.0 / std::numbers::pi;
-    const UtcTime origin{day_.course.steps.front().start.year, 1, 1};
-    std::vector<double> starts, bounds, elevations, azimuths;
-    std::vector<std::string> local;
-    for (std::size_t i = 0; i < day_.steps; ++i) {
-      const DayStep& step = day_.course.steps[i];
-      starts.push_back(seconds_between(origin, step.start));
-      bounds.insert(bounds.end(), {starts.back(), starts.back() + step.length_s});
-      elevations.push_back(step.sun.elevation_rad * per_degree);
-      azimuths.push_back(step.sun.azimuth_rad * per_degree);
-      local.push_back(local_time_text(step.start, day_.course.offset_minutes));
-    }
-    const std::string units = fmt::format("seconds since {:04}-01-01 00:00:00", origin.year);
-    const int time = file_.variable<double>("time", {time_}, units, "start of the step, UTC; its light is that of the middle");
-    file_.attribute(time, "standard_name", "time");
-    file_.attribute(time, "axis", "T");
-    file_.attribute(time, "calendar", "proleptic_gregorian");
-    file_.attribute(time, "bounds", "time_bounds");
-    file_.put(time, std::span<const double>(starts));
-    const int time_bounds = file_.variable<double>("time_bounds", {time_, end_});
-    file_.put(time_bounds, std::span<const double>(bounds));
-    file_.add("elevation_deg", {time_}, "degree", "elevation of the sun at the middle of the step", elevations);
-    file_.add("azimuth_deg", {time_}, "degree", "azimuth of the sun at the middle of the step, clockwise from north", azimuths);
-    file_.names("local_time", time_, local, "start of the step, local time with its offset");
-  }
-
   void add_triangles() {
     const ElementFields places = make_element_places(day_.model);
     for (const Column& column : triangles_table(places).columns) {
@@ -90,7 +59,7 @@ class DayWriter {
         file_.attribute(number, "coordinates", "x y z");
         if (column == LightColumn::absorbed)
           file_.attribute(number, "ancillary_variables", fmt::format("{}_{}", band.name, ending(LightColumn::absorbed_error)));
-        file_.store_by_row(number, day_.model.canopy.size());
+        file_.store_by_rows(number);
         light_.push_back(number);
       }
     }
@@ -99,7 +68,7 @@ class DayWriter {
   const DayFields& day_;
   std::vector<LightColumn> columns_;
   NetcdfFile file_;
-  int time_, end_, triangle_;
+  int time_, triangle_;
   std::vector<int> light_;  // [band * columns + column]
 };
 
@@ -107,14 +76,7 @@ class DayWriter {
 
 void write_day_netcdf(const std::filesystem::path& file, const std::filesystem::path& aside, const DayFields& day) {
   EXPECT(day.steps, >, std::size_t{0});
-  try {
-    DayWriter(day, aside).write();
-  } catch (const Error&) {
-    std::error_code error;
-    std::filesystem::remove(aside, error);
-    throw;
-  }
-  replace_file(file, aside);
+  write_aside(file, aside, [&] { DayWriter(day, aside).write(); });
 }
 
 }  // namespace sunfleck

@@ -167,17 +167,39 @@ int NetcdfFile::add(const Column& column, const std::vector<int>& dimensions) {
   return number;
 }
 
-void NetcdfFile::store_by_row(int variable, std::size_t row_length) {
-  constexpr std::size_t longest_chunk = std::size_t{1} << 18;
-  const std::size_t chunk[] = {1, std::clamp<std::size_t>(row_length, 1, longest_chunk)};
-  check(nc_def_var_chunking(file_, variable, NC_CHUNKED, chunk), "its layout cannot be set");
+std::vector<std::size_t> NetcdfFile::shape_of(int variable) {
+  int count = 0;
+  check(nc_inq_varndims(file_, variable, &count), "its dimensions cannot be read");
+  std::vector<int> dimensions(static_cast<std::size_t>(count));
+  check(nc_inq_vardimid(file_, variable, dimensions.data()), "its dimensions cannot be read");
+  std::vector<std::size_t> shape(dimensions.size());
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    check(nc_inq_dimlen(file_, dimensions[i], &shape[i]), "its dimensions cannot be read");
+  return shape;
 }
 
-void NetcdfFile::put_row(int variable, std::size_t row, std::span<const float> values) {
-  const std::size_t begin[] = {row, 0};
-  const std::size_t count[] = {1, values.size()};
+void NetcdfFile::store_by_rows(int variable, std::size_t rows_at_once) {
+  constexpr std::size_t longest_chunk = std::size_t{1} << 18;
+  std::vector<std::size_t> chunk = shape_of(variable);
+  std::size_t values = 1;
+  for (std::size_t i = chunk.size(); i-- > 0;) {
+    if (i == 0) chunk[i] = std::min(chunk[i], rows_at_once);
+    chunk[i] = std::clamp<std::size_t>(chunk[i], 1, std::max<std::size_t>(1, longest_chunk / values));
+    values *= chunk[i];
+  }
+  check(nc_def_var_chunking(file_, variable, NC_CHUNKED, chunk.data()), "its layout cannot be set");
+  // put_rows writes whole chunks, so that there is no use in keeping many of them.
+  constexpr std::size_t cache_bytes = std::size_t{1} << 20, slots = 521;
+  check(nc_set_var_chunk_cache(file_, variable, cache_bytes, slots, 1.0F), "its layout cannot be set");
+}
+
+void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std::span<const float> values) {
   if (values.empty()) return;
-  check(nc_put_vara_float(file_, variable, begin, count, values.data()), "its values cannot be written");
+  std::vector<std::size_t> count = shape_of(variable);
+  std::vector<std::size_t> begin(count.size());
+  begin.at(0) = first;
+  count.at(0) = rows;
+  check(nc_put_vara_float(file_, variable, begin.data(), count.data(), values.data()), "its values cannot be written");
 }
 
 void NetcdfFile::names(const std::string& name, int dimension, const std::vector<std::string>& values,

@@ -33,8 +33,8 @@ class NetcdfFile {
   // Defines a variable for a column of numbers; row numbers and unsigned numbers become std::int64_t.
   int variable(const Column& column, const std::vector<int>& dimensions);
 
-  // Lays out a variable of two dimensions for writing by put_row. A row is an index of the first dimension.
-  void store_by_row(int variable, std::size_t row_length);
+  // Lays out a variable for writing by put_rows, that many rows at once. A row is an index of the first dimension.
+  void store_by_rows(int variable, std::size_t rows_at_once = 1);
 
   // Adds an attribute to a variable, or to the file if the number is -1.
   void attribute(int variable, const std::string& name, std::string_view text);
@@ -44,7 +44,7 @@ class NetcdfFile {
   template <class T>
   void put(int variable, std::span<const T> values);
   void put(int variable, const Column& column);
-  void put_row(int variable, std::size_t row, std::span<const float> values);
+  void put_rows(int variable, std::size_t first, std::size_t rows, std::span<const float> values);
 
   // Define a variable and write its values.
   int add(const Column& column, const std::vector<int>& dimensions);
@@ -64,6 +64,7 @@ class NetcdfFile {
   void finish();
 
  private:
+  [[nodiscard]] std::vector<std::size_t> shape_of(int variable);
   int define(const std::string& name, int type, const std::vector<int>& dimensions);
   void check(int status, std::string_view what);
 

@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/sealed_file.h"
 #include "files/results/tables/day_fields.h"
-#include "physics/transport/model/plant_areas.h"
+#include "files/results/tables/plane_day.h"
 
 #include <fmt/format.h>
 
@@ -24,9 +24,13 @@ constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
 constexpr int step_format = 6;  // of the steps, and of the tables that a finished day has
 
-// Writes or reads a step; its light has the sizes of the model.
+struct StepSizes {
+  std::size_t fields = 0, maps = 0;  // numbers of values
+};
+
+// Writes or reads a step; its light has the sizes of the model. A reader that expects no fields skips them.
 template <class Archive, class Step>
-void visit(const Archive& archive, Step& step, std::size_t field_values) {
+void visit(const Archive& archive, Step& step, const StepSizes& sizes) {
   std::vector<double> light;
   EachNumber([&](double number) { light.push_back(number); })(step.light);
   archive["light"].packed(light, light.size());
@@ -35,7 +39,8 @@ void visit(const Archive& archive, Step& step, std::size_t field_values) {
     EachNumber([&](double& number) { number = *next++; })(step.light);
   }
   archive["shares_packets"].value(step.light.shares_packets);
-  archive["fields"].packed(step.fields, field_values);
+  if (!Archive::reads || sizes.fields > 0) archive["fields"].packed(step.fields, sizes.fields);
+  archive["maps"].packed(step.maps, sizes.maps);
   archive["next_rays"].value(step.next_work.rays);
   archive["next_packets"].value(step.next_work.packets);
   archive["rays"].value(step.rays);
@@ -43,6 +48,7 @@ void visit(const Archive& archive, Step& step, std::size_t field_values) {
   archive["lost_rays"].value(step.lost_rays);
   archive["direct_error"].value(step.direct_error);
   archive["indirect_error"].value(step.indirect_error);
+  archive["sensor_error"].value(step.sensor_error);
   archive["reached_bound"].value(step.reached_bound);
   archive["seconds"].value(step.seconds);
 }
@@ -74,13 +80,14 @@ void remove_day_steps(const fs::path& result_folder) {
   fs::remove(folder, not_empty);
 }
 
-StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model, const ordered_json& settings)
+StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model, const ordered_json& settings,
+                     StepFields fields)
     : folder_(result_folder / steps_folder),
       settings_(settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace)),
-      bands_(model.bands.size()),
-      organs_(model.canopy.organs.size()),
-      plants_(count_plants(model)),
-      field_values_(model.bands.size() * day_columns(model).size() * model.canopy.size()) {}
+      dark_(night_light(model)),
+      fields_(fields),
+      field_values_(model.bands.size() * day_columns(model).size() * model.canopy.size()),
+      map_values_(plane_map_values(model)) {}
 
 StepStore::Found StepStore::find() const {
   std::error_code error;
@@ -118,13 +125,13 @@ void StepStore::write(std::size_t step, const StoredStep& stored) const {
 
 std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& stored) const {
   json content = {{"settings", settings_}, {"step", step}};
-  visit(StoreWriter(content), stored, field_values_);
+  visit(StoreWriter(content), stored, {});
   // If no thread can be started, the file is written when the result of the future is requested.
   return std::async(std::launch::async | std::launch::deferred,
                     [file = file_of(step), bytes = sealed(step_mark, content)] { write_file(file, bytes); });
 }
 
-std::optional<StoredStep> StepStore::read(std::size_t step) const {
+std::optional<StoredStep> StepStore::read(std::size_t step, StepFields fields) const {
   std::error_code error;
   if (!fs::is_regular_file(file_of(step), error)) return std::nullopt;
   const std::optional<json> content = unsealed(step_mark, read_file(file_of(step)));
@@ -132,16 +139,8 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
   try {
     if (content->at("settings") != settings_ || content->at("step") != step) return std::nullopt;
     StoredStep stored;
-    StepLight& light = stored.light;
-    light.bands.resize(bands_);
-    light.organ_absorbed.resize(organs_ * bands_);
-    light.plant_absorbed_w.resize(plants_ * bands_);
-    light.of_shared = no_joint_errors(bands_, organs_, plants_);
-    light.leaf_classes.absorbed_sunlit.resize(bands_);
-    light.leaf_classes.absorbed_shaded.resize(bands_);
-    light.leaf_classes.sunlit_sd.resize(bands_);
-    light.leaf_classes.shaded_sd.resize(bands_);
-    visit(StoreReader(*content), stored, field_values_);
+    stored.light = dark_;
+    visit(StoreReader(*content), stored, {fields == StepFields::kept ? field_values_ : 0, map_values_});
     return stored;
   } catch (const json::exception&) {
     return std::nullopt;
@@ -150,8 +149,8 @@ std::optional<StoredStep> StepStore::read(std::size_t step) const {
   }
 }
 
-fs::path StepStore::scratch_file() const {
-  return folder_ / "step_fields.tmp";
+fs::path StepStore::scratch_file(std::string_view file) const {
+  return folder_ / fmt::format("step_{}.tmp", file);
 }
 
 fs::path StepStore::file_of(std::size_t step) const {

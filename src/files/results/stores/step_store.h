@@ -15,16 +15,18 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sunfleck {
 
 struct StoredStep {
   StepLight light;
-  std::vector<float> fields;  // [(band * columns + column) * elements + element], W m-2
+  std::vector<float> fields;  // [(band * columns + column) * elements + element], W m-2; empty unless wanted
+  std::vector<float> maps;    // of all planes, as plane_maps returns them
   Work next_work;             // initial work of the next step
   std::uint64_t rays = 0, packets = 0, lost_rays = 0;
-  std::optional<double> direct_error, indirect_error;  // relative, as compared with the bounds
+  std::optional<double> direct_error, indirect_error, sensor_error;  // relative, as compared with the bounds
   bool reached_bound = true;
   double seconds = 0.0;
 };
@@ -32,10 +34,14 @@ struct StoredStep {
 // Removes what a day left in `steps`; other files there are kept. Throws Error (failure).
 void remove_day_steps(const std::filesystem::path& result_folder);
 
+// Says whether steps have the light of every triangle, which takes most of their space.
+enum class StepFields { none, kept };
+
 class StepStore {
  public:
   // `settings` is a JSON object of plain values.
-  StepStore(const std::filesystem::path& result_folder, const RadiationModel& model, const nlohmann::ordered_json& settings);
+  StepStore(const std::filesystem::path& result_folder, const RadiationModel& model, const nlohmann::ordered_json& settings,
+            StepFields fields);
 
   enum class Found { nothing, begun, finished };
   // Returns the state that an earlier day left. Throws Error (input) if another version of the program left it in another
@@ -51,11 +57,14 @@ class StepStore {
   // Writes a step in another thread, which also waits for the disk; the data are copied before this returns. The future throws
   // what `write` would throw.
   [[nodiscard]] std::future<void> begin_write(std::size_t step, const StoredStep& stored) const;
-  // Returns nothing if the step is missing, was made with other settings, or its file is damaged.
-  [[nodiscard]] std::optional<StoredStep> read(std::size_t step) const;
+  // Returns nothing if the step is missing, was made with other settings, or its file is damaged. The fields of triangles may be
+  // left out to save time.
+  [[nodiscard]] std::optional<StoredStep> read(std::size_t step) const { return read(step, fields_); }
+  [[nodiscard]] std::optional<StoredStep> read(std::size_t step, StepFields fields) const;
 
-  // Returns a path at which a large file can be written before it is renamed; `begin` and `finish` remove any file left there.
-  [[nodiscard]] std::filesystem::path scratch_file() const;
+  // Returns the path at which a large file can be written before it is renamed to `file`; `begin` and `finish` remove any
+  // file left there.
+  [[nodiscard]] std::filesystem::path scratch_file(std::string_view file) const;
 
  private:
   [[nodiscard]] std::filesystem::path file_of(std::size_t step) const;
@@ -63,7 +72,9 @@ class StepStore {
 
   std::filesystem::path folder_;
   std::string settings_;  // JSON
-  std::size_t bands_, organs_, plants_, field_values_;
+  StepLight dark_;        // has the sizes of the model
+  StepFields fields_;
+  std::size_t field_values_, map_values_;
 };
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #include "files/results/tables/day_course.h"
 
 #include "base/check.h"
+#include "base/units.h"
 #include "physics/transport/model/plant_areas.h"
 #include "physics/transport/model/surfaces.h"
 
@@ -23,6 +24,9 @@ constexpr Estimate StepBand::*terms[] = {&StepBand::incident,           &StepBan
                                          &StepBand::absorbed_structure, &StepBand::absorbed_soil,
                                          &StepBand::reflected,          &StepBand::transmitted};
 
+constexpr Estimate SensorReading::*parts[] = {&SensorReading::direct, &SensorReading::sky, &SensorReading::scattered,
+                                              &SensorReading::total};
+
 // A sum of fluxes; the half-width of `random` holds only the random errors.
 struct Sum {
   Estimate random{0.0, 0.0};
@@ -39,14 +43,32 @@ struct Sum {
 struct Sums {
   std::size_t steps = 0;
   std::vector<std::array<Sum, std::size(terms)>> bands;
-  std::vector<Sum> organs;  // [organ * bands + band]
-  std::vector<Sum> plants;  // [plant * bands + band]
+  std::vector<Sum> organs;                                 // [organ * bands + band]
+  std::vector<Sum> plants;                                 // [plant * bands + band]
+  std::vector<Sum> kinds;                                  // [kind * bands + band]
+  std::vector<std::array<Sum, std::size(parts)>> sensors;  // [sensor * bands + band]
+  std::vector<Sum> planes;                                 // [plane * bands + band]
 
   void add(const StepLight& light, double length_s) {
+    if (steps == 0) begin_like(light);
     EXPECT(light.bands.size(), ==, bands.size());
     EXPECT(light.organ_absorbed.size(), ==, organs.size());
     EXPECT(light.plant_absorbed_w.size(), ==, plants.size());
+    EXPECT(light.kind_absorbed.size(), ==, kinds.size());
+    EXPECT(light.sensors.size(), ==, sensors.size());
+    EXPECT(light.plane_down.size(), ==, planes.size());
     ++steps;
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      for (std::size_t p = 0; p < std::size(parts); ++p)
+        sensors[i][p].add(light.sensors[i].*parts[p], 0.0, length_s, std::nullopt);
+    }
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const KindFlux& kind = light.kind_absorbed[i];
+      kinds[i].add(kind.absorbed, linear_part(light, kind.absorbed, kind.unshot), length_s, std::nullopt);
+    }
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      planes[i].add(light.plane_down[i], linear_part(light, light.plane_down[i], 0.0), length_s, std::nullopt);
+    }
     for (std::size_t b = 0; b < bands.size(); ++b) {
       const StepBand& band = light.bands[b];
       for (std::size_t t = 0; t < std::size(terms); ++t) {
@@ -74,9 +96,23 @@ struct Sums {
   // flux is exact.
   static double shared_term(const StepLight& light, std::size_t band, std::size_t term) {
     const JointErrors::Band& errors = light.of_shared.bands[band];
-    const double parts[] = {errors.vegetation, errors.structure, errors.soil, errors.reflected, errors.transmitted};
-    if (term > 0) return parts[term - 1];
-    return light.bands[band].incident.half_width > 0.0 ? std::accumulate(std::begin(parts), std::end(parts), 0.0) : 0.0;
+    const double of_terms[] = {errors.vegetation, errors.structure, errors.soil, errors.reflected, errors.transmitted};
+    if (term > 0) return of_terms[term - 1];
+    return light.bands[band].incident.half_width > 0.0 ? std::accumulate(std::begin(of_terms), std::end(of_terms), 0.0) : 0.0;
+  }
+
+  // Returns the part of a half-width that adds linearly over the steps: `unshot`, or all of it where steps share packets.
+  static double linear_part(const StepLight& light, const Estimate& flux, double unshot) {
+    return light.shares_packets ? flux.half_width : unshot;
+  }
+
+  void begin_like(const StepLight& light) {
+    bands.resize(light.bands.size());
+    organs.resize(light.organ_absorbed.size());
+    plants.resize(light.plant_absorbed_w.size());
+    kinds.resize(light.kind_absorbed.size());
+    sensors.resize(light.sensors.size());
+    planes.resize(light.plane_down.size());
   }
 
   [[nodiscard]] DateSums sums() const {
@@ -90,11 +126,45 @@ struct Sums {
     }
     for (const Sum& organ : organs) date.organ_absorbed.push_back(organ.estimate());
     for (const Sum& plant : plants) date.plant_absorbed.push_back(plant.estimate());
+    for (const Sum& kind : kinds) date.kind_absorbed.push_back(kind.estimate());
+    for (const auto& sensor : sensors) {
+      SensorReading& sums = date.sensors.emplace_back();
+      for (std::size_t p = 0; p < std::size(parts); ++p) sums.*parts[p] = sensor[p].estimate();
+    }
+    for (const Sum& plane : planes) date.plane_down.push_back(plane.estimate());
     return date;
   }
 };
 
+// Adds the readings of a sensor, or of one of its points, in all bands.
+void add_readings(std::vector<SensorReading>& readings, const SensorResult& of) {
+  for (std::size_t b = 0; b < of.total.size(); ++b) readings.emplace_back(of, b);
+}
+
 }  // namespace
+
+StepRange steps_of(const DayCourse& course, std::size_t date) {
+  const auto before = [](const DayStep& step, std::size_t its) { return step.date < its; };
+  const auto first = std::lower_bound(course.steps.begin(), course.steps.end(), date, before);
+  const auto end = std::lower_bound(first, course.steps.end(), date + 1, before);
+  return {static_cast<std::size_t>(first - course.steps.begin()), static_cast<std::size_t>(end - course.steps.begin())};
+}
+
+DayCourse course_of(const DayCourse& course, std::size_t date) {
+  const StepRange range = steps_of(course, date);
+  DayCourse single{course.offset_minutes, {}, {course.dates[date]}};
+  for (std::size_t i = range.first; i < range.end; ++i) {
+    single.steps.push_back(course.steps[i]);
+    single.steps.back().date = 0;
+  }
+  return single;
+}
+
+std::size_t sensor_points(const RadiationModel& model) {
+  std::size_t points = 0;
+  for (const Sensor& sensor : model.sensors) points += sensor.points_m.size();
+  return points;
+}
 
 std::string local_time_text(const UtcTime& time, int offset_minutes) {
   const UtcTime local = plus_seconds(time, 60.0 * offset_minutes);
@@ -124,17 +194,33 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
   light.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
   light.leaf_classes = result.leaf_classes;
   light.of_shared = no_joint_errors(result.bands.size(), result.organs.size(), result.plants.size());
+  light.kind_absorbed = absorbed_by_kinds(model, result);
+  for (const std::vector<SensorResult>& sensor : result.sensors) {
+    for (const SensorResult& point : sensor) add_readings(light.points, point);
+  }
+  for (const SensorResult& mean : result.sensor_means) add_readings(light.sensors, mean);
+  for (const PlaneResult& plane : result.planes) {
+    light.plane_sunfleck.push_back(plane.sunfleck_ratio);
+    light.plane_down.insert(light.plane_down.end(), plane.total_down.begin(), plane.total_down.end());
+  }
   return light;
 }
 
 StepLight night_light(const RadiationModel& model) {
   const std::size_t bands = model.bands.size();
   const std::vector<Estimate> dark(bands, zero);
+  SensorReading no_reading;
+  for (const auto part : parts) no_reading.*part = zero;
   return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
           std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
           zero,
           {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark, dark},
           std::vector<Estimate>(count_plants(model) * bands, zero),
+          std::vector<KindFlux>(OrganKinds(model).of.size() * bands, {zero, 0.0}),
+          std::vector<SensorReading>(sensor_points(model) * bands, no_reading),
+          std::vector<SensorReading>(model.sensors.size() * bands, no_reading),
+          std::vector<Estimate>(model.planes.size(), {no_value, no_value}),
+          std::vector<Estimate>(model.planes.size() * bands, zero),
           false,
           no_joint_errors(bands, model.canopy.organs.size(), count_plants(model))};
 }
@@ -143,13 +229,8 @@ JointErrors no_joint_errors(std::size_t bands, std::size_t organs, std::size_t p
   return {std::vector<JointErrors::Band>(bands), std::vector<double>(organs * bands), std::vector<double>(plants * bands)};
 }
 
-std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights) {
-  const std::size_t bands = model.bands.size();
-  Sums dark;
-  dark.bands.resize(bands);
-  dark.organs.resize(model.canopy.organs.size() * bands);
-  dark.plants.resize(count_plants(model) * bands);
-  std::vector<Sums> dates(course.dates.size(), dark);
+std::vector<DateSums> sum_dates(const DayCourse& course, std::span<const StepLight> lights) {
+  std::vector<Sums> dates(course.dates.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const DayStep& step = course.steps[i];
     dates.at(step.date).add(lights[i], step.length_s);

@@ -1,6 +1,8 @@
 #pragma once
 // The course of one or several days: time and light of each step, and the sums over each date.
 
+#include "files/results/tables/organ_kinds.h"
+#include "files/results/tables/sensor_reading.h"
 #include "physics/light/sun.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
@@ -30,6 +32,16 @@ struct DayCourse {
   std::vector<std::string> dates;  // [date], YYYY-MM-DD, local
 };
 
+// The steps of a date: first ... end - 1.
+struct StepRange {
+  std::size_t first = 0, end = 0;
+
+  [[nodiscard]] std::size_t size() const { return end - first; }
+};
+[[nodiscard]] StepRange steps_of(const DayCourse& course, std::size_t date);
+// Returns the course of a single date, so that its tables can be made from the light of its steps alone.
+[[nodiscard]] DayCourse course_of(const DayCourse& course, std::size_t date);
+
 // Returns e.g. 2002-08-08T05:00:00+08:00.
 [[nodiscard]] std::string local_time_text(const UtcTime& time, int offset_minutes);
 
@@ -51,8 +63,13 @@ struct StepLight {
   Estimate sunlit_leaf_fraction;
   ShadeClassResult leaf_classes;
   std::vector<Estimate> plant_absorbed_w;  // [plant * bands + band], plants as in PlantAreas
+  std::vector<KindFlux> kind_absorbed;     // [kind * bands + band], W m-2 of ground, kinds as in OrganKinds
+  std::vector<SensorReading> points;       // [point * bands + band], the points of all sensors one after the other
+  std::vector<SensorReading> sensors;      // [sensor * bands + band], the means over the points of each sensor
+  std::vector<Estimate> plane_sunfleck;    // [plane], share that the beam reaches; value NaN without a beam
+  std::vector<Estimate> plane_down;        // [plane * bands + band], W m-2 downwards
   // Whether the step was simulated together with others of its date. Their errors are correlated, because they share packets: in the
-  // last of them `of_shared` holds the errors of the sum over all of them, J m-2 of ground or organ and J of the plant. It is 0 elsewhere.
+  // first of them `of_shared` holds the errors of the sum over all of them, J m-2 of ground or organ and J of the plant. It is 0 elsewhere.
   bool shares_packets = false;
   JointErrors of_shared;
 
@@ -60,9 +77,13 @@ struct StepLight {
   static void visit(Self& self, Archive& archive) {  // all but shares_packets
     archive(self.bands, self.organ_absorbed, self.sunlit_leaf_fraction, self.plant_absorbed_w, self.leaf_classes.sunlit_m2,
             self.leaf_classes.shaded_m2, self.leaf_classes.absorbed_sunlit, self.leaf_classes.absorbed_shaded,
-            self.leaf_classes.sunlit_sd, self.leaf_classes.shaded_sd, self.of_shared);
+            self.leaf_classes.sunlit_sd, self.leaf_classes.shaded_sd, self.kind_absorbed, self.points, self.sensors,
+            self.plane_sunfleck, self.plane_down, self.of_shared);
   }
 };
+
+// Returns the number of points of all sensors together.
+[[nodiscard]] std::size_t sensor_points(const RadiationModel& model);
 
 // Returns the light of a step from its result. The incident flux of a periodic plot is exact. That of an isolated plot is
 // counted by rays: its half-width is the sum of the half-widths of its parts, which bounds it for any correlation between them.
@@ -72,21 +93,24 @@ struct StepLight {
 // Returns errors of 0 for every figure of a sum.
 [[nodiscard]] JointErrors no_joint_errors(std::size_t bands, std::size_t organs, std::size_t plants);
 
-// Sums over the steps of a date, J m-2. The random errors of steps that share packets follow from StepLight::of_shared. Other steps are
-// independent, because each has its own random numbers, and their errors add in quadrature. The unshot flux in the half-widths may err in the same direction in all steps and adds
-// linearly.
+// Sums over the steps of a date, J m-2. Steps that were simulated by themselves have their own random numbers, so that their random
+// errors are independent and add in quadrature. Those of steps that share packets follow from StepLight::of_shared; for kinds of organs
+// and planes they add linearly, which bounds them. The unshot flux in the half-widths may err in the same direction in all steps and
+// adds linearly. The light at sensors and through planes has no unshot part of its own.
 struct DateSums {
   std::size_t steps = 0;
   std::vector<StepBand> bands;
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], J m-2 of the organ's one-sided area
   std::vector<Estimate> plant_absorbed;  // [plant * bands + band], J of the whole plant
+  std::vector<Estimate> kind_absorbed;   // [kind * bands + band], J m-2 of ground
+  std::vector<SensorReading> sensors;    // [sensor * bands + band], J m-2, of the means over their points
+  std::vector<Estimate> plane_down;      // [plane * bands + band], J m-2 downwards
 };
 
 // From J to MJ, in which tables and summaries state these sums.
 inline constexpr double per_mega = 1e-6;
 
-// Returns one entry per date. `lights` holds the light of the first steps of the course.
-[[nodiscard]] std::vector<DateSums> sum_dates(const RadiationModel& model, const DayCourse& course,
-                                              std::span<const StepLight> lights);
+// Returns one entry per date, empty for a date without steps. `lights` holds the light of the first steps of the course.
+[[nodiscard]] std::vector<DateSums> sum_dates(const DayCourse& course, std::span<const StepLight> lights);
 
 }  // namespace sunfleck

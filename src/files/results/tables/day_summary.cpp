@@ -23,6 +23,8 @@ constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 6> named_term
      {"reflected", &StepBand::reflected},
      {"transmitted", &StepBand::transmitted}}};
 
+constexpr std::size_t most_reported_dates = 7;
+
 ordered_json date_json(const DaySummary& day, const std::string& name, const DateSums& date) {
   ordered_json bands = ordered_json::array();
   for (std::size_t b = 0; b < date.bands.size(); ++b) {
@@ -49,16 +51,47 @@ double leaf_area_index(const RadiationModel& model) {
   return area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)] / model.plot.area_m2();
 }
 
+// Returns what arrived in a band and what became of it, MJ m-2; leaves out half-widths of 0.
+std::string sums_line(const std::string& when, const std::string& band, const StepBand& joules) {
+  std::string line = fmt::format("  {} {}, MJ m-2", when, band);
+  char separator = ':';
+  for (const auto& [term, member] : named_terms) {
+    const Estimate sum = (joules.*member).scaled(per_mega);
+    std::string words = term;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    line += fmt::format("{} {} {:.4g}", std::exchange(separator, ','), words, sum.value);
+    if (sum.half_width > 0.0) line += fmt::format(" ± {:.2g}", sum.half_width);
+  }
+  return line + '\n';
+}
+
+// Returns the sums over all dates, without their errors, a line for each band.
+std::string season_lines(const DaySummary& day) {
+  std::vector<StepBand> whole(day.model.bands.size());
+  std::size_t dates = 0;
+  for (const DateSums& date : day.sums) {
+    if (date.steps == 0) continue;
+    ++dates;
+    for (std::size_t b = 0; b < whole.size(); ++b) {
+      for (const auto& [term, member] : named_terms) (whole[b].*member).value += (date.bands[b].*member).value;
+    }
+  }
+  if (dates == 0) return {};
+  const std::string when = fmt::format("{} to {}, {} dates,", day.course.dates.front(), day.course.dates[dates - 1], dates);
+  std::string text;
+  for (std::size_t b = 0; b < whole.size(); ++b) text += sums_line(when, day.model.bands[b].name, whole[b]);
+  return text;
+}
+
 }  // namespace
 
 std::string day_summary_json(const DaySummary& day) {
   const RunRecord& record = day.record;
   const DayTotals& totals = day.totals;
   const bool fixed = record.grid_m || record.passes;
-  const std::vector<DateSums> sums = sum_dates(day.model, day.course, day.lights);
   ordered_json dates = ordered_json::array();
-  for (std::size_t d = 0; d < day.course.dates.size(); ++d) {
-    if (sums[d].steps > 0) dates.push_back(date_json(day, day.course.dates[d], sums[d]));
+  for (std::size_t d = 0; d < day.sums.size(); ++d) {
+    if (day.sums[d].steps > 0) dates.push_back(date_json(day, day.course.dates[d], day.sums[d]));
   }
   const auto night = [](const DayStep& step) { return step.night(); };
   ordered_json settings = day.settings;
@@ -86,7 +119,7 @@ std::string day_summary_json(const DaySummary& day) {
       {"leaf_area_index", leaf_area_index(day.model)},
       {"steps",
        {{"asked", day.course.steps.size()},
-        {"done", day.lights.size()},
+        {"done", day.steps_done},
         {"night", std::count_if(day.course.steps.begin(), day.course.steps.end(), night)},
         {"short_of_bound", totals.short_of_bound}}},
       {"dates", dates},
@@ -106,28 +139,20 @@ std::string day_summary_json(const DaySummary& day) {
         {"steps", totals.seconds},
         {"write", record.seconds.write},
         {"total", record.seconds.total}}}};
+  if (!day.model.sensors.empty() && record.accuracy.of == ErrorTarget::sensors)
+    summary["sensors"] = {{"relative_error", value_or_null(totals.sensor_error)}, {"bound", bound(record.accuracy.indirect)}};
   if (!record.not_written.empty()) summary["not_written"] = record.not_written;
   return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string day_report(const DaySummary& day) {
   std::string text = fmt::format("{}\n  {} triangles, {} steps, {} of them simulated\n", day.record.title,
-                                 day.model.canopy.size(), day.lights.size(), day.totals.simulated);
-  const std::vector<DateSums> sums = sum_dates(day.model, day.course, day.lights);
-  for (std::size_t d = 0; d < day.course.dates.size(); ++d) {
-    const DateSums& date = sums[d];
-    for (std::size_t b = 0; date.steps > 0 && b < date.bands.size(); ++b) {
-      text += fmt::format("  {} {}, MJ m-2", day.course.dates[d], day.model.bands[b].name);
-      char separator = ':';
-      for (const auto& [term, member] : named_terms) {
-        const Estimate sum = (date.bands[b].*member).scaled(per_mega);
-        std::string words = term;
-        std::replace(words.begin(), words.end(), '_', ' ');
-        text += fmt::format("{} {} {:.4g}", std::exchange(separator, ','), words, sum.value);
-        if (sum.half_width > 0.0) text += fmt::format(" ± {:.2g}", sum.half_width);
-      }
-      text += '\n';
-    }
+                                 day.model.canopy.size(), day.steps_done, day.totals.simulated);
+  if (day.sums.size() > most_reported_dates) return text + season_lines(day);
+  for (std::size_t d = 0; d < day.sums.size(); ++d) {
+    const DateSums& date = day.sums[d];
+    for (std::size_t b = 0; date.steps > 0 && b < date.bands.size(); ++b)
+      text += sums_line(day.course.dates[d], day.model.bands[b].name, date.bands[b]);
   }
   return text;
 }

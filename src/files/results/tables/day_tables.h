@@ -1,33 +1,62 @@
 #pragma once
-// The tables of a day: day.csv, day_sums.csv, organs_day.csv and plants_day.csv. `lights` holds the light of the first steps of the course:
-// all of them, or those finished before the day was stopped; in that case a line of the tables says so.
+// The tables of a day by time, date, organ and plant. A table can be made of all steps at once or date by date, with the same
+// rows.
 
 #include "files/results/tables/day_course.h"
+#include "files/results/tables/day_stand.h"
 #include "files/results/tables/result_writer.h"
 #include "files/results/tables/table.h"
 
+#include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sunfleck {
 
-// Returns one row per step.
-[[nodiscard]] Table steps_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
-// Returns one row per date that has steps: the sums of its steps.
-[[nodiscard]] Table day_sums_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
-// Returns the rows of organs.csv for each date that has steps; its axes are date and organ.
-[[nodiscard]] Table organs_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
+// The steps that a table is made of: those of a day, or those of one of its dates (course_of).
+struct DayPart {
+  DayPart(const DayCourse& its_course, std::span<const StepLight> its_lights)
+      : course(its_course), lights(its_lights), sums(sum_dates(its_course, its_lights)) {}
 
-// Returns the rows of plants.csv for each date that has steps; its axes are date and plant.
-[[nodiscard]] Table plants_day_table(const RadiationModel& model, const DayCourse& course, std::span<const StepLight> lights);
+  const DayCourse& course;
+  // The light of the first steps of the course: of all of them, or of those finished before the day was stopped.
+  std::span<const StepLight> lights;
+  std::vector<DateSums> sums;  // [date]
 
-[[nodiscard]] std::string day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
-                                  std::span<const StepLight> lights);
-[[nodiscard]] std::string day_sums_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
-                                       std::span<const StepLight> lights);
-[[nodiscard]] std::string organs_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
-                                         std::span<const StepLight> lights);
-[[nodiscard]] std::string plants_day_csv(const RunRecord& record, const RadiationModel& model, const DayCourse& course,
-                                         std::span<const StepLight> lights);
+  // Returns the numbers of the dates that have steps.
+  [[nodiscard]] std::vector<std::size_t> dates() const;
+};
+
+// day.csv: one row per step.
+[[nodiscard]] Table steps_table(const DayStand& stand, const DayPart& part);
+// day_sums.csv: one row per date that has steps, the sums of its steps.
+[[nodiscard]] Table day_sums_table(const DayStand& stand, const DayPart& part);
+// season.csv: one row per date and kind of organ; its axes are date and kind.
+[[nodiscard]] Table season_table(const DayStand& stand, const DayPart& part);
+// organs_day.csv: the rows of organs.csv for each date that has steps; its axes are date and organ.
+[[nodiscard]] Table organs_day_table(const DayStand& stand, const DayPart& part);
+// plants_day.csv: the rows of plants.csv for each date that has steps; its axes are date and plant.
+[[nodiscard]] Table plants_day_table(const DayStand& stand, const DayPart& part);
+// What organs absorb at each step, for arrays and organs_steps.nc; its axes are step and organ.
+[[nodiscard]] Table organ_steps_table(const DayStand& stand, const DayPart& part);
+
+// A table of a day and the name of its file.
+struct DayTable {
+  const char* file;
+  Table (*make)(const DayStand& stand, const DayPart& part);
+};
+// Returns the tables of a day; those of planes and sensors only if the model has any.
+[[nodiscard]] std::vector<DayTable> day_tables(const RadiationModel& model);
+
+// Adds the columns `time`, the start of each step, and `date`, which vary along the first axis of a table.
+void add_step_times(Table& table, const DayCourse& course);
+void add_dates(Table& table, const DayPart& part);
+
+// Returns a table of the whole day as text. Where the day was stopped, a line of the head says so.
+[[nodiscard]] std::string day_text(const DayTable& table, const RunRecord& record, const DayStand& stand, const DayPart& day);
+// Returns its head only. `part` may be any part of the day, of which the first `steps_done` steps are finished.
+[[nodiscard]] std::string day_head(const DayTable& table, const RunRecord& record, const DayStand& stand, const DayPart& part,
+                                   const DayCourse& whole, std::size_t steps_done);
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #include "files/results/tables/plane_writer.h"
 
 #include "base/check.h"
+#include "files/results/tables/plane_map.h"
 #include "files/results/tables/table_text.h"
 #include "physics/canopy/axes.h"
 
@@ -19,46 +20,6 @@ constexpr double cm2_per_m2 = 1e4;
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string("unknown");
 }
-
-// A level axis of the user, along which the cells of a map are counted from the plot's corner at the user's origin.
-struct MapAxis {
-  std::string column;     // x_m, y_m or z_m
-  const char* direction;  // south, east, ...
-  std::uint32_t cells = 1;
-  double size_m = 0.0;
-
-  [[nodiscard]] double centre_m(std::size_t cell) const { return (static_cast<double>(cell) + 0.5) / cells * size_m; }
-};
-
-// A map as the user sees it: the rows of its table run along `second`, and within a row along `first`.
-struct UserMap {
-  UserMap(const PlaneResult& plane, const Plot& plot)
-      : axes(plot.axes), first(axis(plane, plot, 0)), second(axis(plane, plot, 1)) {}
-
-  // Returns values [z * cells_x + x] in the order of the table.
-  [[nodiscard]] std::vector<double> in_rows(std::vector<double> values) const {
-    if (axes == Axes::south_up_west) return values;
-    std::vector<double> rows;
-    rows.reserve(values.size());
-    for (std::uint32_t north = 0; north < second.cells; ++north) {
-      for (std::uint32_t east = 0; east < first.cells; ++east) {
-        rows.push_back(values[(first.cells - 1 - east) * std::size_t{second.cells} + (second.cells - 1 - north)]);
-      }
-    }
-    return rows;
-  }
-
-  Axes axes;
-  MapAxis first, second;
-
- private:
-  static MapAxis axis(const PlaneResult& plane, const Plot& plot, int which) {
-    const int axis = level_axes(plot.axes).at(static_cast<std::size_t>(which));
-    const bool along_x = (plot.axes == Axes::south_up_west) == (which == 0);
-    return {fmt::format("{}_m", "xyz"[axis]), axis_direction(plot.axes, axis), along_x ? plane.cells_x : plane.cells_z,
-            along_x ? plot.size_x_m : plot.size_z_m};
-  }
-};
 
 // Says why there are no sizes, and how many cells would have enough rays.
 std::string too_few_rays(const UserMap& map, const FleckSizes& sizes) {
@@ -134,22 +95,17 @@ std::vector<double> plane_sunfleck(const PlaneResult& plane) {
 Table plane_table(const RadiationModel& model, const RadiationResult& result, std::size_t plane) {
   EXPECT(plane, <, result.planes.size());
   const PlaneResult& from = result.planes[plane];
-  const UserMap map(from, model.plot);
-  const std::vector<std::size_t> once, rows{0}, cells{1};
+  const UserMap map(from.cells_x, from.cells_z, model.plot);
+  const std::vector<std::size_t> once;
   Table table = empty_table(from, map, fleck_sizes(from, model.plot), "Facula map",
-                            fmt::format("{} ({}), {} ({}): m, centre of the cell; sunfleck: share of the cell that the direct "
-                                        "beam reaches; direct, total: W m-2 downwards",
-                                        map.first.column, map.first.direction, map.second.column, map.second.direction));
+                            map.centres_text() +
+                                "; sunfleck: share of the cell that the direct beam reaches; direct, total: "
+                                "W m-2 downwards");
   table.shape = {map.second.cells, map.first.cells};
   table.add({"height_m", "m", "height of the plane", in_arrays, once}, [&](std::size_t) { return from.height_m; });
   table.add({"sunfleck_ratio", "1", "share of the plane that the direct beam reaches", in_arrays, once},
             [&](std::size_t) { return from.sunfleck_ratio; });
-  const auto add_centres = [&](const MapAxis& axis, const std::vector<std::size_t>& along) {
-    table.add({axis.column, "m", fmt::format("centre of the cell, towards the {}", axis.direction), in_csv | in_arrays, along},
-              [&](std::size_t cell) { return axis.centre_m(cell); });
-  };
-  add_centres(map.first, cells);
-  add_centres(map.second, rows);
+  map.add_centres(table);
   table.add({"sunfleck", "1", "share of the cell that the direct beam reaches"}, map.in_rows(plane_sunfleck(from)));
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     PlaneIrradiance irradiance = plane_irradiance(model, result, plane, b);
@@ -170,7 +126,8 @@ std::string plane_flecks_csv(const RunRecord& record, const RadiationModel& mode
   EXPECT(plane, <, result.planes.size());
   const FleckSizes sizes = fleck_sizes(result.planes[plane], model.plot);
   const std::vector<FleckClass> of = sizes.enough_rays() ? sizes.classes : std::vector<FleckClass>();
-  Table table = empty_table(result.planes[plane], UserMap(result.planes[plane], model.plot), sizes, "Sunflecks",
+  const PlaneResult& from = result.planes[plane];
+  Table table = empty_table(from, UserMap(from.cells_x, from.cells_z, model.plot), sizes, "Sunflecks",
                             "lower_cm2 <= area < upper_cm2: cm2; flecks: number; area_share: share of the plane's area");
   table.shape = {of.size()};
   table.add({"lower_cm2", "cm2", "least area of the class"}, [&](std::size_t i) { return cm2_per_m2 * of[i].lower_m2; });

@@ -15,40 +15,6 @@ namespace {
 
 constexpr unsigned everywhere_but_meshes = in_csv | in_arrays | in_netcdf;
 
-// Adds the columns x, y and z of positions, given in the scene's coordinates.
-template <class PositionOf>
-void add_positions(Table& table, const Plot& plot, const PositionOf& position_of) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string meaning = axis == up_axis(plot.axes) ? "position upwards" : "position " + axis_heading(plot.axes, axis);
-    table.add({std::string(1, "xyz"[axis]), "m", meaning},
-              [&](std::size_t i) { return user_position_m(plot, position_of(i))[axis]; });
-  }
-}
-
-constexpr const char* sensor_units =
-    "direct, sky, scattered: W m-2, on a plane (cosine response) or on a sphere's cross-section (spherical); total: their sum; "
-    "total_umol_m2_s: the same in photons, umol m-2 s-1; _error: half-width of the confidence interval";
-
-// Adds the columns of readings; reading_of(row) returns that of a row.
-template <class ReadingOf>
-void add_readings(Table& table, const std::vector<Waveband>& bands, const ReadingOf& reading_of) {
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    const std::string& band = bands[b].name;
-    const auto add = [&](const char* name, const char* meaning, const std::vector<Estimate> SensorResult::*part) {
-      table.add({band + name, "W m-2", meaning, in_csv | in_arrays | in_netcdf},
-                [&](std::size_t i) { return (reading_of(i).*part)[b]; });
-    };
-    add("_direct", "reading of the sun's beam", &SensorResult::direct);
-    add("_sky", "reading of unscattered sky light", &SensorResult::sky);
-    add("_scattered", "reading of scattered and emitted light", &SensorResult::scattered);
-    add("_total", "reading of all light", &SensorResult::total);
-    const double umol_per_joule = bands[b].umol_per_joule;
-    if (!(umol_per_joule > 0.0)) continue;
-    table.add({band + "_total_umol_m2_s", "umol m-2 s-1", "reading of all light, in photons", in_csv | in_arrays | in_netcdf},
-              [&](std::size_t i) { return reading_of(i).total[b].scaled(umol_per_joule); });
-  }
-}
-
 // Returns the table of the sensors first ... end - 1.
 Table table_of_sensors(const RadiationModel& model, const RadiationResult& result, std::size_t first, std::size_t end) {
   EXPECT(result.sensors.size(), ==, model.sensors.size());
@@ -64,14 +30,15 @@ Table table_of_sensors(const RadiationModel& model, const RadiationResult& resul
     for (std::uint32_t p = 0; p < sensor.points_m.size(); ++p) rows.push_back({sensor, p, result.sensors[s][p]});
   }
   Table table{"Sensors, point by point",
-              fmt::format("x, y, z: m ({}); {}", axes_text(model.plot.axes), sensor_units),
+              fmt::format("x, y, z: m ({}); {}", axes_text(model.plot.axes), reading_units),
               {},
               {rows.size()},
               {}};
   table.add({"sensor", "", "name of the sensor", in_csv}, [&](std::size_t i) { return rows[i].sensor.name; });
   table.add({"point", "1", "number of the point in its sensor, from 0", in_csv}, [&](std::size_t i) { return rows[i].point; });
-  add_positions(table, model.plot, [&](std::size_t i) { return rows[i].sensor.points_m[rows[i].point]; });
-  add_readings(table, model.bands, [&](std::size_t i) -> const SensorResult& { return rows[i].reading; });
+  add_positions(table, model.plot, {}, [&](std::size_t i) { return rows[i].sensor.points_m[rows[i].point]; });
+  add_readings(table, model.bands, everywhere_but_meshes,
+               [&](std::size_t i, std::size_t band) { return SensorReading(rows[i].reading, band); });
   return table;
 }
 
@@ -129,10 +96,36 @@ void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t
   add("rank", "1", "leaf number from the ground, 0 for organs without one", &Organ::rank);
 }
 
-void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis) {
-  const std::vector<Role> roles = organ_roles(model);
+void add_organ_roles(Table& table, std::span<const Role> roles, std::size_t axis) {
   table.add({"role", "", "leaf, stem, fruit, structure, lamp or soil", in_csv | in_arrays, std::vector<std::size_t>{axis}},
             [&](std::size_t o) { return std::string(role_name(roles[o])); });
+}
+
+void add_positions(Table& table, const Plot& plot, const std::optional<std::vector<std::size_t>>& axes,
+                   const std::function<glm::dvec3(std::size_t)>& position_of) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string meaning = axis == up_axis(plot.axes) ? "position upwards" : "position " + axis_heading(plot.axes, axis);
+    table.add({std::string(1, "xyz"[axis]), "m", meaning, in_csv | in_arrays, axes},
+              [&](std::size_t i) { return user_position_m(plot, position_of(i))[axis]; });
+  }
+}
+
+void add_readings(Table& table, const std::vector<Waveband>& bands, unsigned outputs,
+                  const std::function<SensorReading(std::size_t, std::size_t)>& reading_of) {
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const std::string& band = bands[b].name;
+    const auto add = [&](const char* name, const char* meaning, Estimate SensorReading::*part) {
+      table.add({band + name, "W m-2", meaning, outputs}, [&](std::size_t i) { return reading_of(i, b).*part; });
+    };
+    add("_direct", "reading of the sun's beam", &SensorReading::direct);
+    add("_sky", "reading of unscattered sky light", &SensorReading::sky);
+    add("_scattered", "reading of scattered and emitted light", &SensorReading::scattered);
+    add("_total", "reading of all light", &SensorReading::total);
+    const double umol_per_joule = bands[b].umol_per_joule;
+    if (!(umol_per_joule > 0.0)) continue;
+    table.add({band + "_total_umol_m2_s", "umol m-2 s-1", "reading of all light, in photons", outputs},
+              [&](std::size_t i) { return reading_of(i, b).total.scaled(umol_per_joule); });
+  }
 }
 
 Table organs_table(const RadiationModel& model, const RadiationResult& result) {
@@ -163,7 +156,7 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
               [&](std::size_t o) { return light[o].absorbed[b].scaled(umol_per_joule); });
   }
   add_classes(table, model, "of the organ", std::nullopt, in_csv | in_arrays, [&](std::size_t o) { return &light[o].classes; });
-  add_organ_roles(table, model, 0);
+  add_organ_roles(table, organ_roles(model), 0);
   return table;
 }
 
@@ -180,7 +173,7 @@ Table plants_table(const RadiationModel& model, const RadiationResult& result) {
       {plants.size()},
       {}};
   table.add({"plant", "1", "number of the plant"}, [&](std::size_t p) { return plants[p].plant; });
-  add_positions(table, model.plot, [&](std::size_t p) { return plants[p].position_m; });
+  add_positions(table, model.plot, {}, [&](std::size_t p) { return plants[p].position_m; });
   table.add({"height_m", "m", "height from its lowest to its highest point"},
             [&](std::size_t p) { return plants[p].height_m; });
   table.add({"leaf_area_m2", "m2", "one-sided area of its leaves"}, [&](std::size_t p) { return plants[p].leaf_area_m2; });
@@ -259,11 +252,12 @@ Table sensor_table(const RadiationModel& model, const RadiationResult& result, s
 
 Table sensor_means_table(const RadiationModel& model, const RadiationResult& result) {
   EXPECT(result.sensor_means.size(), ==, model.sensors.size());
-  Table table{"Sensors, each the mean over its points", sensor_units, {}, {model.sensors.size()}, {}};
+  Table table{"Sensors, each the mean over its points", reading_units, {}, {model.sensors.size()}, {}};
   table.add({"sensor", "", "name of the sensor"}, [&](std::size_t s) { return model.sensors[s].name; });
   table.add({"points", "1", "number of its points", everywhere_but_meshes},
             [&](std::size_t s) { return static_cast<std::uint32_t>(model.sensors[s].points_m.size()); });
-  add_readings(table, model.bands, [&](std::size_t s) -> const SensorResult& { return result.sensor_means[s]; });
+  add_readings(table, model.bands, everywhere_but_meshes,
+               [&](std::size_t s, std::size_t band) { return SensorReading(result.sensor_means[s], band); });
   return table;
 }
 

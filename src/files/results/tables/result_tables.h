@@ -1,13 +1,16 @@
 #pragma once
 // The contents of the result tables: one function per table, one line per column. A new column is added here and nowhere else.
 
+#include "files/results/tables/sensor_reading.h"
 #include "files/results/tables/table.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
 
 #include <cstddef>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sunfleck {
@@ -16,7 +19,18 @@ namespace sunfleck {
 void add_organ_names(Table& table, const std::vector<Organ>& organs, std::size_t axis);
 
 // Adds the column `role` of organs, which lie along that axis of the table.
-void add_organ_roles(Table& table, const RadiationModel& model, std::size_t axis);
+void add_organ_roles(Table& table, std::span<const Role> roles, std::size_t axis);
+
+// Adds the columns x, y and z of positions, given in the scene's coordinates, along these axes of the table.
+void add_positions(Table& table, const Plot& plot, const std::optional<std::vector<std::size_t>>& axes,
+                   const std::function<glm::dvec3(std::size_t)>& position_of);
+
+// Adds the columns of the readings of sensors; reading_of(row, band) returns that of a row.
+void add_readings(Table& table, const std::vector<Waveband>& bands, unsigned outputs,
+                  const std::function<SensorReading(std::size_t, std::size_t)>& reading_of);
+inline constexpr const char* reading_units =
+    "direct, sky, scattered: W m-2, on a plane (cosine response) or on a sphere's cross-section (spherical); total: their sum; "
+    "total_umol_m2_s: the same in photons, umol m-2 s-1; _error: half-width of the confidence interval";
 
 // Adds the areas of the sunlit and the shaded class and what each absorbs per area of its own, in all bands. `of` says in the
 // meanings whose area it is. Areas are in m2 or, with a ground area, leaf area

@@ -29,6 +29,14 @@ struct AppendCell {
   }
 };
 
+std::vector<const Column*> csv_columns(const Table& table) {
+  std::vector<const Column*> columns;
+  for (const Column& column : table.columns) {
+    if (column.is_in(in_csv)) columns.push_back(&column);
+  }
+  return columns;
+}
+
 }  // namespace
 
 std::string table_head(const RunRecord& record, std::string_view content, std::string_view units) {
@@ -45,16 +53,24 @@ void append_number(std::string& row, double value) {
 }
 
 std::string csv_text(const RunRecord& record, const Table& table) {
+  return csv_head(record, table) + csv_rows(table);
+}
+
+std::string csv_head(const RunRecord& record, const Table& table) {
   std::string text = table_head(record, table.content, table.units);
   for (const std::string& note : table.notes) text += "# " + note + '\n';
-  std::vector<const Column*> columns;
-  for (const Column& column : table.columns) {
-    if (!column.is_in(in_csv)) continue;
-    if (!columns.empty()) text += ',';
-    text += column.name;
-    columns.push_back(&column);
+  char separator = '\0';
+  for (const Column* column : csv_columns(table)) {
+    if (separator != '\0') text += separator;
+    text += column->name;
+    separator = ',';
   }
-  text += '\n';
+  return text + '\n';
+}
+
+std::string csv_rows(const Table& table) {
+  std::string text;
+  const std::vector<const Column*> columns = csv_columns(table);
   const std::size_t rows = table.rows();
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t c = 0; c < columns.size(); ++c) {

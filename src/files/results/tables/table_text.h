@@ -17,6 +17,10 @@ void append_number(std::string& row, double value);
 
 // Returns a table as CSV below its `#` lines. Numbers have nine significant digits.
 [[nodiscard]] std::string csv_text(const RunRecord& record, const Table& table);
+// Return its two parts: the `#` lines with the line of column names, and the rows. The rows of further tables of the same columns
+// may follow.
+[[nodiscard]] std::string csv_head(const RunRecord& record, const Table& table);
+[[nodiscard]] std::string csv_rows(const Table& table);
 
 // Returns the text, quoted as in RFC 4180 if it holds a comma, a quote or a line break.
 [[nodiscard]] std::string csv_field(std::string_view text);

@@ -26,6 +26,22 @@ if TYPE_CHECKING:
     import xarray
 
 
+# The tables of to_dataframe: the name of the second index, and the file that has the units.
+_FRAMES = {
+    "steps": ("", "day.csv"),
+    "sums": ("", "day_sums.csv"),
+    "season": ("kind_index", "season.csv"),
+    "organs": ("organ_index", "organs_day.csv"),
+    "plants": ("plant_index", "plants_day.csv"),
+    "organ_steps": ("organ_index", ""),
+    "sensors": ("point_index", "sensors_day.csv"),
+    "sensor_means": ("sensor_index", "sensor_means_day.csv"),
+    "sensor_sums": ("sensor_index", "sensor_day_sums.csv"),
+    "planes": ("plane_index", "planes_day.csv"),
+    "plane_sums": ("plane_index", "plane_day_sums.csv"),
+}
+
+
 class DayResult:
     """The results of one or more days, as `sunfleck day` gives them; BAND stands for the name of a band."""
 
@@ -48,77 +64,168 @@ class DayResult:
         offset), step_s, elevation_deg and azimuth_deg (at the midpoint of the step), BAND_incident, BAND_absorbed_vegetation,
         BAND_absorbed_structure, BAND_absorbed_soil, BAND_reflected (W m-2 of ground) and sunlit_leaf_fraction, these with their
         half-widths _error."""
-        return with_text_arrays(self._core.steps())
+        return self._columns("day.csv")
 
     @functools.cached_property
     def sums(self) -> dict[str, np.ndarray]:
         """The columns of day_sums.csv as arrays of shape (dates,): date, steps (their number), BAND_incident_mj_m2 and its fates
         (sums per ground area), with photon units the same in _mol_m2, with their half-widths _error."""
-        return with_text_arrays(self._core.sums())
+        return self._columns("day_sums.csv")
 
     @functools.cached_property
     def organs(self) -> dict[str, Any]:
         """The absorption of organs: date; organ and role (names), plant, rank and area_m2 by organ; and arrays
         of shape (dates, organs): BAND_absorbed_mj_m2 (per one-sided area), with photon units BAND_absorbed_mol_m2, with their
         half-widths _error."""
-        return with_text_arrays(self._core.organs())
+        return self._columns("organs_day.csv")
 
     @functools.cached_property
     def plants(self) -> dict[str, Any]:
         """The absorption of plants: date; plant, x, y, z, height_m and leaf_area_m2 by plant; and arrays of shape (dates,
         plants): BAND_absorbed_mj (of the whole plant), with photon units BAND_absorbed_mol, with their half-widths _error."""
-        return with_text_arrays(self._core.plants())
+        return self._columns("plants_day.csv")
+
+    @functools.cached_property
+    def season(self) -> dict[str, Any]:
+        """The absorption of kinds of organs, the columns of season.csv: date; organ (name of the kind), role, organs (their number),
+        area_m2 and area_index (per ground area) by kind; and arrays of shape (dates, kinds): BAND_absorbed_ground_mj_m2 (per ground
+        area), BAND_absorbed_share (of what arrived), BAND_absorbed_mj_m2 (per one-sided area), with photon units the same in
+        _mol_m2, with their half-widths _error."""
+        return self._columns("season.csv")
+
+    @functools.cached_property
+    def organ_steps(self) -> dict[str, Any]:
+        """What organs absorb at each step, the values of organs_steps.nc: time (texts); organ and role (names), plant, rank and
+        area_m2 by organ; and arrays of shape (steps, organs): BAND_absorbed (W m-2, per one-sided area) with their half-widths
+        _error."""
+        return with_text_arrays(self._core.organ_steps())
+
+    @functools.cached_property
+    def sensors(self) -> dict[str, Any]:
+        """The readings at each step, the columns of sensors_day.csv: time (texts); sensor (name), point, x, y and z by point, the
+        points of all sensors one after the other; and arrays of shape (steps, points): BAND_direct, BAND_sky, BAND_scattered,
+        BAND_total (W m-2), with photon units BAND_total_umol_m2_s, with their half-widths _error. Empty without sensors."""
+        return self._columns("sensors_day.csv")
+
+    @functools.cached_property
+    def sensor_means(self) -> dict[str, Any]:
+        """The same for the means over the points of each sensor, the columns of sensor_means_day.csv: time; sensor and points (their
+        number) by sensor; and arrays of shape (steps, sensors)."""
+        return self._columns("sensor_means_day.csv")
+
+    @functools.cached_property
+    def sensor_sums(self) -> dict[str, Any]:
+        """The sums of these means over each date, the columns of sensor_day_sums.csv, of shape (dates, sensors): BAND_direct_mj_m2,
+        ..., BAND_total_mj_m2, with photon units the same in _mol_m2, with their half-widths _error."""
+        return self._columns("sensor_day_sums.csv")
+
+    @functools.cached_property
+    def planes(self) -> dict[str, Any]:
+        """The light through horizontal planes at each step, the columns of planes_day.csv: time (texts); height_m by plane; and
+        arrays of shape (steps, planes): sunfleck_ratio, BAND_down (W m-2), with photon units BAND_down_umol_m2_s, with their
+        half-widths _error. Empty without planes."""
+        return self._columns("planes_day.csv")
+
+    @functools.cached_property
+    def plane_sums(self) -> dict[str, Any]:
+        """Its sums over each date, the columns of plane_day_sums.csv, of shape (dates, planes): BAND_down_mj_m2, with photon units
+        BAND_down_mol_m2, with their half-widths _error."""
+        return self._columns("plane_day_sums.csv")
+
+    @functools.cached_property
+    def plane_maps(self) -> list[dict[str, Any]]:
+        """The maps of each plane summed over all steps, the columns of plane_H_day.csv: the centres of the cells (x_m and z_m, or x_m
+        and y_m), and arrays of shape (rows, cells): sunlit_h and sunlit_share (time in direct sun), BAND_direct_mj_m2,
+        BAND_total_mj_m2, with photon units BAND_total_mol_m2."""
+        names = [name for name in self._core.tables() if name.startswith("plane_") and name.endswith("_day.csv")]
+        return [self._core.columns(name) for name in names]
+
+    @functools.cached_property
+    def plane_steps(self) -> list[dict[str, Any]]:
+        """The maps of each plane at each step: height_m, and arrays of shape (steps, rows, cells) in single precision: sunfleck (NaN
+        without a beam), BAND_direct and BAND_total (W m-2). Kept as `triangles` are."""
+        self._expect_triangles("plane_steps")
+        return self._core.plane_steps()
 
     @functools.cached_property
     def triangles(self) -> dict[str, np.ndarray]:
         """The fields of day.nc in single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
         BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed,
-        BAND_absorbed_error. They are 0 at night."""
+        BAND_absorbed_error. They are 0 at night. Several dates have them only with `day(..., triangles=True)`."""
+        self._expect_triangles("triangles")
         return self._core.triangles()
 
+    @property
+    def has_triangles(self) -> bool:
+        """Whether `triangles` and `plane_steps` were kept."""
+        return self._core.has_triangles
+
     def describe(self, table: str) -> dict[str, tuple[str, str]]:
-        """Returns the unit and the meaning of each column of day.csv, day_sums.csv, organs_day.csv or plants_day.csv."""
+        """Returns the unit and the meaning of each column of a table such as day.csv; `tables` has the names."""
         return {name: (unit, meaning) for name, (unit, meaning, _) in self._core.describe(table).items()}
 
+    @property
+    def tables(self) -> list[str]:
+        """The names of the tables, which are those of the program's files."""
+        return list(self._core.tables())
+
     def table(self, name: str) -> str:
-        """Returns the text of day.csv, day_sums.csv, organs_day.csv or plants_day.csv, byte for byte as the program writes it."""
+        """Returns the text of one of the `tables`, byte for byte as the program writes it."""
         return self._core.table(name)
 
+    def _columns(self, table: str) -> dict[str, Any]:
+        return with_text_arrays(self._core.columns(table)) if table in self._core.tables() else {}
+
+    def _expect_triangles(self, name: str) -> None:
+        if not self._core.has_triangles:
+            refuse(name, "the light of every triangle was not kept", "pass triangles=True to sunfleck.day")
+
     def to_xarray(self) -> xarray.Dataset:
-        """Returns `steps` and `triangles` as an xarray Dataset with the dimensions time (UTC) and triangle. Needs xarray."""
+        """Returns `steps`, what organs absorb (organ_BAND_absorbed) and, if they were kept, `triangles` as an xarray Dataset with the
+        dimensions time (UTC), organ and triangle. Needs xarray."""
         xarray = optional("xarray", "to_xarray")
         times = np.array([_utc(text) for text in self.steps["time"]], dtype="datetime64[ns]")
         data = xarray.Dataset(coords={"time": times}, attrs={"title": self.summary["scene"], "seed": self.summary["seed"]})
         for name, values in self.steps.items():
             if name != "time":
                 data[name] = ("time", values)
-        for name, values in self.triangles.items():
+        organs = dict(self.organ_steps)
+        del organs["time"]
+        for name in ("organ", "role", "plant", "rank", "area_m2"):
+            data.coords["organ_name" if name == "organ" else f"organ_{name}"] = ("organ", organs.pop(name))
+        for name, values in organs.items():
+            data[f"organ_{name}"] = (("time", "organ"), values, {"units": "W m-2"})
+        for name, values in self.triangles.items() if self.has_triangles else ():
             data[name] = (("time", "triangle"), values, {"units": "W m-2"})
         return data
 
     def to_dataframe(self, table: str = "steps") -> pandas.DataFrame:
-        """Returns "steps" (by time, UTC), "sums" (by date), "organs" (by date and organ_index, the organ's number), "plants" (by date
-        and plant_index) or "triangles" (by time and triangle) as a pandas DataFrame, one row for each combination. attrs["units"]
-        has the units. Needs pandas."""
-        times = [_utc(text) for text in self.steps["time"]]
-        if table == "steps":
-            columns = {name: values for name, values in self.steps.items() if name != "time"}
-            return data_frame(columns, named("time", times), self._units("day.csv"))
-        if table == "sums":
-            columns = dict(self.sums)
-            return data_frame(columns, named("date", columns.pop("date")), self._units("day_sums.csv"))
+        """Returns a table as a pandas DataFrame, one row for each combination: "steps" (by time, UTC), "sums" (by date), "season" (by
+        date and kind_index), "organs" (by date and organ_index, the organ's number), "plants" (by date and plant_index),
+        "organ_steps" (by time and organ_index), "sensors" (by time and point_index), "sensor_means" (by time and sensor_index),
+        "sensor_sums" (by date and sensor_index), "planes" (by time and plane_index), "plane_sums" (by date and plane_index) or
+        "triangles" (by time and triangle). attrs["units"] has the units. Needs pandas."""
         if table == "triangles":
-            count = self.summary["triangles"]
+            times = [_utc(text) for text in self.steps["time"]]
             flat = {name: values.ravel() for name, values in self.triangles.items()}
-            return data_frame(flat, crossed(["time", "triangle"], [times, range(count)]), dict.fromkeys(flat, "W m-2"))
-        if table not in ("organs", "plants"):
-            refuse(f"to_dataframe({table!r})", "no such table of a day", "use steps, sums, organs, plants or triangles")
-        columns = dict(self.organs if table == "organs" else self.plants)
-        dates = columns.pop("date")
-        count = len(columns["plant"])
-        flat = {name: np.broadcast_to(values, (len(dates), count)).ravel() for name, values in columns.items()}
-        index = crossed(["date", f"{table[:-1]}_index"], [dates, range(count)])
-        return data_frame(flat, index, self._units(f"{table}_day.csv"))
+            index = crossed(["time", "triangle"], [times, range(self.summary["triangles"])])
+            return data_frame(flat, index, dict.fromkeys(flat, "W m-2"))
+        if table not in _FRAMES:
+            refuse(f"to_dataframe({table!r})", "no such table of a day", f"use {', '.join(_FRAMES)} or triangles")
+        second, file = _FRAMES[table]
+        columns = dict(getattr(self, table))
+        if not columns:
+            refuse(f"to_dataframe({table!r})", "the scene has none", "add a [[sensor]] or a [[plane]] to the scene")
+        first = "time" if "time" in columns else "date"
+        when = columns.pop(first)
+        if first == "time":
+            when = [_utc(text) for text in when]
+        units = self._units(file) if file else {name: "W m-2" for name in columns if "_absorbed" in name} | {"area_m2": "m2"}
+        if not second:
+            return data_frame(columns, named(first, when), units)
+        shape = next(values.shape for values in columns.values() if values.ndim == 2)
+        flat = {name: np.broadcast_to(values, shape).ravel() for name, values in columns.items()}
+        return data_frame(flat, crossed([first, second], [when, range(shape[1])]), units)
 
     def _units(self, table: str) -> dict[str, str]:
         return {name: unit for name, (unit, _) in self.describe(table).items()}
@@ -169,6 +276,7 @@ def day(
     max_rays: Optional[int] = None,
     memory: Optional[int] = None,
     seed: int = 1,
+    triangles: Optional[bool] = None,
     progress: Progress = None,
 ) -> DayResult:
     """Simulates one or more days in steps with a single tree. Gives the numbers of `sunfleck day`, bit for bit.
@@ -176,21 +284,22 @@ def day(
     scene, folder, device, threads, allow_outside: as for `Simulation`; the scene needs a place, and [weather] or direct_normal.
     start, stop: local time "HH:MM" (default: sunrise and sunset). step: minutes. date, to_date: "YYYY-MM-DD" (default: the
         scene's date). error ... seed, progress: as for `Simulation.run`; error bounds apply to each step, max_seconds to all steps
-        together.
+        together. triangles: whether the light of every triangle and the maps of planes at every step are kept (`triangles` and
+        `plane_steps` of the result). By default they are for a single date, if they take at most a quarter of the free memory.
     Raises InputError (a ValueError) for bad input and KeyboardInterrupt after Ctrl-C.
     """
     work = work_options(
         {
             "error": error, "direct_error": direct_error, "indirect_error": indirect_error, "grid": grid, "passes": passes,
             "max_seconds": max_seconds, "max_rays": max_rays, "memory": memory, "seed": seed,
-            "triangle_errors": True,
+            "triangle_errors": False,
         }
     )  # fmt: skip
     when = (str(start or ""), str(stop or ""), str(date or ""), str(to_date or ""))
     request = _core.DayRequest(*when, whole(step, "step", 1, 24 * 60))
     machine = (str(device), whole(threads, "threads", 0, 1024))
     source = SceneSource(scene, folder)
-    given = (os.fspath(source.file), source.text, source.meshes, allow_outside, request, work, *machine)
+    given = (os.fspath(source.file), source.text, source.meshes, allow_outside, request, work, None if triangles is None else bool(triangles), *machine)
     with reporting(progress) as report, contextlib.ExitStack() as around:
         if source.text is not None:
             around.enter_context(without_line_numbers(source))

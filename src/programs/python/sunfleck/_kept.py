@@ -99,11 +99,18 @@ class KeptDay(_Kept):
         if isinstance(core, KeptDay):
             self.__dict__.update(core.__dict__)
             return
-        tables = ("day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv")
-        super().__init__(core, ("steps", "sums", "organs", "plants", "triangles"), tables, tables)
+        tables = tuple(core.tables())
+        arrays = ("organ_steps", "triangles", "plane_steps") if core.has_triangles else ("organ_steps",)
+        super().__init__(core, arrays, tables, tables)
+        self.has_triangles: bool = core.has_triangles
+        self._columns = {name: _copied(core.columns(name)) for name in tables}
 
-    steps = _answer("steps")
-    sums = _answer("sums")
-    organs = _answer("organs")
-    plants = _answer("plants")
+    def tables(self) -> list[str]:
+        return list(self._tables)
+
+    def columns(self, name: str) -> Any:
+        return _shared(self._columns[name])
+
+    organ_steps = _answer("organ_steps")
     triangles = _answer("triangles")
+    plane_steps = _answer("plane_steps")

@@ -93,9 +93,11 @@ class Plots : public test::GnuplotTest {
       if (course.dates.empty() || course.dates.back() != its) course.dates.push_back(its);
       step.date = course.dates.size() - 1;
     }
+    const DayStand stand(model);
+    const DayPart part(course, lights);
     PlotVariables variables;
-    variables.set_file("table", folder_.write("day.csv", day_csv(titled(title), model, course, lights)));
-    variables.set_file("sums", folder_.write("day_sums.csv", day_sums_csv(titled(title), model, course, lights)));
+    variables.set_file("table", folder_.write("day.csv", day_text({"", steps_table}, titled(title), stand, part)));
+    variables.set_file("sums", folder_.write("day_sums.csv", day_text({"", day_sums_table}, titled(title), stand, part)));
     variables.set_text("title", title);
     variables.set_text("band", "PAR");
     return draw("day.gp", variables);

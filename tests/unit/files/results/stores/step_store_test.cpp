@@ -29,6 +29,8 @@ RadiationModel two_bands() {
   model.canopy.plants = {{1, {0.5, 0.0, 0.5}}};
   model.bands.resize(2);
   model.sky = SkyModel{};
+  model.planes = {{0.5, 2, 1}};
+  model.sensors = {{"line", {{0.1, 0.0, 0.1}, {0.2, 0.0, 0.1}}}};
   return model;
 }
 
@@ -41,6 +43,14 @@ StoredStep some_step(const RadiationModel& model) {
   step.light.sunlit_leaf_fraction = {no_value, no_value};
   step.light.plant_absorbed_w[1] = {0.7, 0.1};
   step.fields.assign(2 * 8 * 3, 0.1F);
+  step.light.kind_absorbed[1] = {{0.3, 0.01}, 0.001};
+  step.light.points[3].scattered = {2.0, 0.5};
+  step.light.sensors[1].total = {4.0, no_value};
+  step.light.plane_sunfleck[0] = {0.25, 0.01};
+  step.light.plane_down[1] = {7.0, 0.7};
+  step.maps.assign(2 * 5, 0.3F);
+  step.maps[1] = std::numeric_limits<float>::quiet_NaN();
+  step.sensor_error = 0.01;
   step.fields[7] = std::numeric_limits<float>::quiet_NaN();
   step.next_work = {1e6 / 7.0, 0.1};
   step.rays = 1ULL << 40U;
@@ -62,7 +72,7 @@ class StepStoreTest : public ::testing::Test {
  protected:
   const RadiationModel model_ = two_bands();
   TempFolder folder_;
-  StepStore store_{folder_.path(), model_, day_settings};
+  StepStore store_{folder_.path(), model_, day_settings, StepFields::kept};
   const std::string step_file_ = "steps/step_00007.bin";
 };
 
@@ -84,6 +94,18 @@ TEST_F(StepStoreTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(read->light.plant_absorbed_w[1].half_width, 0.1);
   ASSERT_EQ(read->fields.size(), step.fields.size());
   EXPECT_EQ(std::memcmp(read->fields.data(), step.fields.data(), step.fields.size() * sizeof(float)), 0);
+  EXPECT_EQ(read->light.kind_absorbed[1].absorbed.value, 0.3);
+  EXPECT_EQ(read->light.kind_absorbed[1].unshot, 0.001);
+  ASSERT_EQ(read->light.points.size(), 4U);
+  EXPECT_EQ(read->light.points[3].scattered.half_width, 0.5);
+  ASSERT_EQ(read->light.sensors.size(), 2U);
+  EXPECT_EQ(read->light.sensors[1].total.value, 4.0);
+  EXPECT_TRUE(std::isnan(read->light.sensors[1].total.half_width));
+  EXPECT_EQ(read->light.plane_sunfleck[0].value, 0.25);
+  EXPECT_EQ(read->light.plane_down[1].half_width, 0.7);
+  ASSERT_EQ(read->maps.size(), step.maps.size());
+  EXPECT_EQ(std::memcmp(read->maps.data(), step.maps.data(), step.maps.size() * sizeof(float)), 0);
+  EXPECT_EQ(read->sensor_error, 0.01);
   EXPECT_TRUE(same_bits(read->next_work.rays, step.next_work.rays));
   EXPECT_TRUE(same_bits(read->next_work.packets, step.next_work.packets));
   EXPECT_EQ(read->rays, step.rays);
@@ -93,6 +115,21 @@ TEST_F(StepStoreTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(read->indirect_error, step.indirect_error);
   EXPECT_FALSE(read->reached_bound);
   EXPECT_EQ(read->seconds, 0.25);
+}
+
+TEST_F(StepStoreTest, LeavesOutFieldsOfTriangles) {
+  const StepStore small(folder_.path(), model_, day_settings, StepFields::none);
+  store_.begin();
+  store_.write(7, some_step(model_));
+  const std::optional<StoredStep> read = store_.read(7, StepFields::none);
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->fields.empty());
+  EXPECT_EQ(read->maps.size(), 10U);
+  StoredStep without = some_step(model_);
+  without.fields.clear();
+  small.write(8, without);
+  EXPECT_TRUE(small.read(8));
+  EXPECT_FALSE(store_.read(8)) << "it has no fields";
 }
 
 TEST_F(StepStoreTest, WritesMeanwhileWhatItWasGiven) {
@@ -134,12 +171,12 @@ TEST_F(StepStoreTest, ReadsNoStepOfAnotherDayOrNumber) {
   store_.write(7, some_step(model_));
   ordered_json other = day_settings;
   other["seed"] = 2;
-  EXPECT_FALSE(StepStore(folder_.path(), model_, other).read(7));
+  EXPECT_FALSE(StepStore(folder_.path(), model_, other, StepFields::kept).read(7));
   RadiationModel larger = model_;
   larger.canopy.corners = std::vector<Triangle>(4);
   larger.canopy.organ_of.push_back(1);
   larger.canopy.optics_of.push_back(0);
-  EXPECT_FALSE(StepStore(folder_.path(), larger, day_settings).read(7));
+  EXPECT_FALSE(StepStore(folder_.path(), larger, day_settings, StepFields::kept).read(7));
   std::filesystem::rename(folder_ / step_file_, folder_ / "steps/step_00008.bin");
   EXPECT_FALSE(store_.read(8));
 }
@@ -151,11 +188,11 @@ TEST_F(StepStoreTest, TellsWhatAnEarlierDayLeft) {
   store_.write(0, some_step(model_));
   folder_.write("steps/step_fields.tmp", "half a file");
   folder_.write("steps/notes.txt", "of the user");
-  EXPECT_EQ(StepStore(folder_.path(), model_, day_settings).find(), StepStore::Found::begun);
+  EXPECT_EQ(StepStore(folder_.path(), model_, day_settings, StepFields::kept).find(), StepStore::Found::begun);
   store_.finish();
   EXPECT_EQ(store_.find(), StepStore::Found::finished);
   EXPECT_FALSE(store_.read(0));
-  EXPECT_FALSE(std::filesystem::exists(store_.scratch_file()));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "steps/step_fields.tmp"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "steps/notes.txt"));
   store_.begin();
   EXPECT_EQ(store_.find(), StepStore::Found::begun);
@@ -177,7 +214,7 @@ TEST_F(StepStoreTest, NamesTheFirstSettingThatDiffers) {
   ordered_json other = day_settings;
   other["seed"] = 2;
   const auto message = [&](const ordered_json& now) {
-    return refusal_of([&] { static_cast<void>(StepStore(folder_.path(), model_, now).find()); });
+    return refusal_of([&] { static_cast<void>(StepStore(folder_.path(), model_, now, StepFields::kept).find()); });
   };
   EXPECT_NE(message(other).find("seed was 1, now 2"), std::string::npos);
   other = day_settings;

@@ -110,14 +110,21 @@ TEST(Table, AnErrorIsTheHalfWidthOfTheColumnBeforeIt) {
   RadiationResult result;
   result.planes.resize(1);
   result.planes[0].cells_x = result.planes[0].cells_z = 1;
+  model.planes = {{0.5, 1, 1}};
+  model.sensors = {{"point", {{0.5, 0.0, 0.5}}}};
+  result.sensors = {{SensorResult{{{1, 0}}, {{1, 0}}, {{1, 0}}, {{1, 0}}}}};
+  result.sensor_means = result.sensors[0];
   const DayCourse course;
+  const DayStand stand(model);
+  const DayPart day(course, {});
   const ElementFields fields = make_element_fields(model, result);
   std::size_t errors = 0;
-  for (const Table& table :
-       {organs_table(model, result), plants_table(model, result), layers_table(model, result), balance_table(result),
-        sensors_table(model, result), sensor_means_table(model, result), plane_table(model, result, 0), triangles_table(fields),
-        steps_table(model, course, {}), day_sums_table(model, course, {}), organs_day_table(model, course, {}),
-        plants_day_table(model, course, {})}) {
+  std::vector<Table> tables = {organs_table(model, result),   plants_table(model, result),  layers_table(model, result),
+                               balance_table(result),         sensors_table(model, result), sensor_means_table(model, result),
+                               plane_table(model, result, 0), triangles_table(fields),      organ_steps_table(stand, day)};
+  for (const DayTable& table : day_tables(model)) tables.push_back(table.make(stand, day));
+  EXPECT_EQ(tables.size(), 19U);
+  for (const Table& table : tables) {
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const Column& error = table.columns[i];
       if (!error.name.ends_with("_error")) continue;
