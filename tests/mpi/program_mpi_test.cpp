@@ -154,6 +154,15 @@ TEST_F(Mpi, GivesTheSameDay) {
   }
 }
 
+TEST_F(Mpi, GivesTheSameDayOfStepsTogether) {
+  const Arguments together = day_ + Arguments{"--together", "3"};
+  const Files expected = plain(together);
+  const std::string out = "by2";
+  const Outcome outcome = run(by(2, into(out, together)));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  expect_same(expected, out);
+}
+
 TEST_F(Mpi, GoesOnAfterAnyRankWasKilled) {
   const Files expected = plain(long_);
   may_be_killed_ = true;

@@ -302,6 +302,31 @@ TEST_F(Day, GoesOnWhereItWasKilled) {
   EXPECT_EQ(finished_steps(), 0U);
 }
 
+// Steps that share packets have the light of steps simulated one by one, within the errors of both; a killed day resumes with whole
+// blocks.
+TEST_F(Day, SimulatesStepsTogether) {
+  const Arguments together{"--together", "4"};
+  expect_day({}, 0, "single");
+  expect_day(together, 0, "whole");
+  const Table single(file("day.csv", "single")), shared(file("day.csv", "whole"));
+  ASSERT_EQ(single.size(), shared.size());
+  for (std::size_t step = 0; step < single.size(); ++step) {
+    for (const char* band : bands) {
+      for (const char* term : terms) {
+        const auto number = [&](const Table& table, const char* end) { return table.number(step, column(band, term) + end); };
+        // Three half-widths of 95 % are 5.9 standard errors.
+        const double limit = 3.0 * std::hypot(number(single, "_error"), number(shared, "_error"));
+        EXPECT_NEAR(number(single, ""), number(shared, ""), limit + 1e-6) << step << band << term;
+      }
+    }
+  }
+  EXPECT_LT(summary("whole")["indirect"]["packets"], summary("single")["indirect"]["packets"]);
+  kill_day(together, signal_at(SIGKILL, "rename steps/step_", 6));
+  EXPECT_EQ(finished_steps(), 5U);
+  expect_day(together + Arguments{"--resume"});
+  expect_same_tables("whole", "out");
+}
+
 TEST_F(Day, KeepsFinishedStepsAtCtrlC) {
   expect_day(evening_, 0, "whole");
   interrupt_evening(2);

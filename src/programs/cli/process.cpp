@@ -1,7 +1,6 @@
 #include "programs/cli/process.h"
 
 #include "base/error.h"
-#include "programs/cli/large_arrays.h"
 #include "simulate/cluster/launch.h"
 
 #include <fcntl.h>
@@ -40,7 +39,6 @@ int output_lost(int code) {
 }  // namespace
 
 void prepare_process() {
-  use_huge_pages();
   // Large arrays go back to the system when they are freed. By default glibc keeps ever larger ones for later use, which took a
   // seventh more memory and four times as much system time on a stand of a million triangles.
   constexpr int large_bytes = 1 << 20;

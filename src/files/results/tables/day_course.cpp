@@ -73,7 +73,7 @@ struct Sums {
       const StepBand& band = light.bands[b];
       for (std::size_t t = 0; t < std::size(terms); ++t) {
         const Estimate& flux = band.*terms[t];
-        bands[b][t].add(flux, std::min(flux.half_width, band.unshot), length_s, shared(light, shared_term(light, b, t)));
+        bands[b][t].add(flux, std::min(flux.half_width, band.unshot), length_s, shared_term(light, b, t));
       }
       const double absorbed = band.absorbed_vegetation.value + band.absorbed_structure.value + band.absorbed_soil.value;
       const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
@@ -81,20 +81,17 @@ struct Sums {
                               const std::vector<double>& of_shared) {
         for (std::size_t i = b; i < sums.size(); i += bands.size())
           sums[i].add(fluxes[i], std::min(fluxes[i].half_width, fluxes[i].value * unshot_share), length_s,
-                      shared(light, of_shared[i]));
+                      light.shares_packets ? std::optional(of_shared[i]) : std::nullopt);
       };
       add_to(organs, light.organ_absorbed, light.of_shared.organs);
       add_to(plants, light.plant_absorbed_w, light.of_shared.plants);
     }
   }
 
-  // Returns the half-width if the step shares its packets with others; nothing otherwise.
-  static std::optional<double> shared(const StepLight& light, double half_width) {
-    return light.shares_packets ? std::optional(half_width) : std::nullopt;
-  }
-  // Returns the error of a term of `terms`. That of the incident flux is bounded by the sum over its parts; in an endless canopy the
-  // flux is exact.
-  static double shared_term(const StepLight& light, std::size_t band, std::size_t term) {
+  // Returns the error of a term of `terms` for steps that share packets; nothing for others. That of the incident flux is bounded by
+  // the sum over its parts; in an endless canopy the flux is exact.
+  static std::optional<double> shared_term(const StepLight& light, std::size_t band, std::size_t term) {
+    if (!light.shares_packets) return std::nullopt;
     const JointErrors::Band& errors = light.of_shared.bands[band];
     const double of_terms[] = {errors.vegetation, errors.structure, errors.soil, errors.reflected, errors.transmitted};
     if (term > 0) return of_terms[term - 1];

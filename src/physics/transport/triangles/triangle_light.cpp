@@ -186,7 +186,9 @@ TriangleLight TriangleEstimator::estimate(const BeamExposure& exposure, const Tr
     const std::vector<std::uint32_t> doubted = BeamShares(exposure, sums, neighbours_.areas_m2).doubted(*shades);
     if (!ask_doubted(model_, layout_, doubted, tracer_, seed_, stop, *shades)) shades.reset();
   }
-  return Estimation({model_, layout_, surfaces_, exposure}, sums, neighbours_.areas_m2, neighbours_.trees, shades ? &*shades : nullptr).run();
+  return Estimation({model_, layout_, surfaces_, exposure}, sums, neighbours_.areas_m2, neighbours_.trees,
+                    shades ? &*shades : nullptr)
+      .run();
 }
 
 TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence) {

@@ -96,6 +96,22 @@ TEST(DayTables, RandomErrorsAddAsSquaresAndUnshotFluxAsItIs) {
   EXPECT_NEAR(dates[0].organ_absorbed[0].half_width, std::hypot(1800.0 * first, 600.0 * second) + 2400.0 * 100.0 / 81.25, 1e-8);
 }
 
+// Steps that share packets have one error of their sum, which the first of them holds; unshot flux adds as it is.
+TEST(DayTables, ErrorsOfStepsThatSharePacketsAreThoseOfTheirSum) {
+  std::vector<StepLight> lights{light(100.0, 3.0, 1.0), light(200.0, 13.0, 1.0), light(10.0, 5.0, 0.0)};
+  for (std::size_t k = 0; k < 2; ++k) {
+    lights[k].shares_packets = true;
+    lights[k].of_shared = no_joint_errors(2, 2, 0);
+  }
+  lights[0].of_shared.bands[1].soil = 5000.0;
+  lights[0].of_shared.organs[0] = 700.0;
+  const std::vector<DateSums> dates = sum_dates(three_steps(), lights);
+  EXPECT_NEAR(dates[0].bands[1].absorbed_soil.half_width, 5000.0 + 2400.0, 1e-8);
+  EXPECT_NEAR(dates[0].bands[1].reflected.half_width, 2400.0, 1e-8);
+  EXPECT_NEAR(dates[0].organ_absorbed[0].half_width, 700.0 + 2400.0 * 100.0 / 81.25, 1e-8);
+  EXPECT_EQ(dates[1].bands[0].reflected.half_width, 3000.0);
+}
+
 TEST(DayTables, DayIsWrittenStepByStep) {
   const RadiationModel model = two_organs();
   const std::vector<StepLight> lights{light(100.0, 3.0, 1.0), night_light(model), light(10.0, no_value, 0.0)};
