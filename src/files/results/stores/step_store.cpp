@@ -125,7 +125,7 @@ void StepStore::write(std::size_t step, const StoredStep& stored) const {
 
 std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& stored) const {
   json content = {{"settings", settings_}, {"step", step}};
-  visit(StoreWriter(content), stored, {});
+  visit(StoreWriter(content), stored, StepSizes{});
   // If no thread can be started, the file is written when the result of the future is requested.
   return std::async(std::launch::async | std::launch::deferred,
                     [file = file_of(step), bytes = sealed(step_mark, content)] { write_file(file, bytes); });
@@ -140,7 +140,7 @@ std::optional<StoredStep> StepStore::read(std::size_t step, StepFields fields) c
     if (content->at("settings") != settings_ || content->at("step") != step) return std::nullopt;
     StoredStep stored;
     stored.light = dark_;
-    visit(StoreReader(*content), stored, {fields == StepFields::kept ? field_values_ : 0, map_values_});
+    visit(StoreReader(*content), stored, StepSizes{fields == StepFields::kept ? field_values_ : 0, map_values_});
     return stored;
   } catch (const json::exception&) {
     return std::nullopt;

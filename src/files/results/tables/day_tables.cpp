@@ -11,7 +11,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr unsigned outputs = in_csv | in_arrays;
+constexpr unsigned table_outputs = in_csv | in_arrays;
 
 void note_if_stopped(Table& table, const DayCourse& course, std::size_t steps_done) {
   if (steps_done == course.steps.size()) return;
@@ -22,7 +22,7 @@ void add_plants(Table& table, const DayStand& stand, std::size_t axis) {
   const PlantAreas& plants = stand.plants;
   const std::vector<std::size_t> along{axis};
   const auto add = [&](const char* name, const char* unit, const char* meaning, const auto& value) {
-    table.add({name, unit, meaning, outputs, along}, value);
+    table.add({name, unit, meaning, table_outputs, along}, value);
   };
   add("plant", "1", "number of the plant", [&](std::size_t p) { return plants.sites[p].plant; });
   add_positions(table, stand.model.plot, along, [&](std::size_t p) { return plants.sites[p].position_m; });
@@ -49,13 +49,13 @@ std::vector<std::size_t> DayPart::dates() const {
 }
 
 void add_step_times(Table& table, const DayCourse& course) {
-  table.add({"time", "", "start of the step, local time with its offset", outputs, std::vector<std::size_t>{0}},
+  table.add({"time", "", "start of the step, local time with its offset", table_outputs, std::vector<std::size_t>{0}},
             [&](std::size_t i) { return local_time_text(course.steps[i].start, course.offset_minutes); });
 }
 
 void add_dates(Table& table, const DayPart& part) {
   const std::vector<std::size_t> dates = part.dates();
-  table.add({"date", "", "local date", outputs, std::vector<std::size_t>{0}},
+  table.add({"date", "", "local date", table_outputs, std::vector<std::size_t>{0}},
             [&](std::size_t d) { return part.course.dates[dates[d]]; });
 }
 
@@ -143,7 +143,7 @@ Table organs_day_table(const DayStand& stand, const DayPart& part) {
               {}};
   add_dates(table, part);
   add_organ_names(table, organs, 1);
-  table.add({"area_m2", "m2", "one-sided area", outputs, by_organ}, stand.kinds.organ_m2);
+  table.add({"area_m2", "m2", "one-sided area", table_outputs, by_organ}, stand.kinds.organ_m2);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const std::string& band = model.bands[b].name;
     const double umol_per_joule = model.bands[b].umol_per_joule;
@@ -208,7 +208,7 @@ Table season_table(const DayStand& stand, const DayPart& part) {
       {}};
   add_dates(table, part);
   const auto add = [&](const char* name, const char* unit, const char* meaning, const auto& value) {
-    table.add({name, unit, meaning, outputs, by_kind}, value);
+    table.add({name, unit, meaning, table_outputs, by_kind}, value);
   };
   add("organ", "", "name of the kind of organs", [&](std::size_t k) { return kinds[k].name; });
   add("role", "", "leaf, stem, fruit, structure, lamp or soil",
@@ -250,7 +250,7 @@ Table organ_steps_table(const DayStand& stand, const DayPart& part) {
   Table table{"What organs absorb at each step", "W m-2 of one-sided area", {}, {part.lights.size(), organs.size()}, {}};
   add_step_times(table, part.course);
   add_organ_names(table, organs, 1);
-  table.add({"area_m2", "m2", "one-sided area", outputs, std::vector<std::size_t>{1}}, stand.kinds.organ_m2);
+  table.add({"area_m2", "m2", "one-sided area", table_outputs, std::vector<std::size_t>{1}}, stand.kinds.organ_m2);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     table.add({model.bands[b].name + "_absorbed", "W m-2", "flux absorbed by both faces per one-sided area",
                in_csv | in_arrays | in_netcdf},
