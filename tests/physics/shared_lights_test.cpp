@@ -74,8 +74,7 @@ class Comparison {
 
  private:
   void add(const Estimate& a, const Estimate& b, double unshot, double scale) {
-    const double error =
-        std::hypot(a.half_width - 0.5 * unshot, b.half_width - 0.5 * unshot) / t_quantile(0.95, replicates);
+    const double error = std::hypot(a.half_width - 0.5 * unshot, b.half_width - 0.5 * unshot) / t_quantile(0.95, replicates);
     if (!(error > 1e-9 * scale)) return;  // known without chance
     const double z = (a.value - b.value) / error;
     squares_ += z * z;
@@ -93,9 +92,9 @@ std::vector<RadiationResult> simulate_together(const std::vector<RadiationModel>
   CpuTracer tracer(prepared.bvh, tracer_scene(moments.front()));
   std::vector<RadiationResult> results(moments.size());
   const std::vector<LightSum> sums(sum.empty() ? 0 : 1, sum);
-  const SharedOutcome outcome =
-      solve_lights(moments, prepared.layout, tracer, settings, {}, nullptr, sums,
-                   [&](std::size_t light, RadiationResult result, const SharedOutcome&) { results[light] = std::move(result); });
+  const SharedOutcome outcome = solve_lights(
+      moments, prepared.layout, tracer, settings, {}, nullptr, sums,
+      [&](std::size_t light, RadiationResult result, const SharedOutcome&) { results[light] = std::move(result); });
   if (errors != nullptr) *errors = outcome.sum_errors;
   return results;
 }
