@@ -212,8 +212,7 @@ TEST(Sky, IsContinuousAtTheZenithAndEndsAtTheHorizon) {
 
 // The mean of several skies has the mean of their radiances everywhere, and draws directions accordingly.
 TEST(MeanSky, HasTheMeanRadiance) {
-  const std::vector<Sky> skies{Sky(SkyModel{}, low_sun), Sky(general(12), low_sun),
-                               Sky(general(12), paper_sun)};
+  const std::vector<Sky> skies{Sky(SkyModel{}, low_sun), Sky(general(12), low_sun), Sky(general(12), paper_sun)};
   const Sky mean = Sky::mean_of(skies);
   double sum = 0.0;
   for (std::size_t cell = 0; cell < std::size_t{Sky::rows} * Sky::columns; cell += 97) {

@@ -64,8 +64,8 @@ class LocalMailbox final : public Mailbox {
 
 class RanksTest : public ::testing::Test {
  protected:
-  using Make =
-      std::function<std::optional<ReplicateSet>(ReplicateMaker&, const ReplicateOrder&, const Conversion&, const StopQuestion&)>;
+  using Make = std::function<std::optional<ReplicateSet>(ReplicateMaker&, const ReplicateOrder&, const Conversion&,
+                                                         const StopQuestion&)>;
 
   // Starts a worker with this rank; `make` may replace its way of making replicates.
   void start(int rank, const Make& make, const StopQuestion& interrupted = {}) {
@@ -113,7 +113,9 @@ class RanksTest : public ::testing::Test {
   }
 
   static constexpr auto usual_ = [](ReplicateMaker& maker, const ReplicateOrder& order, const Conversion& conversion,
-                                    const StopQuestion& stop) { return maker.make(order, {&conversion, 1}, stop); };
+                                    const StopQuestion& stop) {
+    return maker.make(order, {&conversion, 1}, stop);
+  };
 
   RadiationModel model_ = test::light_mix();
   test::Prepared prepared_{model_};

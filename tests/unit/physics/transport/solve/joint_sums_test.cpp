@@ -42,7 +42,8 @@ TEST(JointSums, OfALightWithItselfHasTheErrorOfTheLight) {
   }
   ASSERT_EQ(errors.organs.size(), sums.organs.size() * errors.bands.size());
   ASSERT_EQ(errors.plants.size(), sums.plants.size() * errors.bands.size());
-  EXPECT_NEAR(errors.organs[1], quantile * sums.organs[0].absorbed[1].standard_error(), 1e-12 * sums.organs[0].absorbed[1].mean());
+  EXPECT_NEAR(errors.organs[1], quantile * sums.organs[0].absorbed[1].standard_error(),
+              1e-12 * sums.organs[0].absorbed[1].mean());
 }
 
 }  // namespace
