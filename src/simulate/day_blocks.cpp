@@ -3,6 +3,7 @@
 #include "physics/transport/solve/darkness.h"
 
 namespace sunfleck {
+
 void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {
   const std::vector<DayStep>& steps = plan.course.steps;
   plan.blocks.clear();
@@ -13,8 +14,8 @@ void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {
     }
   };
   std::size_t first = 0;
+  RadiationModel light = model;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    RadiationModel light = model;
     if (!steps[i].night()) set_light(light, plan.lights[i]);
     const bool alone = steps[i].night() || is_dark(light);
     if (alone || steps[i].date != steps[first].date) {

@@ -65,7 +65,7 @@ struct DayRequest {
   std::string date;      // YYYY-MM-DD; empty: the scene's own
   std::string to_date;   // empty: one date
   int step_min = 60;     // the last step ends at `to`
-  // Up to so many consecutive steps of a date are simulated together and share their packets (simulate/day_blocks.h).
+  // Largest number of consecutive steps of a date that are simulated together and share their packets (simulate/day_blocks.h).
   int steps_together = 1;
 };
 

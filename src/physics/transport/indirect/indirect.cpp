@@ -22,53 +22,10 @@ constexpr std::uint64_t most_rounds = 20000;
 // First stream of random numbers, apart from those of the beam.
 constexpr std::uint64_t indirect_stream = std::uint64_t{1} << 48U;
 // Where lights share the packets, points where beams landed, per packet of the first round. A ray towards each sun goes out from
-// every point. Scaling a column to its exact total is a ratio estimate, whose bias falls as 1 / landings: the second number is the least for
-// each light.
+// every point. Scaling a column to its exact total is a ratio estimate, whose bias falls as 1 / landings; the second number is the
+// least for each light.
 constexpr double shared_landings_per_packet = 0.25;
 constexpr double least_shared_landings = 64;
-
-// Shares of the skies' flux that the rays drawn so far carry.
-class SkyShares {
- public:
-  // Both arguments must outlive the object.
-  SkyShares(const SkyRays& sky, std::span<const shared::Packet> rays) : sky_(sky), rays_(rays), lights_(sky.lights()) {
-    if (sky.alike()) {
-      sums_.resize(lights_);
-      return;
-    }
-    totals_.resize(lights_);
-    for (std::size_t r = 0; r < rays.size(); ++r) add(r, totals_);
-    sums_.resize(lights_);
-    shares_.resize(lights_);
-  }
-
-  // Returns the share of each light's flux that the rays up to the next one carry together, [light]: exactly 1 after the last ray.
-  std::span<const double> next() {
-    const std::size_t ray = taken_++;
-    if (sky_.alike()) {
-      std::fill(sums_.begin(), sums_.end(), sky_.share_of_first(ray + 1, rays_.size()));
-      return sums_;
-    }
-    add(ray, sums_);
-    for (std::size_t k = 0; k < lights_; ++k) {
-      shares_[k] = totals_[k] > 0.0 && taken_ < rays_.size() ? std::min(1.0, sums_[k] / totals_[k]) : 1.0;
-    }
-    return shares_;
-  }
-
- private:
-  void add(std::size_t ray, std::vector<double>& sums) const {
-    const double share = sky_.share_of_first(ray + 1, rays_.size()) - sky_.share_of_first(ray, rays_.size());
-    const std::span<const float> weights = sky_.weights(rays_[ray].direction);
-    for (std::size_t k = 0; k < lights_; ++k) sums[k] += share * double{weights[k]};
-  }
-
-  const SkyRays& sky_;
-  std::span<const shared::Packet> rays_;
-  std::size_t lights_;
-  std::size_t taken_ = 0;
-  std::vector<double> totals_, sums_, shares_;  // [light]; the first and the last are empty if all skies are alike
-};
 
 // The pass of one replicate, with the flux that is still on its way.
 class IndirectPass {
@@ -92,7 +49,9 @@ class IndirectPass {
         layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, columns_),
         receivers_(scene.receivers != nullptr ? scene.receivers->size() : 0, columns_),
         reflected_(columns_),
-        transmitted_(columns_) {
+        transmitted_(columns_),
+        soil_face_(bands_) {
+    for (std::size_t b = 0; scene.model.soil && b < bands_; ++b) soil_face_[b].reflectance = scene.model.soil->reflectance[b];
     if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
     waiting_.clear();
     next_.clear();
@@ -198,7 +157,7 @@ class IndirectPass {
     for (std::size_t b = 0; b < bands_; ++b) {
       FaceOptics front, back;
       if (landed == shared::landed_on_ground) {
-        front.reflectance = scene_.model.soil ? scene_.model.soil->reflectance[b] : 0.0;
+        front = soil_face_[b];
       } else {
         const SurfaceOptics& optics = scene_.model.optics[scene_.model.canopy.optics_of[landed / 2]];
         front = (landed % 2 == 0 ? optics.upper : optics.lower)[b];
@@ -449,10 +408,7 @@ class IndirectPass {
 
   void land_on_soil(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta) {
     add_to(sums_.cell_landed, shared::soil_cell(scene_.block.ground, {landing.place_a, landing.place_b}), quanta);
-    std::vector<FaceOptics>& soil = soil_face_;
-    soil.resize(bands_);
-    for (std::size_t b = 0; b < bands_; ++b) soil[b].reflectance = scene_.model.soil->reflectance[b];
-    split(soil, Role::soil, quanta);
+    split(soil_face_, Role::soil, quanta);
     pass(landing, way, -1, quanta);
     next_.add(place_of(scene_, landing), reflected_);
   }
@@ -538,7 +494,7 @@ class IndirectPass {
   double aimed_draws_ = 1.0;                           // factor that makes up for what aim_draws takes from the first round
   PlaneFlux layers_, receivers_;                       // through the planes of the layers, and the horizontal receivers
   std::vector<std::int64_t> reflected_, transmitted_;  // [column], of the current landing
-  std::vector<FaceOptics> soil_face_;                  // [band]
+  std::vector<FaceOptics> soil_face_;                  // [band], black without soil
 };
 
 }  // namespace

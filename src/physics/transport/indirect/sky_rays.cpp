@@ -154,6 +154,32 @@ double SkyRays::share_of_first(std::size_t k, std::size_t rays) const {
   return part <= 0.5 ? 2.0 * part * inner_share_ : inner_share_ + (2.0 * part - 1.0) * (1.0 - inner_share_);
 }
 
+SkyShares::SkyShares(const SkyRays& sky, std::span<const shared::Packet> rays) : sky_(sky), rays_(rays), shares_(sky.lights()) {
+  if (sky.alike()) return;
+  totals_.resize(sky.lights());
+  sums_.resize(sky.lights());
+  for (std::size_t r = 0; r < rays.size(); ++r) add(r, totals_);
+}
+
+std::span<const double> SkyShares::next() {
+  const std::size_t ray = taken_++;
+  if (sky_.alike()) {
+    std::fill(shares_.begin(), shares_.end(), sky_.share_of_first(ray + 1, rays_.size()));
+    return shares_;
+  }
+  add(ray, sums_);
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    shares_[k] = totals_[k] > 0.0 && taken_ < rays_.size() ? std::min(1.0, sums_[k] / totals_[k]) : 1.0;
+  }
+  return shares_;
+}
+
+void SkyShares::add(std::size_t ray, std::vector<double>& sums) const {
+  const double share = sky_.share_of_first(ray + 1, rays_.size()) - sky_.share_of_first(ray, rays_.size());
+  const std::span<const float> weights = sky_.weights(rays_[ray].direction);
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * double{weights[k]};
+}
+
 double SkyRays::largest_weight(std::size_t light) const {
   return most_weight_[light] * (aimed() ? 2.0 * std::max(inner_share_, 1.0 - inner_share_) : 1.0);
 }

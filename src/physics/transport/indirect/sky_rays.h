@@ -65,4 +65,23 @@ class SkyRays {
   std::vector<double> ground_m2_;  // [light]
 };
 
+// Shares of the lights' sky flux that a sequence of drawn rays carries, ray by ray.
+class SkyShares {
+ public:
+  // Both arguments must outlive the object.
+  SkyShares(const SkyRays& sky, std::span<const shared::Packet> rays);
+
+  // Returns the share of each light's flux that the rays up to the next one carry together, [light]: exactly 1 after the last ray.
+  [[nodiscard]] std::span<const double> next();
+
+ private:
+  void add(std::size_t ray, std::vector<double>& sums) const;
+
+  const SkyRays& sky_;
+  std::span<const shared::Packet> rays_;
+  std::size_t taken_ = 0;
+  std::vector<double> shares_;         // [light]
+  std::vector<double> totals_, sums_;  // [light], of weights; empty if all skies are alike
+};
+
 }  // namespace sunfleck
