@@ -7,6 +7,7 @@
 #include "support/copies.h"
 #include "support/models.h"
 #include "support/processor_kinds.h"
+#include "support/same_hit.h"
 
 #include <gtest/gtest.h>
 
@@ -36,18 +37,6 @@ RayBundle bundle_of(const glm::vec3& direction, const std::vector<glm::vec3>& or
   return bundle;
 }
 
-void expect_same(const CpuHit& got, const CpuHit& expected) {
-  EXPECT_EQ(got.found, expected.found);
-  EXPECT_EQ(got.t, expected.t);
-  EXPECT_EQ(got.weight_b, expected.weight_b);
-  EXPECT_EQ(got.weight_c, expected.weight_c);
-  EXPECT_EQ(got.lower, expected.lower);
-  EXPECT_EQ(got.element, expected.element);
-  EXPECT_EQ(got.triangle, expected.triangle);
-  EXPECT_EQ(got.reference, expected.reference);
-  EXPECT_EQ(got.copy, expected.copy);
-}
-
 // Returns the number of hits.
 std::size_t expect_hits_of_single_rays(const Bvh& bvh, const RayBundle& bundle) {
   BundleHits hits;
@@ -60,8 +49,8 @@ std::size_t expect_hits_of_single_rays(const Bvh& bvh, const RayBundle& bundle) 
   for (std::uint32_t k = 0; k < bundle.rays; ++k) {
     SCOPED_TRACE("ray " + std::to_string(k));
     const shared::Ray ray = shared::make_ray(bundle.origins[k], bundle.along.direction);
-    expect_same(hits[k], nearest_hit(bvh, ray, bundle.limits[k]));
-    expect_same(hits[k], nearest_hit_of_all(bvh, ray, bundle.limits[k]));
+    test::expect_same_hit(hits[k], nearest_hit(bvh, ray, bundle.limits[k]));
+    test::expect_same_hit(hits[k], nearest_hit_of_all(bvh, ray, bundle.limits[k]));
     found += hits[k].found ? 1 : 0;
   }
   for (std::uint32_t k = bundle.rays; k < rays_per_bundle; ++k) EXPECT_EQ(hits[k].element, 4711U);
