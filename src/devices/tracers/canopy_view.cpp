@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "devices/gpu/compute.h"
 #include "devices/tracers/fan_walk.h"
+#include "devices/tracers/pixel_blocks.h"
 #include "physics/bvh/decode.h"
 #include "shared/view.h"
 #include "view.spirv.h"
@@ -135,18 +136,19 @@ struct SampleGrid {
   }
 };
 
-// Samples that follow one another, whose rays are followed together.
+// Samples near each other, whose rays are followed together.
 class NeighbouringSamples {
  public:
-  NeighbouringSamples(const SampleGrid& grid, std::uint32_t first, std::span<shared::SeenSurface> seen) : seen_(seen) {
-    for (std::uint32_t k = 0; k < seen.size(); ++k) {
-      seen[k] = {shared::seen_nothing, 0.0F, 0};
-      const glm::vec2 at = grid.at(first + k);
+  NeighbouringSamples(const SampleGrid& grid, std::span<const std::uint32_t> numbers, std::span<shared::SeenSurface> seen)
+      : seen_(seen) {
+    for (const std::uint32_t number : numbers) {
+      seen[number] = {shared::seen_nothing, 0.0F, 0};
+      const glm::vec2 at = grid.at(number);
       const glm::vec3 direction = grid.view.kind == shared::view_fisheye ? fisheye_direction(grid.view, at)
                                                                          : shared::view_direction(grid.view, at.x, at.y);
       if (direction == glm::vec3(0.0F)) continue;
       fan_.along[fan_.rays] = shared::make_ray({}, direction);
-      ways_[fan_.rays++] = {at, k, 0.0F, 0.0F};
+      ways_[fan_.rays++] = {at, number, 0.0F, 0.0F};
     }
   }
 
@@ -190,14 +192,11 @@ class NeighbouringSamples {
   BundleHits hits_;
 };
 
-// Sees the samples from the number `first` on.
-void see_samples(const Bvh& bvh, const std::vector<shared::ViewBlock>& views, const SampleGrid& grid, std::uint32_t first,
-                 std::span<shared::SeenSurface> seen) {
-  for (std::size_t k = 0; k < seen.size(); k += rays_per_bundle) {
-    NeighbouringSamples samples(grid, first + static_cast<std::uint32_t>(k),
-                                seen.subspan(k, std::min<std::size_t>(rays_per_bundle, seen.size() - k)));
-    for (std::uint32_t copy = 0; copy < views.size(); ++copy) samples.look_at(bvh, views[copy], copy);
-  }
+// Sees the samples of these numbers, at most a bundle.
+void see_samples(const Bvh& bvh, const std::vector<shared::ViewBlock>& views, const SampleGrid& grid,
+                 std::span<const std::uint32_t> numbers, std::span<shared::SeenSurface> seen) {
+  NeighbouringSamples samples(grid, numbers, seen);
+  for (std::uint32_t copy = 0; copy < views.size(); ++copy) samples.look_at(bvh, views[copy], copy);
 }
 
 // Base class of both viewers.
@@ -238,11 +237,16 @@ class CpuViewer final : public LookingViewer {
     const std::uint32_t samples = sample_count(first_row, rows);
     const SampleGrid grid{views()[0], offsets(), first_row};
     std::vector<shared::SeenSurface> seen(samples);
-    for (std::uint32_t first = 0; first < samples;) {
+    const PixelBlocks blocks(views()[0], rows);
+    const std::uint32_t blocks_per_slice = std::max(1U, software_samples_per_slice / blocks.samples_in_block());
+    for (std::uint32_t first = 0; first < blocks.count();) {
       if (stop && stop()) return {};
-      const std::uint32_t end = first + std::min(software_samples_per_slice, samples - first);
-      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first, end, 4096), [&](const auto& range) {
-        see_samples(bvh(), views(), grid, range.begin(), std::span(seen).subspan(range.begin(), range.size()));
+      const std::uint32_t end = first + std::min(blocks_per_slice, blocks.count() - first);
+      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first, end, 256), [&](const auto& range) {
+        for (std::uint32_t block = range.begin(); block < range.end(); ++block) {
+          blocks.for_bundles(block,
+                             [&](std::span<const std::uint32_t> numbers) { see_samples(bvh(), views(), grid, numbers, seen); });
+        }
       });
       first = end;
     }
@@ -295,7 +299,7 @@ class GpuViewer final : public LookingViewer {
       download(context_, slice_seen_, std::as_writable_bytes(std::span(seen).subspan(first, count)));
       for (std::uint32_t number = first; number < first + count; ++number) {
         if (seen[number].surface != shared::seen_unfinished) continue;
-        see_samples(bvh(), views(), grid, number, std::span(seen).subspan(number, 1));
+        see_samples(bvh(), views(), grid, std::span(&number, 1), seen);
       }
       first += count;
     }
