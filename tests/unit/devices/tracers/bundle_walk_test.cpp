@@ -2,12 +2,11 @@
 // triangle.
 #include "devices/tracers/bundle_walk.h"
 
-#include "physics/bvh/build.h"
 #include "support/bvh_check.h"
 #include "support/copies.h"
 #include "support/models.h"
 #include "support/processor_kinds.h"
-#include "support/same_hit.h"
+#include "support/walks.h"
 
 #include <gtest/gtest.h>
 
@@ -19,13 +18,12 @@
 namespace sunfleck {
 namespace {
 
-using testing_bvh::isolated;
+using test::far_limit;
+using test::many_directions;
+using test::tree_of;
 using testing_bvh::Random;
 using testing_bvh::scattered;
 using testing_bvh::uniform;
-
-constexpr float padding_m = 1e-5F;
-constexpr float far_limit = 1e30F;
 
 RayBundle bundle_of(const glm::vec3& direction, const std::vector<glm::vec3>& origins, float limit = far_limit) {
   RayBundle bundle;
@@ -57,10 +55,6 @@ std::size_t expect_hits_of_single_rays(const Bvh& bvh, const RayBundle& bundle) 
   return found;
 }
 
-Bvh tree_of(std::vector<Triangle> corners) {
-  return build_bvh(isolated(std::move(corners)), padding_m);
-}
-
 // Returns a place for each ray in a square of 4 x 4 cells.
 std::vector<glm::vec3> square_of(Random& random, const glm::vec3& corner, double cell, std::uint32_t rays) {
   std::vector<glm::vec3> origins;
@@ -71,11 +65,6 @@ std::vector<glm::vec3> square_of(Random& random, const glm::vec3& corner, double
   }
   return origins;
 }
-
-const std::vector<glm::vec3> many_directions = {{0.0F, -1.0F, 0.0F},   {0.6F, -0.7F, 0.3F},   {-0.6F, -0.3F, 0.7F},
-                                                {0.3F, -0.01F, -0.9F}, {-0.9F, -0.2F, -0.1F}, {0.0F, -0.6F, 0.8F},
-                                                {1.0F, 0.0F, 0.0F},    {0.0F, 0.0F, -1.0F},   {-0.5F, 0.5F, 0.0F},
-                                                {0.2F, 0.9F, -0.4F},   {1.0F, -1.0F, 1.0F},   {1e-30F, -1.0F, -1e-30F}};
 
 TEST(BundleWalk, OfEachSizeFindsTheHitsOfSingleRays) {
   Random random(1);

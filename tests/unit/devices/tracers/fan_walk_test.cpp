@@ -2,12 +2,11 @@
 // triangle.
 #include "devices/tracers/fan_walk.h"
 
-#include "physics/bvh/build.h"
 #include "support/bvh_check.h"
 #include "support/copies.h"
 #include "support/models.h"
 #include "support/processor_kinds.h"
-#include "support/same_hit.h"
+#include "support/walks.h"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +20,12 @@
 namespace sunfleck {
 namespace {
 
-using testing_bvh::isolated;
+using test::far_limit;
+using test::many_directions;
+using test::tree_of;
 using testing_bvh::Random;
 using testing_bvh::scattered;
 using testing_bvh::uniform;
-
-constexpr float padding_m = 1e-5F;
-constexpr float far_limit = 1e30F;
 
 RayFan fan_of(const std::vector<shared::Ray>& rays, float limit = far_limit) {
   RayFan fan;
@@ -56,10 +54,6 @@ std::size_t expect_hits_of_single_rays(const Bvh& bvh, const RayFan& fan, Images
   return found;
 }
 
-Bvh tree_of(std::vector<Triangle> corners) {
-  return build_bvh(isolated(std::move(corners)), padding_m);
-}
-
 // Returns rays from one point, which pass on through a square of 4 x 4 cells at the distance of `forward`.
 std::vector<shared::Ray> rays_through(Random& random, const glm::vec3& eye, const glm::vec3& forward, double cell,
                                       std::uint32_t rays) {
@@ -75,12 +69,6 @@ std::vector<shared::Ray> rays_through(Random& random, const glm::vec3& eye, cons
   return result;
 }
 
-// Rays about those along axes and diagonals travel into different octants or differ in their longest axis.
-const std::vector<glm::vec3> many_directions = {{0.0F, -1.0F, 0.0F},   {0.6F, -0.7F, 0.3F},   {-0.6F, -0.3F, 0.7F},
-                                                {0.3F, -0.01F, -0.9F}, {-0.9F, -0.2F, -0.1F}, {0.0F, -0.6F, 0.8F},
-                                                {1.0F, 0.0F, 0.0F},    {0.0F, 0.0F, -1.0F},   {-0.5F, 0.5F, 0.0F},
-                                                {0.2F, 0.9F, -0.4F},   {1.0F, -1.0F, 1.0F}};
-
 TEST(FanWalk, OfEachSizeFindsTheHitsOfSingleRays) {
   Random random(1);
   const Bvh bvh = tree_of(scattered(400, 0.5, 0.15, 2));
@@ -94,6 +82,7 @@ TEST(FanWalk, OfEachSizeFindsTheHitsOfSingleRays) {
   EXPECT_GT(found, 100U);
 }
 
+// Rays about those along axes and diagonals travel into different octants or differ in their longest axis.
 TEST(FanWalk, InEachDirectionFindsTheHitsOfSingleRaysOnEachKindOfProcessor) {
   const Bvh bvh = tree_of(scattered(400, 0.5, 0.15, 4));
   test::for_each_processor_kind([&] {

@@ -6,7 +6,7 @@
 #include "support/copies.h"
 #include "support/models.h"
 #include "support/processor_kinds.h"
-#include "support/same_hit.h"
+#include "support/walks.h"
 
 #include <gtest/gtest.h>
 
