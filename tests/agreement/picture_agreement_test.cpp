@@ -230,6 +230,27 @@ TEST(Picture, IsTheSameHoweverItIsCutIntoRows) {
   }
 }
 
+// However many samples of however many pixels are followed together, each sees what it sees alone in its pixel.
+TEST(Picture, HasTheSamplesOfPicturesWithOneSample) {
+  const RadiationModel model = maize_model({1, 2, 0.6, 0.6, 3}, beijing_sun());
+  const Prepared prepared(model);
+  for (const Camera& camera : cameras(model, 2.2)) {
+    for (const int samples : {2, 3, 4, 8, 16, 21}) {
+      const CanopyLook look = look_of(model, prepared.layout, camera, {37, 23, samples}, 3);
+      const Seen seen = see_on_cpu(prepared, look);
+      for (int sample = 0; sample < samples; ++sample) {
+        CanopyLook alone = look_of(model, prepared.layout, camera, {37, 23, 1}, 3);
+        alone.offsets = {look.offsets[static_cast<std::size_t>(sample)]};
+        Seen of_sample;
+        for (std::size_t k = static_cast<std::size_t>(sample); k < seen.size(); k += static_cast<std::size_t>(samples)) {
+          of_sample.push_back(seen[k]);
+        }
+        EXPECT_EQ(surfaces_apart(see_on_cpu(prepared, alone), of_sample), 0U) << samples;
+      }
+    }
+  }
+}
+
 class PictureAgreement : public DeviceTest {
  protected:
   void expect_same_pictures(const RadiationModel& model, double height_m, int repeat) const {

@@ -16,9 +16,9 @@ namespace sunfleck::HWY_NAMESPACE {
 using namespace walk_parts;
 using namespace walk_parts::HWY_NAMESPACE;
 
-// The bundle as shared::meet_triangle sees its rays, side by side, with the axes already in order.
+// The bundle as shared::meet_triangle sees its rays, side by side.
 struct EdgeRays {
-  std::size_t x, y, z;
+  EdgeAxes axes;
   float shear_x, shear_y;
   std::uint32_t rays;
   unsigned exist;  // bit k: ray k exists
@@ -29,9 +29,7 @@ struct EdgeRays {
 
 HWY_INLINE EdgeRays edge_rays(const RayBundle& bundle) {
   EdgeRays result;
-  result.z = bundle.along.axis;
-  result.x = result.z == 2 ? 0 : result.z + 1;
-  result.y = result.x == 2 ? 0 : result.x + 1;
+  result.axes = edge_axes(bundle.along);
   result.shear_x = bundle.along.shear.x;
   result.shear_y = bundle.along.shear.y;
   result.rays = bundle.rays;
@@ -39,39 +37,23 @@ HWY_INLINE EdgeRays edge_rays(const RayBundle& bundle) {
   for (std::uint32_t lane = 0; lane < rays_per_bundle; ++lane) {
     const glm::vec3& at = bundle.origins[std::min(lane, bundle.rays - 1)];
     const float origin[3] = {at.x, at.y, at.z};
-    result.origin_x[lane] = origin[result.x];
-    result.origin_y[lane] = origin[result.y];
-    result.origin_z[lane] = origin[result.z];
+    result.origin_x[lane] = origin[result.axes.x];
+    result.origin_y[lane] = origin[result.axes.y];
+    result.origin_z[lane] = origin[result.axes.z];
   }
   return result;
 }
 
-// Returns the bits of the rays that are not outside the edges: computes u, v and w as shared::meet_triangle does.
-HWY_INLINE unsigned within_edges(const EdgeRays& rays, const BvhTriangle& t) {
+// Returns the bits of the rays that are not outside the edges.
+HWY_INLINE unsigned within_edges(const EdgeRays& rays, const BvhTriangle& triangle) {
   const hn::CappedTag<float, rays_per_bundle> lanes;
-  const auto zero = hn::Zero(lanes);
   const auto shear_x = hn::Set(lanes, rays.shear_x);
   const auto shear_y = hn::Set(lanes, rays.shear_y);
   unsigned outside = 0;
   for (std::size_t i = 0; i < rays.rays; i += hn::Lanes(lanes)) {
-    const auto origin_x = hn::Load(lanes, rays.origin_x + i);
-    const auto origin_y = hn::Load(lanes, rays.origin_y + i);
-    const auto origin_z = hn::Load(lanes, rays.origin_z + i);
-    const auto az = hn::Sub(hn::Set(lanes, t.a[rays.z]), origin_z);
-    const auto bz = hn::Sub(hn::Set(lanes, t.b[rays.z]), origin_z);
-    const auto cz = hn::Sub(hn::Set(lanes, t.c[rays.z]), origin_z);
-    const auto ax = hn::Sub(hn::Sub(hn::Set(lanes, t.a[rays.x]), origin_x), hn::Mul(shear_x, az));
-    const auto ay = hn::Sub(hn::Sub(hn::Set(lanes, t.a[rays.y]), origin_y), hn::Mul(shear_y, az));
-    const auto bx = hn::Sub(hn::Sub(hn::Set(lanes, t.b[rays.x]), origin_x), hn::Mul(shear_x, bz));
-    const auto by = hn::Sub(hn::Sub(hn::Set(lanes, t.b[rays.y]), origin_y), hn::Mul(shear_y, bz));
-    const auto cx = hn::Sub(hn::Sub(hn::Set(lanes, t.c[rays.x]), origin_x), hn::Mul(shear_x, cz));
-    const auto cy = hn::Sub(hn::Sub(hn::Set(lanes, t.c[rays.y]), origin_y), hn::Mul(shear_y, cz));
-    const auto u = hn::Sub(hn::Mul(cx, by), hn::Mul(cy, bx));
-    const auto v = hn::Sub(hn::Mul(ax, cy), hn::Mul(ay, cx));
-    const auto w = hn::Sub(hn::Mul(bx, ay), hn::Mul(by, ax));
-    const auto some_negative = hn::Or(hn::Or(hn::Lt(u, zero), hn::Lt(v, zero)), hn::Lt(w, zero));
-    const auto some_positive = hn::Or(hn::Or(hn::Gt(u, zero), hn::Gt(v, zero)), hn::Gt(w, zero));
-    outside |= bits_of(lanes, hn::And(some_negative, some_positive)) << i;
+    outside |= outside_edges(lanes, rays.axes, triangle, hn::Load(lanes, rays.origin_x + i), hn::Load(lanes, rays.origin_y + i),
+                             hn::Load(lanes, rays.origin_z + i), shear_x, shear_y)
+               << i;
   }
   return rays.exist & ~outside;
 }

@@ -2,7 +2,8 @@
 
 #include "base/check.h"
 #include "devices/gpu/compute.h"
-#include "devices/tracers/cpu_tracer.h"
+#include "devices/tracers/fan_walk.h"
+#include "devices/tracers/pixel_blocks.h"
 #include "physics/bvh/decode.h"
 #include "shared/view.h"
 #include "view.spirv.h"
@@ -19,6 +20,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace sunfleck {
@@ -134,31 +136,67 @@ struct SampleGrid {
   }
 };
 
-shared::SeenSurface see_sample(const Bvh& bvh, const std::vector<shared::ViewBlock>& views, const SampleGrid& grid,
-                               std::uint32_t number) {
-  const glm::vec2 at = grid.at(number);
-  const glm::vec3 direction =
-      views[0].kind == shared::view_fisheye ? fisheye_direction(views[0], at) : shared::view_direction(views[0], at.x, at.y);
-  shared::SeenSurface kept{shared::seen_nothing, 0.0F, 0};
-  if (direction == glm::vec3(0.0F)) return kept;
-  for (std::uint32_t copy = 0; copy < views.size(); ++copy) {
-    const shared::ViewBlock& view = views[copy];
-    const shared::Ray ray =
-        shared::make_ray(shared::view_origin(view, shared::view_position(view, at.x, at.y), direction), direction);
-    const float ground_t = shared::seen_ground(ray, view.ground);
-    const float slack = shared::ground_slack(ray, view.ground);
-    const CpuHit hit =
-        nearest_hit(bvh, ray, shared::kept_limit(view, kept, slack, shared::ground_limit(ground_t, slack)), Images::originals);
-    shared::SeenSurface found{shared::seen_nothing, 0.0F, copy};
-    if (hit.found) {
-      found = {2 * hit.element + hit.lower, shared::view_depth(view, hit.t), copy};
-    } else if (ground_t > 0.0F) {
-      found = {2 * view.elements + shared::soil_cell(view.ground, shared::ground_point(ray, ground_t)),
-               shared::view_depth(view, ground_t), copy};
+// Samples near each other, whose rays are followed together.
+class NeighbouringSamples {
+ public:
+  NeighbouringSamples(const SampleGrid& grid, std::span<const std::uint32_t> numbers, std::span<shared::SeenSurface> seen)
+      : seen_(seen) {
+    for (const std::uint32_t number : numbers) {
+      seen[number] = {shared::seen_nothing, 0.0F, 0};
+      const glm::vec2 at = grid.at(number);
+      const glm::vec3 direction = grid.view.kind == shared::view_fisheye ? fisheye_direction(grid.view, at)
+                                                                         : shared::view_direction(grid.view, at.x, at.y);
+      if (direction == glm::vec3(0.0F)) continue;
+      fan_.along[fan_.rays] = shared::make_ray({}, direction);
+      ways_[fan_.rays++] = {at, number, 0.0F, 0.0F};
     }
-    if (shared::replaces(view, found, kept, slack)) kept = found;
   }
-  return kept;
+
+  // Looks at a copy of the plot.
+  void look_at(const Bvh& bvh, const shared::ViewBlock& view, std::uint32_t copy) {
+    for (std::uint32_t k = 0; k < fan_.rays; ++k) {
+      Way& way = ways_[k];
+      shared::Ray& ray = fan_.along[k];
+      ray.origin = shared::view_origin(view, shared::view_position(view, way.at.x, way.at.y), ray.direction);
+      way.ground_t = shared::seen_ground(ray, view.ground);
+      way.slack = shared::ground_slack(ray, view.ground);
+      fan_.limits[k] = shared::kept_limit(view, seen_[way.sample], way.slack, shared::ground_limit(way.ground_t, way.slack));
+    }
+    nearest_hits(bvh, fan_, Images::originals, hits_);
+    for (std::uint32_t k = 0; k < fan_.rays; ++k) {
+      const shared::SeenSurface found = found_by(k, view, copy);
+      shared::SeenSurface& kept = seen_[ways_[k].sample];
+      if (shared::replaces(view, found, kept, ways_[k].slack)) kept = found;
+    }
+  }
+
+ private:
+  struct Way {
+    glm::vec2 at;
+    std::uint32_t sample;
+    float ground_t, slack;
+  };
+
+  [[nodiscard]] shared::SeenSurface found_by(std::uint32_t k, const shared::ViewBlock& view, std::uint32_t copy) const {
+    const CpuHit& hit = hits_[k];
+    if (hit.found) return {2 * hit.element + hit.lower, shared::view_depth(view, hit.t), copy};
+    const float ground_t = ways_[k].ground_t;
+    if (!(ground_t > 0.0F)) return {shared::seen_nothing, 0.0F, copy};
+    return {2 * view.elements + shared::soil_cell(view.ground, shared::ground_point(fan_.along[k], ground_t)),
+            shared::view_depth(view, ground_t), copy};
+  }
+
+  std::span<shared::SeenSurface> seen_;
+  RayFan fan_;
+  std::array<Way, rays_per_bundle> ways_;
+  BundleHits hits_;
+};
+
+// Sees the samples of these numbers, at most a bundle.
+void see_samples(const Bvh& bvh, const std::vector<shared::ViewBlock>& views, const SampleGrid& grid,
+                 std::span<const std::uint32_t> numbers, std::span<shared::SeenSurface> seen) {
+  NeighbouringSamples samples(grid, numbers, seen);
+  for (std::uint32_t copy = 0; copy < views.size(); ++copy) samples.look_at(bvh, views[copy], copy);
 }
 
 // Base class of both viewers.
@@ -199,12 +237,15 @@ class CpuViewer final : public LookingViewer {
     const std::uint32_t samples = sample_count(first_row, rows);
     const SampleGrid grid{views()[0], offsets(), first_row};
     std::vector<shared::SeenSurface> seen(samples);
-    for (std::uint32_t first = 0; first < samples;) {
+    const PixelBlocks blocks(views()[0], rows);
+    const std::uint32_t blocks_per_slice = std::max(1U, software_samples_per_slice / blocks.samples_in_block());
+    for (std::uint32_t first = 0; first < blocks.count();) {
       if (stop && stop()) return {};
-      const std::uint32_t end = first + std::min(software_samples_per_slice, samples - first);
-      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first, end, 4096), [&](const auto& range) {
-        for (std::uint32_t number = range.begin(); number < range.end(); ++number) {
-          seen[number] = see_sample(bvh(), views(), grid, number);
+      const std::uint32_t end = first + std::min(blocks_per_slice, blocks.count() - first);
+      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first, end, 256), [&](const auto& range) {
+        for (std::uint32_t block = range.begin(); block < range.end(); ++block) {
+          blocks.for_bundles(block,
+                             [&](std::span<const std::uint32_t> numbers) { see_samples(bvh(), views(), grid, numbers, seen); });
         }
       });
       first = end;
@@ -257,7 +298,8 @@ class GpuViewer final : public LookingViewer {
       }
       download(context_, slice_seen_, std::as_writable_bytes(std::span(seen).subspan(first, count)));
       for (std::uint32_t number = first; number < first + count; ++number) {
-        if (seen[number].surface == shared::seen_unfinished) seen[number] = see_sample(bvh(), views(), grid, number);
+        if (seen[number].surface != shared::seen_unfinished) continue;
+        see_samples(bvh(), views(), grid, std::span(&number, 1), seen);
       }
       first += count;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What the walks for one ray, for many rays and for a bundle of rays share: paths through boxes, the stack, the order of children,
+// What the walks for one ray, for many rays and for bundles of rays share: paths through boxes, the stack, the order of children,
 // hits. walk_vectors.h adds the parts that are compiled for each kind of processor. For the sources of the walks only.
 
 #include "base/check.h"
@@ -41,18 +41,26 @@ inline PointLanes lanes_of(const glm::vec3& point) {
   return {{point.x, point.y, point.z, 1.0F}};
 }
 
+// The axes in the order in which shared::meet_triangle takes them.
+struct EdgeAxes {
+  std::size_t x, y, z;
+};
+
+inline EdgeAxes edge_axes(const shared::Ray& ray) {
+  const std::size_t z = ray.axis;
+  const std::size_t x = z == 2 ? 0 : z + 1;
+  return {x, x == 2 ? 0 : x + 1, z};
+}
+
 // A ray as shared::meet_triangle sees it.
 struct EdgeRay {
   PointLanes origin;
-  std::size_t x, y, z;  // axes in order
+  EdgeAxes axes;
   float shear_x, shear_y;
 };
 
 inline EdgeRay edge_ray(const shared::Ray& ray) {
-  const std::size_t z = ray.axis;
-  const std::size_t x = z == 2 ? 0 : z + 1;
-  const std::size_t y = x == 2 ? 0 : x + 1;
-  return {lanes_of(ray.origin), x, y, z, ray.shear.x, ray.shear.y};
+  return {lanes_of(ray.origin), edge_axes(ray), ray.shear.x, ray.shear.y};
 }
 
 // Masks of slots by octant and mask, ordered roughly along a ray: bit (k XOR octant) for slot k.

@@ -83,13 +83,35 @@ HWY_INLINE bool within_edges([[maybe_unused]] const EdgeRay& ray, [[maybe_unused
   hn::Store(hn::ConcatLowerLower(lanes, cc_xy, ab_xy), lanes, corners[0]);
   hn::Store(hn::ConcatUpperUpper(lanes, cc_xy, ab_xy), lanes, corners[1]);
   hn::Store(hn::ConcatLowerLower(lanes, hn::InterleaveUpper(lanes, c, c), hn::InterleaveUpper(lanes, a, b)), lanes, corners[2]);
-  const auto z = hn::Load(lanes, corners[ray.z]);
-  const auto x = hn::Sub(hn::Load(lanes, corners[ray.x]), hn::Mul(hn::Set(lanes, ray.shear_x), z));
-  const auto y = hn::Sub(hn::Load(lanes, corners[ray.y]), hn::Mul(hn::Set(lanes, ray.shear_y), z));
+  const auto z = hn::Load(lanes, corners[ray.axes.z]);
+  const auto x = hn::Sub(hn::Load(lanes, corners[ray.axes.x]), hn::Mul(hn::Set(lanes, ray.shear_x), z));
+  const auto y = hn::Sub(hn::Load(lanes, corners[ray.axes.y]), hn::Mul(hn::Set(lanes, ray.shear_y), z));
   const auto areas = hn::Sub(hn::Mul(x, hn::Shuffle0321(y)), hn::Mul(y, hn::Shuffle0321(x)));  // the third is 0
   const auto zero = hn::Zero(lanes);
   return hn::AllFalse(lanes, hn::Lt(areas, zero)) || hn::AllFalse(lanes, hn::Gt(areas, zero));
 #endif
+}
+
+// Returns the bits of the lanes whose rays are outside the edges: computes u, v and w as shared::meet_triangle does.
+template <class D, class V>
+HWY_INLINE unsigned outside_edges(D lanes, const EdgeAxes& axes, const BvhTriangle& t, V origin_x, V origin_y, V origin_z,
+                                  V shear_x, V shear_y) {
+  const auto zero = hn::Zero(lanes);
+  const auto az = hn::Sub(hn::Set(lanes, t.a[axes.z]), origin_z);
+  const auto bz = hn::Sub(hn::Set(lanes, t.b[axes.z]), origin_z);
+  const auto cz = hn::Sub(hn::Set(lanes, t.c[axes.z]), origin_z);
+  const auto ax = hn::Sub(hn::Sub(hn::Set(lanes, t.a[axes.x]), origin_x), hn::Mul(shear_x, az));
+  const auto ay = hn::Sub(hn::Sub(hn::Set(lanes, t.a[axes.y]), origin_y), hn::Mul(shear_y, az));
+  const auto bx = hn::Sub(hn::Sub(hn::Set(lanes, t.b[axes.x]), origin_x), hn::Mul(shear_x, bz));
+  const auto by = hn::Sub(hn::Sub(hn::Set(lanes, t.b[axes.y]), origin_y), hn::Mul(shear_y, bz));
+  const auto cx = hn::Sub(hn::Sub(hn::Set(lanes, t.c[axes.x]), origin_x), hn::Mul(shear_x, cz));
+  const auto cy = hn::Sub(hn::Sub(hn::Set(lanes, t.c[axes.y]), origin_y), hn::Mul(shear_y, cz));
+  const auto u = hn::Sub(hn::Mul(cx, by), hn::Mul(cy, bx));
+  const auto v = hn::Sub(hn::Mul(ax, cy), hn::Mul(ay, cx));
+  const auto w = hn::Sub(hn::Mul(bx, ay), hn::Mul(by, ax));
+  const auto some_negative = hn::Or(hn::Or(hn::Lt(u, zero), hn::Lt(v, zero)), hn::Lt(w, zero));
+  const auto some_positive = hn::Or(hn::Or(hn::Gt(u, zero), hn::Gt(v, zero)), hn::Gt(w, zero));
+  return bits_of(lanes, hn::And(some_negative, some_positive));
 }
 
 }  // namespace sunfleck::walk_parts::HWY_NAMESPACE

@@ -2,11 +2,11 @@
 // triangle.
 #include "devices/tracers/bundle_walk.h"
 
-#include "physics/bvh/build.h"
 #include "support/bvh_check.h"
 #include "support/copies.h"
 #include "support/models.h"
 #include "support/processor_kinds.h"
+#include "support/walks.h"
 
 #include <gtest/gtest.h>
 
@@ -18,13 +18,12 @@
 namespace sunfleck {
 namespace {
 
-using testing_bvh::isolated;
+using test::far_limit;
+using test::many_directions;
+using test::tree_of;
 using testing_bvh::Random;
 using testing_bvh::scattered;
 using testing_bvh::uniform;
-
-constexpr float padding_m = 1e-5F;
-constexpr float far_limit = 1e30F;
 
 RayBundle bundle_of(const glm::vec3& direction, const std::vector<glm::vec3>& origins, float limit = far_limit) {
   RayBundle bundle;
@@ -34,18 +33,6 @@ RayBundle bundle_of(const glm::vec3& direction, const std::vector<glm::vec3>& or
   std::copy(origins.begin(), origins.end(), bundle.origins.begin());
   bundle.limits.fill(limit);
   return bundle;
-}
-
-void expect_same(const CpuHit& got, const CpuHit& expected) {
-  EXPECT_EQ(got.found, expected.found);
-  EXPECT_EQ(got.t, expected.t);
-  EXPECT_EQ(got.weight_b, expected.weight_b);
-  EXPECT_EQ(got.weight_c, expected.weight_c);
-  EXPECT_EQ(got.lower, expected.lower);
-  EXPECT_EQ(got.element, expected.element);
-  EXPECT_EQ(got.triangle, expected.triangle);
-  EXPECT_EQ(got.reference, expected.reference);
-  EXPECT_EQ(got.copy, expected.copy);
 }
 
 // Returns the number of hits.
@@ -60,16 +47,12 @@ std::size_t expect_hits_of_single_rays(const Bvh& bvh, const RayBundle& bundle) 
   for (std::uint32_t k = 0; k < bundle.rays; ++k) {
     SCOPED_TRACE("ray " + std::to_string(k));
     const shared::Ray ray = shared::make_ray(bundle.origins[k], bundle.along.direction);
-    expect_same(hits[k], nearest_hit(bvh, ray, bundle.limits[k]));
-    expect_same(hits[k], nearest_hit_of_all(bvh, ray, bundle.limits[k]));
+    test::expect_same_hit(hits[k], nearest_hit(bvh, ray, bundle.limits[k]));
+    test::expect_same_hit(hits[k], nearest_hit_of_all(bvh, ray, bundle.limits[k]));
     found += hits[k].found ? 1 : 0;
   }
   for (std::uint32_t k = bundle.rays; k < rays_per_bundle; ++k) EXPECT_EQ(hits[k].element, 4711U);
   return found;
-}
-
-Bvh tree_of(std::vector<Triangle> corners) {
-  return build_bvh(isolated(std::move(corners)), padding_m);
 }
 
 // Returns a place for each ray in a square of 4 x 4 cells.
@@ -82,11 +65,6 @@ std::vector<glm::vec3> square_of(Random& random, const glm::vec3& corner, double
   }
   return origins;
 }
-
-const std::vector<glm::vec3> many_directions = {{0.0F, -1.0F, 0.0F},   {0.6F, -0.7F, 0.3F},   {-0.6F, -0.3F, 0.7F},
-                                                {0.3F, -0.01F, -0.9F}, {-0.9F, -0.2F, -0.1F}, {0.0F, -0.6F, 0.8F},
-                                                {1.0F, 0.0F, 0.0F},    {0.0F, 0.0F, -1.0F},   {-0.5F, 0.5F, 0.0F},
-                                                {0.2F, 0.9F, -0.4F},   {1.0F, -1.0F, 1.0F},   {1e-30F, -1.0F, -1e-30F}};
 
 TEST(BundleWalk, OfEachSizeFindsTheHitsOfSingleRays) {
   Random random(1);

@@ -6,6 +6,7 @@
 #include "support/copies.h"
 #include "support/models.h"
 #include "support/processor_kinds.h"
+#include "support/walks.h"
 
 #include <gtest/gtest.h>
 
@@ -48,19 +49,11 @@ class ListedSearches final : public SearchSource {
     expect_hits(expected);
   }
 
-  void expect_hits(const std::vector<CpuHit>& all_expected) const {
+  void expect_hits(const std::vector<CpuHit>& expected) const {
     for (std::size_t k = 0; k < searches_.size(); ++k) {
-      const CpuHit& expected = all_expected[k];
-      ASSERT_TRUE(hits_[k]) << k;
-      EXPECT_EQ(hits_[k]->found, expected.found) << k;
-      EXPECT_EQ(hits_[k]->t, expected.t) << k;
-      EXPECT_EQ(hits_[k]->weight_b, expected.weight_b) << k;
-      EXPECT_EQ(hits_[k]->weight_c, expected.weight_c) << k;
-      EXPECT_EQ(hits_[k]->lower, expected.lower) << k;
-      EXPECT_EQ(hits_[k]->element, expected.element) << k;
-      EXPECT_EQ(hits_[k]->triangle, expected.triangle) << k;
-      EXPECT_EQ(hits_[k]->reference, expected.reference) << k;
-      EXPECT_EQ(hits_[k]->copy, expected.copy) << k;
+      SCOPED_TRACE(k);
+      ASSERT_TRUE(hits_[k]);
+      test::expect_same_hit(*hits_[k], expected[k]);
     }
   }
 
