@@ -92,7 +92,8 @@ TEST(AimedLight, OverReflectingSoilIsThatOfEvenlySpreadRays) {
     const BandResult& expected = even.bands[b];
     EXPECT_LE(got.absorbed_vegetation.half_width, 0.01 * got.absorbed_vegetation.value);
     const double all = got.incident;
-    EXPECT_NEAR(all / expected.incident, 1.0, 2e-3);
+    // Nearly all of it lands on the soil, and both vary with the number of rays that meet the plot.
+    EXPECT_NEAR(all / expected.incident, 1.0, 2.0 * got.absorbed_soil.half_width / got.absorbed_soil.value);
     expect_same(got.absorbed_vegetation, expected.absorbed_vegetation, replicates, 0.05 * expected.absorbed_vegetation.value, 6,
                 "absorbed by leaves");
     expect_same(got.absorbed_soil, expected.absorbed_soil, replicates, 0.005 * all, 6, "absorbed by soil");

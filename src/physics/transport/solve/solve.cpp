@@ -158,10 +158,11 @@ class Solver {
         return std::nullopt;
       }
       report_pilot();
+      if (series_->replicates() == glanced_pilots && planner_.far_too_small(outcome())) break;
     }
     judge_triangles();
     SeriesOutcome pilots = outcome();
-    pilots.seconds_each = (seconds() - before) / pilot_replicates;
+    pilots.seconds_each = (seconds() - before) / static_cast<double>(pilots.replicates);
     if (settings_.max_seconds) pilots.seconds_left = std::max(0.0, *settings_.max_seconds - seconds());
     keep_fallback();
     return pilots;

@@ -21,9 +21,9 @@ struct Forecast {
     return forecast > trusted * pilot ? forecast / next : pilot;
   }
 };
-// Pilots with a twentieth of the rays cost about a tenth of the run: their rays lie further apart, which makes each dearer. Over larger
-// multiples the slope of the error is uncertain; that of packets is known.
-constexpr Forecast ray_forecast{32, 20};
+// Pilots with a twentieth of the rays cost about a tenth of the run: their rays lie further apart, which makes each dearer, so that
+// another series costs more than what a less certain forecast of the rays wastes. The slope of packets is known.
+constexpr Forecast ray_forecast{64, 20};
 constexpr Forecast packet_forecast{128, 64};
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
@@ -143,6 +143,10 @@ double WorkPlanner::packet_growth(const SeriesOutcome& series, int replicates) c
 double WorkPlanner::affordable_growth(const SeriesOutcome& pilots) const {
   if (!settings_.max_seconds || !settings_.fit_to_time) return std::numeric_limits<double>::infinity();
   return pilots.seconds_left / (2.0 * least_replicates * std::max(pilots.seconds_each, 1e-6));
+}
+
+bool WorkPlanner::far_too_small(const SeriesOutcome& pilots) const {
+  return has_beam_ && !settings_.grid_m && ray_growth(pilots, asked_replicates()) > ray_forecast.trusted;
 }
 
 Work WorkPlanner::begin_with(Work earlier) const {

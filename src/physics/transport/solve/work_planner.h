@@ -20,8 +20,9 @@ namespace sunfleck {
 // better than few large ones.
 inline constexpr int planned_replicates = 16;
 inline constexpr int pilot_replicates = 16;
-// The smallest work of pilots.
-inline constexpr Work first_pilot{4096, 1024};
+// The smallest work of pilots, and the number of them that may show that they are far too small.
+inline constexpr Work first_pilot{4096, 2048};
+inline constexpr int glanced_pilots = 8;
 
 // What a series of replicates showed.
 struct SeriesOutcome {
@@ -33,7 +34,7 @@ struct SeriesOutcome {
 
 class WorkPlanner {
  public:
-  // Makes pilot_replicates of that work; returns nothing if stopped.
+  // Makes pilot_replicates of that work, or glanced_pilots if these are far_too_small(); returns nothing if stopped.
   using RunPilots = std::function<std::optional<SeriesOutcome>(const Work&)>;
 
   // All arguments must outlive the planner.
@@ -50,6 +51,9 @@ class WorkPlanner {
 
   // Returns the work of the run's replicates, after pilots if they are needed; nothing if stopped.
   [[nodiscard]] std::optional<Work> choose(const RunPilots& run_pilots);
+
+  // Returns true if pilots that showed this will be followed by larger ones, whatever more of them would show.
+  [[nodiscard]] bool far_too_small(const SeriesOutcome& pilots) const;
 
   // Returns the work for a run that uses an earlier one as its pilot. Work for light that this scene has and the earlier one
   // lacked starts as small as in pilots.

@@ -23,15 +23,22 @@ class WorkPlannerTest : public ::testing::Test {
             indirect_of_one_packet_ * half_width / std::sqrt(work.packets)};
   }
 
-  // Returns the chosen work, and records that of the pilots.
+  // Returns the chosen work, and records the pilots.
   std::optional<Work> choose() {
     pilots_.clear();
     WorkPlanner planner(model_, settings_, maker_);
-    return planner.choose([this](const Work& pilot) {
-      pilots_.push_back(pilot);
-      return outcome(pilot, pilot_replicates);
+    return planner.choose([&](const Work& pilot) {
+      SeriesOutcome pilots = outcome(pilot, glanced_pilots);
+      if (!planner.far_too_small(pilots)) pilots = outcome(pilot, pilot_replicates);
+      pilots_.push_back({pilot, pilots.replicates});
+      return pilots;
     });
   }
+
+  struct Pilots {
+    Work each;
+    std::size_t replicates = 0;
+  };
 
   RadiationModel model_ = test::light_mix();
   test::Prepared prepared_{model_};
@@ -39,7 +46,7 @@ class WorkPlannerTest : public ::testing::Test {
   ReplicateMaker maker_{model_, prepared_.layout, tracer_};
   SolveSettings settings_;
   double direct_of_one_ray_ = 1.0, indirect_of_one_packet_ = 0.5;
-  std::vector<Work> pilots_;
+  std::vector<Pilots> pilots_;
 };
 
 TEST_F(WorkPlannerTest, ChoosesWorkThatMeetsBothBoundsAtTheSameTime) {
@@ -61,9 +68,9 @@ TEST_F(WorkPlannerTest, SpendsAtMostATenthOfTheRunOnPilots) {
     const std::optional<Work> work = choose();
     ASSERT_TRUE(work);
     Work of_pilots;
-    for (const Work& pilot : pilots_) {
-      of_pilots.rays += pilot.rays * pilot_replicates;
-      of_pilots.packets += pilot.packets * pilot_replicates;
+    for (const Pilots& pilots : pilots_) {
+      of_pilots.rays += pilots.each.rays * static_cast<double>(pilots.replicates);
+      of_pilots.packets += pilots.each.packets * static_cast<double>(pilots.replicates);
     }
     EXPECT_LE(of_pilots.rays, 0.1 * work->rays * planned_replicates) << tighter;
     EXPECT_LE(of_pilots.packets, 0.1 * work->packets * planned_replicates) << tighter;
@@ -86,7 +93,24 @@ TEST_F(WorkPlannerTest, LeavesTheGridAsItIs) {
   ASSERT_TRUE(work);
   EXPECT_NEAR(work->rays, 1e5, 1.0);
   EXPECT_LE(work->packets, work->rays);
-  for (const Work& pilot : pilots_) EXPECT_LT(pilot.rays, 0.1 * work->rays);
+  for (const Pilots& pilots : pilots_) {
+    EXPECT_LT(pilots.each.rays, 0.1 * work->rays);
+    EXPECT_EQ(pilots.replicates, pilot_replicates);
+  }
+}
+
+TEST_F(WorkPlannerTest, EndsPilotsThatAreFarTooSmallEarly) {
+  settings_.accuracy.direct = 2e-5;
+  const std::optional<Work> work = choose();
+  ASSERT_TRUE(work);
+  ASSERT_EQ(pilots_.size(), 2U);
+  EXPECT_EQ(pilots_.front().replicates, glanced_pilots);
+  EXPECT_EQ(pilots_.back().replicates, pilot_replicates);
+  EXPECT_GT(pilots_.back().each.rays, pilots_.front().each.rays);
+
+  settings_.accuracy.direct = 0.05;
+  ASSERT_TRUE(choose());
+  EXPECT_EQ(pilots_.front().replicates, pilot_replicates);
 }
 
 TEST_F(WorkPlannerTest, ChoosesNothingIfStopped) {
