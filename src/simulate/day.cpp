@@ -1,9 +1,11 @@
 #include "simulate/day.h"
 
+#include "base/file.h"
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
 #include "files/results/tables/day_fields.h"
+#include "files/results/tables/organ_kinds.h"
 #include "files/results/tables/plane_day.h"
 #include "files/results/tables/work_settings.h"
 #include "simulate/day_blocks.h"
@@ -34,7 +36,7 @@ constexpr double most_bounds = 2.5;
 class DayRun {
  public:
   DayRun(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings, DaySink& sink, const RunHooks& hooks)
-      : simulation_(simulation), plan_(plan), settings_(settings), sink_(sink), hooks_(hooks) {
+      : simulation_(simulation), plan_(plan), settings_(settings), sink_(sink), hooks_(hooks), kinds_(simulation.model()) {
     const auto& steps = plan.course.steps;
     lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.night(); }));
   }
@@ -69,7 +71,7 @@ class DayRun {
 
   // Simulates the daytime steps of a block; returns false if it was stopped meanwhile.
   [[nodiscard]] bool simulate(const DayBlock& block) {
-    if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(static_cast<std::uint64_t>(&block - plan_.blocks.data()));
+    if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(number_of(block));
     SolveSettings settings = settings_;
     settings.seed = RandomStream(settings_.seed, block.first).word();
     if (next_work_ && !settings.grid_m && !settings.passes) {
@@ -96,9 +98,7 @@ class DayRun {
       report(block, state);
     };
     const std::vector<RadiationModel> lights = lights_of(simulation_.model(), plan_, block);
-    LightSum sum;
-    for (std::size_t k = 0; k < lights.size(); ++k) sum.push_back({k, plan_.course.steps[block.first + k].length_s});
-    const std::vector<LightSum> sums(lights.size() > 1 ? 1 : 0, sum);
+    const WantedSums sums = wanted_sums(block);
     Stopwatch watch;
     const auto take = [&](std::size_t light, RadiationResult result, const SharedOutcome& outcome) {
       simulation_.add_sensors(lights[light], settings, monitor, watch, result);
@@ -107,13 +107,32 @@ class DayRun {
       step.seconds = watch.lap();
       step.light.shares_packets = lights.size() > 1;
       if (light > 0) step.packets = 0;  // they are those of the first step
-      if (light == 0 && lights.size() > 1) step.light.of_shared = outcome.sum_errors.front();
+      if (light == 0 && lights.size() > 1) step.light.of_shared = with_soil(outcome.sum_errors.front());
       sink_.take(block.first + light, step);
       count(step);
     };
     static_cast<void>(simulation_.solve_lights(lights, settings, monitor,
                                                hooks_.ranks != nullptr ? hooks_.ranks->helpers() : nullptr, sums, take));
     return !too_little;
+  }
+
+  // Returns the sum over the steps of a block that share packets, with the kinds of organs.
+  [[nodiscard]] WantedSums wanted_sums(const DayBlock& block) const {
+    if (block.size() == 1) return {};
+    LightSum sum;
+    for (std::size_t k = 0; k < block.size(); ++k) sum.push_back({k, plan_.course.steps[block.first + k].length_s});
+    return {{sum}, kinds_.number_of};
+  }
+
+  // Returns errors for all kinds of organs: those of organs do not include the ground of [soil].
+  [[nodiscard]] JointErrors with_soil(JointErrors errors) const {
+    const std::size_t bands = errors.bands.size();
+    errors.groups.resize(kinds_.of.size() * bands);
+    for (std::size_t k = 0; k < kinds_.of.size(); ++k) {
+      for (std::size_t b = 0; b < bands && kinds_.of[k].role == Role::soil; ++b)
+        errors.groups[k * bands + b] = errors.bands[b].soil;
+    }
+    return errors;
   }
 
   [[nodiscard]] StoredStep stored_step(const RadiationModel& model, const RadiationResult& result) const {
@@ -168,30 +187,43 @@ class DayRun {
   const SolveSettings& settings_;
   DaySink& sink_;
   const RunHooks& hooks_;
+  OrganKinds kinds_;
   double lit_steps_ = 0.0;
   std::optional<Work> next_work_;
   SimulatedDay day_;
 };
 
+// The largest block makes the same plan again.
+constexpr const char* steps_together_key = "steps_together";
+
+std::size_t largest_block(const DayPlan& plan) {
+  std::size_t largest = 1;
+  for (const DayBlock& block : plan.blocks) largest = std::max(largest, block.size());
+  return largest;
+}
+
 }  // namespace
 
-DayPlan plan_day_in_blocks(const DayRequest& request, const Scene& scene) {
-  DayPlan plan = plan_day(request, scene);
-  plan_blocks(scene.model, static_cast<std::size_t>(request.steps_together), plan);
-  return plan;
+void plan_blocks(const DayRequest& request, const SolveSettings& settings, const RadiationModel& model, DayPlan& plan) {
+  std::size_t most = 1;
+  if (request.steps_together) {
+    most = static_cast<std::size_t>(*request.steps_together);
+  } else if (!settings.max_rays) {
+    most = steps_in_memory(model, plan, refines(settings.element_errors), settings.memory_bytes.value());
+  }
+  plan_blocks(model, most, plan);
 }
 
 SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads) {
   SolveSettings settings = solve_settings(work, scene, threads);
   settings.max_seconds.reset();
+  settings.memory_bytes = 0.5 * static_cast<double>(work.memory_bytes.value_or(available_memory_bytes() / 2));
   settings.shade_groups = ShadeGroups::leaves;
   return settings;
 }
 
 ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings, const DayPlan& plan,
                           StepFields fields) {
-  std::size_t most_together = 0;
-  for (const DayBlock& block : plan.blocks) most_together = std::max(most_together, block.size());
   ordered_json noted = {{"sunfleck", version()},
                         {"scene_digest", scene.digest},
                         {"date", plan.course.dates.front()},
@@ -199,11 +231,20 @@ ordered_json day_settings(const DayRequest& request, const Scene& scene, const S
                         {"step_min", request.step_min},
                         {"from", clock_text(plan.from_min)},
                         {"to", clock_text(plan.to_min)},
-                        {"steps_together", most_together},
+                        {steps_together_key, largest_block(plan)},
                         {"triangles", fields == StepFields::kept},
                         {"seed", settings.seed}};
   add_work_settings(noted, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
   return noted;
+}
+
+std::optional<int> noted_steps_together(const std::filesystem::path& folder) {
+  const ordered_json noted = noted_day_settings(folder);
+  const auto steps = noted.find(steps_together_key);
+  if (steps == noted.end() || !steps->is_number_unsigned()) return std::nullopt;
+  const auto number = steps->get<std::uint64_t>();
+  if (number < 1 || number > most_steps_together) return std::nullopt;
+  return static_cast<int>(number);
 }
 
 SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings, DaySink& sink,

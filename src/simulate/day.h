@@ -14,6 +14,7 @@
 #include "simulate/simulation.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <vector>
@@ -37,17 +38,22 @@ struct SimulatedDay {
   DayTotals totals;
 };
 
-// Returns the plan of the request, with its blocks.
-[[nodiscard]] DayPlan plan_day_in_blocks(const DayRequest& request, const Scene& scene);
-
 // Returns the solver's settings for the steps, which estimate the light of triangles if work.triangle_light. They contain no time
 // limit: --max-seconds interrupts a day between rays instead of making replicates smaller, so that its bytes do not depend on the
-// clock.
+// clock. Of the memory, by default half of what is free, one half is for replicates in progress, as for a run, and the other one for
+// the sums of steps that are simulated together.
 [[nodiscard]] SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads);
+
+// Gives the plan its blocks: of request.steps_together steps, else of as many as the memory holds, but of single steps if the number
+// of rays is limited, since the limit applies to each step.
+void plan_blocks(const DayRequest& request, const SolveSettings& settings, const RadiationModel& model, DayPlan& plan);
 
 // Returns everything on which the bytes of a finished step depend.
 [[nodiscard]] nlohmann::ordered_json day_settings(const DayRequest& request, const Scene& scene, const SolveSettings& settings,
                                                   const DayPlan& plan, StepFields fields);
+
+// Returns how many steps an earlier day in the folder simulated together; nothing if there is none.
+[[nodiscard]] std::optional<int> noted_steps_together(const std::filesystem::path& folder);
 
 // Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them, which discards the block in
 // progress. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps. Throws as

@@ -1,8 +1,33 @@
 #include "simulate/day_blocks.h"
 
+#include "physics/transport/model/result.h"
 #include "physics/transport/solve/darkness.h"
 
+#include <algorithm>
+
 namespace sunfleck {
+namespace {
+
+constexpr double usual_steps_together = 12.0;
+
+// Returns the memory of the sums of one light, of a run and its pilots.
+double light_bytes(const RadiationModel& model, bool has_sky, bool of_triangles) {
+  const double series = 2.0;
+  const double halves = of_triangles ? 1.5 : 1.0;
+  const auto elements = static_cast<double>(model.canopy.size());
+  const double sides = 2.0 * elements * static_cast<double>(model.bands.size()) * sizeof(std::int64_t) * (has_sky ? 2.0 : 1.0);
+  const double landings = elements * (sizeof(BeamLandings) + sizeof(float));
+  return series * halves * (sides + landings);
+}
+
+}  // namespace
+
+std::size_t steps_in_memory(const RadiationModel& model, const DayPlan& plan, bool of_triangles, double memory_bytes) {
+  const bool has_sky =
+      std::any_of(plan.lights.begin(), plan.lights.end(), [](const MomentLight& l) { return l.sky.has_value(); });
+  const double fit = memory_bytes / std::max(1.0, light_bytes(model, has_sky, of_triangles));
+  return static_cast<std::size_t>(std::clamp(fit, 1.0, usual_steps_together));
+}
 
 void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {
   const std::vector<DayStep>& steps = plan.course.steps;
@@ -27,6 +52,14 @@ void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {
     first = i + 1;
   }
   cut(first, steps.size());
+}
+
+std::uint64_t number_of(const DayBlock& block) {
+  return std::uint64_t{block.first} << 32U | block.end;
+}
+
+DayBlock block_of(std::uint64_t number) {
+  return {number >> 32U, number & 0xffffffffU};
 }
 
 std::vector<RadiationModel> lights_of(const RadiationModel& model, const DayPlan& plan, const DayBlock& block) {

@@ -6,13 +6,26 @@
 #include "simulate/day_plan.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace sunfleck {
 
+inline constexpr int most_steps_together = 96;
+
+// Returns how many steps are simulated together by default: as many as their sums fit into `memory_bytes`, at least one and at most
+// twelve, which take nearly as little time per step as more would. `of_triangles` says whether the light of single triangles is wanted.
+// The number depends on nothing but the sizes of the scene and the memory.
+[[nodiscard]] std::size_t steps_in_memory(const RadiationModel& model, const DayPlan& plan, bool of_triangles,
+                                          double memory_bytes);
+
 // Gives the plan the blocks of all daytime steps, each with at most `most` of them. The blocks between two nights or dark steps are
 // of nearly the same size.
 void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan);
+
+// Return a block as a number, by which the ranks of a job name it, and the block of a number.
+[[nodiscard]] std::uint64_t number_of(const DayBlock& block);
+[[nodiscard]] DayBlock block_of(std::uint64_t number);
 
 // Returns the models of the block's steps, which share the canopy.
 [[nodiscard]] std::vector<RadiationModel> lights_of(const RadiationModel& model, const DayPlan& plan, const DayBlock& block);

@@ -58,7 +58,8 @@ InMemoryDay simulate_in_memory(Scene scene, const DayRequest& request, const Wor
                                const Monitor& monitor) {
   Stopwatch total;
   const SolveSettings settings = day_solve_settings(work, scene, device.threads);
-  const DayPlan plan = plan_day_in_blocks(request, scene);
+  DayPlan plan = plan_day(request, scene);
+  plan_blocks(request, settings, scene.model, plan);
   check_grid(work, scene);
   Simulation simulation(std::move(scene), device);
   RunHooks hooks{monitor};

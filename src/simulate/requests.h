@@ -41,7 +41,7 @@ struct WorkRequest {
   std::optional<int> passes;
   std::optional<double> max_seconds;
   std::optional<std::uint64_t> max_rays;
-  std::optional<std::uint64_t> memory_bytes;  // for replicates in progress; by default a quarter of the free memory
+  std::optional<std::uint64_t> memory_bytes;  // for replicates in progress; see solve_settings and day_solve_settings
   std::uint64_t seed = 1;
   // Estimates the light of single triangles with its errors, which costs memory and time; for pictures and exports.
   bool triangle_light = false;
@@ -65,8 +65,9 @@ struct DayRequest {
   std::string date;      // YYYY-MM-DD; empty: the scene's own
   std::string to_date;   // empty: one date
   int step_min = 60;     // the last step ends at `to`
-  // Largest number of consecutive steps of a date that are simulated together and share their packets (simulate/day_blocks.h).
-  int steps_together = 1;
+  // Largest number of consecutive steps of a date that are simulated together and share their packets; by default as many as
+  // steps_in_memory of simulate/day_blocks.h returns.
+  std::optional<int> steps_together;
 };
 
 }  // namespace sunfleck

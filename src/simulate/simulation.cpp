@@ -151,7 +151,7 @@ void Simulation::add_sensors(const RadiationModel& model, const SolveSettings& s
 }
 
 SharedOutcome Simulation::solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,
-                                       ReplicateHelpers* helpers, std::span<const LightSum> sums, const TakeLight& take) {
+                                       ReplicateHelpers* helpers, const WantedSums& sums, const TakeLight& take) {
   const CpuThreads limit(threads_);
   Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
   return sunfleck::solve_lights(lights, layout(), tracer, settings, monitor, helpers, sums, take);

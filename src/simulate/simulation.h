@@ -64,7 +64,7 @@ class Simulation {
   // Simulates the scene in several lights that share packets, without sensors; see solve_lights of physics/transport/solve/solve.h.
   // The models must be the scene's apart from their light.
   [[nodiscard]] SharedOutcome solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,
-                                           ReplicateHelpers* helpers, std::span<const LightSum> sums, const TakeLight& take);
+                                           ReplicateHelpers* helpers, const WantedSums& sums, const TakeLight& take);
 
   // Measures the sensors of the model, in its light, and adds them to its result, whose `stop` tells if that was interrupted. `watch`
   // has run since the simulation began.

@@ -118,8 +118,8 @@ TEST_F(Device, ThatIsLostWhilePicturesAreDrawnLeavesTheTables) {
 
 TEST_F(Device, ThatIsLostLeavesADayToBeResumedElsewhere) {
   const auto on = [](const char* device) {
-    return Arguments{"day",   "day.toml", "-o",   "out",    "--from", "10:00",    "--to",
-                     "13:00", "--images", "none", "--grid", "0.1",    "--device", device};
+    return Arguments{"day",        "day.toml", "-o",       "out",  "--from", "10:00", "--to",     "13:00",
+                     "--together", "1",        "--images", "none", "--grid", "0.1",   "--device", device};
   };
   const auto counts = calls(on("lavapipe"));
   const auto whole = files();

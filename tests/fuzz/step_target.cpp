@@ -49,7 +49,7 @@ StepStore store() {
 
 void feed_step(std::string_view bytes) {
   std::filesystem::create_directories(folder() / "steps");
-  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP6", bytes)));
+  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP7", bytes)));
   read_or_refuse([] {
     const auto step = store().read(7);
     if (step)

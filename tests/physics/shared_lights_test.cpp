@@ -87,11 +87,10 @@ class Comparison {
 };
 
 std::vector<RadiationResult> simulate_together(const std::vector<RadiationModel>& moments, const Prepared& prepared,
-                                               const SolveSettings& settings, const LightSum& sum = {},
+                                               const SolveSettings& settings, const WantedSums& sums = {},
                                                std::vector<JointErrors>* errors = nullptr) {
   CpuTracer tracer(prepared.bvh, tracer_scene(moments.front()));
   std::vector<RadiationResult> results(moments.size());
-  const std::vector<LightSum> sums(sum.empty() ? 0 : 1, sum);
   const SharedOutcome outcome = solve_lights(
       moments, prepared.layout, tracer, settings, {}, nullptr, sums,
       [&](std::size_t light, RadiationResult result, const SharedOutcome&) { results[light] = std::move(result); });
@@ -184,8 +183,9 @@ TEST(SharedLightSums, HaveErrorsThatIncludeTheirCorrelation) {
   const RadiationModel model = small_leaves();
   const std::vector<RadiationModel> moments = day_of(model, Source::both, 6);
   const Prepared prepared(moments.front());
-  LightSum sum;
-  for (std::size_t k = 0; k < moments.size(); ++k) sum.push_back({k, 600.0});
+  // The leaves are one group.
+  WantedSums sums{{LightSum()}, std::vector<std::size_t>(model.canopy.organs.size(), 0)};
+  for (std::size_t k = 0; k < moments.size(); ++k) sums.of_lights[0].push_back({k, 600.0});
   const ScatterWork work{.rays = 6e4, .packets = 1000, .replicates = 16, .seed = 1, .bound = 1e-3};
   ReplicateMean vegetation;  // of the sums of all seeds
   double squares = 0.0;      // of the errors that they state
@@ -194,7 +194,7 @@ TEST(SharedLightSums, HaveErrorsThatIncludeTheirCorrelation) {
     SolveSettings settings = fixed_scatter(model, work);
     settings.seed = static_cast<std::uint64_t>(seed);
     std::vector<JointErrors> errors;
-    const std::vector<RadiationResult> results = simulate_together(moments, prepared, settings, sum, &errors);
+    const std::vector<RadiationResult> results = simulate_together(moments, prepared, settings, sums, &errors);
     double total = 0.0;
     for (const RadiationResult& result : results) {
       const BandResult& nir = result.bands[1];
@@ -202,7 +202,9 @@ TEST(SharedLightSums, HaveErrorsThatIncludeTheirCorrelation) {
       independent += std::pow(600.0 * (nir.absorbed_vegetation.half_width - nir.unshot), 2);
     }
     vegetation.add(total);
-    squares += std::pow(errors.at(0).bands.at(1).vegetation, 2);
+    const double error = errors.at(0).bands.at(1).vegetation;
+    squares += std::pow(error, 2);
+    EXPECT_NEAR(errors.at(0).groups.at(1), error, 1e-9 * error);
   }
   const double stated = std::sqrt(squares / seeds) / t_quantile(0.95, 16);
   const double real = vegetation.standard_error() * std::sqrt(static_cast<double>(seeds));

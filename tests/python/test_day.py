@@ -25,7 +25,15 @@ def day_file(tmp_path):
     return file
 
 
-@pytest.mark.parametrize("work, options", [({"grid": 0.03}, ["--grid", "0.03"]), ({"error": 0.05}, ["--error", "0.05"])], ids=["grid", "bound"])
+@pytest.mark.parametrize(
+    "work, options",
+    [
+        ({"grid": 0.03}, ["--grid", "0.03"]),
+        ({"error": 0.05}, ["--error", "0.05"]),
+        ({"error": 0.05, "together": 2}, ["--error", "0.05", "--together", "2"]),
+    ],
+    ids=["grid", "bound", "together"],
+)
 def test_tables_are_those_of_the_program(day_file, tmp_path, work, options):
     program("day", day_file, "-o", tmp_path / "out", *OPTIONS, *options)
     day = sunfleck.day(day_file, **HOURS, **work)
@@ -81,7 +89,7 @@ def test_xarray():
 def test_limits_and_bad_times():
     short = sunfleck.day(with_arrays(DAY), **HOURS, error=1e-6, max_seconds=1e-9)
     assert not short.complete and len(short.steps["time"]) == 0
-    for bad, words in (({"start": "25:00"}, "25:00"), ({"step": 0}, "step"), ({"date": "2002-02-30"}, "2002-02-30"), ({"step": 7.5}, "step")):
+    for bad, words in (({"start": "25:00"}, "25:00"), ({"step": 0}, "step"), ({"date": "2002-02-30"}, "2002-02-30"), ({"step": 7.5}, "step"), ({"together": 0}, "together")):
         with pytest.raises(ValueError) as error:
             sunfleck.day(with_arrays(DAY), **{**HOURS, **bad}, grid=0.1)
         assert words in str(error.value) and "\n" not in str(error.value)

@@ -114,7 +114,9 @@ class Day : public PreloadTest {
     return json::parse(text, nullptr, false);
   }
 
-  const Arguments evening_{"--from", "15:00", "--to", "20:20"};
+  // One by one, steps are stored as soon as each is done.
+  const Arguments one_by_one_{"--together", "1"};
+  const Arguments evening_{"--from", "15:00", "--to", "20:20", "--together", "1"};
   std::string scene_;
 };
 
@@ -289,9 +291,9 @@ TEST_F(Day, FieldsAreReadByXarray) {
 }
 
 TEST_F(Day, GoesOnWhereItWasKilled) {
-  expect_day({}, 0, "whole");
+  expect_day(one_by_one_, 0, "whole");
   // The kills come when a step is renamed, before a step is written, and while the next one is simulated.
-  kill_day({}, signal_at(SIGKILL, "rename steps/step_", 2));
+  kill_day(one_by_one_, signal_at(SIGKILL, "rename steps/step_", 2));
   EXPECT_EQ(finished_steps(), 1U);
   kill_day({"--resume"}, signal_at(0, "rename steps/step_", 3) + "," + signal_at(SIGKILL, "write steps/step_"));
   EXPECT_EQ(finished_steps(), 4U);
@@ -303,10 +305,10 @@ TEST_F(Day, GoesOnWhereItWasKilled) {
 }
 
 // Steps that share packets have the light of steps simulated one by one, within the errors of both; a killed day resumes with whole
-// blocks.
+// blocks of the size it had.
 TEST_F(Day, SimulatesStepsTogether) {
   const Arguments together{"--together", "4"};
-  expect_day({}, 0, "single");
+  expect_day(one_by_one_, 0, "single");
   expect_day(together, 0, "whole");
   const Table single(file("day.csv", "single")), shared(file("day.csv", "whole"));
   ASSERT_EQ(single.size(), shared.size());
@@ -323,7 +325,16 @@ TEST_F(Day, SimulatesStepsTogether) {
   EXPECT_LT(summary("whole")["indirect"]["packets"], summary("single")["indirect"]["packets"]);
   kill_day(together, signal_at(SIGKILL, "rename steps/step_", 6));
   EXPECT_EQ(finished_steps(), 5U);
-  expect_day(together + Arguments{"--resume"});
+  expect_day({"--resume"});
+  expect_same_tables("whole", "out");
+}
+
+// Where there is enough memory, its size changes no result.
+TEST_F(Day, SimulatesTwelveStepsTogetherUnlessTold) {
+  expect_day({"--together", "12"}, 0, "whole");
+  expect_day({});
+  expect_same_tables("whole", "out");
+  expect_day({"--memory", "100MB"});
   expect_same_tables("whole", "out");
 }
 

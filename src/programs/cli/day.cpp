@@ -166,11 +166,11 @@ SolveSettings settings_of(const DayOptions& options, const Scene& scene, const D
 int help_with_day(const DayOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
     Scene scene = load_scene_with_warnings(options.run, ScenePurpose::day);
-    const DayPlan plan = plan_day_in_blocks(options, scene);
+    const DayPlan plan = plan_day(options, scene);
     Simulation simulation(std::move(scene), options.run);
     const SolveSettings settings = settings_of(options, simulation.scene(), plan);
-    make_replicates({simulation, settings,
-                     [&](std::uint64_t block) { return lights_of(simulation.model(), plan, plan.blocks.at(block)); }});
+    make_replicates(
+        {simulation, settings, [&](std::uint64_t block) { return lights_of(simulation.model(), plan, block_of(block)); }});
   });
   return served ? exit_done : exit_failed;
 }
@@ -200,8 +200,10 @@ int run_day(const DayOptions& asked) {
   FolderLock lock(folder);
 
   Scene scene = load_scene_with_warnings(run, ScenePurpose::day);
-  const DayPlan plan = plan_day_in_blocks(options, scene);
+  DayPlan plan = plan_day(options, scene);
   const SolveSettings settings = settings_of(options, scene, plan);
+  if (run.resume && !options.steps_together) options.steps_together = noted_steps_together(folder);
+  plan_blocks(options, settings, scene.model, plan);
   check_inputs(folder, scene);
   check_grid(run, scene);
   static_cast<void>(picture_band(scene.model, run.pictures.band));

@@ -5,6 +5,7 @@
 #include "files/formats/mesh/organ_split.h"
 #include "files/results/exports/exports.h"
 #include "programs/cli/option_checks.h"
+#include "simulate/day_blocks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +17,6 @@ namespace {
 
 constexpr std::uint64_t least_memory_bytes = 1'000'000;
 constexpr std::uint64_t most_memory_bytes = std::uint64_t{1} << 50U;
-constexpr int most_steps_together = 96;  // more gain little
 constexpr std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -35,25 +35,24 @@ void add_fixed_work(CLI::Option_group& group, RunOptions& options) {
   group.add_option("--passes", options.passes, "Fixed work: exactly this many replicates")->transform(whole_number(8, 65536));
 }
 
-void add_memory(CLI::Option_group& group, RunOptions& options) {
-  group
-      .add_option("--memory", options.memory_bytes,
-                  "Memory for replicates in progress, e.g. 500MB or 2GB (default: a quarter of the free memory)")
+void add_memory(CLI::Option_group& group, RunOptions& options,
+                const char* use = "replicates in progress, e.g. 500MB or 2GB (default: a quarter of the free memory)") {
+  group.add_option("--memory", options.memory_bytes, fmt::format("Memory for {}", use))
       ->transform(CLI::AsSizeValue(true))
       ->check(CLI::Range(least_memory_bytes, most_memory_bytes));
 }
 
 // Adds the options that only a simulation needs.
-void add_simulation(CLI::App& command, RunOptions& options, OptionWords& words) {
+CLI::Option_group& add_simulation(CLI::App& command, RunOptions& options, OptionWords& words) {
   CLI::Option_group& group = *command.add_option_group("Simulation");
   add_bounds(group, options, words);
   add_fixed_work(group, options);
   group.add_option("--max-seconds", options.max_seconds, "Stop after this many seconds; results are kept")->check(positive());
   group.add_option("--max-rays", options.max_rays, "Stop before exceeding this many rays; results are kept")
       ->transform(whole_number(1, std::uint64_t{1} << 62U));
-  add_memory(group, options);
   group.add_option("--seed", options.seed, "Random seed")->transform(whole_number(0, most_seed))->capture_default_str();
   group.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
+  return group;
 }
 
 void add_stand(CLI::App& command, StandFiles& stand) {
@@ -165,7 +164,7 @@ void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
   run.add_flag("--json", options.json, "Print only the summary (JSON) on standard output");
   add_stand(run, options.stand);
   add_device(run, options);
-  add_simulation(run, options, words);
+  add_memory(add_simulation(run, options, words), options);
   add_pictures(run, options.pictures, words);
 }
 
@@ -181,8 +180,8 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
   day.add_option(
          "--together", options.steps_together,
          "Simulate up to N consecutive steps of a date together: they share packets, which takes less time but memory for each "
-         "step; --max-rays then holds for all of them (default: 1)")
-      ->transform(whole_number(1, most_steps_together));
+         "step; --max-rays then holds for all of them (default: as many as --memory holds, up to 12, or 1 with --max-rays)")
+      ->transform(whole_number(1, static_cast<int>(most_steps_together)));
   day.add_option("--step", options.step_min, "Step length in minutes; each step has the light of its midpoint (default: 60)")
       ->transform(whole_number(1, 1440));
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
@@ -203,7 +202,8 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
       ->check(not_empty());
   day.add_flag("--json", options.run.json, "Print only the summary (JSON) on standard output");
   add_device(day, options.run);
-  add_simulation(day, options.run, words);
+  add_memory(add_simulation(day, options.run, words), options.run,
+             "steps simulated together and replicates in progress, half for each (default: half of the free memory)");
 }
 
 void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
@@ -217,7 +217,7 @@ void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
   render.add_option("-o,--output", options.file, "Picture file: .png, or .exr for the values themselves")->check(not_empty());
   add_stand(render, options.run.stand);
   add_device(render, options.run);
-  add_simulation(render, options.run, words);
+  add_memory(add_simulation(render, options.run, words), options.run);
   add_pictures(render, options.run.pictures, words);
 }
 
@@ -233,7 +233,7 @@ void add_view(CLI::App& app, ViewOptions& options, OptionWords& words) {
   view.add_flag("--json", options.run.json, "Print one line of JSON per event on standard output");
   add_stand(view, options.run.stand);
   add_device(view, options.run);
-  add_simulation(view, options.run, words);
+  add_memory(add_simulation(view, options.run, words), options.run);
   add_pictures(view, options.run.pictures, words);
 }
 

@@ -172,8 +172,9 @@ std::unique_ptr<Day> day_of(const std::filesystem::path& file, const std::option
   return std::make_unique<Day>(std::move(*day));
 }
 
-DayRequest day_request(std::string from, std::string to, std::string date, std::string to_date, int step_min) {
-  return {std::move(from), std::move(to), std::move(date), std::move(to_date), step_min};
+DayRequest day_request(std::string from, std::string to, std::string date, std::string to_date, int step_min,
+                       std::optional<int> steps_together) {
+  return {std::move(from), std::move(to), std::move(date), std::move(to_date), step_min, steps_together};
 }
 
 }  // namespace

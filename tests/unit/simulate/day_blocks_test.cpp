@@ -70,6 +70,32 @@ TEST(DayBlocks, LeaveDarkStepsAlone) {
   EXPECT_EQ(steps.sizes(8), (std::vector<std::size_t>{1, 1, 2}));
 }
 
+TEST(DayBlocks, HoldAsManyStepsAsFitTheMemory) {
+  Steps steps;
+  steps.add(0, 10.0);
+  RadiationModel model;
+  model.bands = {Waveband{.name = "PAR"}, Waveband{.name = "NIR"}};
+  model.canopy.corners = ElementCorners(std::vector<Triangle>(1000));
+  const auto most = [&](double memory_bytes, bool of_triangles) {
+    return steps_in_memory(model, steps.plan, of_triangles, memory_bytes);
+  };
+  EXPECT_EQ(most(1.0, false), 1U);
+  EXPECT_EQ(most(1e12, true), 12U);
+  // At least the quanta of both sides from the sky and from all light, in a run and its pilots.
+  const double least = 2.0 * 1000 * 2 * 2 * 2 * sizeof(std::int64_t);
+  EXPECT_LE(most(5.0 * least, false), 5U);
+  EXPECT_GE(most(5.0 * least, false), 3U);
+  EXPECT_LT(most(5.0 * least, true), most(5.0 * least, false));
+  steps.plan.lights.front().sky.reset();
+  EXPECT_GT(most(5.0 * least, false), 5U);
+}
+
+TEST(DayBlocks, NamedByANumberKeepTheirSteps) {
+  const DayBlock block = block_of(number_of({7, 19}));
+  EXPECT_EQ(block.first, 7U);
+  EXPECT_EQ(block.end, 19U);
+}
+
 TEST(DayBlocks, HaveTheLightsOfTheirSteps) {
   Steps steps;
   steps.add(0, 10.0, 50.0);

@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view step_mark = "SUNSTEP6";
+constexpr std::string_view step_mark = "SUNSTEP7";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
-constexpr int step_format = 6;  // of the steps, and of the tables that a finished day has
+constexpr int step_format = 7;  // of the steps, and of the tables that a finished day has
 
 struct StepSizes {
   std::size_t fields = 0, maps = 0;  // numbers of values
@@ -78,6 +78,13 @@ void remove_day_steps(const fs::path& result_folder) {
   remove_file(folder / settings_file);
   std::error_code not_empty;
   fs::remove(folder, not_empty);
+}
+
+ordered_json noted_day_settings(const fs::path& result_folder) {
+  std::error_code error;
+  const fs::path file = result_folder / steps_folder / settings_file;
+  ordered_json noted = fs::exists(file, error) ? parse_settings(read_file(file)) : ordered_json();
+  return noted.is_object() ? noted : ordered_json::object();
 }
 
 StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model, const ordered_json& settings,

@@ -62,12 +62,15 @@ struct Sums {
       for (std::size_t p = 0; p < std::size(parts); ++p)
         sensors[i][p].add(light.sensors[i].*parts[p], 0.0, length_s, std::nullopt);
     }
+    const auto shared = [&](const std::vector<double>& errors, std::size_t i) {
+      return light.shares_packets ? std::optional(errors[i]) : std::nullopt;
+    };
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       const KindFlux& kind = light.kind_absorbed[i];
-      kinds[i].add(kind.absorbed, linear_part(light, kind.absorbed, kind.unshot), length_s, std::nullopt);
+      kinds[i].add(kind.absorbed, kind.unshot, length_s, shared(light.of_shared.groups, i));
     }
     for (std::size_t i = 0; i < planes.size(); ++i) {
-      planes[i].add(light.plane_down[i], linear_part(light, light.plane_down[i], 0.0), length_s, std::nullopt);
+      planes[i].add(light.plane_down[i], 0.0, length_s, shared(light.of_shared.planes, i));
     }
     for (std::size_t b = 0; b < bands.size(); ++b) {
       const StepBand& band = light.bands[b];
@@ -81,7 +84,7 @@ struct Sums {
                               const std::vector<double>& of_shared) {
         for (std::size_t i = b; i < sums.size(); i += bands.size())
           sums[i].add(fluxes[i], std::min(fluxes[i].half_width, fluxes[i].value * unshot_share), length_s,
-                      light.shares_packets ? std::optional(of_shared[i]) : std::nullopt);
+                      shared(of_shared, i));
       };
       add_to(organs, light.organ_absorbed, light.of_shared.organs);
       add_to(plants, light.plant_absorbed_w, light.of_shared.plants);
@@ -96,11 +99,6 @@ struct Sums {
     const double of_terms[] = {errors.vegetation, errors.structure, errors.soil, errors.reflected, errors.transmitted};
     if (term > 0) return of_terms[term - 1];
     return light.bands[band].incident.half_width > 0.0 ? std::accumulate(std::begin(of_terms), std::end(of_terms), 0.0) : 0.0;
-  }
-
-  // Returns the part of a half-width that adds linearly over the steps: `unshot`, or all of it where steps share packets.
-  static double linear_part(const StepLight& light, const Estimate& flux, double unshot) {
-    return light.shares_packets ? flux.half_width : unshot;
   }
 
   void begin_like(const StepLight& light) {
@@ -190,7 +188,6 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
   }
   light.sunlit_leaf_fraction = result.sunlit_leaf_fraction;
   light.leaf_classes = result.leaf_classes;
-  light.of_shared = no_joint_errors(result.bands.size(), result.organs.size(), result.plants.size());
   light.kind_absorbed = absorbed_by_kinds(model, result);
   for (const std::vector<SensorResult>& sensor : result.sensors) {
     for (const SensorResult& point : sensor) add_readings(light.points, point);
@@ -200,6 +197,7 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
     light.plane_sunfleck.push_back(plane.sunfleck_ratio);
     light.plane_down.insert(light.plane_down.end(), plane.total_down.begin(), plane.total_down.end());
   }
+  light.of_shared = no_joint_errors(light);
   return light;
 }
 
@@ -208,22 +206,24 @@ StepLight night_light(const RadiationModel& model) {
   const std::vector<Estimate> dark(bands, zero);
   SensorReading no_reading;
   for (const auto part : parts) no_reading.*part = zero;
-  return {std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
-          std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
-          zero,
-          {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark, dark},
-          std::vector<Estimate>(count_plants(model) * bands, zero),
-          std::vector<KindFlux>(OrganKinds(model).of.size() * bands, {zero, 0.0}),
-          std::vector<SensorReading>(sensor_points(model) * bands, no_reading),
-          std::vector<SensorReading>(model.sensors.size() * bands, no_reading),
-          std::vector<Estimate>(model.planes.size(), {no_value, no_value}),
-          std::vector<Estimate>(model.planes.size() * bands, zero),
-          false,
-          no_joint_errors(bands, model.canopy.organs.size(), count_plants(model))};
+  StepLight light{std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
+                  std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
+                  zero,
+                  {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark, dark},
+                  std::vector<Estimate>(count_plants(model) * bands, zero),
+                  std::vector<KindFlux>(OrganKinds(model).of.size() * bands, {zero, 0.0}),
+                  std::vector<SensorReading>(sensor_points(model) * bands, no_reading),
+                  std::vector<SensorReading>(model.sensors.size() * bands, no_reading),
+                  std::vector<Estimate>(model.planes.size(), {no_value, no_value}),
+                  std::vector<Estimate>(model.planes.size() * bands, zero)};
+  light.of_shared = no_joint_errors(light);
+  return light;
 }
 
-JointErrors no_joint_errors(std::size_t bands, std::size_t organs, std::size_t plants) {
-  return {std::vector<JointErrors::Band>(bands), std::vector<double>(organs * bands), std::vector<double>(plants * bands)};
+JointErrors no_joint_errors(const StepLight& light) {
+  const auto none = [](const auto& figures) { return std::vector<double>(figures.size()); };
+  return {std::vector<JointErrors::Band>(light.bands.size()), none(light.organ_absorbed), none(light.plant_absorbed_w),
+          none(light.kind_absorbed), none(light.plane_down)};
 }
 
 std::vector<DateSums> sum_dates(const DayCourse& course, std::span<const StepLight> lights) {

@@ -25,6 +25,13 @@ struct LightShare {
 // A sum of lights, such as that of the steps of a date.
 using LightSum = std::vector<LightShare>;
 
+// The sums whose errors a simulation tells.
+struct WantedSums {
+  std::vector<LightSum> of_lights;
+  // Groups of organs, such as all leaves, in each of these sums. [organ], index of the group; empty without groups
+  std::vector<std::size_t> group_of_organ;
+};
+
 [[nodiscard]] bool any_beam(Lights lights);
 [[nodiscard]] bool any_sky(Lights lights);
 

@@ -112,12 +112,14 @@ struct JointErrors {
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.bands, self.organs, self.plants);
+    archive(self.bands, self.organs, self.plants, self.groups, self.planes);
   }
 
   std::vector<Band> bands;     // [band], absorbed by these or leaving, W m-2 of ground
   std::vector<double> organs;  // [organ * bands + band], absorbed, W m-2 of organ
   std::vector<double> plants;  // [plant * bands + band], absorbed, W of the plant
+  std::vector<double> groups;  // [group * bands + band], absorbed by the organs of a group, W m-2 of ground
+  std::vector<double> planes;  // [plane * bands + band], through a receiver downwards, W m-2
 };
 
 // Landings of beam rays on the two sides of an element or a surface.

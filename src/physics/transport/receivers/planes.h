@@ -92,6 +92,10 @@ class PlaneTally {
   [[nodiscard]] std::vector<PlaneResult> results(double quantile, double unseen_events,
                                                  std::span<const double> event_w_m2) const;
 
+  [[nodiscard]] std::size_t planes() const { return means_.size(); }
+  // Returns the light through a plane downwards in one band, W m-2.
+  [[nodiscard]] const ReplicateMean& down(std::size_t plane, std::size_t band) const { return means_[plane].down[band]; }
+
   // Passes every sum to `archive`; see RunSums::visit.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {

@@ -1,51 +1,135 @@
 #include "physics/transport/solve/joint_sums.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace sunfleck {
 namespace {
 
-// Calls take(mean) for every figure of a sum, always in the same order.
-template <class Take>
-void for_each_figure(const RunSums& sums, const Take& take) {
-  for (const BandMeans& band : sums.bands) {
-    for (const auto* mean : {&band.vegetation, &band.structure, &band.soil, &band.reflected, &band.transmitted}) take(*mean);
+constexpr std::size_t terms = 5;
+
+// Adds weighted values to sums, one after the other.
+class Adder {
+ public:
+  Adder(std::vector<double>& sums, double weight) : sums_(sums), weight_(weight) {}
+
+  void add(double value) {
+    sums_.resize(std::max(sums_.size(), place_ + 1));
+    sums_[place_++] += weight_ * value;
   }
-  for (const OrganMeans& organ : sums.organs) {
-    for (const ReplicateMean& mean : organ.absorbed) take(mean);
-  }
-  for (const PlantMeans& plant : sums.plants) {
-    for (const ReplicateMean& mean : plant.absorbed) take(mean);
-  }
-}
+  void add_last(const ReplicateMean& mean) { add(mean.last()); }
+  void add_half_width(const Estimate& estimate) { add(estimate.half_width); }
+
+ private:
+  std::vector<double>& sums_;
+  double weight_;
+  std::size_t place_ = 0;
+};
 
 }  // namespace
 
-void JointSums::add(std::span<const std::unique_ptr<RunSums>> lights) {
-  std::vector<double> values(figures_.size());
-  for (const LightShare& share : sum_) {
-    const RunSums& sums = *lights[share.light];
-    bands_ = sums.bands.size();
-    organs_ = sums.organs.size();
-    std::size_t figure = 0;
-    for_each_figure(sums, [&](const ReplicateMean& mean) {
-      if (figure == values.size()) values.push_back(0.0);
-      values[figure++] += share.weight * mean.last();
-    });
-  }
-  figures_.resize(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k) figures_[k].add(values[k]);
+JointSums::JointSums(LightSum sum, std::span<const std::size_t> group_of_organ)
+    : sum_(std::move(sum)), group_of_organ_(group_of_organ.begin(), group_of_organ.end()) {
+  for (const std::size_t group : group_of_organ_) groups_ = std::max(groups_, group + 1);
 }
 
-JointErrors JointSums::errors(double t_quantile) const {
-  JointErrors errors;
-  auto figure = figures_.begin();
-  const auto next = [&] { return t_quantile * (figure++)->standard_error(); };
-  for (std::size_t b = 0; b < bands_; ++b) {
-    JointErrors::Band& band = errors.bands.emplace_back();
-    for (double* const term : {&band.vegetation, &band.structure, &band.soil, &band.reflected, &band.transmitted})
-      *term = next();
+void JointSums::add(std::span<const std::unique_ptr<RunSums>> lights) {
+  if (organ_area_index_.empty()) {
+    const Conversion& conversion = lights.front()->conversion;
+    bands_ = conversion.quanta.size();
+    for (const double area_m2 : conversion.areas.organ_m2)
+      organ_area_index_.push_back(area_m2 / conversion.model.plot.area_m2());
   }
-  for (std::size_t k = 0; k < organs_ * bands_; ++k) errors.organs.push_back(next());
-  while (figure != figures_.end()) errors.plants.push_back(next());
+  const auto add_to = [](std::vector<ReplicateMean>& means, const std::vector<double>& values) {
+    means.resize(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) means[k].add(values[k]);
+  };
+  const Figures<double> last = last_values(lights);
+  add_to(means_.bands, last.bands);
+  add_to(means_.organs, last.organs);
+  add_to(means_.plants, last.plants);
+  add_to(means_.groups, last.groups);
+  add_to(means_.planes, last.planes);
+}
+
+JointSums::Figures<double> JointSums::last_values(std::span<const std::unique_ptr<RunSums>> lights) const {
+  Figures<double> figures;
+  for (const LightShare& share : sum_) {
+    const RunSums& sums = *lights[share.light];
+    Adder bands(figures.bands, share.weight), organs(figures.organs, share.weight), plants(figures.plants, share.weight),
+        planes(figures.planes, share.weight);
+    for (const BandMeans& band : sums.bands) {
+      for (const auto* mean : {&band.vegetation, &band.structure, &band.soil, &band.reflected, &band.transmitted})
+        bands.add_last(*mean);
+    }
+    for (const OrganMeans& organ : sums.organs) {
+      for (const ReplicateMean& mean : organ.absorbed) organs.add_last(mean);
+    }
+    for (const PlantMeans& plant : sums.plants) {
+      for (const ReplicateMean& mean : plant.absorbed) plants.add_last(mean);
+    }
+    for (std::size_t p = 0; sums.planes && p < sums.planes->planes(); ++p) {
+      for (std::size_t b = 0; b < bands_; ++b) planes.add_last(sums.planes->down(p, b));
+    }
+  }
+  figures.groups = grouped(figures.organs);
+  return figures;
+}
+
+JointSums::Figures<double> JointSums::half_widths(std::span<const RadiationResult> lights) const {
+  Figures<double> figures;
+  for (const LightShare& share : sum_) {
+    const RadiationResult& result = lights[share.light];
+    Adder bands(figures.bands, share.weight), organs(figures.organs, share.weight), plants(figures.plants, share.weight),
+        planes(figures.planes, share.weight);
+    for (const BandResult& band : result.bands) {
+      for (const auto* flux :
+           {&band.absorbed_vegetation, &band.absorbed_structure, &band.absorbed_soil, &band.reflected, &band.transmitted})
+        bands.add_half_width(*flux);
+    }
+    for (const OrganResult& organ : result.organs) {
+      for (const Estimate& flux : organ.absorbed) organs.add_half_width(flux);
+    }
+    for (const PlantResult& plant : result.plants) {
+      for (const Estimate& flux : plant.absorbed_w) plants.add_half_width(flux);
+    }
+    for (const PlaneResult& plane : result.planes) {
+      for (const Estimate& flux : plane.total_down) planes.add_half_width(flux);
+    }
+  }
+  figures.groups = grouped(figures.organs);
+  return figures;
+}
+
+std::vector<double> JointSums::grouped(const std::vector<double>& organs) const {
+  std::vector<double> groups(groups_ * bands_);
+  for (std::size_t o = 0; o < group_of_organ_.size(); ++o) {
+    for (std::size_t b = 0; b < bands_; ++b)
+      groups[group_of_organ_[o] * bands_ + b] += organ_area_index_[o] * organs[o * bands_ + b];
+  }
+  return groups;
+}
+
+JointErrors JointSums::errors(double t_quantile, std::span<const RadiationResult> lights) const {
+  const Figures<double> bounds = half_widths(lights);
+  const auto errors_of = [&](const std::vector<ReplicateMean>& means, const std::vector<double>& at_most) {
+    std::vector<double> errors;
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      const double error = t_quantile * means[k].standard_error();
+      errors.push_back(error > 0.0 ? error : at_most[k]);
+    }
+    return errors;
+  };
+  const std::vector<double> bands = errors_of(means_.bands, bounds.bands);
+  JointErrors errors{{},
+                     errors_of(means_.organs, bounds.organs),
+                     errors_of(means_.plants, bounds.plants),
+                     errors_of(means_.groups, bounds.groups),
+                     errors_of(means_.planes, bounds.planes)};
+  for (std::size_t b = 0; b < bands_; ++b) {
+    const double* const term = &bands[b * terms];
+    errors.bands.push_back({term[0], term[1], term[2], term[3], term[4]});
+  }
   return errors;
 }
 

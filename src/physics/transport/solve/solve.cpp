@@ -41,8 +41,9 @@ constexpr double least_bright_share = 0.01;
 // Holds replicates with the same work.
 struct Series {
   Series(const ReplicateMaker& maker, std::span<const Incidence> incidences, const SolveSettings& settings,
-         std::span<const LightSum> wanted)
-      : sums(incidences.size()), joint(wanted.begin(), wanted.end()) {
+         const WantedSums& wanted)
+      : sums(incidences.size()) {
+    for (const LightSum& sum : wanted.of_lights) joint.emplace_back(sum, wanted.group_of_organ);
     conversions.reserve(incidences.size());
     for (std::size_t k = 0; k < incidences.size(); ++k) {
       conversions.push_back(maker.conversion(incidences[k], k));
@@ -91,7 +92,7 @@ std::vector<bool> judged_lights(Lights lights) {
 class Solver {
  public:
   Solver(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings, const Monitor& monitor,
-         ReplicateHelpers* helpers, std::span<const LightSum> wanted_sums = {}, TakeLight take = nullptr)
+         ReplicateHelpers* helpers, const WantedSums& wanted_sums, TakeLight take = nullptr)
       : lights_(lights),
         model_(lights.front()),
         settings_(settings),
@@ -389,10 +390,12 @@ class Solver {
     SharedOutcome outcome_of_all{reason, planner_.next(work_, outcome()), {}};
     const double quantile = t_quantile(settings_.accuracy.confidence, series_->replicates());
     if (lights_.size() > 1 && reason == StopReason::interrupted) return outcome_of_all;
-    for (const JointSums& sum : series_->joint) outcome_of_all.sum_errors.push_back(sum.errors(quantile));
+    std::vector<RadiationResult> results;
+    for (std::size_t k = 0; k < lights_.size(); ++k) results.push_back(figures_of_series(*series_, k, reason));
+    for (const JointSums& sum : series_->joint) outcome_of_all.sum_errors.push_back(sum.errors(quantile, results));
     for (std::size_t k = 0; k < lights_.size(); ++k) {
       RunSums& sums = *series_->sums[k];
-      RadiationResult result = figures_of_series(*series_, k, reason);
+      RadiationResult result = std::move(results[k]);
       result.work = work_;
       result.next_work = outcome_of_all.next_work;
       move_arrays(sums, result);
@@ -433,7 +436,7 @@ class Solver {
   const RadiationModel& model_;  // the first light
   const SolveSettings& settings_;
   const Monitor& monitor_;
-  std::span<const LightSum> wanted_sums_;
+  const WantedSums& wanted_sums_;
   TakeLight take_;
   std::vector<bool> judged_;  // [light]
   ReplicateMaker maker_;
@@ -458,7 +461,8 @@ class Solver {
 std::optional<RunForecast> forecast(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
                                     const SolveSettings& settings, const Monitor& monitor) {
   if (is_dark(model)) return RunForecast{};
-  return Solver({&model, 1}, layout, tracer, settings, monitor, nullptr).forecast();
+  const WantedSums no_sums;
+  return Solver({&model, 1}, layout, tracer, settings, monitor, nullptr, no_sums).forecast();
 }
 
 RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
@@ -470,8 +474,7 @@ RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, 
 }
 
 SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
-                           const Monitor& monitor, ReplicateHelpers* helpers, std::span<const LightSum> sums,
-                           const TakeLight& take) {
+                           const Monitor& monitor, ReplicateHelpers* helpers, const WantedSums& sums, const TakeLight& take) {
   if (lights.size() == 1 && is_dark(lights.front())) {
     const SharedOutcome outcome{StopReason::bound_reached, {}, {}};
     take(0, dark_result(lights.front(), layout, settings), outcome);

@@ -101,14 +101,21 @@ TEST(DayTables, ErrorsOfStepsThatSharePacketsAreThoseOfTheirSum) {
   std::vector<StepLight> lights{light(100.0, 3.0, 1.0), light(200.0, 13.0, 1.0), light(10.0, 5.0, 0.0)};
   for (std::size_t k = 0; k < 2; ++k) {
     lights[k].shares_packets = true;
-    lights[k].of_shared = no_joint_errors(2, 2, 0);
+    lights[k].kind_absorbed[1] = {{20.0, 3.0}, 1.0};
+    lights[k].plane_down = {{30.0, 2.0}};
+    lights[k].of_shared = no_joint_errors(lights[k]);
   }
   lights[0].of_shared.bands[1].soil = 5000.0;
   lights[0].of_shared.organs[0] = 700.0;
+  lights[0].of_shared.groups[1] = 900.0;
+  lights[0].of_shared.planes[0] = 60.0;
   const std::vector<DateSums> dates = sum_dates(three_steps(), lights);
   EXPECT_NEAR(dates[0].bands[1].absorbed_soil.half_width, 5000.0 + 2400.0, 1e-8);
   EXPECT_NEAR(dates[0].bands[1].reflected.half_width, 2400.0, 1e-8);
   EXPECT_NEAR(dates[0].organ_absorbed[0].half_width, 700.0 + 2400.0 * 100.0 / 81.25, 1e-8);
+  EXPECT_NEAR(dates[0].kind_absorbed[1].value, 20.0 * 2400.0, 1e-8);
+  EXPECT_NEAR(dates[0].kind_absorbed[1].half_width, 900.0 + 2400.0, 1e-8);
+  EXPECT_NEAR(dates[0].plane_down[0].half_width, 60.0, 1e-8);
   EXPECT_EQ(dates[1].bands[0].reflected.half_width, 3000.0);
 }
 
