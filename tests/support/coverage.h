@@ -14,11 +14,40 @@ inline constexpr int coverage_seeds = 400;
 inline constexpr int least_covered = 366;
 inline constexpr int most_covered = 394;
 
-struct Covered {
-  std::string what;
-  double truth;
-  int times = 0;
-  int by_sampling = 0;  // covered by the half-width without its share for unshot flux
+// A figure, and how often the intervals of runs hold its true value.
+class CoveredFigure {
+ public:
+  CoveredFigure(std::string what, const Estimate& truth) : what_(std::move(what)), truth_(truth) {}
+
+  // Adds what a run found. Its half-width includes `unshot`.
+  void add(const Estimate& got, double unshot) {
+    const double off = std::abs(got.value - truth_.value);
+    times_ += off <= got.half_width ? 1 : 0;
+    by_sampling_ += off <= got.half_width - unshot ? 1 : 0;
+    deviation_.add(got.value - truth_.value);
+    half_width_.add(got.half_width);
+  }
+
+  // Expects the intervals to hold the true value as often as requested. Where the unshot flux is not small compared with the sampling
+  // error, they may hold it more often, up to `most_with_unshot` times.
+  void expect_covered(int most_with_unshot = most_covered) const {
+    std::printf(
+        "%-22s covered %d of %d times, %d by sampling; half-width %.1e on average, mean deviation %+.1e(%.0e), truth "
+        "%.5f(%.0e)\n",
+        what_.c_str(), times_, coverage_seeds, by_sampling_, half_width_.mean(), deviation_.mean(), deviation_.standard_error(),
+        truth_.value, truth_.half_width);
+    EXPECT_LE(truth_.half_width, 0.05 * half_width_.mean()) << what_;
+    EXPECT_GE(times_, least_covered) << what_;
+    EXPECT_LE(times_, most_with_unshot) << what_;
+    EXPECT_LE(by_sampling_, most_covered) << what_;
+  }
+
+ private:
+  std::string what_;
+  Estimate truth_;
+  int times_ = 0;
+  int by_sampling_ = 0;  // by the half-width without its share for unshot flux
+  ReplicateMean deviation_, half_width_;
 };
 
 // Returns the flux absorbed by leaves, absorbed by soil, and reflected, band by band.
@@ -30,50 +59,40 @@ inline std::vector<Estimate> fluxes_of(const RadiationResult& result) {
   return fluxes;
 }
 
-// Expects the intervals of many short runs to cover the truth, which a long run of size `long_run` determines. Half-widths
-// include the unshot flux, so where that is not small compared with the sampling error they cover more often than requested: up
-// to `most_with_unshot` times.
+// Returns fluxes of these bands as figures whose names begin with `of`.
+inline std::vector<CoveredFigure> covered_fluxes(const std::vector<Estimate>& truths, const std::vector<BandResult>& bands,
+                                                 const std::string& of = "") {
+  const std::array names = {"leaves", "soil", "reflected"};
+  std::vector<CoveredFigure> covered;
+  for (const Estimate& flux : truths) {
+    covered.emplace_back(of + bands[covered.size() / 3].name + ' ' + names[covered.size() % 3], flux);
+  }
+  return covered;
+}
+
+inline void add_fluxes(const RadiationResult& result, std::vector<CoveredFigure>& covered) {
+  const std::vector<Estimate> got = fluxes_of(result);
+  for (std::size_t k = 0; k < got.size(); ++k) covered[k].add(got[k], result.bands[k / 3].unshot);
+}
+
+// Expects the intervals of many short runs to cover the truth, which a long run of size `long_run` determines.
 inline void expect_coverage(const RadiationModel& model, const ScatterWork& long_run, const Accuracy& accuracy,
                             int most_with_unshot = most_covered) {
   const Prepared prepared(model);
   const RadiationResult truth = simulate(model, prepared, fixed_scatter(model, long_run));
-  std::vector<Covered> covered;
-  const std::array names = {"leaves", "soil", "reflected"};
-  for (const Estimate& flux : fluxes_of(truth)) {
-    covered.push_back({truth.bands[covered.size() / 3].name + ' ' + names[covered.size() % 3], flux.value});
-  }
+  std::vector<CoveredFigure> covered = covered_fluxes(fluxes_of(truth), truth.bands);
   SolveSettings settings;
   settings.accuracy = accuracy;
-  ReplicateMean replicates, seconds, unshot;
-  std::vector<ReplicateMean> deviation(covered.size()), half_width(covered.size());
+  ReplicateMean rounds, seconds, unshot;
   for (settings.seed = 1; settings.seed <= coverage_seeds; ++settings.seed) {
     const RadiationResult result = simulate(model, prepared, settings);
-    replicates.add(static_cast<double>(result.indirect.rounds) / static_cast<double>(result.direct.replicates));
+    rounds.add(static_cast<double>(result.indirect.rounds) / static_cast<double>(result.direct.replicates));
     seconds.add(result.direct.seconds + result.indirect.seconds);
     unshot.add(result.bands[0].unshot);
-    const std::vector<Estimate> got = fluxes_of(result);
-    for (std::size_t k = 0; k < got.size(); ++k) {
-      const double off = std::abs(got[k].value - covered[k].truth);
-      covered[k].times += off <= got[k].half_width ? 1 : 0;
-      covered[k].by_sampling += off <= got[k].half_width - result.bands[k / 3].unshot ? 1 : 0;
-      deviation[k].add(got[k].value - covered[k].truth);
-      half_width[k].add(got[k].half_width);
-    }
+    add_fluxes(result, covered);
   }
-  const std::vector<Estimate> truths = fluxes_of(truth);
-  for (std::size_t k = 0; k < covered.size(); ++k) {
-    std::printf(
-        "%-14s covered %d of %d times, %d by sampling; half-width %.1e on average, mean deviation %+.1e(%.0e), truth "
-        "%.5f(%.0e)\n",
-        covered[k].what.c_str(), covered[k].times, coverage_seeds, covered[k].by_sampling, half_width[k].mean(),
-        deviation[k].mean(), deviation[k].standard_error(), covered[k].truth, truths[k].half_width);
-    EXPECT_LE(truths[k].half_width, 0.05 * half_width[k].mean()) << covered[k].what;
-    EXPECT_GE(covered[k].times, least_covered) << covered[k].what;
-    EXPECT_LE(covered[k].times, most_with_unshot) << covered[k].what;
-    EXPECT_LE(covered[k].by_sampling, most_covered) << covered[k].what;
-  }
-  std::printf("%.1f rounds a replicate, %.0f ms a run, unshot PAR %.1e\n", replicates.mean(), 1e3 * seconds.mean(),
-              unshot.mean());
+  for (const CoveredFigure& figure : covered) figure.expect_covered(most_with_unshot);
+  std::printf("%.1f rounds a replicate, %.0f ms a run, unshot PAR %.1e\n", rounds.mean(), 1e3 * seconds.mean(), unshot.mean());
 }
 
 }  // namespace sunfleck::test
