@@ -38,6 +38,8 @@ class DayRun {
   DayRun(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings, DaySink& sink, const RunHooks& hooks)
       : simulation_(simulation), plan_(plan), settings_(settings), sink_(sink), hooks_(hooks), kinds_(simulation.model()) {
     const auto& steps = plan.course.steps;
+    for (std::size_t date = 0; date < plan.course.dates.size(); ++date)
+      of_hour_.resize(std::max(of_hour_.size(), steps_of(plan.course, date).size()));
     lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.night(); }));
   }
 
@@ -65,7 +67,7 @@ class DayRun {
       if (!step) return false;
       steps.push_back(*std::move(step));
     }
-    for (const StoredStep& step : steps) count(step);
+    for (std::size_t k = 0; k < steps.size(); ++k) count(block.first + k, steps[k]);
     return true;
   }
 
@@ -74,15 +76,30 @@ class DayRun {
     if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(number_of(block));
     SolveSettings settings = settings_;
     settings.seed = RandomStream(settings_.seed, block.first).word();
-    if (next_work_ && !settings.grid_m && !settings.passes) {
-      settings.begin_with = Work{share_of_next_rays * next_work_->rays, share_of_next_packets * next_work_->packets};
-    }
+    if (!settings.grid_m && !settings.passes) settings.begin_with = work_to_begin_with(block);
     if (!solve(block, settings)) {
-      settings.begin_with.reset();
+      settings.begin_with.clear();
       static_cast<void>(solve(block, settings));
     }
     simulation_.check_validation();
     return day_.steps == block.end;
+  }
+
+  // Returns the work that a single step takes over from the last one, and that the steps of a block take over from those at the same hours
+  // of an earlier date: the rays that a light needs vary too much in a few hours. Empty if there is none.
+  [[nodiscard]] std::vector<Work> work_to_begin_with(const DayBlock& block) const {
+    std::vector<Work> works;
+    for (std::size_t i = block.first; i < block.end; ++i) {
+      const std::optional<Work>& earlier = block.size() == 1 ? next_work_ : of_hour_[hour_of(i)];
+      if (!earlier) return {};
+      works.push_back({share_of_next_rays * earlier->rays, share_of_next_packets * earlier->packets});
+    }
+    return works;
+  }
+
+  // Returns the number of a step within its date.
+  [[nodiscard]] std::size_t hour_of(std::size_t step) const {
+    return step - steps_of(plan_.course, plan_.course.steps[step].date).first;
   }
 
   // Returns false if the block began with far too little work; counts decide that, not the clock.
@@ -93,7 +110,7 @@ class DayRun {
     monitor.interrupted = [&] { return too_little || stopped(); };
     monitor.report = [&](const Progress& state) {
       ++replicates;
-      const bool judged = settings.begin_with && replicates == judged_replicates;
+      const bool judged = !settings.begin_with.empty() && replicates == judged_replicates;
       if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
       report(block, state);
     };
@@ -109,7 +126,7 @@ class DayRun {
       if (light > 0) step.packets = 0;  // they are those of the first step
       if (light == 0 && lights.size() > 1) step.light.of_shared = with_soil(outcome.sum_errors.front());
       sink_.take(block.first + light, step);
-      count(step);
+      count(block.first + light, step);
     };
     static_cast<void>(simulation_.solve_lights(lights, settings, monitor,
                                                hooks_.ranks != nullptr ? hooks_.ranks->helpers() : nullptr, sums, take));
@@ -164,7 +181,7 @@ class DayRun {
   }
 
   // Adds a step to the day, whether it was simulated now or earlier.
-  void count(const StoredStep& step) {
+  void count(std::size_t number, const StoredStep& step) {
     const auto worse = [](std::optional<double>& worst, const std::optional<double>& error) {
       if (error) worst = std::max(worst.value_or(0.0), *error);
     };
@@ -179,7 +196,7 @@ class DayRun {
     worse(totals.indirect_error, step.indirect_error);
     worse(totals.sensor_error, step.sensor_error);
     totals.seconds += step.seconds;
-    next_work_ = step.next_work;
+    next_work_ = of_hour_[hour_of(number)] = step.next_work;
   }
 
   Simulation& simulation_;
@@ -189,7 +206,8 @@ class DayRun {
   const RunHooks& hooks_;
   OrganKinds kinds_;
   double lit_steps_ = 0.0;
-  std::optional<Work> next_work_;
+  std::optional<Work> next_work_;             // of the last step
+  std::vector<std::optional<Work>> of_hour_;  // [number of a step within its date], of the last such step
   SimulatedDay day_;
 };
 

@@ -8,7 +8,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr double usual_steps_together = 12.0;
+constexpr double usual_steps_together = 6.0;
 
 // Returns the memory of the sums of one light, of a run and its pilots.
 double light_bytes(const RadiationModel& model, bool has_sky, bool of_triangles) {

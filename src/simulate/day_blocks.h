@@ -14,7 +14,7 @@ namespace sunfleck {
 inline constexpr int most_steps_together = 96;
 
 // Returns how many steps are simulated together by default: as many as their sums fit into `memory_bytes`, at least one and at most
-// twelve, which take nearly as little time per step as more would. `of_triangles` says whether the light of single triangles is wanted.
+// six: more steps need more memory and hardly less time. `of_triangles` says whether the light of single triangles is wanted.
 // The number depends on nothing but the sizes of the scene and the memory.
 [[nodiscard]] std::size_t steps_in_memory(const RadiationModel& model, const DayPlan& plan, bool of_triangles,
                                           double memory_bytes);

@@ -40,12 +40,14 @@ class ReplicateBench {
   // Returns the conversions of the last order if they fit this one, which is nearly always the case.
   std::shared_ptr<const std::vector<Conversion>> conversions_of(const ReplicateOrder& order) {
     const std::lock_guard lock(mutex_);
-    if (conversions_ && order.beam_rays == beam_rays_) return conversions_;
-    beam_rays_ = order.beam_rays;
+    std::vector<double> rays;
+    for (std::size_t k = 0; k < lights_.size(); ++k) rays.push_back(order.rays_of(k));
+    if (conversions_ && rays == rays_) return conversions_;
+    rays_ = std::move(rays);
     auto conversions = std::make_shared<std::vector<Conversion>>();
     conversions->reserve(lights_.size());
     for (std::size_t k = 0; k < lights_.size(); ++k) {
-      conversions->push_back(maker_.conversion(maker_.incidence(beam_rays_, order.aimed, k), k));
+      conversions->push_back(maker_.conversion(maker_.incidence(rays_[k], order.aimed, k), k));
     }
     conversions_ = std::move(conversions);
     return conversions_;
@@ -54,7 +56,7 @@ class ReplicateBench {
   std::vector<RadiationModel> lights_;
   ReplicateMaker maker_;
   std::mutex mutex_;
-  double beam_rays_ = 0.0;
+  std::vector<double> rays_;  // [light]
   std::shared_ptr<const std::vector<Conversion>> conversions_;
 };
 

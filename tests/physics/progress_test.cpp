@@ -72,7 +72,7 @@ TEST(Progress, OfARunThatTakesFarLongerThanPlannedNeverGoesBack) {
   SolveSettings settings;
   settings.accuracy.direct = 0.004;
   settings.accuracy.indirect = 0.005;
-  settings.begin_with = Work{16384.0, 4096.0};
+  settings.begin_with = {Work{16384.0, 4096.0}};
   const Told told = told_by(scattering_leaves(), settings);
   ASSERT_EQ(told.result.stop, StopReason::bound_reached);
   ASSERT_GE(told.result.direct.replicates, 40U);

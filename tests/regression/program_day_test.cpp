@@ -330,8 +330,8 @@ TEST_F(Day, SimulatesStepsTogether) {
 }
 
 // Where there is enough memory, its size changes no result.
-TEST_F(Day, SimulatesTwelveStepsTogetherUnlessTold) {
-  expect_day({"--together", "12"}, 0, "whole");
+TEST_F(Day, SimulatesSixStepsTogetherUnlessTold) {
+  expect_day({"--together", "6"}, 0, "whole");
   expect_day({});
   expect_same_tables("whole", "out");
   expect_day({"--memory", "100MB"});

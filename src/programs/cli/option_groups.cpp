@@ -180,7 +180,7 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
   day.add_option(
          "--together", options.steps_together,
          "Simulate up to N consecutive steps of a date together: they share packets, which takes less time but memory for each "
-         "step; --max-rays then holds for all of them (default: as many as --memory holds, up to 12, or 1 with --max-rays)")
+         "step; --max-rays then holds for all of them (default: as many as --memory holds, up to 6, or 1 with --max-rays)")
       ->transform(whole_number(1, static_cast<int>(most_steps_together)));
   day.add_option("--step", options.step_min, "Step length in minutes; each step has the light of its midpoint (default: 60)")
       ->transform(whole_number(1, 1440));

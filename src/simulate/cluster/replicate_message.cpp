@@ -43,7 +43,8 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
-// Fills values from such bytes. An array must have the length of the one that was written; a text may have any length.
+// Fills values from such bytes. An array must have the length of the one that was written; a text and a list of numbers of a light may
+// have any length.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -69,8 +70,8 @@ class Reader {
     } else if constexpr (requires { value.data(); }) {
       std::uint64_t count = 0;
       read(count);
-      if constexpr (std::is_same_v<T, std::string>) {
-        expect(count <= bytes_.size());
+      if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::vector<double>>) {
+        expect(count <= bytes_.size() / sizeof *value.data());
         value.resize(count);
       }
       expect(count == value.size());

@@ -24,7 +24,7 @@ struct ReplicateKey {
 
 struct OrderMessage {
   ReplicateKey key;
-  std::uint64_t stage = 0;  // selects the light: the step of a day
+  std::uint64_t stage = 0;  // selects the lights: the block of a day
   ReplicateOrder order;
 
   template <class Self, class Archive>

@@ -80,7 +80,7 @@ TEST(DayBlocks, HoldAsManyStepsAsFitTheMemory) {
     return steps_in_memory(model, steps.plan, of_triangles, memory_bytes);
   };
   EXPECT_EQ(most(1.0, false), 1U);
-  EXPECT_EQ(most(1e12, true), 12U);
+  EXPECT_EQ(most(1e12, true), 6U);
   // At least the quanta of both sides from the sky and from all light, in a run and its pilots.
   const double least = 2.0 * 1000 * 2 * 2 * 2 * sizeof(std::int64_t);
   EXPECT_LE(most(5.0 * least, false), 5U);

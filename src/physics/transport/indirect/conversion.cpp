@@ -28,6 +28,16 @@ std::vector<QuantaSplit> split_rays(const RadiationModel& model, const std::vect
   return splits;
 }
 
+std::vector<double> all_absorptances(const RadiationModel& model) {
+  std::vector<double> absorptances;
+  for (const SurfaceOptics& optics : model.optics) {
+    for (const auto* face : {&optics.upper, &optics.lower}) {
+      for (std::size_t b = 0; b < model.bands.size(); ++b) absorptances.push_back((*face)[b].absorptance());
+    }
+  }
+  return absorptances;
+}
+
 // What vegetation as a whole is judged against at least, as a share of what it would receive with nothing around it; the same
 // number is the least share of the plot that its area is taken as.
 constexpr double least_exposed_share = 1e-3;
@@ -48,6 +58,7 @@ Conversion::Conversion(const RadiationModel& of_model, const CounterLayout& of_l
       events(make_light_events(model, quanta, incidence)),
       exposure(model, layout, incidence.ground_per_ray_m2),
       areas(model, layout, surfaces, exposure),
+      absorptances_(all_absorptances(model)),
       splits_(split_rays(model, quanta)) {}
 
 BeamLandings Conversion::element_landings(std::span<const std::uint32_t> counters, std::size_t element) const {
@@ -82,6 +93,7 @@ void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSum
   for (std::size_t e = 0; e < model.canopy.size(); ++e) {
     const BeamLandings element = element_landings(counters, e);
     if (element.both() == 0) continue;
+    sums.hit.push_back(static_cast<std::uint32_t>(e));
     const std::uint32_t number = surfaces.number_of[e];
     const Surface& surface = surfaces.of[number];
     sums.surface[number].upper += element.upper;

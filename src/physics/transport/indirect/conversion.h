@@ -53,7 +53,7 @@ struct Conversion {
   }
 
   [[nodiscard]] double absorptance(std::size_t optics, std::size_t side, std::size_t band) const {
-    return (side == 0 ? model.optics[optics].upper : model.optics[optics].lower)[band].absorptance();
+    return absorptances_[(optics * 2 + side) * quanta.size() + band];
   }
 
   // Returns the horizontal irradiance of the beam.
@@ -77,7 +77,8 @@ struct Conversion {
   [[nodiscard]] std::vector<std::int64_t> scattered_by_place(std::span<const BeamLandings> landings, std::size_t first,
                                                              std::size_t places, std::uint64_t soil_plane) const;
 
-  std::vector<QuantaSplit> splits_;  // of a ray: [(optics * 2 + side) * bands + band], then [band] of the soil plane
+  std::vector<double> absorptances_;  // [(optics * 2 + side) * bands + band]
+  std::vector<QuantaSplit> splits_;   // of a ray: [(optics * 2 + side) * bands + band], then [band] of the soil plane
 };
 
 }  // namespace sunfleck

@@ -43,7 +43,8 @@ void PlaceSums::add(const PlaceSums& other) {
   EXPECT(other.places_, ==, places_);
   EXPECT(other.width_, ==, width_);
   if (other.is_list()) {
-    for (std::size_t k = 0; k < other.at_.size(); ++k) add(other.at_[k], {&other.values_[k * width_], width_});
+    other.for_each([this](std::size_t place, std::span<const std::int64_t> values) { add(place, values); },
+                   [this](std::size_t place) { prefetch(place); });
   } else if (is_list()) {
     PlaceSums sum = other;
     sum.add(*this);

@@ -2,6 +2,8 @@
 // Integer sums for very many places, of which only a few may be reached: in a stand of ten million triangles most sides meet none
 // of a replicate's packets.
 
+#include "base/prefetch.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -50,8 +52,14 @@ class PlaceSums {
   // at all for one whose sums are 0.
   template <class Take>
   void for_each(const Take& take) const {
+    for_each(take, [](std::size_t) {});
+  }
+  // Does the same, and first calls come(place) for each place, in the same order but some steps ahead, so that memory can be asked for.
+  template <class Take, class Come>
+  void for_each(const Take& take, const Come& come) const {
     const std::size_t entries = all_ ? places_ : at_.size();
     for (std::size_t entry = 0; entry < entries; ++entry) {
+      if (!all_ && entry + prefetch_ahead < entries) come(at_[entry + prefetch_ahead]);
       const std::span<const std::int64_t> values(&values_[entry * width_], width_);
       if (std::all_of(values.begin(), values.end(), [](std::int64_t value) { return value == 0; })) continue;
       take(all_ ? entry : at_[entry], values);
@@ -65,6 +73,9 @@ class PlaceSums {
 
     // Returns the sums of a place; empty if there are none, or perhaps if all are 0.
     [[nodiscard]] std::span<const std::int64_t> at(std::size_t place) const;
+
+    // Asks for the memory of the sums of a place.
+    void prefetch(std::size_t place) const { sums_.prefetch(place); }
 
    private:
     const PlaceSums& sums_;
@@ -105,6 +116,9 @@ class PlaceSums {
 
  private:
   [[nodiscard]] bool is_list() const { return !all_; }
+  void prefetch(std::size_t place) const {
+    if (all_) sunfleck::prefetch(values_[place * width_]);
+  }
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
   void keep_within_limit();
 

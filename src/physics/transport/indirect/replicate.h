@@ -17,6 +17,7 @@ namespace sunfleck {
 
 // Landings of one replicate's beam rays, summed from its counters.
 struct DirectSums {
+  std::vector<std::uint32_t> hit;          // elements with landings, in ascending order
   std::vector<BeamLandings> surface;       // [surface]
   std::vector<BeamLandings> layer_optics;  // [layer * optics + optics], without soil
   std::vector<double> organ_lit_m2;        // [organ]
@@ -82,7 +83,13 @@ using ReplicateSet = std::vector<Replicate>;
 struct ReplicateOrder {
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.beam_rays, self.aimed, self.packets, self.sky_rays, self.bound, self.seed, self.number, self.sampled_rays);
+    archive(self.beam_rays, self.aimed, self.packets, self.sky_rays, self.bound, self.seed, self.number, self.sampled_rays,
+            self.ray_shares);
+  }
+
+  // Returns the approximate number of rays of one light's beam.
+  [[nodiscard]] double rays_of(std::size_t light) const {
+    return ray_shares.empty() ? beam_rays : ray_shares[light] * beam_rays;
   }
 
   double beam_rays = 0.0;    // approximate number, of the first part if there are several
@@ -94,6 +101,7 @@ struct ReplicateOrder {
   std::uint64_t number = 0;
   // Largest number of beam rays that are traced again to find where they landed; there is also at most one for each packet.
   double sampled_rays = std::numeric_limits<double>::infinity();
+  std::vector<double> ray_shares;  // [light], of beam_rays; empty where each light has all of them
 };
 
 }  // namespace sunfleck

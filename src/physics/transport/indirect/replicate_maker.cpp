@@ -119,7 +119,7 @@ bool ReplicateMaker::make_direct(const ReplicateOrder& order, std::size_t light,
   if (lights_[light].has_beam()) {
     // The rays of different lights are independent of each other.
     const std::uint64_t seed = light == 0 ? order.seed : RandomStream(order.seed, light_stream + light).word();
-    first.beam = make_beam_parts(lights_[light], layout_, aim(order.aimed), order.beam_rays, seed, order.number);
+    first.beam = make_beam_parts(lights_[light], layout_, aim(order.aimed), order.rays_of(light), seed, order.number);
     if (count_beam(first.beam, replicate, stop) == TraceOutcome::stopped) return false;
   }
   replicate.direct = conversion.sum(replicate.counters);

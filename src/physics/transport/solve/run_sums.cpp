@@ -63,7 +63,8 @@ class Addition {
     sums_.classes.add(replicate_, sums_.side_landed);
     if (sums_.planes) add_to_planes();
     add_arrays();
-    add_elements();
+    add_landings();
+    add_spreads();
   }
 
  private:
@@ -286,19 +287,24 @@ class Addition {
   // Returns whether this is one of every other replicate, the first included.
   [[nodiscard]] bool in_half() const { return sums_.keeps_half && sums_.replicates % 2 == 1; }
 
-  void add_elements() {
-    const std::size_t bands = sums_.bands.size();
-    std::vector<std::int64_t> side_landed;
-    if (indirect_ != nullptr && !sums_.direct_spread.empty()) side_landed = indirect_->side_landed.all();
-    for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
+  void add_landings() {
+    for (const std::uint32_t e : direct_.hit) {
       const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
       sums_.elements[e].upper += landings.upper;
       sums_.elements[e].lower += landings.lower;
-      if (in_half()) {
-        sums_.half_elements[e].upper += landings.upper;
-        sums_.half_elements[e].lower += landings.lower;
-      }
-      if (sums_.direct_spread.empty()) continue;
+      if (!in_half()) continue;
+      sums_.half_elements[e].upper += landings.upper;
+      sums_.half_elements[e].lower += landings.lower;
+    }
+  }
+
+  void add_spreads() {
+    if (sums_.direct_spread.empty()) return;
+    const std::size_t bands = sums_.bands.size();
+    std::vector<std::int64_t> side_landed;
+    if (indirect_ != nullptr) side_landed = indirect_->side_landed.all();
+    for (std::size_t e = 0; e < sums_.direct_spread.size(); ++e) {
+      const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
       sums_.direct_spread[e].add(static_cast<double>(landings.both()));
       sums_.element_hits[e] += landings.both() + (indirect_ != nullptr ? indirect_->element_hits[e] : 0);
       const double element_m2 = area_m2(model_.canopy.corners[e]);

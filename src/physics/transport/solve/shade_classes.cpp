@@ -1,5 +1,6 @@
 #include "physics/transport/solve/shade_classes.h"
 
+#include "base/prefetch.h"
 #include "base/units.h"
 
 #include <algorithm>
@@ -153,8 +154,7 @@ void ShadeClasses::add(const Replicate& replicate, const PlaceSums& earlier) {
 
 void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
   const Canopy& canopy = conversion_.model.canopy;
-  for (std::size_t e = 0; e < canopy.size(); ++e) {
-    if (conversion_.element_landings(replicate.counters, e).both() == 0) continue;
+  for (const std::uint32_t e : replicate.direct.hit) {
     const double lit_m2_per_landing = conversion_.exposure.lit_m2_per_landing(e);
     const bool foliage = conversion_.areas.foliage[e];
     if (!all_groups_ && !foliage) continue;
@@ -190,13 +190,22 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
   const PlaceSums::Finder earlier_sides(earlier);
   LayerShares shares(conversion_.layout);
   std::vector<double> absorbed_w(bands), earlier_w_m2(bands), beam_w_m2(bands);
-  replicate.packets->side_landed.for_each([&](std::size_t side, std::span<const std::int64_t> quanta) {
+  // Most elements have no landing in a replicate.
+  std::vector<bool> hit(canopy.size());
+  for (const std::uint32_t e : replicate.direct.hit) hit[e] = true;
+  const std::span<const Triangle> own = canopy.corners.copies().empty() ? canopy.corners.own() : std::span<const Triangle>();
+  const auto come = [&](std::size_t side) {
+    earlier_sides.prefetch(side & ~std::size_t{1});
+    if (!own.empty()) prefetch(own[side / 2]);
+  };
+  const auto add_side = [&](std::size_t side, std::span<const std::int64_t> quanta) {
     const std::size_t e = side / 2;
     if (!all_groups_ && !conversion_.areas.foliage[e]) return;
     const Triangle& corners = canopy.corners[e];
     const double element_m2 = area_m2(corners);
     const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
-    const BeamLandings landings = conversion_.element_landings(replicate.counters, e);
+    const bool any_lit = hit[e];
+    const BeamLandings landings = any_lit ? conversion_.element_landings(replicate.counters, e) : BeamLandings();
     const double lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
     for (std::size_t b = 0; b < bands; ++b) {
       absorbed_w[b] = absorbed_other_w(side, quanta, b);
@@ -205,15 +214,16 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
         if (const auto landed = earlier_sides.at(of); !landed.empty())
           earlier_w_m2[b] += absorbed_other_w(of, landed, b) * per_m2;
       }
-      beam_w_m2[b] = absorbed_beam_w(e, landings, b) * per_m2;
+      beam_w_m2[b] = any_lit ? absorbed_beam_w(e, landings, b) * per_m2 : 0.0;
     }
     const auto add_to = [&](ShadeSums& sums, double share) {
       for (std::size_t b = 0; b < bands; ++b) {
         const double part_w = share * absorbed_w[b];
         sums.indirect_w[b] += part_w;
+        sums.indirect_square[b] += earlier_w_m2[b] * part_w;
+        if (!any_lit) continue;
         sums.lit_indirect_w[b] += lit * part_w;
         sums.lit_square[b] += 2.0 * beam_w_m2[b] * part_w;
-        sums.indirect_square[b] += earlier_w_m2[b] * part_w;
         sums.lit_indirect_square[b] += lit * earlier_w_m2[b] * part_w;
       }
     };
@@ -222,7 +232,8 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
     add_to(groups.organs[canopy.organ_of[e]], 1.0);
     if (!conversion_.areas.foliage[e]) return;
     shares.visit(e, corners, [&](std::size_t k, double share) { add_to(groups.layers[k], share); });
-  });
+  };
+  replicate.packets->side_landed.for_each(add_side, come);
 }
 
 double ShadeClasses::absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const {

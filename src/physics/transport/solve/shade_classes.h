@@ -116,8 +116,8 @@ class ShadeClasses {
     for (auto* groups : {&self.organs_, &self.layers_, &self.leaves_}) archive(*groups);
   }
 
-  // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are kept. `unshot_share` is [band], and `event_w` the flux
-  // that one event brings, [band].
+  // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are kept.
+  // `unshot_share` is [band], and `event_w` the flux that one event brings, [band].
   struct Errors {
     double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
     std::vector<double> unshot_share, event_w;

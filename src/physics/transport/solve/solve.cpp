@@ -113,8 +113,8 @@ class Solver {
 
   SharedOutcome run() {
     if (settings_.resume_from != nullptr) return resume(*settings_.resume_from);
-    const bool told = settings_.begin_with && !planner_.fixed();
-    const std::optional<Work> work = told ? planner_.begin_with(*settings_.begin_with) : choose_work();
+    const bool told = !settings_.begin_with.empty() && !planner_.fixed();
+    const std::optional<Work> work = told ? earlier_work() : choose_work();
     if (!work) return finish(stop_);
     begin(*work);
     return run_on();
@@ -149,6 +149,31 @@ class Solver {
     return planner_.choose([this](const Work& pilot) { return run_pilots(pilot); });
   }
 
+  // Returns the work to begin with, and sets the lights' shares of its rays.
+  Work earlier_work() {
+    Work work = settings_.begin_with.front();
+    for (const Work& of_light : settings_.begin_with) {
+      work.rays = std::max(work.rays, of_light.rays);
+      work.packets = std::max(work.packets, of_light.packets);
+    }
+    work = planner_.begin_with(work);
+    for (std::size_t k = 0; lights_.size() > 1 && k < lights_.size(); ++k)
+      ray_shares_.push_back(work.rays > 0.0 ? settings_.begin_with[k].rays / work.rays : 1.0);
+    return work;
+  }
+
+  // Divides the rays among several lights by what pilots showed.
+  void share_rays() {
+    if (lights_.size() == 1 || planner_.fixed()) return;
+    std::vector<double> rays;
+    std::vector<SeriesOutcome> outcomes;
+    for (std::size_t k = 0; k < lights_.size(); ++k) {
+      rays.push_back(order(work_).rays_of(k));
+      outcomes.push_back({series_->replicates(), direct_error(*series_, k).value_or(JudgedError{}).relative, 0.0});
+    }
+    ray_shares_ = planner_.ray_shares(rays, outcomes, judged_);
+  }
+
   // Makes pilots, which become the fallback, even if stopped.
   std::optional<SeriesOutcome> run_pilots(const Work& pilot) {
     const double before = seconds();
@@ -162,6 +187,7 @@ class Solver {
       if (series_->replicates() == glanced_pilots && planner_.far_too_small(outcome())) break;
     }
     judge_triangles();
+    share_rays();
     SeriesOutcome pilots = outcome();
     pilots.seconds_each = (seconds() - before) / static_cast<double>(pilots.replicates);
     if (settings_.max_seconds) pilots.seconds_left = std::max(0.0, *settings_.max_seconds - seconds());
@@ -179,18 +205,27 @@ class Solver {
     begun_s_ = seconds();
     completion_ = {};
     for (RunTriangles& of_light : triangles_) of_light.forget();
-    const bool aimed = !settings_.grid_m;  // a grid that is asked for is the same everywhere
-    const std::size_t sky_rays = planner_.sky_rays(work);
+    ReplicateOrder first = order(work);
+    first.number = stream;
     std::vector<Incidence> incidences;
     for (std::size_t k = 0; k < lights_.size(); ++k) {
-      Incidence& incidence = incidences.emplace_back(maker_.incidence(work.rays, aimed, k));
+      Incidence& incidence = incidences.emplace_back(maker_.incidence(first.rays_of(k), first.aimed, k));
       incidence.packets = work.packets;
-      incidence.sky_rays = sky_rays;
+      incidence.sky_rays = first.sky_rays;
     }
     series_ = std::make_unique<Series>(maker_, incidences, settings_, wanted_sums_);
-    queue_.begin({work.rays, aimed, work.packets, sky_rays, settings_.accuracy.indirect, settings_.seed, stream,
-                  planner_.sampled_rays(work)},
-                 series_->conversions, planner_.at_once(work));
+    queue_.begin(first, series_->conversions, planner_.at_once(work));
+  }
+
+  // Returns the order of the first replicate of a series. A grid that is asked for is the same everywhere.
+  [[nodiscard]] ReplicateOrder order(const Work& work) const {
+    ReplicateOrder order{work.rays,     !settings_.grid_m, work.packets, planner_.sky_rays(work), settings_.accuracy.indirect,
+                         settings_.seed};
+    order.sampled_rays = planner_.sampled_rays(work);
+    for (const double share : ray_shares_) {
+      order.ray_shares.push_back(std::clamp(share, std::min(1.0, first_pilot.rays / std::max(1.0, work.rays)), 1.0));
+    }
+    return order;
   }
 
   // Adds one replicate, and starts others: among the first `certain` ones or, where workers would be idle, among the first
@@ -387,22 +422,31 @@ class Solver {
     } else if (!series_) {
       begin(first_pilot);
     }
-    SharedOutcome outcome_of_all{reason, planner_.next(work_, outcome()), {}};
+    SharedOutcome outcome_of_all{reason, {}};
     const double quantile = t_quantile(settings_.accuracy.confidence, series_->replicates());
     if (lights_.size() > 1 && reason == StopReason::interrupted) return outcome_of_all;
     std::vector<RadiationResult> results;
-    for (std::size_t k = 0; k < lights_.size(); ++k) results.push_back(figures_of_series(*series_, k, reason));
+    for (std::size_t k = 0; k < lights_.size(); ++k) {
+      results.push_back(figures_of_series(*series_, k, reason));
+      results.back().next_work = next_work(k);
+    }
     for (const JointSums& sum : series_->joint) outcome_of_all.sum_errors.push_back(sum.errors(quantile, results));
     for (std::size_t k = 0; k < lights_.size(); ++k) {
       RunSums& sums = *series_->sums[k];
       RadiationResult result = std::move(results[k]);
       result.work = work_;
-      result.next_work = outcome_of_all.next_work;
       move_arrays(sums, result);
       triangles_[k].refine(sums, settings_.accuracy.confidence, result);
       take_(k, std::move(result), outcome_of_all);
     }
     return outcome_of_all;
+  }
+
+  // Returns the work that suits a similar light: rays by its own error, packets by the largest.
+  [[nodiscard]] Work next_work(std::size_t light) const {
+    const double direct = direct_error(*series_, light).value_or(JudgedError{}).relative;
+    const Work own{order(work_).rays_of(light), work_.packets};
+    return planner_.next(own, {series_->replicates(), direct, indirect_error()});
   }
 
   [[nodiscard]] RadiationResult figures_of_series(const Series& series, std::size_t light, StopReason reason) const {
@@ -438,7 +482,8 @@ class Solver {
   const Monitor& monitor_;
   const WantedSums& wanted_sums_;
   TakeLight take_;
-  std::vector<bool> judged_;  // [light]
+  std::vector<bool> judged_;        // [light]
+  std::vector<double> ray_shares_;  // [light]; empty for a single one, and until pilots have shown them
   ReplicateMaker maker_;
   WorkPlanner planner_;
   double start_s_ = clock_s();
@@ -476,7 +521,7 @@ RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, 
 SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
                            const Monitor& monitor, ReplicateHelpers* helpers, const WantedSums& sums, const TakeLight& take) {
   if (lights.size() == 1 && is_dark(lights.front())) {
-    const SharedOutcome outcome{StopReason::bound_reached, {}, {}};
+    const SharedOutcome outcome{StopReason::bound_reached, {}};
     take(0, dark_result(lights.front(), layout, settings), outcome);
     return outcome;
   }

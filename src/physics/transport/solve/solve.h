@@ -30,8 +30,8 @@ struct SolveSettings {
   std::uint64_t seed = 1;
   std::optional<double> grid_m;  // fixed work: spacing of all beam rays of the run together
   std::optional<int> passes;     // fixed work: exactly this many replicates, at least 8
-  // Work to start with instead of running pilots: next_work of a run on a very similar scene.
-  std::optional<Work> begin_with;
+  // Work to start with instead of running pilots: next_work of a run on a very similar scene. [light]; empty: pilots
+  std::vector<Work> begin_with;
   std::optional<double> packets;          // fixed work, with grid_m: packets in the first round of each replicate
   std::optional<std::uint64_t> max_rays;  // rays and packets; no replicate is begun that would exceed it
   std::optional<double> max_seconds;      // wall time of the simulation
@@ -105,7 +105,6 @@ struct RunForecast {
 // What a simulation of several lights found besides their results.
 struct SharedOutcome {
   StopReason stop = StopReason::work_done;
-  Work next_work;                       // as in RadiationResult
   std::vector<JointErrors> sum_errors;  // [sum]
 };
 
@@ -113,7 +112,7 @@ struct SharedOutcome {
 using TakeLight = std::function<void(std::size_t light, RadiationResult result, const SharedOutcome& outcome)>;
 
 // Runs one simulation of several lights, none of which may be dark; a single one may be. They share its packets; each has beam rays of
-// its own, `rays` of the work. Every light keeps the bounds that has at least 1 % of the brightest light's flux. Hands the results over
+// its own, as many as its error needs. Every light keeps the bounds that has at least 1 % of the brightest light's flux. Hands the results over
 // one after the other when all replicates are made, so that they need not lie in memory together; hands nothing over if several lights
 // were interrupted. The monitor's results and states, and settings.resume_from, are for single lights only. Throws as `solve` does.
 [[nodiscard]] SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer,

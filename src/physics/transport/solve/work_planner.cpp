@@ -25,6 +25,9 @@ struct Forecast {
 // another series costs more than what a less certain forecast of the rays wastes. The slope of packets is known.
 constexpr Forecast ray_forecast{64, 20};
 constexpr Forecast packet_forecast{128, 64};
+// Lights of one simulation get this multiple of the rays that their own errors ask for: errors from pilots are uncertain, and a light
+// that lags behind costs the others more replicates.
+constexpr double spare_rays = 1.5;
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
 // Half of a limit on rays or time is enough for this many replicates.
@@ -153,6 +156,22 @@ Work WorkPlanner::begin_with(Work earlier) const {
   if (has_beam_) earlier.rays = std::max(first_pilot.rays, earlier.rays);
   if (maker_.has_indirect_pass()) earlier.packets = std::max(first_pilot.packets, earlier.packets);
   return earlier;
+}
+
+std::vector<double> WorkPlanner::ray_shares(std::span<const double> rays, std::span<const SeriesOutcome> lights,
+                                            const std::vector<bool>& judged) const {
+  std::vector<double> needed;
+  double most = 0.0;
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    const double growth = ray_growth(lights[k], asked_replicates());
+    needed.push_back(std::isnan(growth) ? std::numeric_limits<double>::infinity() : growth * rays[k]);
+    if (judged[k]) most = std::max(most, needed.back());
+  }
+  std::vector<double> shares;
+  for (const double own : needed) {
+    shares.push_back(std::isfinite(own) && std::isfinite(most) && most > 0.0 ? std::min(1.0, spare_rays * own / most) : 1.0);
+  }
+  return shares;
 }
 
 Work WorkPlanner::next(const Work& work, const SeriesOutcome& run) const {

@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace sunfleck {
 
@@ -58,6 +60,12 @@ class WorkPlanner {
   // Returns the work for a run that uses an earlier one as its pilot. Work for light that this scene has and the earlier one
   // lacked starts as small as in pilots.
   [[nodiscard]] Work begin_with(Work earlier) const;
+
+  // Returns the share of the rays that each light gets, [light], if lights with these rays had these errors: what its own error needs,
+  // and a half more, since errors are uncertain, compared with the light that needs most. Lights that are not judged do not count as
+  // such.
+  [[nodiscard]] std::vector<double> ray_shares(std::span<const double> rays, std::span<const SeriesOutcome> lights,
+                                               const std::vector<bool>& judged) const;
 
   // Returns the work with which planned_replicates would just have reached the bounds, as far as this run shows.
   [[nodiscard]] Work next(const Work& work, const SeriesOutcome& run) const;

@@ -71,9 +71,7 @@ class TreePooling {
     double difference = 0.0;
     double correction = 0.0, variance = 0.0;  // of the first part's share
     std::size_t scale = 0;
-
-    // Returns the factor that scales differences of shares to a noise that is the same for all splits of one flux.
-    [[nodiscard]] double spread() const { return std::sqrt(expected * (1.0 - expected)); }
+    double spread = 0.5;  // scales differences of shares to a noise that is the same for all splits of one flux
   };
 
   // Sums over comparisons of the halves: squared differences of the mean, times the flux.
@@ -93,13 +91,14 @@ class TreePooling {
       Split& split = splits_[k];
       split.scale = scale_of(cut);
       split.expected = in(weights_, first) / in(weights_, cut.whole);
+      split.spread = std::sqrt(split.expected * (1.0 - split.expected));
       const double flux_a = in(a_, cut.whole);
       const double flux_b = in(b_, cut.whole);
       split.total = flux_a + flux_b;
       if (!(split.total > 0.0)) continue;
-      split.difference = ((in(a_, first) + in(b_, first)) / split.total - split.expected) / split.spread();
+      split.difference = ((in(a_, first) + in(b_, first)) / split.total - split.expected) / split.spread;
       if (!(flux_a > 0.0 && flux_b > 0.0)) continue;
-      const double between = (in(a_, first) / flux_a - in(b_, first) / flux_b) / split.spread();
+      const double between = (in(a_, first) / flux_a - in(b_, first) / flux_b) / split.spread;
       for (Noise* noise : {&noise_[split.scale], &noise_of_all_}) {
         noise->squares += 0.25 * between * between * split.total;
         noise->count += 1.0;
@@ -121,18 +120,20 @@ class TreePooling {
   void shrink() {
     std::array<std::vector<std::uint32_t>, scales> of_scale;
     for (std::uint32_t k = 0; k < splits_.size(); ++k) of_scale[splits_[k].scale].push_back(k);
+    std::vector<double> differences, noise;
     for (const std::vector<std::uint32_t>& numbers : of_scale) {
-      std::vector<double> differences, noise;
-      for (const std::uint32_t k : numbers) {
-        differences.push_back(splits_[k].difference);
-        noise.push_back(noise_of(splits_[k]));
+      differences.resize(numbers.size());
+      noise.resize(numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        differences[i] = splits_[numbers[i]].difference;
+        noise[i] = noise_of(splits_[numbers[i]]);
       }
       const Shrinkage shrinkage(differences, noise);
-      for (const std::uint32_t k : numbers) {
-        Split& split = splits_[k];
-        const Posterior posterior = shrinkage.of(split.difference, noise_of(split));
-        split.correction = posterior.mean * split.spread();
-        split.variance = posterior.variance * split.spread() * split.spread();
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        Split& split = splits_[numbers[i]];
+        const Posterior posterior = shrinkage.of(differences[i], noise[i]);
+        split.correction = posterior.mean * split.spread;
+        split.variance = posterior.variance * split.spread * split.spread;
       }
     }
   }
@@ -155,12 +156,16 @@ class TreePooling {
       const TreeCut& cut = tree_.cuts[k];
       const double share = std::clamp(split.expected + split.correction, least_share * split.expected,
                                       1.0 - least_share * (1.0 - split.expected));
-      for (std::uint32_t place = cut.whole.begin; place < cut.whole.end; ++place) {
-        const bool first = place < cut.middle;
-        const double part = first ? share : 1.0 - share;
-        density[place] *= part / (first ? split.expected : 1.0 - split.expected);
-        relative[place] += split.variance / (part * part);
-      }
+      const auto multiply = [&](std::uint32_t begin, std::uint32_t end, double part, double expected) {
+        const double factor = part / expected;
+        const double variance = split.variance / (part * part);
+        for (std::uint32_t place = begin; place < end; ++place) {
+          density[place] *= factor;
+          relative[place] += variance;
+        }
+      };
+      multiply(cut.whole.begin, cut.middle, share, split.expected);
+      multiply(cut.middle, cut.whole.end, 1.0 - share, 1.0 - split.expected);
     }
     return light(density, relative);
   }

@@ -2,8 +2,9 @@
 // Adaptive shrinkage: from many noisy differences it learns how large true differences are, and then says of each what it
 // most likely is (Stephens 2017, Biostatistics 18:275).
 
+#include <array>
+#include <cstddef>
 #include <span>
-#include <vector>
 
 namespace sunfleck {
 
@@ -22,7 +23,17 @@ class Shrinkage {
   [[nodiscard]] Posterior of(double difference, double noise) const;
 
  private:
-  std::vector<double> shares_;  // [component]
+  static constexpr std::size_t components = 9;
+  using Values = std::array<double, components>;
+
+  // Variances of the true differences in each component.
+  static constexpr Values variances = {0.0, 0x1p-14, 0x1p-12, 0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1.0};
+
+  static Values inverse_variances(double noise);
+  static Values likelihoods(double difference, const Values& inverse_variance);
+  [[nodiscard]] Values posterior_shares(Values likely) const;
+
+  Values shares_;
 };
 
 }  // namespace sunfleck

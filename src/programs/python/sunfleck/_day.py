@@ -286,7 +286,7 @@ def day(
     start, stop: local time "HH:MM" (default: sunrise and sunset). step: minutes. date, to_date: "YYYY-MM-DD" (default: the
         scene's date). error ... seed, progress: as for `Simulation.run`; error bounds apply to each step, max_seconds to all steps
         together. together: how many consecutive steps of a date are simulated together, 1 to 96; they share their packets, which
-        saves time (default: as many as fit, up to 12, or 1 with max_rays). memory: bytes for such steps and for replicates in
+        saves time (default: as many as fit, up to 6, or 1 with max_rays). memory: bytes for such steps and for replicates in
         progress, half for each, by default half of the free memory. triangles: whether the light of every triangle and the maps
         of planes at every step are kept (`triangles` and `plane_steps` of the result). By default they are for a single date, if
         they take at most a quarter of the free memory.

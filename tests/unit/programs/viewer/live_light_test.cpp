@@ -169,7 +169,8 @@ TEST(LiveLight, KnowsTheErrorOfEachSide) {
 // Watching a run does not change its result.
 TEST(Monitor, IsHandedWhatIsKnownAfterEachReplicate) {
   const TempFolder folder;
-  const test::LiveScene live(test::write_live_scene(folder));
+  test::LiveScene live(test::write_live_scene(folder));
+  live.options.direct_error = 0.005;  // so small that the run traces more rays than its pilots, which are shown until then
   CpuTracer tracer(live.simulation.tracing().tree.bvh, {true, true});
   const SolveSettings settings = solve_settings(live.options, live.scene);
   std::vector<RadiationResult> seen;

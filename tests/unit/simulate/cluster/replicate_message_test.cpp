@@ -26,7 +26,8 @@ void expect_whole_only(const Bytes& good, const Unpack& unpack) {
 }
 
 TEST(Orders, ArriveAsTheyWereSent) {
-  const OrderMessage sent{{3, 17}, 5, {1e6 / 7.0, true, 4096.5, 1U << 22U, 0.003, ~0ULL, (1ULL << 40U) + 17}};
+  OrderMessage sent{{3, 17}, 5, {1e6 / 7.0, true, 4096.5, 1U << 22U, 0.003, ~0ULL, (1ULL << 40U) + 17}};
+  sent.order.ray_shares = {1.0, 0.25, 1.0 / 3.0};
   const Bytes bytes = pack(sent);
   const OrderMessage got = unpack<OrderMessage>(bytes);
   EXPECT_EQ(got.key.series, 3U);
@@ -39,6 +40,7 @@ TEST(Orders, ArriveAsTheyWereSent) {
   EXPECT_EQ(got.order.bound, sent.order.bound);
   EXPECT_EQ(got.order.seed, sent.order.seed);
   EXPECT_EQ(got.order.number, sent.order.number);
+  EXPECT_EQ(got.order.ray_shares, sent.order.ray_shares);
   expect_whole_only(bytes, [](std::span<const std::byte> cut) { static_cast<void>(unpack<OrderMessage>(cut)); });
 }
 
@@ -128,11 +130,12 @@ TEST_F(Replicates, ArriveInAllTheirLights) {
   std::vector<RadiationModel> lights(3, model_);
   for (std::size_t k = 0; k < lights.size(); ++k) lights[k].bands[0].direct_w_m2 *= 1.0 + static_cast<double>(k);
   ReplicateMaker maker(lights, prepared_.layout, tracer_);
-  const ReplicateOrder of_all = order(1000.0);
+  ReplicateOrder of_all = order(1000.0);
+  of_all.ray_shares = {1.0, 0.5, 0.25};
   std::vector<Conversion> conversions;
   conversions.reserve(lights.size());
   for (std::size_t k = 0; k < lights.size(); ++k) {
-    conversions.push_back(maker.conversion(maker.incidence(of_all.beam_rays, of_all.aimed, k), k));
+    conversions.push_back(maker.conversion(maker.incidence(of_all.rays_of(k), of_all.aimed, k), k));
   }
   const ReplicateSet made = *maker.make(of_all, conversions, [] { return false; });
   const ReplicateSet got = unpack_replicates(pack(ReplicateKey{1, 7}, made), maker.blank(of_all));

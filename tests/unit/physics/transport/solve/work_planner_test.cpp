@@ -113,6 +113,23 @@ TEST_F(WorkPlannerTest, EndsPilotsThatAreFarTooSmallEarly) {
   EXPECT_EQ(pilots_.front().replicates, pilot_replicates);
 }
 
+// A light whose error is half as large needs 2^(-1/0.7) of the rays, and gets a half more.
+TEST_F(WorkPlannerTest, GivesEachLightTheRaysThatItsErrorNeeds) {
+  const WorkPlanner planner(model_, settings_, maker_);
+  const std::vector<double> rays{8000.0, 8000.0, 4000.0, 8000.0, 8000.0};
+  std::vector<SeriesOutcome> lights;
+  for (const double error : {0.02, 0.01, 0.02, 0.015, 0.5}) lights.push_back({pilot_replicates, error, 0.0});
+  const std::vector<double> shares = planner.ray_shares(rays, lights, {true, true, true, true, false});
+  ASSERT_EQ(shares.size(), 5U);
+  EXPECT_EQ(shares[0], 1.0);
+  EXPECT_NEAR(shares[1], 1.5 * std::pow(0.5, 1.0 / 0.7), 1e-12);
+  EXPECT_NEAR(shares[2], 0.75, 1e-12);
+  EXPECT_NEAR(shares[3], std::min(1.0, 1.5 * std::pow(0.75, 1.0 / 0.7)), 1e-12);
+  EXPECT_EQ(shares[4], 1.0) << "a faint light gets no more than the others";
+  for (SeriesOutcome& light : lights) light.direct_error = 0.0;
+  EXPECT_EQ(planner.ray_shares(rays, lights, std::vector(5, true)), std::vector(5, 1.0));
+}
+
 TEST_F(WorkPlannerTest, ChoosesNothingIfStopped) {
   WorkPlanner planner(model_, settings_, maker_);
   EXPECT_FALSE(planner.choose([](const Work&) { return std::optional<SeriesOutcome>(); }));

@@ -1,0 +1,19 @@
+#pragma once
+// Hides the wait for memory that is read in no order.
+
+#include <cstddef>
+
+namespace sunfleck {
+
+// How many steps ahead a loop over places in no order asks for memory.
+inline constexpr std::size_t prefetch_ahead = 12;
+
+// Asks for the memory of a value that will soon be read or written; has no other effect.
+template <class T>
+void prefetch(const T& value) {
+  const char* const bytes = reinterpret_cast<const char*>(&value);
+  __builtin_prefetch(bytes);
+  __builtin_prefetch(bytes + sizeof(T) - 1);
+}
+
+}  // namespace sunfleck
