@@ -170,7 +170,7 @@ TEST(LiveLight, KnowsTheErrorOfEachSide) {
 TEST(Monitor, IsHandedWhatIsKnownAfterEachReplicate) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
-  live.options.direct_error = 0.005;  // so small that the run traces more rays than its pilots, which are shown until then
+  live.options.direct_error = 0.0005;  // so small that the run traces more rays than its pilots, which are shown until then
   CpuTracer tracer(live.simulation.tracing().tree.bvh, {true, true});
   const SolveSettings settings = solve_settings(live.options, live.scene);
   std::vector<RadiationResult> seen;
