@@ -521,7 +521,7 @@ RadiationResult solve(const RadiationModel& model, const CounterLayout& layout, 
 SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings,
                            const Monitor& monitor, ReplicateHelpers* helpers, const WantedSums& sums, const TakeLight& take) {
   if (lights.size() == 1 && is_dark(lights.front())) {
-    const SharedOutcome outcome{StopReason::bound_reached, {}};
+    SharedOutcome outcome{StopReason::bound_reached, {}};
     take(0, dark_result(lights.front(), layout, settings), outcome);
     return outcome;
   }
