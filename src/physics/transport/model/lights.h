@@ -32,6 +32,9 @@ struct WantedSums {
   std::vector<std::size_t> group_of_organ;
 };
 
+// Returns which lights have at least this share of the brightest one's flux on level ground, all bands together. [light]
+[[nodiscard]] std::vector<bool> bright_lights(Lights lights, double least_share);
+
 [[nodiscard]] bool any_beam(Lights lights);
 [[nodiscard]] bool any_sky(Lights lights);
 

@@ -4,16 +4,13 @@
 #include "physics/transport/indirect/replicate_maker.h"
 #include "physics/transport/solve/darkness.h"
 #include "physics/transport/solve/foresight.h"
-#include "physics/transport/solve/joint_sums.h"
 #include "physics/transport/solve/judged_error.h"
 #include "physics/transport/solve/replicate_helpers.h"
 #include "physics/transport/solve/replicate_queue.h"
 #include "physics/transport/solve/result_of.h"
-#include "physics/transport/solve/run_sums.h"
 #include "physics/transport/solve/run_triangles.h"
+#include "physics/transport/solve/series.h"
 #include "physics/transport/solve/work_planner.h"
-
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -38,57 +35,6 @@ double steady_clock_s() {
 // Lights with less than this share of the brightest one's flux are not compared with the bounds.
 constexpr double least_bright_share = 0.01;
 
-// Holds replicates with the same work.
-struct Series {
-  Series(const ReplicateMaker& maker, std::span<const Incidence> incidences, const SolveSettings& settings,
-         const WantedSums& wanted)
-      : sums(incidences.size()) {
-    for (const LightSum& sum : wanted.of_lights) joint.emplace_back(sum, wanted.group_of_organ);
-    conversions.reserve(incidences.size());
-    for (std::size_t k = 0; k < incidences.size(); ++k) {
-      conversions.push_back(maker.conversion(incidences[k], k));
-      light_rays.push_back(incidences[k].traced_rays);
-      grid_rays += incidences[k].traced_rays;
-    }
-    tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) {
-      sums[k] = std::make_unique<RunSums>(conversions[k], settings.element_errors, settings.shade_groups);
-    });
-  }
-
-  void add(const ReplicateSet& replicates) {
-    tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) { sums[k]->add(replicates[k]); });
-    for (JointSums& sum : joint) sum.add(sums);
-  }
-
-  // The first light's sums; the numbers of replicates, rays and packets are those of all lights.
-  [[nodiscard]] RunSums& front() const { return *sums.front(); }
-  [[nodiscard]] std::size_t replicates() const { return front().replicates; }
-  // Returns the number of rays and packets.
-  [[nodiscard]] std::uint64_t traced() const { return replicates() * grid_rays + front().packets + front().sky_rays; }
-
-  std::vector<Conversion> conversions;         // [light]
-  std::vector<std::unique_ptr<RunSums>> sums;  // [light]; they refer to the conversions, so that a series cannot be copied
-  std::vector<JointSums> joint;
-  std::vector<std::uint64_t> light_rays;  // [light], beam rays traced in each replicate
-  std::uint64_t grid_rays = 0;            // of all lights together
-};
-
-// Returns which lights are compared with the bounds.
-std::vector<bool> judged_lights(Lights lights) {
-  std::vector<double> flux_w_m2;
-  for (const RadiationModel& light : lights) {
-    double flux = 0.0;
-    for (const Waveband& band : light.bands) {
-      flux += (light.has_beam() ? band.direct_w_m2 : 0.0) + (light.has_sky() ? band.diffuse_w_m2 : 0.0);
-    }
-    flux_w_m2.push_back(flux);
-  }
-  const double brightest = *std::max_element(flux_w_m2.begin(), flux_w_m2.end());
-  std::vector<bool> judged;
-  for (const double flux : flux_w_m2) judged.push_back(flux >= least_bright_share * brightest);
-  return judged;
-}
-
 class Solver {
  public:
   Solver(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings, const Monitor& monitor,
@@ -99,7 +45,7 @@ class Solver {
         monitor_(monitor),
         wanted_sums_(wanted_sums),
         take_(std::move(take)),
-        judged_(judged_lights(lights)),
+        judged_(bright_lights(lights, least_bright_share)),
         maker_(lights, layout, tracer),
         planner_(model_, settings, maker_),
         queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {

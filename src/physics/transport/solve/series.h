@@ -1,0 +1,39 @@
+#pragma once
+// The sums of a series of replicates with the same work.
+
+#include "physics/transport/indirect/conversion.h"
+#include "physics/transport/indirect/replicate_maker.h"
+#include "physics/transport/model/lights.h"
+#include "physics/transport/solve/joint_sums.h"
+#include "physics/transport/solve/run_sums.h"
+#include "physics/transport/solve/solve.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+struct Series {
+  // `incidences` are [light]. The maker's lights must outlive the series.
+  Series(const ReplicateMaker& maker, std::span<const Incidence> incidences, const SolveSettings& settings,
+         const WantedSums& wanted);
+
+  void add(const ReplicateSet& replicates);
+
+  // The first light's sums; the numbers of replicates, rays and packets are those of all lights.
+  [[nodiscard]] RunSums& front() const { return *sums.front(); }
+  [[nodiscard]] std::size_t replicates() const { return front().replicates; }
+  // Returns the number of rays and packets.
+  [[nodiscard]] std::uint64_t traced() const { return replicates() * grid_rays + front().packets + front().sky_rays; }
+
+  std::vector<Conversion> conversions;         // [light]
+  std::vector<std::unique_ptr<RunSums>> sums;  // [light]; they refer to the conversions, so that a series cannot be copied
+  std::vector<JointSums> joint;
+  std::vector<std::uint64_t> light_rays;  // [light], beam rays traced in each replicate
+  std::uint64_t grid_rays = 0;            // of all lights together
+};
+
+}  // namespace sunfleck
