@@ -117,11 +117,14 @@ class DayRun {
     const std::vector<RadiationModel> lights = lights_of(simulation_.model(), plan_, block);
     const WantedSums sums = wanted_sums(block);
     Stopwatch watch;
+    double shared_s = 0.0;  // each step's part of the time that all of them took
     const auto take = [&](std::size_t light, RadiationResult result, const SharedOutcome& outcome) {
       simulation_.add_sensors(lights[light], settings, monitor, watch, result);
       if (result.stop == StopReason::interrupted) return;
       StoredStep step = stored_step(lights[light], result);
-      step.seconds = watch.lap();
+      const double lap_s = watch.lap();
+      if (light == 0) shared_s = lap_s / static_cast<double>(lights.size());
+      step.seconds = light == 0 ? shared_s : shared_s + lap_s;
       step.light.shares_packets = lights.size() > 1;
       if (light > 0) step.packets = 0;  // they are those of the first step
       if (light == 0 && lights.size() > 1) step.light.of_shared = with_soil(outcome.sum_errors.front());
