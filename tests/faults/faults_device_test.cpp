@@ -38,12 +38,18 @@ class Device : public FaultTest {
   [[nodiscard]] std::map<std::string, unsigned> calls(const Arguments& arguments) {
     let_fail("none", 1, 0);
     EXPECT_EQ(run(arguments).status, 0);
+    std::map<std::string, unsigned> counts = last_calls();
+    EXPECT_EQ(counts["vkCreateDevice"], 1U) << "the layer is not in use";
+    return counts;
+  }
+
+  // Returns how often the last run called each function.
+  [[nodiscard]] std::map<std::string, unsigned> last_calls() const {
     std::istringstream log(content(folder_ / "calls.txt"));
     std::map<std::string, unsigned> counts;
     std::string name;
     unsigned count = 0;
     while (log >> name >> count) counts[name] = count;
-    EXPECT_EQ(counts["vkCreateDevice"], 1U) << "the layer is not in use";
     return counts;
   }
 
@@ -64,9 +70,12 @@ class Device : public FaultTest {
     SCOPED_TRACE(call + " " + std::to_string(from) + " " + std::to_string(result));
     let_fail(call, from, result);
     const Outcome outcome = run(arguments);
-    expect_one_line(outcome, why);
-    EXPECT_NE(outcome.err.find("llvmpipe"), std::string::npos) << outcome.err;
-    expect_whole(whole);
+    // Work is cut into pieces by the time that they take, so that another run may end before its last calls have this number.
+    if (outcome.status != 0 || last_calls()[call] >= from) {
+      expect_one_line(outcome, why);
+      EXPECT_NE(outcome.err.find("llvmpipe"), std::string::npos) << outcome.err;
+      expect_whole(whole);
+    }
     std::filesystem::remove_all(folder_ / "out");
   }
 };
