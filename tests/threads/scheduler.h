@@ -20,6 +20,7 @@ class blocked_range {
   blocked_range(Value begin, Value end, std::size_t grain = 1) : begin_(begin), end_(end), grain_(grain) {}
   [[nodiscard]] Value begin() const { return begin_; }
   [[nodiscard]] Value end() const { return end_; }
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(end_ - begin_); }
   [[nodiscard]] std::size_t grainsize() const { return grain_; }
 
  private:
@@ -76,6 +77,16 @@ void parallel_for(const blocked_range<Value>& range, const Body& body) {
   work(0);
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
+}
+
+// Calls body(k) for all k in [first, end).
+template <class Index, class Body>
+void parallel_for(Index first, Index end, const Body& body) {
+  if (!(first < end)) return;
+  const auto grain = std::max<std::size_t>(1, static_cast<std::size_t>(end - first) / 64);
+  parallel_for(blocked_range<Index>(first, end, grain), [&](const blocked_range<Index>& range) {
+    for (Index k = range.begin(); k < range.end(); ++k) body(k);
+  });
 }
 
 }  // namespace tbb

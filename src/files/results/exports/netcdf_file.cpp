@@ -234,6 +234,10 @@ template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::v
 template int NetcdfFile::variable<std::int64_t>(const std::string&, const std::vector<int>&);
 template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&);
 template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&);
+template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::vector<int>&, std::string_view,
+                                                std::string_view);
+template int NetcdfFile::variable<std::int64_t>(const std::string&, const std::vector<int>&, std::string_view,
+                                                std::string_view);
 template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
 template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
 template void NetcdfFile::put(int, std::span<const std::int32_t>);
