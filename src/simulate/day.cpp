@@ -124,7 +124,7 @@ class DayRun {
       StoredStep step = stored_step(lights[light], result);
       const double lap_s = watch.lap();
       if (light == 0) shared_s = lap_s / static_cast<double>(lights.size());
-      step.seconds = light == 0 ? shared_s : shared_s + lap_s;
+      step.seconds = shared_s + (light == 0 ? 0.0 : lap_s);
       step.light.shares_packets = lights.size() > 1;
       if (light > 0) step.packets = 0;  // they are those of the first step
       if (light == 0 && lights.size() > 1) step.light.of_shared = with_soil(outcome.sum_errors.front());
@@ -260,9 +260,10 @@ ordered_json day_settings(const DayRequest& request, const Scene& scene, const S
 }
 
 std::optional<int> noted_steps_together(const std::filesystem::path& folder) {
-  const ordered_json noted = noted_day_settings(folder);
-  const auto steps = noted.find(steps_together_key);
-  if (steps == noted.end() || !steps->is_number_unsigned()) return std::nullopt;
+  const std::optional<ordered_json> noted = noted_day_settings(folder);
+  if (!noted) return std::nullopt;
+  const auto steps = noted->find(steps_together_key);
+  if (steps == noted->end() || !steps->is_number_unsigned()) return std::nullopt;
   const auto number = steps->get<std::uint64_t>();
   if (number < 1 || number > most_steps_together) return std::nullopt;
   return static_cast<int>(number);

@@ -8,8 +8,6 @@
 namespace sunfleck {
 namespace {
 
-constexpr double usual_steps_together = 6.0;
-
 // Returns the memory of the sums of one light, of a run and its pilots.
 double light_bytes(const RadiationModel& model, bool has_sky, bool of_triangles) {
   const double series = 2.0;
@@ -26,7 +24,7 @@ std::size_t steps_in_memory(const RadiationModel& model, const DayPlan& plan, bo
   const bool has_sky =
       std::any_of(plan.lights.begin(), plan.lights.end(), [](const MomentLight& l) { return l.sky.has_value(); });
   const double fit = memory_bytes / std::max(1.0, light_bytes(model, has_sky, of_triangles));
-  return static_cast<std::size_t>(std::clamp(fit, 1.0, usual_steps_together));
+  return static_cast<std::size_t>(std::clamp(fit, 1.0, double{usual_steps_together}));
 }
 
 void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {

@@ -12,10 +12,11 @@
 namespace sunfleck {
 
 inline constexpr int most_steps_together = 96;
+inline constexpr int usual_steps_together = 6;
 
-// Returns how many steps are simulated together by default: as many as their sums fit into `memory_bytes`, at least one and at most
-// six: more steps need more memory and hardly less time. `of_triangles` says whether the light of single triangles is wanted.
-// The number depends on nothing but the sizes of the scene and the memory.
+// Returns how many steps are simulated together by default: as many as their sums fit into `memory_bytes`, at least one and at
+// most usual_steps_together: more steps need more memory and hardly less time. `of_triangles` says whether the light of single
+// triangles is wanted. The number depends on nothing but the sizes of the scene and the memory.
 [[nodiscard]] std::size_t steps_in_memory(const RadiationModel& model, const DayPlan& plan, bool of_triangles,
                                           double memory_bytes);
 

@@ -1,5 +1,7 @@
 #include "devices/tracers/side_by_side.h"
 
+#include "base/prefetch.h"
+
 #include <array>
 
 #undef HWY_TARGET_INCLUDE
@@ -43,14 +45,6 @@ struct Candidate {
   std::uint32_t slot;
   std::uint32_t triangle;
 };
-
-// Asks memory for what lies there, so that it has come when the next round needs it.
-template <class Part>
-HWY_INLINE void prefetch(const Part& part) {
-  const char* const bytes = reinterpret_cast<const char*>(&part);
-  __builtin_prefetch(bytes);
-  __builtin_prefetch(bytes + sizeof(Part) - 1);
-}
 
 // Goes in rounds, each of which does one thing for all walkers before the next: tests of boxes and of edges do not depend on one
 // another then, so that the processor can do several at once, and what branches on them finds them done.

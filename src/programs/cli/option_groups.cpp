@@ -179,9 +179,12 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
   day.add_option("--to", options.to, "End of the last step, which may be shorter (default: sunset)")->check(not_empty());
   day.add_option(
          "--together", options.steps_together,
-         "Simulate up to N consecutive steps of a date together: they share packets, which takes less time but memory for each "
-         "step; --max-rays then holds for all of them (default: as many as --memory holds, up to 6, or 1 with --max-rays)")
-      ->transform(whole_number(1, static_cast<int>(most_steps_together)));
+         fmt::format(
+             "Simulate up to N consecutive steps of a date together: they share packets, which takes less time but memory for "
+             "each "
+             "step; --max-rays then holds for all of them (default: as many as --memory holds, up to {}, or 1 with --max-rays)",
+             usual_steps_together))
+      ->transform(whole_number(1, most_steps_together));
   day.add_option("--step", options.step_min, "Step length in minutes; each step has the light of its midpoint (default: 60)")
       ->transform(whole_number(1, 1440));
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());

@@ -80,11 +80,11 @@ void remove_day_steps(const fs::path& result_folder) {
   fs::remove(folder, not_empty);
 }
 
-ordered_json noted_day_settings(const fs::path& result_folder) {
+std::optional<ordered_json> noted_day_settings(const fs::path& result_folder) {
   std::error_code error;
   const fs::path file = result_folder / steps_folder / settings_file;
-  ordered_json noted = fs::exists(file, error) ? parse_settings(read_file(file)) : ordered_json();
-  return noted.is_object() ? noted : ordered_json::object();
+  if (!fs::exists(file, error)) return std::nullopt;
+  return parse_settings(read_file(file));
 }
 
 StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model, const ordered_json& settings,
@@ -97,10 +97,10 @@ StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model,
       map_values_(plane_map_values(model)) {}
 
 StepStore::Found StepStore::find() const {
-  std::error_code error;
+  std::optional<ordered_json> found = noted_day_settings(folder_.parent_path());
+  if (!found) return Found::nothing;
   const fs::path file = folder_ / settings_file;
-  if (!fs::exists(file, error)) return Found::nothing;
-  ordered_json noted = parse_settings(read_file(file));
+  ordered_json& noted = *found;
   if (!noted.is_object() || !noted.contains(finished_key)) {
     throw_input(printable(file.string()), "it is damaged", "omit --resume to start the day again");
   }

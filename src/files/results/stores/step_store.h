@@ -34,8 +34,8 @@ struct StoredStep {
 // Removes what a day left in `steps`; other files there are kept. Throws Error (failure).
 void remove_day_steps(const std::filesystem::path& result_folder);
 
-// Returns the settings that an earlier day noted in the folder; an empty object if there are none, or they cannot be read.
-[[nodiscard]] nlohmann::ordered_json noted_day_settings(const std::filesystem::path& result_folder);
+// Returns the settings that an earlier day noted in the folder, as parse_settings does; nothing if there are none.
+[[nodiscard]] std::optional<nlohmann::ordered_json> noted_day_settings(const std::filesystem::path& result_folder);
 
 // Says whether steps have the light of every triangle, which takes most of their space.
 enum class StepFields { none, kept };

@@ -39,11 +39,12 @@ struct KindFlux {
   }
 };
 
-// Returns what each kind absorbs in one light, [kind * bands + band], W m-2 of ground. Soil and a kind that is all of the vegetation, or all of
-// the structures and lamps, have the error of the flux balance. For the other kinds the random errors of the organs are added
-// in quadrature, and that sum is raised by the factor by which the balance's error of all vegetation (or of all structures)
-// exceeds the quadrature over its organs, if it does: it shows whether organs err in the same direction. Usually they do not, since
-// what one leaf receives the next one misses, and the half-widths are then somewhat too wide. Unshot flux adds linearly.
+// Returns what each kind absorbs in one light, [kind * bands + band], W m-2 of ground. Soil and a kind that is all of the
+// vegetation, or all of the structures and lamps, have the error of the flux balance. For the other kinds the random errors of
+// the organs are added in quadrature, and that sum is raised by the factor by which the balance's error of all vegetation (or of
+// all structures) exceeds the quadrature over its organs, if it does: it shows whether organs err in the same direction. Usually
+// they do not, since what one leaf receives the next one misses, and the half-widths are then somewhat too wide. Unshot flux
+// adds linearly.
 [[nodiscard]] std::vector<KindFlux> absorbed_by_kinds(const RadiationModel& model, const RadiationResult& result);
 
 }  // namespace sunfleck
