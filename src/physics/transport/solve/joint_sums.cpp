@@ -17,13 +17,15 @@ class Adder {
     sums_.resize(std::max(sums_.size(), place_ + 1));
     sums_[place_++] += weight_ * value;
   }
-  void add_last(const ReplicateMean& mean) { add(mean.last()); }
-  void add_half_width(const Estimate& estimate) { add(estimate.half_width); }
 
  private:
   std::vector<double>& sums_;
   double weight_;
   std::size_t place_ = 0;
+};
+
+struct Adders {
+  Adder bands, organs, plants, planes;
 };
 
 }  // namespace
@@ -52,53 +54,56 @@ void JointSums::add(std::span<const std::unique_ptr<RunSums>> lights) {
   add_to(means_.planes, last.planes);
 }
 
-JointSums::Figures<double> JointSums::last_values(std::span<const std::unique_ptr<RunSums>> lights) const {
+// Sums over the lights what add_light(light, adders) adds for each.
+template <class AddLight>
+JointSums::Figures<double> JointSums::weighted(const AddLight& add_light) const {
   Figures<double> figures;
   for (const LightShare& share : sum_) {
-    const RunSums& sums = *lights[share.light];
-    Adder bands(figures.bands, share.weight), organs(figures.organs, share.weight), plants(figures.plants, share.weight),
-        planes(figures.planes, share.weight);
-    for (const BandMeans& band : sums.bands) {
-      for (const auto* mean : {&band.vegetation, &band.structure, &band.soil, &band.reflected, &band.transmitted})
-        bands.add_last(*mean);
-    }
-    for (const OrganMeans& organ : sums.organs) {
-      for (const ReplicateMean& mean : organ.absorbed) organs.add_last(mean);
-    }
-    for (const PlantMeans& plant : sums.plants) {
-      for (const ReplicateMean& mean : plant.absorbed) plants.add_last(mean);
-    }
-    for (std::size_t p = 0; sums.planes && p < sums.planes->planes(); ++p) {
-      for (std::size_t b = 0; b < bands_; ++b) planes.add_last(sums.planes->down(p, b));
-    }
+    Adders adders{Adder(figures.bands, share.weight), Adder(figures.organs, share.weight), Adder(figures.plants, share.weight),
+                  Adder(figures.planes, share.weight)};
+    add_light(share.light, adders);
   }
   figures.groups = grouped(figures.organs);
   return figures;
 }
 
+JointSums::Figures<double> JointSums::last_values(std::span<const std::unique_ptr<RunSums>> lights) const {
+  return weighted([&](std::size_t light, Adders& to) {
+    const RunSums& sums = *lights[light];
+    for (const BandMeans& band : sums.bands) {
+      for (const auto* mean : {&band.vegetation, &band.structure, &band.soil, &band.reflected, &band.transmitted})
+        to.bands.add(mean->last());
+    }
+    for (const OrganMeans& organ : sums.organs) {
+      for (const ReplicateMean& mean : organ.absorbed) to.organs.add(mean.last());
+    }
+    for (const PlantMeans& plant : sums.plants) {
+      for (const ReplicateMean& mean : plant.absorbed) to.plants.add(mean.last());
+    }
+    for (std::size_t p = 0; sums.planes && p < sums.planes->planes(); ++p) {
+      for (std::size_t b = 0; b < bands_; ++b) to.planes.add(sums.planes->down(p, b).last());
+    }
+  });
+}
+
 JointSums::Figures<double> JointSums::half_widths(std::span<const RadiationResult> lights) const {
-  Figures<double> figures;
-  for (const LightShare& share : sum_) {
-    const RadiationResult& result = lights[share.light];
-    Adder bands(figures.bands, share.weight), organs(figures.organs, share.weight), plants(figures.plants, share.weight),
-        planes(figures.planes, share.weight);
+  return weighted([&](std::size_t light, Adders& to) {
+    const RadiationResult& result = lights[light];
     for (const BandResult& band : result.bands) {
       for (const auto* flux :
            {&band.absorbed_vegetation, &band.absorbed_structure, &band.absorbed_soil, &band.reflected, &band.transmitted})
-        bands.add_half_width(*flux);
+        to.bands.add(flux->half_width);
     }
     for (const OrganResult& organ : result.organs) {
-      for (const Estimate& flux : organ.absorbed) organs.add_half_width(flux);
+      for (const Estimate& flux : organ.absorbed) to.organs.add(flux.half_width);
     }
     for (const PlantResult& plant : result.plants) {
-      for (const Estimate& flux : plant.absorbed_w) plants.add_half_width(flux);
+      for (const Estimate& flux : plant.absorbed_w) to.plants.add(flux.half_width);
     }
     for (const PlaneResult& plane : result.planes) {
-      for (const Estimate& flux : plane.total_down) planes.add_half_width(flux);
+      for (const Estimate& flux : plane.total_down) to.planes.add(flux.half_width);
     }
-  }
-  figures.groups = grouped(figures.organs);
-  return figures;
+  });
 }
 
 std::vector<double> JointSums::grouped(const std::vector<double>& organs) const {

@@ -32,6 +32,8 @@ class JointSums {
     std::vector<Value> bands, organs, plants, groups, planes;
   };
 
+  template <class AddLight>
+  [[nodiscard]] Figures<double> weighted(const AddLight& add_light) const;
   [[nodiscard]] Figures<double> last_values(std::span<const std::unique_ptr<RunSums>> lights) const;
   [[nodiscard]] Figures<double> half_widths(std::span<const RadiationResult> lights) const;
   // Sums what the organs of each group have, per area of organ, to what the group has per area of ground.

@@ -111,11 +111,12 @@ class Solver {
   // Divides the rays among several lights by what pilots showed.
   void share_rays() {
     if (lights_.size() == 1 || planner_.fixed()) return;
+    const ReplicateOrder made = order(work_);
     std::vector<double> rays;
     std::vector<SeriesOutcome> outcomes;
     for (std::size_t k = 0; k < lights_.size(); ++k) {
-      rays.push_back(order(work_).rays_of(k));
-      outcomes.push_back({series_->replicates(), direct_error(*series_, k).value_or(JudgedError{}).relative, 0.0});
+      rays.push_back(made.rays_of(k));
+      outcomes.push_back({series_->replicates(), direct_error(k), 0.0});
     }
     ray_shares_ = planner_.ray_shares(rays, outcomes, judged_);
   }
@@ -217,19 +218,26 @@ class Solver {
     error.raise(triangles_[light].indirect_error());
     return error;
   }
+  // Return the errors of a light in the series, 0 for a pass without any light.
+  [[nodiscard]] double direct_error(std::size_t light) const {
+    return direct_error(*series_, light).value_or(JudgedError{}).relative;
+  }
+  [[nodiscard]] double indirect_error(std::size_t light) const {
+    return indirect_error(*series_, light).value_or(JudgedError{}).relative;
+  }
   // Return the largest error of all judged lights.
   [[nodiscard]] double direct_error() const {
-    return largest([this](std::size_t light) { return direct_error(*series_, light); });
+    return largest([this](std::size_t light) { return direct_error(light); });
   }
   [[nodiscard]] double indirect_error() const {
-    return largest([this](std::size_t light) { return indirect_error(*series_, light); });
+    return largest([this](std::size_t light) { return indirect_error(light); });
   }
   template <class Error>
   [[nodiscard]] double largest(const Error& error_of) const {
     double largest = 0.0;
     for (std::size_t k = 0; k < lights_.size(); ++k) {
       if (!judged_[k]) continue;
-      const double error = error_of(k).value_or(JudgedError{}).relative;
+      const double error = error_of(k);
       if (std::isnan(error)) return error;
       largest = std::max(largest, error);
     }
@@ -372,10 +380,8 @@ class Solver {
     const double quantile = t_quantile(settings_.accuracy.confidence, series_->replicates());
     if (lights_.size() > 1 && reason == StopReason::interrupted) return outcome_of_all;
     std::vector<RadiationResult> results;
-    for (std::size_t k = 0; k < lights_.size(); ++k) {
-      results.push_back(figures_of_series(*series_, k, reason));
-      results.back().next_work = next_work(k);
-    }
+    for (std::size_t k = 0; k < lights_.size(); ++k) results.push_back(figures_of_series(*series_, k, reason));
+    set_next_work(results);
     for (const JointSums& sum : series_->joint) outcome_of_all.sum_errors.push_back(sum.errors(quantile, results));
     for (std::size_t k = 0; k < lights_.size(); ++k) {
       RunSums& sums = *series_->sums[k];
@@ -388,11 +394,14 @@ class Solver {
     return outcome_of_all;
   }
 
-  // Returns the work that suits a similar light: rays by its own error, packets by the largest.
-  [[nodiscard]] Work next_work(std::size_t light) const {
-    const double direct = direct_error(*series_, light).value_or(JudgedError{}).relative;
-    const Work own{order(work_).rays_of(light), work_.packets};
-    return planner_.next(own, {series_->replicates(), direct, indirect_error()});
+  // Gives each light's result the work that suits a similar light: rays by its own error, packets by the largest.
+  void set_next_work(std::vector<RadiationResult>& results) const {
+    const ReplicateOrder made = order(work_);
+    const double indirect = indirect_error();
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const Work own{made.rays_of(k), work_.packets};
+      results[k].next_work = planner_.next(own, {series_->replicates(), direct_error(k), indirect});
+    }
   }
 
   [[nodiscard]] RadiationResult figures_of_series(const Series& series, std::size_t light, StopReason reason) const {

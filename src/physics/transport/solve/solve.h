@@ -112,9 +112,10 @@ struct SharedOutcome {
 using TakeLight = std::function<void(std::size_t light, RadiationResult result, const SharedOutcome& outcome)>;
 
 // Runs one simulation of several lights, none of which may be dark; a single one may be. They share its packets; each has beam rays of
-// its own, as many as its error needs. Every light keeps the bounds that has at least 1 % of the brightest light's flux. Hands the results over
-// one after the other when all replicates are made, so that they need not lie in memory together; hands nothing over if several lights
-// were interrupted. The monitor's results and states, and settings.resume_from, are for single lights only. Throws as `solve` does.
+// its own, as many as its error needs. Every light keeps the bounds that has at least 1 % of the brightest light's flux. Hands the
+// results over one after the other when all replicates are made, so that they need not lie in memory together; hands nothing over if
+// several lights were interrupted. The monitor's results and states, and settings.resume_from, are for single lights only. Throws as
+// `solve` does.
 [[nodiscard]] SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer,
                                          const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers,
                                          const WantedSums& sums, const TakeLight& take);

@@ -14,21 +14,33 @@
 namespace sunfleck {
 namespace {
 
+class JointSumsTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::vector<std::unique_ptr<RunSums>> no_sums(int lights) const {
+    std::vector<std::unique_ptr<RunSums>> sums;
+    for (int k = 0; k < lights; ++k) sums.push_back(std::make_unique<RunSums>(conversion_, ElementErrors::skip));
+    return sums;
+  }
+  [[nodiscard]] ReplicateSet made_replicate(std::uint64_t number) {
+    return *maker_.make({2000.0, false, 500.0, 300, 0.01, 1, number}, {&conversion_, 1}, [] { return false; });
+  }
+
+  const RadiationModel model_ = test::light_mix();
+  const test::Prepared prepared_{model_};
+  CpuTracer tracer_{prepared_.bvh, test::tracer_scene(model_)};
+  ReplicateMaker maker_{{&model_, 1}, prepared_.layout, tracer_};
+  const Conversion conversion_ = maker_.conversion(maker_.incidence(2000.0, false));
+};
+
 // Two sums of one light, each of weight 1/2, make that light again: their errors are fully correlated.
-TEST(JointSums, OfALightWithItselfHasTheErrorOfTheLight) {
-  const RadiationModel model = test::light_mix();
-  const test::Prepared prepared(model);
-  CpuTracer tracer(prepared.bvh, test::tracer_scene(model));
-  ReplicateMaker maker(model, prepared.layout, tracer);
-  const Conversion conversion = maker.conversion(maker.incidence(2000.0, false));
-  std::vector<std::unique_ptr<RunSums>> lights;
-  for (int k = 0; k < 2; ++k) lights.push_back(std::make_unique<RunSums>(conversion, ElementErrors::skip));
+TEST_F(JointSumsTest, OfALightWithItselfHasTheErrorOfTheLight) {
+  const std::vector<std::unique_ptr<RunSums>> lights = no_sums(2);
   // Every organ is a group of its own.
-  std::vector<std::size_t> groups(model.canopy.organs.size());
+  std::vector<std::size_t> groups(model_.canopy.organs.size());
   std::iota(groups.begin(), groups.end(), std::size_t{0});
   JointSums joint({{0, 0.5}, {1, 0.5}}, groups);
   for (std::uint64_t number = 0; number < 4; ++number) {
-    const ReplicateSet made = *maker.make({2000.0, false, 500.0, 300, 0.01, 1, number}, {&conversion, 1}, [] { return false; });
+    const ReplicateSet made = made_replicate(number);
     for (const auto& sums : lights) sums->add(made.front());
     joint.add(lights);
   }
@@ -36,7 +48,7 @@ TEST(JointSums, OfALightWithItselfHasTheErrorOfTheLight) {
   const RunSums& sums = *lights.front();
   const RadiationResult result = figures_of(sums, 0.95);
   const JointErrors errors = joint.errors(quantile, std::vector{result, result});
-  ASSERT_EQ(errors.bands.size(), model.bands.size());
+  ASSERT_EQ(errors.bands.size(), model_.bands.size());
   for (std::size_t b = 0; b < errors.bands.size(); ++b) {
     const auto expect_same = [&](double error, const ReplicateMean& mean) {
       EXPECT_NEAR(error, quantile * mean.standard_error(), 1e-12 * mean.mean());
@@ -52,24 +64,18 @@ TEST(JointSums, OfALightWithItselfHasTheErrorOfTheLight) {
               1e-12 * sums.organs[0].absorbed[1].mean());
   ASSERT_EQ(errors.groups.size(), errors.organs.size());
   for (std::size_t o = 0; o < groups.size(); ++o) {
-    const double area_index = conversion.areas.organ_m2[o] / model.plot.area_m2();
-    EXPECT_NEAR(errors.groups[o * model.bands.size()], area_index * errors.organs[o * model.bands.size()], 1e-9);
+    const double area_index = conversion_.areas.organ_m2[o] / model_.plot.area_m2();
+    EXPECT_NEAR(errors.groups[o * model_.bands.size()], area_index * errors.organs[o * model_.bands.size()], 1e-9);
   }
   // Nothing passes below the soil, and the replicates agree about that.
   EXPECT_EQ(errors.bands[0].transmitted, result.bands[0].transmitted.half_width);
 }
 
 // Replicates that agree tell no spread; what may have escaped all of them remains.
-TEST(JointSums, KeepTheErrorsOfUnseenEvents) {
-  const RadiationModel model = test::light_mix();
-  const test::Prepared prepared(model);
-  CpuTracer tracer(prepared.bvh, test::tracer_scene(model));
-  ReplicateMaker maker(model, prepared.layout, tracer);
-  const Conversion conversion = maker.conversion(maker.incidence(2000.0, false));
-  std::vector<std::unique_ptr<RunSums>> lights;
-  lights.push_back(std::make_unique<RunSums>(conversion, ElementErrors::skip));
+TEST_F(JointSumsTest, KeepTheErrorsOfUnseenEvents) {
+  const std::vector<std::unique_ptr<RunSums>> lights = no_sums(1);
   JointSums joint({{0, 600.0}}, {});
-  const ReplicateSet made = *maker.make({2000.0, false, 500.0, 300, 0.01, 1, 0}, {&conversion, 1}, [] { return false; });
+  const ReplicateSet made = made_replicate(0);
   for (int twice = 0; twice < 2; ++twice) {
     lights.front()->add(made.front());
     joint.add(lights);
