@@ -49,10 +49,12 @@ void submit_and_wait(const GpuContext& context) {
   try {
     handles.commands.end();
     const vk::CommandBuffer commands = *handles.commands;
+    // Before the work, not after it: if a reset after the work failed, the next call, perhaps of another thread, would find a
+    // fence that is already signalled, would not wait, and the memory that its work uses could be freed meanwhile.
+    handles.device.resetFences(*handles.fence);
     handles.queue.submit(vk::SubmitInfo({}, {}, commands), *handles.fence);
     const auto result = handles.device.waitForFences(*handles.fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
     ENSURE(static_cast<int>(result), ==, static_cast<int>(vk::Result::eSuccess));
-    handles.device.resetFences(*handles.fence);
   } catch (const vk::SystemError& error) {
     throw_call_failed(context, fmt::format("Vulkan device {}", context.description().name), error);
   }
