@@ -42,7 +42,7 @@ set(below_programs programs/cli programs/tradeoff programs/validate programs/vie
 set(rooms "base|physics|devices|files|pictures|simulate|programs|shared")
 
 # Libraries that only certain folders may use, by the beginning of their headers' names.
-set(libraries "vulkan|GLFW|toml|CLI|nlohmann|tiny_gltf|tiny_obj_loader|pugixml|zlib|erfa|stb|tinyexr|netcdf|meshopt|imgui|backends|mpi|pybind11|Python")
+set(libraries "vulkan|GLFW|toml|CLI|nlohmann|tiny_gltf|tiny_obj_loader|pugixml|zlib|libdeflate|erfa|stb|tinyexr|netcdf|meshopt|imgui|backends|mpi|pybind11|Python")
 set(users_of_vulkan devices/gpu programs/viewer)
 set(users_of_GLFW programs/viewer)
 set(users_of_imgui programs/viewer)
@@ -54,6 +54,7 @@ set(users_of_tiny_gltf files/formats/mesh)
 set(users_of_tiny_obj_loader files/formats/mesh)
 set(users_of_pugixml files/formats/mesh)
 set(users_of_zlib base files/formats)
+set(users_of_libdeflate base)
 set(users_of_erfa physics/light)
 set(users_of_stb pictures/drawing)
 set(users_of_tinyexr pictures/drawing)

@@ -1,7 +1,10 @@
 #include "base/packed_array.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
+#include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
+#include <memory>
 #include <new>
 
 namespace sunfleck {
@@ -32,11 +35,9 @@ class DepthCheck : public nlohmann::json_sax<json> {
   std::size_t deepest_, depth_ = 0;
 };
 
-constexpr std::size_t most_at_once = std::size_t{1} << 30U;  // zlib counts in 32 bits
-
-Bytef* bytes_of(const void* data) {
-  return static_cast<Bytef*>(const_cast<void*>(data));
-}
+// Number of bytes in a stream. Streams are deflated side by side; longer ones would hardly be smaller.
+constexpr std::size_t stream_bytes = std::size_t{1} << 20U;
+constexpr std::size_t streams_at_once = 32;
 
 // Returns the bytes of all packed arrays in the value, which is nested no deeper than a file.
 std::size_t packed_bytes(const json& value) {
@@ -48,44 +49,46 @@ std::size_t packed_bytes(const json& value) {
   return bytes;
 }
 
+std::vector<std::uint8_t> deflated_stream(std::span<const std::byte> bytes) {
+  constexpr int fastest = 1;
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::vector<std::uint8_t> packed(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  packed.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
+  return packed;
+}
+
 class Deflater {
  public:
-  Deflater() {
-    if (deflateInit(&stream_, Z_BEST_SPEED) != Z_OK) throw std::bad_alloc();
-  }
-  ~Deflater() { deflateEnd(&stream_); }
-  Deflater(const Deflater&) = delete;
-  Deflater& operator=(const Deflater&) = delete;
-
   void add(std::span<const std::byte> bytes) {
-    for (std::size_t given = 0; given < bytes.size();) {
-      const std::size_t next = std::min(most_at_once, bytes.size() - given);
-      stream_.next_in = bytes_of(bytes.data() + given);
-      stream_.avail_in = static_cast<uInt>(next);
-      given += next;
-      deflate_into_packed(Z_NO_FLUSH);
+    while (!bytes.empty()) {
+      const auto taken = bytes.first(std::min(bytes.size(), streams_at_once * stream_bytes - waiting_.size()));
+      waiting_.insert(waiting_.end(), taken.begin(), taken.end());
+      bytes = bytes.subspan(taken.size());
+      if (waiting_.size() == streams_at_once * stream_bytes) deflate_waiting();
     }
   }
 
   json::binary_t finish() {
-    deflate_into_packed(Z_FINISH);
+    deflate_waiting();
     packed_.shrink_to_fit();
     return std::move(packed_);
   }
 
  private:
-  void deflate_into_packed(int flush) {
-    do {
-      stream_.next_out = chunk_.data();
-      stream_.avail_out = static_cast<uInt>(chunk_.size());
-      deflate(&stream_, flush);
-      packed_.insert(packed_.end(), chunk_.data(), stream_.next_out);
-    } while (stream_.avail_out == 0);
+  void deflate_waiting() {
+    std::vector<std::vector<std::uint8_t>> streams((waiting_.size() + stream_bytes - 1) / stream_bytes);
+    tbb::parallel_for(std::size_t{0}, streams.size(), [&](std::size_t k) {
+      const auto rest = std::span<const std::byte>(waiting_).subspan(k * stream_bytes);
+      streams[k] = deflated_stream(rest.first(std::min(rest.size(), stream_bytes)));
+    });
+    for (const auto& stream : streams) packed_.insert(packed_.end(), stream.begin(), stream.end());
+    waiting_.clear();
   }
 
-  z_stream stream_{};
+  std::vector<std::byte> waiting_;
   json::binary_t packed_{std::vector<std::uint8_t>{}};
-  std::vector<std::uint8_t> chunk_ = std::vector<std::uint8_t>(std::size_t{1} << 18U);
 };
 
 }  // namespace
@@ -109,29 +112,20 @@ json::binary_t deflated(const NumberPieces<std::byte>& pieces) {
 }
 
 bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes) {
-  z_stream stream{};
-  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
-  std::size_t given = 0;
-  std::size_t got = 0;
-  std::byte beyond{};  // one extra byte reveals a longer array
-  int status = Z_OK;
-  while (status == Z_OK) {
-    if (stream.avail_in == 0) {
-      const std::size_t next = std::min(most_at_once, packed.size() - given);
-      stream.next_in = bytes_of(packed.data() + given);
-      stream.avail_in = static_cast<uInt>(next);
-      given += next;
-    }
-    const bool full = got == bytes.size();
-    const std::size_t room = full ? 1 : std::min(most_at_once, bytes.size() - got);
-    stream.next_out = bytes_of(full ? &beyond : bytes.data() + got);
-    stream.avail_out = static_cast<uInt>(room);
-    status = inflate(&stream, Z_NO_FLUSH);
-    got += room - stream.avail_out;
-    if (got > bytes.size()) break;
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
+      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (!decompressor) throw std::bad_alloc();
+  std::span<const std::uint8_t> rest = packed;
+  while (!rest.empty()) {
+    std::size_t taken = 0;
+    std::size_t got = 0;
+    const libdeflate_result result =
+        libdeflate_zlib_decompress_ex(decompressor.get(), rest.data(), rest.size(), bytes.data(), bytes.size(), &taken, &got);
+    if (result != LIBDEFLATE_SUCCESS) return false;
+    rest = rest.subspan(taken);
+    bytes = bytes.subspan(got);
   }
-  inflateEnd(&stream);
-  return status == Z_STREAM_END && got == bytes.size();
+  return bytes.empty();
 }
 
 bool may_hold(const nlohmann::json::binary_t& packed, std::size_t count, std::size_t size) {

@@ -1,5 +1,6 @@
 #pragma once
-// Stores long arrays of numbers as CBOR byte strings, little-endian and deflated (zlib), and reads CBOR from untrusted files.
+// Stores long arrays of numbers as CBOR byte strings, little-endian and deflated (zlib streams of a mebibyte, one after the other),
+// and reads CBOR from untrusted files.
 
 #include "base/error.h"
 #include "base/number_pieces.h"

@@ -207,7 +207,7 @@ TEST(ExtremeQuanta, SplitToTheLastOneUpToTheEndOf63Bits) {
           std::pair{1e-300, 0.0}, std::pair{1.0 - 1e-9, 1e-9}}) {
       for (int k = 0; k < 50; ++k) {
         const double u = k == 0 ? 0.0 : (k == 1 ? 1.0 - 0x1p-53 : random.uniform());
-        const QuantaSplit split = split_quanta(quanta, reflectance, transmittance, u);
+        const QuantaSplit split = split_quanta(quanta, split_coefficients(reflectance, transmittance), u);
         EXPECT_EQ(split.absorbed + split.reflected + split.transmitted, quanta);
         EXPECT_GE(std::min({split.absorbed, split.reflected, split.transmitted}), 0);
         if (reflectance + transmittance == 1.0) {

@@ -21,9 +21,18 @@ Candidates sorted(const Candidates& candidates) {
   return result;
 }
 
-Draw drawn(const Candidates& candidates, std::span<const double> expected, RandomStream& random) {
-  Draw draw;
+struct SharedDraw : Draw {
+  std::vector<std::int64_t> quanta;  // [packet * columns + column]
+};
+
+SharedDraw drawn(const Candidates& candidates, std::span<const double> expected, RandomStream& random) {
+  SharedDraw draw;
   draw_packets(candidates, expected, random, draw);
+  const std::size_t columns = candidates.totals().size();
+  draw.quanta.resize(draw.candidate.size() * columns);
+  for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
+    share_out(candidates, expected, p, draw, std::span(draw.quanta).subspan(p * columns, columns));
+  }
   return draw;
 }
 
@@ -65,10 +74,12 @@ TEST(Packets, APlaceWithoutFluxIsNoCandidate) {
   Candidates candidates(2);
   candidates.add({}, std::array<std::int64_t, 2>{0, 0});
   EXPECT_EQ(candidates.size(), 0U);
-  candidates.add({}, std::array<std::int64_t, 2>{0, 1});
+  candidates.add({}, std::array<std::int64_t, 2>{2, 1});
   EXPECT_EQ(candidates.size(), 1U);
-  candidates.retire(1);
-  EXPECT_EQ(candidates.totals()[1], 0);
+  candidates.retire({false, true});
+  EXPECT_EQ(candidates.totals(), (std::vector<std::int64_t>{2, 0}));
+  EXPECT_EQ(candidates.quanta(0)[0], 2);
+  EXPECT_EQ(candidates.quanta(0)[1], 0);
 }
 
 // Places are sorted by side first: if both sides of one landing were neighbours, every draw would take the same side wherever a
@@ -94,7 +105,7 @@ TEST(Packets, PlacesAreDrawnBySideAndOrder) {
 }
 
 // Packets carry all of a band's waiting flux, or none of it.
-void expect_books_closed(const Candidates& candidates, const Draw& draw) {
+void expect_books_closed(const Candidates& candidates, const SharedDraw& draw) {
   ASSERT_EQ(draw.kept.size(), 3U);
   std::array<std::int64_t, 3> carried{};
   for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
@@ -116,7 +127,7 @@ TEST(Packets, DrawingKeepsTotalsAndExpectations) {
       const std::vector<double> expected = expectation(candidates, packets);
       for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         RandomStream random(seed, 0);
-        const Draw draw = drawn(candidates, expected, random);
+        const SharedDraw draw = drawn(candidates, expected, random);
         EXPECT_TRUE(std::is_sorted(draw.candidate.begin(), draw.candidate.end()));
         ASSERT_EQ(draw.quanta.size(), 3 * draw.candidate.size());
         EXPECT_LE(std::abs(static_cast<double>(draw.candidate.size()) - packets), 1.0);
@@ -141,7 +152,7 @@ TEST(Packets, BandThatIsNotDrawnIsKept) {
   constexpr int draws = 20000;
   for (int k = 0; k < draws; ++k) {
     RandomStream random(9, static_cast<std::uint64_t>(k));
-    const Draw draw = drawn(candidates, std::array{3.0, 0.25}, random);
+    const SharedDraw draw = drawn(candidates, std::array{3.0, 0.25}, random);
     ASSERT_FALSE(draw.kept[0]);
     kept += draw.kept[1] ? 1 : 0;
     ASSERT_EQ(draw.candidate.size(), draw.kept[1] ? 3U : 4U);
@@ -175,7 +186,7 @@ Scattered clustered_places(std::uint32_t levels) {
 
 // Returns the share of a band's flux that lands on the spot with one draw; flux that no packet carries counts with its exact
 // share, since it lands in later rounds.
-double landed_share(const Scattered& places, const Draw& draw, std::size_t band) {
+double landed_share(const Scattered& places, const SharedDraw& draw, std::size_t band) {
   double landed = 0.0;
   for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
     landed += static_cast<double>(draw.quanta[3 * p + band]) * places.landing[draw.candidate[p]];
@@ -197,7 +208,7 @@ TEST(Packets, DrawingIsUnbiased) {
       std::array<ReplicateMean, 3> means;
       for (int k = 0; k < draws; ++k) {
         RandomStream random(11, static_cast<std::uint64_t>(k));
-        const Draw draw = drawn(places.candidates, expected, random);
+        const SharedDraw draw = drawn(places.candidates, expected, random);
         for (std::size_t b = 0; b < 3; ++b) means[b].add(landed_share(places, draw, b));
       }
       for (std::size_t b = 0; b < 3; ++b) {
@@ -223,7 +234,7 @@ TEST(Packets, QuantaSplitIntoPartsThatAddUp) {
     for (const std::int64_t quanta : {std::int64_t{1}, std::int64_t{7}, std::int64_t{1000003}, (std::int64_t{1} << 46) + 1}) {
       ReplicateMean reflected, transmitted, absorbed;
       for (int k = 0; k < 4000; ++k) {
-        const QuantaSplit split = split_quanta(quanta, row.reflectance, row.transmittance, random.unit());
+        const QuantaSplit split = split_quanta(quanta, split_coefficients(row.reflectance, row.transmittance), random.unit());
         EXPECT_EQ(split.absorbed + split.reflected + split.transmitted, quanta);
         const auto share = static_cast<double>(quanta);
         const double absorptance = 1.0 - row.reflectance - row.transmittance;

@@ -80,7 +80,7 @@ std::uint64_t rank_of(const EmissionPoint& place) {
 // Leaves keys in ascending order of rank in space.from: a rank of 33 bits above the number of the candidate. The sort is stable: a
 // radix sort in three passes of eleven bits, several times faster here than std::stable_sort. Keys hold their ranks, so that no pass
 // looks up a place.
-void sort_by_rank(const std::vector<EmissionPoint>& places, SortSpace& space) {
+void sort_by_rank(const LargeVector<EmissionPoint>& places, SortSpace& space) {
   constexpr unsigned bits = 11;
   constexpr unsigned passes = 3;
   constexpr std::uint64_t mask = (1U << bits) - 1U;
@@ -106,11 +106,13 @@ void Candidates::add(const EmissionPoint& place, std::span<const std::int64_t> q
   if (std::all_of(quanta.begin(), quanta.end(), [](std::int64_t q) { return q == 0; })) return;
   places_.push_back(place);
   quanta_.insert(quanta_.end(), quanta.begin(), quanta.end());
+  sunfleck::add(quanta, totals_.data());
 }
 
 void Candidates::clear() {
   places_.clear();
   quanta_.clear();
+  totals_.assign(columns_, 0);
 }
 
 void Candidates::reserve(std::size_t candidates) {
@@ -122,6 +124,7 @@ void Candidates::take_sorted(const Candidates& other, SortSpace& space) {
   sort_by_rank(other.places_, space);
   places_.resize(other.places_.size());
   quanta_.resize(other.quanta_.size());
+  totals_ = other.totals_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const std::size_t candidate = space.from[k] & number_mask;
     places_[k] = other.places_[candidate];
@@ -129,53 +132,17 @@ void Candidates::take_sorted(const Candidates& other, SortSpace& space) {
   }
 }
 
-std::vector<std::int64_t> Candidates::totals() const {
-  std::vector<std::int64_t> sums(columns_);
-  for (auto row = quanta_.begin(); row != quanta_.end(); row += static_cast<std::ptrdiff_t>(columns_)) {
-    for (std::size_t c = 0; c < columns_; ++c) sums[c] += row[static_cast<std::ptrdiff_t>(c)];
+void Candidates::retire(const std::vector<bool>& columns) {
+  std::vector<std::size_t> retired;
+  for (std::size_t c = 0; c < columns_; ++c) {
+    if (!columns[c]) continue;
+    retired.push_back(c);
+    totals_[c] = 0;
   }
-  return sums;
-}
-
-void Candidates::retire(std::size_t column) {
-  for (std::size_t k = column; k < quanta_.size(); k += columns_) quanta_[k] = 0;
-}
-
-namespace {
-
-// Gives each column's quanta to the drawn packets: cumulative shares of the total are rounded down, so their differences add up
-// to it.
-void share_out(const Candidates& candidates, std::span<const double> expected, Draw& draw) {
-  const std::size_t columns = draw.kept.size();
-  const std::vector<std::int64_t> totals = candidates.totals();
-  std::vector<double> total_weights(columns), sums(columns);
-  std::vector<std::size_t> last(columns);
-  const auto weight = [&](std::uint32_t k, std::int64_t quanta) { return static_cast<double>(quanta) / expected[k]; };
-  for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
-    const std::uint32_t k = draw.candidate[p];
-    const auto quanta = candidates.quanta(k);
-    for (std::size_t c = 0; c < columns; ++c) {
-      total_weights[c] += weight(k, quanta[c]);
-      last[c] = quanta[c] > 0 ? p : last[c];
-    }
-  }
-  for (std::size_t c = 0; c < columns; ++c) draw.kept[c] = totals[c] > 0 && total_weights[c] == 0.0;
-  std::vector<std::int64_t> given(columns);
-  for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
-    const std::uint32_t k = draw.candidate[p];
-    const auto quanta = candidates.quanta(k);
-    for (std::size_t c = 0; c < columns; ++c) {
-      if (quanta[c] == 0) continue;
-      sums[c] += weight(k, quanta[c]);
-      const auto share = static_cast<std::int64_t>(sums[c] / total_weights[c] * static_cast<double>(totals[c]));
-      const std::int64_t up_to = p == last[c] ? totals[c] : std::clamp(share, given[c], totals[c]);
-      draw.quanta[p * columns + c] = up_to - given[c];
-      given[c] = up_to;
-    }
+  for (std::size_t row = 0; !retired.empty() && row < quanta_.size(); row += columns_) {
+    for (const std::size_t c : retired) quanta_[row + c] = 0;
   }
 }
-
-}  // namespace
 
 void draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random, Draw& draw) {
   EXPECT(expected.size(), ==, candidates.size());
@@ -186,10 +153,19 @@ void draw_packets(const Candidates& candidates, std::span<const double> expected
     reached += expected[k];
     for (; taken <= reached; taken += 1.0) draw.candidate.push_back(static_cast<std::uint32_t>(k));
   }
-  const std::size_t columns = candidates.size() > 0 ? candidates.quanta(0).size() : 0;
-  draw.quanta.assign(draw.candidate.size() * columns, 0);
-  draw.kept.assign(columns, false);
-  share_out(candidates, expected, draw);
+  draw.shared = SharedOut(candidates.totals());
+  for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
+    const std::uint32_t k = draw.candidate[p];
+    weigh(candidates.quanta(k), expected[k], static_cast<std::int64_t>(p), draw.shared);
+  }
+  draw.kept.resize(draw.shared.totals.size());
+  for (std::size_t c = 0; c < draw.kept.size(); ++c) draw.kept[c] = draw.shared.totals[c] > 0 && draw.shared.weights[c] == 0.0;
+}
+
+void share_out(const Candidates& candidates, std::span<const double> expected, std::size_t packet, Draw& draw,
+               std::span<std::int64_t> own) {
+  const std::uint32_t k = draw.candidate[packet];
+  share(candidates.quanta(k), expected[k], static_cast<std::int64_t>(packet), draw.shared, own);
 }
 
 PacketStart start_at(const Canopy& canopy, const EmissionPoint& place, double b, double c, const EmissionFrame& frame) {

@@ -1,8 +1,10 @@
 #pragma once
 // Flux waiting to be shot: where it waits, how packets are drawn from it, and how the packets start.
 
+#include "base/large_pages.h"
 #include "base/random.h"
 #include "physics/canopy/canopy.h"
+#include "physics/transport/model/columns.h"
 #include "shared/layout.h"
 
 #include <algorithm>
@@ -32,13 +34,13 @@ inline constexpr float anywhere = -1.0F;
 
 // Arrays that sorting needs, kept from one sort to the next.
 struct SortSpace {
-  std::vector<std::uint64_t> from, to;
+  LargeVector<std::uint64_t> from, to;
 };
 
 // Places with quanta in several columns: the bands of one light or of several (physics/transport/model/lights.h).
 class Candidates {
  public:
-  explicit Candidates(std::size_t columns) : columns_(columns) {}
+  explicit Candidates(std::size_t columns) : columns_(columns), totals_(columns) {}
 
   // Adds a place with its quanta, [column]. A place without quanta is dropped.
   void add(const EmissionPoint& place, std::span<const std::int64_t> quanta);
@@ -53,22 +55,27 @@ class Candidates {
   [[nodiscard]] std::span<const std::int64_t> quanta(std::size_t candidate) const {
     return std::span(quanta_).subspan(candidate * columns_, columns_);
   }
+  // Returns the quanta of some places, [candidate * columns + column].
+  [[nodiscard]] std::span<const std::int64_t> quanta(std::size_t first, std::size_t count) const {
+    return std::span(quanta_).subspan(first * columns_, count * columns_);
+  }
   // Returns the quanta of all places together, [column].
-  [[nodiscard]] std::vector<std::int64_t> totals() const;
-  // Removes all quanta of a column.
-  void retire(std::size_t column);
+  [[nodiscard]] const std::vector<std::int64_t>& totals() const { return totals_; }
+  // Removes all quanta of some columns. [column]
+  void retire(const std::vector<bool>& columns);
 
  private:
   std::size_t columns_;
-  std::vector<EmissionPoint> places_;  // [candidate]
-  std::vector<std::int64_t> quanta_;   // [candidate * columns + column]
+  LargeVector<EmissionPoint> places_;  // [candidate]
+  LargeVector<std::int64_t> quanta_;   // [candidate * columns + column]
+  std::vector<std::int64_t> totals_;   // [column]
 };
 
 // Packets drawn from candidates.
 struct Draw {
   std::vector<std::uint32_t> candidate;  // [packet], ascending
-  std::vector<std::int64_t> quanta;      // [packet * columns + column]
   std::vector<bool> kept;                // [column]; true if no packet carries it: its flux then stays with the candidates
+  SharedOut shared;                      // the flux that they share out
 };
 
 // Draws packets by systematic sampling with one random offset: a candidate is drawn expected[candidate] times on average,
@@ -78,27 +85,9 @@ struct Draw {
 // The arrays of `draw` are filled anew.
 void draw_packets(const Candidates& candidates, std::span<const double> expected, RandomStream& random, Draw& draw);
 
-// Splits landed quanta into parts that add up to them exactly. Each part is its exact share rounded down or up at random, so
-// that its expectation is right; a part whose coefficient is 0 gets exactly 0. `u` is uniform over [0, 1).
-struct QuantaSplit {
-  std::int64_t absorbed = 0, reflected = 0, transmitted = 0;
-  [[nodiscard]] std::int64_t scattered() const { return reflected + transmitted; }
-};
-[[nodiscard]] inline QuantaSplit split_quanta(std::int64_t quanta, double reflectance, double transmittance, double u) {
-  const auto whole = static_cast<double>(quanta);
-  const bool absorbs = 1.0 - reflectance - transmittance > 1e-12;
-  QuantaSplit split;
-  if (transmittance == 0.0 && !absorbs) {
-    split.reflected = quanta;
-    return split;
-  }
-  if (reflectance > 0.0) split.reflected = std::min(quanta, static_cast<std::int64_t>(whole * reflectance + u));
-  const std::int64_t both =
-      absorbs ? std::min(quanta, static_cast<std::int64_t>(whole * (reflectance + transmittance) + u)) : quanta;
-  if (transmittance > 0.0) split.transmitted = std::max<std::int64_t>(0, both - split.reflected);
-  split.absorbed = quanta - split.reflected - split.transmitted;
-  return split;
-}
+// Sets `own` to the quanta that a packet carries, [column]. To be called once for each packet in turn.
+void share_out(const Candidates& candidates, std::span<const double> expected, std::size_t packet, Draw& draw,
+               std::span<std::int64_t> own);
 
 // How far the origin of a packet lies from its surface, and the height of the ground.
 struct EmissionFrame {

@@ -18,12 +18,13 @@ std::vector<QuantaSplit> split_rays(const RadiationModel& model, const std::vect
   for (const SurfaceOptics& optics : model.optics) {
     for (const auto* face : {&optics.upper, &optics.lower}) {
       for (std::size_t b = 0; b < quanta.size(); ++b) {
-        splits.push_back(split_quanta(quanta[b].per_ray, (*face)[b].reflectance, (*face)[b].transmittance, middle));
+        splits.push_back(
+            split_quanta(quanta[b].per_ray, split_coefficients((*face)[b].reflectance, (*face)[b].transmittance), middle));
       }
     }
   }
   for (std::size_t b = 0; model.soil && b < quanta.size(); ++b) {
-    splits.push_back(split_quanta(quanta[b].per_ray, model.soil->reflectance[b], 0.0, middle));
+    splits.push_back(split_quanta(quanta[b].per_ray, split_coefficients(model.soil->reflectance[b], 0.0), middle));
   }
   return splits;
 }

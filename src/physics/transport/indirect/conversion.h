@@ -1,10 +1,10 @@
 #pragma once
 // Conversion of landings and quanta into flux. It is the same for all replicates of one incidence, and never changes.
 
-#include "physics/transport/indirect/candidates.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/canopy_areas.h"
+#include "physics/transport/model/columns.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/events.h"
 #include "physics/transport/model/exposure.h"
@@ -54,6 +54,11 @@ struct Conversion {
 
   [[nodiscard]] double absorptance(std::size_t optics, std::size_t side, std::size_t band) const {
     return absorptances_[(optics * 2 + side) * quanta.size() + band];
+  }
+
+  // Returns the absorptances of a face in all bands.
+  [[nodiscard]] std::span<const double> absorptances(std::size_t optics, std::size_t side) const {
+    return std::span(absorptances_).subspan((optics * 2 + side) * quanta.size(), quanta.size());
   }
 
   // Returns the horizontal irradiance of the beam.

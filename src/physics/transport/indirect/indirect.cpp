@@ -2,11 +2,13 @@
 
 #include "base/random.h"
 #include "physics/transport/indirect/landing_points.h"
+#include "physics/transport/model/columns.h"
 #include "physics/transport/receivers/plane_flux.h"
 #include "shared/beam.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace sunfleck {
@@ -48,10 +50,20 @@ class IndirectPass {
         sky_(columns_),
         layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, columns_),
         receivers_(scene.receivers != nullptr ? scene.receivers->size() : 0, columns_),
+        shot_(columns_),
         reflected_(columns_),
         transmitted_(columns_),
-        soil_face_(bands_) {
+        uniform_(columns_),
+        absorbed_{std::vector<std::int64_t>(columns_), std::vector<std::int64_t>(columns_),
+                  std::vector<std::int64_t>(columns_)},
+        soil_face_(bands_),
+        soil_columns_({}, 0) {
     for (std::size_t b = 0; scene.model.soil && b < bands_; ++b) soil_face_[b].reflectance = scene.model.soil->reflectance[b];
+    soil_columns_ = FaceColumns(soil_face_, lights_);
+    for (const SurfaceOptics& optics : scene.model.optics) {
+      face_columns_.emplace_back(optics.upper, lights_);
+      face_columns_.emplace_back(optics.lower, lights_);
+    }
     if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
     waiting_.clear();
     next_.clear();
@@ -62,12 +74,13 @@ class IndirectPass {
 
   std::optional<IndirectSums> run() {
     if (!let_sky_in()) return std::nullopt;
-    const std::vector<std::int64_t> from_sky = waiting_.totals();
+    const std::vector<std::int64_t>& from_sky = waiting_.totals();
     for (std::size_t c = 0; c < columns_; ++c) {
       start_[c] = static_cast<double>(quanta_[c]->lamps + from_sky[c]);
       const std::vector<std::int64_t>& scattered = first(c).scattered;
       for (std::size_t k = band(c); k < scattered.size(); k += bands_) start_[c] += static_cast<double>(scattered[k]);
       sums_.ledger[c].incident += quanta_[c]->lamps;
+      start_or_infinity_.push_back(start_[c] > 0.0 ? start_[c] : std::numeric_limits<double>::infinity());
     }
     if (!sample_landings(scene_, light_, wanted_landings(), random_, stop_, arrays_)) return std::nullopt;
     add_first_candidates(arrays_.points);
@@ -78,8 +91,13 @@ class IndirectPass {
       if (!shoot()) return std::nullopt;
       retire_faint_columns();
     }
-    const std::vector<std::int64_t> unshot = waiting_.totals();
-    for (std::size_t c = 0; c < columns_; ++c) sums_.ledger[c].unshot += unshot[c];
+    for (std::size_t c = 0; c < columns_; ++c) {
+      FluxLedger& ledger = sums_.ledger[c];
+      ledger.unshot += waiting_.totals()[c];
+      ledger.absorbed_vegetation += absorbed_.vegetation[c];
+      ledger.absorbed_structure += absorbed_.structure[c];
+      ledger.absorbed_soil += absorbed_.soil[c];
+    }
     close_planes();
     return std::move(sums_);
   }
@@ -90,6 +108,17 @@ class IndirectPass {
     EmissionPoint from;
     std::size_t from_zone = 0;
     const shared::Packet& packet;
+  };
+
+  // What surfaces absorb of packets, [column].
+  struct Absorbed {
+    // Returns the term of surfaces of that role, as FluxLedger::absorbed_by does.
+    [[nodiscard]] std::vector<std::int64_t>& by(Role role) {
+      if (role == Role::soil) return soil;
+      return is_vegetation(role) ? vegetation : structure;
+    }
+
+    std::vector<std::int64_t> vegetation, structure, soil;
   };
 
   [[nodiscard]] std::size_t band(std::size_t column) const { return column / lights_; }
@@ -239,10 +268,10 @@ class IndirectPass {
   [[nodiscard]] bool shoot() {
     next_.take_sorted(waiting_, arrays_.sorting);
     std::swap(waiting_, next_);
+    leave_places();
     find_expected_draws();
     Draw& draw = arrays_.draw;
     draw_packets(waiting_, arrays_.expected, random_, draw);
-    move_drawn(draw);
     const PacketStarts starts(scene_.model.canopy, waiting_, draw, scene_.frame, random_);
     const std::size_t count = draw.candidate.size();
     next_.clear();
@@ -252,8 +281,10 @@ class IndirectPass {
       starts.write(first, arrays_.packets);
       if (!trace_packets()) return false;
       for (std::size_t p = 0; p < arrays_.packets.size(); ++p) {
-        const Way way = way_from(waiting_.place(draw.candidate[first + p]), arrays_.packets[p]);
-        land(arrays_.landings[p], way, std::span(draw.quanta).subspan((first + p) * columns_, columns_));
+        const EmissionPoint& place = waiting_.place(draw.candidate[first + p]);
+        share_out(waiting_, arrays_.expected, first + p, draw, shot_);
+        move(place, shot_);
+        land(arrays_.landings[p], way_from(place, arrays_.packets[p]), shot_);
       }
     }
     if (std::find(draw.kept.begin(), draw.kept.end(), true) != draw.kept.end()) keep_undrawn(draw);
@@ -270,20 +301,30 @@ class IndirectPass {
     return scene_.tracer.trace(scene_.block, arrays_.packets, arrays_.landings, stop_) != TraceOutcome::stopped;
   }
 
-  // Finds how many packets are drawn from each candidate on average.
+  // Takes the waiting flux off its places, and sums up each candidate's quanta, relative to the flux of their columns.
+  void leave_places() {
+    constexpr std::size_t at_once = 64;  // few enough to be found in a cache the second time
+    std::vector<double>& expected = arrays_.expected;
+    expected.resize(waiting_.size());
+    for (std::size_t first = 0; first < expected.size(); first += at_once) {
+      const std::size_t count = std::min(at_once, expected.size() - first);
+      sum_ratios(waiting_.quanta(first, count), start_or_infinity_, std::span(expected).subspan(first, count));
+      for (std::size_t k = first; k < first + count; ++k) {
+        layers_.leave(level_index(waiting_.place(k).level), waiting_.quanta(k));
+        if (scene_.receivers != nullptr) receivers_.leave(zone_of(waiting_.place(k)), waiting_.quanta(k));
+      }
+    }
+  }
+
+  // Finds how many packets are drawn from each candidate on average, from its sum.
   void find_expected_draws() {
     double lit = 0.0;
     for (const double start : start_) lit += start > 0.0 ? 1.0 : 0.0;
     std::vector<double>& expected = arrays_.expected;
-    expected.assign(waiting_.size(), 0.0);
     double total = 0.0;
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-      const auto quanta = waiting_.quanta(k);
-      for (std::size_t c = 0; c < columns_; ++c) {
-        if (start_[c] > 0.0) expected[k] += static_cast<double>(quanta[c]) / start_[c];
-      }
-      expected[k] *= order_.packets / lit;
-      total += expected[k];
+    for (double& draws : expected) {
+      draws *= order_.packets / lit;
+      total += draws;
     }
     if (light_.aim != nullptr) total = aim_draws(expected, total);
     if (total < least_packets && total > 0.0) {
@@ -316,55 +357,47 @@ class IndirectPass {
     return light_.aim->packets_per_flux(corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c);
   }
 
-  // Books the flux that packets carry away and takes off the flux that waited, for the columns that are drawn.
-  void move_drawn(const Draw& draw) {
-    std::vector<std::int64_t> own(columns_);
-    const auto move_own = [&](const EmissionPoint& place, std::span<const std::int64_t> quanta, std::int64_t sign) {
-      for (std::size_t c = 0; c < columns_; ++c) own[c] = draw.kept[c] ? 0 : sign * quanta[c];
-      move(place, own);
-    };
-    for (std::size_t k = 0; k < waiting_.size(); ++k) move_own(waiting_.place(k), waiting_.quanta(k), -1);
-    for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
-      move_own(waiting_.place(draw.candidate[p]), std::span(draw.quanta).subspan(p * columns_, columns_), 1);
-    }
-  }
-
   // Books quanta that are shot from a place although they waited elsewhere.
   void move(const EmissionPoint& place, std::span<const std::int64_t> quanta) {
     layers_.move(level_index(place.level), quanta);
     if (scene_.receivers != nullptr) receivers_.move(zone_of(place), quanta);
   }
 
-  // Leaves the flux that no packet carried in place for the next round.
+  // Leaves the flux that no packet carried where it waited, for the next round.
   void keep_undrawn(const Draw& draw) {
-    for (std::size_t c = 0; c < columns_; ++c) {
-      if (!draw.kept[c]) waiting_.retire(c);
+    std::vector<bool> drawn = draw.kept;
+    drawn.flip();
+    waiting_.retire(drawn);
+    for (std::size_t k = 0; k < waiting_.size(); ++k) {
+      move(waiting_.place(k), waiting_.quanta(k));
+      next_.add(waiting_.place(k), waiting_.quanta(k));
     }
-    for (std::size_t k = 0; k < waiting_.size(); ++k) next_.add(waiting_.place(k), waiting_.quanta(k));
   }
 
   // Ends the columns with too little flux left to matter.
   void retire_faint_columns() {
     bool any = false;
-    const std::vector<std::int64_t> waiting = waiting_.totals();
+    std::vector<bool> faint(columns_);
     for (std::size_t c = 0; c < columns_; ++c) {
-      const std::int64_t unshot = waiting[c];
+      const std::int64_t unshot = waiting_.totals()[c];
       if (unshot == 0) continue;
       const double incident = static_cast<double>(quanta_[c]->per_ray) * static_cast<double>(first(c).met) +
                               static_cast<double>(quanta_[c]->lamps + sky_[c]);
-      const FluxLedger& ledger = sums_.ledger[c];
-      const double vegetation =
-          std::max(first(c).least_of_vegetation[band(c)], static_cast<double>(ledger.absorbed_vegetation));
+      const double vegetation = std::max(first(c).least_of_vegetation[band(c)], static_cast<double>(absorbed_.vegetation[c]));
       const double judged =
-          std::min(vegetation, std::max(least_judged_share * incident, static_cast<double>(ledger.absorbed_soil)));
+          std::min(vegetation, std::max(least_judged_share * incident, static_cast<double>(absorbed_.soil[c])));
       if (static_cast<double>(unshot) < unshot_part_of_bound * order_.bound * judged) {
         sums_.ledger[c].unshot += unshot;
-        waiting_.retire(c);
+        faint[c] = true;
       } else {
         any = true;
       }
     }
-    if (!any) waiting_.clear();
+    if (any) {
+      waiting_.retire(faint);
+    } else {
+      waiting_.clear();
+    }
   }
 
   // Books what a ray or packet carries to its end.
@@ -389,7 +422,6 @@ class IndirectPass {
     const std::uint32_t side = landing.surface % 2;
     const std::uint32_t surface_number = scene_.surfaces.number_of[element];
     const Surface& surface = scene_.surfaces.of[surface_number];
-    const SurfaceOptics& optics = scene_.model.optics[surface.optics];
     const EmissionPoint place = place_of(scene_, landing);
     ++sums_.element_hits[element];
     sums_.side_landed.add(landing.surface, quanta);
@@ -398,7 +430,7 @@ class IndirectPass {
       const std::size_t layer = static_cast<std::size_t>(place.level);
       add_to(sums_.layer_landed, (layer * scene_.model.optics.size() + surface.optics) * 2 + side, quanta);
     }
-    split(side == 0 ? optics.upper : optics.lower, surface.role, quanta);
+    scatter(face_columns_[surface.optics * 2 + side], surface.role, quanta);
     pass(landing, way, place.level, quanta);
     next_.add(place, reflected_);
     EmissionPoint other = place;
@@ -408,30 +440,24 @@ class IndirectPass {
 
   void land_on_soil(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta) {
     add_to(sums_.cell_landed, shared::soil_cell(scene_.block.ground, {landing.place_a, landing.place_b}), quanta);
-    split(soil_face_, Role::soil, quanta);
+    scatter(soil_columns_, Role::soil, quanta);
     pass(landing, way, -1, quanta);
     next_.add(place_of(scene_, landing), reflected_);
   }
 
   // Adds a place's quanta to its sums, [place * columns + column].
   void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const {
-    std::int64_t* const own = &sums[place * columns_];
-    for (std::size_t c = 0; c < columns_; ++c) own[c] += quanta[c];
+    add(quanta, &sums[place * columns_]);
   }
 
   // Splits quanta that landed on a face, and books what it absorbs. The lights share one random number for each band.
-  void split(const std::vector<FaceOptics>& face, Role role, std::span<const std::int64_t> quanta) {
+  void scatter(const FaceColumns& face, Role role, std::span<const std::int64_t> quanta) {
     for (std::size_t b = 0; b < bands_; ++b) {
       const auto of_band = quanta.subspan(b * lights_, lights_);
-      const bool any = std::any_of(of_band.begin(), of_band.end(), [](std::int64_t own) { return own != 0; });
-      const double u = any ? random_.unit() : 0.0;
-      for (std::size_t c = b * lights_; c < (b + 1) * lights_; ++c) {
-        const QuantaSplit parts = split_quanta(quanta[c], face[b].reflectance, face[b].transmittance, u);
-        sums_.ledger[c].absorbed_by(role) += parts.absorbed;
-        reflected_[c] = parts.reflected;
-        transmitted_[c] = parts.transmitted;
-      }
+      if (std::all_of(of_band.begin(), of_band.end(), [](std::int64_t own) { return own == 0; })) continue;
+      std::fill_n(uniform_.begin() + static_cast<std::ptrdiff_t>(b * lights_), lights_, random_.unit());
     }
+    split(face, {quanta, uniform_, absorbed_.by(role), reflected_, transmitted_});
   }
 
   // Adds the flux that passes the planes of the layers and the receivers.
@@ -489,12 +515,17 @@ class IndirectPass {
   PassArrays& arrays_;
   Candidates &waiting_, &next_;
   // Flux after the first landings, lamps included, [column]; the shares of a round are relative to it.
-  std::vector<double> start_;
+  std::vector<double> start_, start_or_infinity_;
   std::vector<std::int64_t> sky_;                      // [column], sky flux that met something
   double aimed_draws_ = 1.0;                           // factor that makes up for what aim_draws takes from the first round
   PlaneFlux layers_, receivers_;                       // through the planes of the layers, and the horizontal receivers
+  std::vector<std::int64_t> shot_;                     // [column], carried by the current packet
   std::vector<std::int64_t> reflected_, transmitted_;  // [column], of the current landing
-  std::vector<FaceOptics> soil_face_;                  // [band], black without soil
+  std::vector<double> uniform_;                        // [column], random numbers of the current landing
+  Absorbed absorbed_;
+  std::vector<FaceOptics> soil_face_;  // [band], black without soil
+  FaceColumns soil_columns_;
+  std::vector<FaceColumns> face_columns_;  // [2 * optics + side]
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ double PacketMemory::bytes(const RayCounts& counts) const {
   const double first = lamps_ + per_landing_ * first_landings(counts);
   const double most = std::max(first, per_packet_ * counts.packets);
   const double candidates = most * (2.0 * candidate_bytes + 2.0 * sizeof(std::uint64_t) + sizeof(double));
-  const double draws = counts.packets * (sizeof(std::uint32_t) + quanta_bytes);
+  const double draws = counts.packets * sizeof(std::uint32_t);
   const double point_bytes = sizeof(EmissionPoint) + static_cast<double>(lights_) * sizeof(double);
   const double points = std::min(counts.packets, counts.beam_rays) * point_bytes;
   const double rays = std::min(counts.packets, static_cast<double>(most_at_a_time)) * ray_bytes;

@@ -1,6 +1,7 @@
 #include "physics/transport/indirect/place_sums.h"
 
 #include "base/check.h"
+#include "physics/transport/model/columns.h"
 
 #include <algorithm>
 #include <numeric>
@@ -14,8 +15,16 @@ constexpr std::size_t list_part = 4;
 
 }  // namespace
 
+PlaceSums::PlaceSums(std::size_t places, std::size_t width, const PlaceSums& like) : PlaceSums(places, width) {
+  if (form_ == Form::list && (like.form_ == Form::all || like.at_.size() > most_entries_of_list())) {
+    form_ = Form::all;
+    all_.resize(size());
+  }
+}
+
 std::size_t PlaceSums::bytes() const {
-  return at_.capacity() * sizeof(std::uint32_t) + values_.capacity() * sizeof(std::int64_t);
+  return (at_.capacity() + entry_at_.capacity()) * sizeof(std::uint32_t) +
+         (rows_.capacity() + all_.capacity()) * sizeof(std::int64_t);
 }
 
 double PlaceSums::likely_bytes(double list_bytes, double all_bytes) {
@@ -25,13 +34,31 @@ double PlaceSums::likely_bytes(double list_bytes, double all_bytes) {
 void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values) {
   DCHECK(place, <, places_);
   DCHECK(values.size(), ==, width_);
-  if (all_) {
-    for (std::size_t k = 0; k < width_; ++k) values_[place * width_ + k] += values[k];
-    return;
+  switch (form_) {
+    case Form::list:
+      append(place, values);
+      return keep_list_within_limit();
+    case Form::indexed: {
+      if (entry_at_.empty()) entry_at_.resize(places_);
+      std::uint32_t& entry = entry_at_[place];
+      if (entry > 0) return sunfleck::add(values, &rows_[(entry - 1) * width_]);
+      append(place, values);
+      entry = static_cast<std::uint32_t>(at_.size());
+      return;
+    }
+    case Form::all:
+      return sunfleck::add(values, &all_[place * width_]);
+  }
+}
+
+// Grows as vectors do, but never beyond what all places need.
+void PlaceSums::append(std::size_t place, std::span<const std::int64_t> values) {
+  if (form_ == Form::indexed && rows_.size() == rows_.capacity()) {
+    constexpr std::size_t first_entries = 64;
+    rows_.reserve(std::min(size(), std::max(2 * rows_.size(), first_entries * width_)));
   }
   at_.push_back(static_cast<std::uint32_t>(place));
-  values_.insert(values_.end(), values.begin(), values.end());
-  keep_within_limit();
+  rows_.insert(rows_.end(), values.begin(), values.end());
 }
 
 void PlaceSums::add(const PlaceSums& other) {
@@ -42,30 +69,28 @@ void PlaceSums::add(const PlaceSums& other) {
   }
   EXPECT(other.places_, ==, places_);
   EXPECT(other.width_, ==, width_);
-  if (other.is_list()) {
+  if (other.form_ != Form::all) {
     other.for_each([this](std::size_t place, std::span<const std::int64_t> values) { add(place, values); },
                    [this](std::size_t place) { prefetch(place); });
-  } else if (is_list()) {
+  } else if (form_ == Form::list) {
     PlaceSums sum = other;
     sum.add(*this);
     *this = std::move(sum);
   } else {
-    for (std::size_t k = 0; k < values_.size(); ++k) values_[k] += other.values_[k];
+    sunfleck::add(other.all_, all_.data());
   }
 }
 
 std::vector<std::int64_t> PlaceSums::all() const {
-  if (all_) return values_;
+  if (form_ == Form::all) return all_;
   std::vector<std::int64_t> sums(size());
-  for (std::size_t k = 0; k < at_.size(); ++k) {
-    for (std::size_t j = 0; j < width_; ++j) sums[at_[k] * width_ + j] += values_[k * width_ + j];
-  }
+  for (std::size_t k = 0; k < at_.size(); ++k) sunfleck::add(row(rows_, k), &sums[at_[k] * width_]);
   return sums;
 }
 
 std::vector<std::int64_t> PlaceSums::take_all() {
   PlaceSums taken = std::exchange(*this, PlaceSums());
-  return taken.all_ ? std::move(taken.values_) : taken.all();
+  return taken.form_ == Form::all ? std::move(taken.all_) : taken.all();
 }
 
 PlaceSums PlaceSums::merged() const {
@@ -76,40 +101,49 @@ PlaceSums PlaceSums::merged() const {
   for (const std::uint32_t entry : order) {
     if (list.at_.empty() || list.at_.back() != at_[entry]) {
       list.at_.push_back(at_[entry]);
-      list.values_.resize(list.values_.size() + width_);
+      list.rows_.resize(list.rows_.size() + width_);
     }
-    for (std::size_t j = 0; j < width_; ++j) list.values_[list.values_.size() - width_ + j] += values_[entry * width_ + j];
+    sunfleck::add(row(rows_, entry), &list.rows_[list.rows_.size() - width_]);
   }
   return list;
 }
 
-// Several entries of one place become one before the list is given up.
-void PlaceSums::keep_within_limit() {
+std::size_t PlaceSums::most_entries_of_list() const {
   const std::size_t entry_bytes = sizeof(std::uint32_t) + width_ * sizeof(std::int64_t);
-  const std::size_t most = size() * sizeof(std::int64_t) / list_part / entry_bytes;
+  return size() * sizeof(std::int64_t) / list_part / entry_bytes;
+}
+
+// Several entries of one place become one before the list is given up.
+void PlaceSums::keep_list_within_limit() {
+  const std::size_t most = most_entries_of_list();
   if (at_.size() <= most) return;
   PlaceSums list = merged();
   if (list.at_.size() <= most / 2) {
     *this = std::move(list);
     return;
   }
-  values_ = list.all();
+  all_ = list.all();
   at_ = std::vector<std::uint32_t>();
-  all_ = true;
+  rows_ = LargeVector<std::int64_t>();
+  form_ = Form::all;
 }
 
 PlaceSums::Finder::Finder(const PlaceSums& sums) : sums_(sums) {
-  if (!sums.is_list()) return;
+  if (sums.form_ != Form::list) return;
   PlaceSums ordered = sums.merged();
   at_ = std::move(ordered.at_);
-  values_ = std::move(ordered.values_);
+  rows_ = std::move(ordered.rows_);
 }
 
 std::span<const std::int64_t> PlaceSums::Finder::at(std::size_t place) const {
-  if (!sums_.is_list()) return {&sums_.values_[place * sums_.width_], sums_.width_};
+  if (sums_.form_ == Form::all) return sums_.row(sums_.all_, place);
+  if (sums_.form_ == Form::indexed) {
+    if (sums_.entry_at_.empty() || sums_.entry_at_[place] == 0) return {};
+    return sums_.row(sums_.rows_, sums_.entry_at_[place] - 1);
+  }
   const auto found = std::lower_bound(at_.begin(), at_.end(), place);
   if (found == at_.end() || *found != place) return {};
-  return {&values_[static_cast<std::size_t>(found - at_.begin()) * sums_.width_], sums_.width_};
+  return sums_.row(rows_, static_cast<std::size_t>(found - at_.begin()));
 }
 
 }  // namespace sunfleck

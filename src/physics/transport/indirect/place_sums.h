@@ -2,6 +2,7 @@
 // Integer sums for very many places, of which only a few may be reached: in a stand of ten million triangles most sides meet none
 // of a replicate's packets.
 
+#include "base/large_pages.h"
 #include "base/prefetch.h"
 
 #include <algorithm>
@@ -13,21 +14,18 @@
 
 namespace sunfleck {
 
-// Keeps what was added as a list while that takes at most a quarter of the memory of all sums, and all sums from then on. The
-// sums are the same either way.
+// Narrow sums keep what was added as a list while that takes at most a quarter of the memory of all sums, and all sums from then on.
+// Wide ones, of many columns, keep a row for each place that was reached, with an index of them. The sums are the same in each form.
 class PlaceSums {
  public:
   PlaceSums() = default;  // no place
 
   // Holds `width` sums, all 0, for each of `places` places. There are fewer than 2^32 places.
-  PlaceSums(std::size_t places, std::size_t width) : places_(places), width_(width) {}
+  PlaceSums(std::size_t places, std::size_t width)
+      : places_(places), width_(width), form_(width < least_indexed_width ? Form::list : Form::indexed) {}
 
-  // Does the same, in the form of all sums if those of `like` have it.
-  PlaceSums(std::size_t places, std::size_t width, const PlaceSums& like) : PlaceSums(places, width) {
-    if (like.is_list()) return;
-    all_ = true;
-    values_.resize(size());
-  }
+  // Does the same, ready for as many places as `like` holds.
+  PlaceSums(std::size_t places, std::size_t width, const PlaceSums& like);
 
   // Returns the number of sums, places times width.
   [[nodiscard]] std::size_t size() const { return places_ * width_; }
@@ -48,8 +46,8 @@ class PlaceSums {
   [[nodiscard]] std::vector<std::int64_t> all() const;
   [[nodiscard]] std::vector<std::int64_t> take_all();
 
-  // Calls take(place, values), whose values add up to the sums: once or several times for a place, in any order, and perhaps not
-  // at all for one whose sums are 0.
+  // Calls take(place, values), whose values add up to the sums: of a list once or several times for a place in any order, else once in
+  // ascending order, and perhaps not at all for one whose sums are 0.
   template <class Take>
   void for_each(const Take& take) const {
     for_each(take, [](std::size_t) {});
@@ -57,12 +55,16 @@ class PlaceSums {
   // Does the same, and first calls come(place) for each place, in the same order but some steps ahead, so that memory can be asked for.
   template <class Take, class Come>
   void for_each(const Take& take, const Come& come) const {
-    const std::size_t entries = all_ ? places_ : at_.size();
-    for (std::size_t entry = 0; entry < entries; ++entry) {
-      if (!all_ && entry + prefetch_ahead < entries) come(at_[entry + prefetch_ahead]);
-      const std::span<const std::int64_t> values(&values_[entry * width_], width_);
+    const std::size_t steps = form_ == Form::list ? at_.size() : at_.empty() && form_ == Form::indexed ? 0 : places_;
+    for (std::size_t step = 0; step < steps; ++step) {
+      if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < steps && has(ahead)) {
+        come(place_of(ahead));
+        sunfleck::prefetch(rows_[entry_of(ahead) * width_]);
+      }
+      if (!has(step)) continue;
+      const std::span<const std::int64_t> values = form_ == Form::all ? row(all_, step) : row(rows_, entry_of(step));
       if (std::all_of(values.begin(), values.end(), [](std::int64_t value) { return value == 0; })) continue;
-      take(all_ ? entry : at_[entry], values);
+      take(place_of(step), values);
     }
   }
 
@@ -80,25 +82,20 @@ class PlaceSums {
    private:
     const PlaceSums& sums_;
     std::vector<std::uint32_t> at_;  // a list's places in ascending order, and their sums
-    std::vector<std::int64_t> values_;
+    LargeVector<std::int64_t> rows_;
   };
 
   // Passes all sums to `archive` in their order, one by one; those of a const object are written, others are filled.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
     if constexpr (std::is_const_v<Self>) {
-      const PlaceSums ordered = self.is_list() ? self.merged() : PlaceSums();
-      const PlaceSums& sums = self.is_list() ? ordered : self;
-      std::size_t entry = 0;
+      const Finder sums(self);
       for (std::size_t place = 0; place < self.places_; ++place) {
-        const bool listed = self.is_list() && entry < sums.at_.size() && sums.at_[entry] == place;
+        const std::span<const std::int64_t> found = sums.at(place);
         for (std::size_t k = 0; k < self.width_; ++k) {
-          std::int64_t value = 0;
-          if (!self.is_list()) value = sums.values_[place * self.width_ + k];
-          if (listed) value = sums.values_[entry * self.width_ + k];
+          std::int64_t value = found.empty() ? 0 : found[k];
           archive(value);
         }
-        entry += listed ? 1 : 0;
       }
     } else {
       std::vector<std::int64_t> values(self.width_);
@@ -115,17 +112,34 @@ class PlaceSums {
   }
 
  private:
-  [[nodiscard]] bool is_list() const { return !all_; }
-  void prefetch(std::size_t place) const {
-    if (all_) sunfleck::prefetch(values_[place * width_]);
+  enum class Form { list, indexed, all };
+
+  static constexpr std::size_t least_indexed_width = 8;
+
+  // for_each takes the entries of a list or the places of the other forms in turn. Return whether there is anything at such a step, its
+  // place, and where its values are.
+  [[nodiscard]] bool has(std::size_t step) const { return form_ != Form::indexed || entry_at_[step] != 0; }
+  [[nodiscard]] std::size_t place_of(std::size_t step) const { return form_ == Form::list ? at_[step] : step; }
+  [[nodiscard]] std::size_t entry_of(std::size_t step) const { return form_ == Form::indexed ? entry_at_[step] - 1 : step; }
+  template <class Rows>
+  [[nodiscard]] std::span<const std::int64_t> row(const Rows& rows, std::size_t number) const {
+    return std::span(rows).subspan(number * width_, width_);
   }
+
+  void prefetch(std::size_t place) const {
+    if (form_ == Form::all) sunfleck::prefetch(all_[place * width_]);
+  }
+  void append(std::size_t place, std::span<const std::int64_t> values);
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
-  void keep_within_limit();
+  void keep_list_within_limit();
+  [[nodiscard]] std::size_t most_entries_of_list() const;
 
   std::size_t places_ = 0, width_ = 0;
-  bool all_ = false;                  // the form: all sums, or a list
-  std::vector<std::uint32_t> at_;     // [entry], place; empty in the form of all sums
-  std::vector<std::int64_t> values_;  // [entry * width + k] or [place * width + k]
+  Form form_ = Form::list;
+  std::vector<std::uint32_t> at_;        // [entry], place; empty in the form of all sums
+  LargeVector<std::int64_t> rows_;       // [entry * width + k]
+  std::vector<std::uint32_t> entry_at_;  // [place], number of its entry from 1, or 0; of the indexed form once it has an entry
+  std::vector<std::int64_t> all_;        // [place * width + k], in the form of all sums
 };
 
 }  // namespace sunfleck

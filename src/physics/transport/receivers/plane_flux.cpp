@@ -7,10 +7,8 @@ namespace sunfleck {
 void PlaneFlux::pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta) {
   std::vector<std::int64_t>& planes = from > to ? down_ : up_;
   const auto [first, end] = std::minmax(from, to);
-  for (std::size_t b = 0; b < bands_; ++b) {
-    planes[first * bands_ + b] += quanta[b];
-    planes[end * bands_ + b] -= quanta[b];
-  }
+  add(quanta, &planes[first * bands_]);
+  subtract(quanta, &planes[end * bands_]);
 }
 
 void PlaneFlux::close(const std::function<bool(std::size_t plane)>& at_ground) {

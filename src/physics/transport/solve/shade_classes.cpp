@@ -2,6 +2,7 @@
 
 #include "base/prefetch.h"
 #include "base/units.h"
+#include "physics/transport/model/columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,30 @@ class LayerShares {
  private:
   const CounterLayout& layout_;
   std::vector<double> area_m2_;  // [layer], 0 between two calls
+};
+
+// What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. [band]
+struct SideLight {
+  explicit SideLight(std::size_t bands)
+      : absorbed_w(bands), part_w(bands), earlier_w_m2(bands), lit_earlier_w_m2(bands), twice_beam_w_m2(bands), space(bands) {}
+
+  // Adds the share of it that belongs to a group.
+  void add_to(ShadeSums& sums, double share) {
+    for (std::size_t b = 0; b < part_w.size(); ++b) part_w[b] = share * absorbed_w[b];
+    add_scaled(1.0, part_w, sums.indirect_w);
+    add_products(earlier_w_m2, part_w, sums.indirect_square);
+    if (!any_lit) return;
+    add_scaled(lit, part_w, sums.lit_indirect_w);
+    add_products(twice_beam_w_m2, part_w, sums.lit_square);
+    add_products(lit_earlier_w_m2, part_w, sums.lit_indirect_square);
+  }
+
+  double lit = 0.0;  // part of the area
+  bool any_lit = false;
+  std::vector<double> absorbed_w, part_w;
+  std::vector<double> earlier_w_m2, lit_earlier_w_m2;  // of both sides in all earlier replicates together
+  std::vector<double> twice_beam_w_m2;
+  std::vector<double> space;
 };
 
 }  // namespace
@@ -102,6 +127,7 @@ ShadeClasses::ShadeClasses(const Conversion& conversion, ShadeGroups groups)
       organ_open_m2_(all_groups_ ? conversion.model.canopy.organs.size() : 0),
       layer_open_m2_(all_groups_ ? conversion.areas.layer_foliage_m2.size() : 0),
       leaf_open_m2_(1) {
+  for (const BandQuanta& quanta : conversion.quanta) w_m2_per_quantum_.push_back(quanta.w_m2_per_quantum);
   const RadiationModel& model = conversion.model;
   const std::vector<bool> hidden = hidden_elements(model, conversion.layout);
   LayerShares shares(conversion.layout);
@@ -189,7 +215,7 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
   const std::size_t bands = conversion_.quanta.size();
   const PlaceSums::Finder earlier_sides(earlier);
   LayerShares shares(conversion_.layout);
-  std::vector<double> absorbed_w(bands), earlier_w_m2(bands), beam_w_m2(bands);
+  SideLight light(bands);
   // Most elements have no landing in a replicate.
   std::vector<bool> hit(canopy.size());
   for (const std::uint32_t e : replicate.direct.hit) hit[e] = true;
@@ -204,29 +230,22 @@ void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& 
     const Triangle& corners = canopy.corners[e];
     const double element_m2 = area_m2(corners);
     const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
-    const bool any_lit = hit[e];
-    const BeamLandings landings = any_lit ? conversion_.element_landings(replicate.counters, e) : BeamLandings();
-    const double lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
-    for (std::size_t b = 0; b < bands; ++b) {
-      absorbed_w[b] = absorbed_other_w(side, quanta, b);
-      earlier_w_m2[b] = 0.0;
-      for (const std::size_t of : {2 * e, 2 * e + 1}) {
-        if (const auto landed = earlier_sides.at(of); !landed.empty())
-          earlier_w_m2[b] += absorbed_other_w(of, landed, b) * per_m2;
-      }
-      beam_w_m2[b] = any_lit ? absorbed_beam_w(e, landings, b) * per_m2 : 0.0;
+    const BeamLandings landings = hit[e] ? conversion_.element_landings(replicate.counters, e) : BeamLandings();
+    light.lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
+    set_absorbed_w(side, quanta, light.absorbed_w);
+    std::fill(light.earlier_w_m2.begin(), light.earlier_w_m2.end(), 0.0);
+    for (const std::size_t of : {2 * e, 2 * e + 1}) {
+      const auto landed = earlier_sides.at(of);
+      if (landed.empty()) continue;
+      set_absorbed_w(of, landed, light.space);
+      for (std::size_t b = 0; b < bands; ++b) light.earlier_w_m2[b] += light.space[b] * per_m2;
     }
-    const auto add_to = [&](ShadeSums& sums, double share) {
-      for (std::size_t b = 0; b < bands; ++b) {
-        const double part_w = share * absorbed_w[b];
-        sums.indirect_w[b] += part_w;
-        sums.indirect_square[b] += earlier_w_m2[b] * part_w;
-        if (!any_lit) continue;
-        sums.lit_indirect_w[b] += lit * part_w;
-        sums.lit_square[b] += 2.0 * beam_w_m2[b] * part_w;
-        sums.lit_indirect_square[b] += lit * earlier_w_m2[b] * part_w;
-      }
-    };
+    light.any_lit = hit[e];
+    for (std::size_t b = 0; light.any_lit && b < bands; ++b) {
+      light.twice_beam_w_m2[b] = 2.0 * (absorbed_beam_w(e, landings, b) * per_m2);
+      light.lit_earlier_w_m2[b] = light.lit * light.earlier_w_m2[b];
+    }
+    const auto add_to = [&](ShadeSums& sums, double share) { light.add_to(sums, share); };
     if (conversion_.areas.foliage[e]) add_to(groups.leaves[0], 1.0);
     if (!all_groups_) return;
     add_to(groups.organs[canopy.organ_of[e]], 1.0);
@@ -243,10 +262,10 @@ double ShadeClasses::absorbed_beam_w(std::size_t element, const BeamLandings& la
           static_cast<double>(landings.lower) * conversion_.absorptance(optics, 1, band));
 }
 
-double ShadeClasses::absorbed_other_w(std::size_t side, std::span<const std::int64_t> quanta, std::size_t band) const {
+void ShadeClasses::set_absorbed_w(std::size_t side, std::span<const std::int64_t> quanta, std::span<double> absorbed_w) const {
   const RadiationModel& model = conversion_.model;
-  return static_cast<double>(quanta[band]) * conversion_.quanta[band].w_m2_per_quantum * model.plot.area_m2() *
-         conversion_.absorptance(model.canopy.optics_of[side / 2], side % 2, band);
+  scale(quanta, w_m2_per_quantum_, model.plot.area_m2(), conversion_.absorptances(model.canopy.optics_of[side / 2], side % 2),
+        absorbed_w);
 }
 
 ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, const Errors& errors) const {

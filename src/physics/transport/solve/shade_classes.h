@@ -133,13 +133,15 @@ class ShadeClasses {
 
   void add_beam(const Replicate& replicate, Groups& groups) const;
   void add_other_light(const Replicate& replicate, const PlaceSums& earlier, Groups& groups) const;
-  // Return what an element absorbs of the beam, and what a side absorbs of other light, W.
+  // Returns what an element absorbs of the beam, W.
   [[nodiscard]] double absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const;
-  [[nodiscard]] double absorbed_other_w(std::size_t side, std::span<const std::int64_t> quanta, std::size_t band) const;
+  // Sets what a side absorbs of other light, [band].
+  void set_absorbed_w(std::size_t side, std::span<const std::int64_t> quanta, std::span<double> absorbed_w) const;
   [[nodiscard]] ShadeClassResult result(const ShadeMeans& means, double open_m2, const Errors& errors) const;
 
   const Conversion& conversion_;
   bool all_groups_;
+  std::vector<double> w_m2_per_quantum_;                              // [band]
   std::vector<double> organ_open_m2_, layer_open_m2_, leaf_open_m2_;  // of triangles that light can reach
   std::vector<ShadeMeans> organs_, layers_, leaves_;                  // the last has one entry
 };

@@ -11,15 +11,18 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t width = 2;
+constexpr std::size_t wide = 11;
 
-// Adds `landings` pairs of random numbers at random places below `reach`, here and to plain sums.
+// Adds `landings` rows of random numbers at random places below `reach`, here and to plain sums.
+template <std::size_t columns = width>
 void land(PlaceSums& sums, std::vector<std::int64_t>& plain, std::size_t landings, std::size_t reach, unsigned seed) {
   std::mt19937_64 random(seed);
   for (std::size_t k = 0; k < landings; ++k) {
     const std::size_t place = random() % reach;
-    const std::array<std::int64_t, width> values{static_cast<std::int64_t>(random() >> 20U), -static_cast<std::int64_t>(k)};
+    std::array<std::int64_t, columns> values{static_cast<std::int64_t>(random() >> 20U), -static_cast<std::int64_t>(k)};
+    values.back() -= static_cast<std::int64_t>(k);
     sums.add(place, values);
-    for (std::size_t j = 0; j < width; ++j) plain[place * width + j] += values[j];
+    for (std::size_t j = 0; j < columns; ++j) plain[place * columns + j] += values[j];
   }
 }
 
@@ -91,6 +94,47 @@ TEST(PlaceSums, TakeLittleMemoryWhereLittleLands) {
   EXPECT_LE(repeated.bytes(), all_bytes / 2);
   land(many, plain, 200000, places, 6);
   EXPECT_EQ(many.bytes(), all_bytes);
+}
+
+TEST_P(PlaceSumsTest, OfManyColumnsAreTheSame) {
+  constexpr std::size_t places = 5000;
+  std::vector<std::int64_t> plain(places * wide), other_plain(places * wide);
+  PlaceSums sums(places, wide), other(places, wide);
+  land<wide>(sums, plain, GetParam(), places, 1);
+  EXPECT_EQ(sums.all(), plain);
+  EXPECT_EQ(visited(sums), plain);
+  const PlaceSums::Finder finder(sums);
+  std::vector<std::int64_t> found, in_turn(places * wide);
+  for (std::size_t place = 0; place < places; ++place) {
+    const auto at = finder.at(place);
+    for (std::size_t j = 0; j < wide; ++j) found.push_back(at.empty() ? 0 : at[j]);
+  }
+  EXPECT_EQ(found, plain);
+  std::size_t next = 0;
+  sums.for_each([&](std::size_t place, std::span<const std::int64_t> values) {
+    EXPECT_GE(place, next);  // each place once, in ascending order
+    next = place + 1;
+    std::copy(values.begin(), values.end(), in_turn.begin() + static_cast<std::ptrdiff_t>(place * wide));
+  });
+  EXPECT_EQ(in_turn, plain);
+  land<wide>(other, other_plain, 700, places, 2);
+  sums.add(other);
+  for (std::size_t k = 0; k < plain.size(); ++k) plain[k] += other_plain[k];
+  EXPECT_EQ(sums.take_all(), plain);
+  EXPECT_EQ(sums.size(), 0U);
+}
+
+TEST(PlaceSums, OfManyColumnsTakeRowsOfThePlacesReached) {
+  constexpr std::size_t places = 100000;
+  constexpr std::size_t index_bytes = places * sizeof(std::uint32_t);
+  constexpr std::size_t all_bytes = places * wide * sizeof(std::int64_t);
+  std::vector<std::int64_t> plain(places * wide);
+  PlaceSums none(places, wide), few(places, wide), many(places, wide);
+  EXPECT_EQ(none.bytes(), 0U);
+  land<wide>(few, plain, 200000, 100, 5);
+  EXPECT_LT(few.bytes(), index_bytes + 30000U);
+  land<wide>(many, plain, 2000000, places, 6);
+  EXPECT_LE(many.bytes(), all_bytes + 3 * index_bytes);
 }
 
 TEST(PlaceSums, WithoutPlacesTakeTheSizeOfOthers) {

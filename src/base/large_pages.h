@@ -1,0 +1,48 @@
+#pragma once
+// Memory for long arrays in large pages, where the system has them: such memory is fetched in a fraction of the time, and found faster
+// where it is read in no order.
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace sunfleck {
+
+// Places arrays of at least least_bytes at the beginning of a page of 2 MiB, of which it asks the system for as many as it can give. The
+// memory of an array is rounded up to whole pages.
+template <class T>
+struct LargePageAllocator {
+  using value_type = T;
+
+  static constexpr std::size_t page_bytes = std::size_t{1} << 21U;
+  static constexpr std::size_t least_bytes = 2 * page_bytes;
+
+  LargePageAllocator() = default;
+  template <class Other>
+  LargePageAllocator(const LargePageAllocator<Other>&) {}  // NOLINT(google-explicit-constructor): required of allocators
+
+  [[nodiscard]] T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < least_bytes) return static_cast<T*>(::operator new(bytes));
+    const std::size_t rounded = (bytes + page_bytes - 1) / page_bytes * page_bytes;
+    void* const memory = std::aligned_alloc(page_bytes, rounded);
+    if (memory == nullptr) throw std::bad_alloc();
+    madvise(memory, rounded, MADV_HUGEPAGE);  // a system without large pages refuses, which does no harm
+    return static_cast<T*>(memory);
+  }
+
+  void deallocate(T* memory, std::size_t count) {
+    if (count * sizeof(T) < least_bytes) return ::operator delete(memory);
+    std::free(memory);
+  }
+
+  friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
+};
+
+template <class T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
+
+}  // namespace sunfleck

@@ -1,0 +1,176 @@
+#pragma once
+// Arithmetic over the columns of a place or packet, such as two hundred wavebands: in vectors by Google Highway where there are many,
+// one by one where there are few. Both give the same bits on every kind of processor.
+
+#include "physics/transport/model/model.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sunfleck {
+
+// Landed quanta are split into parts that add up to them exactly. Each part is its exact share rounded down or up at random, so that
+// its expectation is right; a part whose coefficient is 0 gets exactly 0.
+struct QuantaSplit {
+  std::int64_t absorbed = 0, reflected = 0, transmitted = 0;
+  [[nodiscard]] std::int64_t scattered() const { return reflected + transmitted; }
+};
+
+// Coefficients of what a face reflects, and of what it reflects or transmits; 2 where that is everything to within rounding, so that
+// split_quanta finds all quanta.
+struct SplitCoefficients {
+  double reflected = 0.0, scattered = 0.0;
+};
+[[nodiscard]] inline SplitCoefficients split_coefficients(double reflectance, double transmittance) {
+  constexpr double everything = 2.0;
+  const bool absorbs = 1.0 - reflectance - transmittance > 1e-12;
+  return {transmittance == 0.0 && !absorbs ? everything : reflectance, absorbs ? reflectance + transmittance : everything};
+}
+
+// Splits quanta; `u` is uniform over [0, 1).
+[[nodiscard]] inline QuantaSplit split_quanta(std::int64_t quanta, const SplitCoefficients& of, double u) {
+  const auto part = [&](double coefficient) {
+    const double share = static_cast<double>(quanta) * coefficient + u;
+    return share < 0x1p63 ? std::min(quanta, static_cast<std::int64_t>(share)) : quanta;
+  };
+  QuantaSplit split;
+  split.reflected = part(of.reflected);
+  split.transmitted = std::max<std::int64_t>(0, part(of.scattered) - split.reflected);
+  split.absorbed = quanta - split.reflected - split.transmitted;
+  return split;
+}
+
+// The SplitCoefficients of a face for the columns of `lights` lights. [column]
+struct FaceColumns {
+  FaceColumns(const std::vector<FaceOptics>& face, std::size_t lights);
+
+  std::vector<double> reflected, scattered;
+};
+
+// Landed quanta, and where their parts go. [column]
+struct SplitColumns {
+  std::span<const std::int64_t> landed;
+  std::span<const double> u;            // uniform over [0, 1)
+  std::span<std::int64_t> absorbed;     // to which what is absorbed is added
+  std::span<std::int64_t> reflected;    // overwritten
+  std::span<std::int64_t> transmitted;  // overwritten
+};
+
+// The flux that drawn packets share out, column by column: the k-th packet gets its weight's part of the total. Cumulative shares are
+// rounded down, so that their differences add up to it. [column]
+struct SharedOut {
+  SharedOut() = default;
+  explicit SharedOut(std::vector<std::int64_t> of)
+      : totals(std::move(of)), weights(totals.size()), sums(totals.size()), given(totals.size()), last(totals.size()) {}
+
+  std::vector<std::int64_t> totals;
+  std::vector<double> weights;      // of all packets
+  std::vector<double> sums;         // of the weights of the packets so far
+  std::vector<std::int64_t> given;  // to the packets so far
+  std::vector<std::int64_t> last;   // number of the last packet with any quanta
+};
+
+namespace columns {
+
+// Rows of fewer columns are not worth vectors.
+inline constexpr std::size_t least_in_vectors = 6;
+
+// These work on vectors.
+void split_in_vectors(const FaceColumns& face, const SplitColumns& row);
+void weigh_in_vectors(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared);
+void share_in_vectors(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
+                      std::span<std::int64_t> own);
+void add_in_vectors(std::span<const std::int64_t> quanta, std::int64_t* sums);
+void subtract_in_vectors(std::span<const std::int64_t> quanta, std::int64_t* sums);
+void divide_in_vectors(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios);
+void scale_in_vectors(std::span<const std::int64_t> quanta, std::span<const double> first, double second,
+                      std::span<const double> third, std::span<double> products);
+void add_products_in_vectors(std::span<const double> a, std::span<const double> b, std::span<double> sums);
+void add_scaled_in_vectors(double factor, std::span<const double> a, std::span<double> sums);
+
+inline void split_one(std::size_t c, const FaceColumns& face, const SplitColumns& row) {
+  const QuantaSplit parts = split_quanta(row.landed[c], {face.reflected[c], face.scattered[c]}, row.u[c]);
+  row.absorbed[c] += parts.absorbed;
+  row.reflected[c] = parts.reflected;
+  row.transmitted[c] = parts.transmitted;
+}
+
+// Adds quanta / expected to the weights, and notes the packet where there are any quanta.
+inline void weigh_one(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
+                      SharedOut& shared) {
+  shared.weights[c] += static_cast<double>(quanta[c]) / expected;
+  if (quanta[c] > 0) shared.last[c] = packet;
+}
+
+inline void share_one(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
+                      SharedOut& shared, std::span<std::int64_t> own) {
+  own[c] = 0;
+  if (quanta[c] == 0) return;
+  shared.sums[c] += static_cast<double>(quanta[c]) / expected;
+  const std::int64_t total = shared.totals[c];
+  const auto share = static_cast<std::int64_t>(shared.sums[c] / shared.weights[c] * static_cast<double>(total));
+  const std::int64_t up_to = packet == shared.last[c] ? total : std::clamp(share, shared.given[c], total);
+  own[c] = up_to - shared.given[c];
+  shared.given[c] = up_to;
+}
+
+}  // namespace columns
+
+// Splits what landed on a face.
+inline void split(const FaceColumns& face, const SplitColumns& row) {
+  if (row.landed.size() >= columns::least_in_vectors) return columns::split_in_vectors(face, row);
+  for (std::size_t c = 0; c < row.landed.size(); ++c) columns::split_one(c, face, row);
+}
+
+// Adds the weights, quanta / expected, of a packet.
+inline void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
+  if (quanta.size() >= columns::least_in_vectors) return columns::weigh_in_vectors(quanta, expected, packet, shared);
+  for (std::size_t c = 0; c < quanta.size(); ++c) columns::weigh_one(c, quanta, expected, packet, shared);
+}
+
+// Sets `own` to what the packet gets, once all were weighed.
+inline void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
+                  std::span<std::int64_t> own) {
+  if (quanta.size() >= columns::least_in_vectors) return columns::share_in_vectors(quanta, expected, packet, shared, own);
+  for (std::size_t c = 0; c < quanta.size(); ++c) columns::share_one(c, quanta, expected, packet, shared, own);
+}
+
+// Adds quanta to as many sums.
+inline void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
+  if (quanta.size() >= columns::least_in_vectors) return columns::add_in_vectors(quanta, sums);
+  for (std::size_t c = 0; c < quanta.size(); ++c) sums[c] += quanta[c];
+}
+
+// Subtracts quanta from as many sums.
+inline void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
+  if (quanta.size() >= columns::least_in_vectors) return columns::subtract_in_vectors(quanta, sums);
+  for (std::size_t c = 0; c < quanta.size(); ++c) sums[c] -= quanta[c];
+}
+
+// Sets the sums of quanta / by of each row, added in the order of the columns. `rows` are [row * columns + column].
+void sum_ratios(std::span<const std::int64_t> rows, std::span<const double> by, std::span<double> sums);
+
+// Sets the products of quanta * first * second * third, multiplied in this order.
+inline void scale(std::span<const std::int64_t> quanta, std::span<const double> first, double second,
+                  std::span<const double> third, std::span<double> products) {
+  if (quanta.size() >= columns::least_in_vectors) return columns::scale_in_vectors(quanta, first, second, third, products);
+  for (std::size_t c = 0; c < quanta.size(); ++c) products[c] = static_cast<double>(quanta[c]) * first[c] * second * third[c];
+}
+
+// Adds a * b to the sums.
+inline void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
+  if (a.size() >= columns::least_in_vectors) return columns::add_products_in_vectors(a, b, sums);
+  for (std::size_t c = 0; c < a.size(); ++c) sums[c] += a[c] * b[c];
+}
+
+// Adds factor * a to the sums.
+inline void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {
+  if (a.size() >= columns::least_in_vectors) return columns::add_scaled_in_vectors(factor, a, sums);
+  for (std::size_t c = 0; c < a.size(); ++c) sums[c] += factor * a[c];
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,71 @@
+// Tests packed arrays of all lengths around those of their streams.
+
+#include "base/packed_array.h"
+
+#include "base/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::size_t stream = std::size_t{1} << 20U;
+
+// Returns bytes of which half can be foretold.
+std::vector<std::uint8_t> some_bytes(std::size_t count) {
+  RandomStream random(1, 2);
+  std::vector<std::uint8_t> bytes(count);
+  for (std::size_t k = 0; k < count; ++k) bytes[k] = static_cast<std::uint8_t>(k % 2 == 0 ? 7U : random.word() & 0xffU);
+  return bytes;
+}
+
+class PackedArray : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(PackedArray, IsReadAsItWasWritten) {
+  const std::vector<std::uint8_t> bytes = some_bytes(GetParam());
+  const nlohmann::json packed = pack(bytes);
+  EXPECT_LE(packed.get_binary().size(), bytes.size() * 3 / 4 + 64);
+  EXPECT_EQ(unpack<std::uint8_t>(packed, bytes.size()), bytes);
+}
+
+TEST_P(PackedArray, DoesNotDependOnItsPieces) {
+  const std::vector<std::uint8_t> bytes = some_bytes(GetParam());
+  const NumberPieces<std::uint8_t> pieces = [&](const std::function<void(std::span<const std::uint8_t>)>& take) {
+    constexpr std::size_t at_once = 77777;
+    for (std::size_t first = 0; first < bytes.size(); first += at_once) {
+      take(std::span(bytes).subspan(first, std::min(at_once, bytes.size() - first)));
+    }
+  };
+  EXPECT_EQ(pack(pieces), pack(bytes));
+}
+
+TEST_P(PackedArray, OfAnotherLengthIsRefused) {
+  const std::vector<std::uint8_t> bytes = some_bytes(GetParam());
+  const nlohmann::json packed = pack(bytes);
+  EXPECT_THROW(static_cast<void>(unpack<std::uint8_t>(packed, bytes.size() + 1)), std::runtime_error);
+  if (!bytes.empty()) {
+    EXPECT_THROW(static_cast<void>(unpack<std::uint8_t>(packed, bytes.size() - 1)), std::runtime_error);
+  }
+}
+
+TEST_P(PackedArray, ThatIsCutOrChangedIsRefused) {
+  const std::vector<std::uint8_t> bytes = some_bytes(GetParam());
+  const nlohmann::json::binary_t packed = pack(bytes).get_binary();
+  for (std::size_t cut = 1; cut < packed.size(); cut = 3 * cut + 1) {
+    nlohmann::json::binary_t damaged = packed;
+    damaged.resize(packed.size() - cut);
+    EXPECT_THROW(static_cast<void>(unpack<std::uint8_t>(nlohmann::json::binary(damaged), bytes.size())), std::runtime_error);
+    damaged = packed;
+    damaged[packed.size() - cut] ^= 0x10U;
+    EXPECT_THROW(static_cast<void>(unpack<std::uint8_t>(nlohmann::json::binary(damaged), bytes.size())), std::runtime_error);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lengths, PackedArray, ::testing::Values(0, 1, 1000, stream - 1, stream, stream + 1, 40 * stream + 5));
+
+}  // namespace
+}  // namespace sunfleck
