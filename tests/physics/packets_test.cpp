@@ -15,9 +15,10 @@ namespace sunfleck::test {
 namespace {
 
 Candidates sorted(const Candidates& candidates) {
-  Candidates result = candidates;
+  Candidates taken = candidates;
+  Candidates result(candidates.totals().size());
   SortSpace space;
-  result.take_sorted(candidates, space);
+  result.take_sorted(taken, space);
   return result;
 }
 

@@ -5,6 +5,7 @@
 namespace sunfleck::regression {
 namespace {
 
+constexpr const char* no_device = "this machine has no Vulkan device";
 const std::vector<std::string> result_tables{"profile.csv", "organs.csv", "triangles.csv"};
 
 class Identity : public ProgramTest {
@@ -35,8 +36,8 @@ TEST_F(Identity, OneThreadAndTwo) {
 
 TEST_F(Identity, CpuAndSoftwareVulkan) {
   if (!has_device()) {
-    ASSERT_FALSE(is_set("SUNFLECK_REQUIRE_DEVICE")) << "no Vulkan device, and SUNFLECK_REQUIRE_DEVICE=1 asks for one";
-    GTEST_SKIP() << "no Vulkan device on this machine";
+    ASSERT_FALSE(is_set("SUNFLECK_REQUIRE_DEVICE")) << no_device;
+    GTEST_SKIP() << no_device;
   }
   compute("a", {"--device", "cpu"});
   compute("b", {"--device", "lavapipe"});
@@ -47,8 +48,8 @@ TEST_F(Identity, CpuAndSoftwareVulkan) {
 // Of a scene with lamps, and of one with panels in the beam.
 TEST_F(Identity, CpuAndSoftwareVulkanWithStructures) {
   if (!has_device()) {
-    ASSERT_FALSE(is_set("SUNFLECK_REQUIRE_DEVICE")) << "no Vulkan device, and SUNFLECK_REQUIRE_DEVICE=1 asks for one";
-    GTEST_SKIP() << "no Vulkan device on this machine";
+    ASSERT_FALSE(is_set("SUNFLECK_REQUIRE_DEVICE")) << no_device;
+    GTEST_SKIP() << no_device;
   }
   for (const char* scene : {"chamber.toml", "panels.toml"}) {
     for (const char* device : {"cpu", "lavapipe"}) {
@@ -59,6 +60,23 @@ TEST_F(Identity, CpuAndSoftwareVulkanWithStructures) {
     }
     for (const std::string& table : result_tables) EXPECT_TRUE(file(table, "cpu") == file(table, "lavapipe")) << scene << table;
     EXPECT_EQ(summary("cpu")["bands"], summary("lavapipe")["bands"]);
+  }
+}
+
+// Packets of a block carry the light of all of its steps.
+TEST_F(Identity, CpuAndSoftwareVulkanWithStepsTogether) {
+  if (!has_device()) {
+    ASSERT_FALSE(is_set("SUNFLECK_REQUIRE_DEVICE")) << no_device;
+    GTEST_SKIP() << no_device;
+  }
+  for (const char* device : {"cpu", "lavapipe"}) {
+    const Outcome day = run({"day", scene_file("maize_day.toml"), "--from", "08:00", "--to", "12:00", "--together", "4",
+                             "--grid", "0.05", "--passes", "3", "--images", "none", "--device", device, "-o", device});
+    ASSERT_EQ(day.status, 0) << day.err;
+  }
+  for (const char* table : {"day.csv", "organs_day.csv"}) {
+    EXPECT_GT(file(table, "cpu").size(), 500U) << table;
+    EXPECT_EQ(file(table, "cpu"), file(table, "lavapipe")) << table;
   }
 }
 

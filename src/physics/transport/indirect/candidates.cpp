@@ -112,6 +112,7 @@ void Candidates::add(const EmissionPoint& place, std::span<const std::int64_t> q
 void Candidates::clear() {
   places_.clear();
   quanta_.clear();
+  row_of_.clear();
   totals_.assign(columns_, 0);
 }
 
@@ -120,14 +121,22 @@ void Candidates::reserve(std::size_t candidates) {
   quanta_.reserve(candidates * columns_);
 }
 
-void Candidates::take_sorted(const Candidates& other, SortSpace& space) {
+void Candidates::take_sorted(Candidates& other, SortSpace& space) {
+  // Rows as long as this stay where they are: moving them would cost more than reading them in any order.
+  constexpr std::size_t least_left_in_place = 32;
   sort_by_rank(other.places_, space);
   places_.resize(other.places_.size());
-  quanta_.resize(other.quanta_.size());
   totals_ = other.totals_;
+  for (std::size_t k = 0; k < places_.size(); ++k) places_[k] = other.places_[space.from[k] & number_mask];
+  if (columns_ >= least_left_in_place) {
+    row_of_.resize(places_.size());
+    for (std::size_t k = 0; k < row_of_.size(); ++k) row_of_[k] = static_cast<std::uint32_t>(space.from[k] & number_mask);
+    std::swap(quanta_, other.quanta_);
+    return;
+  }
+  quanta_.resize(other.quanta_.size());
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const std::size_t candidate = space.from[k] & number_mask;
-    places_[k] = other.places_[candidate];
     for (std::size_t c = 0; c < columns_; ++c) quanta_[k * columns_ + c] = other.quanta_[candidate * columns_ + c];
   }
 }

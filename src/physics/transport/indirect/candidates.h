@@ -47,17 +47,14 @@ class Candidates {
   void clear();
   void reserve(std::size_t candidates);
   // Replaces these candidates by those of `other`, sorted by `order`, upper sides before lower ones. Places of equal order keep the
-  // order in which they were added.
-  void take_sorted(const Candidates& other, SortSpace& space);
+  // order in which they were added. `other` must be cleared before it is used again.
+  void take_sorted(Candidates& other, SortSpace& space);
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
   [[nodiscard]] const EmissionPoint& place(std::size_t candidate) const { return places_[candidate]; }
   [[nodiscard]] std::span<const std::int64_t> quanta(std::size_t candidate) const {
-    return std::span(quanta_).subspan(candidate * columns_, columns_);
-  }
-  // Returns the quanta of some places, [candidate * columns + column].
-  [[nodiscard]] std::span<const std::int64_t> quanta(std::size_t first, std::size_t count) const {
-    return std::span(quanta_).subspan(first * columns_, count * columns_);
+    const std::size_t row = row_of_.empty() ? candidate : row_of_[candidate];
+    return std::span(quanta_).subspan(row * columns_, columns_);
   }
   // Returns the quanta of all places together, [column].
   [[nodiscard]] const std::vector<std::int64_t>& totals() const { return totals_; }
@@ -67,7 +64,8 @@ class Candidates {
  private:
   std::size_t columns_;
   LargeVector<EmissionPoint> places_;  // [candidate]
-  LargeVector<std::int64_t> quanta_;   // [candidate * columns + column]
+  LargeVector<std::int64_t> quanta_;   // [row * columns + column]
+  std::vector<std::uint32_t> row_of_;  // [candidate]; empty if each has the row of its number
   std::vector<std::int64_t> totals_;   // [column]
 };
 

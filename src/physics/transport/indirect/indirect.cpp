@@ -64,6 +64,7 @@ class IndirectPass {
       face_columns_.emplace_back(optics.upper, lights_);
       face_columns_.emplace_back(optics.lower, lights_);
     }
+    sums_.side_landed.reserve(arrays.sides_landed);
     if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
     waiting_.clear();
     next_.clear();
@@ -99,6 +100,7 @@ class IndirectPass {
       ledger.absorbed_soil += absorbed_.soil[c];
     }
     close_planes();
+    arrays_.sides_landed = sums_.side_landed.entries();
     return std::move(sums_);
   }
 
@@ -306,9 +308,12 @@ class IndirectPass {
     constexpr std::size_t at_once = 64;  // few enough to be found in a cache the second time
     std::vector<double>& expected = arrays_.expected;
     expected.resize(waiting_.size());
+    std::vector<std::span<const std::int64_t>> rows;
     for (std::size_t first = 0; first < expected.size(); first += at_once) {
       const std::size_t count = std::min(at_once, expected.size() - first);
-      sum_ratios(waiting_.quanta(first, count), start_or_infinity_, std::span(expected).subspan(first, count));
+      rows.clear();
+      for (std::size_t k = first; k < first + count; ++k) rows.push_back(waiting_.quanta(k));
+      sum_ratios(rows, start_or_infinity_, std::span(expected).subspan(first, count));
       for (std::size_t k = first; k < first + count; ++k) {
         layers_.leave(level_index(waiting_.place(k).level), waiting_.quanta(k));
         if (scene_.receivers != nullptr) receivers_.leave(zone_of(waiting_.place(k)), waiting_.quanta(k));

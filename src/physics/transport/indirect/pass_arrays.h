@@ -35,6 +35,7 @@ struct PassArrays {
   Draw draw;
   std::vector<shared::Packet> packets;    // a part of a round
   std::vector<shared::Landing> landings;  // of these packets
+  std::size_t sides_landed = 0;           // for how many sides the sums of the last pass had rows
 };
 
 // Lends arrays to passes that run at the same time.

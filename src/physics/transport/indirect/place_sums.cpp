@@ -27,6 +27,12 @@ std::size_t PlaceSums::bytes() const {
          (rows_.capacity() + all_.capacity()) * sizeof(std::int64_t);
 }
 
+void PlaceSums::reserve(std::size_t places) {
+  if (form_ != Form::indexed) return;
+  at_.reserve(std::min(places_, places));
+  rows_.reserve(std::min(places_, places) * width_);
+}
+
 double PlaceSums::likely_bytes(double list_bytes, double all_bytes) {
   return list_bytes > all_bytes / list_part ? all_bytes : list_bytes;
 }

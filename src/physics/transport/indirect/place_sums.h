@@ -30,6 +30,11 @@ class PlaceSums {
   // Returns the number of sums, places times width.
   [[nodiscard]] std::size_t size() const { return places_ * width_; }
 
+  // Makes room for rows of as many places, if these are wide sums.
+  void reserve(std::size_t places);
+  // Returns the number of rows or entries that are kept; 0 in the form of all sums.
+  [[nodiscard]] std::size_t entries() const { return at_.size(); }
+
   // Returns the memory taken, in bytes.
   [[nodiscard]] std::size_t bytes() const;
 

@@ -187,12 +187,12 @@ void add_scaled_in_vectors(double factor, std::span<const double> a, std::span<d
 
 }  // namespace columns
 
-void sum_ratios(std::span<const std::int64_t> rows, std::span<const double> by, std::span<double> sums) {
+void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<const double> by, std::span<double> sums) {
   const std::size_t count = by.size();
   if (count < columns::least_in_vectors) {
     for (std::size_t row = 0; row < sums.size(); ++row) {
       double sum = 0.0;
-      for (std::size_t c = 0; c < count; ++c) sum += static_cast<double>(rows[row * count + c]) / by[c];
+      for (std::size_t c = 0; c < count; ++c) sum += static_cast<double>(rows[row][c]) / by[c];
       sums[row] = sum;
     }
     return;
@@ -203,7 +203,7 @@ void sum_ratios(std::span<const std::int64_t> rows, std::span<const double> by, 
   for (std::size_t first = 0; first < sums.size(); first += at_once) {
     const std::size_t those = std::min(at_once, sums.size() - first);
     for (std::size_t k = 0; k < those; ++k) {
-      columns::divide_in_vectors(rows.subspan((first + k) * count, count), by, std::span(ratios).subspan(k * count, count));
+      columns::divide_in_vectors(rows[first + k], by, std::span(ratios).subspan(k * count, count));
     }
     std::array<double, at_once> sum{};
     for (std::size_t c = 0; c < count; ++c) {

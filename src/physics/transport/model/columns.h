@@ -151,8 +151,8 @@ inline void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
   for (std::size_t c = 0; c < quanta.size(); ++c) sums[c] -= quanta[c];
 }
 
-// Sets the sums of quanta / by of each row, added in the order of the columns. `rows` are [row * columns + column].
-void sum_ratios(std::span<const std::int64_t> rows, std::span<const double> by, std::span<double> sums);
+// Sets the sums of quanta / by of each row, added in the order of the columns.
+void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<const double> by, std::span<double> sums);
 
 // Sets the products of quanta * first * second * third, multiplied in this order.
 inline void scale(std::span<const std::int64_t> quanta, std::span<const double> first, double second,

@@ -25,8 +25,8 @@ struct Forecast {
 // another series costs more than what a less certain forecast of the rays wastes. The slope of packets is known.
 constexpr Forecast ray_forecast{64, 20};
 constexpr Forecast packet_forecast{128, 64};
-// Lights of one simulation get this multiple of the rays that their own errors ask for: errors from pilots are uncertain, and a light
-// that lags behind costs the others more replicates.
+// Lights of one simulation, and replicates that hold fewer packets than asked, get this multiple of the rays that their own errors ask
+// for: errors from pilots are uncertain, and a beam that lags behind costs more replicates with all of their packets.
 constexpr double spare_rays = 1.5;
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
@@ -127,7 +127,8 @@ Work WorkPlanner::balanced(const Part& rays, const Part& packets) const {
   Work work{rays.chosen, packets.chosen};
   const bool held_back = !fixed() && packets.chosen > 0.0 && packets.chosen == most_packets(work);
   if (!held_back || !has_beam_) return work;
-  work.rays = std::max(first_pilot.rays, work.rays * std::pow(packets.wanted / packets.chosen, -packet_slope / ray_slope));
+  const double fewer = std::pow(packets.wanted / packets.chosen, -packet_slope / ray_slope);
+  work.rays = std::max(first_pilot.rays, std::min(1.0, spare_rays * fewer) * work.rays);
   if (for_organs()) work.rays = std::max(work.rays, std::min(rays.chosen, rays_per_packet_for_organs * work.packets));
   return work;
 }

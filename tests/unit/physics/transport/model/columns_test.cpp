@@ -126,7 +126,9 @@ TEST(Columns, SumRatiosInTheirOrder) {
       std::vector<double> by = some_numbers(columns, random);
       if (columns > 2) by[2] = std::numeric_limits<double>::infinity();
       std::vector<double> sums(rows, -1.0);
-      sum_ratios(quanta, by, sums);
+      std::vector<std::span<const std::int64_t>> parts;
+      for (std::size_t row = 0; row < rows; ++row) parts.push_back(std::span(quanta).subspan(row * columns, columns));
+      sum_ratios(parts, by, sums);
       for (std::size_t row = 0; row < rows; ++row) {
         double sum = 0.0;
         for (std::size_t c = 0; c < columns; ++c) sum += static_cast<double>(quanta[row * columns + c]) / by[c];
