@@ -71,7 +71,7 @@ TEST_F(Identity, CpuAndSoftwareVulkanWithStepsTogether) {
   }
   for (const char* device : {"cpu", "lavapipe"}) {
     const Outcome day = run({"day", scene_file("maize_day.toml"), "--from", "08:00", "--to", "12:00", "--together", "4",
-                             "--grid", "0.05", "--passes", "3", "--images", "none", "--device", device, "-o", device});
+                             "--grid", "0.05", "--passes", "8", "--images", "none", "--device", device, "-o", device});
     ASSERT_EQ(day.status, 0) << day.err;
   }
   for (const char* table : {"day.csv", "organs_day.csv"}) {

@@ -1,21 +1,20 @@
 #include "physics/transport/indirect/indirect.h"
 
 #include "base/random.h"
+#include "physics/transport/indirect/expected_draws.h"
 #include "physics/transport/indirect/landing_points.h"
+#include "physics/transport/indirect/scattering.h"
 #include "physics/transport/model/columns.h"
 #include "physics/transport/receivers/plane_flux.h"
 #include "shared/beam.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 namespace sunfleck {
 namespace {
 
-// Rounds are scaled up to at least this many packets.
-constexpr double least_packets = 256;
 // The stop rule leaves this part of the bound unshot, relative to flux taken as at least 1 % of the incident flux.
 constexpr double unshot_part_of_bound = 0.1;
 constexpr double least_judged_share = 0.01;
@@ -46,24 +45,11 @@ class IndirectPass {
         arrays_(arrays),
         waiting_(arrays.waiting),
         next_(arrays.next),
-        start_(columns_),
         sky_(columns_),
         layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, columns_),
         receivers_(scene.receivers != nullptr ? scene.receivers->size() : 0, columns_),
         shot_(columns_),
-        reflected_(columns_),
-        transmitted_(columns_),
-        uniform_(columns_),
-        absorbed_{std::vector<std::int64_t>(columns_), std::vector<std::int64_t>(columns_),
-                  std::vector<std::int64_t>(columns_)},
-        soil_face_(bands_),
-        soil_columns_({}, 0) {
-    for (std::size_t b = 0; scene.model.soil && b < bands_; ++b) soil_face_[b].reflectance = scene.model.soil->reflectance[b];
-    soil_columns_ = FaceColumns(soil_face_, lights_);
-    for (const SurfaceOptics& optics : scene.model.optics) {
-      face_columns_.emplace_back(optics.upper, lights_);
-      face_columns_.emplace_back(optics.lower, lights_);
-    }
+        scattering_(scene.model, lights_) {
     sums_.side_landed.reserve(arrays.sides_landed);
     if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
     waiting_.clear();
@@ -76,29 +62,25 @@ class IndirectPass {
   std::optional<IndirectSums> run() {
     if (!let_sky_in()) return std::nullopt;
     const std::vector<std::int64_t>& from_sky = waiting_.totals();
+    std::vector<double> start(columns_);  // flux after the first landings, lamps included
     for (std::size_t c = 0; c < columns_; ++c) {
-      start_[c] = static_cast<double>(quanta_[c]->lamps + from_sky[c]);
+      start[c] = static_cast<double>(quanta_[c]->lamps + from_sky[c]);
       const std::vector<std::int64_t>& scattered = first(c).scattered;
-      for (std::size_t k = band(c); k < scattered.size(); k += bands_) start_[c] += static_cast<double>(scattered[k]);
+      for (std::size_t k = band(c); k < scattered.size(); k += bands_) start[c] += static_cast<double>(scattered[k]);
       sums_.ledger[c].incident += quanta_[c]->lamps;
-      start_or_infinity_.push_back(start_[c] > 0.0 ? start_[c] : std::numeric_limits<double>::infinity());
     }
+    ExpectedDraws draws(scene_, light_, order_.packets, start);
     if (!sample_landings(scene_, light_, wanted_landings(), random_, stop_, arrays_)) return std::nullopt;
     add_first_candidates(arrays_.points);
     add_lamps();
     sums_.first_candidates = waiting_.size();
     retire_faint_columns();
     while (waiting_.size() > 0 && sums_.rounds < most_rounds) {
-      if (!shoot()) return std::nullopt;
+      if (!shoot(draws)) return std::nullopt;
       retire_faint_columns();
     }
-    for (std::size_t c = 0; c < columns_; ++c) {
-      FluxLedger& ledger = sums_.ledger[c];
-      ledger.unshot += waiting_.totals()[c];
-      ledger.absorbed_vegetation += absorbed_.vegetation[c];
-      ledger.absorbed_structure += absorbed_.structure[c];
-      ledger.absorbed_soil += absorbed_.soil[c];
-    }
+    for (std::size_t c = 0; c < columns_; ++c) sums_.ledger[c].unshot += waiting_.totals()[c];
+    scattering_.add_to(sums_.ledger);
     close_planes();
     arrays_.sides_landed = sums_.side_landed.entries();
     return std::move(sums_);
@@ -110,17 +92,6 @@ class IndirectPass {
     EmissionPoint from;
     std::size_t from_zone = 0;
     const shared::Packet& packet;
-  };
-
-  // What surfaces absorb of packets, [column].
-  struct Absorbed {
-    // Returns the term of surfaces of that role, as FluxLedger::absorbed_by does.
-    [[nodiscard]] std::vector<std::int64_t>& by(Role role) {
-      if (role == Role::soil) return soil;
-      return is_vegetation(role) ? vegetation : structure;
-    }
-
-    std::vector<std::int64_t> vegetation, structure, soil;
   };
 
   [[nodiscard]] std::size_t band(std::size_t column) const { return column / lights_; }
@@ -188,7 +159,7 @@ class IndirectPass {
     for (std::size_t b = 0; b < bands_; ++b) {
       FaceOptics front, back;
       if (landed == shared::landed_on_ground) {
-        front = soil_face_[b];
+        front = scattering_.soil_face()[b];
       } else {
         const SurfaceOptics& optics = scene_.model.optics[scene_.model.canopy.optics_of[landed / 2]];
         front = (landed % 2 == 0 ? optics.upper : optics.lower)[b];
@@ -267,11 +238,11 @@ class IndirectPass {
   }
 
   // Draws packets from the waiting flux, traces them and leaves what they scatter waiting. Returns false if stopped.
-  [[nodiscard]] bool shoot() {
+  [[nodiscard]] bool shoot(ExpectedDraws& draws) {
     next_.take_sorted(waiting_, arrays_.sorting);
     std::swap(waiting_, next_);
-    leave_places();
-    find_expected_draws();
+    leave_places(draws);
+    draws.scale(waiting_, arrays_.expected);
     Draw& draw = arrays_.draw;
     draw_packets(waiting_, arrays_.expected, random_, draw);
     const PacketStarts starts(scene_.model.canopy, waiting_, draw, scene_.frame, random_);
@@ -303,63 +274,18 @@ class IndirectPass {
     return scene_.tracer.trace(scene_.block, arrays_.packets, arrays_.landings, stop_) != TraceOutcome::stopped;
   }
 
-  // Takes the waiting flux off its places, and sums up each candidate's quanta, relative to the flux of their columns.
-  void leave_places() {
+  // Takes the waiting flux off its places, and finds the part of it that waits at each candidate.
+  void leave_places(ExpectedDraws& draws) {
     constexpr std::size_t at_once = 64;  // few enough to be found in a cache the second time
-    std::vector<double>& expected = arrays_.expected;
-    expected.resize(waiting_.size());
-    std::vector<std::span<const std::int64_t>> rows;
-    for (std::size_t first = 0; first < expected.size(); first += at_once) {
-      const std::size_t count = std::min(at_once, expected.size() - first);
-      rows.clear();
-      for (std::size_t k = first; k < first + count; ++k) rows.push_back(waiting_.quanta(k));
-      sum_ratios(rows, start_or_infinity_, std::span(expected).subspan(first, count));
+    arrays_.expected.resize(waiting_.size());
+    for (std::size_t first = 0; first < waiting_.size(); first += at_once) {
+      const std::size_t count = std::min(at_once, waiting_.size() - first);
+      draws.set_parts(waiting_, first, count, arrays_.expected);
       for (std::size_t k = first; k < first + count; ++k) {
         layers_.leave(level_index(waiting_.place(k).level), waiting_.quanta(k));
         if (scene_.receivers != nullptr) receivers_.leave(zone_of(waiting_.place(k)), waiting_.quanta(k));
       }
     }
-  }
-
-  // Finds how many packets are drawn from each candidate on average, from its sum.
-  void find_expected_draws() {
-    double lit = 0.0;
-    for (const double start : start_) lit += start > 0.0 ? 1.0 : 0.0;
-    std::vector<double>& expected = arrays_.expected;
-    double total = 0.0;
-    for (double& draws : expected) {
-      draws *= order_.packets / lit;
-      total += draws;
-    }
-    if (light_.aim != nullptr) total = aim_draws(expected, total);
-    if (total < least_packets && total > 0.0) {
-      for (double& e : expected) e *= least_packets / total;
-    }
-  }
-
-  // Draws more packets near the stand and fewer far away, as many as before in the first round. Returns the new total.
-  double aim_draws(std::vector<double>& expected, double before) {
-    double after = 0.0;
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-      expected[k] *= packets_per_flux(waiting_.place(k)) * aimed_draws_;
-      after += expected[k];
-    }
-    if (sums_.rounds > 0 || after == 0.0) return after;
-    aimed_draws_ = before / after;
-    for (double& e : expected) e *= aimed_draws_;
-    return before;
-  }
-
-  [[nodiscard]] double packets_per_flux(const EmissionPoint& place) const {
-    if (place.surface == shared::landed_on_ground)
-      return light_.aim->packets_per_flux({place.a, scene_.frame.ground_y_m, place.b});
-    const std::uint32_t element = place.surface / 2;
-    if (!scene_.surfaces.at(element).soil()) return 1.0;
-    const Triangle corners = scene_.model.canopy.corners[element];
-    const double b = place.a == anywhere ? 1.0 / 3.0 : place.a;
-    const double c = place.a == anywhere ? 1.0 / 3.0 : place.b;
-    const glm::dvec3 corner(corners[0]);
-    return light_.aim->packets_per_flux(corner + (glm::dvec3(corners[1]) - corner) * b + (glm::dvec3(corners[2]) - corner) * c);
   }
 
   // Books quanta that are shot from a place although they waited elsewhere.
@@ -388,9 +314,10 @@ class IndirectPass {
       if (unshot == 0) continue;
       const double incident = static_cast<double>(quanta_[c]->per_ray) * static_cast<double>(first(c).met) +
                               static_cast<double>(quanta_[c]->lamps + sky_[c]);
-      const double vegetation = std::max(first(c).least_of_vegetation[band(c)], static_cast<double>(absorbed_.vegetation[c]));
+      const double vegetation =
+          std::max(first(c).least_of_vegetation[band(c)], static_cast<double>(scattering_.vegetation()[c]));
       const double judged =
-          std::min(vegetation, std::max(least_judged_share * incident, static_cast<double>(absorbed_.soil[c])));
+          std::min(vegetation, std::max(least_judged_share * incident, static_cast<double>(scattering_.soil()[c])));
       if (static_cast<double>(unshot) < unshot_part_of_bound * order_.bound * judged) {
         sums_.ledger[c].unshot += unshot;
         faint[c] = true;
@@ -435,34 +362,24 @@ class IndirectPass {
       const std::size_t layer = static_cast<std::size_t>(place.level);
       add_to(sums_.layer_landed, (layer * scene_.model.optics.size() + surface.optics) * 2 + side, quanta);
     }
-    scatter(face_columns_[surface.optics * 2 + side], surface.role, quanta);
+    scattering_.on_element(surface.optics, side, surface.role, quanta, random_);
     pass(landing, way, place.level, quanta);
-    next_.add(place, reflected_);
+    next_.add(place, scattering_.reflected());
     EmissionPoint other = place;
     other.surface ^= 1U;
-    next_.add(other, transmitted_);
+    next_.add(other, scattering_.transmitted());
   }
 
   void land_on_soil(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta) {
     add_to(sums_.cell_landed, shared::soil_cell(scene_.block.ground, {landing.place_a, landing.place_b}), quanta);
-    scatter(soil_columns_, Role::soil, quanta);
+    scattering_.on_soil(quanta, random_);
     pass(landing, way, -1, quanta);
-    next_.add(place_of(scene_, landing), reflected_);
+    next_.add(place_of(scene_, landing), scattering_.reflected());
   }
 
   // Adds a place's quanta to its sums, [place * columns + column].
   void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const {
     add(quanta, &sums[place * columns_]);
-  }
-
-  // Splits quanta that landed on a face, and books what it absorbs. The lights share one random number for each band.
-  void scatter(const FaceColumns& face, Role role, std::span<const std::int64_t> quanta) {
-    for (std::size_t b = 0; b < bands_; ++b) {
-      const auto of_band = quanta.subspan(b * lights_, lights_);
-      if (std::all_of(of_band.begin(), of_band.end(), [](std::int64_t own) { return own == 0; })) continue;
-      std::fill_n(uniform_.begin() + static_cast<std::ptrdiff_t>(b * lights_), lights_, random_.unit());
-    }
-    split(face, {quanta, uniform_, absorbed_.by(role), reflected_, transmitted_});
   }
 
   // Adds the flux that passes the planes of the layers and the receivers.
@@ -519,18 +436,10 @@ class IndirectPass {
   IndirectSums sums_;
   PassArrays& arrays_;
   Candidates &waiting_, &next_;
-  // Flux after the first landings, lamps included, [column]; the shares of a round are relative to it.
-  std::vector<double> start_, start_or_infinity_;
-  std::vector<std::int64_t> sky_;                      // [column], sky flux that met something
-  double aimed_draws_ = 1.0;                           // factor that makes up for what aim_draws takes from the first round
-  PlaneFlux layers_, receivers_;                       // through the planes of the layers, and the horizontal receivers
-  std::vector<std::int64_t> shot_;                     // [column], carried by the current packet
-  std::vector<std::int64_t> reflected_, transmitted_;  // [column], of the current landing
-  std::vector<double> uniform_;                        // [column], random numbers of the current landing
-  Absorbed absorbed_;
-  std::vector<FaceOptics> soil_face_;  // [band], black without soil
-  FaceColumns soil_columns_;
-  std::vector<FaceColumns> face_columns_;  // [2 * optics + side]
+  std::vector<std::int64_t> sky_;   // [column], sky flux that met something
+  PlaneFlux layers_, receivers_;    // through the planes of the layers, and the horizontal receivers
+  std::vector<std::int64_t> shot_;  // [column], carried by the current packet
+  Scattering scattering_;
 };
 
 }  // namespace
