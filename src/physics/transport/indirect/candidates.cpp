@@ -106,7 +106,7 @@ void Candidates::add(const EmissionPoint& place, std::span<const std::int64_t> q
   if (std::all_of(quanta.begin(), quanta.end(), [](std::int64_t q) { return q == 0; })) return;
   places_.push_back(place);
   quanta_.insert(quanta_.end(), quanta.begin(), quanta.end());
-  sunfleck::add(quanta, totals_.data());
+  columns::add(quanta, totals_.data());
 }
 
 void Candidates::clear() {
@@ -165,7 +165,7 @@ void draw_packets(const Candidates& candidates, std::span<const double> expected
   draw.shared = SharedOut(candidates.totals());
   for (std::size_t p = 0; p < draw.candidate.size(); ++p) {
     const std::uint32_t k = draw.candidate[p];
-    weigh(candidates.quanta(k), expected[k], static_cast<std::int64_t>(p), draw.shared);
+    columns::weigh(candidates.quanta(k), expected[k], static_cast<std::int64_t>(p), draw.shared);
   }
   draw.kept.resize(draw.shared.totals.size());
   for (std::size_t c = 0; c < draw.kept.size(); ++c) draw.kept[c] = draw.shared.totals[c] > 0 && draw.shared.weights[c] == 0.0;
@@ -174,7 +174,7 @@ void draw_packets(const Candidates& candidates, std::span<const double> expected
 void share_out(const Candidates& candidates, std::span<const double> expected, std::size_t packet, Draw& draw,
                std::span<std::int64_t> own) {
   const std::uint32_t k = draw.candidate[packet];
-  share(candidates.quanta(k), expected[k], static_cast<std::int64_t>(packet), draw.shared, own);
+  columns::share(candidates.quanta(k), expected[k], static_cast<std::int64_t>(packet), draw.shared, own);
 }
 
 PacketStart start_at(const Canopy& canopy, const EmissionPoint& place, double b, double c, const EmissionFrame& frame) {

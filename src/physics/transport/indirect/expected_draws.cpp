@@ -24,7 +24,7 @@ ExpectedDraws::ExpectedDraws(const IndirectScene& scene, const LightFromAbove& l
 void ExpectedDraws::set_parts(const Candidates& candidates, std::size_t first, std::size_t count, std::vector<double>& parts) {
   rows_.clear();
   for (std::size_t k = first; k < first + count; ++k) rows_.push_back(candidates.quanta(k));
-  sum_ratios(rows_, start_or_infinity_, std::span(parts).subspan(first, count));
+  columns::sum_ratios(rows_, start_or_infinity_, std::span(parts).subspan(first, count));
 }
 
 void ExpectedDraws::scale(const Candidates& candidates, std::vector<double>& parts) {

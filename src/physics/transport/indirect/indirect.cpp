@@ -379,7 +379,7 @@ class IndirectPass {
 
   // Adds a place's quanta to its sums, [place * columns + column].
   void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const {
-    add(quanta, &sums[place * columns_]);
+    columns::add(quanta, &sums[place * columns_]);
   }
 
   // Adds the flux that passes the planes of the layers and the receivers.

@@ -47,13 +47,13 @@ void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values) {
     case Form::indexed: {
       if (entry_at_.empty()) entry_at_.resize(places_);
       std::uint32_t& entry = entry_at_[place];
-      if (entry > 0) return sunfleck::add(values, &rows_[(entry - 1) * width_]);
+      if (entry > 0) return columns::add(values, &rows_[(entry - 1) * width_]);
       append(place, values);
       entry = static_cast<std::uint32_t>(at_.size());
       return;
     }
     case Form::all:
-      return sunfleck::add(values, &all_[place * width_]);
+      return columns::add(values, &all_[place * width_]);
   }
 }
 
@@ -83,14 +83,14 @@ void PlaceSums::add(const PlaceSums& other) {
     sum.add(*this);
     *this = std::move(sum);
   } else {
-    sunfleck::add(other.all_, all_.data());
+    columns::add(other.all_, all_.data());
   }
 }
 
 std::vector<std::int64_t> PlaceSums::all() const {
   if (form_ == Form::all) return all_;
   std::vector<std::int64_t> sums(size());
-  for (std::size_t k = 0; k < at_.size(); ++k) sunfleck::add(row(rows_, k), &sums[at_[k] * width_]);
+  for (std::size_t k = 0; k < at_.size(); ++k) columns::add(row(rows_, k), &sums[at_[k] * width_]);
   return sums;
 }
 
@@ -109,7 +109,7 @@ PlaceSums PlaceSums::merged() const {
       list.at_.push_back(at_[entry]);
       list.rows_.resize(list.rows_.size() + width_);
     }
-    sunfleck::add(row(rows_, entry), &list.rows_[list.rows_.size() - width_]);
+    columns::add(row(rows_, entry), &list.rows_[list.rows_.size() - width_]);
   }
   return list;
 }

@@ -46,7 +46,7 @@ void Scattering::scatter(const FaceColumns& face, std::span<const std::int64_t> 
     if (std::all_of(of_band.begin(), of_band.end(), [](std::int64_t own) { return own == 0; })) continue;
     std::fill_n(uniform_.begin() + static_cast<std::ptrdiff_t>(first), lights_, random.unit());
   }
-  split(face, {quanta, uniform_, absorbed, reflected_, transmitted_});
+  columns::split(face, {quanta, uniform_, absorbed, reflected_, transmitted_});
 }
 
 void Scattering::add_to(std::vector<FluxLedger>& ledgers) const {

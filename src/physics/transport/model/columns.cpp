@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace sunfleck::columns::HWY_NAMESPACE {
+namespace sunfleck::columns::in_vectors::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -40,7 +40,7 @@ void split(const FaceColumns& face, const SplitColumns& row) {
     hn::StoreU(reflected, wholes, &row.reflected[c]);
     hn::StoreU(transmitted, wholes, &row.transmitted[c]);
   });
-  for (std::size_t c = rest; c < row.landed.size(); ++c) split_one(c, face, row);
+  for (std::size_t c = rest; c < row.landed.size(); ++c) singly::split(c, face, row);
 }
 
 void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
@@ -53,7 +53,7 @@ void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t p
     const auto any = hn::Gt(own, hn::Zero(wholes));
     hn::StoreU(hn::IfThenElse(any, number, hn::LoadU(wholes, &shared.last[c])), wholes, &shared.last[c]);
   });
-  for (std::size_t c = rest; c < quanta.size(); ++c) weigh_one(c, quanta, expected, packet, shared);
+  for (std::size_t c = rest; c < quanta.size(); ++c) singly::weigh(c, quanta, expected, packet, shared);
 }
 
 void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
@@ -77,7 +77,7 @@ void share(std::span<const std::int64_t> quanta, double expected, std::int64_t p
     hn::StoreU(hn::Sub(up_to, given), wholes, &own[c]);
     hn::StoreU(up_to, wholes, &shared.given[c]);
   });
-  for (std::size_t c = rest; c < quanta.size(); ++c) share_one(c, quanta, expected, packet, shared, own);
+  for (std::size_t c = rest; c < quanta.size(); ++c) singly::share(c, quanta, expected, packet, shared, own);
 }
 
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
@@ -130,12 +130,13 @@ void add_scaled(double factor, std::span<const double> a, std::span<double> sums
   for (std::size_t c = rest; c < a.size(); ++c) sums[c] += factor * a[c];
 }
 
-}  // namespace sunfleck::columns::HWY_NAMESPACE
+}  // namespace sunfleck::columns::in_vectors::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace sunfleck {
 namespace columns {
+namespace in_vectors {
 
 HWY_EXPORT(split);
 HWY_EXPORT(weigh);
@@ -147,49 +148,49 @@ HWY_EXPORT(scale);
 HWY_EXPORT(add_products);
 HWY_EXPORT(add_scaled);
 
-void split_in_vectors(const FaceColumns& face, const SplitColumns& row) {
+void split(const FaceColumns& face, const SplitColumns& row) {
   HWY_DYNAMIC_DISPATCH(split)(face, row);
 }
 
-void weigh_in_vectors(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
+void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
   HWY_DYNAMIC_DISPATCH(weigh)(quanta, expected, packet, shared);
 }
 
-void share_in_vectors(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
-                      std::span<std::int64_t> own) {
+void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
+           std::span<std::int64_t> own) {
   HWY_DYNAMIC_DISPATCH(share)(quanta, expected, packet, shared, own);
 }
 
-void add_in_vectors(std::span<const std::int64_t> quanta, std::int64_t* sums) {
+void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
   HWY_DYNAMIC_DISPATCH(add)(quanta, sums);
 }
 
-void subtract_in_vectors(std::span<const std::int64_t> quanta, std::int64_t* sums) {
+void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
   HWY_DYNAMIC_DISPATCH(subtract)(quanta, sums);
 }
 
-void divide_in_vectors(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios) {
+void divide(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios) {
   HWY_DYNAMIC_DISPATCH(divide)(quanta, by, ratios);
 }
 
-void scale_in_vectors(std::span<const std::int64_t> quanta, std::span<const double> first, double second,
-                      std::span<const double> third, std::span<double> products) {
+void scale(std::span<const std::int64_t> quanta, std::span<const double> first, double second, std::span<const double> third,
+           std::span<double> products) {
   HWY_DYNAMIC_DISPATCH(scale)(quanta, first, second, third, products);
 }
 
-void add_products_in_vectors(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
+void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
   HWY_DYNAMIC_DISPATCH(add_products)(a, b, sums);
 }
 
-void add_scaled_in_vectors(double factor, std::span<const double> a, std::span<double> sums) {
+void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {
   HWY_DYNAMIC_DISPATCH(add_scaled)(factor, a, sums);
 }
 
-}  // namespace columns
+}  // namespace in_vectors
 
 void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<const double> by, std::span<double> sums) {
   const std::size_t count = by.size();
-  if (count < columns::least_in_vectors) {
+  if (count < least_in_vectors) {
     for (std::size_t row = 0; row < sums.size(); ++row) {
       double sum = 0.0;
       for (std::size_t c = 0; c < count; ++c) sum += static_cast<double>(rows[row][c]) / by[c];
@@ -203,7 +204,7 @@ void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<c
   for (std::size_t first = 0; first < sums.size(); first += at_once) {
     const std::size_t those = std::min(at_once, sums.size() - first);
     for (std::size_t k = 0; k < those; ++k) {
-      columns::divide_in_vectors(rows[first + k], by, std::span(ratios).subspan(k * count, count));
+      in_vectors::divide(rows[first + k], by, std::span(ratios).subspan(k * count, count));
     }
     std::array<double, at_once> sum{};
     for (std::size_t c = 0; c < count; ++c) {
@@ -212,6 +213,8 @@ void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<c
     std::copy_n(sum.begin(), those, sums.begin() + static_cast<std::ptrdiff_t>(first));
   }
 }
+
+}  // namespace columns
 
 FaceColumns::FaceColumns(const std::vector<FaceOptics>& face, std::size_t lights) {
   for (const FaceOptics& band : face) {

@@ -79,20 +79,26 @@ namespace columns {
 // Rows of fewer columns are not worth vectors.
 inline constexpr std::size_t least_in_vectors = 6;
 
-// These work on vectors.
-void split_in_vectors(const FaceColumns& face, const SplitColumns& row);
-void weigh_in_vectors(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared);
-void share_in_vectors(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
-                      std::span<std::int64_t> own);
-void add_in_vectors(std::span<const std::int64_t> quanta, std::int64_t* sums);
-void subtract_in_vectors(std::span<const std::int64_t> quanta, std::int64_t* sums);
-void divide_in_vectors(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios);
-void scale_in_vectors(std::span<const std::int64_t> quanta, std::span<const double> first, double second,
-                      std::span<const double> third, std::span<double> products);
-void add_products_in_vectors(std::span<const double> a, std::span<const double> b, std::span<double> sums);
-void add_scaled_in_vectors(double factor, std::span<const double> a, std::span<double> sums);
+namespace in_vectors {
 
-inline void split_one(std::size_t c, const FaceColumns& face, const SplitColumns& row) {
+void split(const FaceColumns& face, const SplitColumns& row);
+void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared);
+void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
+           std::span<std::int64_t> own);
+void add(std::span<const std::int64_t> quanta, std::int64_t* sums);
+void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums);
+void divide(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios);
+void scale(std::span<const std::int64_t> quanta, std::span<const double> first, double second, std::span<const double> third,
+           std::span<double> products);
+void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums);
+void add_scaled(double factor, std::span<const double> a, std::span<double> sums);
+
+}  // namespace in_vectors
+
+// Column c of a row.
+namespace singly {
+
+inline void split(std::size_t c, const FaceColumns& face, const SplitColumns& row) {
   const QuantaSplit parts = split_quanta(row.landed[c], {face.reflected[c], face.scattered[c]}, row.u[c]);
   row.absorbed[c] += parts.absorbed;
   row.reflected[c] = parts.reflected;
@@ -100,14 +106,14 @@ inline void split_one(std::size_t c, const FaceColumns& face, const SplitColumns
 }
 
 // Adds quanta / expected to the weights, and notes the packet where there are any quanta.
-inline void weigh_one(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
-                      SharedOut& shared) {
+inline void weigh(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
+                  SharedOut& shared) {
   shared.weights[c] += static_cast<double>(quanta[c]) / expected;
   if (quanta[c] > 0) shared.last[c] = packet;
 }
 
-inline void share_one(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
-                      SharedOut& shared, std::span<std::int64_t> own) {
+inline void share(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
+                  std::span<std::int64_t> own) {
   own[c] = 0;
   if (quanta[c] == 0) return;
   shared.sums[c] += static_cast<double>(quanta[c]) / expected;
@@ -118,36 +124,36 @@ inline void share_one(std::size_t c, std::span<const std::int64_t> quanta, doubl
   shared.given[c] = up_to;
 }
 
-}  // namespace columns
+}  // namespace singly
 
 // Splits what landed on a face.
 inline void split(const FaceColumns& face, const SplitColumns& row) {
-  if (row.landed.size() >= columns::least_in_vectors) return columns::split_in_vectors(face, row);
-  for (std::size_t c = 0; c < row.landed.size(); ++c) columns::split_one(c, face, row);
+  if (row.landed.size() >= least_in_vectors) return in_vectors::split(face, row);
+  for (std::size_t c = 0; c < row.landed.size(); ++c) singly::split(c, face, row);
 }
 
 // Adds the weights, quanta / expected, of a packet.
 inline void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
-  if (quanta.size() >= columns::least_in_vectors) return columns::weigh_in_vectors(quanta, expected, packet, shared);
-  for (std::size_t c = 0; c < quanta.size(); ++c) columns::weigh_one(c, quanta, expected, packet, shared);
+  if (quanta.size() >= least_in_vectors) return in_vectors::weigh(quanta, expected, packet, shared);
+  for (std::size_t c = 0; c < quanta.size(); ++c) singly::weigh(c, quanta, expected, packet, shared);
 }
 
 // Sets `own` to what the packet gets, once all were weighed.
 inline void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
                   std::span<std::int64_t> own) {
-  if (quanta.size() >= columns::least_in_vectors) return columns::share_in_vectors(quanta, expected, packet, shared, own);
-  for (std::size_t c = 0; c < quanta.size(); ++c) columns::share_one(c, quanta, expected, packet, shared, own);
+  if (quanta.size() >= least_in_vectors) return in_vectors::share(quanta, expected, packet, shared, own);
+  for (std::size_t c = 0; c < quanta.size(); ++c) singly::share(c, quanta, expected, packet, shared, own);
 }
 
 // Adds quanta to as many sums.
 inline void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
-  if (quanta.size() >= columns::least_in_vectors) return columns::add_in_vectors(quanta, sums);
+  if (quanta.size() >= least_in_vectors) return in_vectors::add(quanta, sums);
   for (std::size_t c = 0; c < quanta.size(); ++c) sums[c] += quanta[c];
 }
 
 // Subtracts quanta from as many sums.
 inline void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
-  if (quanta.size() >= columns::least_in_vectors) return columns::subtract_in_vectors(quanta, sums);
+  if (quanta.size() >= least_in_vectors) return in_vectors::subtract(quanta, sums);
   for (std::size_t c = 0; c < quanta.size(); ++c) sums[c] -= quanta[c];
 }
 
@@ -157,20 +163,21 @@ void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<c
 // Sets the products of quanta * first * second * third, multiplied in this order.
 inline void scale(std::span<const std::int64_t> quanta, std::span<const double> first, double second,
                   std::span<const double> third, std::span<double> products) {
-  if (quanta.size() >= columns::least_in_vectors) return columns::scale_in_vectors(quanta, first, second, third, products);
+  if (quanta.size() >= least_in_vectors) return in_vectors::scale(quanta, first, second, third, products);
   for (std::size_t c = 0; c < quanta.size(); ++c) products[c] = static_cast<double>(quanta[c]) * first[c] * second * third[c];
 }
 
 // Adds a * b to the sums.
 inline void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
-  if (a.size() >= columns::least_in_vectors) return columns::add_products_in_vectors(a, b, sums);
+  if (a.size() >= least_in_vectors) return in_vectors::add_products(a, b, sums);
   for (std::size_t c = 0; c < a.size(); ++c) sums[c] += a[c] * b[c];
 }
 
 // Adds factor * a to the sums.
 inline void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {
-  if (a.size() >= columns::least_in_vectors) return columns::add_scaled_in_vectors(factor, a, sums);
+  if (a.size() >= least_in_vectors) return in_vectors::add_scaled(factor, a, sums);
   for (std::size_t c = 0; c < a.size(); ++c) sums[c] += factor * a[c];
 }
 
+}  // namespace columns
 }  // namespace sunfleck

@@ -7,8 +7,8 @@ namespace sunfleck {
 void PlaneFlux::pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta) {
   std::vector<std::int64_t>& planes = from > to ? down_ : up_;
   const auto [first, end] = std::minmax(from, to);
-  add(quanta, &planes[first * bands_]);
-  subtract(quanta, &planes[end * bands_]);
+  columns::add(quanta, &planes[first * bands_]);
+  columns::subtract(quanta, &planes[end * bands_]);
 }
 
 void PlaneFlux::close(const std::function<bool(std::size_t plane)>& at_ground) {

@@ -21,8 +21,8 @@ class PlaneFlux {
   // Adds quanta of a band that are shot from a place although they waited elsewhere; negative where they waited.
   void move(std::size_t place, std::size_t band, std::int64_t quanta) { moved_[place * bands_ + band] += quanta; }
   // Add the quanta of all bands that are shot from a place, and take off those that waited there.
-  void move(std::size_t place, std::span<const std::int64_t> quanta) { add(quanta, &moved_[place * bands_]); }
-  void leave(std::size_t place, std::span<const std::int64_t> quanta) { subtract(quanta, &moved_[place * bands_]); }
+  void move(std::size_t place, std::span<const std::int64_t> quanta) { columns::add(quanta, &moved_[place * bands_]); }
+  void leave(std::size_t place, std::span<const std::int64_t> quanta) { columns::subtract(quanta, &moved_[place * bands_]); }
 
   // Completes the flux through the planes. Sampling moves flux between places: flux that waits at one is shot from another,
   // with a mean of zero. To keep the books of the planes in between exact to the quantum, half of the net flux moved through

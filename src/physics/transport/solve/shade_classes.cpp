@@ -44,12 +44,12 @@ struct SideLight {
   // Adds the share of it that belongs to a group.
   void add_to(ShadeSums& sums, double share) {
     for (std::size_t b = 0; b < part_w.size(); ++b) part_w[b] = share * absorbed_w[b];
-    add_scaled(1.0, part_w, sums.indirect_w);
-    add_products(earlier_w_m2, part_w, sums.indirect_square);
+    columns::add_scaled(1.0, part_w, sums.indirect_w);
+    columns::add_products(earlier_w_m2, part_w, sums.indirect_square);
     if (!any_lit) return;
-    add_scaled(lit, part_w, sums.lit_indirect_w);
-    add_products(twice_beam_w_m2, part_w, sums.lit_square);
-    add_products(lit_earlier_w_m2, part_w, sums.lit_indirect_square);
+    columns::add_scaled(lit, part_w, sums.lit_indirect_w);
+    columns::add_products(twice_beam_w_m2, part_w, sums.lit_square);
+    columns::add_products(lit_earlier_w_m2, part_w, sums.lit_indirect_square);
   }
 
   double lit = 0.0;  // part of the area
@@ -264,8 +264,8 @@ double ShadeClasses::absorbed_beam_w(std::size_t element, const BeamLandings& la
 
 void ShadeClasses::set_absorbed_w(std::size_t side, std::span<const std::int64_t> quanta, std::span<double> absorbed_w) const {
   const RadiationModel& model = conversion_.model;
-  scale(quanta, w_m2_per_quantum_, model.plot.area_m2(), conversion_.absorptances(model.canopy.optics_of[side / 2], side % 2),
-        absorbed_w);
+  columns::scale(quanta, w_m2_per_quantum_, model.plot.area_m2(),
+                 conversion_.absorptances(model.canopy.optics_of[side / 2], side % 2), absorbed_w);
 }
 
 ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, const Errors& errors) const {

@@ -33,12 +33,12 @@ std::vector<double> some_numbers(std::size_t count, RandomStream& random) {
   return numbers;
 }
 
-// Calls test(columns, random numbers) for rows of each width, on each kind of processor.
+// Calls test(count, random numbers) for rows of each width, on each kind of processor.
 template <class Test>
 void for_each_width(const Test& test) {
   for_each_processor_kind([&] {
     RandomStream random(5, 1);
-    for (std::size_t columns = 0; columns <= widest; ++columns) test(columns, random);
+    for (std::size_t count = 0; count <= widest; ++count) test(count, random);
   });
 }
 
@@ -54,13 +54,13 @@ std::vector<FaceOptics> some_faces(std::size_t bands, RandomStream& random) {
 }
 
 TEST(Columns, AreSplitAsSingleQuantaAre) {
-  for_each_width([](std::size_t columns, RandomStream& random) {
-    const std::vector<FaceOptics> faces = some_faces(columns, random);
-    const std::vector<std::int64_t> landed = some_quanta(columns, random);
-    const std::vector<double> u = some_numbers(columns, random);
-    std::vector<std::int64_t> absorbed(columns, 7), reflected(columns, -1), transmitted(columns, -1);
-    split(FaceColumns(faces, 1), {landed, u, absorbed, reflected, transmitted});
-    for (std::size_t c = 0; c < columns; ++c) {
+  for_each_width([](std::size_t count, RandomStream& random) {
+    const std::vector<FaceOptics> faces = some_faces(count, random);
+    const std::vector<std::int64_t> landed = some_quanta(count, random);
+    const std::vector<double> u = some_numbers(count, random);
+    std::vector<std::int64_t> absorbed(count, 7), reflected(count, -1), transmitted(count, -1);
+    columns::split(FaceColumns(faces, 1), {landed, u, absorbed, reflected, transmitted});
+    for (std::size_t c = 0; c < count; ++c) {
       const QuantaSplit parts = split_quanta(landed[c], split_coefficients(faces[c].reflectance, faces[c].transmittance), u[c]);
       ASSERT_EQ(absorbed[c], 7 + parts.absorbed);
       ASSERT_EQ(reflected[c], parts.reflected);
@@ -78,60 +78,60 @@ TEST(Columns, OfEachLightHaveTheFaceOfTheirBand) {
 
 TEST(Columns, AreSharedOutAsOneByOne) {
   constexpr std::int64_t packets = 30;
-  for_each_width([](std::size_t columns, RandomStream& random) {
-    std::vector<std::int64_t> totals(columns);
+  for_each_width([](std::size_t count, RandomStream& random) {
+    std::vector<std::int64_t> totals(count);
     std::vector<std::vector<std::int64_t>> rows;
     for (std::int64_t p = 0; p < packets; ++p) {
-      rows.push_back(some_quanta(columns, random));
-      if (columns > 8) rows.back()[8] = 0;  // a column that no packet carries
-      for (std::size_t c = 0; c < columns; ++c) totals[c] += rows.back()[c];
+      rows.push_back(some_quanta(count, random));
+      if (count > 8) rows.back()[8] = 0;  // a column that no packet carries
+      for (std::size_t c = 0; c < count; ++c) totals[c] += rows.back()[c];
     }
     SharedOut together(totals), singly(totals);
     for (std::int64_t p = 0; p < packets; ++p) {
       const auto& row = rows[static_cast<std::size_t>(p)];
       const double expected = 0.5 + 0.1 * static_cast<double>(p);
-      weigh(row, expected, p, together);
-      for (std::size_t c = 0; c < columns; ++c) columns::weigh_one(c, row, expected, p, singly);
+      columns::weigh(row, expected, p, together);
+      for (std::size_t c = 0; c < count; ++c) columns::singly::weigh(c, row, expected, p, singly);
     }
-    std::vector<std::int64_t> own(columns), own_singly(columns), carried(columns);
+    std::vector<std::int64_t> own(count), own_singly(count), carried(count);
     for (std::int64_t p = 0; p < packets; ++p) {
       const auto& row = rows[static_cast<std::size_t>(p)];
       const double expected = 0.5 + 0.1 * static_cast<double>(p);
-      share(row, expected, p, together, own);
-      for (std::size_t c = 0; c < columns; ++c) columns::share_one(c, row, expected, p, singly, own_singly);
+      columns::share(row, expected, p, together, own);
+      for (std::size_t c = 0; c < count; ++c) columns::singly::share(c, row, expected, p, singly, own_singly);
       ASSERT_EQ(own, own_singly);
-      for (std::size_t c = 0; c < columns; ++c) carried[c] += own[c];
+      for (std::size_t c = 0; c < count; ++c) carried[c] += own[c];
     }
     EXPECT_EQ(carried, totals);
   });
 }
 
 TEST(Columns, AreAddedAndSubtracted) {
-  for_each_width([](std::size_t columns, RandomStream& random) {
-    const std::vector<std::int64_t> quanta = some_quanta(columns, random);
-    std::vector<std::int64_t> sums(columns + 1, 3);
-    add(quanta, sums.data());
-    for (std::size_t c = 0; c < columns; ++c) ASSERT_EQ(sums[c], 3 + quanta[c]);
-    subtract(quanta, sums.data());
-    subtract(quanta, sums.data());
-    for (std::size_t c = 0; c < columns; ++c) ASSERT_EQ(sums[c], 3 - quanta[c]);
-    EXPECT_EQ(sums[columns], 3);
+  for_each_width([](std::size_t count, RandomStream& random) {
+    const std::vector<std::int64_t> quanta = some_quanta(count, random);
+    std::vector<std::int64_t> sums(count + 1, 3);
+    columns::add(quanta, sums.data());
+    for (std::size_t c = 0; c < count; ++c) ASSERT_EQ(sums[c], 3 + quanta[c]);
+    columns::subtract(quanta, sums.data());
+    columns::subtract(quanta, sums.data());
+    for (std::size_t c = 0; c < count; ++c) ASSERT_EQ(sums[c], 3 - quanta[c]);
+    EXPECT_EQ(sums[count], 3);
   });
 }
 
 TEST(Columns, SumRatiosInTheirOrder) {
   for (const std::size_t rows : {0, 1, 8, 19}) {
-    for_each_width([&](std::size_t columns, RandomStream& random) {
-      const std::vector<std::int64_t> quanta = some_quanta(rows * columns, random);
-      std::vector<double> by = some_numbers(columns, random);
-      if (columns > 2) by[2] = std::numeric_limits<double>::infinity();
+    for_each_width([&](std::size_t count, RandomStream& random) {
+      const std::vector<std::int64_t> quanta = some_quanta(rows * count, random);
+      std::vector<double> by = some_numbers(count, random);
+      if (count > 2) by[2] = std::numeric_limits<double>::infinity();
       std::vector<double> sums(rows, -1.0);
       std::vector<std::span<const std::int64_t>> parts;
-      for (std::size_t row = 0; row < rows; ++row) parts.push_back(std::span(quanta).subspan(row * columns, columns));
-      sum_ratios(parts, by, sums);
+      for (std::size_t row = 0; row < rows; ++row) parts.push_back(std::span(quanta).subspan(row * count, count));
+      columns::sum_ratios(parts, by, sums);
       for (std::size_t row = 0; row < rows; ++row) {
         double sum = 0.0;
-        for (std::size_t c = 0; c < columns; ++c) sum += static_cast<double>(quanta[row * columns + c]) / by[c];
+        for (std::size_t c = 0; c < count; ++c) sum += static_cast<double>(quanta[row * count + c]) / by[c];
         ASSERT_EQ(sums[row], sum);
       }
     });
@@ -139,15 +139,15 @@ TEST(Columns, SumRatiosInTheirOrder) {
 }
 
 TEST(Columns, OfRealNumbersAreScaledAndAdded) {
-  for_each_width([](std::size_t columns, RandomStream& random) {
-    const std::vector<std::int64_t> quanta = some_quanta(columns, random);
-    const std::vector<double> a = some_numbers(columns, random);
-    const std::vector<double> b = some_numbers(columns, random);
-    std::vector<double> products(columns), sums(columns, 0.1), scaled(columns, 0.1);
-    scale(quanta, a, 0.7, b, products);
-    add_products(a, b, sums);
-    add_scaled(0.3, a, scaled);
-    for (std::size_t c = 0; c < columns; ++c) {
+  for_each_width([](std::size_t count, RandomStream& random) {
+    const std::vector<std::int64_t> quanta = some_quanta(count, random);
+    const std::vector<double> a = some_numbers(count, random);
+    const std::vector<double> b = some_numbers(count, random);
+    std::vector<double> products(count), sums(count, 0.1), scaled(count, 0.1);
+    columns::scale(quanta, a, 0.7, b, products);
+    columns::add_products(a, b, sums);
+    columns::add_scaled(0.3, a, scaled);
+    for (std::size_t c = 0; c < count; ++c) {
       ASSERT_EQ(products[c], static_cast<double>(quanta[c]) * a[c] * 0.7 * b[c]);
       ASSERT_EQ(sums[c], 0.1 + a[c] * b[c]);
       ASSERT_EQ(scaled[c], 0.1 + 0.3 * a[c]);
