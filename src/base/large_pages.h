@@ -18,7 +18,7 @@ struct LargePageAllocator {
   using value_type = T;
 
   static constexpr std::size_t page_bytes = std::size_t{1} << 21U;
-  static constexpr std::size_t least_bytes = 2 * page_bytes;
+  static constexpr std::size_t least_bytes = 16 * page_bytes;  // shorter arrays would be rounded up by too much
 
   LargePageAllocator() = default;
   template <class Other>

@@ -1,5 +1,5 @@
 #pragma once
-// Stores long arrays of numbers as CBOR byte strings, little-endian and deflated (zlib streams of a mebibyte, one after the other),
+// Stores long arrays of numbers as CBOR byte strings, little-endian and deflated (zlib streams of 256 KiB, one after the other),
 // and reads CBOR from untrusted files.
 
 #include "base/error.h"

@@ -19,7 +19,7 @@ TEST(LargePages, HoldLongArraysFromTheirBeginning) {
 
 TEST(LargePages, KeepValuesWhileArraysGrowAndShrink) {
   LargeVector<std::int64_t> values;
-  constexpr std::int64_t count = 2'000'000;  // grows from small arrays to large ones
+  constexpr std::int64_t count = 6'000'000;  // grows from small arrays to large ones
   for (std::int64_t k = 0; k < count; ++k) values.push_back(k);
   for (std::int64_t k = 0; k < count; ++k) ASSERT_EQ(values[static_cast<std::size_t>(k)], k);
   values.resize(10);

@@ -13,7 +13,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::size_t stream = std::size_t{1} << 20U;
+constexpr std::size_t stream = std::size_t{1} << 18U;
 
 // Returns bytes of which half can be foretold.
 std::vector<std::uint8_t> some_bytes(std::size_t count) {
