@@ -37,7 +37,7 @@ class DepthCheck : public nlohmann::json_sax<json> {
 
 // Number of bytes in a stream. Streams are deflated side by side; longer ones would hardly be smaller.
 constexpr std::size_t stream_bytes = std::size_t{1} << 18U;
-constexpr std::size_t streams_at_once = 16;
+constexpr std::size_t bytes_at_once = 16 * stream_bytes;
 
 // Returns the bytes of all packed arrays in the value, which is nested no deeper than a file.
 std::size_t packed_bytes(const json& value) {
@@ -61,13 +61,14 @@ std::vector<std::uint8_t> deflated_stream(std::span<const std::byte> bytes) {
 
 class Deflater {
  public:
+  Deflater() { waiting_.reserve(bytes_at_once); }
+
   void add(std::span<const std::byte> bytes) {
-    waiting_.reserve(streams_at_once * stream_bytes);
     while (!bytes.empty()) {
-      const auto taken = bytes.first(std::min(bytes.size(), streams_at_once * stream_bytes - waiting_.size()));
+      const auto taken = bytes.first(std::min(bytes.size(), bytes_at_once - waiting_.size()));
       waiting_.insert(waiting_.end(), taken.begin(), taken.end());
       bytes = bytes.subspan(taken.size());
-      if (waiting_.size() == streams_at_once * stream_bytes) deflate_waiting();
+      if (waiting_.size() == bytes_at_once) deflate_waiting();
     }
   }
 

@@ -60,7 +60,7 @@ class PlaceSums {
   // Does the same, and first calls come(place) for each place, in the same order but some steps ahead, so that memory can be asked for.
   template <class Take, class Come>
   void for_each(const Take& take, const Come& come) const {
-    const std::size_t steps = form_ == Form::list ? at_.size() : at_.empty() && form_ == Form::indexed ? 0 : places_;
+    const std::size_t steps = steps_in_turn();
     for (std::size_t step = 0; step < steps; ++step) {
       if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < steps && has(ahead)) {
         come(place_of(ahead));
@@ -121,8 +121,12 @@ class PlaceSums {
 
   static constexpr std::size_t least_indexed_width = 8;
 
-  // for_each takes the entries of a list or the places of the other forms in turn. Return whether there is anything at such a step, its
-  // place, and where its values are.
+  // for_each takes the entries of a list or the places of the other forms in turn. Return how many steps that makes, whether there is
+  // anything at a step, its place, and where its values are.
+  [[nodiscard]] std::size_t steps_in_turn() const {
+    if (form_ == Form::list) return at_.size();
+    return form_ == Form::indexed && at_.empty() ? 0 : places_;
+  }
   [[nodiscard]] bool has(std::size_t step) const { return form_ != Form::indexed || entry_at_[step] != 0; }
   [[nodiscard]] std::size_t place_of(std::size_t step) const { return form_ == Form::list ? at_[step] : step; }
   [[nodiscard]] std::size_t entry_of(std::size_t step) const { return form_ == Form::indexed ? entry_at_[step] - 1 : step; }

@@ -88,40 +88,71 @@ void share(std::span<const std::int64_t> quanta, double expected, std::int64_t p
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums);
 void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums);
 void divide(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios);
-void scale(std::span<const std::int64_t> quanta, std::span<const double> first, double second, std::span<const double> third,
+void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
            std::span<double> products);
 void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums);
 void add_scaled(double factor, std::span<const double> a, std::span<double> sums);
 
 }  // namespace in_vectors
 
-// Column c of a row.
+// The columns of a row from `first` on, one by one.
 namespace singly {
 
-inline void split(std::size_t c, const FaceColumns& face, const SplitColumns& row) {
-  const QuantaSplit parts = split_quanta(row.landed[c], {face.reflected[c], face.scattered[c]}, row.u[c]);
-  row.absorbed[c] += parts.absorbed;
-  row.reflected[c] = parts.reflected;
-  row.transmitted[c] = parts.transmitted;
+inline void split(std::size_t first, const FaceColumns& face, const SplitColumns& row) {
+  for (std::size_t c = first; c < row.landed.size(); ++c) {
+    const QuantaSplit parts = split_quanta(row.landed[c], {face.reflected[c], face.scattered[c]}, row.u[c]);
+    row.absorbed[c] += parts.absorbed;
+    row.reflected[c] = parts.reflected;
+    row.transmitted[c] = parts.transmitted;
+  }
 }
 
-// Adds quanta / expected to the weights, and notes the packet where there are any quanta.
-inline void weigh(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
+inline void weigh(std::size_t first, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
                   SharedOut& shared) {
-  shared.weights[c] += static_cast<double>(quanta[c]) / expected;
-  if (quanta[c] > 0) shared.last[c] = packet;
+  for (std::size_t c = first; c < quanta.size(); ++c) {
+    shared.weights[c] += static_cast<double>(quanta[c]) / expected;
+    if (quanta[c] > 0) shared.last[c] = packet;
+  }
 }
 
-inline void share(std::size_t c, std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
-                  std::span<std::int64_t> own) {
-  own[c] = 0;
-  if (quanta[c] == 0) return;
-  shared.sums[c] += static_cast<double>(quanta[c]) / expected;
-  const std::int64_t total = shared.totals[c];
-  const auto share = static_cast<std::int64_t>(shared.sums[c] / shared.weights[c] * static_cast<double>(total));
-  const std::int64_t up_to = packet == shared.last[c] ? total : std::clamp(share, shared.given[c], total);
-  own[c] = up_to - shared.given[c];
-  shared.given[c] = up_to;
+inline void share(std::size_t first, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
+                  SharedOut& shared, std::span<std::int64_t> own) {
+  for (std::size_t c = first; c < quanta.size(); ++c) {
+    own[c] = 0;
+    if (quanta[c] == 0) continue;
+    shared.sums[c] += static_cast<double>(quanta[c]) / expected;
+    const std::int64_t total = shared.totals[c];
+    const auto share = static_cast<std::int64_t>(shared.sums[c] / shared.weights[c] * static_cast<double>(total));
+    const std::int64_t up_to = packet == shared.last[c] ? total : std::clamp(share, shared.given[c], total);
+    own[c] = up_to - shared.given[c];
+    shared.given[c] = up_to;
+  }
+}
+
+inline void add(std::size_t first, std::span<const std::int64_t> quanta, std::int64_t* sums) {
+  for (std::size_t c = first; c < quanta.size(); ++c) sums[c] += quanta[c];
+}
+
+inline void subtract(std::size_t first, std::span<const std::int64_t> quanta, std::int64_t* sums) {
+  for (std::size_t c = first; c < quanta.size(); ++c) sums[c] -= quanta[c];
+}
+
+inline void divide(std::size_t first, std::span<const std::int64_t> quanta, std::span<const double> by,
+                   std::span<double> ratios) {
+  for (std::size_t c = first; c < quanta.size(); ++c) ratios[c] = static_cast<double>(quanta[c]) / by[c];
+}
+
+inline void scale(std::size_t first, std::span<const std::int64_t> quanta, std::span<const double> a, double b,
+                  std::span<const double> c, std::span<double> products) {
+  for (std::size_t k = first; k < quanta.size(); ++k) products[k] = static_cast<double>(quanta[k]) * a[k] * b * c[k];
+}
+
+inline void add_products(std::size_t first, std::span<const double> a, std::span<const double> b, std::span<double> sums) {
+  for (std::size_t c = first; c < a.size(); ++c) sums[c] += a[c] * b[c];
+}
+
+inline void add_scaled(std::size_t first, double factor, std::span<const double> a, std::span<double> sums) {
+  for (std::size_t c = first; c < a.size(); ++c) sums[c] += factor * a[c];
 }
 
 }  // namespace singly
@@ -129,54 +160,54 @@ inline void share(std::size_t c, std::span<const std::int64_t> quanta, double ex
 // Splits what landed on a face.
 inline void split(const FaceColumns& face, const SplitColumns& row) {
   if (row.landed.size() >= least_in_vectors) return in_vectors::split(face, row);
-  for (std::size_t c = 0; c < row.landed.size(); ++c) singly::split(c, face, row);
+  singly::split(0, face, row);
 }
 
-// Adds the weights, quanta / expected, of a packet.
+// Adds the weights, quanta / expected, of a packet, and notes it where it has any quanta.
 inline void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
   if (quanta.size() >= least_in_vectors) return in_vectors::weigh(quanta, expected, packet, shared);
-  for (std::size_t c = 0; c < quanta.size(); ++c) singly::weigh(c, quanta, expected, packet, shared);
+  singly::weigh(0, quanta, expected, packet, shared);
 }
 
 // Sets `own` to what the packet gets, once all were weighed.
 inline void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
                   std::span<std::int64_t> own) {
   if (quanta.size() >= least_in_vectors) return in_vectors::share(quanta, expected, packet, shared, own);
-  for (std::size_t c = 0; c < quanta.size(); ++c) singly::share(c, quanta, expected, packet, shared, own);
+  singly::share(0, quanta, expected, packet, shared, own);
 }
 
 // Adds quanta to as many sums.
 inline void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
   if (quanta.size() >= least_in_vectors) return in_vectors::add(quanta, sums);
-  for (std::size_t c = 0; c < quanta.size(); ++c) sums[c] += quanta[c];
+  singly::add(0, quanta, sums);
 }
 
 // Subtracts quanta from as many sums.
 inline void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
   if (quanta.size() >= least_in_vectors) return in_vectors::subtract(quanta, sums);
-  for (std::size_t c = 0; c < quanta.size(); ++c) sums[c] -= quanta[c];
+  singly::subtract(0, quanta, sums);
 }
 
 // Sets the sums of quanta / by of each row, added in the order of the columns.
 void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<const double> by, std::span<double> sums);
 
-// Sets the products of quanta * first * second * third, multiplied in this order.
-inline void scale(std::span<const std::int64_t> quanta, std::span<const double> first, double second,
-                  std::span<const double> third, std::span<double> products) {
-  if (quanta.size() >= least_in_vectors) return in_vectors::scale(quanta, first, second, third, products);
-  for (std::size_t c = 0; c < quanta.size(); ++c) products[c] = static_cast<double>(quanta[c]) * first[c] * second * third[c];
+// Sets the products of quanta * a * b * c, multiplied in this order.
+inline void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
+                  std::span<double> products) {
+  if (quanta.size() >= least_in_vectors) return in_vectors::scale(quanta, a, b, c, products);
+  singly::scale(0, quanta, a, b, c, products);
 }
 
 // Adds a * b to the sums.
 inline void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
   if (a.size() >= least_in_vectors) return in_vectors::add_products(a, b, sums);
-  for (std::size_t c = 0; c < a.size(); ++c) sums[c] += a[c] * b[c];
+  singly::add_products(0, a, b, sums);
 }
 
 // Adds factor * a to the sums.
 inline void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {
   if (a.size() >= least_in_vectors) return in_vectors::add_scaled(factor, a, sums);
-  for (std::size_t c = 0; c < a.size(); ++c) sums[c] += factor * a[c];
+  singly::add_scaled(0, factor, a, sums);
 }
 
 }  // namespace columns
