@@ -105,7 +105,7 @@ HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const RayBundle& bundle
         continue;
       }
     }
-    const unsigned met = enter_children(node, path, boxes.foremost, boxes.hindmost, limit, stack.next().enter);
+    const std::uint32_t met = enter_children(node, path, boxes.foremost, boxes.hindmost, limit, stack.next().enter);
     for_triangles(node, met, [&](std::uint32_t triangle) HWY_ATTR {
       unsigned within = within_edges(edges, bvh.triangles[triangle]);
       if (within == 0) return;
@@ -117,8 +117,8 @@ HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const RayBundle& bundle
       }
       limit = furthest(hits);
     });
-    stack.push(node, met, path.octant);
-  } while (stack.pop(path.octant, limit, 0, at));
+    stack.push(node, met, path.nearest);
+  } while (stack.pop(path.nearest, limit, 0, at));
 }
 
 // Returns the bundle in the frame of a copy's mesh, as shared::turned_ray turns each of its rays.

@@ -28,14 +28,14 @@ HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const shared::Ray& ray,
         continue;
       }
     }
-    const unsigned met = enter_children(node, path, edges.origin, edges.origin, best.t, stack.next().enter);
+    const std::uint32_t met = enter_children(node, path, edges.origin, edges.origin, best.t, stack.next().enter);
     for_triangles(node, met, [&](std::uint32_t triangle) HWY_ATTR {
       const BvhTriangle& reference = bvh.triangles[triangle];
       if (!within_edges(edges, reference)) return;
       if (images == Images::all || reference.image == 0) meet(bvh, triangle, ray, limit, own, add, best);
     });
-    stack.push(node, met, path.octant);
-  } while (stack.pop(path.octant, best.t, 0, at));
+    stack.push(node, met, path.nearest);
+  } while (stack.pop(path.nearest, best.t, 0, at));
 }
 
 CpuHit nearest_hit(const Bvh& bvh, const shared::Ray& ray, float limit, Images images, OwnElement own) {

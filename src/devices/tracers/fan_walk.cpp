@@ -105,8 +105,8 @@ HWY_INLINE BoxRays box_rays(const SetLanes& rays, const BoxPath& path) {
 
 // As for parallel rays, but each plane is reached by the direction of the range that is first or last to do so, which depends on
 // whether the plane lies ahead. Rounding errors are those of a single ray, for which boxes are padded.
-HWY_INLINE unsigned enter_children(const BvhNode& node, const BoxPath& path, const BoxRays& rays, float limit,
-                                   std::array<float, 8>& enter) {
+HWY_INLINE std::uint32_t enter_children(const BvhNode& node, const BoxPath& path, const BoxRays& rays, float limit,
+                                        std::array<float, 8>& enter) {
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&node);
   alignas(16) float scale[4];
   alignas(16) float early[4];
@@ -127,7 +127,7 @@ HWY_INLINE unsigned enter_children(const BvhNode& node, const BoxPath& path, con
   const auto plane = [&](std::uint32_t at) HWY_ATTR {
     return hn::ConvertTo(slots, hn::PromoteTo(slot_words, hn::LoadU(slot_bytes, bytes + at)));
   };
-  unsigned met = 0;
+  std::uint32_t met = 0;
   for (std::uint32_t i = 0; i < 8; i += static_cast<std::uint32_t>(hn::Lanes(slots))) {
     auto first = hn::Zero(slots);
     auto last = hn::Set(slots, limit);
@@ -141,7 +141,7 @@ HWY_INLINE unsigned enter_children(const BvhNode& node, const BoxPath& path, con
       last = hn::Min(last, hn::Max(hn::Mul(far, least), hn::Mul(far, most)));
     }
     hn::StoreU(first, slots, enter.data() + i);
-    met |= bits_of(slots, hn::Le(first, last)) << i;
+    met |= children_in(slots, node, i, hn::Le(first, last));
   }
   return met;
 }
@@ -188,7 +188,7 @@ HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const RayFan& fan, unsi
         continue;
       }
     }
-    const unsigned met = enter_children(node, path, boxes, limit, stack.next().enter);
+    const std::uint32_t met = enter_children(node, path, boxes, limit, stack.next().enter);
     for_triangles(node, met, [&](std::uint32_t triangle) HWY_ATTR {
       const BvhTriangle& reference = bvh.triangles[triangle];
       if (images == Images::originals && reference.image != 0) return;
@@ -200,8 +200,8 @@ HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const RayFan& fan, unsi
       }
       limit = furthest(hits, set);
     });
-    stack.push(node, met, path.octant);
-  } while (stack.pop(path.octant, limit, 0, at));
+    stack.push(node, met, path.nearest);
+  } while (stack.pop(path.nearest, limit, 0, at));
 }
 
 // Returns the fan in the frame of a copy's mesh.

@@ -30,6 +30,7 @@ struct Walker {
   Search search;
   CpuHit best;
   const BvhNode* node = nullptr;  // to be visited next
+  std::uint32_t met = 0;          // children of that node
   // The ray in the frame of the canopy or of the copy in which it is.
   shared::Ray ray;
   BoxPath path;
@@ -42,19 +43,20 @@ struct Walker {
 
 // A triangle that a walker's ray may meet.
 struct Candidate {
-  std::uint32_t slot;
+  Walker* walker;
   std::uint32_t triangle;
 };
 
 // Goes in rounds, each of which does one thing for all walkers before the next: tests of boxes and of edges do not depend on one
 // another then, so that the processor can do several at once, and what branches on them finds them done.
+template <bool of_copies>
 class Rounds {
  public:
   Rounds(const Bvh& bvh, SearchSource& source) : bvh_(bvh), source_(source) {
     for (std::size_t slot = 0; slot < searches_at_once; ++slot) {
-      if (source_.begin(slot, walkers_[slot].search)) active_[actives_++] = slot;
+      if (source_.begin(slot, walkers_[slot].search)) active_[actives_++] = &walkers_[slot];
     }
-    for (std::size_t k = 0; k < actives_; ++k) begin(walkers_[active_[k]]);
+    for (std::size_t k = 0; k < actives_; ++k) begin(*active_[k]);
   }
 
   void go() {
@@ -62,7 +64,7 @@ class Rounds {
       test_boxes();
       test_triangles();
       for (std::size_t k = 0; k < actives_;) {
-        if (advance(active_[k])) {
+        if (advance(*active_[k])) {
           ++k;
         } else {
           active_[k] = active_[--actives_];
@@ -74,9 +76,9 @@ class Rounds {
  private:
   HWY_INLINE void test_boxes() {
     for (std::size_t k = 0; k < actives_; ++k) {
-      Walker& walker = walkers_[active_[k]];
-      met_[active_[k]] = enter_children(*walker.node, walker.path, walker.edges.origin, walker.edges.origin, walker.best.t,
-                                        walker.stack.next().enter);
+      Walker& walker = *active_[k];
+      walker.met = enter_children(*walker.node, walker.path, walker.edges.origin, walker.edges.origin, walker.best.t,
+                                  walker.stack.next().enter);
     }
   }
 
@@ -84,44 +86,48 @@ class Rounds {
     std::size_t within = 0;
     for (std::size_t k = 0; k < candidates_; ++k) {
       const Candidate candidate = candidate_[k];
-      const bool inside = within_edges(walkers_[candidate.slot].edges, bvh_.triangles[candidate.triangle]);
+      const bool inside = within_edges(candidate.walker->edges, bvh_.triangles[candidate.triangle]);
       candidate_[within] = candidate;
       within += inside ? 1U : 0U;  // without a branch, which the processor would often guess wrong
     }
     for (std::size_t k = 0; k < within; ++k) {
-      Walker& walker = walkers_[candidate_[k].slot];
+      Walker& walker = *candidate_[k].walker;
       meet(bvh_, candidate_[k].triangle, walker.ray, walker.search.limit, walker.search.own, walker.add, walker.best);
     }
     candidates_ = 0;
   }
 
   // Takes what the walker met in its node, and finds its next node; returns false if there is no other search.
-  HWY_INLINE bool advance(std::size_t slot) {
-    Walker& walker = walkers_[slot];
+  HWY_INLINE bool advance(Walker& walker) {
     const std::size_t before = candidates_;
-    for_triangles(*walker.node, met_[slot], [&](std::uint32_t triangle) HWY_ATTR {
-      candidate_[candidates_++] = {static_cast<std::uint32_t>(slot), triangle};
+    for_triangles(*walker.node, walker.met, [&](std::uint32_t triangle) HWY_ATTR {
+      candidate_[candidates_++] = {&walker, triangle};
       prefetch(bvh_.triangles[triangle]);
     });
-    walker.stack.push(*walker.node, met_[slot], walker.path.octant);
+    walker.stack.push(*walker.node, walker.met, walker.path.nearest);
     std::uint32_t next = 0;
-    while (!walker.stack.pop(walker.path.octant, walker.best.t, walker.base, next)) {
+    while (!walker.stack.pop(walker.path.nearest, walker.best.t, walker.base, next)) {
       if (candidates_ > before) {
         walker.node = &node_without_children;
         return true;
       }
-      if (!walker.in_copy) return finish(slot);
+      if (!of_copies || !walker.in_copy) return finish(walker);
       leave_copy(walker);
     }
-    walker.node = &bvh_.nodes[next];
-    prefetch(*walker.node);
-    if (!bvh_.copies.empty() && is_copy(*walker.node)) enter_copy(walker, next);
+    go_to(walker, next);
     return true;
   }
 
-  bool finish(std::size_t slot) {
-    Walker& walker = walkers_[slot];
-    if (!source_.next(slot, walker.best, walker.search)) return false;
+  HWY_INLINE void go_to(Walker& walker, std::uint32_t node) {
+    walker.node = &bvh_.nodes[node];
+    prefetch(*walker.node);
+    if constexpr (of_copies) {
+      if (is_copy(*walker.node)) enter_copy(walker, node);
+    }
+  }
+
+  bool finish(Walker& walker) {
+    if (!source_.next(static_cast<std::size_t>(&walker - walkers_.data()), walker.best, walker.search)) return false;
     begin(walker);
     return true;
   }
@@ -139,8 +145,8 @@ class Rounds {
     walker.base = 0;
     walker.in_copy = false;
     walker.stack.clear();
-    walker.node = bvh_.nodes.empty() ? &node_without_children : bvh_.nodes.data();
-    if (!bvh_.copies.empty() && is_copy(*walker.node)) enter_copy(walker, 0);
+    walker.node = &node_without_children;
+    if (!bvh_.nodes.empty()) go_to(walker, 0);
   }
 
   // Nodes above the copies have no triangles, and those in a copy have no copies below them.
@@ -163,15 +169,15 @@ class Rounds {
   const Bvh& bvh_;
   SearchSource& source_;
   std::array<Walker, searches_at_once> walkers_;
-  std::array<std::size_t, searches_at_once> active_{};  // slots
+  std::array<Walker*, searches_at_once> active_{};
   std::size_t actives_ = 0;
-  std::array<unsigned, searches_at_once> met_{};              // children of the walkers' nodes
   std::array<Candidate, 24 * searches_at_once> candidate_{};  // a node has up to 24 triangles
   std::size_t candidates_ = 0;
 };
 
 void search_side_by_side(const Bvh& bvh, SearchSource& source) {
-  Rounds(bvh, source).go();
+  if (bvh.copies.empty()) return Rounds<false>(bvh, source).go();
+  Rounds<true>(bvh, source).go();
 }
 
 }  // namespace sunfleck::HWY_NAMESPACE

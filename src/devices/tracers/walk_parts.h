@@ -16,18 +16,18 @@ struct BoxPath {
   alignas(16) std::array<float, 4> inverse;      // x, y, z, 1
   std::array<std::uint32_t, 3> near_at, far_at;  // where a node keeps the planes that a ray meets first and last, in bytes
   std::array<bool, 3> back;                      // whether the rays travel backwards
-  unsigned octant;                               // 4, 2 and 1 for the axes x, y and z along which they do, added up
+  unsigned nearest;                              // the slot of the child roughly nearest: 7 - octant, see BvhNode
 };
 
 inline BoxPath box_path(const shared::Ray& ray) {
-  BoxPath path{{ray.inverse.x, ray.inverse.y, ray.inverse.z, 1.0F}, {}, {}, {}, 0};
+  BoxPath path{{ray.inverse.x, ray.inverse.y, ray.inverse.z, 1.0F}, {}, {}, {}, 7};
   for (unsigned axis = 0; axis < 3; ++axis) {
     const auto lo = static_cast<std::uint32_t>(offsetof(BvhNode, lo_x) + 8 * axis);
     const auto hi = static_cast<std::uint32_t>(offsetof(BvhNode, hi_x) + 8 * axis);
     path.back[axis] = path.inverse[axis] < 0.0F;
     path.near_at[axis] = path.back[axis] ? hi : lo;
     path.far_at[axis] = path.back[axis] ? lo : hi;
-    if (path.back[axis]) path.octant |= 4U >> axis;
+    if (path.back[axis]) path.nearest ^= 4U >> axis;
   }
   return path;
 }
@@ -63,33 +63,31 @@ inline EdgeRay edge_ray(const shared::Ray& ray) {
   return {lanes_of(ray.origin), edge_axes(ray), ray.shear.x, ray.shear.y};
 }
 
-// Masks of slots by octant and mask, ordered roughly along a ray: bit (k XOR octant) for slot k.
+// Masks of slots by the nearest slot and mask, ordered roughly along a ray: bit (k XOR nearest) for slot k.
 inline constexpr auto along_ray = [] {
   std::array<std::array<std::uint8_t, 256>, 8> ordered{};
-  for (unsigned octant = 0; octant < 8; ++octant) {
+  for (unsigned nearest = 0; nearest < 8; ++nearest) {
     for (unsigned slots = 0; slots < 256; ++slots) {
       for (unsigned k = 0; k < 8; ++k) {
-        if ((slots >> k & 1U) != 0) ordered[octant][slots] |= static_cast<std::uint8_t>(1U << (k ^ octant));
+        if ((slots >> k & 1U) != 0) ordered[nearest][slots] |= static_cast<std::uint8_t>(1U << (k ^ nearest));
       }
     }
   }
   return ordered;
 }();
 
+// The children that a ray meets in a node, as the bits of BvhNode::meta: triangles, and from first_inner_bit on the slots of inner
+// nodes.
+inline constexpr unsigned first_inner_bit = 24;
+inline constexpr std::uint32_t leaf_bits = (1U << first_inner_bit) - 1U;
+
 // The children of a visited node that are still to be visited.
 struct alignas(64) Children {
   std::array<float, 8> enter;  // where the ray enters the slots' boxes
   std::uint32_t child_base;
   std::uint32_t inner_mask;
-  std::uint32_t left;  // in the order of along_ray: the nearest has the highest bit
+  std::uint32_t left;  // in the order of along_ray: the nearest has the lowest bit
 };
-
-// Returns the bit of the nearest of the children that are left, and takes it from them.
-inline unsigned take_nearest(std::uint32_t& left) {
-  const unsigned bit = 31U - static_cast<unsigned>(std::countl_zero(left));
-  left ^= 1U << bit;
-  return bit;
-}
 
 // Children at all levels, those of the nearest nodes last.
 class VisitStack {
@@ -97,13 +95,13 @@ class VisitStack {
   void clear() { depth_ = 0; }
   [[nodiscard]] std::uint32_t depth() const { return depth_; }
 
-  // Adds the inner nodes among the slots `met`, whose entries stand in next().enter.
-  void push(const BvhNode& node, unsigned met, unsigned octant) {
-    const unsigned inner = met & node.inner_mask;
+  // Adds the inner nodes among the children `met`, where the entries of all slots stand in next().enter.
+  void push(const BvhNode& node, std::uint32_t met, unsigned nearest) {
+    const std::uint32_t inner = met >> first_inner_bit;
     Children& children = next();
     children.child_base = node.child_base;
     children.inner_mask = node.inner_mask;
-    children.left = along_ray[octant][inner];
+    children.left = along_ray[nearest][inner];
     depth_ += inner != 0 ? 1U : 0U;  // without a branch, which the processor would often guess wrong
   }
 
@@ -114,10 +112,11 @@ class VisitStack {
   }
 
   // Finds the next node that is entered before `limit`, above the level `base`; returns false if there is none.
-  [[nodiscard]] bool pop(unsigned octant, float limit, std::uint32_t base, std::uint32_t& node) {
+  [[nodiscard]] bool pop(unsigned nearest, float limit, std::uint32_t base, std::uint32_t& node) {
     while (depth_ > base) {
       Children& children = levels_[depth_ - 1];
-      const unsigned slot = take_nearest(children.left) ^ octant;
+      const unsigned slot = static_cast<unsigned>(std::countr_zero(children.left)) ^ nearest;
+      children.left &= children.left - 1;
       depth_ -= children.left == 0 ? 1U : 0U;
       if (children.enter[slot] > limit) continue;
       node = children.child_base + static_cast<std::uint32_t>(std::popcount(children.inner_mask & ((1U << slot) - 1U)));
@@ -132,14 +131,11 @@ class VisitStack {
   std::uint32_t depth_ = 0;
 };
 
-// Calls test(triangle number) for each triangle of the leaves among the slots `met`.
+// Calls test(triangle number) for each triangle of the leaves among the children `met`.
 template <class Test>
-void for_triangles(const BvhNode& node, unsigned met, const Test& test) {
-  for (unsigned leaves = met & ~unsigned{node.inner_mask}; leaves != 0; leaves &= leaves - 1) {
-    const auto slot = static_cast<unsigned>(std::countr_zero(leaves));
-    const std::uint32_t first = node.triangle_base + (node.meta[slot] & 31U);
-    const auto triangles = static_cast<std::uint32_t>(std::popcount(static_cast<unsigned>(node.meta[slot] >> 5U)));
-    for (std::uint32_t k = first; k < first + triangles; ++k) test(k);
+void for_triangles(const BvhNode& node, std::uint32_t met, const Test& test) {
+  for (std::uint32_t left = met & leaf_bits; left != 0; left &= left - 1) {
+    test(node.triangle_base + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
 }
 

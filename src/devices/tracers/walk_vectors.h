@@ -26,10 +26,20 @@ HWY_INLINE unsigned bits_of(D lanes, Mask holds) {
   return bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
 }
 
+// Returns what stands in those slots of eight, from `first_slot` on, for which `met` holds: the bits of BvhNode::meta.
+template <class D, class Mask>
+HWY_INLINE std::uint32_t children_in(D /*slots*/, const BvhNode& node, std::size_t first_slot, Mask met) {
+  const hn::RebindToUnsigned<D> words;
+  const auto meta = hn::PromoteTo(words, hn::LoadU(hn::Rebind<std::uint8_t, D>(), node.meta.data() + first_slot));
+  const auto bits = hn::Shl(hn::ShiftRight<5>(meta), hn::And(meta, hn::Set(words, 31U)));
+  return hn::GetLane(hn::SumOfLanes(words, hn::IfThenElseZero(hn::RebindMask(words, met), bits)));  // no bit stands twice
+}
+
 // Computes for each child slot where its box is entered, before `limit`, by the earlier of two rays that start along each axis at
-// `foremost` and `hindmost`; a single ray starts at both. Returns the bits of the slots that are entered before the other leaves.
-HWY_INLINE unsigned enter_children(const BvhNode& node, const BoxPath& path, const PointLanes& foremost,
-                                   const PointLanes& hindmost, float limit, std::array<float, 8>& enter) {
+// `foremost` and `hindmost`; a single ray starts at both. Returns the triangles and inner nodes of the slots that are entered before
+// the other leaves, as the bits of BvhNode::meta.
+HWY_INLINE std::uint32_t enter_children(const BvhNode& node, const BoxPath& path, const PointLanes& foremost,
+                                        const PointLanes& hindmost, float limit, std::array<float, 8>& enter) {
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&node);
   alignas(16) float per_byte[4];
   alignas(16) float early[4];
@@ -48,7 +58,7 @@ HWY_INLINE unsigned enter_children(const BvhNode& node, const BoxPath& path, con
   const hn::CappedTag<float, 8> slots;
   const hn::Rebind<std::uint8_t, decltype(slots)> slot_bytes;
   const hn::Rebind<std::int32_t, decltype(slots)> slot_words;
-  unsigned met = 0;
+  std::uint32_t met = 0;
   for (std::size_t i = 0; i < 8; i += hn::Lanes(slots)) {
     auto first = hn::Zero(slots);
     auto last = hn::Set(slots, limit);
@@ -60,7 +70,7 @@ HWY_INLINE unsigned enter_children(const BvhNode& node, const BoxPath& path, con
       last = hn::Min(last, hn::MulAdd(far, scale, hn::Set(slots, late[axis])));
     }
     hn::StoreU(first, slots, enter.data() + i);
-    met |= bits_of(slots, hn::Le(first, last)) << i;
+    met |= children_in(slots, node, i, hn::Le(first, last));
   }
   return met;
 }
@@ -88,7 +98,9 @@ HWY_INLINE bool within_edges([[maybe_unused]] const EdgeRay& ray, [[maybe_unused
   const auto y = hn::Sub(hn::Load(lanes, corners[ray.axes.y]), hn::Mul(hn::Set(lanes, ray.shear_y), z));
   const auto areas = hn::Sub(hn::Mul(x, hn::Shuffle0321(y)), hn::Mul(y, hn::Shuffle0321(x)));  // the third is 0
   const auto zero = hn::Zero(lanes);
-  return hn::AllFalse(lanes, hn::Lt(areas, zero)) || hn::AllFalse(lanes, hn::Gt(areas, zero));
+  const unsigned none_negative = hn::AllFalse(lanes, hn::Lt(areas, zero)) ? 1U : 0U;
+  const unsigned none_positive = hn::AllFalse(lanes, hn::Gt(areas, zero)) ? 1U : 0U;
+  return (none_negative | none_positive) != 0;  // without a branch, which the processor would often guess wrong
 #endif
 }
 
