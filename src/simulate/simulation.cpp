@@ -62,7 +62,7 @@ SolveSettings solve_settings(const WorkRequest& work, const Scene& scene, int th
   settings.max_rays = work.max_rays;
   settings.max_seconds = work.max_seconds;
   settings.fit_to_time = !work.resume;
-  settings.replicates_at_once = threads == 1 ? 1 : 2;
+  settings.replicates_at_once = cpu_thread_count(threads);
   settings.memory_bytes = static_cast<double>(work.memory_bytes.value_or(available_memory_bytes() / 4));
   const bool of_elements = work.triangle_light || scene.accuracy.of == ErrorTarget::triangle;
   const bool few = scene.model.canopy.size() <= most_refined_triangles;

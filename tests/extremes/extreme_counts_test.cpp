@@ -225,7 +225,8 @@ TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
   RadiationModel model = leaf_model(quarter(), unit_plot, sun_at(60.0, 33.0), std::array{nir_band});
   const Prepared prepared(model);
   const Surfaces surfaces(model);
-  const Conversion conversion(model, prepared.layout, surfaces, nullptr, {});
+  const CanopyAreas areas(model, prepared.layout, surfaces);
+  const Conversion conversion(model, prepared.layout, surfaces, areas, nullptr, {});
   RunSums sums(conversion, ElementErrors::skip);
   Replicate replicate;
   replicate.counters.resize(prepared.layout.words());

@@ -60,8 +60,8 @@ CpuTracer::CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk)
     : bvh_(bvh), domain_(domain), walk_(walk), beam_budget_(rays_per_slice, 0.0), packet_budget_(packets_per_slice, 0.0) {}
 
 void CpuTracer::check_stop_every(double seconds) {
-  beam_budget_ = DispatchBudget(rays_per_slice, seconds);
-  packet_budget_ = DispatchBudget(packets_per_slice, seconds);
+  beam_budget_.aim_at(seconds);
+  packet_budget_.aim_at(seconds);
 }
 
 TracerDevice CpuTracer::device() const {
@@ -157,14 +157,17 @@ TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const 
   return TraceOutcome::finished;
 }
 
+int cpu_thread_count(int threads) {
+  return threads > 0 ? threads : tbb::info::default_concurrency();
+}
+
 struct CpuThreads::Limit {
   tbb::global_control control;
 };
 
 CpuThreads::CpuThreads(int threads)
-    : limit_(
-          new Limit{tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()))}) {}
+    : limit_(new Limit{tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                           static_cast<std::size_t>(cpu_thread_count(threads)))}) {}
 
 CpuThreads::~CpuThreads() = default;
 

@@ -21,10 +21,11 @@ class CpuTracer final : public Tracer {
   // The tree must outlive the tracer.
   CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk = CpuWalk::tree);
 
-  // Makes the tracer check about every `seconds` seconds whether to stop, from now on.
+  // Makes the tracer check about every `seconds` seconds whether to stop, from now on. Nothing may be traced meanwhile.
   void check_stop_every(double seconds);
 
   [[nodiscard]] TracerDevice device() const override;
+  [[nodiscard]] bool serves_several() const override { return true; }
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                         const StopQuestion& stop) override;
 
@@ -49,6 +50,9 @@ class CpuTracer final : public Tracer {
   CpuWalk walk_;
   DispatchBudget beam_budget_, packet_budget_;  // rays between two checks whether to stop
 };
+
+// Returns how many threads the CPU path has if `threads` are asked for; 0 asks for all cores.
+[[nodiscard]] int cpu_thread_count(int threads);
 
 // Sets the number of threads of the CPU path for the lifetime of the object; 0: all cores.
 class CpuThreads {

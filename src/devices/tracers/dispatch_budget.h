@@ -2,17 +2,23 @@
 // Limits the rays per dispatch, so that a device shared with a window responds soon.
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 
 namespace sunfleck {
 
 // Adapts to the speed of a device: rays() is the number that takes about the requested time, judging by earlier dispatches.
-// Without a requested time it is always the maximum.
+// Without a requested time it is always the maximum. Several threads may ask and record at the same time.
 class DispatchBudget {
  public:
-  DispatchBudget(std::uint32_t most, double seconds)
-      : most_(most), seconds_(seconds), rays_(seconds > 0.0 ? std::min(most, least) : most) {}
+  DispatchBudget(std::uint32_t most, double seconds) : most_(most) { aim_at(seconds); }
+
+  // Begins anew with another requested time.
+  void aim_at(double seconds) {
+    seconds_ = seconds;
+    rays_ = seconds > 0.0 ? std::min(most_, least) : most_;
+  }
 
   [[nodiscard]] std::uint32_t rays() const { return rays_; }
 
@@ -28,8 +34,8 @@ class DispatchBudget {
  private:
   static constexpr std::uint32_t least = 4096;
   std::uint32_t most_;
-  double seconds_;
-  std::uint32_t rays_;
+  double seconds_ = 0.0;
+  std::atomic<std::uint32_t> rays_ = 0;
 };
 
 // Starts when constructed.

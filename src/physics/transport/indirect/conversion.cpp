@@ -48,7 +48,7 @@ constexpr double least_absorbed_share = 0.01;
 }  // namespace
 
 Conversion::Conversion(const RadiationModel& of_model, const CounterLayout& of_layout, const Surfaces& of_surfaces,
-                       const PlaneReceivers* plane_receivers, const Incidence& incidence)
+                       const CanopyAreas& of_areas, const PlaneReceivers* plane_receivers, const Incidence& incidence)
     : model(of_model),
       layout(of_layout),
       surfaces(of_surfaces),
@@ -58,7 +58,7 @@ Conversion::Conversion(const RadiationModel& of_model, const CounterLayout& of_l
       quanta(make_band_quanta(model, incidence)),
       events(make_light_events(model, quanta, incidence)),
       exposure(model, layout, incidence.ground_per_ray_m2),
-      areas(model, layout, surfaces, exposure),
+      areas(of_areas),
       absorptances_(all_absorptances(model)),
       splits_(split_rays(model, quanta)) {}
 

@@ -20,7 +20,7 @@ namespace sunfleck {
 
 struct Conversion {
   // All arguments but the incidence must outlive the conversion; `receivers` may be null.
-  Conversion(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
+  Conversion(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, const CanopyAreas& areas,
              const PlaneReceivers* receivers, const Incidence& incidence);
 
   // Returns the sums of one replicate's counters. Throws Error (failure) unless every ray sent is accounted for.
@@ -73,7 +73,7 @@ struct Conversion {
   const std::vector<BandQuanta> quanta;  // [band]
   const LightEvents events;
   const BeamExposure exposure;
-  const CanopyAreas areas;
+  const CanopyAreas& areas;
 
  private:
   void sum_elements(std::span<const std::uint32_t> counters, DirectSums& sums) const;

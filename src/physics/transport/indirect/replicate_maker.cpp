@@ -5,6 +5,8 @@
 #include "physics/transport/indirect/beam_landings.h"
 #include "physics/transport/model/beam_block.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <chrono>
 #include <utility>
 
@@ -22,15 +24,19 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
-TraceOutcome ReplicateMaker::OneAtATime::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                                    const StopQuestion& stop) {
-  const std::lock_guard lock(mutex_);
+std::unique_lock<std::mutex> ReplicateMaker::ForAllThreads::turn() {
+  return tracer_.serves_several() ? std::unique_lock<std::mutex>() : std::unique_lock(mutex_);
+}
+
+TraceOutcome ReplicateMaker::ForAllThreads::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                       const StopQuestion& stop) {
+  const std::unique_lock lock = turn();
   return tracer_.count_beam(beam, counters, stop);
 }
 
-TraceOutcome ReplicateMaker::OneAtATime::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
-                                               std::span<shared::Landing> landings, const StopQuestion& stop) {
-  const std::lock_guard lock(mutex_);
+TraceOutcome ReplicateMaker::ForAllThreads::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                                  std::span<shared::Landing> landings, const StopQuestion& stop) {
+  const std::unique_lock lock = turn();
   return tracer_.trace(scene, packets, landings, stop);
 }
 
@@ -39,9 +45,12 @@ ReplicateMaker::ReplicateMaker(Lights lights, const CounterLayout& layout, Trace
       model_(lights.front()),
       layout_(layout),
       surfaces_(model_),
+      areas_(lights.size()),
       aim_(make_stand_aim(model_, layout)),
       tracer_(tracer),
       spare_(lights.size() * model_.bands.size()) {
+  tbb::parallel_for(std::size_t{0}, lights.size(),
+                    [&](std::size_t k) { areas_[k] = std::make_unique<CanopyAreas>(lights[k], layout, surfaces_); });
   if (!model_.planes.empty()) receivers_.emplace(model_, layout, surfaces_);
   if (any_sky(lights)) sky_.emplace(lights, layout, nullptr);
   if (any_sky(lights) && aim_) aimed_sky_.emplace(lights, layout, &*aim_);
@@ -64,7 +73,7 @@ Incidence ReplicateMaker::incidence(double beam_rays, bool aimed, std::size_t li
 }
 
 Conversion ReplicateMaker::conversion(const Incidence& incidence, std::size_t light) const {
-  return {lights_[light], layout_, surfaces_, receivers(), incidence};
+  return {lights_[light], layout_, surfaces_, *areas_[light], receivers(), incidence};
 }
 
 ReplicateSet ReplicateMaker::blank(const ReplicateOrder& order) const {

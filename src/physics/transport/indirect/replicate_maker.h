@@ -8,15 +8,18 @@
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/indirect/sky_rays.h"
 #include "physics/transport/model/beam_block.h"
+#include "physics/transport/model/canopy_areas.h"
 #include "physics/transport/model/stand_aim.h"
 #include "physics/transport/model/surfaces.h"
 #include "physics/transport/model/tracer.h"
 #include "physics/transport/receivers/planes.h"
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace sunfleck {
 
@@ -58,17 +61,20 @@ class ReplicateMaker {
   void free_spare_memory() { spare_.free(); }
 
  private:
-  // A tracer that serves one thread at a time.
-  class OneAtATime final : public Tracer {
+  // A tracer for several threads; they take turns where the one below serves one thread at a time.
+  class ForAllThreads final : public Tracer {
    public:
-    explicit OneAtATime(Tracer& tracer) : tracer_(tracer) {}
+    explicit ForAllThreads(Tracer& tracer) : tracer_(tracer) {}
     [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
+    [[nodiscard]] bool serves_several() const override { return true; }
     [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                           const StopQuestion& stop) override;
     [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                      std::span<shared::Landing> landings, const StopQuestion& stop) override;
 
    private:
+    [[nodiscard]] std::unique_lock<std::mutex> turn();
+
     Tracer& tracer_;
     std::mutex mutex_;
   };
@@ -86,10 +92,11 @@ class ReplicateMaker {
   const RadiationModel& model_;  // the first light
   const CounterLayout& layout_;
   Surfaces surfaces_;
+  std::vector<std::unique_ptr<const CanopyAreas>> areas_;  // [light]
   std::optional<PlaneReceivers> receivers_;
   std::optional<StandAim> aim_;
   std::optional<SkyRays> sky_, aimed_sky_;
-  OneAtATime tracer_;
+  ForAllThreads tracer_;
   SparePassArrays spare_;
   std::optional<IndirectScene> indirect_;  // empty without a sky if no light is scattered after its first landing
 };

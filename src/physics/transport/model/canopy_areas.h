@@ -13,17 +13,19 @@
 namespace sunfleck {
 
 struct CanopyAreas {
-  CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, const BeamExposure& exposure);
+  CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
 
-  std::vector<bool> foliage;             // [element]
-  std::vector<double> organ_m2;          // [organ]
-  std::vector<double> organ_facing_m2;   // [organ], of elements that the beam can hit
-  std::vector<double> layer_foliage_m2;  // [layer]
-  std::vector<double> layer_facing_m2;   // [layer], of foliage that the beam can hit
+  std::vector<bool> foliage;                  // [element]
+  std::vector<double> organ_m2;               // [organ]
+  std::vector<double> organ_facing_m2;        // [organ], of elements that the beam can hit
+  std::vector<double> organ_open_m2;          // [organ], of elements that light can reach
+  std::vector<double> layer_foliage_m2;       // [layer]
+  std::vector<double> layer_facing_m2;        // [layer], of foliage that the beam can hit
+  std::vector<double> layer_open_foliage_m2;  // [layer], of foliage that light can reach
   // [layer], holds vegetation, or structures or lamps, that light can reach
   std::vector<bool> layer_holds_vegetation, layer_holds_structure;
   std::vector<bool> on_structures;  // [optics], of structures and lamps, which share no optics with vegetation
-  double foliage_m2 = 0.0, facing_m2 = 0.0;
+  double foliage_m2 = 0.0, facing_m2 = 0.0, open_foliage_m2 = 0.0;
   double vegetation_m2 = 0.0;                                        // that light can reach
   bool beam_meets_vegetation = false, beam_meets_structure = false;  // the beam can hit some of it
   std::vector<double> organ_absorptance;                             // [organ * bands + band], the largest of its faces
@@ -33,6 +35,9 @@ struct CanopyAreas {
 
   // Returns whether the beam can hit anything but soil.
   [[nodiscard]] bool beam_meets_canopy() const { return beam_meets_vegetation || beam_meets_structure; }
+
+ private:
+  CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces, const BeamExposure& exposure);
 };
 
 }  // namespace sunfleck

@@ -30,6 +30,9 @@ class Tracer {
 
   [[nodiscard]] virtual TracerDevice device() const = 0;
 
+  // Returns whether several threads may trace at the same time.
+  [[nodiscard]] virtual bool serves_several() const { return false; }
+
   // Traces all rays of one replicate and adds their landings to `counters` (numbered as in physics/transport/model/counters.h). If
   // stopped, the counters hold only part of the rays and must not be used.
   [[nodiscard]] virtual TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,

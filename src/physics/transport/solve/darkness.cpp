@@ -31,7 +31,8 @@ RadiationResult dark_result(const RadiationModel& model, const CounterLayout& la
   const Surfaces surfaces(model);
   std::optional<PlaneReceivers> receivers;
   if (!model.planes.empty()) receivers.emplace(model, layout, surfaces);
-  const Conversion conversion(model, layout, surfaces, receivers ? &*receivers : nullptr, {});
+  const CanopyAreas areas(model, layout, surfaces);
+  const Conversion conversion(model, layout, surfaces, areas, receivers ? &*receivers : nullptr, {});
   RunSums sums(conversion, settings.element_errors);
   Replicate nothing;
   nothing.counters.resize(layout.words());

@@ -3,6 +3,7 @@
 #include "base/prefetch.h"
 #include "base/units.h"
 #include "physics/transport/model/columns.h"
+#include "physics/transport/model/layer_shares.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,31 +11,6 @@
 
 namespace sunfleck {
 namespace {
-
-// Calls take(layer, share of the element's area) for each layer that an element reaches into.
-class LayerShares {
- public:
-  explicit LayerShares(const CounterLayout& layout)
-      : layout_(layout), area_m2_(static_cast<std::size_t>(layout.layers.count)) {}
-
-  template <class Take>
-  void visit(std::size_t e, const Triangle& corners, const Take& take) {
-    const std::size_t first = first_layer(layout_, corners);
-    const std::size_t end = layout_.end_layer(e, first);
-    if (end - first == 1) return take(first, 1.0);
-    add_area_by_layer(layout_.layers, corners, area_m2_);
-    double all_m2 = 0.0;
-    for (std::size_t k = first; k < end; ++k) all_m2 += area_m2_[k];
-    for (std::size_t k = first; k < end; ++k) {
-      if (all_m2 > 0.0) take(k, area_m2_[k] / all_m2);
-      area_m2_[k] = 0.0;
-    }
-  }
-
- private:
-  const CounterLayout& layout_;
-  std::vector<double> area_m2_;  // [layer], 0 between two calls
-};
 
 // What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. [band]
 struct SideLight {
@@ -122,30 +98,14 @@ Estimate SpreadMean::estimate(double t_quantile) const {
 }
 
 ShadeClasses::ShadeClasses(const Conversion& conversion, ShadeGroups groups)
-    : conversion_(conversion),
-      all_groups_(groups == ShadeGroups::all),
-      organ_open_m2_(all_groups_ ? conversion.model.canopy.organs.size() : 0),
-      layer_open_m2_(all_groups_ ? conversion.areas.layer_foliage_m2.size() : 0),
-      leaf_open_m2_(1) {
+    : conversion_(conversion), all_groups_(groups == ShadeGroups::all) {
+  const std::size_t bands = conversion.quanta.size();
   for (const BandQuanta& quanta : conversion.quanta) w_m2_per_quantum_.push_back(quanta.w_m2_per_quantum);
-  const RadiationModel& model = conversion.model;
-  const std::vector<bool> hidden = hidden_elements(model, conversion.layout);
-  LayerShares shares(conversion.layout);
-  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
-    if (hidden[e]) continue;
-    const Triangle& corners = model.canopy.corners[e];
-    const double element_m2 = area_m2(corners);
-    if (all_groups_) organ_open_m2_[model.canopy.organ_of[e]] += element_m2;
-    if (!conversion.areas.foliage[e]) continue;
-    leaf_open_m2_[0] += element_m2;
-    if (!all_groups_) continue;
-    shares.visit(e, corners, [&](std::size_t k, double share) { layer_open_m2_[k] += share * element_m2; });
-  }
   ShadeMeans means;
-  for (auto* ratios : {&means.sunlit, &means.shaded}) ratios->resize(model.bands.size());
-  for (auto* spreads : {&means.sunlit_spread, &means.shaded_spread}) spreads->resize(model.bands.size());
-  organs_.assign(organ_open_m2_.size(), means);
-  layers_.assign(layer_open_m2_.size(), means);
+  for (auto* ratios : {&means.sunlit, &means.shaded}) ratios->resize(bands);
+  for (auto* spreads : {&means.sunlit_spread, &means.shaded_spread}) spreads->resize(bands);
+  organs_.assign(all_groups_ ? conversion.areas.organ_open_m2.size() : 0, means);
+  layers_.assign(all_groups_ ? conversion.areas.layer_open_foliage_m2.size() : 0, means);
   leaves_.assign(1, means);
 }
 
@@ -159,7 +119,7 @@ void ShadeClasses::add(const Replicate& replicate, const PlaceSums& earlier) {
   Groups groups{std::vector(organs_.size(), none), std::vector(layers_.size(), none), std::vector(1, none)};
   if (conversion_.model.has_beam()) add_beam(replicate, groups);
   if (replicate.packets) add_other_light(replicate, earlier, groups);
-  const auto add_all = [&](const std::vector<ShadeSums>& sums, const std::vector<double>& open_m2,
+  const auto add_all = [&](const std::vector<ShadeSums>& sums, std::span<const double> open_m2,
                            std::vector<ShadeMeans>& means) {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       means[i].lit_m2.add(sums[i].lit_m2);
@@ -173,9 +133,10 @@ void ShadeClasses::add(const Replicate& replicate, const PlaceSums& earlier) {
       }
     }
   };
-  add_all(groups.organs, organ_open_m2_, organs_);
-  add_all(groups.layers, layer_open_m2_, layers_);
-  add_all(groups.leaves, leaf_open_m2_, leaves_);
+  const CanopyAreas& areas = conversion_.areas;
+  add_all(groups.organs, areas.organ_open_m2, organs_);
+  add_all(groups.layers, areas.layer_open_foliage_m2, layers_);
+  add_all(groups.leaves, {&areas.open_foliage_m2, 1}, leaves_);
 }
 
 void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
@@ -288,15 +249,15 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, c
 }
 
 ShadeClassResult ShadeClasses::organ(std::size_t organ, const Errors& errors) const {
-  return all_groups_ ? result(organs_[organ], organ_open_m2_[organ], errors) : ShadeClassResult{};
+  return all_groups_ ? result(organs_[organ], conversion_.areas.organ_open_m2[organ], errors) : ShadeClassResult{};
 }
 
 ShadeClassResult ShadeClasses::layer(std::size_t layer, const Errors& errors) const {
-  return all_groups_ ? result(layers_[layer], layer_open_m2_[layer], errors) : ShadeClassResult{};
+  return all_groups_ ? result(layers_[layer], conversion_.areas.layer_open_foliage_m2[layer], errors) : ShadeClassResult{};
 }
 
 ShadeClassResult ShadeClasses::leaves(const Errors& errors) const {
-  return result(leaves_[0], leaf_open_m2_[0], errors);
+  return result(leaves_[0], conversion_.areas.open_foliage_m2, errors);
 }
 
 }  // namespace sunfleck

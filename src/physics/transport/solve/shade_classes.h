@@ -141,9 +141,8 @@ class ShadeClasses {
 
   const Conversion& conversion_;
   bool all_groups_;
-  std::vector<double> w_m2_per_quantum_;                              // [band]
-  std::vector<double> organ_open_m2_, layer_open_m2_, leaf_open_m2_;  // of triangles that light can reach
-  std::vector<ShadeMeans> organs_, layers_, leaves_;                  // the last has one entry
+  std::vector<double> w_m2_per_quantum_;              // [band]
+  std::vector<ShadeMeans> organs_, layers_, leaves_;  // the last has one entry
 };
 
 }  // namespace sunfleck

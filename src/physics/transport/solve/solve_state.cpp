@@ -95,7 +95,8 @@ SolveState blank_state(const RadiationModel& model, const CounterLayout& layout,
   if (!model.planes.empty()) receivers.emplace(model, layout, surfaces);
   SolveState blank;
   blank.work = {model.has_beam() ? 1.0 : 0.0, 0.0};
-  const Conversion conversion(model, layout, surfaces, receivers ? &*receivers : nullptr, {});
+  const CanopyAreas areas(model, layout, surfaces);
+  const Conversion conversion(model, layout, surfaces, areas, receivers ? &*receivers : nullptr, {});
   blank.sums = plain_sums(RunSums(conversion, element_errors));
   return blank;
 }
