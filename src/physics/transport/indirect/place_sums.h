@@ -60,9 +60,13 @@ class PlaceSums {
   // Does the same, and first calls come(place) for each place, in the same order but some steps ahead, so that memory can be asked for.
   template <class Take, class Come>
   void for_each(const Take& take, const Come& come) const {
-    const std::size_t steps = steps_in_turn();
-    for (std::size_t step = 0; step < steps; ++step) {
-      if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < steps && has(ahead)) {
+    for_each(0, steps(), take, come);
+  }
+  // Does the same from one step to another of its way; the parts of the way together are the whole. steps() is its end.
+  template <class Take, class Come>
+  void for_each(std::size_t first, std::size_t end, const Take& take, const Come& come) const {
+    for (std::size_t step = first; step < end; ++step) {
+      if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < end && has(ahead)) {
         come(place_of(ahead));
         sunfleck::prefetch(rows_[entry_of(ahead) * width_]);
       }
@@ -71,6 +75,11 @@ class PlaceSums {
       if (std::all_of(values.begin(), values.end(), [](std::int64_t value) { return value == 0; })) continue;
       take(place_of(step), values);
     }
+  }
+
+  [[nodiscard]] std::size_t steps() const {
+    if (form_ == Form::list) return at_.size();
+    return form_ == Form::indexed && at_.empty() ? 0 : places_;
   }
 
   // Finds the sums of single places, as they are when it is made. The sums must outlive it and not change meanwhile.
@@ -121,12 +130,8 @@ class PlaceSums {
 
   static constexpr std::size_t least_indexed_width = 8;
 
-  // for_each takes the entries of a list or the places of the other forms in turn. Return how many steps that makes, whether there is
-  // anything at a step, its place, and where its values are.
-  [[nodiscard]] std::size_t steps_in_turn() const {
-    if (form_ == Form::list) return at_.size();
-    return form_ == Form::indexed && at_.empty() ? 0 : places_;
-  }
+  // for_each takes the entries of a list or the places of the other forms in turn. Return whether there is anything at a step, its place,
+  // and where its values are.
   [[nodiscard]] bool has(std::size_t step) const { return form_ != Form::indexed || entry_at_[step] != 0; }
   [[nodiscard]] std::size_t place_of(std::size_t step) const { return form_ == Form::list ? at_[step] : step; }
   [[nodiscard]] std::size_t entry_of(std::size_t step) const { return form_ == Form::indexed ? entry_at_[step] - 1 : step; }

@@ -1,9 +1,7 @@
 #include "physics/transport/solve/shade_classes.h"
 
-#include "base/prefetch.h"
 #include "base/units.h"
-#include "physics/transport/model/columns.h"
-#include "physics/transport/model/layer_shares.h"
+#include "physics/transport/solve/shade_sums.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,29 +10,23 @@
 namespace sunfleck {
 namespace {
 
-// What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. [band]
-struct SideLight {
-  explicit SideLight(std::size_t bands)
-      : absorbed_w(bands), part_w(bands), earlier_w_m2(bands), lit_earlier_w_m2(bands), twice_beam_w_m2(bands), space(bands) {}
-
-  // Adds the share of it that belongs to a group.
-  void add_to(ShadeSums& sums, double share) {
-    for (std::size_t b = 0; b < part_w.size(); ++b) part_w[b] = share * absorbed_w[b];
-    columns::add_scaled(1.0, part_w, sums.indirect_w);
-    columns::add_products(earlier_w_m2, part_w, sums.indirect_square);
-    if (!any_lit) return;
-    columns::add_scaled(lit, part_w, sums.lit_indirect_w);
-    columns::add_products(twice_beam_w_m2, part_w, sums.lit_square);
-    columns::add_products(lit_earlier_w_m2, part_w, sums.lit_indirect_square);
+// Adds the sums of one replicate to the means of its groups, of which light can reach `open_m2`.
+void add_to(std::vector<ShadeMeans>& means, const ShadeSums& sums, std::span<const double> open_m2) {
+  for (std::size_t i = 0; i < sums.groups(); ++i) {
+    const double lit_m2 = sums.lit_m2[i];
+    const double shaded_m2 = open_m2[i] - lit_m2;
+    means[i].lit_m2.add(lit_m2);
+    for (std::size_t b = 0; b < sums.bands; ++b) {
+      const std::size_t k = i * sums.bands + b;
+      const double sunlit_w = sums.direct_w[k] + sums.lit_indirect_w[k];
+      const double shaded_w = sums.indirect_w[k] - sums.lit_indirect_w[k];
+      means[i].sunlit[b].add(sunlit_w, lit_m2);
+      means[i].shaded[b].add(shaded_w, shaded_m2);
+      means[i].sunlit_spread[b].add({lit_m2, sunlit_w, sums.lit_square[k], sums.lit_indirect_square[k]});
+      means[i].shaded_spread[b].add({shaded_m2, shaded_w, 0.0, sums.indirect_square[k] - sums.lit_indirect_square[k]});
+    }
   }
-
-  double lit = 0.0;  // part of the area
-  bool any_lit = false;
-  std::vector<double> absorbed_w, part_w;
-  std::vector<double> earlier_w_m2, lit_earlier_w_m2;  // of both sides in all earlier replicates together
-  std::vector<double> twice_beam_w_m2;
-  std::vector<double> space;
-};
+}
 
 }  // namespace
 
@@ -100,7 +92,6 @@ Estimate SpreadMean::estimate(double t_quantile) const {
 ShadeClasses::ShadeClasses(const Conversion& conversion, ShadeGroups groups)
     : conversion_(conversion), all_groups_(groups == ShadeGroups::all) {
   const std::size_t bands = conversion.quanta.size();
-  for (const BandQuanta& quanta : conversion.quanta) w_m2_per_quantum_.push_back(quanta.w_m2_per_quantum);
   ShadeMeans means;
   for (auto* ratios : {&means.sunlit, &means.shaded}) ratios->resize(bands);
   for (auto* spreads : {&means.sunlit_spread, &means.shaded_spread}) spreads->resize(bands);
@@ -110,123 +101,11 @@ ShadeClasses::ShadeClasses(const Conversion& conversion, ShadeGroups groups)
 }
 
 void ShadeClasses::add(const Replicate& replicate, const PlaceSums& earlier) {
-  const std::size_t bands = conversion_.quanta.size();
-  ShadeSums none;
-  for (auto* sums : {&none.direct_w, &none.indirect_w, &none.lit_indirect_w, &none.lit_square, &none.indirect_square,
-                     &none.lit_indirect_square}) {
-    sums->resize(bands);
-  }
-  Groups groups{std::vector(organs_.size(), none), std::vector(layers_.size(), none), std::vector(1, none)};
-  if (conversion_.model.has_beam()) add_beam(replicate, groups);
-  if (replicate.packets) add_other_light(replicate, earlier, groups);
-  const auto add_all = [&](const std::vector<ShadeSums>& sums, std::span<const double> open_m2,
-                           std::vector<ShadeMeans>& means) {
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      means[i].lit_m2.add(sums[i].lit_m2);
-      for (std::size_t b = 0; b < bands; ++b) {
-        means[i].sunlit[b].add(sums[i].direct_w[b] + sums[i].lit_indirect_w[b], sums[i].lit_m2);
-        means[i].shaded[b].add(sums[i].indirect_w[b] - sums[i].lit_indirect_w[b], open_m2[i] - sums[i].lit_m2);
-        means[i].sunlit_spread[b].add({sums[i].lit_m2, sums[i].direct_w[b] + sums[i].lit_indirect_w[b], sums[i].lit_square[b],
-                                       sums[i].lit_indirect_square[b]});
-        means[i].shaded_spread[b].add({open_m2[i] - sums[i].lit_m2, sums[i].indirect_w[b] - sums[i].lit_indirect_w[b], 0.0,
-                                       sums[i].indirect_square[b] - sums[i].lit_indirect_square[b]});
-      }
-    }
-  };
+  const ShadeGroupSums groups = sum_shade(conversion_, replicate, earlier, all_groups_);
   const CanopyAreas& areas = conversion_.areas;
-  add_all(groups.organs, areas.organ_open_m2, organs_);
-  add_all(groups.layers, areas.layer_open_foliage_m2, layers_);
-  add_all(groups.leaves, {&areas.open_foliage_m2, 1}, leaves_);
-}
-
-void ShadeClasses::add_beam(const Replicate& replicate, Groups& groups) const {
-  const Canopy& canopy = conversion_.model.canopy;
-  for (const std::uint32_t e : replicate.direct.hit) {
-    const double lit_m2_per_landing = conversion_.exposure.lit_m2_per_landing(e);
-    const bool foliage = conversion_.areas.foliage[e];
-    if (!all_groups_ && !foliage) continue;
-    const std::size_t first = first_layer(conversion_.layout, canopy.corners[e]);
-    std::size_t word = conversion_.layout.first_bin_word + 2 * std::size_t{conversion_.layout.first_bin[e]};
-    for (std::size_t k = first; k < conversion_.layout.end_layer(e, first); ++k, word += 2) {
-      const double upper = replicate.counters[word];
-      const double lower = replicate.counters[word + 1];
-      const auto add_to = [&](ShadeSums& sums) {
-        sums.lit_m2 += (upper + lower) * lit_m2_per_landing;
-        for (std::size_t b = 0; b < sums.direct_w.size(); ++b) {
-          const double per_landing_w = conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
-          const double upper_w = per_landing_w * conversion_.absorptance(canopy.optics_of[e], 0, b);
-          const double lower_w = per_landing_w * conversion_.absorptance(canopy.optics_of[e], 1, b);
-          sums.direct_w[b] += upper * upper_w + lower * lower_w;
-          if (lit_m2_per_landing > 0.0) {
-            sums.lit_square[b] += (upper * upper_w * upper_w + lower * lower_w * lower_w) / lit_m2_per_landing;
-          }
-        }
-      };
-      if (upper + lower == 0.0) continue;
-      if (foliage) add_to(groups.leaves[0]);
-      if (!all_groups_) continue;
-      add_to(groups.organs[canopy.organ_of[e]]);
-      if (foliage) add_to(groups.layers[k]);
-    }
-  }
-}
-
-void ShadeClasses::add_other_light(const Replicate& replicate, const PlaceSums& earlier, Groups& groups) const {
-  const Canopy& canopy = conversion_.model.canopy;
-  const std::size_t bands = conversion_.quanta.size();
-  const PlaceSums::Finder earlier_sides(earlier);
-  LayerShares shares(conversion_.layout);
-  SideLight light(bands);
-  // Most elements have no landing in a replicate.
-  std::vector<bool> hit(canopy.size());
-  for (const std::uint32_t e : replicate.direct.hit) hit[e] = true;
-  const std::span<const Triangle> own = canopy.corners.copies().empty() ? canopy.corners.own() : std::span<const Triangle>();
-  const auto come = [&](std::size_t side) {
-    earlier_sides.prefetch(side & ~std::size_t{1});
-    if (!own.empty()) prefetch(own[side / 2]);
-  };
-  const auto add_side = [&](std::size_t side, std::span<const std::int64_t> quanta) {
-    const std::size_t e = side / 2;
-    if (!all_groups_ && !conversion_.areas.foliage[e]) return;
-    const Triangle& corners = canopy.corners[e];
-    const double element_m2 = area_m2(corners);
-    const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
-    const BeamLandings landings = hit[e] ? conversion_.element_landings(replicate.counters, e) : BeamLandings();
-    light.lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
-    set_absorbed_w(side, quanta, light.absorbed_w);
-    std::fill(light.earlier_w_m2.begin(), light.earlier_w_m2.end(), 0.0);
-    for (const std::size_t of : {2 * e, 2 * e + 1}) {
-      const auto landed = earlier_sides.at(of);
-      if (landed.empty()) continue;
-      set_absorbed_w(of, landed, light.space);
-      for (std::size_t b = 0; b < bands; ++b) light.earlier_w_m2[b] += light.space[b] * per_m2;
-    }
-    light.any_lit = hit[e];
-    for (std::size_t b = 0; light.any_lit && b < bands; ++b) {
-      light.twice_beam_w_m2[b] = 2.0 * (absorbed_beam_w(e, landings, b) * per_m2);
-      light.lit_earlier_w_m2[b] = light.lit * light.earlier_w_m2[b];
-    }
-    const auto add_to = [&](ShadeSums& sums, double share) { light.add_to(sums, share); };
-    if (conversion_.areas.foliage[e]) add_to(groups.leaves[0], 1.0);
-    if (!all_groups_) return;
-    add_to(groups.organs[canopy.organ_of[e]], 1.0);
-    if (!conversion_.areas.foliage[e]) return;
-    shares.visit(e, corners, [&](std::size_t k, double share) { add_to(groups.layers[k], share); });
-  };
-  replicate.packets->side_landed.for_each(add_side, come);
-}
-
-double ShadeClasses::absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const {
-  const std::size_t optics = conversion_.model.canopy.optics_of[element];
-  return conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(band) *
-         (static_cast<double>(landings.upper) * conversion_.absorptance(optics, 0, band) +
-          static_cast<double>(landings.lower) * conversion_.absorptance(optics, 1, band));
-}
-
-void ShadeClasses::set_absorbed_w(std::size_t side, std::span<const std::int64_t> quanta, std::span<double> absorbed_w) const {
-  const RadiationModel& model = conversion_.model;
-  columns::scale(quanta, w_m2_per_quantum_, model.plot.area_m2(),
-                 conversion_.absorptances(model.canopy.optics_of[side / 2], side % 2), absorbed_w);
+  add_to(organs_, groups.organs, areas.organ_open_m2);
+  add_to(layers_, groups.layers, areas.layer_open_foliage_m2);
+  add_to(leaves_, groups.leaves, {&areas.open_foliage_m2, 1});
 }
 
 ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, const Errors& errors) const {

@@ -79,16 +79,6 @@ class SpreadMean {
   std::array<double, size * size> products_{};  // weighted sums of products of two deviations
 };
 
-// Sums of one replicate over the parts of a group: an organ, the leaves in a layer, or all leaves.
-struct ShadeSums {
-  double lit_m2 = 0.0;
-  std::vector<double> direct_w, indirect_w, lit_indirect_w;  // [band], absorbed; the last one where the sun shines
-  // [band], W2 m-2, integrals over the lit area of the squared density of absorbed beam light and of twice its product with that of
-  // other light; and over all area, over the lit area, of the product of other light with the sum of all earlier replicates' other
-  // light
-  std::vector<double> lit_square, indirect_square, lit_indirect_square;
-};
-
 struct ShadeMeans {
   ReplicateMean lit_m2;
   std::vector<RatioMean> sunlit, shaded;                 // [band], W m-2 of the class's area
@@ -106,9 +96,7 @@ class ShadeClasses {
   // The conversion must outlive the object.
   explicit ShadeClasses(const Conversion& conversion, ShadeGroups groups = ShadeGroups::all);
 
-  // Adds a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the beam's landings on
-  // it and the packets that land there are independent, so the product has no bias if both are even over the triangle. `earlier` is
-  // what landed on each side in all replicates added before.
+  // Adds a replicate. `earlier` is what landed on each side in all replicates added before.
   void add(const Replicate& replicate, const PlaceSums& earlier);
 
   template <class Self, class Archive>
@@ -127,21 +115,10 @@ class ShadeClasses {
   [[nodiscard]] ShadeClassResult leaves(const Errors& errors) const;
 
  private:
-  struct Groups {
-    std::vector<ShadeSums> organs, layers, leaves;
-  };
-
-  void add_beam(const Replicate& replicate, Groups& groups) const;
-  void add_other_light(const Replicate& replicate, const PlaceSums& earlier, Groups& groups) const;
-  // Returns what an element absorbs of the beam, W.
-  [[nodiscard]] double absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const;
-  // Sets what a side absorbs of other light, [band].
-  void set_absorbed_w(std::size_t side, std::span<const std::int64_t> quanta, std::span<double> absorbed_w) const;
   [[nodiscard]] ShadeClassResult result(const ShadeMeans& means, double open_m2, const Errors& errors) const;
 
   const Conversion& conversion_;
   bool all_groups_;
-  std::vector<double> w_m2_per_quantum_;              // [band]
   std::vector<ShadeMeans> organs_, layers_, leaves_;  // the last has one entry
 };
 

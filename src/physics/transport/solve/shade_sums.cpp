@@ -1,0 +1,220 @@
+#include "physics/transport/solve/shade_sums.h"
+
+#include "base/prefetch.h"
+#include "physics/transport/model/columns.h"
+#include "physics/transport/model/layer_shares.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace sunfleck {
+namespace {
+
+// A replicate is summed in parts side by side, each with sums of its own, which are then added up in their order. Their number depends
+// on the scene and on what landed, never on the number of threads, so that the sums have the same bits on every machine.
+constexpr std::size_t most_parts = 16;
+constexpr std::size_t most_bytes_of_parts = std::size_t{1} << 24U;
+constexpr std::size_t least_landings_of_part = 2048;
+
+constexpr std::vector<double> ShadeSums::*by_band[] = {&ShadeSums::direct_w,        &ShadeSums::indirect_w,
+                                                       &ShadeSums::lit_indirect_w,  &ShadeSums::lit_square,
+                                                       &ShadeSums::indirect_square, &ShadeSums::lit_indirect_square};
+
+// Returns the beginning of a part of `count` things.
+std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t count) {
+  return part * count / parts;
+}
+
+// What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. [band]
+struct SideLight {
+  explicit SideLight(std::size_t bands)
+      : absorbed_w(bands), part_w(bands), earlier_w_m2(bands), lit_earlier_w_m2(bands), twice_beam_w_m2(bands), space(bands) {}
+
+  // Adds the share of it that belongs to a group.
+  void add_to(ShadeSums& sums, std::size_t group, double share) {
+    for (std::size_t b = 0; b < part_w.size(); ++b) part_w[b] = share * absorbed_w[b];
+    columns::add_scaled(1.0, part_w, sums.of(group, sums.indirect_w));
+    columns::add_products(earlier_w_m2, part_w, sums.of(group, sums.indirect_square));
+    if (!any_lit) return;
+    columns::add_scaled(lit, part_w, sums.of(group, sums.lit_indirect_w));
+    columns::add_products(twice_beam_w_m2, part_w, sums.of(group, sums.lit_square));
+    columns::add_products(lit_earlier_w_m2, part_w, sums.of(group, sums.lit_indirect_square));
+  }
+
+  double lit = 0.0;  // part of the area
+  bool any_lit = false;
+  std::vector<double> absorbed_w, part_w;
+  std::vector<double> earlier_w_m2, lit_earlier_w_m2;  // of both sides in all earlier replicates together
+  std::vector<double> twice_beam_w_m2;
+  std::vector<double> space;
+};
+
+class Addition {
+ public:
+  Addition(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier, bool all_groups)
+      : conversion_(conversion),
+        canopy_(conversion.model.canopy),
+        replicate_(replicate),
+        all_groups_(all_groups),
+        bands_(conversion.quanta.size()),
+        earlier_(earlier),
+        hit_(canopy_.size()) {
+    for (const BandQuanta& quanta : conversion.quanta) w_m2_per_quantum_.push_back(quanta.w_m2_per_quantum);
+    for (const std::uint32_t e : replicate.direct.hit) hit_[e] = true;
+  }
+
+  ShadeGroupSums sum() const {
+    ShadeGroupSums sums(conversion_, all_groups_);
+    const std::size_t parts = number_of_parts(sums);
+    std::vector<ShadeGroupSums> others(parts - 1, sums);
+    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
+      ShadeGroupSums& own = part == 0 ? sums : others[part - 1];
+      if (conversion_.model.has_beam()) add_beam(begin_of(part, parts, hits()), begin_of(part + 1, parts, hits()), own);
+      if (replicate_.packets) add_other_light(begin_of(part, parts, steps()), begin_of(part + 1, parts, steps()), own);
+    });
+    for (const ShadeGroupSums& other : others) sums.add(other);
+    return sums;
+  }
+
+ private:
+  [[nodiscard]] std::size_t hits() const { return replicate_.direct.hit.size(); }
+  [[nodiscard]] std::size_t steps() const { return replicate_.packets ? replicate_.packets->side_landed.steps() : 0; }
+
+  [[nodiscard]] std::size_t number_of_parts(const ShadeGroupSums& sums) const {
+    const std::size_t groups = sums.organs.groups() + sums.layers.groups() + sums.leaves.groups();
+    const std::size_t bytes = groups * (1 + std::size(by_band) * bands_) * sizeof(double);
+    return std::clamp<std::size_t>(std::min(most_bytes_of_parts / bytes, (hits() + steps()) / least_landings_of_part), 1,
+                                   most_parts);
+  }
+
+  void add_beam(std::size_t first_hit, std::size_t end_hit, ShadeGroupSums& groups) const {
+    for (std::size_t hit = first_hit; hit < end_hit; ++hit) {
+      const std::uint32_t e = replicate_.direct.hit[hit];
+      const bool foliage = conversion_.areas.foliage[e];
+      if (!all_groups_ && !foliage) continue;
+      const std::size_t first = first_layer(conversion_.layout, canopy_.corners[e]);
+      std::size_t word = conversion_.layout.first_bin_word + 2 * std::size_t{conversion_.layout.first_bin[e]};
+      for (std::size_t k = first; k < conversion_.layout.end_layer(e, first); ++k, word += 2) {
+        const double upper = replicate_.counters[word];
+        const double lower = replicate_.counters[word + 1];
+        if (upper + lower == 0.0) continue;
+        if (foliage) add_beam_to(groups.leaves, 0, e, upper, lower);
+        if (!all_groups_) continue;
+        add_beam_to(groups.organs, canopy_.organ_of[e], e, upper, lower);
+        if (foliage) add_beam_to(groups.layers, k, e, upper, lower);
+      }
+    }
+  }
+
+  // Adds landings on the two sides of an element to a group.
+  void add_beam_to(ShadeSums& sums, std::size_t group, std::size_t e, double upper, double lower) const {
+    const double lit_m2_per_landing = conversion_.exposure.lit_m2_per_landing(e);
+    sums.lit_m2[group] += (upper + lower) * lit_m2_per_landing;
+    for (std::size_t b = 0; b < bands_; ++b) {
+      const double per_landing_w = conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
+      const double upper_w = per_landing_w * conversion_.absorptance(canopy_.optics_of[e], 0, b);
+      const double lower_w = per_landing_w * conversion_.absorptance(canopy_.optics_of[e], 1, b);
+      sums.direct_w[group * bands_ + b] += upper * upper_w + lower * lower_w;
+      if (lit_m2_per_landing > 0.0) {
+        sums.lit_square[group * bands_ + b] += (upper * upper_w * upper_w + lower * lower_w * lower_w) / lit_m2_per_landing;
+      }
+    }
+  }
+
+  void add_other_light(std::size_t first_step, std::size_t end_step, ShadeGroupSums& groups) const {
+    LayerShares shares(conversion_.layout);
+    SideLight light(bands_);
+    const std::span<const Triangle> own =
+        canopy_.corners.copies().empty() ? canopy_.corners.own() : std::span<const Triangle>();
+    const auto come = [&](std::size_t side) {
+      earlier_.prefetch(side & ~std::size_t{1});
+      if (!own.empty()) prefetch(own[side / 2]);
+    };
+    const auto add_side = [&](std::size_t side, std::span<const std::int64_t> quanta) {
+      const std::size_t e = side / 2;
+      const bool foliage = conversion_.areas.foliage[e];
+      if (!all_groups_ && !foliage) return;
+      set_light(side, quanta, light);
+      if (foliage) light.add_to(groups.leaves, 0, 1.0);
+      if (!all_groups_) return;
+      light.add_to(groups.organs, canopy_.organ_of[e], 1.0);
+      if (!foliage) return;
+      shares.visit(e, canopy_.corners[e], [&](std::size_t k, double share) { light.add_to(groups.layers, k, share); });
+    };
+    replicate_.packets->side_landed.for_each(first_step, end_step, add_side, come);
+  }
+
+  // Most elements have no landing in a replicate.
+  void set_light(std::size_t side, std::span<const std::int64_t> quanta, SideLight& light) const {
+    const std::size_t e = side / 2;
+    const double element_m2 = area_m2(canopy_.corners[e]);
+    const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
+    const BeamLandings landings = hit_[e] ? conversion_.element_landings(replicate_.counters, e) : BeamLandings();
+    light.lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
+    set_absorbed_w(side, quanta, light.absorbed_w);
+    std::fill(light.earlier_w_m2.begin(), light.earlier_w_m2.end(), 0.0);
+    for (const std::size_t of : {2 * e, 2 * e + 1}) {
+      const auto landed = earlier_.at(of);
+      if (landed.empty()) continue;
+      set_absorbed_w(of, landed, light.space);
+      for (std::size_t b = 0; b < bands_; ++b) light.earlier_w_m2[b] += light.space[b] * per_m2;
+    }
+    light.any_lit = hit_[e];
+    for (std::size_t b = 0; light.any_lit && b < bands_; ++b) {
+      light.twice_beam_w_m2[b] = 2.0 * (absorbed_beam_w(e, landings, b) * per_m2);
+      light.lit_earlier_w_m2[b] = light.lit * light.earlier_w_m2[b];
+    }
+  }
+
+  // Returns what an element absorbs of the beam, W.
+  [[nodiscard]] double absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const {
+    const std::size_t optics = canopy_.optics_of[element];
+    return conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(band) *
+           (static_cast<double>(landings.upper) * conversion_.absorptance(optics, 0, band) +
+            static_cast<double>(landings.lower) * conversion_.absorptance(optics, 1, band));
+  }
+
+  // Sets what a side absorbs of other light, [band].
+  void set_absorbed_w(std::size_t side, std::span<const std::int64_t> quanta, std::span<double> absorbed_w) const {
+    columns::scale(quanta, w_m2_per_quantum_, conversion_.model.plot.area_m2(),
+                   conversion_.absorptances(canopy_.optics_of[side / 2], side % 2), absorbed_w);
+  }
+
+  const Conversion& conversion_;
+  const Canopy& canopy_;
+  const Replicate& replicate_;
+  bool all_groups_;
+  std::size_t bands_;
+  PlaceSums::Finder earlier_;
+  std::vector<bool> hit_;                 // [element]
+  std::vector<double> w_m2_per_quantum_;  // [band]
+};
+
+}  // namespace
+
+ShadeSums::ShadeSums(std::size_t groups, std::size_t number_of_bands) : bands(number_of_bands), lit_m2(groups) {
+  for (const auto sums : by_band) (this->*sums).resize(groups * bands);
+}
+
+void ShadeSums::add(const ShadeSums& other) {
+  columns::add_scaled(1.0, other.lit_m2, lit_m2);
+  for (const auto sums : by_band) columns::add_scaled(1.0, other.*sums, this->*sums);
+}
+
+ShadeGroupSums::ShadeGroupSums(const Conversion& conversion, bool all_groups)
+    : organs(all_groups ? conversion.areas.organ_open_m2.size() : 0, conversion.quanta.size()),
+      layers(all_groups ? conversion.areas.layer_open_foliage_m2.size() : 0, conversion.quanta.size()),
+      leaves(1, conversion.quanta.size()) {}
+
+void ShadeGroupSums::add(const ShadeGroupSums& other) {
+  organs.add(other.organs);
+  layers.add(other.layers);
+  leaves.add(other.leaves);
+}
+
+ShadeGroupSums sum_shade(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier, bool all_groups) {
+  return Addition(conversion, replicate, earlier, all_groups).sum();
+}
+
+}  // namespace sunfleck

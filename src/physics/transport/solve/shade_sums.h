@@ -1,0 +1,52 @@
+#pragma once
+// What one replicate finds on the sunlit and on all parts of organs, layers and leaves; shade_classes.h makes two classes of it.
+
+#include "physics/transport/indirect/conversion.h"
+#include "physics/transport/indirect/place_sums.h"
+#include "physics/transport/indirect/replicate.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// Sums over the parts of groups.
+struct ShadeSums {
+  ShadeSums(std::size_t groups, std::size_t bands);
+
+  void add(const ShadeSums& other);
+
+  [[nodiscard]] std::size_t groups() const { return lit_m2.size(); }
+  // Returns the sums of one group, [band].
+  [[nodiscard]] std::span<double> of(std::size_t group, std::vector<double>& sums) const {
+    return std::span(sums).subspan(group * bands, bands);
+  }
+
+  std::size_t bands = 0;
+  std::vector<double> lit_m2;  // [group]
+  // [group * bands + band], absorbed; the last one where the sun shines
+  std::vector<double> direct_w, indirect_w, lit_indirect_w;
+  // [group * bands + band], W2 m-2, integrals over the lit area of the squared density of absorbed beam light and of twice its product
+  // with that of other light; and over all area, over the lit area, of the product of other light with the sum of all earlier
+  // replicates' other light
+  std::vector<double> lit_square, indirect_square, lit_indirect_square;
+};
+
+// The sums of the three kinds of groups.
+struct ShadeGroupSums {
+  // Without `all_groups` those of organs and layers are empty.
+  ShadeGroupSums(const Conversion& conversion, bool all_groups);
+
+  void add(const ShadeGroupSums& other);
+
+  ShadeSums organs, layers, leaves;  // layers: their leaves; the last has one group
+};
+
+// Returns the sums of a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the beam's
+// landings on it and the packets that land there are independent, so the product has no bias if both are even over the triangle.
+// `earlier` is what landed on each side in all replicates added before.
+[[nodiscard]] ShadeGroupSums sum_shade(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier,
+                                       bool all_groups);
+
+}  // namespace sunfleck
