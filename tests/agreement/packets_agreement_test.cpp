@@ -201,6 +201,19 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
   }
 }
 
+// Each round of packets is one submission, and so are the rays whose landings packets start from; a beam's counters come back in a
+// second one.
+TEST_F(PacketsAgreement, TakeOneSubmissionARound) {
+  const RadiationModel model = paper_model(random_leaves(100, 0.12, 5), unit_plot, beijing_sun());
+  const Prepared prepared(model);
+  const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+  VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
+  const DeviceTraffic before = context().traffic();
+  const SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8, .bound = 0.01});
+  const RadiationResult result = solve(model, prepared.layout, device, fixed, {});
+  EXPECT_EQ(context().traffic().submissions - before.submissions, 3 * result.direct.replicates + result.indirect.rounds);
+}
+
 TEST_F(PacketsAgreement, OfAWholeRunWithLightAimedAtAStand) {
   RadiationModel model = paper_model(random_leaves(20, 0.02, 5), {9.0, 8.0, false}, beijing_sun());
   model.sky = SkyModel{};

@@ -3,6 +3,7 @@
 #include "bench/benches.h"
 #include "bench/measure.h"
 #include "bench/peer.h"
+#include "devices/tracers/cpu_tracer.h"
 #include "physics/bvh/build.h"
 
 #include <benchmark/benchmark.h>
@@ -18,6 +19,7 @@ constexpr int built_fields[] = {16, 158};
 
 void build_ours(benchmark::State& state, int plants) {
   const Stand& stand = stand_of(plants);
+  const CpuThreads one(1);
   for (auto _ : state) benchmark::DoNotOptimize(build_bvh(stand.model.canopy, box_padding_m(stand.model)));
   state.counters["triangles"] = static_cast<double>(stand.triangles());
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <deque>
 #include <vector>
 
 namespace sunfleck::test {
@@ -88,7 +89,7 @@ class ForgetfulTracer final : public WrappedTracer {
  private:
   CpuTracer& honest_;
   std::vector<Bvh> without_;        // [element], all references except its own
-  std::vector<CpuTracer> tracers_;  // [element]
+  std::deque<CpuTracer> tracers_;  // [element]
 };
 
 // A strip meets itself in the next period just as it would meet another strip there.

@@ -1,11 +1,11 @@
 #include "devices/gpu/buffer.h"
 
 #include "devices/gpu/handles.h"
+#include "devices/gpu/submission.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -60,34 +60,21 @@ GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t by
 }
 
 void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset) {
-  EXPECT(offset, <=, buffer.bytes);
-  EXPECT(data.size(), <=, buffer.bytes - offset);
-  const Staging& staging = context.handles().staging;
-  for (std::size_t done = 0; done < data.size(); done += Staging::bytes) {
-    const auto piece = data.subspan(done, std::min(Staging::bytes, data.size() - done));
-    std::memcpy(staging.data, piece.data(), piece.size());
-    begin_commands(context).copyBuffer(*staging.buffer, *buffer.handles->buffer,
-                                       vk::BufferCopy(0, offset + done, piece.size()));
-    submit_and_wait(context);
-  }
+  Submission submission(context);
+  submission.upload(buffer, data, offset);
+  submission.finish();
 }
 
 void download(const GpuContext& context, const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset) {
-  EXPECT(offset, <=, buffer.bytes);
-  EXPECT(data.size(), <=, buffer.bytes - offset);
-  const Staging& staging = context.handles().staging;
-  for (std::size_t done = 0; done < data.size(); done += Staging::bytes) {
-    const auto piece = data.subspan(done, std::min(Staging::bytes, data.size() - done));
-    begin_commands(context).copyBuffer(*buffer.handles->buffer, *staging.buffer,
-                                       vk::BufferCopy(offset + done, 0, piece.size()));
-    submit_and_wait(context);
-    std::memcpy(piece.data(), staging.data, piece.size());
-  }
+  Submission submission(context);
+  submission.download(buffer, data, offset);
+  submission.finish();
 }
 
 void fill(const GpuContext& context, const GpuBuffer& buffer, std::uint32_t word) {
-  begin_commands(context).fillBuffer(*buffer.handles->buffer, 0, VK_WHOLE_SIZE, word);
-  submit_and_wait(context);
+  Submission submission(context);
+  submission.fill(buffer, word);
+  submission.finish();
 }
 
 }  // namespace sunfleck

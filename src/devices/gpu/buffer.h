@@ -31,11 +31,9 @@ struct GpuBuffer {
 // Throws Error (failure) naming `what` if memory runs out, Error (device) if the size exceeds the device's limit for this use.
 [[nodiscard]] GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what);
 
-// Copy data through the staging memory, in pieces with one fence each. offset + size <= bytes.
+// Do what Submission does with the same names, each in a submission of its own.
 void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset = 0);
 void download(const GpuContext& context, const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset = 0);
-
-// Sets every 32-bit word of the buffer to `word`.
 void fill(const GpuContext& context, const GpuBuffer& buffer, std::uint32_t word);
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #include "devices/gpu/compute.h"
 
 #include "devices/gpu/handles.h"
+#include "devices/gpu/submission.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,9 @@ void ComputePipeline::create_pipeline(const Specialisation& constants) {
 
 // Binds the buffers for every run. A handle alone does not show whether a buffer is still the one that was bound, since a new
 // buffer may get the handle of a destroyed one.
-void ComputePipeline::bind(std::span<const GpuBuffer* const> buffers) {
+void ComputePipeline::bind(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) {
+  EXPECT(threads, <=, max_threads());
+  EXPECT(push.size(), ==, code_.push_bytes);
   EXPECT(buffers.size(), ==, code_.bindings.size());
   std::vector<vk::DescriptorBufferInfo> infos(buffers.size());
   std::vector<vk::WriteDescriptorSet> writes(buffers.size());
@@ -85,17 +88,18 @@ void ComputePipeline::bind(std::span<const GpuBuffer* const> buffers) {
   context_.handles().device.updateDescriptorSets(writes, {});
 }
 
-void ComputePipeline::run(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) {
-  EXPECT(threads, <=, max_threads());
-  EXPECT(push.size(), ==, code_.push_bytes);
-  bind(buffers);
-  if (threads == 0) return;
-  const auto& commands = begin_commands(context_);
+void ComputePipeline::record(std::uint64_t threads, std::span<const std::byte> push) const {
+  const auto& commands = context_.handles().commands;
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *handles_->pipeline);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *handles_->layout, 0, *handles_->set, {});
   if (!push.empty()) commands.pushConstants<std::byte>(*handles_->layout, vk::ShaderStageFlagBits::eCompute, 0, push);
   commands.dispatch(static_cast<std::uint32_t>((threads + code_.group_size - 1) / code_.group_size), 1, 1);
-  submit_and_wait(context_);
+}
+
+void ComputePipeline::run(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) {
+  Submission submission(context_);
+  submission.run(*this, threads, push, buffers);
+  submission.finish();
 }
 
 std::uint64_t ComputePipeline::max_threads() const {

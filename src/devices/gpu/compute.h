@@ -39,6 +39,7 @@ class ComputePipeline {
   [[nodiscard]] std::uint64_t max_threads() const;
 
  private:
+  friend class Submission;
   struct Handles;  // devices/gpu/handles.h
   struct Destroy {
     void operator()(Handles* handles) const noexcept;
@@ -46,7 +47,10 @@ class ComputePipeline {
 
   void create_layouts();
   void create_pipeline(const Specialisation& constants);
-  void bind(std::span<const GpuBuffer* const> buffers);
+  // Checks the arguments of a run and binds its buffers; the pipeline must not be in the commands recorded so far.
+  void bind(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers);
+  // Records a dispatch of at least one thread.
+  void record(std::uint64_t threads, std::span<const std::byte> push) const;
 
   const GpuContext& context_;
   ShaderCode code_;

@@ -266,6 +266,10 @@ GpuContext::GpuContext(const DeviceSelector& selector, Validation validation) : 
 
 GpuContext::~GpuContext() = default;
 
+const DeviceTraffic& GpuContext::traffic() const {
+  return handles_->traffic;
+}
+
 void GpuContext::take_device(const DeviceSelector& selector) {
   auto physicals = enumerate(handles_->instance);
   std::vector<FoundDevice> all;

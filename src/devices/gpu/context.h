@@ -41,6 +41,11 @@ struct DeviceLimits {
   std::uint64_t heap_bytes = 0;               // largest device-local heap
 };
 
+// What a device was given so far: submissions, each with a fence, and bytes to and from its buffers.
+struct DeviceTraffic {
+  std::uint64_t submissions = 0, uploaded_bytes = 0, downloaded_bytes = 0;
+};
+
 // Sets the number of threads of software Vulkan; must precede the first context or list of devices. 0: all cores.
 void set_software_threads(int threads);
 
@@ -69,6 +74,8 @@ class GpuContext {
   [[nodiscard]] const DeviceDescription& description() const { return description_; }
   [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const { return messages_; }
+
+  [[nodiscard]] const DeviceTraffic& traffic() const;
 
   // Vulkan's handles (devices/gpu/handles.h).
   struct Handles;

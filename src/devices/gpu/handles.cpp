@@ -24,20 +24,29 @@ vk::raii::DeviceMemory allocate(const GpuContext::Handles& context, const vk::Me
   throw vk::OutOfDeviceMemoryError("no memory type fits");
 }
 
-const vk::raii::CommandBuffer& begin_commands(const GpuContext& context) {
-  using Stage = vk::PipelineStageFlagBits;
-  using Access = vk::AccessFlagBits;
-  const vk::raii::CommandBuffer& commands = context.handles().commands;
+void begin_commands(const GpuContext& context) {
   try {
-    commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    context.handles().commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   } catch (const vk::SystemError& error) {
     throw_call_failed(context, fmt::format("Vulkan device {}", context.description().name), error);
   }
+  let_later_commands_see(context);
+}
+
+void let_later_commands_see(const GpuContext& context) {
+  using Stage = vk::PipelineStageFlagBits;
+  using Access = vk::AccessFlagBits;
   const vk::MemoryBarrier barrier(Access::eTransferWrite | Access::eShaderWrite,
                                   Access::eTransferRead | Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite);
   const auto stages = Stage::eTransfer | Stage::eComputeShader;
-  commands.pipelineBarrier(stages, stages, {}, barrier, {}, {});
-  return commands;
+  context.handles().commands.pipelineBarrier(stages, stages, {}, barrier, {}, {});
+}
+
+void drop_commands(const GpuContext& context) noexcept {
+  try {
+    context.handles().commands.reset();
+  } catch (const vk::SystemError&) {  // out of memory; the next begin_commands() fails, too, and says so
+  }
 }
 
 void submit_and_wait(const GpuContext& context) {

@@ -31,6 +31,7 @@ struct GpuContext::Handles {
   vk::raii::CommandBuffer commands{nullptr};
   vk::raii::Fence fence{nullptr};
   Staging staging;
+  mutable DeviceTraffic traffic;
 };
 
 struct GpuBuffer::Handles {
@@ -52,10 +53,13 @@ struct ComputePipeline::Handles {
 [[nodiscard]] vk::raii::DeviceMemory allocate(const GpuContext::Handles& context, const vk::MemoryRequirements& needs,
                                               vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred);
 
-// Returns the single command buffer, reset and begun. Writes of earlier submissions are visible to the transfers and compute
-// shaders recorded here; barriers between commands of the same recording are the caller's responsibility. Throws Error
-// (failure).
-[[nodiscard]] const vk::raii::CommandBuffer& begin_commands(const GpuContext& context);
+// Resets and begins the single command buffer. Writes of earlier submissions are visible to the transfers and compute shaders recorded
+// in it. Throws Error (failure).
+void begin_commands(const GpuContext& context);
+// Makes what the commands recorded so far write visible to those that follow.
+void let_later_commands_see(const GpuContext& context);
+// Forgets what was recorded since begin_commands().
+void drop_commands(const GpuContext& context) noexcept;
 // Ends that command buffer, submits it and waits; afterwards its writes are visible to the host. Throws Error (failure) if the
 // device is lost.
 void submit_and_wait(const GpuContext& context);

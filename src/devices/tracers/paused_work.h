@@ -4,6 +4,7 @@
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/compute.h"
 #include "devices/gpu/context.h"
+#include "devices/gpu/submission.h"
 #include "devices/tracers/dispatch_budget.h"
 #include "devices/tracers/gpu_tree.h"
 #include "devices/tracers/trace_domain.h"
@@ -45,18 +46,21 @@ class PausedWork {
   // Returns how many rays fit one dispatch at the moment.
   [[nodiscard]] std::uint32_t rays_per_dispatch() const { return budget_.rays(); }
 
-  // Traces the rays `first` to `first + count - 1` to their end; `buffers` are those of the shader. Those that took too many
-  // steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
-  template <class Finish>
+  // Traces the rays `first` to `first + count - 1` to their end; `buffers` are those of the shader. before(submission) brings the
+  // device what the rays need. after(submission) takes from it what they left, each time that rays paused anew; the last time counts.
+  // Those that took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
+  template <class Before, class After, class Finish>
   TraceOutcome run(std::uint32_t first, std::uint32_t count, const std::vector<const GpuBuffer*>& buffers,
-                   const StopQuestion& stop, const Finish& finish_on_cpu) {
+                   const StopQuestion& stop, const Before& before, const After& after, const Finish& finish_on_cpu) {
     Push push{first, count, 0};
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
       const DispatchClock clock;
-      dispatch(push, buffers);
+      Submission submission(context_);
+      if (push.from_inbox == 0) before(submission);
+      const std::uint32_t paused = dispatch(push, buffers, submission, after);
       budget_.record_duration(push.count, clock.seconds());
-      push = {0, take_out_stuck(finish_on_cpu), 1};
+      push = {0, paused == 0 ? 0 : take_out_stuck(paused, finish_on_cpu), 1};
       std::swap(inbox_, outbox_);
     }
     return TraceOutcome::finished;
@@ -72,21 +76,25 @@ class PausedWork {
     return {shader.name, texel ? shader.with_texel_buffers : shader.with_storage_buffers, bindings, sizeof(Push), group_size};
   }
 
-  void dispatch(const Push& push, const std::vector<const GpuBuffer*>& buffers) {
-    const std::uint32_t none = 0;
-    upload(context_, outbox_, std::as_bytes(std::span(&none, 1)));
+  // Returns the number of rays that paused.
+  template <class After>
+  std::uint32_t dispatch(const Push& push, const std::vector<const GpuBuffer*>& buffers, Submission& submission,
+                         const After& after) {
+    std::uint32_t paused = 0;
+    submission.upload(outbox_, std::as_bytes(std::span(&paused, 1)));
     std::vector<const GpuBuffer*> bound{&tree_.nodes, &tree_.triangles};
     bound.insert(bound.end(), buffers.begin(), buffers.end());
     bound.insert(bound.end(), {&inbox_, &outbox_});
-    pipeline_.run(push.count, std::as_bytes(std::span(&push, 1)), bound);
+    submission.run(pipeline_, push.count, std::as_bytes(std::span(&push, 1)), bound);
+    submission.download(outbox_, std::as_writable_bytes(std::span(&paused, 1)));
+    after(submission);
+    submission.finish();
+    return paused;
   }
 
-  // Returns the number of rays that continue.
+  // Returns how many of the paused rays continue.
   template <class Finish>
-  std::uint32_t take_out_stuck(const Finish& finish_on_cpu) {
-    std::uint32_t count = 0;
-    download(context_, outbox_, std::as_writable_bytes(std::span(&count, 1)));
-    if (count == 0) return 0;
+  std::uint32_t take_out_stuck(std::uint32_t count, const Finish& finish_on_cpu) {
     std::vector<Paused> paused(count);
     download(context_, outbox_, std::as_writable_bytes(std::span(paused)), head_bytes);
     const auto stuck = std::partition(paused.begin(), paused.end(), [](const Paused& each) { return each.stuck == 0; });

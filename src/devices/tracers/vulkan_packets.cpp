@@ -45,13 +45,19 @@ VulkanPackets::VulkanPackets(const GpuContext& context, const GpuTree& tree, con
 TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                   std::span<shared::Landing> landings, const StopQuestion& stop) {
   EXPECT(landings.size(), ==, packets.size());
-  upload(context_, scene_, std::as_bytes(std::span(&scene, 1)));
   for (std::size_t first = 0; first < packets.size();) {
     const auto slice = packets.subspan(first, std::min<std::size_t>(work_.rays_per_dispatch(), packets.size() - first));
     const std::vector<std::uint32_t> order = order_by_direction(slice);
     sent_.resize(slice.size());
     for_each_index(order.size(), [&](std::size_t k) { sent_[k] = slice[order[k]]; });
-    upload(context_, packets_, std::as_bytes(std::span(sent_)));
+    landed_.resize(sent_.size());
+    const auto send = [&](Submission& submission) {
+      submission.upload(scene_, std::as_bytes(std::span(&scene, 1)));
+      submission.upload(packets_, std::as_bytes(std::span(sent_)));
+    };
+    const auto take = [&](Submission& submission) {
+      submission.download(landings_, std::as_writable_bytes(std::span(landed_)));
+    };
     std::vector<std::pair<std::uint32_t, shared::Landing>> finished_on_cpu;
     const auto finish = [&](const shared::PausedPacket& paused) {
       shared::Packet packet = sent_[paused.packet];
@@ -60,10 +66,8 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
       finished_on_cpu.emplace_back(paused.packet, cpu_.follow_packet(scene, packet, paused.crossings));
     };
     const auto count = static_cast<std::uint32_t>(sent_.size());
-    if (work_.run(0, count, {&scene_, &packets_, &landings_}, stop, finish) == TraceOutcome::stopped)
+    if (work_.run(0, count, {&scene_, &packets_, &landings_}, stop, send, take, finish) == TraceOutcome::stopped)
       return TraceOutcome::stopped;
-    landed_.resize(sent_.size());
-    download(context_, landings_, std::as_writable_bytes(std::span(landed_)));
     for (const auto& [packet, landing] : finished_on_cpu) landed_[packet] = landing;
     for_each_index(order.size(), [&](std::size_t k) { landings[first + order[k]] = landed_[k]; });
     first += slice.size();

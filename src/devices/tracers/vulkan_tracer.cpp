@@ -68,13 +68,21 @@ void VulkanTracer::add_landings(std::span<std::uint32_t> counters) const {
 TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                       const StopQuestion& stop) {
   EXPECT(counters.size_bytes(), ==, counters_.bytes);
-  upload(context_, beam_, std::as_bytes(std::span(&beam, 1)));
-  fill(context_, counters_, 0);
   const std::uint32_t rays = beam.columns * beam.rows;
+  if (rays == 0) return TraceOutcome::finished;
   const auto finish = [&](const shared::PausedRay& ray) { cpu_.finish_ray(beam, ray, counters); };
-  for (std::uint32_t first = 0; first < rays;) {
+  std::uint32_t first = 0;
+  const auto send = [&](Submission& submission) {
+    if (first > 0) return;
+    submission.upload(beam_, std::as_bytes(std::span(&beam, 1)));
+    submission.fill(counters_, 0);
+  };
+  const auto leave = [](Submission&) {};  // the counters go on until all rays are traced
+  while (first < rays) {
     const std::uint32_t slice = std::min(work_.rays_per_dispatch(), rays - first);
-    if (work_.run(first, slice, {&beam_, &counters_}, stop, finish) == TraceOutcome::stopped) return TraceOutcome::stopped;
+    if (work_.run(first, slice, {&beam_, &counters_}, stop, send, leave, finish) == TraceOutcome::stopped) {
+      return TraceOutcome::stopped;
+    }
     first += slice;
   }
   add_landings(counters);

@@ -73,14 +73,15 @@ class BinaryBuilder {
  public:
   explicit BinaryBuilder(BinaryTree& tree) : items_(tree.items), nodes_(tree.nodes) {}
 
-  // Builds a subtree that is at most `levels` high. The recursion is as deep as the tree: at most max_binary_height.
+  // Builds a subtree that is at most `levels` high. The recursion is as deep as the tree: at most max_binary_height. Subtrees share
+  // neither items nor nodes, so that several threads may build them.
   void build(const ItemRange& range, int levels) {
     if (range.subtree.count < 2) return;
     DCHECK(ceil_log2(range.subtree.count), <=, levels);
-    const auto [left, right] = divide(range, levels - 1);
-    nodes_[range.subtree.node].left_count = left.subtree.count;
-    build(left, levels - 1);
-    build(right, levels - 1);
+    const Halves halves = divide(range, levels - 1);
+    nodes_[range.subtree.node].left_count = halves.left.subtree.count;
+    side_by_side(
+        range.subtree, [&] { build(halves.left, levels - 1); }, [&] { build(halves.right, levels - 1); });
   }
 
   [[nodiscard]] ItemRange measure(std::uint32_t node, std::uint32_t first, std::uint32_t count) const {
@@ -94,6 +95,7 @@ class BinaryBuilder {
     Bounds box;
     std::uint32_t count;
   };
+  using Bins = std::array<std::array<Bin, max_bins>, 3>;
   struct Halves {
     ItemRange left, right;
   };
@@ -114,27 +116,27 @@ class BinaryBuilder {
     return {measure(node + 1, first, left_count), measure(node + left_count, first + left_count, count - left_count)};
   }
 
-  Split find_split(const ItemRange& range, const Grid& grid) {
-    for (auto& axis : bins_) std::fill_n(axis.begin(), grid.bins, Bin{nothing, 0});
+  Split find_split(const ItemRange& range, const Grid& grid) const {
+    Bins bins;  // only as many as the grid has are set and read
+    for (auto& axis : bins) std::fill_n(axis.begin(), grid.bins, Bin{nothing, 0});
     const auto& [node, first, count] = range.subtree;
     for (std::uint32_t i = first; i < first + count; ++i) {
       const Int4 bin = grid.bin(items_[i].twice_centre());
       for (int axis = 0; axis < 3; ++axis) {
-        Bin& target = bins_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bin[axis])];
+        Bin& target = bins[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bin[axis])];
         target.box.grow(items_[i].box);
         ++target.count;
       }
     }
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
-      if (grid.bins_per_m[axis] > 0.0F) best.improve(sweep(axis, grid.bins, count));
+      if (grid.bins_per_m[axis] > 0.0F) best.improve(sweep(bins[static_cast<std::size_t>(axis)], axis, grid.bins, count));
     }
     return best;
   }
 
   // Returns the best split between the bins of an axis: the cost is area times count, summed over both sides.
-  [[nodiscard]] Split sweep(int axis, std::uint32_t bins, std::uint32_t count) const {
-    const auto& bin = bins_[static_cast<std::size_t>(axis)];
+  [[nodiscard]] static Split sweep(const std::array<Bin, max_bins>& bin, int axis, std::uint32_t bins, std::uint32_t count) {
     std::array<float, max_bins> right_cost{};
     Bounds box = nothing;
     std::uint32_t right_count = 0;
@@ -190,7 +192,6 @@ class BinaryBuilder {
 
   std::vector<Item>& items_;
   std::vector<BinaryNode>& nodes_;
-  std::array<std::array<Bin, max_bins>, 3> bins_{};
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include "physics/bvh/bvh.h"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -65,6 +67,15 @@ struct Subtree {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
+
+// Runs what is to be done in both children of a subtree, by two threads if it is large.
+template <class Left, class Right>
+void side_by_side(const Subtree& subtree, const Left& left, const Right& right) {
+  constexpr std::uint32_t large = 4096;
+  if (subtree.count >= large) return tbb::parallel_invoke(left, right);
+  left();
+  right();
+}
 
 // A binary tree of at most this height always fits into max_bvh_depth levels of eight children: a level holds three binary
 // ones.

@@ -110,8 +110,9 @@ class Collapser {
       costs.cost.fill(costs.box.half_area() * triangle_cost);
       return costs;
     }
-    const Costs left = solve(left_of(subtree));
-    const Costs right = solve(right_of(subtree));
+    Costs left, right;
+    side_by_side(
+        subtree, [&] { left = solve(left_of(subtree)); }, [&] { right = solve(right_of(subtree)); });
     costs.box.grow(left.box);
     costs.box.grow(right.box);
     const float area = costs.box.half_area();

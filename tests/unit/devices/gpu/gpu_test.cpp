@@ -12,6 +12,7 @@
 #include "devices/gpu/compute.h"
 #include "devices/gpu/context.h"
 #include "devices/gpu/handles.h"
+#include "devices/gpu/submission.h"
 #include "gpu_test.spirv.h"
 #include "support/device.h"
 #include "support/error_text.h"
@@ -113,6 +114,71 @@ TEST_F(GpuTest, ShadersRunForEveryThreadAndNoOther) {
     for (std::uint32_t i = 0; i < threads; ++i) words[i] += 1042;
     EXPECT_TRUE(read_words(context(), buffer) == words) << threads;
   }
+}
+
+TEST_F(GpuTest, CopiesFillsAndDispatchesSeeEachOtherInOneSubmission) {
+  constexpr std::uint32_t count = 1000;
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  const auto buffer = create_buffer(context(), BufferUse::storage, count * 4, "words");
+  auto pipeline = make_pipeline(context(), Mode::add);
+  const auto words = noise(count / 2);
+  const Push push{count, 42};
+  const GpuBuffer* buffers[] = {&buffer, &texels};
+  std::vector<std::uint32_t> before(count), after(count);
+  const DeviceTraffic start = context().traffic();
+  Submission submission(context());
+  submission.fill(buffer, 7);
+  submission.upload(buffer, std::as_bytes(std::span(words)));
+  submission.download(buffer, std::as_writable_bytes(std::span(before)));
+  submission.run(pipeline, count, std::as_bytes(std::span(&push, 1)), buffers);
+  submission.download(buffer, std::as_writable_bytes(std::span(after)));
+  submission.finish();
+  EXPECT_EQ(context().traffic().submissions - start.submissions, 1U);
+  EXPECT_EQ(context().traffic().uploaded_bytes - start.uploaded_bytes, words.size() * 4);
+  EXPECT_EQ(context().traffic().downloaded_bytes - start.downloaded_bytes, 2U * 4 * count);
+  std::vector<std::uint32_t> expected = words;
+  expected.resize(count, 7);
+  EXPECT_EQ(before, expected);
+  for (std::uint32_t& word : expected) word += 42;
+  EXPECT_EQ(after, expected);
+}
+
+TEST_F(GpuTest, APipelineThatRunsTwiceOrAFullStagingMemoryEndsASubmissionEarly) {
+  const auto words = noise(Staging::bytes / 4 + 3);
+  const auto many = create_buffer(context(), BufferUse::storage, words.size() * 4, "many words");
+  const auto one = create_buffer(context(), BufferUse::storage, 4, "one word");
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  auto pipeline = make_pipeline(context(), Mode::add);
+  const Push push{1, 1};
+  std::vector<std::uint32_t> all(words.size());
+  std::uint32_t sum = 0;
+  const std::uint64_t start = context().traffic().submissions;
+  Submission submission(context());
+  submission.upload(many, std::as_bytes(std::span(words)));
+  submission.fill(one, 0);
+  for (const GpuBuffer* buffer : {&one, &many, &one}) {
+    const GpuBuffer* buffers[] = {buffer, &texels};
+    submission.run(pipeline, 1, std::as_bytes(std::span(&push, 1)), buffers);
+  }
+  submission.download(one, std::as_writable_bytes(std::span(&sum, 1)));
+  submission.download(many, std::as_writable_bytes(std::span(all)));
+  submission.finish();
+  EXPECT_EQ(context().traffic().submissions - start, 5U);
+  EXPECT_EQ(sum, 2U);
+  EXPECT_EQ(all.front(), words.front() + 1);
+  EXPECT_TRUE(std::equal(words.begin() + 1, words.end(), all.begin() + 1));
+}
+
+TEST_F(GpuTest, ASubmissionThatIsNotFinishedLeavesNothingBehind) {
+  const auto buffer = make_buffer(context(), BufferUse::storage, noise(10));
+  std::vector<std::uint32_t> untouched(10, 1);
+  {
+    Submission dropped(context());
+    dropped.fill(buffer, 5);
+    dropped.download(buffer, std::as_writable_bytes(std::span(untouched)));
+  }
+  EXPECT_EQ(untouched, std::vector<std::uint32_t>(10, 1));
+  EXPECT_EQ(read_words(context(), buffer), noise(10));
 }
 
 TEST_F(GpuTest, SpecialisationConstantsReachTheShader) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <random>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -51,6 +52,30 @@ TEST_P(PlaceSumsTest, AreTheSameInBothForms) {
     EXPECT_EQ(together.take_all(), expected);
     EXPECT_EQ(together.size(), 0U);
   }
+}
+
+TEST_P(PlaceSumsTest, AreVisitedInParts) {
+  constexpr std::size_t places = 5000;
+  std::vector<std::int64_t> plain(places * width);
+  PlaceSums sums(places, width);
+  land(sums, plain, GetParam(), places, 3);
+  using Visits = std::vector<std::pair<std::size_t, std::vector<std::int64_t>>>;
+  const auto visit = [&](std::size_t first, std::size_t end, Visits& visits) {
+    const auto take = [&](std::size_t place, std::span<const std::int64_t> values) {
+      visits.push_back({place, {values.begin(), values.end()}});
+    };
+    sums.for_each(first, end, take, [](std::size_t) {});
+  };
+  Visits whole, parts;
+  visit(0, sums.steps(), whole);
+  constexpr std::size_t cuts = 7;
+  for (std::size_t k = 0; k < cuts; ++k) visit(k * sums.steps() / cuts, (k + 1) * sums.steps() / cuts, parts);
+  EXPECT_EQ(parts, whole);
+  std::vector<std::int64_t> added(places * width);
+  for (const auto& [place, values] : whole) {
+    for (std::size_t j = 0; j < width; ++j) added[place * width + j] += values[j];
+  }
+  EXPECT_EQ(added, plain);
 }
 
 TEST_P(PlaceSumsTest, AreFoundPlaceByPlace) {

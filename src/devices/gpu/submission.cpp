@@ -1,0 +1,99 @@
+#include "devices/gpu/submission.h"
+
+#include "devices/gpu/handles.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/check.h"
+
+namespace sunfleck {
+
+Submission::~Submission() {
+  if (begun_) drop_commands(context_);
+}
+
+void Submission::begin_command() {
+  if (!begun_) {
+    begin_commands(context_);
+  } else {
+    let_later_commands_see(context_);
+  }
+  begun_ = true;
+}
+
+std::span<std::byte> Submission::stage(std::size_t wanted) {
+  constexpr std::size_t alignment = 256;
+  staged_ = (staged_ + alignment - 1) / alignment * alignment;
+  if (staged_ >= Staging::bytes) finish();
+  const std::span<std::byte> piece(context_.handles().staging.data + staged_, std::min(wanted, Staging::bytes - staged_));
+  staged_ += piece.size();
+  return piece;
+}
+
+std::size_t Submission::staged_at(std::span<const std::byte> piece) const {
+  return static_cast<std::size_t>(piece.data() - context_.handles().staging.data);
+}
+
+void Submission::upload(const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset) {
+  EXPECT(offset, <=, buffer.bytes);
+  EXPECT(data.size(), <=, buffer.bytes - offset);
+  while (!data.empty()) {
+    const std::span<std::byte> piece = stage(data.size());
+    std::memcpy(piece.data(), data.data(), piece.size());
+    begin_command();
+    const GpuContext::Handles& handles = context_.handles();
+    handles.traffic.uploaded_bytes += piece.size();
+    handles.commands.copyBuffer(*handles.staging.buffer, *buffer.handles->buffer,
+                                vk::BufferCopy(staged_at(piece), offset, piece.size()));
+    offset += piece.size();
+    data = data.subspan(piece.size());
+  }
+}
+
+void Submission::fill(const GpuBuffer& buffer, std::uint32_t word) {
+  begin_command();
+  context_.handles().commands.fillBuffer(*buffer.handles->buffer, 0, VK_WHOLE_SIZE, word);
+}
+
+void Submission::run(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
+                     std::span<const GpuBuffer* const> buffers) {
+  if (std::find(pipelines_.begin(), pipelines_.end(), &pipeline) != pipelines_.end()) finish();
+  pipeline.bind(threads, push, buffers);
+  if (threads == 0) return;
+  begin_command();
+  pipeline.record(threads, push);
+  pipelines_.push_back(&pipeline);
+}
+
+void Submission::download(const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset) {
+  EXPECT(offset, <=, buffer.bytes);
+  EXPECT(data.size(), <=, buffer.bytes - offset);
+  while (!data.empty()) {
+    const std::span<std::byte> piece = stage(data.size());
+    begin_command();
+    const GpuContext::Handles& handles = context_.handles();
+    handles.traffic.downloaded_bytes += piece.size();
+    handles.commands.copyBuffer(*buffer.handles->buffer, *handles.staging.buffer,
+                                vk::BufferCopy(offset, staged_at(piece), piece.size()));
+    deliveries_.push_back({data.first(piece.size()), staged_at(piece)});
+    offset += piece.size();
+    data = data.subspan(piece.size());
+  }
+}
+
+void Submission::finish() {
+  if (begun_) {
+    begun_ = false;
+    ++context_.handles().traffic.submissions;
+    submit_and_wait(context_);
+  }
+  const std::byte* const staging = context_.handles().staging.data;
+  for (const Delivery& delivery : deliveries_)
+    std::memcpy(delivery.to.data(), staging + delivery.staged_at, delivery.to.size());
+  deliveries_.clear();
+  pipelines_.clear();
+  staged_ = 0;
+}
+
+}  // namespace sunfleck
