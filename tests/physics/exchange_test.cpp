@@ -88,7 +88,7 @@ class ForgetfulTracer final : public WrappedTracer {
 
  private:
   CpuTracer& honest_;
-  std::vector<Bvh> without_;        // [element], all references except its own
+  std::vector<Bvh> without_;       // [element], all references except its own
   std::deque<CpuTracer> tracers_;  // [element]
 };
 
