@@ -44,7 +44,7 @@ INLINE Crossing next_crossing(Ray ray, vec2 period, vec2 overlap) {
   Crossing crossing;
   crossing.along_x = x < z;
   const float nearest = crossing.along_x ? x : z;
-  crossing.t = nearest < 0.0f ? 0.0f : nearest;
+  crossing.t = nearest > 0.0f ? nearest : 0.0f;  // in this order, every device turns -0 into 0
   crossing.limit = limit_x < limit_z ? limit_x : limit_z;
   return crossing;
 }
@@ -75,7 +75,7 @@ INLINE Ground meet_ground(Ray ray, GroundMap map) {
   EXACT float t = (map.y - ray.origin.y) * ray.inverse.y;
   EXACT float limit = (map.y - map.depth - ray.origin.y) * ray.inverse.y;
   Ground ground;
-  ground.t = t < 0.0f ? 0.0f : t;
+  ground.t = t > 0.0f ? t : 0.0f;
   ground.limit = limit;
   return ground;
 }
@@ -84,7 +84,7 @@ INLINE Ground meet_ground(Ray ray, GroundMap map) {
 INLINE Ground meet_top(Ray ray, float top_y) {
   EXACT float t = (top_y - ray.origin.y) * ray.inverse.y;
   Ground top;
-  top.t = t < 0.0f ? 0.0f : t;
+  top.t = t > 0.0f ? t : 0.0f;
   top.limit = top.t;
   return top;
 }

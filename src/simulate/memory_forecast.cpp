@@ -15,8 +15,8 @@ namespace sunfleck {
 namespace {
 
 constexpr double mib = 1048576.0;
-// Replicates that run side by side seldom reach their peaks at the same time.
-constexpr double at_their_peak = 0.7;
+// Replicates that take turns at a device seldom reach their peaks at the same time; those of the CPU path, which begin together, do.
+constexpr double at_their_peak_on_device = 0.7;
 
 // Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
 double program_bytes(const TracerDevice& device) {
@@ -99,8 +99,10 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const std::optional<RunForecast> run = forecast(model, tree.layout, engine.tracer(), settings, monitor);
   if (!run) return std::nullopt;
   const auto elements = static_cast<double>(model.canopy.size());
+  const bool on_cpu = engine.device().kind == "cpu";
+  const double at_their_peak = on_cpu ? 1.0 : at_their_peak_on_device;
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
-  const double on_device = engine.device().kind == "cpu" ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
+  const double on_device = on_cpu ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
   const double throughout = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
   const auto computing = [&](const SumBytes& sums) {
     return std::max({static_cast<double>(tree.bvh.triangles.size()) * building,

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Checks the program on a real GPU and measures which choices are best there, in one go:
 #   tests/bench/gpu_check.sh [--device NAME] [FILE.md]
-# Builds, runs the agreement tests on that device, compares ten million hits with the CPU path, measures rays per second with each
-# choice (tree fetch, workgroup size) and the host's part, and the time to a picture; writes one Markdown table. Without --device it
-# takes the first device that is not software; `--device lavapipe` tries the script itself. Exits with status 3 if there is no such
-# device.
+# Builds, runs the agreement tests and `validate` on that device, compares ten million hits and the tables of nine scenes with the CPU
+# path, measures rays per second with each choice (tree fetch, workgroup size), the host's part, the time to a picture and runs on 1, 2,
+# 4 ... cores; writes Markdown tables. Without --device it takes the first device that is not software; `--device lavapipe` tries the
+# script itself. Exits with status 3 if there is no such device.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -26,6 +26,7 @@ trap 'rm -rf "$work"' EXIT
 name="$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["device"]["name"])' "$work/first/summary.json")"
 echo "device: $name" >&2
 
+"$build/sunfleck" validate --device "$device" >&2
 SUNFLECK_TEST_DEVICE="$name" SUNFLECK_REQUIRE_DEVICE=1 ctest --test-dir "$build" -L '^agreement$' --output-on-failure >&2
 
 "$build/tests/bench/sunfleck_bench" --device="$name" --benchmark_filter='^(device|trace/.*/(cpu|device)|solve/paper/device)' \

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the table of gpu_check.sh from medians: agreement, rays per second by choice, the host's part, time to a picture."""
+"""Makes the tables of gpu_check.sh from medians: agreement, rays per second by choice, the host's part, times of whole runs."""
 
 import argparse
 import datetime
+import filecmp
+import os
 import pathlib
 import statistics
 import subprocess
@@ -13,6 +15,8 @@ import time
 from report import medians, million_rays, table
 
 SCENE = "scenes/maize_sparse.toml"
+COMPARED = ["maize_sparse", "maize_dense", "maize_overcast", "two_squares", "single_leaf", "chamber", "panels", "furnace_box",
+            "checkerboard"]
 
 
 def agreement(measured):
@@ -45,6 +49,34 @@ def whole(program, device, solve, folder):
     return table(["", "s"], rows)
 
 
+def whole_tables(program, device, folder):
+    """Compares the tables of whole runs on the CPU path and the device, byte by byte."""
+    rows = []
+    for scene in COMPARED:
+        folders = {}
+        for name in ("cpu", device):
+            folders[name] = folder / f"{scene}_{len(folders)}"
+            subprocess.run([program, "run", f"scenes/{scene}.toml", "-o", str(folders[name]), "--device", name, "--images", "none",
+                            "--export", "csv", "--quiet"], check=True, capture_output=True)
+        names = [path.name for path in folders["cpu"].glob("*.csv")]
+        _, differ, missing = filecmp.cmpfiles(folders["cpu"], folders[device], names, shallow=False)
+        rows.append([scene, str(len(names)), str(len(differ) + len(missing))])
+    return table(["scene", "tables", "that differ from the CPU path's (aim 0)"], rows)
+
+
+def cores(program, folder):
+    """Times runs of the CPU path by number of threads."""
+    rows = []
+    for scene in COMPARED[:2]:
+        for threads in [1, 2, 4, 8, 16, 32, 64]:
+            if threads > (os.cpu_count() or 1):
+                break
+            run = [program, "run", f"scenes/{scene}.toml", "-o", str(folder / "cores"), "--device", "cpu", "--threads", str(threads),
+                   "--images", "none", "--quiet"]
+            rows.append([scene, str(threads), f"{statistics.median(seconds_of(run) for _ in range(3)):.2f}"])
+    return table(["`run` on the CPU path", "threads", "s"], rows)
+
+
 def main():
     arguments = argparse.ArgumentParser()
     for name in ("--program", "--device", "--measured"):
@@ -53,8 +85,9 @@ def main():
     measured = medians(pathlib.Path(options.measured))
     print(f"{options.device}, {datetime.date.today()}\n")
     with tempfile.TemporaryDirectory() as folder:
-        for part in (agreement(measured), rates(measured),
-                     whole(options.program, options.device, measured["solve/paper/device"], pathlib.Path(folder))):
+        path = pathlib.Path(folder)
+        for part in (agreement(measured), whole_tables(options.program, options.device, path), rates(measured),
+                     whole(options.program, options.device, measured["solve/paper/device"], path), cores(options.program, path)):
             print(part)
     return 0
 

@@ -86,14 +86,15 @@ TEST_F(Memory, BoundMakesMoreReplicatesReachTheSameError) {
 }
 
 TEST_F(Memory, IsForetoldByInfo) {
-  const Arguments two_threads{"--device", "cpu", "--threads", "2"};
+  const Arguments fixed{"--passes", "8", "--indirect-error", "3e-4", "--memory", "60MB"};
+  const Arguments bounded{"--error", "0.02"};
   for (const Arguments& work :
-       {Arguments{"--passes", "8", "--indirect-error", "3e-4", "--memory", "60MB"}, {"--error", "0.02"}}) {
-    const Outcome info = run(Arguments{"info", "stand.toml", "--json"} + two_threads + work);
+       {fixed + Arguments{"--threads", "2"}, bounded + Arguments{"--threads", "2"}, bounded + Arguments{"--threads", "8"}}) {
+    const Outcome info = run(Arguments{"info", "stand.toml", "--json", "--device", "cpu"} + work);
     ASSERT_EQ(info.status, 0) << info.err;
     for (const auto& [images, key] : {std::pair{"none", "memory_without_pictures_bytes"}, {"all", "memory_bytes"}}) {
       const double forecast_mib = json::parse(info.out)[key].get<double>() / 1048576.0;
-      const Outcome ran = simulate("stand.toml", two_threads + work + Arguments{"--images", images});
+      const Outcome ran = simulate("stand.toml", Arguments{"--device", "cpu", "--images", images} + work);
       EXPECT_NEAR(forecast_mib / ran.peak_mib, 1.0, 0.2) << forecast_mib << " MiB forecast, images " << images;
     }
   }
