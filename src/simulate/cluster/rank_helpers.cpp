@@ -18,23 +18,24 @@ RankHelpers::RankHelpers(Mailbox& mailbox, std::chrono::milliseconds silence)
 
 std::size_t RankHelpers::slots() const {
   std::size_t slots = 0;
-  for (const Rank& rank : ranks_) slots += rank.slots;
+  for (const Rank& rank : ranks_) slots += slots_of(rank);
   return slots;
 }
 
+// What was dropped stays in a rank's hand until it says so, and may be more than a new limit allows.
 std::size_t RankHelpers::free_slots() const {
-  std::size_t in_hand = 0;
-  for (const Rank& rank : ranks_) in_hand += rank.in_hand;
-  return slots() - in_hand;
+  std::size_t free = 0;
+  for (const Rank& rank : ranks_) free += slots_of(rank) - std::min(slots_of(rank), rank.in_hand);
+  return free;
 }
 
 void RankHelpers::begin(const ReplicateOrder& order) {
-  const auto load = [](const Rank& rank) {
-    return rank.in_hand < rank.slots ? static_cast<double>(rank.in_hand) / static_cast<double>(rank.slots) : 1.0;
+  const auto load = [this](const Rank& rank) {
+    return rank.in_hand < slots_of(rank) ? static_cast<double>(rank.in_hand) / static_cast<double>(slots_of(rank)) : 1.0;
   };
   const auto least =
       std::min_element(ranks_.begin(), ranks_.end(), [&](const Rank& a, const Rank& b) { return load(a) < load(b); });
-  EXPECT(least->in_hand, <, least->slots);
+  EXPECT(least->in_hand, <, slots_of(*least));
   ++least->in_hand;
   mailbox_.post(static_cast<int>(least - ranks_.begin()) + 1, LetterKind::order,
                 pack(OrderMessage{{series_, order.number}, stage_, order}));

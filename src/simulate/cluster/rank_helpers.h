@@ -4,9 +4,12 @@
 #include "physics/transport/solve/replicate_helpers.h"
 #include "simulate/cluster/mailbox.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,7 @@ class RankHelpers final : public ReplicateHelpers {
   // Returns true if one of the ranks received a request to stop (Ctrl-C, SIGTERM). Any thread may call it.
   [[nodiscard]] bool interrupted() const { return interrupted_; }
 
+  void limit_slots(std::size_t at_once) override { most_slots_ = at_once; }
   [[nodiscard]] std::size_t slots() const override;
   [[nodiscard]] std::size_t free_slots() const override;
   void begin(const ReplicateOrder& order) override;
@@ -51,6 +55,7 @@ class RankHelpers final : public ReplicateHelpers {
     Clock::duration silence{};
   };
 
+  [[nodiscard]] std::size_t slots_of(const Rank& rank) const { return std::min(rank.slots, most_slots_); }
   [[nodiscard]] std::optional<Letter> hear();
   void note(Rank& rank, const Letter& letter);
   [[nodiscard]] bool is_silent(const Rank& rank) const { return !rank.gone && rank.silence > silence_; }
@@ -59,6 +64,7 @@ class RankHelpers final : public ReplicateHelpers {
   Mailbox& mailbox_;
   Clock::duration silence_;
   std::vector<Rank> ranks_;  // [rank - 1]
+  std::size_t most_slots_ = std::numeric_limits<std::size_t>::max();
   std::uint64_t series_ = 0, stage_ = 0;
   std::atomic<bool> interrupted_ = false;
   bool released_ = false;

@@ -19,6 +19,9 @@ class ReplicateHelpers {
  public:
   virtual ~ReplicateHelpers() = default;
 
+  // Has each worker make at most this many replicates at the same time, from now on; each has its own limit besides.
+  virtual void limit_slots(std::size_t at_once) = 0;
+
   // Returns how many replicates all workers together can hold.
   [[nodiscard]] virtual std::size_t slots() const = 0;
   // Returns how many more replicates they would accept now.

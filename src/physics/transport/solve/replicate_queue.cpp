@@ -29,7 +29,9 @@ void ReplicateQueue::begin(const ReplicateOrder& first, std::span<const Conversi
   order_ = first;
   conversions_ = conversions;
   taken_ = 0;
-  if (helpers_ != nullptr) blank_ = maker_.blank(first);
+  if (helpers_ == nullptr) return;
+  helpers_->limit_slots(at_once_);
+  blank_ = maker_.blank(first);
 }
 
 std::optional<ReplicateSet> ReplicateQueue::next(std::size_t certain, std::size_t possible) {

@@ -24,7 +24,7 @@ class ReplicateQueue {
   ReplicateQueue& operator=(const ReplicateQueue&) = delete;
 
   // Starts a series of replicates like `first`, beginning with it, and ends the series before. `conversions` are those
-  // of their incidence, [light]. At most `at_once` are made at the same time in this process; if that is 1
+  // of their incidence, [light]. At most `at_once` are made at the same time in this process, and by each worker; if that is 1
   // and there are no workers, the thread that calls next() makes the replicate.
   void begin(const ReplicateOrder& first, std::span<const Conversion> conversions, std::size_t at_once);
 

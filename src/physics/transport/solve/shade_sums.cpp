@@ -50,9 +50,9 @@ struct SideLight {
   std::vector<double> space;
 };
 
-class Addition {
+class ShadeAddition {
  public:
-  Addition(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier, bool all_groups)
+  ShadeAddition(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier, bool all_groups)
       : conversion_(conversion),
         canopy_(conversion.model.canopy),
         replicate_(replicate),
@@ -214,7 +214,7 @@ void ShadeGroupSums::add(const ShadeGroupSums& other) {
 }
 
 ShadeGroupSums sum_shade(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier, bool all_groups) {
-  return Addition(conversion, replicate, earlier, all_groups).sum();
+  return ShadeAddition(conversion, replicate, earlier, all_groups).sum();
 }
 
 }  // namespace sunfleck

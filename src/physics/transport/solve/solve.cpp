@@ -4,11 +4,10 @@
 #include "physics/transport/indirect/replicate_maker.h"
 #include "physics/transport/solve/darkness.h"
 #include "physics/transport/solve/foresight.h"
-#include "physics/transport/solve/judged_error.h"
+#include "physics/transport/solve/judge.h"
 #include "physics/transport/solve/replicate_helpers.h"
 #include "physics/transport/solve/replicate_queue.h"
 #include "physics/transport/solve/result_of.h"
-#include "physics/transport/solve/run_triangles.h"
 #include "physics/transport/solve/series.h"
 #include "physics/transport/solve/work_planner.h"
 
@@ -32,9 +31,6 @@ double steady_clock_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Lights with less than this share of the brightest one's flux are not compared with the bounds.
-constexpr double least_bright_share = 0.01;
-
 class Solver {
  public:
   Solver(Lights lights, const CounterLayout& layout, Tracer& tracer, const SolveSettings& settings, const Monitor& monitor,
@@ -45,17 +41,11 @@ class Solver {
         monitor_(monitor),
         wanted_sums_(wanted_sums),
         take_(std::move(take)),
-        judged_(bright_lights(lights, least_bright_share)),
         maker_(lights, layout, tracer),
+        judge_(lights, settings, maker_.has_indirect_pass(), tracer,
+               [&monitor] { return monitor.interrupted && monitor.interrupted(); }),
         planner_(model_, settings, maker_),
-        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {
-    const auto neighbours = std::make_shared<std::optional<TriangleNeighbours>>();
-    triangles_.reserve(lights.size());
-    for (std::size_t k = 0; k < lights.size(); ++k) {
-      triangles_.emplace_back(tracer, settings.seed, neighbours,
-                              [&monitor] { return monitor.interrupted && monitor.interrupted(); });
-    }
-  }
+        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
 
   SharedOutcome run() {
     if (settings_.resume_from != nullptr) return resume(*settings_.resume_from);
@@ -118,9 +108,9 @@ class Solver {
     std::vector<SeriesOutcome> outcomes;
     for (std::size_t k = 0; k < lights_.size(); ++k) {
       rays.push_back(made.rays_of(k));
-      outcomes.push_back({series_->replicates(), direct_error(k), 0.0});
+      outcomes.push_back({series_->replicates(), judge_.direct_error(*series_, k), 0.0});
     }
-    ray_shares_ = planner_.ray_shares(rays, outcomes, judged_);
+    ray_shares_ = planner_.ray_shares(rays, outcomes, judge_.judged());
   }
 
   // Makes pilots, which become the fallback, even if stopped.
@@ -135,7 +125,7 @@ class Solver {
       report_pilot();
       if (series_->replicates() == glanced_pilots && planner_.far_too_small(outcome())) break;
     }
-    judge_triangles();
+    judge_.judge_triangles(*series_);
     share_rays();
     SeriesOutcome pilots = outcome();
     pilots.seconds_each = (seconds() - before) / static_cast<double>(pilots.replicates);
@@ -144,7 +134,9 @@ class Solver {
     return pilots;
   }
 
-  [[nodiscard]] SeriesOutcome outcome() const { return {series_->replicates(), direct_error(), indirect_error()}; }
+  [[nodiscard]] SeriesOutcome outcome() const {
+    return {series_->replicates(), judge_.direct_error(*series_), judge_.indirect_error(*series_)};
+  }
 
   // Begins a series of replicates; those of pilots have separate numbers.
   void begin(const Work& work, std::uint64_t stream = 0) {
@@ -153,7 +145,7 @@ class Solver {
     begun_with_ = 0;
     begun_s_ = seconds();
     completion_ = {};
-    for (RunTriangles& of_light : triangles_) of_light.forget();
+    judge_.begin_series();
     ReplicateOrder first = order(work);
     first.number = stream;
     std::vector<Incidence> incidences;
@@ -207,55 +199,6 @@ class Solver {
     monitor_.receive_result(std::move(result));
   }
 
-  // The two errors of a light are empty for a pass without any light in the scene.
-  [[nodiscard]] std::optional<JudgedError> direct_error(const Series& series, std::size_t light) const {
-    if (!lights_[light].has_beam()) return std::nullopt;
-    JudgedError error = sunfleck::direct_error(*series.sums[light], settings_.accuracy);
-    error.raise(triangles_[light].direct_error());
-    return error;
-  }
-  [[nodiscard]] std::optional<JudgedError> indirect_error(const Series& series, std::size_t light) const {
-    if (!has_indirect()) return std::nullopt;
-    JudgedError error = sunfleck::indirect_error(*series.sums[light], settings_.accuracy);
-    error.raise(triangles_[light].indirect_error());
-    return error;
-  }
-  // Return the errors of a light in the series, 0 for a pass without any light.
-  [[nodiscard]] double direct_error(std::size_t light) const {
-    return direct_error(*series_, light).value_or(JudgedError{}).relative;
-  }
-  [[nodiscard]] double indirect_error(std::size_t light) const {
-    return indirect_error(*series_, light).value_or(JudgedError{}).relative;
-  }
-  // Return the largest error of all judged lights.
-  [[nodiscard]] double direct_error() const {
-    return largest([this](std::size_t light) { return direct_error(light); });
-  }
-  [[nodiscard]] double indirect_error() const {
-    return largest([this](std::size_t light) { return indirect_error(light); });
-  }
-  template <class Error>
-  [[nodiscard]] double largest(const Error& error_of) const {
-    double largest = 0.0;
-    for (std::size_t k = 0; k < lights_.size(); ++k) {
-      if (!judged_[k]) continue;
-      const double error = error_of(k);
-      if (std::isnan(error)) return error;
-      largest = std::max(largest, error);
-    }
-    return largest;
-  }
-
-  [[nodiscard]] bool bounds_hold() const {
-    return direct_error() <= settings_.accuracy.direct && indirect_error() <= settings_.accuracy.indirect;
-  }
-
-  // Between two calls the errors of the triangles stay the same: estimating them takes a while.
-  void judge_triangles() {
-    if (settings_.accuracy.of != ErrorTarget::triangle) return;
-    for (std::size_t k = 0; k < lights_.size(); ++k) triangles_[k].judge(*series_->sums[k], settings_.accuracy);
-  }
-
   void report_pilot() const {
     if (!monitor_.report) return;
     monitor_.report({.stage = Progress::Stage::pilot, .rays = traced_});
@@ -264,8 +207,8 @@ class Solver {
   // `expected` is the number of replicates of the whole run, as far as it is known.
   void report(std::size_t expected) {
     if (!monitor_.report) return;
-    const double direct = direct_error();
-    const double indirect = indirect_error();
+    const double direct = judge_.direct_error(*series_);
+    const double indirect = judge_.indirect_error(*series_);
     const bool direct_lags = direct / settings_.accuracy.direct >= indirect / settings_.accuracy.indirect;
     Progress progress{.rays = traced_};
     progress.pass = direct_lags ? Progress::Pass::direct : Progress::Pass::indirect;
@@ -289,16 +232,6 @@ class Solver {
       most = std::min(most, std::floor(std::max(0.0, static_cast<double>(*settings_.max_rays) - traced) / each));
     }
     return most;
-  }
-
-  // Returns how many replicates bring both errors down to their bounds, as far as this run shows.
-  [[nodiscard]] std::size_t needed_replicates() const {
-    const std::size_t done = series_->replicates();
-    if (done < 2) return planned_replicates;
-    const auto needs = [&](double error, double bound) {
-      return replicates_needed(error, bound, settings_.accuracy.confidence, done, most_replicates);
-    };
-    return std::max(needs(direct_error(), settings_.accuracy.direct), needs(indirect_error(), settings_.accuracy.indirect));
   }
 
   // Frees the pilots' sums as soon as no result will be made from them.
@@ -341,12 +274,12 @@ class Solver {
       if (spent() || !add_replicate(next_check_, most_replicates)) return finish(stop_);
       const std::size_t done = series_->replicates();
       const bool due = done >= next_check_;
-      if (due) judge_triangles();
-      const bool good = due && bounds_hold();
-      report(good ? done : std::max(needed_replicates(), due ? done + 1 : next_check_));
+      if (due) judge_.judge_triangles(*series_);
+      const bool good = due && judge_.bounds_hold(*series_);
+      report(good ? done : std::max(judge_.needed_replicates(*series_), due ? done + 1 : next_check_));
       if (good) return finish(StopReason::bound_reached);
       if (done >= most_replicates) return finish(StopReason::replicates_spent);
-      if (due) next_check_ = check_after(done, needed_replicates(), settings_.accuracy.of);
+      if (due) next_check_ = check_after(done, judge_.needed_replicates(*series_), settings_.accuracy.of);
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
     }
   }
@@ -390,7 +323,7 @@ class Solver {
       RadiationResult result = std::move(results[k]);
       result.work = work_;
       move_arrays(sums, result);
-      triangles_[k].refine(sums, settings_.accuracy.confidence, result);
+      judge_.refine(k, sums, result);
       take_(k, std::move(result), outcome_of_all);
     }
     return outcome_of_all;
@@ -399,10 +332,10 @@ class Solver {
   // Gives each light's result the work that suits a similar light: rays by its own error, packets by the largest.
   void set_next_work(std::vector<RadiationResult>& results) const {
     const ReplicateOrder made = order(work_);
-    const double indirect = indirect_error();
+    const double indirect = judge_.indirect_error(*series_);
     for (std::size_t k = 0; k < results.size(); ++k) {
       const Work own{made.rays_of(k), work_.packets};
-      results[k].next_work = planner_.next(own, {series_->replicates(), direct_error(k), indirect});
+      results[k].next_work = planner_.next(own, {series_->replicates(), judge_.direct_error(*series_, k), indirect});
     }
   }
 
@@ -419,8 +352,8 @@ class Solver {
       summary.relative_error = error->relative;
       summary.judged = error->figure;
     };
-    tell(direct_error(series, light), result.direct);
-    tell(indirect_error(series, light), result.indirect);
+    tell(judge_.direct_error_of(series, light), result.direct);
+    tell(judge_.indirect_error_of(series, light), result.indirect);
     if (!lights_[light].has_beam()) result.direct.relative_error = 0.0;
     // Replicates overlap, so the elapsed time is divided in proportion to the time spent in each pass.
     const double busy_s = direct_s_ + indirect_s_;
@@ -439,9 +372,9 @@ class Solver {
   const Monitor& monitor_;
   const WantedSums& wanted_sums_;
   TakeLight take_;
-  std::vector<bool> judged_;        // [light]
   std::vector<double> ray_shares_;  // [light]; empty for a single one, and until pilots have shown them
   ReplicateMaker maker_;
+  Judge judge_;
   WorkPlanner planner_;
   double start_s_ = clock_s();
   std::unique_ptr<Series> series_, fallback_;
@@ -454,8 +387,7 @@ class Solver {
   double begun_s_ = 0.0;        // time at which this series began
   Completion completion_;
   double direct_s_ = 0.0, indirect_s_ = 0.0;
-  std::vector<RunTriangles> triangles_;  // [light]
-  ReplicateQueue queue_;                 // declared last, so that it is destroyed first
+  ReplicateQueue queue_;  // declared last, so that it is destroyed first
 };
 
 }  // namespace

@@ -136,6 +136,8 @@ TEST_F(RanksTest, ChangeNoNumber) {
   for (const int at_once : {1, 2}) {
     settings_.replicates_at_once = at_once;
     EXPECT_TRUE(test::all_numbers(solve_with_helpers()) == alone);
+    EXPECT_EQ(helpers_->slots(), 2U * static_cast<std::size_t>(at_once))
+        << "no helper makes more at once than the memory allows";
   }
   EXPECT_GT(made_, 20) << "the helpers did their part";
 }
