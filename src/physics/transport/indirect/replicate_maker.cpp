@@ -3,11 +3,13 @@
 #include "base/random.h"
 #include "physics/light/beam_grid.h"
 #include "physics/transport/indirect/beam_landings.h"
+#include "physics/transport/indirect/counted_thread.h"
 #include "physics/transport/model/beam_block.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
 #include <chrono>
+#include <limits>
 #include <utility>
 
 namespace sunfleck {
@@ -25,7 +27,7 @@ double seconds_since(Clock::time_point start) {
 }  // namespace
 
 std::unique_lock<std::mutex> ReplicateMaker::ForAllThreads::turn() {
-  return tracer_.serves_several() ? std::unique_lock<std::mutex>() : std::unique_lock(mutex_);
+  return takes_turns() ? std::unique_lock(mutex_) : std::unique_lock<std::mutex>();
 }
 
 TraceOutcome ReplicateMaker::ForAllThreads::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
@@ -90,6 +92,11 @@ ReplicateSet ReplicateMaker::blank(const ReplicateOrder& order) const {
   return ReplicateSet(lights_.size(), blank);
 }
 
+std::size_t ReplicateMaker::most_at_once() const {
+  constexpr std::size_t while_one_is_traced = 2;
+  return tracer_.takes_turns() && tracer_.device().software ? while_one_is_traced : std::numeric_limits<std::size_t>::max();
+}
+
 double ReplicateMaker::sum_bytes() const {
   const auto lights = static_cast<double>(lights_.size());
   double bytes = lights * static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
@@ -144,6 +151,7 @@ bool ReplicateMaker::make_direct(const ReplicateOrder& order, std::size_t light,
 std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, std::span<const Conversion> conversions,
                                                  const StopQuestion& stop) {
   if (stop()) return std::nullopt;
+  const CountedThread thread;
   const Clock::time_point start = Clock::now();
   ReplicateSet replicates(lights_.size());
   LightFromAbove light{aim(order.aimed), sky_ ? &sky(order.aimed) : nullptr, std::vector<FirstLandings>(lights_.size()), {}};

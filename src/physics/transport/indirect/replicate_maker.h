@@ -46,6 +46,9 @@ class ReplicateMaker {
   // Returns a replicate without landings, with all arrays as large as those of an ordered one.
   [[nodiscard]] ReplicateSet blank(const ReplicateOrder& order) const;
 
+  // Returns how many replicates are worth making at once: two where software Vulkan needs the cores while it traces, else any number.
+  [[nodiscard]] std::size_t most_at_once() const;
+
   // Returns the size of a replicate's counters and sums in bytes; it does not depend on the numbers of rays and packets.
   [[nodiscard]] double sum_bytes() const;
 
@@ -67,6 +70,7 @@ class ReplicateMaker {
     explicit ForAllThreads(Tracer& tracer) : tracer_(tracer) {}
     [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
     [[nodiscard]] bool serves_several() const override { return true; }
+    [[nodiscard]] bool takes_turns() const { return !tracer_.serves_several(); }
     [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                           const StopQuestion& stop) override;
     [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,

@@ -202,9 +202,10 @@ double WorkPlanner::sampled_rays(const Work& work) const {
 // Without an indirect pass the host has almost nothing to do meanwhile, and saving memory is better.
 std::size_t WorkPlanner::at_once(const Work& work) const {
   if (settings_.max_rays || !maker_.has_indirect_pass()) return 1;
-  const double asked = std::max(1, settings_.replicates_at_once);
-  if (!settings_.memory_bytes) return static_cast<std::size_t>(asked);
-  return static_cast<std::size_t>(std::clamp(*settings_.memory_bytes / replicate_bytes(work), 1.0, asked));
+  const auto asked = static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
+  const std::size_t most = std::min(asked, maker_.most_at_once());
+  if (!settings_.memory_bytes) return most;
+  return static_cast<std::size_t>(std::clamp(*settings_.memory_bytes / replicate_bytes(work), 1.0, static_cast<double>(most)));
 }
 
 double WorkPlanner::replicate_bytes(const Work& work) const {
