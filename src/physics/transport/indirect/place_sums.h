@@ -62,7 +62,7 @@ class PlaceSums {
   void for_each(const Take& take, const Come& come) const {
     for_each(0, steps(), take, come);
   }
-  // Does the same from one step to another of its way; the parts of the way together are the whole. steps() is its end.
+  // Does the same from one step of its way to another; the way begins at 0 and ends at steps(), and its parts together are the whole.
   template <class Take, class Come>
   void for_each(std::size_t first, std::size_t end, const Take& take, const Come& come) const {
     for (std::size_t step = first; step < end; ++step) {

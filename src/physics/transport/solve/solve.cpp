@@ -65,7 +65,6 @@ class Solver {
   }
 
  private:
-  [[nodiscard]] bool has_indirect() const { return maker_.has_indirect_pass(); }
   [[nodiscard]] double clock_s() const { return monitor_.clock_s ? monitor_.clock_s() : steady_clock_s(); }
   [[nodiscard]] double seconds() const { return clock_s() - start_s_; }
 
@@ -361,7 +360,7 @@ class Solver {
     result.direct.seconds = seconds() - result.indirect.seconds;
     if (!planner_.fixed()) {
       result.direct.bound = settings_.accuracy.direct;
-      if (has_indirect()) result.indirect.bound = settings_.accuracy.indirect;
+      if (maker_.has_indirect_pass()) result.indirect.bound = settings_.accuracy.indirect;
     }
     return result;
   }

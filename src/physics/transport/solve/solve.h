@@ -40,7 +40,8 @@ struct SolveSettings {
   bool fit_to_time = true;
   ElementErrors element_errors = ElementErrors::skip;
   ShadeGroups shade_groups = ShadeGroups::all;  // states and resumed runs have all
-  // Number of replicates made at the same time if there is an indirect pass and no max_rays.
+  // Largest number of replicates made at the same time, in this process and by each worker, if there is an indirect pass and no
+  // max_rays; memory_bytes and software Vulkan may allow fewer.
   int replicates_at_once = 2;
   std::optional<double> memory_bytes;       // limit for all replicates being made; empty: no limit
   const SolveState* resume_from = nullptr;  // state of an interrupted run with the same settings; null starts a new run
