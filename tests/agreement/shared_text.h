@@ -3,6 +3,7 @@
 #define SUNFLECK_TESTS_SHARED_TEXT_H
 
 #include "shared/beam.h"
+#include "shared/emission.h"
 #include "shared/view.h"
 
 SHARED_BEGIN
@@ -18,6 +19,9 @@ struct TextInput {
   vec2 offset;
   float divisor;
   uint number;
+  uvec2 drawn;
+  float size;  // by which a triangle is enlarged before its normal is found
+  float far;   // a coordinate that may be many periods away
 };
 
 struct TextOutput {
@@ -52,6 +56,19 @@ struct TextOutput {
   float seen_limit;
   float kept_limit;
   uint replaced;
+  float inverse_root;
+  float root;
+  float largest;
+  float power;
+  vec3 resized;
+  vec3 normal;
+  vec2 turn;
+  vec3 scattered;
+  vec2 corner_weights;
+  vec3 point;
+  vec3 front;
+  Wrapped near_x;
+  Wrapped far_z;
 };
 
 INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput given) {
@@ -96,6 +113,22 @@ INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput give
   const SeenSurface found = {given.number % 7u, result.view_depth, 1u};
   result.kept_limit = kept_limit(view, kept, slack, result.seen_limit);
   result.replaced = replaces(view, found, kept, slack) ? 1u : 0u;
+  const float magnitude = uintBitsToFloat(floatBitsToUint(given.divisor) & 0x7fffffffu);
+  result.inverse_root = exact_inverse_root(magnitude);
+  result.root = exact_root(given.divisor);
+  result.largest = largest_component(given.direction);
+  result.power = inverse_power_of_two(magnitude);
+  const vec3 corner_b = exact_times(given.b, given.size);
+  const vec3 corner_c = exact_times(given.c, given.size);
+  result.resized = exact_times(given.a, given.size);
+  result.normal = exact_normal(result.resized, corner_b, corner_c);
+  result.turn = exact_turn(given.drawn.y);
+  result.scattered = cosine_direction(result.normal, given.drawn.x, given.drawn.y);
+  result.corner_weights = even_weights(given.drawn.x, given.drawn.y);
+  result.point = point_on_triangle(given.a, given.b, given.c, result.corner_weights.x, result.corner_weights.y);
+  result.front = in_front_of(result.point, result.normal, given.offset.x);
+  result.near_x = wrapped_into(result.front.x, given.period.x, exact_reciprocal(given.period.x));
+  result.far_z = wrapped_into(given.far, given.period.y, exact_reciprocal(given.period.y));
   return result;
 }
 

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -20,9 +22,11 @@ using testing_bvh::Random;
 using testing_bvh::uniform;
 
 // All members are 32-bit words or vectors of them.
-static_assert(sizeof(shared::TextInput) == 23 * 4);
-static_assert(sizeof(shared::TextOutput) == 48 * 4);
+static_assert(sizeof(shared::TextInput) == 27 * 4);
+static_assert(sizeof(shared::TextOutput) == 75 * 4);
 static_assert(sizeof(shared::TextPush) == 16);
+
+using TextWords = std::array<std::uint32_t, sizeof(shared::TextOutput) / 4>;
 
 constexpr std::uint32_t batch = 1U << 17U;
 constexpr int batches = 8;
@@ -43,6 +47,46 @@ float some_divisor(Random& random) {
   return std::bit_cast<float>(sign_and_fraction | exponent << 23U);
 }
 
+// Returns a word; one in four is next to where a quarter of the turn or the unit interval begins or ends, or in the middle, so that
+// some directions are opposite to the normal.
+std::uint32_t some_word(Random& random) {
+  constexpr std::array<std::uint32_t, 8> ends = {0,           0xffU,       0x100U,      0x3fffffffU,
+                                                 0x40000000U, 0x80000000U, 0xe0000000U, 0xffffffffU};
+  const auto word = static_cast<std::uint32_t>(random());
+  return random() % 4 == 0 ? ends[word % ends.size()] : word;
+}
+
+// Makes some triangles degenerate: corners that coincide, corners on a line, slivers.
+void flatten_some(Random& random, shared::TextInput& given) {
+  const glm::vec3 along = given.b - given.a;
+  switch (random() % 128) {
+    case 0:
+      given.b = given.a;
+      break;
+    case 1:
+      given.c = given.a;
+      break;
+    case 2:
+      given.c = given.a + along * 0.5F;
+      break;
+    case 3:
+      given.c = given.b + testing_bvh::point(random, 1e-6);
+      break;
+    case 4:
+      given.c = given.a + along * static_cast<float>(uniform(random));
+      break;
+    default:
+      break;
+  }
+}
+
+// Returns a coordinate up to a thousand metres away; some are at a border of the period or just beside it.
+float some_far_coordinate(Random& random, bool on_lattice) {
+  if (random() % 16 == 0) return random() % 2 == 0 ? -0.0F : -1e-9F;
+  const auto far = static_cast<float>(uniform(random, -1000.0, 1000.0));
+  return on_lattice ? std::floor(far) : far;
+}
+
 shared::TextInput some_input(Random& random) {
   const bool on_lattice = random() % 2 == 0;
   shared::TextInput given;
@@ -50,6 +94,7 @@ shared::TextInput some_input(Random& random) {
   given.a = some_point(random, on_lattice);
   given.b = some_point(random, on_lattice);
   given.c = some_point(random, on_lattice);
+  flatten_some(random, given);
   const auto weight_a = static_cast<float>(uniform(random));
   const auto weight_b = static_cast<float>(uniform(random, -0.1, 1.0));
   const glm::vec3 target = weight_a * given.a + weight_b * given.b + (1.0F - weight_a - weight_b) * given.c;
@@ -63,6 +108,10 @@ shared::TextInput some_input(Random& random) {
   given.offset = {static_cast<float>(uniform(random)), static_cast<float>(uniform(random))};
   given.divisor = some_divisor(random);
   given.number = static_cast<std::uint32_t>(random());
+  given.drawn.x = some_word(random);
+  given.drawn.y = some_word(random);
+  given.size = std::ldexp(static_cast<float>(uniform(random, 1.0, 2.0)), static_cast<int>(random() % 81U) - 40);
+  given.far = some_far_coordinate(random, on_lattice);
   return given;
 }
 
@@ -124,6 +173,8 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
   const GpuBuffer results = create_buffer(context(), BufferUse::storage, batch * sizeof(shared::TextOutput), "outputs");
   std::size_t apart = 0;
   std::size_t met = 0;
+  std::size_t areas = 0;
+  std::size_t kept_normal = 0;
   for (int k = 0; k < batches; ++k) {
     const shared::BeamBlock beam = some_beam(1000U + 37U * static_cast<std::uint32_t>(k), 999);
     const shared::ViewBlock view = some_view(beam.ground, static_cast<std::uint32_t>(k) % 2);
@@ -138,8 +189,10 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
     for (std::size_t i = 0; i < batch; ++i) {
       const shared::TextOutput expected = shared::all_of_the_text(beam, view, inputs[i]);
       met += expected.met_lower >= 2 ? 1 : 0;
-      const auto ours = std::bit_cast<std::array<std::uint32_t, 48>>(expected);
-      const auto theirs = std::bit_cast<std::array<std::uint32_t, 48>>(outputs[i]);
+      areas += expected.normal != glm::vec3(0.0F, 1.0F, 0.0F) ? 1 : 0;
+      kept_normal += expected.scattered == expected.normal ? 1 : 0;
+      const auto ours = std::bit_cast<TextWords>(expected);
+      const auto theirs = std::bit_cast<TextWords>(outputs[i]);
       for (std::size_t word = 0; word < ours.size(); ++word) {
         if (ours[word] == theirs[word]) continue;
         if (++apart <= 5)
@@ -149,7 +202,12 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
     }
   }
   EXPECT_EQ(apart, 0U);
-  EXPECT_GT(met, std::size_t{batch} * batches / 5);  // ensures that weights and distances were compared
+  constexpr std::size_t all = std::size_t{batch} * batches;
+  EXPECT_GT(met, all / 5);  // ensures that weights and distances were compared
+  // The degenerate cases occurred, and did not prevail.
+  EXPECT_GT(areas, all / 2);
+  EXPECT_LT(areas, all - all / 100);
+  EXPECT_GT(kept_normal, 0U);
 }
 
 }  // namespace

@@ -206,7 +206,7 @@ TEST(ExtremeQuanta, SplitToTheLastOneUpToTheEndOf63Bits) {
          {std::pair{0.12, 0.06}, std::pair{0.5, 0.5}, std::pair{1.0, 0.0}, std::pair{0.0, 1.0}, std::pair{0.1, 0.9},
           std::pair{1e-300, 0.0}, std::pair{1.0 - 1e-9, 1e-9}}) {
       for (int k = 0; k < 50; ++k) {
-        const double u = k == 0 ? 0.0 : (k == 1 ? 1.0 - 0x1p-53 : random.uniform());
+        const auto u = k == 0 ? 0U : (k == 1 ? 0xffffffffU : static_cast<std::uint32_t>(random.uniform() * 0x1p32));
         const QuantaSplit split = split_quanta(quanta, split_coefficients(reflectance, transmittance), u);
         EXPECT_EQ(split.absorbed + split.reflected + split.transmitted, quanta);
         EXPECT_GE(std::min({split.absorbed, split.reflected, split.transmitted}), 0);
@@ -214,7 +214,8 @@ TEST(ExtremeQuanta, SplitToTheLastOneUpToTheEndOf63Bits) {
           EXPECT_EQ(split.absorbed, 0) << quanta << " " << reflectance;
         }
         const double exact = static_cast<double>(quanta) * reflectance;
-        EXPECT_NEAR(static_cast<double>(split.reflected), exact, 1.0 + 0x1p-52 * exact);
+        // Coefficients are rounded to 2^-32.
+        EXPECT_NEAR(static_cast<double>(split.reflected), exact, 1.0 + 0x1p-33 * static_cast<double>(quanta));
       }
     }
   }

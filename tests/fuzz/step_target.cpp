@@ -49,7 +49,7 @@ StepStore store() {
 
 void feed_step(std::string_view bytes) {
   std::filesystem::create_directories(folder() / "steps");
-  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP7", bytes)));
+  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP8", bytes)));
   read_or_refuse([] {
     const auto step = store().read(7);
     if (step)
@@ -67,7 +67,7 @@ void feed_step_settings(std::string_view bytes) {
 }
 
 void feed_run_state(std::string_view bytes) {
-  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS5", bytes)));
+  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS6", bytes)));
   SolveState blank;
   blank.work.rays = 1.0;
   blank.sums.integers.resize(3);

@@ -167,6 +167,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical) {
   limits.max_storage_buffer_bytes = core.maxStorageBufferRange;
   limits.max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
   limits.max_groups_per_dispatch = core.maxComputeWorkGroupCount[0];
+  limits.int64 = physical.getFeatures().shaderInt64 == VK_TRUE;
   const auto memory = physical.getMemoryProperties();
   for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
     const auto& heap = memory.memoryHeaps[i];
@@ -176,7 +177,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical) {
   return limits;
 }
 
-void create_device(GpuContext::Handles& handles) {
+void create_device(GpuContext::Handles& handles, const DeviceLimits& limits) {
   const std::uint32_t family = compute_family(handles.physical).value();
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
@@ -187,7 +188,10 @@ void create_device(GpuContext::Handles& handles) {
     extensions.push_back(portability_subset);
   vk::PhysicalDeviceVulkan12Features features;
   features.scalarBlockLayout = VK_TRUE;
-  handles.device = vk::raii::Device(handles.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, nullptr, &features));
+  vk::PhysicalDeviceFeatures core_features;
+  core_features.shaderInt64 = limits.int64 ? VK_TRUE : VK_FALSE;
+  handles.device =
+      vk::raii::Device(handles.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, &core_features, &features));
   handles.queue = handles.device.getQueue(family, 0);
   handles.pool = handles.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
   auto commands = handles.device.allocateCommandBuffers({*handles.pool, vk::CommandBufferLevel::ePrimary, 1});
@@ -257,7 +261,7 @@ GpuContext::GpuContext(const DeviceSelector& selector, Validation validation) : 
   if (validation != Validation::off) handles_->messenger = create_messenger(handles_->instance, messages_);
   take_device(selector);
   try {
-    create_device(*handles_);
+    create_device(*handles_, limits_);
     create_staging(*handles_);
   } catch (const vk::SystemError& error) {
     throw_call_failed(*this, fmt::format("Vulkan device {}", description_.name), error);

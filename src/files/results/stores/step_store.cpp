@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view step_mark = "SUNSTEP7";
+constexpr std::string_view step_mark = "SUNSTEP8";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
-constexpr int step_format = 7;  // of the steps, and of the tables that a finished day has
+constexpr int step_format = 8;  // of the steps, and of the tables that a finished day has
 
 struct StepSizes {
   std::size_t fields = 0, maps = 0;  // numbers of values

@@ -13,7 +13,7 @@ namespace {
 // Returns how a ray's quanta split on each face. The rounding is the same for every ray; it is one quantum in some ten
 // million.
 std::vector<QuantaSplit> split_rays(const RadiationModel& model, const std::vector<BandQuanta>& quanta) {
-  constexpr double middle = 0.5;
+  constexpr std::uint32_t middle = 0x80000000U;
   std::vector<QuantaSplit> splits;
   for (const SurfaceOptics& optics : model.optics) {
     for (const auto* face : {&optics.upper, &optics.lower}) {

@@ -13,6 +13,6 @@ IndirectScene::IndirectScene(Lights of_lights, const CounterLayout& of_layout, c
       tracer(by_tracer),
       receivers(plane_receivers),
       block(make_packet_block(model, of_layout)),
-      frame{std::ldexp(of_layout.box.extent_m(), -17), block.ground.y} {}
+      frame{static_cast<float>(std::ldexp(of_layout.box.extent_m(), -17)), block.ground.y} {}
 
 }  // namespace sunfleck

@@ -1,7 +1,7 @@
 #pragma once
 // What an indirect pass is given: the scene, and the light that enters it in one replicate.
 
-#include "physics/transport/indirect/candidates.h"
+#include "physics/transport/indirect/emission.h"
 #include "physics/transport/indirect/sky_rays.h"
 #include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/beam_block.h"

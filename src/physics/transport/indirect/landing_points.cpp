@@ -10,9 +10,6 @@
 namespace sunfleck {
 namespace {
 
-// Drawing order of the first ground cell: the ground comes after all elements, ordered by cells of its map.
-constexpr std::uint32_t ground_order = 0x80000000U;
-
 double weighted_rays(const BeamPart& part) {
   return static_cast<double>(part.weight) * static_cast<double>(part.rays());
 }
@@ -160,12 +157,11 @@ class LandingSampler {
     }
   };
   [[nodiscard]] Faces faces_at(std::size_t point) const {
-    EmissionPoint place = points_.places[point];
-    const PacketStart front = start_at(scene_.model.canopy, place, place.a, place.b, scene_.frame);
-    Faces faces{front.packet, front.packet, front.normal};
+    const EmissionPoint& place = points_.places[point];
+    const PacketStart front = start_at(scene_.model.canopy, place.surface, place.a, place.b, scene_.frame);
+    Faces faces{front.packet, front.packet, glm::dvec3(front.normal)};
     if (place.surface == shared::landed_on_ground) return faces;
-    place.surface ^= 1U;
-    faces.back = start_at(scene_.model.canopy, place, place.a, place.b, scene_.frame).packet;
+    faces.back = start_at(scene_.model.canopy, place.surface ^ 1U, place.a, place.b, scene_.frame).packet;
     return faces;
   }
 
@@ -186,7 +182,7 @@ bool sample_landings(const IndirectScene& scene, const LightFromAbove& light, do
 }
 
 EmissionPoint place_of(const IndirectScene& scene, const shared::Landing& landing) {
-  EmissionPoint place{landing.surface, landing.triangle, landing.place_a, landing.place_b, -1};
+  EmissionPoint place{landing.surface, landing.triangle, landing.place_a, landing.place_b, -1, 0, 0};
   if (landing.surface < shared::landed_on_ground) {
     const std::uint32_t element = landing.surface / 2;
     if (scene.surfaces.at(element).soil()) return place;

@@ -1,6 +1,5 @@
 #include "physics/transport/indirect/packet_memory.h"
 
-#include "physics/transport/indirect/candidates.h"
 #include "physics/transport/indirect/pass_arrays.h"
 
 #include <algorithm>
@@ -27,13 +26,13 @@ double first_landings(const RayCounts& counts) {
 }  // namespace
 
 PacketMemory::PacketMemory(const RadiationModel& model, std::size_t lights)
-    : columns_(model.bands.size() * lights), lights_(lights), lamps_(lamp_count(model)) {}
+    : columns_(model.bands.size() * lights), lights_(lights), lamps_(lamp_count(model)), per_landing_(lights > 1 ? 2.0 : 1.0) {}
 
 void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
   const double landings = first_landings(counts);
-  const double left = std::max(0.0, static_cast<double>(sums.first_candidates) - lamps_);
+  const double left = std::max(0.0, static_cast<double>(sums.first_places) - lamps_);
   const double per_landing = landings > 0.0 ? left / landings : 0.0;
-  const double per_packet = counts.packets > 0.0 ? static_cast<double>(sums.most_candidates) / counts.packets : 0.0;
+  const double per_packet = counts.packets > 0.0 ? static_cast<double>(sums.most_places) / counts.packets : 0.0;
   per_landing_ = learned_ ? std::max(per_landing_, per_landing) : per_landing;
   per_packet_ = learned_ ? std::max(per_packet_, per_packet) : per_packet;
   if (counts.packets > 0.0) {
@@ -49,19 +48,18 @@ double PacketMemory::side_bytes(const RayCounts& counts, double most) const {
   return learned_ ? PlaceSums::likely_bytes(side_bytes_per_packet_ * counts.packets, most) : most;
 }
 
-// The arrays of a pass stay for the next one (PassArrays), so that all of them count, each with its peak: those of candidates and of
-// their sorting in the round with most candidates.
+// The arrays of a pass stay for the next one (PassArrays), so that all of them count, each with its peak: those of places in the round
+// with most of them.
 double PacketMemory::bytes(const RayCounts& counts) const {
-  const double quanta_bytes = static_cast<double>(columns_) * sizeof(std::int64_t);
-  const double candidate_bytes = sizeof(EmissionPoint) + quanta_bytes;
+  const auto columns = static_cast<double>(columns_);
+  const double place_bytes = 2.0 * (sizeof(EmissionPoint) + columns * sizeof(std::int64_t)) + 2.0 * sizeof(std::uint64_t);
   const double first = lamps_ + per_landing_ * first_landings(counts);
-  const double most = std::max(first, per_packet_ * counts.packets);
-  const double candidates = most * (2.0 * candidate_bytes + 2.0 * sizeof(std::uint64_t) + sizeof(double));
-  const double draws = counts.packets * sizeof(std::uint32_t);
+  const double places = std::max(first, per_packet_ * counts.packets) * place_bytes;
+  const double draws = counts.packets * (sizeof(std::uint32_t) + columns * sizeof(std::uint32_t));
   const double point_bytes = sizeof(EmissionPoint) + static_cast<double>(lights_) * sizeof(double);
   const double points = std::min(counts.packets, counts.beam_rays) * point_bytes;
   const double rays = std::min(counts.packets, static_cast<double>(most_at_a_time)) * ray_bytes;
-  return candidates + draws + points + rays + counts.sky_rays * ray_bytes;
+  return places + draws + points + rays + counts.sky_rays * ray_bytes;
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// Memory that the rays, packets and candidates of a replicate take while it is made.
+// Memory that the rays, packets and waiting flux of a replicate take while it is made.
 
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/model/model.h"
@@ -19,7 +19,7 @@ class PacketMemory {
  public:
   explicit PacketMemory(const RadiationModel& model, std::size_t lights = 1);
 
-  // Records how many candidates a replicate with these rays had, and the memory of its sums by side. `sums` are those of one light.
+  // Records at how many places flux waited in a replicate with these rays had, and the memory of its sums by side. `sums` are those of one light.
   void learn(const RayCounts& counts, const IndirectSums& sums);
 
   // Returns the peak memory of such a replicate, in bytes: an upper limit until something has been learned, then an
@@ -32,10 +32,10 @@ class PacketMemory {
 
  private:
   std::size_t columns_, lights_;
-  double lamps_;  // candidates present before any landing
+  double lamps_;  // places present before any landing
   bool learned_ = false;
-  double per_landing_ = 2.0;  // candidates per first landing
-  double per_packet_ = 2.0;   // candidates per packet
+  double per_landing_;       // places per first landing
+  double per_packet_ = 1.0;  // places per packet
   double side_bytes_per_packet_ = 0.0;
 };
 

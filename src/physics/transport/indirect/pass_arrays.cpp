@@ -6,7 +6,7 @@ namespace sunfleck {
 
 std::unique_ptr<PassArrays> SparePassArrays::take() {
   const std::lock_guard lock(mutex_);
-  if (spare_.empty()) return std::make_unique<PassArrays>(columns_);
+  if (spare_.empty()) return std::make_unique<PassArrays>();
   std::unique_ptr<PassArrays> arrays = std::move(spare_.back());
   spare_.pop_back();
   return arrays;

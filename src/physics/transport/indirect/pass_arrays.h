@@ -2,7 +2,8 @@
 // The large arrays of an indirect pass. The next pass uses them again, so that their memory is not fetched anew from the system for
 // each replicate: that took an eighth of the processor time of runs with millions of packets.
 
-#include "physics/transport/indirect/candidates.h"
+#include "physics/transport/indirect/packet_draw.h"
+#include "physics/transport/indirect/waiting_flux.h"
 #include "shared/layout.h"
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 namespace sunfleck {
 
 // Largest number of rays or packets that are started, traced and booked together: enough to keep a GPU busy, and few enough that their
-// arrays stay small beside the candidates.
+// arrays stay small beside those of the places.
 inline constexpr std::size_t most_at_a_time = std::size_t{1} << 18U;
 
 // Points at which beam rays landed; see landing_points.h.
@@ -26,13 +27,9 @@ struct LandingPoints {
 
 // A pass overwrites what an earlier one left.
 struct PassArrays {
-  explicit PassArrays(std::size_t columns) : waiting(columns), next(columns) {}
-
   LandingPoints points;
-  Candidates waiting, next;
-  SortSpace sorting;
-  std::vector<double> expected;  // [candidate], number of times that it is drawn on average
-  Draw draw;
+  WaitingFlux waiting, next;
+  DrawArrays draw;
   std::vector<shared::Packet> packets;    // a part of a round
   std::vector<shared::Landing> landings;  // of these packets
   std::size_t sides_landed = 0;           // for how many sides the sums of the last pass had rows
@@ -41,15 +38,12 @@ struct PassArrays {
 // Lends arrays to passes that run at the same time.
 class SparePassArrays {
  public:
-  explicit SparePassArrays(std::size_t columns) : columns_(columns) {}
-
   [[nodiscard]] std::unique_ptr<PassArrays> take();
   void give_back(std::unique_ptr<PassArrays> arrays);
   // Frees the arrays that no pass uses.
   void free();
 
  private:
-  std::size_t columns_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<PassArrays>> spare_;
 };

@@ -37,9 +37,10 @@ double PlaceSums::likely_bytes(double list_bytes, double all_bytes) {
   return list_bytes > all_bytes / list_part ? all_bytes : list_bytes;
 }
 
-void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values) {
+void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values, std::size_t first) {
   DCHECK(place, <, places_);
-  DCHECK(values.size(), ==, width_);
+  DCHECK(first + values.size(), <=, width_);
+  DCHECK(form_ == Form::indexed || values.size() == width_, ==, true);
   switch (form_) {
     case Form::list:
       append(place, values);
@@ -47,22 +48,28 @@ void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values) {
     case Form::indexed: {
       if (entry_at_.empty()) entry_at_.resize(places_);
       std::uint32_t& entry = entry_at_[place];
-      if (entry > 0) return columns::add(values, &rows_[(entry - 1) * width_]);
-      append(place, values);
-      entry = static_cast<std::uint32_t>(at_.size());
-      return;
+      if (entry == 0) {
+        append_row(place);
+        entry = static_cast<std::uint32_t>(at_.size());
+      }
+      return columns::add(values, &rows_[(entry - 1) * width_ + first]);
     }
     case Form::all:
       return columns::add(values, &all_[place * width_]);
   }
 }
 
-// Grows as vectors do, but never beyond what all places need.
-void PlaceSums::append(std::size_t place, std::span<const std::int64_t> values) {
-  if (form_ == Form::indexed && rows_.size() == rows_.capacity()) {
+// Appends a row of zeros. Grows as vectors do, but never beyond what all places need.
+void PlaceSums::append_row(std::size_t place) {
+  if (rows_.size() == rows_.capacity()) {
     constexpr std::size_t first_entries = 64;
     rows_.reserve(std::min(size(), std::max(2 * rows_.size(), first_entries * width_)));
   }
+  at_.push_back(static_cast<std::uint32_t>(place));
+  rows_.resize(rows_.size() + width_);
+}
+
+void PlaceSums::append(std::size_t place, std::span<const std::int64_t> values) {
   at_.push_back(static_cast<std::uint32_t>(place));
   rows_.insert(rows_.end(), values.begin(), values.end());
 }

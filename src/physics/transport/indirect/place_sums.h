@@ -41,8 +41,8 @@ class PlaceSums {
   // Returns the memory that sums take which would be a list of `list_bytes`, or all of `all_bytes`.
   [[nodiscard]] static double likely_bytes(double list_bytes, double all_bytes);
 
-  // Adds `values`, one for each sum of the place.
-  void add(std::size_t place, std::span<const std::int64_t> values);
+  // Adds `values` to the sums of the place, one for each from number `first` on. Narrow sums take all of them.
+  void add(std::size_t place, std::span<const std::int64_t> values, std::size_t first = 0);
 
   // Adds the sums of `other`, which has as many, or none.
   void add(const PlaceSums& other);
@@ -144,6 +144,7 @@ class PlaceSums {
     if (form_ == Form::all) sunfleck::prefetch(all_[place * width_]);
   }
   void append(std::size_t place, std::span<const std::int64_t> values);
+  void append_row(std::size_t place);
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
   void keep_list_within_limit();
   [[nodiscard]] std::size_t most_entries_of_list() const;

@@ -41,8 +41,8 @@ IndirectSums take_arrays(IndirectSums& joint) {
   joint.packets = taken.packets;
   joint.rounds = taken.rounds;
   joint.lost = taken.lost;
-  joint.first_candidates = taken.first_candidates;
-  joint.most_candidates = taken.most_candidates;
+  joint.first_places = taken.first_places;
+  joint.most_places = taken.most_places;
   joint.receivers.reached = taken.receivers.reached;
   joint.receivers.crossing = taken.receivers.crossing;
   joint.receivers.zone_landings = taken.receivers.zone_landings;

@@ -37,7 +37,7 @@ struct IndirectSums {
   static void visit(Self& self, Archive& archive) {
     archive(self.surface_landed, self.layer_landed, self.side_landed, self.element_hits, self.cell_landed, self.side_sky,
             self.cell_sky, self.down, self.up, self.ledger, self.receivers, self.sky_rays, self.packets, self.rounds,
-            self.first_candidates, self.most_candidates, self.lost);
+            self.first_places, self.most_places, self.lost);
   }
 
   std::size_t bands = 0;                     // number of columns
@@ -52,8 +52,8 @@ struct IndirectSums {
   std::vector<FluxLedger> ledger;            // [band]; `incident` holds flux from the lamps and the sky
   PlaneSums receivers;                       // at the horizontal receivers, if there are any
   std::uint64_t sky_rays = 0, packets = 0, rounds = 0, lost = 0;
-  // Number waiting before the first round, and the largest number waiting after a round.
-  std::uint64_t first_candidates = 0, most_candidates = 0;
+  // Number of places with waiting flux before the first round, and the largest number after a round.
+  std::uint64_t first_places = 0, most_places = 0;
 };
 
 // Returns the sums of each light out of those of all. Numbers of rays, packets and hits are the same for each. [light]

@@ -49,8 +49,7 @@ ReplicateMaker::ReplicateMaker(Lights lights, const CounterLayout& layout, Trace
       surfaces_(model_),
       areas_(lights.size()),
       aim_(make_stand_aim(model_, layout)),
-      tracer_(tracer),
-      spare_(lights.size() * model_.bands.size()) {
+      tracer_(tracer) {
   tbb::parallel_for(std::size_t{0}, lights.size(),
                     [&](std::size_t k) { areas_[k] = std::make_unique<CanopyAreas>(lights[k], layout, surfaces_); });
   if (!model_.planes.empty()) receivers_.emplace(model_, layout, surfaces_);

@@ -1,51 +1,51 @@
 #pragma once
-// How packets are scattered: what they carry is split by the faces on which they land.
+// The faces on which light lands, and the sums of what they absorb.
 
-#include "base/random.h"
+#include "physics/transport/indirect/waiting_flux.h"
 #include "physics/transport/model/columns.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace sunfleck {
 
-// Splits the quanta of one landing after the other, [column], and sums up what surfaces absorb. The lights share one random number for
-// each band.
 class Scattering {
  public:
   Scattering(const RadiationModel& model, std::size_t lights);
 
-  // Split what landed on a side of an element, and on the soil plane.
-  void on_element(std::size_t optics, std::size_t side, Role role, std::span<const std::int64_t> quanta, RandomStream& random);
-  void on_soil(std::span<const std::int64_t> quanta, RandomStream& random);
+  // Return the number of the face of an element, of the soil plane, black without soil, and of lamps, whose places send all that
+  // waits there.
+  [[nodiscard]] std::uint32_t face_of(std::size_t optics, std::size_t side) const {
+    return static_cast<std::uint32_t>(2 * optics + side);
+  }
+  [[nodiscard]] std::uint32_t soil_face() const { return static_cast<std::uint32_t>(faces_.size() - 2); }
+  [[nodiscard]] std::uint32_t lamp_face() const { return static_cast<std::uint32_t>(faces_.size() - 1); }
+  [[nodiscard]] const FaceColumns& face(std::uint32_t number) const { return faces_[number]; }
 
-  // Return the parts of the last landing. [column]
-  [[nodiscard]] const std::vector<std::int64_t>& reflected() const { return reflected_; }
-  [[nodiscard]] const std::vector<std::int64_t>& transmitted() const { return transmitted_; }
+  // Returns whether what landed at a place leaves from a side, 0 or 1.
+  [[nodiscard]] bool sends(const EmissionPoint& place, std::size_t side) const {
+    return place.surface % 2 == side || faces_[place.face].transmits;
+  }
+  // Returns what a place sends out from a side.
+  [[nodiscard]] SentPart sent(const EmissionPoint& place, std::size_t side) const {
+    const FaceColumns& face = faces_[place.face];
+    if (place.surface % 2 == side) return {none_.data(), face.reflected.data(), place.u};
+    return {face.reflected.data(), face.scattered.data(), place.u};
+  }
 
-  // Return what surfaces have absorbed. [column]
+  // Returns the sums of what surfaces of a role have absorbed. [column]
+  [[nodiscard]] std::vector<std::int64_t>& absorbed(Role role);
   [[nodiscard]] const std::vector<std::int64_t>& vegetation() const { return vegetation_; }
   [[nodiscard]] const std::vector<std::int64_t>& soil() const { return soil_; }
-  // Adds it to the ledgers, [column].
+  // Adds all of them to the ledgers, [column].
   void add_to(std::vector<FluxLedger>& ledgers) const;
 
-  // Returns the optics of the soil plane, black without soil. [band]
-  [[nodiscard]] const std::vector<FaceOptics>& soil_face() const { return soil_face_; }
-
  private:
-  void scatter(const FaceColumns& face, std::span<const std::int64_t> quanta, RandomStream& random,
-               std::vector<std::int64_t>& absorbed);
-
-  std::size_t lights_;
-  std::vector<FaceOptics> soil_face_;
-  FaceColumns of_soil_;
-  std::vector<FaceColumns> of_side_;                         // [2 * optics + side]
-  std::vector<double> uniform_;                              // [column], random numbers of the current landing
-  std::vector<std::int64_t> reflected_, transmitted_;        // [column]
+  std::vector<FaceColumns> faces_;                           // [2 * optics + side], then the soil plane and lamps
+  std::vector<std::uint64_t> none_;                          // [column], 0
   std::vector<std::int64_t> vegetation_, structure_, soil_;  // [column], absorbed
 };
 

@@ -1,7 +1,5 @@
 #include "physics/transport/model/columns.h"
 
-#include <array>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "physics/transport/model/columns.cpp"
 #include <hwy/foreach_target.h>
@@ -15,69 +13,117 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 const hn::ScalableTag<double> reals;
 const hn::ScalableTag<std::int64_t> wholes;
+const hn::ScalableTag<std::uint64_t> words;
+const hn::Rebind<std::uint32_t, decltype(words)> halves;
+using Words = hn::Vec<decltype(words)>;
 
 // Calls take(first column) for whole vectors of columns; returns the number of the first column that is left.
 template <class Take>
 HWY_INLINE std::size_t for_each_vector(std::size_t columns, const Take& take) {
   std::size_t c = 0;
-  for (; c + hn::Lanes(reals) <= columns; c += hn::Lanes(reals)) take(c);
+  for (; c + hn::Lanes(words) <= columns; c += hn::Lanes(words)) take(c);
   return c;
 }
 
-void split(const FaceColumns& face, const SplitColumns& row) {
-  const std::size_t rest = for_each_vector(row.landed.size(), [&](std::size_t c) HWY_ATTR {
-    const auto landed = hn::LoadU(wholes, &row.landed[c]);
-    const auto real = hn::ConvertTo(reals, landed);
-    const auto u = hn::LoadU(reals, &row.u[c]);
-    const auto part = [&](const double* coefficient) HWY_ATTR {  // ConvertTo saturates, as split_quanta does
-      const auto rounded = hn::ConvertTo(wholes, hn::Add(hn::Mul(real, hn::LoadU(reals, coefficient)), u));
-      return hn::Min(landed, rounded);
-    };
-    const auto reflected = part(&face.reflected[c]);
-    const auto transmitted = hn::Max(hn::Zero(wholes), hn::Sub(part(&face.scattered[c]), reflected));
-    const auto absorbed = hn::Sub(hn::Sub(landed, reflected), transmitted);
-    hn::StoreU(hn::Add(hn::LoadU(wholes, &row.absorbed[c]), absorbed), wholes, &row.absorbed[c]);
-    hn::StoreU(reflected, wholes, &row.reflected[c]);
-    hn::StoreU(transmitted, wholes, &row.transmitted[c]);
-  });
-  singly::split(rest, face, row);
+HWY_INLINE Words load(const std::uint64_t* at) {
+  return hn::LoadU(words, at);
 }
 
-void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
-  const auto per = hn::Set(reals, expected);
-  const auto number = hn::Set(wholes, packet);
-  const std::size_t rest = for_each_vector(quanta.size(), [&](std::size_t c) HWY_ATTR {
-    const auto own = hn::LoadU(wholes, &quanta[c]);
-    const auto weight = hn::Div(hn::ConvertTo(reals, own), per);
-    hn::StoreU(hn::Add(hn::LoadU(reals, &shared.weights[c]), weight), reals, &shared.weights[c]);
-    const auto any = hn::Gt(own, hn::Zero(wholes));
-    hn::StoreU(hn::IfThenElse(any, number, hn::LoadU(wholes, &shared.last[c])), wholes, &shared.last[c]);
-  });
-  singly::weigh(rest, quanta, expected, packet, shared);
+HWY_INLINE Words load(const std::int64_t* at) {
+  return hn::BitCast(words, hn::LoadU(wholes, at));
 }
 
-void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
-           std::span<std::int64_t> own) {
-  const auto per = hn::Set(reals, expected);
-  const auto number = hn::Set(wholes, packet);
-  const std::size_t rest = for_each_vector(quanta.size(), [&](std::size_t c) HWY_ATTR {
-    const auto quantas = hn::LoadU(wholes, &quanta[c]);
-    const auto none = hn::Eq(quantas, hn::Zero(wholes));
-    const auto weight = hn::Div(hn::ConvertTo(reals, quantas), per);
-    const auto sum = hn::Add(hn::LoadU(reals, &shared.sums[c]), weight);
-    hn::StoreU(sum, reals, &shared.sums[c]);
-    const auto total = hn::LoadU(wholes, &shared.totals[c]);
-    const auto given = hn::LoadU(wholes, &shared.given[c]);
-    // Without any weight the ratio is no number; the row is then 0 there, and the result is not used.
-    const auto ratio = hn::Div(sum, hn::LoadU(reals, &shared.weights[c]));
-    const auto part = hn::ConvertTo(wholes, hn::Mul(ratio, hn::ConvertTo(reals, total)));
-    const auto between = hn::Min(hn::Max(part, given), total);
-    const auto is_last = hn::Eq(number, hn::LoadU(wholes, &shared.last[c]));
-    const auto up_to = hn::IfThenElse(none, given, hn::IfThenElse(is_last, total, between));
-    hn::StoreU(hn::Sub(up_to, given), wholes, &own[c]);
-    hn::StoreU(up_to, wholes, &shared.given[c]);
+HWY_INLINE void add_at(std::uint64_t* at, Words terms) {
+  hn::StoreU(hn::Add(load(at), terms), words, at);
+}
+
+HWY_INLINE void add_at(std::int64_t* at, Words terms) {
+  hn::StoreU(hn::BitCast(wholes, hn::Add(load(at), terms)), wholes, at);
+}
+
+// Returns the products of the low words.
+HWY_INLINE Words times(Words a, Words b) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(words, (hn::GetLane(a) & shared::low_word) * (hn::GetLane(b) & shared::low_word));
+#else
+  const hn::Repartition<std::uint32_t, decltype(words)> low;
+  return hn::MulEven(hn::BitCast(low, a), hn::BitCast(low, b));
+#endif
+}
+
+// Returns shared::part_of for each column.
+HWY_INLINE Words parts(Words quanta, Words coefficients, Words u) {
+  const Words low = hn::ShiftRight<32>(hn::Add(times(quanta, coefficients), u));
+  const Words part = hn::Add(times(hn::ShiftRight<32>(quanta), coefficients), low);
+  return hn::IfThenElse(hn::Eq(coefficients, hn::Set(words, std::uint64_t{1} << 32U)), quanta, part);
+}
+
+// Returns shared::scaled for what a side sends.
+HWY_INLINE Words scaled_parts(Words landed, const SentPart& sent, Words u, const ScaleColumns& by, std::size_t column) {
+  const Words quanta = hn::Sub(parts(landed, load(sent.to + column), u), parts(landed, load(sent.from + column), u));
+  const Words mantissa = load(&by.mantissa[column]);
+  const Words shift = load(&by.shift[column]);
+  const Words high = hn::Shl(times(hn::ShiftRight<32>(quanta), mantissa), hn::Sub(hn::Set(words, 32), shift));
+  return hn::Add(high, hn::Shr(times(quanta, mantissa), shift));
+}
+
+std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                         std::size_t first) {
+  const Words u = hn::Set(words, sent.u);
+  Words sums = hn::Zero(words);
+  const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
+    sums = hn::Add(sums, scaled_parts(load(&landed[k]), sent, u, by, first + k));
   });
-  singly::share(rest, quanta, expected, packet, shared, own);
+  return hn::GetLane(hn::SumOfLanes(words, sums)) + singly::sum_scaled(rest, landed, sent, by, first);
+}
+
+std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                             std::size_t first) {
+  const Words u = hn::Set(words, sent.u);
+  Words most = hn::Zero(words);
+  const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
+    most = hn::Max(most, scaled_parts(load(&landed[k]), sent, u, by, first + k));
+  });
+  return std::max<std::uint64_t>(hn::GetLane(hn::MaxOfLanes(words, most)),
+                                 singly::largest_scaled(rest, landed, sent, by, first));
+}
+
+void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+           const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
+  const Words u = hn::Set(words, sent.u);
+  const Words inverse = hn::Set(words, sharing.inverse);
+  const Words right = hn::Set(words, static_cast<std::uint64_t>(std::max(0, sharing.shift_right)));
+  const Words left = hn::Set(words, static_cast<std::uint64_t>(std::max(0, -sharing.shift_right)));
+  const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
+    const Words expected = scaled_parts(load(&landed[k]), sent, u, by, first + k);
+    const Words weight = hn::ShiftRight<32>(times(hn::Shl(hn::Shr(expected, right), left), inverse));
+    hn::StoreU(hn::TruncateTo(halves, weight), halves, weights + k);
+    add_at(sums + first + k, weight);
+  });
+  singly::weigh(rest, landed, sent, by, first, sharing, weights, sums);
+}
+
+void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta) {
+  const std::size_t rest = for_each_vector(weights.size(), [&](std::size_t k) HWY_ATTR {
+    const Words weight = hn::PromoteTo(words, hn::LoadU(halves, &weights[k]));
+    const Words factor = load(&loads.factor[first + k]);
+    const Words product = hn::Add(times(weight, hn::ShiftRight<32>(factor)), hn::ShiftRight<32>(times(weight, factor)));
+    const Words shift = hn::Sub(load(&loads.shift[first + k]), hn::Set(words, 32));
+    hn::StoreU(hn::BitCast(wholes, hn::Shr(product, shift)), wholes, quanta + k);
+  });
+  singly::carry(rest, weights, loads, first, quanta);
+}
+
+void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
+           std::int64_t* waiting) {
+  const Words random = hn::Set(words, u);
+  const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
+    const Words quanta = load(&landed[k]);
+    const Words left = parts(quanta, load(scattered + k), random);
+    add_at(absorbed + k, hn::Sub(quanta, left));
+    add_at(waiting + k, left);
+  });
+  singly::split(rest, landed, scattered, u, absorbed, waiting);
 }
 
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
@@ -92,14 +138,6 @@ void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
     hn::StoreU(hn::Sub(hn::LoadU(wholes, sums + c), hn::LoadU(wholes, &quanta[c])), wholes, sums + c);
   });
   singly::subtract(rest, quanta, sums);
-}
-
-void divide(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios) {
-  const std::size_t rest = for_each_vector(quanta.size(), [&](std::size_t c) HWY_ATTR {
-    const auto real = hn::ConvertTo(reals, hn::LoadU(wholes, &quanta[c]));
-    hn::StoreU(hn::Div(real, hn::LoadU(reals, &by[c])), reals, &ratios[c]);
-  });
-  singly::divide(rest, quanta, by, ratios);
 }
 
 void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
@@ -137,27 +175,39 @@ namespace sunfleck {
 namespace columns {
 namespace in_vectors {
 
-HWY_EXPORT(split);
+HWY_EXPORT(sum_scaled);
+HWY_EXPORT(largest_scaled);
 HWY_EXPORT(weigh);
-HWY_EXPORT(share);
+HWY_EXPORT(carry);
+HWY_EXPORT(split);
 HWY_EXPORT(add);
 HWY_EXPORT(subtract);
-HWY_EXPORT(divide);
 HWY_EXPORT(scale);
 HWY_EXPORT(add_products);
 HWY_EXPORT(add_scaled);
 
-void split(const FaceColumns& face, const SplitColumns& row) {
-  HWY_DYNAMIC_DISPATCH(split)(face, row);
+std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                         std::size_t first) {
+  return HWY_DYNAMIC_DISPATCH(sum_scaled)(landed, sent, by, first);
 }
 
-void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
-  HWY_DYNAMIC_DISPATCH(weigh)(quanta, expected, packet, shared);
+std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                             std::size_t first) {
+  return HWY_DYNAMIC_DISPATCH(largest_scaled)(landed, sent, by, first);
 }
 
-void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
-           std::span<std::int64_t> own) {
-  HWY_DYNAMIC_DISPATCH(share)(quanta, expected, packet, shared, own);
+void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+           const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
+  HWY_DYNAMIC_DISPATCH(weigh)(landed, sent, by, first, sharing, weights, sums);
+}
+
+void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta) {
+  HWY_DYNAMIC_DISPATCH(carry)(weights, loads, first, quanta);
+}
+
+void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
+           std::int64_t* waiting) {
+  HWY_DYNAMIC_DISPATCH(split)(landed, scattered, u, absorbed, waiting);
 }
 
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
@@ -166,10 +216,6 @@ void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
 
 void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
   HWY_DYNAMIC_DISPATCH(subtract)(quanta, sums);
-}
-
-void divide(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios) {
-  HWY_DYNAMIC_DISPATCH(divide)(quanta, by, ratios);
 }
 
 void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
@@ -187,32 +233,6 @@ void add_scaled(double factor, std::span<const double> a, std::span<double> sums
 
 }  // namespace in_vectors
 
-void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<const double> by, std::span<double> sums) {
-  const std::size_t count = by.size();
-  if (count < least_in_vectors) {  // by way of an array, runs with two bands took 4 % longer
-    for (std::size_t row = 0; row < sums.size(); ++row) {
-      double sum = 0.0;
-      for (std::size_t c = 0; c < count; ++c) sum += static_cast<double>(rows[row][c]) / by[c];
-      sums[row] = sum;
-    }
-    return;
-  }
-  // Each addition waits for the one before it, so that rows are added side by side.
-  constexpr std::size_t at_once = 8;
-  std::vector<double> ratios(at_once * count);
-  for (std::size_t first = 0; first < sums.size(); first += at_once) {
-    const std::size_t those = std::min(at_once, sums.size() - first);
-    for (std::size_t k = 0; k < those; ++k) {
-      in_vectors::divide(rows[first + k], by, std::span(ratios).subspan(k * count, count));
-    }
-    std::array<double, at_once> sum{};
-    for (std::size_t c = 0; c < count; ++c) {
-      for (std::size_t k = 0; k < at_once; ++k) sum[k] += ratios[k * count + c];
-    }
-    std::copy_n(sum.begin(), those, sums.begin() + static_cast<std::ptrdiff_t>(first));
-  }
-}
-
 }  // namespace columns
 
 FaceColumns::FaceColumns(const std::vector<FaceOptics>& face, std::size_t lights) {
@@ -220,6 +240,7 @@ FaceColumns::FaceColumns(const std::vector<FaceOptics>& face, std::size_t lights
     const SplitCoefficients of = split_coefficients(band.reflectance, band.transmittance);
     reflected.insert(reflected.end(), lights, of.reflected);
     scattered.insert(scattered.end(), lights, of.scattered);
+    transmits = transmits || of.scattered != of.reflected;
   }
 }
 

@@ -3,44 +3,45 @@
 // one by one where there are few. Both give the same bits on every kind of processor.
 
 #include "physics/transport/model/model.h"
+#include "shared/quanta.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace sunfleck {
 
 // Landed quanta are split into parts that add up to them exactly. Each part is its exact share rounded down or up at random, so that
-// its expectation is right; a part whose coefficient is 0 gets exactly 0.
+// its expectation is right to 2^-33 of what landed; a part whose coefficient is 0 gets exactly 0.
 struct QuantaSplit {
   std::int64_t absorbed = 0, reflected = 0, transmitted = 0;
   [[nodiscard]] std::int64_t scattered() const { return reflected + transmitted; }
 };
 
-// Coefficients of what a face reflects, and of what it reflects or transmits; 2 where that is everything to within rounding, so that
-// split_quanta finds all quanta.
+// Coefficients of what a face reflects, and of what it reflects or transmits, as parts of 2^32 (shaders/shared/quanta.h).
 struct SplitCoefficients {
-  double reflected = 0.0, scattered = 0.0;
+  std::uint64_t reflected = 0, scattered = 0;
 };
 [[nodiscard]] inline SplitCoefficients split_coefficients(double reflectance, double transmittance) {
-  constexpr double everything = 2.0;
-  const bool absorbs = 1.0 - reflectance - transmittance > 1e-12;
-  return {transmittance == 0.0 && !absorbs ? everything : reflectance, absorbs ? reflectance + transmittance : everything};
+  const auto coefficient = [](double part) {
+    return static_cast<std::uint64_t>(std::llround(std::clamp(part, 0.0, 1.0) * 0x1p32));
+  };
+  return {coefficient(reflectance), coefficient(reflectance + transmittance)};
 }
 
-// Splits quanta; `u` is uniform over [0, 1).
-[[nodiscard]] inline QuantaSplit split_quanta(std::int64_t quanta, const SplitCoefficients& of, double u) {
-  const auto part = [&](double coefficient) {
-    const double share = static_cast<double>(quanta) * coefficient + u;
-    return share < 0x1p63 ? std::min(quanta, static_cast<std::int64_t>(share)) : quanta;
+// Splits quanta; `u` has 32 random bits.
+[[nodiscard]] inline QuantaSplit split_quanta(std::int64_t quanta, const SplitCoefficients& of, std::uint32_t u) {
+  const auto part = [&](std::uint64_t coefficient) {
+    return static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(quanta), coefficient, u));
   };
+  const std::int64_t scattered = part(of.scattered);
   QuantaSplit split;
   split.reflected = part(of.reflected);
-  split.transmitted = std::max<std::int64_t>(0, part(of.scattered) - split.reflected);
-  split.absorbed = quanta - split.reflected - split.transmitted;
+  split.transmitted = scattered - split.reflected;
+  split.absorbed = quanta - scattered;
   return split;
 }
 
@@ -48,30 +49,42 @@ struct SplitCoefficients {
 struct FaceColumns {
   FaceColumns(const std::vector<FaceOptics>& face, std::size_t lights);
 
-  std::vector<double> reflected, scattered;
+  std::vector<std::uint64_t> reflected, scattered;
+  bool transmits = false;  // in any column
 };
 
-// Landed quanta, and where their parts go. [column]
-struct SplitColumns {
-  std::span<const std::int64_t> landed;
-  std::span<const double> u;            // uniform over [0, 1)
-  std::span<std::int64_t> absorbed;     // to which what is absorbed is added
-  std::span<std::int64_t> reflected;    // overwritten
-  std::span<std::int64_t> transmitted;  // overwritten
+// What one side of a place sends out of what landed there: the parts between two coefficients. [column]
+struct SentPart {
+  const std::uint64_t* from = nullptr;
+  const std::uint64_t* to = nullptr;
+  std::uint32_t u = 0;  // as in split_quanta
 };
 
-// The flux that drawn packets share out, column by column: the k-th packet gets its weight's part of the total. Cumulative shares are
-// rounded down, so that their differences add up to it. [column]
-struct SharedOut {
-  SharedOut() = default;
-  explicit SharedOut(std::vector<std::int64_t> of)
-      : totals(std::move(of)), weights(totals.size()), sums(totals.size()), given(totals.size()), last(totals.size()) {}
+// A shared::Scale for each column.
+struct ScaleColumns {
+  explicit ScaleColumns(std::size_t columns) : mantissa(columns), shift(columns) {}
+  void set(std::size_t column, const shared::Scale& scale) {
+    mantissa[column] = scale.mantissa;
+    shift[column] = scale.shift;
+  }
 
-  std::vector<std::int64_t> totals;
-  std::vector<double> weights;      // of all packets
-  std::vector<double> sums;         // of the weights of the packets so far
-  std::vector<std::int64_t> given;  // to the packets so far
-  std::vector<std::int64_t> last;   // number of the last packet with any quanta
+  std::vector<std::uint64_t> mantissa, shift;
+};
+
+// A shared::Load for each column.
+struct LoadColumns {
+  explicit LoadColumns(std::size_t columns) : factor(columns), shift(columns) {}
+  void set(std::size_t column, const shared::Load& load) {
+    factor[column] = load.factor;
+    shift[column] = load.shift;
+  }
+
+  std::vector<std::uint64_t> factor, shift;
+};
+
+// Neighbouring columns; all others have nothing left to send.
+struct ColumnRange {
+  std::size_t first = 0, count = 0;
 };
 
 namespace columns {
@@ -81,13 +94,16 @@ inline constexpr std::size_t least_in_vectors = 6;
 
 namespace in_vectors {
 
-void split(const FaceColumns& face, const SplitColumns& row);
-void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared);
-void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
-           std::span<std::int64_t> own);
+std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first);
+std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                             std::size_t first);
+void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+           const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums);
+void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta);
+void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
+           std::int64_t* waiting);
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums);
 void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums);
-void divide(std::span<const std::int64_t> quanta, std::span<const double> by, std::span<double> ratios);
 void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
            std::span<double> products);
 void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums);
@@ -95,37 +111,56 @@ void add_scaled(double factor, std::span<const double> a, std::span<double> sums
 
 }  // namespace in_vectors
 
-// The columns of a row from `first` on, one by one.
+// The columns of a row from one on, one by one.
 namespace singly {
 
-inline void split(std::size_t first, const FaceColumns& face, const SplitColumns& row) {
-  for (std::size_t c = first; c < row.landed.size(); ++c) {
-    const QuantaSplit parts = split_quanta(row.landed[c], {face.reflected[c], face.scattered[c]}, row.u[c]);
-    row.absorbed[c] += parts.absorbed;
-    row.reflected[c] = parts.reflected;
-    row.transmitted[c] = parts.transmitted;
+// The columns of a row from the k-th on, one by one. `first` is the number of the row's first column.
+inline std::uint64_t sent_quanta(std::int64_t landed, const SentPart& sent, std::size_t column) {
+  const auto quanta = static_cast<std::uint64_t>(landed);
+  return shared::part_of(quanta, sent.to[column], sent.u) - shared::part_of(quanta, sent.from[column], sent.u);
+}
+
+inline std::uint64_t scaled_part(std::int64_t landed, const SentPart& sent, const ScaleColumns& by, std::size_t column) {
+  return shared::scaled(sent_quanta(landed, sent, column),
+                        {static_cast<std::uint32_t>(by.mantissa[column]), static_cast<std::uint32_t>(by.shift[column])});
+}
+
+inline std::uint64_t sum_scaled(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent,
+                                const ScaleColumns& by, std::size_t first) {
+  std::uint64_t sum = 0;
+  for (; k < landed.size(); ++k) sum += scaled_part(landed[k], sent, by, first + k);
+  return sum;
+}
+
+inline std::uint64_t largest_scaled(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent,
+                                    const ScaleColumns& by, std::size_t first) {
+  std::uint64_t largest = 0;
+  for (; k < landed.size(); ++k) largest = std::max(largest, scaled_part(landed[k], sent, by, first + k));
+  return largest;
+}
+
+inline void weigh(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                  std::size_t first, const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
+  for (; k < landed.size(); ++k) {
+    weights[k] = shared::share_of(scaled_part(landed[k], sent, by, first + k), sharing);
+    sums[first + k] += weights[k];
   }
 }
 
-inline void weigh(std::size_t first, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
-                  SharedOut& shared) {
-  for (std::size_t c = first; c < quanta.size(); ++c) {
-    shared.weights[c] += static_cast<double>(quanta[c]) / expected;
-    if (quanta[c] > 0) shared.last[c] = packet;
+inline void carry(std::size_t k, std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first,
+                  std::int64_t* quanta) {
+  for (; k < weights.size(); ++k) {
+    const shared::Load load{loads.factor[first + k], static_cast<std::uint32_t>(loads.shift[first + k])};
+    quanta[k] = static_cast<std::int64_t>(shared::carried(weights[k], load));
   }
 }
 
-inline void share(std::size_t first, std::span<const std::int64_t> quanta, double expected, std::int64_t packet,
-                  SharedOut& shared, std::span<std::int64_t> own) {
-  for (std::size_t c = first; c < quanta.size(); ++c) {
-    own[c] = 0;
-    if (quanta[c] == 0) continue;
-    shared.sums[c] += static_cast<double>(quanta[c]) / expected;
-    const std::int64_t total = shared.totals[c];
-    const auto share = static_cast<std::int64_t>(shared.sums[c] / shared.weights[c] * static_cast<double>(total));
-    const std::int64_t up_to = packet == shared.last[c] ? total : std::clamp(share, shared.given[c], total);
-    own[c] = up_to - shared.given[c];
-    shared.given[c] = up_to;
+inline void split(std::size_t k, std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u,
+                  std::int64_t* absorbed, std::int64_t* waiting) {
+  for (; k < landed.size(); ++k) {
+    const auto left = static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(landed[k]), scattered[k], u));
+    absorbed[k] += landed[k] - left;
+    waiting[k] += left;
   }
 }
 
@@ -135,11 +170,6 @@ inline void add(std::size_t first, std::span<const std::int64_t> quanta, std::in
 
 inline void subtract(std::size_t first, std::span<const std::int64_t> quanta, std::int64_t* sums) {
   for (std::size_t c = first; c < quanta.size(); ++c) sums[c] -= quanta[c];
-}
-
-inline void divide(std::size_t first, std::span<const std::int64_t> quanta, std::span<const double> by,
-                   std::span<double> ratios) {
-  for (std::size_t c = first; c < quanta.size(); ++c) ratios[c] = static_cast<double>(quanta[c]) / by[c];
 }
 
 inline void scale(std::size_t first, std::span<const std::int64_t> quanta, std::span<const double> a, double b,
@@ -157,23 +187,40 @@ inline void add_scaled(std::size_t first, double factor, std::span<const double>
 
 }  // namespace singly
 
-// Splits what landed on a face.
-inline void split(const FaceColumns& face, const SplitColumns& row) {
-  if (row.landed.size() >= least_in_vectors) return in_vectors::split(face, row);
-  singly::split(0, face, row);
+// What follows is for a row of quanta that landed, whose first column has the number `first` in all arrays that are not rows.
+
+// Returns the sum of what a side sends, each column scaled.
+inline std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                                std::size_t first) {
+  if (landed.size() >= least_in_vectors) return in_vectors::sum_scaled(landed, sent, by, first);
+  return singly::sum_scaled(0, landed, sent, by, first);
 }
 
-// Adds the weights, quanta / expected, of a packet, and notes it where it has any quanta.
-inline void weigh(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared) {
-  if (quanta.size() >= least_in_vectors) return in_vectors::weigh(quanta, expected, packet, shared);
-  singly::weigh(0, quanta, expected, packet, shared);
+// Returns the largest of them.
+inline std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+                                    std::size_t first) {
+  if (landed.size() >= least_in_vectors) return in_vectors::largest_scaled(landed, sent, by, first);
+  return singly::largest_scaled(0, landed, sent, by, first);
 }
 
-// Sets `own` to what the packet gets, once all were weighed.
-inline void share(std::span<const std::int64_t> quanta, double expected, std::int64_t packet, SharedOut& shared,
-                  std::span<std::int64_t> own) {
-  if (quanta.size() >= least_in_vectors) return in_vectors::share(quanta, expected, packet, shared, own);
-  singly::share(0, quanta, expected, packet, shared, own);
+// Sets the row `weights` to the weight of each column in a packet, and adds it to `sums`.
+inline void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+                  const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
+  if (landed.size() >= least_in_vectors) return in_vectors::weigh(landed, sent, by, first, sharing, weights, sums);
+  singly::weigh(0, landed, sent, by, first, sharing, weights, sums);
+}
+
+// Sets the row `quanta` to what a packet of these weights carries.
+inline void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta) {
+  if (weights.size() >= least_in_vectors) return in_vectors::carry(weights, loads, first, quanta);
+  singly::carry(0, weights, loads, first, quanta);
+}
+
+// Splits a row with its coefficients, and adds to rows of what is absorbed and of what waits to be sent.
+inline void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
+                  std::int64_t* waiting) {
+  if (landed.size() >= least_in_vectors) return in_vectors::split(landed, scattered, u, absorbed, waiting);
+  singly::split(0, landed, scattered, u, absorbed, waiting);
 }
 
 // Adds quanta to as many sums.
@@ -187,9 +234,6 @@ inline void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
   if (quanta.size() >= least_in_vectors) return in_vectors::subtract(quanta, sums);
   singly::subtract(0, quanta, sums);
 }
-
-// Sets the sums of quanta / by of each row, added in the order of the columns.
-void sum_ratios(std::span<const std::span<const std::int64_t>> rows, std::span<const double> by, std::span<double> sums);
 
 // Sets the products of quanta * a * b * c, multiplied in this order.
 inline void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,

@@ -1,24 +1,51 @@
 #include "physics/transport/receivers/plane_flux.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sunfleck {
 
-void PlaneFlux::pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta) {
+void PlaneFlux::pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta, std::size_t first) {
   std::vector<std::int64_t>& planes = from > to ? down_ : up_;
-  const auto [first, end] = std::minmax(from, to);
-  columns::add(quanta, &planes[first * bands_]);
-  columns::subtract(quanta, &planes[end * bands_]);
+  const auto [lowest, end] = std::minmax(from, to);
+  columns::add(quanta, &planes[lowest * columns_ + first]);
+  columns::subtract(quanta, &planes[end * columns_ + first]);
+}
+
+std::int64_t PlaneFlux::drop_waiting(std::size_t column) {
+  std::int64_t dropped = 0;
+  for (std::size_t k = column; k < waiting_.size(); k += columns_) dropped += std::exchange(waiting_[k], 0);
+  return dropped;
+}
+
+void PlaneFlux::keep(std::size_t column, std::int64_t quanta) {
+  waiting_[column] += quanta;
+  moved_[column] += quanta;
+}
+
+std::vector<std::int64_t> PlaneFlux::sum_of(const std::vector<std::int64_t>& places) const {
+  std::vector<std::int64_t> sums(columns_);
+  for (std::size_t first = 0; first < places.size(); first += columns_) {
+    columns::add(std::span(places).subspan(first, columns_), sums.data());
+  }
+  return sums;
+}
+
+std::vector<std::int64_t> PlaneFlux::take(std::vector<std::int64_t>& places, std::int64_t sign) {
+  std::vector<std::int64_t> sums = sum_of(places);
+  for (std::size_t k = 0; k < places.size(); ++k) moved_[k] += sign * places[k];
+  std::fill(places.begin(), places.end(), 0);
+  return sums;
 }
 
 void PlaneFlux::close(const std::function<bool(std::size_t plane)>& at_ground) {
   // Turns the differences between neighbouring planes, and between the places, into the flux of each plane.
   for (auto* planes : {&down_, &up_, &moved_}) {
-    for (std::size_t k = bands_; k < planes->size(); ++k) (*planes)[k] += (*planes)[k - bands_];
-    planes->resize(planes->size() - bands_);
+    for (std::size_t k = columns_; k < planes->size(); ++k) (*planes)[k] += (*planes)[k - columns_];
+    planes->resize(planes->size() - columns_);
   }
   for (std::size_t k = 0; k < moved_.size(); ++k) {
-    const std::int64_t half = at_ground(k / bands_) ? 0 : moved_[k] / 2;
+    const std::int64_t half = at_ground(k / columns_) ? 0 : moved_[k] / 2;
     down_[k] += half;
     up_[k] -= moved_[k] - half;
   }

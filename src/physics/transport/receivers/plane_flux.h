@@ -10,19 +10,29 @@
 
 namespace sunfleck {
 
-// The planes cut space into places, numbered from the bottom: place 0 lies below the lowest plane, place k above k planes.
+// The planes cut space into places, numbered from the bottom: place 0 lies below the lowest plane, place k above k planes. Packets carry
+// quanta of several columns; rows of places hold all of them.
 class PlaneFlux {
  public:
-  PlaneFlux(std::size_t planes, std::size_t bands) : bands_(bands), down_((planes + 1) * bands), up_(down_), moved_(down_) {}
+  PlaneFlux(std::size_t planes, std::size_t columns)
+      : columns_(columns), down_((planes + 1) * columns), up_(down_), waiting_(down_), left_(down_), moved_(down_) {}
 
-  // Adds the quanta, [band], that a straight path carries from one place to another.
-  void pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta);
+  // Adds the quanta that a straight path carries from one place to another, in the columns from `first` on.
+  void pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta, std::size_t first = 0);
 
-  // Adds quanta of a band that are shot from a place although they waited elsewhere; negative where they waited.
-  void move(std::size_t place, std::size_t band, std::int64_t quanta) { moved_[place * bands_ + band] += quanta; }
-  // Add the quanta of all bands that are shot from a place, and take off those that waited there.
-  void move(std::size_t place, std::span<const std::int64_t> quanta) { columns::add(quanta, &moved_[place * bands_]); }
-  void leave(std::size_t place, std::span<const std::int64_t> quanta) { columns::subtract(quanta, &moved_[place * bands_]); }
+  // Return the sums of what waits at a place, and of what packets have taken along from there, to add to. [column]
+  [[nodiscard]] std::int64_t* waiting(std::size_t place) { return &waiting_[place * columns_]; }
+  [[nodiscard]] std::int64_t* left(std::size_t place) { return &left_[place * columns_]; }
+
+  // Returns what waits at all places. [column]
+  [[nodiscard]] std::vector<std::int64_t> all_waiting() const { return sum_of(waiting_); }
+  // Return the same and what packets have taken along, and set the sums to 0: this flux now counts as moved.
+  std::vector<std::int64_t> take_waiting() { return take(waiting_, -1); }
+  std::vector<std::int64_t> take_left() { return take(left_, 1); }
+  // Sets what waits of a column to 0, and returns it: it stays where it is.
+  std::int64_t drop_waiting(std::size_t column);
+  // Lets quanta wait at the lowest place that rounding has left of what was taken.
+  void keep(std::size_t column, std::int64_t quanta);
 
   // Completes the flux through the planes. Sampling moves flux between places: flux that waits at one is shot from another,
   // with a mean of zero. To keep the books of the planes in between exact to the quantum, half of the net flux moved through
@@ -30,14 +40,18 @@ class PlaneFlux {
   // from the upward flux, because the downward flux there is what lands on the soil.
   void close(const std::function<bool(std::size_t plane)>& at_ground);
 
-  // The flux through the planes once they are closed. [plane * bands + band]
+  // The flux through the planes once they are closed. [plane * columns + column]
   [[nodiscard]] const std::vector<std::int64_t>& down() const { return down_; }
   [[nodiscard]] const std::vector<std::int64_t>& up() const { return up_; }
 
  private:
-  std::size_t bands_;
-  std::vector<std::int64_t> down_, up_;  // [place * bands + band]; before close() the differences to the plane below
-  std::vector<std::int64_t> moved_;      // [place * bands + band]
+  [[nodiscard]] std::vector<std::int64_t> sum_of(const std::vector<std::int64_t>& places) const;
+  std::vector<std::int64_t> take(std::vector<std::int64_t>& places, std::int64_t sign);
+
+  std::size_t columns_;
+  std::vector<std::int64_t> down_, up_;       // [place * columns + column]; before close() the differences to the plane below
+  std::vector<std::int64_t> waiting_, left_;  // [place * columns + column]
+  std::vector<std::int64_t> moved_;           // [place * columns + column], what was shot from a place, less what waited there
 };
 
 }  // namespace sunfleck

@@ -99,9 +99,9 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherVersion) {
 // The checksum is right, but this program writes other maps.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   store_.write(state_);
-  const json good = *unsealed("SUNRUNS5", bytes());
+  const json good = *unsealed("SUNRUNS6", bytes());
   const auto expect_refused = [&](const json& content) {
-    folder_.write(run_state_file, sealed("SUNRUNS5", content));
+    folder_.write(run_state_file, sealed("SUNRUNS6", content));
     EXPECT_NE(refusal().find("it is damaged"), std::string::npos)
         << content.dump(-1, ' ', true, json::error_handler_t::replace);
   };

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace sunfleck::test {
@@ -56,53 +55,60 @@ std::vector<FaceOptics> some_faces(std::size_t bands, RandomStream& random) {
 TEST(Columns, AreSplitAsSingleQuantaAre) {
   for_each_width([](std::size_t count, RandomStream& random) {
     const std::vector<FaceOptics> faces = some_faces(count, random);
+    const FaceColumns face(faces, 1);
     const std::vector<std::int64_t> landed = some_quanta(count, random);
-    const std::vector<double> u = some_numbers(count, random);
-    std::vector<std::int64_t> absorbed(count, 7), reflected(count, -1), transmitted(count, -1);
-    columns::split(FaceColumns(faces, 1), {landed, u, absorbed, reflected, transmitted});
+    const auto u = static_cast<std::uint32_t>(random.word());
+    std::vector<std::int64_t> absorbed(count, 7), waiting(count, 9);
+    columns::split(landed, face.scattered.data(), u, absorbed.data(), waiting.data());
     for (std::size_t c = 0; c < count; ++c) {
-      const QuantaSplit parts = split_quanta(landed[c], split_coefficients(faces[c].reflectance, faces[c].transmittance), u[c]);
+      const QuantaSplit parts = split_quanta(landed[c], split_coefficients(faces[c].reflectance, faces[c].transmittance), u);
       ASSERT_EQ(absorbed[c], 7 + parts.absorbed);
-      ASSERT_EQ(reflected[c], parts.reflected);
-      ASSERT_EQ(transmitted[c], parts.transmitted);
-      ASSERT_EQ(absorbed[c] - 7 + reflected[c] + transmitted[c], landed[c]);
+      ASSERT_EQ(waiting[c], 9 + parts.scattered());
     }
   });
 }
 
 TEST(Columns, OfEachLightHaveTheFaceOfTheirBand) {
-  const FaceColumns face({{.reflectance = 0.1, .transmittance = 0.2}, {.reflectance = 1.0, .transmittance = 0.0}}, 3);
-  EXPECT_EQ(face.reflected, (std::vector<double>{0.1, 0.1, 0.1, 2.0, 2.0, 2.0}));
-  EXPECT_EQ(face.scattered, (std::vector<double>{0.1 + 0.2, 0.1 + 0.2, 0.1 + 0.2, 2.0, 2.0, 2.0}));
+  const FaceColumns face({{.reflectance = 0.125, .transmittance = 0.25}, {.reflectance = 1.0, .transmittance = 0.0}}, 2);
+  constexpr std::uint64_t all = std::uint64_t{1} << 32U;
+  EXPECT_EQ(face.reflected, (std::vector<std::uint64_t>{all / 8, all / 8, all, all}));
+  EXPECT_EQ(face.scattered, (std::vector<std::uint64_t>{3 * all / 8, 3 * all / 8, all, all}));
+  EXPECT_TRUE(face.transmits);
+  EXPECT_FALSE(FaceColumns({{.reflectance = 1.0, .transmittance = 0.0}}, 2).transmits);
 }
 
-TEST(Columns, AreSharedOutAsOneByOne) {
-  constexpr std::int64_t packets = 30;
+// Rows begin at a column of their own among all columns.
+TEST(Columns, AreWeighedAndCarriedAsOneByOne) {
+  constexpr std::size_t first = 3;
   for_each_width([](std::size_t count, RandomStream& random) {
-    std::vector<std::int64_t> totals(count);
-    std::vector<std::vector<std::int64_t>> rows;
-    for (std::int64_t p = 0; p < packets; ++p) {
-      rows.push_back(some_quanta(count, random));
-      if (count > 8) rows.back()[8] = 0;  // a column that no packet carries
-      for (std::size_t c = 0; c < count; ++c) totals[c] += rows.back()[c];
+    const FaceColumns face(some_faces(first + count, random), 1);
+    const std::vector<std::int64_t> landed = some_quanta(count, random);
+    const SentPart sent{face.reflected.data(), face.scattered.data(), static_cast<std::uint32_t>(random.word())};
+    ScaleColumns scales(first + count);
+    LoadColumns loads(first + count);
+    for (std::size_t c = 0; c < first + count; ++c) {
+      const std::uint64_t total = (random.word() >> 20U) + 1;
+      scales.set(c, shared::scale_of(random.word() >> 24U, total + (std::uint64_t{1} << 47U)));
+      loads.set(c, shared::load_of(total, random.word() >> 20U));
     }
-    SharedOut together(totals), singly(totals);
-    for (std::int64_t p = 0; p < packets; ++p) {
-      const auto& row = rows[static_cast<std::size_t>(p)];
-      const double expected = 0.5 + 0.1 * static_cast<double>(p);
-      columns::weigh(row, expected, p, together);
-      columns::singly::weigh(0, row, expected, p, singly);
+    const std::uint64_t sum = columns::sum_scaled(landed, sent, scales, first);
+    ASSERT_EQ(sum, columns::singly::sum_scaled(0, landed, sent, scales, first));
+    ASSERT_EQ(columns::largest_scaled(landed, sent, scales, first),
+              columns::singly::largest_scaled(0, landed, sent, scales, first));
+    for (const unsigned spare_bits : {0U, 10U}) {
+      const shared::Sharing sharing = shared::sharing_of(sum + 1, spare_bits);
+      std::vector<std::uint32_t> weights(count), weights_singly(count);
+      std::vector<std::uint64_t> sums(first + count, 5), sums_singly(first + count, 5);
+      columns::weigh(landed, sent, scales, first, sharing, weights.data(), sums.data());
+      columns::singly::weigh(0, landed, sent, scales, first, sharing, weights_singly.data(), sums_singly.data());
+      ASSERT_EQ(weights, weights_singly);
+      ASSERT_EQ(sums, sums_singly);
+      for (std::uint32_t& weight : weights) weight = static_cast<std::uint32_t>(random.word() >> 33U);
+      std::vector<std::int64_t> quanta(count), quanta_singly(count);
+      columns::carry(weights, loads, first, quanta.data());
+      columns::singly::carry(0, weights, loads, first, quanta_singly.data());
+      ASSERT_EQ(quanta, quanta_singly);
     }
-    std::vector<std::int64_t> own(count), own_singly(count), carried(count);
-    for (std::int64_t p = 0; p < packets; ++p) {
-      const auto& row = rows[static_cast<std::size_t>(p)];
-      const double expected = 0.5 + 0.1 * static_cast<double>(p);
-      columns::share(row, expected, p, together, own);
-      columns::singly::share(0, row, expected, p, singly, own_singly);
-      ASSERT_EQ(own, own_singly);
-      for (std::size_t c = 0; c < count; ++c) carried[c] += own[c];
-    }
-    EXPECT_EQ(carried, totals);
   });
 }
 
@@ -117,25 +123,6 @@ TEST(Columns, AreAddedAndSubtracted) {
     for (std::size_t c = 0; c < count; ++c) ASSERT_EQ(sums[c], 3 - quanta[c]);
     EXPECT_EQ(sums[count], 3);
   });
-}
-
-TEST(Columns, SumRatiosInTheirOrder) {
-  for (const std::size_t rows : {0, 1, 8, 19}) {
-    for_each_width([&](std::size_t count, RandomStream& random) {
-      const std::vector<std::int64_t> quanta = some_quanta(rows * count, random);
-      std::vector<double> by = some_numbers(count, random);
-      if (count > 2) by[2] = std::numeric_limits<double>::infinity();
-      std::vector<double> sums(rows, -1.0);
-      std::vector<std::span<const std::int64_t>> parts;
-      for (std::size_t row = 0; row < rows; ++row) parts.push_back(std::span(quanta).subspan(row * count, count));
-      columns::sum_ratios(parts, by, sums);
-      for (std::size_t row = 0; row < rows; ++row) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < count; ++c) sum += static_cast<double>(quanta[row * count + c]) / by[c];
-        ASSERT_EQ(sums[row], sum);
-      }
-    });
-  }
 }
 
 TEST(Columns, OfRealNumbersAreScaledAndAdded) {

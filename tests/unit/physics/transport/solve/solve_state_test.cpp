@@ -45,7 +45,7 @@ class SolveStateTest : public ::testing::Test {
 
 TEST_F(SolveStateTest, GoesOnToABoundAsIfNeverStopped) {
   settings_.begin_with = {first_pilot};  // so little that the first checks fail
-  settings_.accuracy.direct = settings_.accuracy.indirect = 0.01;
+  settings_.accuracy.direct = settings_.accuracy.indirect = 0.007;
   const RadiationResult whole = solve_from(nullptr);
   ASSERT_EQ(whole.stop, StopReason::bound_reached);
   ASSERT_GE(whole.direct.replicates, 16U);

@@ -1,0 +1,90 @@
+#pragma once
+// The books of an indirect pass: where quanta landed, what surfaces absorbed, what passed the planes, and what waits where.
+
+#include "physics/transport/indirect/indirect_scene.h"
+#include "physics/transport/indirect/replicate.h"
+#include "physics/transport/indirect/scattering.h"
+#include "physics/transport/indirect/waiting_flux.h"
+#include "physics/transport/receivers/plane_flux.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// The start and the ray that lead to a landing.
+struct Way {
+  std::int32_t from_level = 0;  // as EmissionPoint::level
+  std::size_t from_zone = 0;    // among the receivers
+  const shared::Packet& packet;
+};
+
+class PacketBooks {
+ public:
+  // The scene must outlive the books.
+  explicit PacketBooks(const IndirectScene& scene);
+
+  // Only these columns are booked from now on; rows of quanta hold them and no others.
+  void book_only(ColumnRange columns) { booked_ = columns; }
+  [[nodiscard]] ColumnRange booked() const { return booked_; }
+
+  [[nodiscard]] Way way_from_above(const shared::Packet& ray) const;
+  [[nodiscard]] Way way_from(const EmissionPoint& place, const shared::Packet& packet) const;
+
+  // Books what a packet takes along from where its way begins.
+  void leave(const Way& way, std::span<const std::int64_t> quanta);
+  // Books what a ray or packet carries to its end, and adds to `next` what then waits there. `u` is that of split_quanta.
+  void land(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
+            WaitingFlux& next);
+  // Books quanta that only pass the receivers.
+  void pass_receivers(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta);
+
+  // Returns the place of a landing on an element or the ground, from which the flux that it scatters is shot.
+  [[nodiscard]] EmissionPoint place_of(const shared::Landing& landing, std::uint32_t u) const;
+  [[nodiscard]] std::size_t zone_of(const EmissionPoint& place) const;
+
+  // Adds quanta that wait at a place although they did not land there.
+  void add_waiting(std::size_t level_index, std::size_t column, std::int64_t quanta) {
+    layers_.waiting(level_index)[column] += quanta;
+  }
+  void add_waiting_in_zone(std::size_t zone, std::size_t column, std::int64_t quanta) {
+    receivers_.waiting(zone)[column] += quanta;
+  }
+
+  // Returns what waits. [column]
+  [[nodiscard]] std::vector<std::int64_t> waiting() const { return layers_.all_waiting(); }
+  // Ends a column: what waits of it stays where it is, and counts as unshot.
+  void retire(std::size_t column);
+  // Takes the waiting flux off its places, before packets leave with it.
+  void begin_round();
+  // Lets wait what no packet of the round took along.
+  void end_round();
+
+  [[nodiscard]] const Scattering& scattering() const { return scattering_; }
+  [[nodiscard]] IndirectSums& sums() { return sums_; }
+  [[nodiscard]] const IndirectSums& sums() const { return sums_; }
+  // Completes the sums.
+  void close();
+
+ private:
+  void land_on_element(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
+                       WaitingFlux& next);
+  void land_on_soil(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
+                    WaitingFlux& next);
+  void scatter(const EmissionPoint& place, Role role, std::span<const std::int64_t> quanta);
+  void pass(const shared::Landing& landing, const Way& way, int to_level, std::span<const std::int64_t> quanta);
+  void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const;
+
+  const IndirectScene& scene_;
+  std::size_t columns_;
+  ColumnRange booked_;
+  IndirectSums sums_;
+  Scattering scattering_;
+  PlaneFlux layers_, receivers_;                   // through the planes of the layers, and the horizontal receivers
+  std::vector<std::int64_t> taken_;                // [column], what waited when the round began
+  std::vector<std::int64_t> nowhere_, scattered_;  // [column], of one landing
+};
+
+}  // namespace sunfleck

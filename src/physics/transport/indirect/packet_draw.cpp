@@ -1,0 +1,125 @@
+#include "physics/transport/indirect/packet_draw.h"
+
+#include <algorithm>
+
+namespace sunfleck {
+namespace {
+
+constexpr double unit = 0x1p32;  // of expectations
+// A round has at least this many packets, and each column is expected in this many.
+constexpr std::uint64_t least_packets = 256;
+constexpr std::uint64_t least_of_column = std::uint64_t{16} << 32U;
+// A sum of expectations below this draws nothing.
+constexpr std::uint64_t least_sum = std::uint64_t{1} << 20U;
+// StandAim::packets_per_flux is at least 2^-10.
+constexpr unsigned aim_bits = 10;
+
+}  // namespace
+
+PacketDraw::PacketDraw(const Scattering& scattering, const PlaceAim* aim, double packets,
+                       const std::vector<std::int64_t>& start, DrawArrays& arrays)
+    : scattering_(scattering),
+      aim_(aim),
+      arrays_(arrays),
+      start_(start),
+      scales_(start.size()),
+      least_(start.size()),
+      loads_(start.size()),
+      weights_(start.size()) {
+  const auto lit = std::count_if(start.begin(), start.end(), [](std::int64_t flux) { return flux > 0; });
+  each_ = static_cast<std::uint64_t>(packets * unit / static_cast<double>(std::max<std::ptrdiff_t>(1, lit)));
+}
+
+void PacketDraw::draw(const WaitingFlux& places, ColumnRange columns, std::span<const std::int64_t> totals,
+                      std::uint64_t offset) {
+  columns_ = columns;
+  set_scales(totals);
+  expect(places);
+  take(offset);
+  weigh(places, totals);
+}
+
+// A column gets its part of the packets, as large as the part of its flux that still waits.
+void PacketDraw::set_scales(std::span<const std::int64_t> totals) {
+  any_least_ = false;
+  for (std::size_t c = columns_.first; c < columns_.first + columns_.count; ++c) {
+    scales_.set(c, {0, 0});
+    least_.set(c, {0, 0});
+    if (totals[c] == 0) continue;
+    const auto total = static_cast<std::uint64_t>(totals[c]);
+    const auto all = static_cast<std::uint64_t>(std::max(start_[c], totals[c]));
+    const std::uint64_t wanted = shared::long_quotient(shared::product_high(each_, total), each_ * total, all);
+    scales_.set(c, shared::scale_of(wanted, total));
+    if (wanted >= least_of_column) continue;
+    least_.set(c, shared::scale_of(least_of_column, total));
+    any_least_ = true;
+  }
+}
+
+std::uint64_t PacketDraw::expectation(const EmissionPoint& place, std::span<const std::int64_t> quanta,
+                                      std::size_t side) const {
+  const SentPart sent = scattering_.sent(place, side);
+  const std::uint64_t sum = columns::sum_scaled(quanta, sent, scales_, columns_.first);
+  if (!any_least_) return sum;
+  // The largest and not the sum, because a packet serves all columns.
+  return std::max(sum, columns::largest_scaled(quanta, sent, least_, columns_.first));
+}
+
+void PacketDraw::expect(const WaitingFlux& places) {
+  arrays_.up_to.resize(2 * places.size());
+  unaimed_ = 0;
+  std::uint64_t sum = 0;
+  std::size_t number = 0;
+  for (const std::size_t side : {0, 1}) {
+    for (std::size_t k = 0; k < places.size(); ++k, ++number) {
+      const EmissionPoint& place = places.place(k);
+      if (scattering_.sends(place, side)) {
+        const std::uint64_t expected = expectation(place, places.quanta(k, columns_), side);
+        unaimed_ += expected;
+        sum += aim_ == nullptr ? expected : shared::part_of(expected, aim_of(place), 0);
+      }
+      arrays_.up_to[number] = sum;
+    }
+  }
+}
+
+void PacketDraw::take(std::uint64_t offset) {
+  arrays_.number.clear();
+  const std::uint64_t sum = arrays_.up_to.empty() ? 0 : arrays_.up_to.back();
+  if (sum < least_sum) return;
+  if (first_round_ && aim_ != nullptr) pace_ = shared::long_quotient(unaimed_ >> 32U, unaimed_ << 32U, sum);
+  first_round_ = false;
+  const std::uint64_t packets = std::max(least_packets, shared::drawn_up_to(sum, pace_, offset));
+  const std::uint64_t gain = shared::long_quotient(packets, 0, sum) + 1;  // rounded up, so that none is missing
+  std::uint64_t taken = 0;
+  for (std::size_t k = 0; k < arrays_.up_to.size(); ++k) {
+    const std::uint64_t up_to = shared::drawn_up_to(arrays_.up_to[k], gain, offset);
+    for (; taken < up_to; ++taken) arrays_.number.push_back(static_cast<std::uint32_t>(k));
+  }
+}
+
+void PacketDraw::weigh(const WaitingFlux& places, std::span<const std::int64_t> totals) {
+  arrays_.weight.resize(packets() * columns_.count);
+  std::fill(weights_.begin(), weights_.end(), 0);
+  shared::Sharing sharing{};
+  for (std::size_t p = 0; p < packets(); ++p) {
+    const std::uint32_t number = arrays_.number[p];
+    if (p == 0 || number != arrays_.number[p - 1]) {
+      const std::uint64_t before = number > 0 ? arrays_.up_to[number - 1] : 0;
+      sharing = shared::sharing_of(arrays_.up_to[number] - before, aim_ == nullptr ? 0 : aim_bits);
+    }
+    const PacketSource from = source(p);
+    columns::weigh(places.quanta(from.place, columns_), scattering_.sent(places.place(from.place), from.side), scales_,
+                   columns_.first, sharing, &arrays_.weight[p * columns_.count], weights_.data());
+  }
+  for (std::size_t c = columns_.first; c < columns_.first + columns_.count; ++c) {
+    loads_.set(c, shared::load_of(static_cast<std::uint64_t>(totals[c]), weights_[c]));
+  }
+}
+
+// Returns the part of 2^32 that aiming leaves of a place's expectation.
+std::uint64_t PacketDraw::aim_of(const EmissionPoint& place) const {
+  return static_cast<std::uint64_t>(aim_->packets_per_flux(place) * unit);
+}
+
+}  // namespace sunfleck
