@@ -249,48 +249,48 @@ TEST(InFrontOf, GoesAlongTheNormal) {
 }
 
 // Expects a coordinate to lie in the period and to add up again within the rounding of its size.
-void expect_wrapped(float x, float period) {
-  const Wrapped wrapped = wrapped_into(x, period, 1.0F / period);
-  ASSERT_GE(wrapped.at, 0.0F) << x << " into " << period;
-  ASSERT_LE(wrapped.at, period) << x << " into " << period;
+void expect_wrapped(float x, float period_m) {
+  const Wrapped wrapped = wrapped_into(x, period_m, 1.0F / period_m);
+  ASSERT_GE(wrapped.at, 0.0F) << x << " into " << period_m;
+  ASSERT_LE(wrapped.at, period_m) << x << " into " << period_m;
   ASSERT_EQ(wrapped.periods, std::floor(wrapped.periods));
-  const double sum = static_cast<double>(wrapped.at) + static_cast<double>(wrapped.periods) * static_cast<double>(period);
-  const double size = std::fmax(std::abs(static_cast<double>(x)), static_cast<double>(period));
-  ASSERT_NEAR(sum, static_cast<double>(x), 0x1.8p-23 * size) << x << " into " << period;
+  const double sum = static_cast<double>(wrapped.at) + static_cast<double>(wrapped.periods) * static_cast<double>(period_m);
+  const double size = std::fmax(std::abs(static_cast<double>(x)), static_cast<double>(period_m));
+  ASSERT_NEAR(sum, static_cast<double>(x), 0x1.8p-23 * size) << x << " into " << period_m;
 }
 
 TEST(WrappedInto, LiesInThePeriodAndAddsUpAgain) {
   std::mt19937 random(8);
   for (int k = 0; k < 100'000; ++k) {
-    const auto period = static_cast<float>(between(random, 0.01, 20.0));
+    const auto period_m = static_cast<float>(between(random, 0.01, 20.0));
     const double reach = std::ldexp(1.0, static_cast<int>(random() % 20U) - 8);
-    expect_wrapped(static_cast<float>(between(random, -reach, reach)), period);
+    expect_wrapped(static_cast<float>(between(random, -reach, reach)), period_m);
   }
 }
 
 TEST(WrappedInto, ChangesNothingWithinThePeriod) {
   std::mt19937 random(9);
   for (int k = 0; k < 10'000; ++k) {
-    const auto period = static_cast<float>(between(random, 0.01, 20.0));
-    const float x = period * static_cast<float>(between(random, 0.0, 0.999));
-    const Wrapped wrapped = wrapped_into(x, period, 1.0F / period);
+    const auto period_m = static_cast<float>(between(random, 0.01, 20.0));
+    const float x = period_m * static_cast<float>(between(random, 0.0, 0.999));
+    const Wrapped wrapped = wrapped_into(x, period_m, 1.0F / period_m);
     ASSERT_EQ(wrapped.at, x);
     ASSERT_EQ(wrapped.periods, 0.0F);
   }
 }
 
 TEST(WrappedInto, HoldsAtTheBorders) {
-  for (const float period : {0.7F, 1.0F, 1.7F, 3.0F, 12.3F}) {
+  for (const float period_m : {0.7F, 1.0F, 1.7F, 3.0F, 12.3F}) {
     for (int periods = -20; periods <= 20; ++periods) {
-      const float border = period * static_cast<float>(periods);
-      expect_wrapped(border, period);
-      expect_wrapped(std::nextafter(border, -1e9F), period);
-      expect_wrapped(std::nextafter(border, 1e9F), period);
+      const float border = period_m * static_cast<float>(periods);
+      expect_wrapped(border, period_m);
+      expect_wrapped(std::nextafter(border, -1e9F), period_m);
+      expect_wrapped(std::nextafter(border, 1e9F), period_m);
     }
-    expect_wrapped(-0.0F, period);
-    expect_wrapped(-1e-9F, period);
-    EXPECT_EQ(wrapped_into(0.0F, period, 1.0F / period).periods, 0.0F);
-    EXPECT_EQ(wrapped_into(-1e-9F, period, 1.0F / period).periods, -1.0F);
+    expect_wrapped(-0.0F, period_m);
+    expect_wrapped(-1e-9F, period_m);
+    EXPECT_EQ(wrapped_into(0.0F, period_m, 1.0F / period_m).periods, 0.0F);
+    EXPECT_EQ(wrapped_into(-1e-9F, period_m, 1.0F / period_m).periods, -1.0F);
   }
   EXPECT_EQ(wrapped_into(7.25F, 2.0F, 0.5F).at, 1.25F);
   EXPECT_EQ(wrapped_into(7.25F, 2.0F, 0.5F).periods, 3.0F);
