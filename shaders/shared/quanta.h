@@ -49,7 +49,7 @@ INLINE uint64_t part_of(uint64_t quanta, uint64_t coefficient, uint u) {
 const uint element_parts = 240u;
 const uint ground_parts = 16u;
 
-// Returns the part of the number-th place; `parts_each` is 2^32 times the number of parts divided by that of places, rounded down.
+// Returns the part of the number-th place; `parts_each` is 2^32 times the number of parts divided by that of numbers, rounded down.
 INLINE uint place_part(uint number, uint64_t parts_each) {
   return uint(uint64_t(number) * parts_each >> 32u);
 }
@@ -96,8 +96,8 @@ struct Sharing {
   int shift_right;  // to the leading bits; to the left if negative
 };
 
-// `expectation` is not 0. The parts of a place that draws fewer packets than its flux stands for may exceed its expectation, by a
-// factor of 2^spare_bits and less than 2^spare_bits more.
+// `expectation` is not 0 and below 2^63. The parts of a place that draws fewer packets than its flux stands for may reach, but not exceed,
+// (expectation + 1) 2^spare_bits.
 INLINE Sharing sharing_of(uint64_t expectation, uint spare_bits) {
   const uint high = uint(expectation >> 32u);
   const int leading = high != 0u ? 32 + findMSB(high) : findMSB(uint(expectation & uint64_t(low_word)));
@@ -108,12 +108,18 @@ INLINE Sharing sharing_of(uint64_t expectation, uint spare_bits) {
   return sharing;
 }
 
-// Returns the weight of a column in a packet, in units of 2^(spare_bits - 31) of a packet, within three of them: below 2^31 without spare
+// Returns what share_of adds before it drops the low bits, so that it rounds to the nearest.
+INLINE uint64_t half_of(Sharing sharing) {
+  return sharing.shift_right > 0 ? uint64_t(1u) << uint(sharing.shift_right - 1) : uint64_t(0u);
+}
+
+// Returns the weight of a column in a packet, in units of 2^(spare_bits - 31) of a packet, within two of them: at most 2^31 without spare
 // bits, and below 2^32 with them. `expected` is the column's own part of the expectation.
 INLINE uint share_of(uint64_t expected, Sharing sharing) {
-  const uint64_t bits =
-      sharing.shift_right >= 0 ? expected >> uint(sharing.shift_right) : expected << uint(-sharing.shift_right);
-  return uint(bits * uint64_t(sharing.inverse) >> 32u);
+  const uint64_t rounded = expected + half_of(sharing);
+  const uint64_t bits = sharing.shift_right >= 0 ? rounded >> uint(sharing.shift_right) : rounded << uint(-sharing.shift_right);
+  const uint64_t held = bits < uint64_t(low_word) ? bits : uint64_t(low_word);
+  return uint((held * uint64_t(sharing.inverse) + (uint64_t(1u) << 31u)) >> 32u);
 }
 
 // What one unit of weight carries of a column: factor / 2^shift quanta, with a shift of 32 to 47.
@@ -134,8 +140,8 @@ INLINE Load load_of(uint64_t total, uint64_t weights) {
   return load;
 }
 
-// Returns the quanta that a packet carries. They add up to the total but for what rounding leaves: at most one quantum a packet, which
-// waits for the next round.
+// Returns the quanta that a packet carries. They add up to the total but for what rounding leaves: hardly more than one quantum a packet
+// at the usual shifts, and less than two, which wait for the next round.
 INLINE uint64_t carried(uint weight, Load load) {
   const uint64_t low = uint64_t(weight) * (load.factor & uint64_t(low_word)) >> 32u;
   return (uint64_t(weight) * (load.factor >> 32u) + low) >> (load.shift - 32u);

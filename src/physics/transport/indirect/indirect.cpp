@@ -19,8 +19,6 @@ namespace {
 // The stop rule leaves this part of the bound unshot, relative to flux taken as at least 1 % of the incident flux.
 constexpr double unshot_part_of_bound = 0.1;
 constexpr double least_judged_share = 0.01;
-// Rows of fewer columns hold all of them until the end.
-constexpr std::size_t least_narrowed = 8;
 // Ends passes that would never end on their own, as in a closed box of perfect mirrors.
 constexpr std::uint64_t most_rounds = 20000;
 // First stream of random numbers, apart from those of the beam.
@@ -175,9 +173,7 @@ class IndirectPass {
         }
         if (!any) continue;
         const shared::Landing landing{sign > 0.0 ? point.surface : point.surface ^ 1U, point.order, point.a, point.b};
-        EmissionPoint place = books_.place_of(landing, words_of(books_.sums().sky_rays + p).x);
-        place.order = point.order;
-        take(place, weights);
+        take(books_.place_of(landing, words_of(books_.sums().sky_rays + p).x), weights);
       }
     }
   }
@@ -270,9 +266,9 @@ class IndirectPass {
   void book(const PacketDraw& draw, std::size_t packet, std::size_t k) {
     const std::span<std::int64_t> quanta = std::span(shot_).first(books_.booked().count);
     draw.carry(packet, quanta);
-    const Way way = books_.way_from(waiting_.place(draw.source(packet).place), arrays_.packets[k]);
-    books_.leave(way, quanta);
-    books_.land(arrays_.landings[k], way, words_of(packet).x, quanta, next_);
+    const EmissionPoint& place = waiting_.place(draw.source(packet).place);
+    books_.leave(place, quanta);
+    books_.land(arrays_.landings[k], books_.way_from(place, arrays_.packets[k]), words_of(packet).x, quanta, next_);
   }
 
   void retire(std::size_t column) {
@@ -298,7 +294,7 @@ class IndirectPass {
       begin = std::min(begin, c);
       end = c + 1;
     }
-    if (columns_ >= least_narrowed && begin < end) books_.book_only({begin, end - begin});
+    if (columns_ >= PlaceSums::least_indexed_width && begin < end) books_.book_only({begin, end - begin});
     return begin < end;
   }
 

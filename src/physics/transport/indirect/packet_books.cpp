@@ -15,7 +15,6 @@ PacketBooks::PacketBooks(const IndirectScene& scene)
       scattering_(scene.model, scene.lights.size()),
       layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, columns_),
       receivers_(scene.receivers != nullptr ? scene.receivers->size() : 0, columns_),
-      nowhere_(columns_),
       scattered_(columns_) {
   if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
 }
@@ -34,9 +33,9 @@ Way PacketBooks::way_from(const EmissionPoint& place, const shared::Packet& pack
   return way;
 }
 
-void PacketBooks::leave(const Way& way, std::span<const std::int64_t> quanta) {
-  columns::add(quanta, layers_.left(level_index(way.from_level)) + booked_.first);
-  if (scene_.receivers != nullptr) columns::add(quanta, receivers_.left(way.from_zone) + booked_.first);
+void PacketBooks::leave(const EmissionPoint& place, std::span<const std::int64_t> quanta) {
+  columns::add(quanta, layers_.taken_from(level_index(place.level)) + booked_.first);
+  if (scene_.receivers != nullptr) columns::add(quanta, receivers_.taken_from(zone_of(place)) + booked_.first);
 }
 
 void PacketBooks::land(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
@@ -70,29 +69,26 @@ void PacketBooks::land_on_element(const shared::Landing& landing, const Way& way
     const std::size_t layer = static_cast<std::size_t>(place.level);
     add_to(sums_.layer_landed, (layer * scene_.model.optics.size() + surface.optics) * 2 + side, quanta);
   }
-  scatter(place, surface.role, quanta);
+  scatter(place, surface.role, quanta, next);
   pass(landing, way, place.level, quanta);
-  next.add(place, quanta);
 }
 
 void PacketBooks::land_on_soil(const shared::Landing& landing, const Way& way, std::uint32_t u,
                                std::span<const std::int64_t> quanta, WaitingFlux& next) {
   const EmissionPoint place = place_of(landing, u);
   add_to(sums_.cell_landed, shared::soil_cell(scene_.block.ground, {landing.place_a, landing.place_b}), quanta);
-  scatter(place, Role::soil, quanta);
+  scatter(place, Role::soil, quanta, next);
   pass(landing, way, -1, quanta);
-  next.add(place, quanta);
 }
 
-void PacketBooks::scatter(const EmissionPoint& place, Role role, std::span<const std::int64_t> quanta) {
-  const std::uint64_t* const coefficients = scattering_.face(place.face).scattered.data() + booked_.first;
-  std::int64_t* const absorbed = scattering_.absorbed(role).data() + booked_.first;
-  std::int64_t* const waiting = layers_.waiting(level_index(place.level)) + booked_.first;
-  columns::split(quanta, coefficients, place.u, absorbed, waiting);
-  if (scene_.receivers == nullptr) return;
-  std::fill_n(scattered_.begin(), quanta.size(), 0);
-  columns::split(quanta, coefficients, place.u, nowhere_.data(), scattered_.data());
-  columns::add(std::span(scattered_).first(quanta.size()), receivers_.waiting(zone_of(place)) + booked_.first);
+void PacketBooks::scatter(const EmissionPoint& place, Role role, std::span<const std::int64_t> quanta, WaitingFlux& next) {
+  const std::span<std::int64_t> scattered = std::span(scattered_).first(quanta.size());
+  columns::split(quanta, scattering_.face(place.face).scattered.data() + booked_.first, place.u,
+                 scattering_.absorbed(role).data() + booked_.first, scattered.data());
+  if (std::all_of(scattered.begin(), scattered.end(), [](std::int64_t q) { return q == 0; })) return;
+  columns::add(scattered, layers_.waiting(level_index(place.level)) + booked_.first);
+  if (scene_.receivers != nullptr) columns::add(scattered, receivers_.waiting(zone_of(place)) + booked_.first);
+  next.add(place, quanta);
 }
 
 // Adds a place's quanta to its sums, [place * columns + column].
@@ -141,16 +137,16 @@ void PacketBooks::retire(std::size_t column) {
 }
 
 void PacketBooks::begin_round() {
-  taken_ = layers_.take_waiting();
-  if (scene_.receivers != nullptr) receivers_.take_waiting();
+  waited_ = layers_.count_waiting();
+  if (scene_.receivers != nullptr) receivers_.count_waiting();
 }
 
 void PacketBooks::end_round() {
-  const std::vector<std::int64_t> left = layers_.take_left();
-  if (scene_.receivers != nullptr) receivers_.take_left();
+  const std::vector<std::int64_t> taken_along = layers_.count_taken();
+  if (scene_.receivers != nullptr) receivers_.count_taken();
   for (std::size_t c = 0; c < columns_; ++c) {
-    layers_.keep(c, taken_[c] - left[c]);
-    if (scene_.receivers != nullptr) receivers_.keep(c, taken_[c] - left[c]);
+    layers_.keep(c, waited_[c] - taken_along[c]);
+    if (scene_.receivers != nullptr) receivers_.keep(c, waited_[c] - taken_along[c]);
   }
 }
 

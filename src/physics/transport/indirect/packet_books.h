@@ -21,6 +21,8 @@ struct Way {
   const shared::Packet& packet;
 };
 
+// The sums of one pass, and the flux that waits at each level and between the receivers. What waits there and what packets take along is
+// counted apart from the landings, so that no flux is created where drawing moves it.
 class PacketBooks {
  public:
   // The scene must outlive the books.
@@ -33,9 +35,9 @@ class PacketBooks {
   [[nodiscard]] Way way_from_above(const shared::Packet& ray) const;
   [[nodiscard]] Way way_from(const EmissionPoint& place, const shared::Packet& packet) const;
 
-  // Books what a packet takes along from where its way begins.
-  void leave(const Way& way, std::span<const std::int64_t> quanta);
-  // Books what a ray or packet carries to its end, and adds to `next` what then waits there. `u` is that of split_quanta.
+  // Books what a packet takes along from the place where it waited.
+  void leave(const EmissionPoint& place, std::span<const std::int64_t> quanta);
+  // Books what a ray or packet carries to its end, and adds to `next` what then waits there. `u` is that of EmissionPoint.
   void land(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
             WaitingFlux& next);
   // Books quanta that only pass the receivers.
@@ -43,6 +45,7 @@ class PacketBooks {
 
   // Returns the place of a landing on an element or the ground, from which the flux that it scatters is shot.
   [[nodiscard]] EmissionPoint place_of(const shared::Landing& landing, std::uint32_t u) const;
+  // Returns the zone of a place among the receivers, of which there must be some.
   [[nodiscard]] std::size_t zone_of(const EmissionPoint& place) const;
 
   // Adds quanta that wait at a place although they did not land there.
@@ -73,7 +76,7 @@ class PacketBooks {
                        WaitingFlux& next);
   void land_on_soil(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
                     WaitingFlux& next);
-  void scatter(const EmissionPoint& place, Role role, std::span<const std::int64_t> quanta);
+  void scatter(const EmissionPoint& place, Role role, std::span<const std::int64_t> quanta, WaitingFlux& next);
   void pass(const shared::Landing& landing, const Way& way, int to_level, std::span<const std::int64_t> quanta);
   void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const;
 
@@ -82,9 +85,9 @@ class PacketBooks {
   ColumnRange booked_;
   IndirectSums sums_;
   Scattering scattering_;
-  PlaneFlux layers_, receivers_;                   // through the planes of the layers, and the horizontal receivers
-  std::vector<std::int64_t> taken_;                // [column], what waited when the round began
-  std::vector<std::int64_t> nowhere_, scattered_;  // [column], of one landing
+  PlaneFlux layers_, receivers_;         // through the planes of the layers, and the horizontal receivers
+  std::vector<std::int64_t> waited_;     // [column], what waited when the round began
+  std::vector<std::int64_t> scattered_;  // [column], of the current landing
 };
 
 }  // namespace sunfleck

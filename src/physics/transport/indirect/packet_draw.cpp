@@ -11,8 +11,8 @@ constexpr std::uint64_t least_packets = 256;
 constexpr std::uint64_t least_of_column = std::uint64_t{16} << 32U;
 // A sum of expectations below this draws nothing.
 constexpr std::uint64_t least_sum = std::uint64_t{1} << 20U;
-// StandAim::packets_per_flux is at least 2^-10.
-constexpr unsigned aim_bits = 10;
+// StandAim::packets_per_flux is at least 2^-aim_bits.
+constexpr unsigned aim_bits = StandAim::least_bits;
 
 }  // namespace
 
@@ -89,8 +89,7 @@ void PacketDraw::take(std::uint64_t offset) {
   if (sum < least_sum) return;
   if (first_round_ && aim_ != nullptr) pace_ = shared::long_quotient(unaimed_ >> 32U, unaimed_ << 32U, sum);
   first_round_ = false;
-  const std::uint64_t packets = std::max(least_packets, shared::drawn_up_to(sum, pace_, offset));
-  const std::uint64_t gain = shared::long_quotient(packets, 0, sum) + 1;  // rounded up, so that none is missing
+  const std::uint64_t gain = std::max(pace_, shared::long_quotient(least_packets, 0, sum) + 1);
   std::uint64_t taken = 0;
   for (std::size_t k = 0; k < arrays_.up_to.size(); ++k) {
     const std::uint64_t up_to = shared::drawn_up_to(arrays_.up_to[k], gain, offset);

@@ -2,6 +2,7 @@
 // Where the packets of a round start, and in which direction.
 
 #include "physics/canopy/canopy.h"
+#include "physics/transport/indirect/emission.h"
 #include "physics/transport/indirect/packet_draw.h"
 #include "physics/transport/indirect/waiting_flux.h"
 #include "shared/layout.h"

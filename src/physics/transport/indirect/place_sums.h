@@ -18,6 +18,9 @@ namespace sunfleck {
 // Wide ones, of many columns, keep a row for each place that was reached, with an index of them. The sums are the same in each form.
 class PlaceSums {
  public:
+  // The least width of wide sums.
+  static constexpr std::size_t least_indexed_width = 8;
+
   PlaceSums() = default;  // no place
 
   // Holds `width` sums, all 0, for each of `places` places. There are fewer than 2^32 places.
@@ -127,8 +130,6 @@ class PlaceSums {
 
  private:
   enum class Form { list, indexed, all };
-
-  static constexpr std::size_t least_indexed_width = 8;
 
   // for_each takes the entries of a list or the places of the other forms in turn. Return whether there is anything at a step, its place,
   // and where its values are.

@@ -1,7 +1,7 @@
 #pragma once
 // The faces on which light lands, and the sums of what they absorb.
 
-#include "physics/transport/indirect/waiting_flux.h"
+#include "physics/transport/indirect/emission.h"
 #include "physics/transport/model/columns.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
@@ -12,16 +12,18 @@
 
 namespace sunfleck {
 
+// The coefficients of all faces, and the sums of one pass.
 class Scattering {
  public:
   Scattering(const RadiationModel& model, std::size_t lights);
 
-  // Return the number of the face of an element, of the soil plane, black without soil, and of lamps, whose places send all that
-  // waits there.
+  // Returns the number of the face of an element.
   [[nodiscard]] std::uint32_t face_of(std::size_t optics, std::size_t side) const {
     return static_cast<std::uint32_t>(2 * optics + side);
   }
+  // Returns that of the soil plane, which is black without soil.
   [[nodiscard]] std::uint32_t soil_face() const { return static_cast<std::uint32_t>(faces_.size() - 2); }
+  // Returns that of lamps, whose places send all that waits there.
   [[nodiscard]] std::uint32_t lamp_face() const { return static_cast<std::uint32_t>(faces_.size() - 1); }
   [[nodiscard]] const FaceColumns& face(std::uint32_t number) const { return faces_[number]; }
 

@@ -5,6 +5,7 @@
 #include "physics/transport/indirect/emission.h"
 #include "physics/transport/model/columns.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -92,11 +92,15 @@ void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const Sca
            const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
   const Words u = hn::Set(words, sent.u);
   const Words inverse = hn::Set(words, sharing.inverse);
+  const Words all_bits = hn::Set(words, shared::low_word);
+  const Words half_bit = hn::Set(words, shared::half_of(sharing));
+  const Words half_weight = hn::Set(words, std::uint64_t{1} << 31U);
   const Words right = hn::Set(words, static_cast<std::uint64_t>(std::max(0, sharing.shift_right)));
   const Words left = hn::Set(words, static_cast<std::uint64_t>(std::max(0, -sharing.shift_right)));
   const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
     const Words expected = scaled_parts(load(&landed[k]), sent, u, by, first + k);
-    const Words weight = hn::ShiftRight<32>(times(hn::Shl(hn::Shr(expected, right), left), inverse));
+    const Words bits = hn::Min(hn::Shl(hn::Shr(hn::Add(expected, half_bit), right), left), all_bits);
+    const Words weight = hn::ShiftRight<32>(hn::Add(times(bits, inverse), half_weight));
     hn::StoreU(hn::TruncateTo(halves, weight), halves, weights + k);
     add_at(sums + first + k, weight);
   });
@@ -114,16 +118,16 @@ void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std
   singly::carry(rest, weights, loads, first, quanta);
 }
 
-void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
-           std::int64_t* waiting) {
+void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u, std::int64_t* absorbed,
+           std::int64_t* scattered) {
   const Words random = hn::Set(words, u);
   const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
     const Words quanta = load(&landed[k]);
-    const Words left = parts(quanta, load(scattered + k), random);
+    const Words left = parts(quanta, load(coefficients + k), random);
     add_at(absorbed + k, hn::Sub(quanta, left));
-    add_at(waiting + k, left);
+    hn::StoreU(hn::BitCast(wholes, left), wholes, scattered + k);
   });
-  singly::split(rest, landed, scattered, u, absorbed, waiting);
+  singly::split(rest, landed, coefficients, u, absorbed, scattered);
 }
 
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
@@ -205,9 +209,9 @@ void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std
   HWY_DYNAMIC_DISPATCH(carry)(weights, loads, first, quanta);
 }
 
-void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
-           std::int64_t* waiting) {
-  HWY_DYNAMIC_DISPATCH(split)(landed, scattered, u, absorbed, waiting);
+void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u, std::int64_t* absorbed,
+           std::int64_t* scattered) {
+  HWY_DYNAMIC_DISPATCH(split)(landed, coefficients, u, absorbed, scattered);
 }
 
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {

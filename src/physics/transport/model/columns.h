@@ -100,8 +100,8 @@ std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPar
 void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
            const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums);
 void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta);
-void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
-           std::int64_t* waiting);
+void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u, std::int64_t* absorbed,
+           std::int64_t* scattered);
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums);
 void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums);
 void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
@@ -111,10 +111,9 @@ void add_scaled(double factor, std::span<const double> a, std::span<double> sums
 
 }  // namespace in_vectors
 
-// The columns of a row from one on, one by one.
+// The columns of a row from the k-th on, one by one. `first` is the number of the row's first column among all columns.
 namespace singly {
 
-// The columns of a row from the k-th on, one by one. `first` is the number of the row's first column.
 inline std::uint64_t sent_quanta(std::int64_t landed, const SentPart& sent, std::size_t column) {
   const auto quanta = static_cast<std::uint64_t>(landed);
   return shared::part_of(quanta, sent.to[column], sent.u) - shared::part_of(quanta, sent.from[column], sent.u);
@@ -155,12 +154,11 @@ inline void carry(std::size_t k, std::span<const std::uint32_t> weights, const L
   }
 }
 
-inline void split(std::size_t k, std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u,
-                  std::int64_t* absorbed, std::int64_t* waiting) {
+inline void split(std::size_t k, std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u,
+                  std::int64_t* absorbed, std::int64_t* scattered) {
   for (; k < landed.size(); ++k) {
-    const auto left = static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(landed[k]), scattered[k], u));
-    absorbed[k] += landed[k] - left;
-    waiting[k] += left;
+    scattered[k] = static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(landed[k]), coefficients[k], u));
+    absorbed[k] += landed[k] - scattered[k];
   }
 }
 
@@ -187,9 +185,8 @@ inline void add_scaled(std::size_t first, double factor, std::span<const double>
 
 }  // namespace singly
 
-// What follows is for a row of quanta that landed, whose first column has the number `first` in all arrays that are not rows.
-
-// Returns the sum of what a side sends, each column scaled.
+// Returns the sum of what a side sends of a row of quanta that landed, each column scaled. Here and below, the row's first column has the
+// number `first` in all arrays that are not rows.
 inline std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
                                 std::size_t first) {
   if (landed.size() >= least_in_vectors) return in_vectors::sum_scaled(landed, sent, by, first);
@@ -216,11 +213,11 @@ inline void carry(std::span<const std::uint32_t> weights, const LoadColumns& loa
   singly::carry(0, weights, loads, first, quanta);
 }
 
-// Splits a row with its coefficients, and adds to rows of what is absorbed and of what waits to be sent.
-inline void split(std::span<const std::int64_t> landed, const std::uint64_t* scattered, std::uint32_t u, std::int64_t* absorbed,
-                  std::int64_t* waiting) {
-  if (landed.size() >= least_in_vectors) return in_vectors::split(landed, scattered, u, absorbed, waiting);
-  singly::split(0, landed, scattered, u, absorbed, waiting);
+// Splits a row with its coefficients: adds to a row of what is absorbed, and sets a row to what is scattered.
+inline void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u,
+                  std::int64_t* absorbed, std::int64_t* scattered) {
+  if (landed.size() >= least_in_vectors) return in_vectors::split(landed, coefficients, u, absorbed, scattered);
+  singly::split(0, landed, coefficients, u, absorbed, scattered);
 }
 
 // Adds quanta to as many sums.

@@ -12,7 +12,7 @@ namespace {
 
 // A stand is aimed at if the sphere around the scene is wider than its own by at least this factor.
 constexpr double least_reach = 3.0;
-constexpr double least_packets_per_flux = 0x1p-10;
+constexpr double least_packets_per_flux = 1.0 / (1U << StandAim::least_bits);
 
 }  // namespace
 

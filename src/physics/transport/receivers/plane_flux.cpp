@@ -31,7 +31,7 @@ std::vector<std::int64_t> PlaneFlux::sum_of(const std::vector<std::int64_t>& pla
   return sums;
 }
 
-std::vector<std::int64_t> PlaneFlux::take(std::vector<std::int64_t>& places, std::int64_t sign) {
+std::vector<std::int64_t> PlaneFlux::count(std::vector<std::int64_t>& places, std::int64_t sign) {
   std::vector<std::int64_t> sums = sum_of(places);
   for (std::size_t k = 0; k < places.size(); ++k) moved_[k] += sign * places[k];
   std::fill(places.begin(), places.end(), 0);

@@ -15,23 +15,24 @@ namespace sunfleck {
 class PlaneFlux {
  public:
   PlaneFlux(std::size_t planes, std::size_t columns)
-      : columns_(columns), down_((planes + 1) * columns), up_(down_), waiting_(down_), left_(down_), moved_(down_) {}
+      : columns_(columns), down_((planes + 1) * columns), up_(down_), waiting_(down_), taken_(down_), moved_(down_) {}
 
   // Adds the quanta that a straight path carries from one place to another, in the columns from `first` on.
   void pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta, std::size_t first = 0);
 
-  // Return the sums of what waits at a place, and of what packets have taken along from there, to add to. [column]
+  // Return the sums of what waits at a place, and of what packets take along from there, to add to. [column]
   [[nodiscard]] std::int64_t* waiting(std::size_t place) { return &waiting_[place * columns_]; }
-  [[nodiscard]] std::int64_t* left(std::size_t place) { return &left_[place * columns_]; }
+  [[nodiscard]] std::int64_t* taken_from(std::size_t place) { return &taken_[place * columns_]; }
 
   // Returns what waits at all places. [column]
   [[nodiscard]] std::vector<std::int64_t> all_waiting() const { return sum_of(waiting_); }
-  // Return the same and what packets have taken along, and set the sums to 0: this flux now counts as moved.
-  std::vector<std::int64_t> take_waiting() { return take(waiting_, -1); }
-  std::vector<std::int64_t> take_left() { return take(left_, 1); }
+  // Returns the same and sets it to 0 everywhere: from now on it is missing at its places in the sums of what moves.
+  std::vector<std::int64_t> count_waiting() { return count(waiting_, -1); }
+  // Returns what packets have taken along, [column], and sets it to 0: from now on it counts in the sums of what moves.
+  std::vector<std::int64_t> count_taken() { return count(taken_, 1); }
   // Sets what waits of a column to 0, and returns it: it stays where it is.
   std::int64_t drop_waiting(std::size_t column);
-  // Lets quanta wait at the lowest place that rounding has left of what was taken.
+  // Lets quanta that no packet took along wait at the lowest place.
   void keep(std::size_t column, std::int64_t quanta);
 
   // Completes the flux through the planes. Sampling moves flux between places: flux that waits at one is shot from another,
@@ -46,12 +47,12 @@ class PlaneFlux {
 
  private:
   [[nodiscard]] std::vector<std::int64_t> sum_of(const std::vector<std::int64_t>& places) const;
-  std::vector<std::int64_t> take(std::vector<std::int64_t>& places, std::int64_t sign);
+  std::vector<std::int64_t> count(std::vector<std::int64_t>& places, std::int64_t sign);
 
   std::size_t columns_;
-  std::vector<std::int64_t> down_, up_;       // [place * columns + column]; before close() the differences to the plane below
-  std::vector<std::int64_t> waiting_, left_;  // [place * columns + column]
-  std::vector<std::int64_t> moved_;           // [place * columns + column], what was shot from a place, less what waited there
+  std::vector<std::int64_t> down_, up_;        // [place * columns + column]; before close() the differences to the plane below
+  std::vector<std::int64_t> waiting_, taken_;  // [place * columns + column]
+  std::vector<std::int64_t> moved_;            // [place * columns + column], what was shot from a place, less what waited there
 };
 
 }  // namespace sunfleck

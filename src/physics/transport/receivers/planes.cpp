@@ -129,7 +129,7 @@ void PlaneTally::add(const PlaneSums* beam, const PlaneSums* packets, std::span<
   }
 }
 
-// Returns a plane's cells scaled to its exact total. Sampling moves flux between zones (see IndirectPass); the total
+// Returns a plane's cells scaled to its exact total. Sampling moves flux between zones (see PlaneFlux); the total
 // includes that flux, the cells do not. Each cell takes its share of the difference.
 std::vector<std::int64_t> PlaneTally::closed_cells(std::size_t plane) const {
   const std::size_t bands = model_.bands.size();

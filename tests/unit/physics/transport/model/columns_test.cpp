@@ -58,12 +58,12 @@ TEST(Columns, AreSplitAsSingleQuantaAre) {
     const FaceColumns face(faces, 1);
     const std::vector<std::int64_t> landed = some_quanta(count, random);
     const auto u = static_cast<std::uint32_t>(random.word());
-    std::vector<std::int64_t> absorbed(count, 7), waiting(count, 9);
-    columns::split(landed, face.scattered.data(), u, absorbed.data(), waiting.data());
+    std::vector<std::int64_t> absorbed(count, 7), scattered(count, 9);
+    columns::split(landed, face.scattered.data(), u, absorbed.data(), scattered.data());
     for (std::size_t c = 0; c < count; ++c) {
       const QuantaSplit parts = split_quanta(landed[c], split_coefficients(faces[c].reflectance, faces[c].transmittance), u);
       ASSERT_EQ(absorbed[c], 7 + parts.absorbed);
-      ASSERT_EQ(waiting[c], 9 + parts.scattered());
+      ASSERT_EQ(scattered[c], parts.scattered());
     }
   });
 }
