@@ -89,11 +89,20 @@ INLINE vec2 even_weights(uint u, uint v) {
   return vec2(weight_b, weight_c);
 }
 
+// Returns x, moved to between the smallest and the largest of three numbers.
+INLINE float held_among(float x, float a, float b, float c) {
+  const float least = a < b ? (a < c ? a : c) : (b < c ? b : c);
+  const float largest = a > b ? (a > c ? a : c) : (b > c ? b : c);
+  return x < least ? least : (x > largest ? largest : x);
+}
+
+// Returns a point of a triangle. Rounding does not move it out of the triangle's box, where it could lie behind a wall that meets
+// the triangle at an edge.
 INLINE vec3 point_on_triangle(vec3 a, vec3 b, vec3 c, float weight_b, float weight_c) {
   EXACT float x = a.x + (b.x - a.x) * weight_b + (c.x - a.x) * weight_c;
   EXACT float y = a.y + (b.y - a.y) * weight_b + (c.y - a.y) * weight_c;
   EXACT float z = a.z + (b.z - a.z) * weight_b + (c.z - a.z) * weight_c;
-  return vec3(x, y, z);
+  return vec3(held_among(x, a.x, b.x, c.x), held_among(y, a.y, b.y, c.y), held_among(z, a.z, b.z, c.z));
 }
 
 INLINE vec3 in_front_of(vec3 point, vec3 normal, float offset) {

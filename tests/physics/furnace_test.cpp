@@ -13,7 +13,7 @@ namespace sunfleck::test {
 namespace {
 
 // Largest share that may escape: light that leaves a point within the offset of a wall (2^-17 of the extent, 8 um) can slip out
-// beside it.
+// beside it, and light that starts exactly at the edge of two walls can meet the outside of one.
 constexpr double escaping = 1e-5;
 
 TEST(Furnace, EveryWallSeesTheSame) {
@@ -39,7 +39,8 @@ TEST(Furnace, EveryWallSeesTheSame) {
         if (model.canopy.organ_of[e] >= box_walls) continue;
         const double got =
             result.side_indirect_w_m2(2 * e, area_m2(model.canopy.corners[e]), b) * (1.0 - furnace_reflectances[b]);
-        EXPECT_EQ(result.side_indirect[(2 * e + 1) * furnace_reflectances.size() + b], 0) << "the outside";
+        const std::int64_t outside = result.side_indirect[(2 * e + 1) * furnace_reflectances.size() + b];
+        EXPECT_LE(static_cast<double>(outside), escaping * static_cast<double>(ledger.incident));
         scores.add({got, result.element_error[b * model.canopy.size() + e]}, 1.0, "triangle");
       }
     }

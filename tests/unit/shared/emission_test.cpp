@@ -243,6 +243,21 @@ TEST(PointOnTriangle, IsThatOfItsWeights) {
   EXPECT_EQ(point_on_triangle(a, b, c, 0.0F, 1.0F), c);
 }
 
+// The face of a box ends at its neighbours, and so do the points on it.
+TEST(PointOnTriangle, StaysWithinTheBoxOfItsCorners) {
+  std::mt19937_64 random(31);
+  const auto unit = [&] { return unit_interval(static_cast<uint>(random())); };
+  for (int k = 0; k < 200'000; ++k) {
+    const vec3 a(1.1F, unit(), 0.3F), b(0.3F, unit(), 1.7F), c(1.1F, unit(), 1.7F);
+    const vec2 weights = even_weights(static_cast<uint>(random()), k % 2 == 0 ? 0U : static_cast<uint>(random()));
+    const vec3 at = point_on_triangle(a, b, c, weights.x, weights.y);
+    ASSERT_LE(at.x, 1.1F);
+    ASSERT_GE(at.x, 0.3F);
+    ASSERT_GE(at.z, 0.3F);
+    ASSERT_LE(at.z, 1.7F);
+  }
+}
+
 TEST(InFrontOf, GoesAlongTheNormal) {
   EXPECT_EQ(in_front_of({1.0F, 2.0F, 3.0F}, straight_up, 0.25F), vec3(1.0F, 2.25F, 3.0F));
   EXPECT_EQ(in_front_of({1.0F, 2.0F, 3.0F}, {0.5F, -0.5F, -1.0F}, 0.5F), vec3(1.25F, 1.75F, 2.5F));

@@ -210,9 +210,9 @@ struct Shares {
 
 Shares some_shares(std::mt19937_64& random) {
   Shares shares;
-  shares.expectation = at_least_one(some_number(random));
+  shares.expectation = at_least_one(some_number(random) >> 1U);
   shares.spare_bits = random() % 2 == 0 ? 0 : static_cast<uint>(random() % 11U);
-  const Wide most = std::min<Wide>(Wide{shares.expectation} << shares.spare_bits, all_ones);
+  const Wide most = std::min<Wide>(Wide{shares.expectation} << shares.spare_bits, all_ones >> 1U);
   shares.expected = some_number_up_to(random, low_half(most));
   return shares;
 }
@@ -224,7 +224,7 @@ TEST(ShareOf, IsThePartOfTheExpectation) {
   for (int k = 0; k < tries; ++k) {
     const Shares shares = some_shares(random);
     const uint share = share_of(shares.expected, sharing_of(shares.expectation, shares.spare_bits));
-    ASSERT_LE(share, 1U << 31U) << shares.expected << " of " << shares.expectation << ", " << shares.spare_bits;
+    ASSERT_LE(share, (1U << 31U) + 1U) << shares.expected << " of " << shares.expectation << ", " << shares.spare_bits;
     const auto exact = std::ldexp(static_cast<long double>(shares.expected) / static_cast<long double>(shares.expectation),
                                   31 - static_cast<int>(shares.spare_bits));
     ASSERT_NEAR(static_cast<double>(share), static_cast<double>(exact), 3.0)
