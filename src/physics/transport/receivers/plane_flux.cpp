@@ -1,6 +1,7 @@
 #include "physics/transport/receivers/plane_flux.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace sunfleck {
@@ -18,9 +19,18 @@ std::int64_t PlaneFlux::drop_waiting(std::size_t column) {
   return dropped;
 }
 
+std::vector<std::int64_t> PlaneFlux::count_waiting() {
+  std::iota(fullest_.begin(), fullest_.end(), 0);
+  for (std::size_t k = 0; k < waiting_.size(); ++k) {
+    std::size_t& fullest = fullest_[k % columns_];
+    if (waiting_[k] > waiting_[fullest]) fullest = k;
+  }
+  return count(waiting_, -1);
+}
+
 void PlaneFlux::keep(std::size_t column, std::int64_t quanta) {
-  waiting_[column] += quanta;
-  moved_[column] += quanta;
+  waiting_[fullest_[column]] += quanta;
+  moved_[fullest_[column]] += quanta;
 }
 
 std::vector<std::int64_t> PlaneFlux::sum_of(const std::vector<std::int64_t>& places) const {

@@ -15,7 +15,13 @@ namespace sunfleck {
 class PlaneFlux {
  public:
   PlaneFlux(std::size_t planes, std::size_t columns)
-      : columns_(columns), down_((planes + 1) * columns), up_(down_), waiting_(down_), taken_(down_), moved_(down_) {}
+      : columns_(columns),
+        down_((planes + 1) * columns),
+        up_(down_),
+        waiting_(down_),
+        taken_(down_),
+        fullest_(columns),
+        moved_(down_) {}
 
   // Adds the quanta that a straight path carries from one place to another, in the columns from `first` on.
   void pass(std::size_t from, std::size_t to, std::span<const std::int64_t> quanta, std::size_t first = 0);
@@ -27,12 +33,12 @@ class PlaneFlux {
   // Returns what waits at all places. [column]
   [[nodiscard]] std::vector<std::int64_t> all_waiting() const { return sum_of(waiting_); }
   // Returns the same and sets it to 0 everywhere: from now on it is missing at its places in the sums of what moves.
-  std::vector<std::int64_t> count_waiting() { return count(waiting_, -1); }
+  std::vector<std::int64_t> count_waiting();
   // Returns what packets have taken along, [column], and sets it to 0: from now on it counts in the sums of what moves.
   std::vector<std::int64_t> count_taken() { return count(taken_, 1); }
   // Sets what waits of a column to 0, and returns it: it stays where it is.
   std::int64_t drop_waiting(std::size_t column);
-  // Lets quanta that no packet took along wait at the lowest place.
+  // Lets quanta that no packet took along wait where most of the column waited before count_waiting.
   void keep(std::size_t column, std::int64_t quanta);
 
   // Completes the flux through the planes. Sampling moves flux between places: flux that waits at one is shot from another,
@@ -52,6 +58,7 @@ class PlaneFlux {
   std::size_t columns_;
   std::vector<std::int64_t> down_, up_;        // [place * columns + column]; before close() the differences to the plane below
   std::vector<std::int64_t> waiting_, taken_;  // [place * columns + column]
+  std::vector<std::size_t> fullest_;           // [column], index into waiting_
   std::vector<std::int64_t> moved_;            // [place * columns + column], what was shot from a place, less what waited there
 };
 
