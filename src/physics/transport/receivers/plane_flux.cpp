@@ -20,17 +20,16 @@ std::int64_t PlaneFlux::drop_waiting(std::size_t column) {
 }
 
 std::vector<std::int64_t> PlaneFlux::count_waiting() {
-  std::iota(fullest_.begin(), fullest_.end(), 0);
-  for (std::size_t k = 0; k < waiting_.size(); ++k) {
-    std::size_t& fullest = fullest_[k % columns_];
-    if (waiting_[k] > waiting_[fullest]) fullest = k;
+  std::iota(lowest_.begin(), lowest_.end(), 0);
+  for (std::size_t k = waiting_.size(); k-- > 0;) {
+    if (waiting_[k] > 0) lowest_[k % columns_] = k;
   }
   return count(waiting_, -1);
 }
 
 void PlaneFlux::keep(std::size_t column, std::int64_t quanta) {
-  waiting_[fullest_[column]] += quanta;
-  moved_[fullest_[column]] += quanta;
+  waiting_[lowest_[column]] += quanta;
+  moved_[lowest_[column]] += quanta;
 }
 
 std::vector<std::int64_t> PlaneFlux::sum_of(const std::vector<std::int64_t>& places) const {

@@ -20,7 +20,7 @@ class PlaneFlux {
         up_(down_),
         waiting_(down_),
         taken_(down_),
-        fullest_(columns),
+        lowest_(columns),
         moved_(down_) {}
 
   // Adds the quanta that a straight path carries from one place to another, in the columns from `first` on.
@@ -38,7 +38,8 @@ class PlaneFlux {
   std::vector<std::int64_t> count_taken() { return count(taken_, 1); }
   // Sets what waits of a column to 0, and returns it: it stays where it is.
   std::int64_t drop_waiting(std::size_t column);
-  // Lets quanta that no packet took along wait where most of the column waited before count_waiting.
+  // Lets quanta that no packet took along wait at the lowest place where any of the column waited before count_waiting: that crosses no
+  // plane below which there was none, and no other planes among the receivers than among the layers.
   void keep(std::size_t column, std::int64_t quanta);
 
   // Completes the flux through the planes. Sampling moves flux between places: flux that waits at one is shot from another,
@@ -58,7 +59,7 @@ class PlaneFlux {
   std::size_t columns_;
   std::vector<std::int64_t> down_, up_;        // [place * columns + column]; before close() the differences to the plane below
   std::vector<std::int64_t> waiting_, taken_;  // [place * columns + column]
-  std::vector<std::size_t> fullest_;           // [column], index into waiting_
+  std::vector<std::size_t> lowest_;            // [column], index into waiting_
   std::vector<std::int64_t> moved_;            // [place * columns + column], what was shot from a place, less what waited there
 };
 
