@@ -2,6 +2,7 @@
 // A stream of random numbers that is the same on every machine and with every standard library.
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 namespace sunfleck {
 
@@ -27,5 +28,10 @@ class RandomStream {
 
   std::uint64_t state_;
 };
+
+// Returns the key of the shared text's random numbers (shaders/shared/random.h) that a random word makes.
+[[nodiscard]] inline glm::uvec2 key_of(std::uint64_t word) {
+  return {static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(word >> 32U)};
+}
 
 }  // namespace sunfleck

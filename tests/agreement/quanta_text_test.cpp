@@ -1,6 +1,7 @@
 // Tests that the arithmetic of quanta gives the same words on the device as in C++, for a million inputs.
 
 #include "agreement/quanta_text.h"
+#include "agreement/same_words.h"
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/compute.h"
 #include "quanta_text.spirv.h"
@@ -10,8 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <random>
 #include <set>
 #include <span>
@@ -24,11 +23,9 @@ using test::some_number;
 using test::some_number_up_to;
 using test::Wide;
 
-using QuantaWords = std::array<std::uint32_t, 21>;
-
 // All members are 32-bit words or vectors of them.
 static_assert(sizeof(shared::QuantaInput) == 29 * 4);
-static_assert(sizeof(shared::QuantaOutput) == sizeof(QuantaWords));
+static_assert(sizeof(shared::QuantaOutput) == 21 * 4);
 
 constexpr std::uint32_t quanta_batch = 1U << 17U;
 constexpr int quanta_batches = 8;
@@ -80,7 +77,7 @@ TEST_F(QuantaText, GivesTheSameWordsOnTheDevice) {
   const GpuBuffer given = create_buffer(context(), BufferUse::storage, quanta_batch * sizeof(shared::QuantaInput), "inputs");
   const GpuBuffer results =
       create_buffer(context(), BufferUse::storage, quanta_batch * sizeof(shared::QuantaOutput), "outputs");
-  std::size_t differences = 0;
+  WordComparison words;
   std::size_t loaded = 0;
   std::set<std::uint32_t> scale_shifts, load_shifts;
   for (int k = 0; k < quanta_batches; ++k) {
@@ -95,17 +92,10 @@ TEST_F(QuantaText, GivesTheSameWordsOnTheDevice) {
       loaded += shared::joined(expected.carried_quanta) != 0 ? 1 : 0;
       scale_shifts.insert(expected.scale.shift);
       load_shifts.insert(expected.load_shift);
-      const auto ours = std::bit_cast<QuantaWords>(expected);
-      const auto theirs = std::bit_cast<QuantaWords>(outputs[i]);
-      for (std::size_t word = 0; word < ours.size(); ++word) {
-        if (ours[word] == theirs[word]) continue;
-        if (++differences <= 5)
-          ADD_FAILURE() << "input " << i << " of batch " << k << ", word " << word << ": " << ours[word] << " and "
-                        << theirs[word];
-      }
+      words.add(expected, outputs[i], k, i);
     }
   }
-  EXPECT_EQ(differences, 0U);
+  EXPECT_EQ(words.differences(), 0U);
   // Quanta were carried, and every shift occurred.
   EXPECT_GT(loaded, std::size_t{quanta_batch} * quanta_batches / 5);
   EXPECT_EQ(scale_shifts.size(), 33U);

@@ -1,6 +1,7 @@
 // Tests that the shared text gives the same bits on the device as in C++, for a million inputs.
 
 #include "agreement/shared_text.h"
+#include "agreement/same_words.h"
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/compute.h"
 #include "shared_text.spirv.h"
@@ -25,8 +26,6 @@ using testing_bvh::uniform;
 static_assert(sizeof(shared::TextInput) == 27 * 4);
 static_assert(sizeof(shared::TextOutput) == 75 * 4);
 static_assert(sizeof(shared::TextPush) == 16);
-
-using TextWords = std::array<std::uint32_t, sizeof(shared::TextOutput) / 4>;
 
 constexpr std::uint32_t batch = 1U << 17U;
 constexpr int batches = 8;
@@ -171,7 +170,7 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
   std::vector<shared::TextInput> inputs(batch);
   std::vector<shared::TextOutput> outputs(batch);
   const GpuBuffer results = create_buffer(context(), BufferUse::storage, batch * sizeof(shared::TextOutput), "outputs");
-  std::size_t apart = 0;
+  WordComparison words;
   std::size_t met = 0;
   std::size_t areas = 0;
   std::size_t kept_normal = 0;
@@ -191,17 +190,10 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
       met += expected.met_lower >= 2 ? 1 : 0;
       areas += expected.normal != glm::vec3(0.0F, 1.0F, 0.0F) ? 1 : 0;
       kept_normal += expected.scattered == expected.normal ? 1 : 0;
-      const auto ours = std::bit_cast<TextWords>(expected);
-      const auto theirs = std::bit_cast<TextWords>(outputs[i]);
-      for (std::size_t word = 0; word < ours.size(); ++word) {
-        if (ours[word] == theirs[word]) continue;
-        if (++apart <= 5)
-          ADD_FAILURE() << "input " << i << " of batch " << k << ", word " << word << ": " << ours[word] << " and "
-                        << theirs[word];
-      }
+      words.add(expected, outputs[i], k, i);
     }
   }
-  EXPECT_EQ(apart, 0U);
+  EXPECT_EQ(words.differences(), 0U);
   constexpr std::size_t all = std::size_t{batch} * batches;
   EXPECT_GT(met, all / 5);  // ensures that weights and distances were compared
   // The degenerate cases occurred, and did not prevail.

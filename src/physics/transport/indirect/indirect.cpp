@@ -39,18 +39,9 @@ std::uint64_t coefficient_above(double part) {
   return static_cast<std::uint64_t>(std::ceil(std::min(part, 1.0) * 0x1p32));
 }
 
-std::int64_t part_of(std::int64_t quanta, std::uint64_t coefficient) {
-  return static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(quanta), coefficient, 0));
-}
-
 // Returns a number of quanta that may be infinite.
 std::int64_t whole_quanta(double quanta) {
   return quanta < 0x1p62 ? static_cast<std::int64_t>(quanta) : std::int64_t{1} << 62U;
-}
-
-glm::uvec2 key_of(RandomStream& stream) {
-  const std::uint64_t word = stream.word();
-  return {static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(word >> 32U)};
 }
 
 // The pass of one replicate, with the flux that is still on its way. Random numbers of rounds and packets are functions of the key, the
@@ -67,7 +58,7 @@ class IndirectPass {
         bands_(scene.model.bands.size()),
         columns_(lights_ * bands_),
         random_(order.seed, indirect_stream + order.number),
-        key_(key_of(random_)),
+        key_(key_of(random_.word())),
         books_(scene),
         arrays_(arrays),
         waiting_(arrays.waiting),
@@ -76,7 +67,6 @@ class IndirectPass {
         active_(columns_, true),
         shot_(columns_) {
     books_.sums().side_landed.reserve(arrays.sides_landed);
-    waiting_.clear(books_.booked());
     next_.clear(books_.booked());
     for (std::size_t b = 0; b < bands_; ++b) {
       for (std::size_t k = 0; k < lights_; ++k) quanta_.push_back(&(*light.quanta[k])[b]);
@@ -280,14 +270,15 @@ class IndirectPass {
   [[nodiscard]] bool retire_faint_columns() {
     const std::vector<std::int64_t> waiting = books_.waiting();
     const std::uint64_t part = coefficient_above(unshot_part_of_bound * order_.bound);
+    const std::uint64_t least_share = coefficient_above(least_judged_share);
     std::size_t begin = columns_, end = 0;
     for (std::size_t c = 0; c < columns_; ++c) {
       if (!active_[c]) continue;
       const std::int64_t vegetation =
           std::max(whole_quanta(first(c).least_of_vegetation[band(c)]), books_.scattering().vegetation()[c]);
-      const std::int64_t least = part_of(incident_[c], coefficient_above(least_judged_share));
+      const std::int64_t least = part_of(incident_[c], least_share, 0);
       const std::int64_t judged = std::min(vegetation, std::max(least, books_.scattering().soil()[c]));
-      if (waiting[c] == 0 || waiting[c] < part_of(judged, part)) {
+      if (waiting[c] == 0 || waiting[c] < part_of(judged, part, 0)) {
         retire(c);
         continue;
       }

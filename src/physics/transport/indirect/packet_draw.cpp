@@ -34,8 +34,7 @@ void PacketDraw::draw(const WaitingFlux& places, ColumnRange columns, std::span<
                       std::uint64_t offset) {
   columns_ = columns;
   set_scales(totals);
-  expect(places);
-  take(offset);
+  take(expect(places), offset);
   weigh(places, totals);
 }
 
@@ -43,8 +42,8 @@ void PacketDraw::draw(const WaitingFlux& places, ColumnRange columns, std::span<
 void PacketDraw::set_scales(std::span<const std::int64_t> totals) {
   any_least_ = false;
   for (std::size_t c = columns_.first; c < columns_.first + columns_.count; ++c) {
-    scales_.set(c, {0, 0});
-    least_.set(c, {0, 0});
+    scales_.set(c, 0, 0);
+    least_.set(c, 0, 0);
     if (totals[c] == 0) continue;
     const auto total = static_cast<std::uint64_t>(totals[c]);
     const auto all = static_cast<std::uint64_t>(std::max(start_[c], totals[c]));
@@ -65,29 +64,30 @@ std::uint64_t PacketDraw::expectation(const EmissionPoint& place, std::span<cons
   return std::max(sum, columns::largest_scaled(quanta, sent, least_, columns_.first));
 }
 
-void PacketDraw::expect(const WaitingFlux& places) {
+// Returns the sum of all expectations before aiming.
+std::uint64_t PacketDraw::expect(const WaitingFlux& places) {
   arrays_.up_to.resize(2 * places.size());
-  unaimed_ = 0;
-  std::uint64_t sum = 0;
+  std::uint64_t unaimed = 0, sum = 0;
   std::size_t number = 0;
   for (const std::size_t side : {0, 1}) {
     for (std::size_t k = 0; k < places.size(); ++k, ++number) {
       const EmissionPoint& place = places.place(k);
       if (scattering_.sends(place, side)) {
         const std::uint64_t expected = expectation(place, places.quanta(k, columns_), side);
-        unaimed_ += expected;
+        unaimed += expected;
         sum += aim_ == nullptr ? expected : shared::part_of(expected, aim_of(place), 0);
       }
       arrays_.up_to[number] = sum;
     }
   }
+  return unaimed;
 }
 
-void PacketDraw::take(std::uint64_t offset) {
+void PacketDraw::take(std::uint64_t unaimed, std::uint64_t offset) {
   arrays_.number.clear();
   const std::uint64_t sum = arrays_.up_to.empty() ? 0 : arrays_.up_to.back();
   if (sum < least_sum) return;
-  if (first_round_ && aim_ != nullptr) pace_ = shared::long_quotient(unaimed_ >> 32U, unaimed_ << 32U, sum);
+  if (first_round_ && aim_ != nullptr) pace_ = shared::long_quotient(unaimed >> 32U, unaimed << 32U, sum);
   first_round_ = false;
   const std::uint64_t gain = std::max(pace_, shared::long_quotient(least_packets, 0, sum) + 1);
   std::uint64_t taken = 0;

@@ -48,7 +48,7 @@ class PacketDraw {
     return number < places ? PacketSource{number, 0} : PacketSource{number - places, 1};
   }
   // Returns whether any packet carries a column.
-  [[nodiscard]] bool carries(std::size_t column) const { return loads_.factor[column] > 0; }
+  [[nodiscard]] bool carries(std::size_t column) const { return loads_.value[column] > 0; }
   // Sets `quanta` to what a packet carries, in the columns that were drawn.
   void carry(std::size_t packet, std::span<std::int64_t> quanta) const {
     columns::carry(std::span(arrays_.weight).subspan(packet * columns_.count, columns_.count), loads_, columns_.first,
@@ -57,8 +57,8 @@ class PacketDraw {
 
  private:
   void set_scales(std::span<const std::int64_t> totals);
-  void expect(const WaitingFlux& places);
-  void take(std::uint64_t offset);
+  std::uint64_t expect(const WaitingFlux& places);
+  void take(std::uint64_t unaimed, std::uint64_t offset);
   void weigh(const WaitingFlux& places, std::span<const std::int64_t> totals);
   [[nodiscard]] std::uint64_t expectation(const EmissionPoint& place, std::span<const std::int64_t> quanta,
                                           std::size_t side) const;
@@ -70,11 +70,10 @@ class PacketDraw {
   std::vector<std::int64_t> start_;  // [column]
   std::uint64_t each_ = 0;           // packets for each column in the first round, in units of 2^-32
   ColumnRange columns_;
-  ScaleColumns scales_, least_;  // packets for each quantum: wanted, and at least
+  FactorColumns scales_, least_;  // packets for each quantum: wanted, and at least
   bool any_least_ = false;
-  LoadColumns loads_;
+  FactorColumns loads_;
   std::vector<std::uint64_t> weights_;  // [column], sums over all packets
-  std::uint64_t unaimed_ = 0;           // sum of all expectations before aiming
   // Packets drawn for each one expected, in units of 2^-32. Aiming takes packets from the first round, which this makes up for.
   std::uint64_t pace_ = std::uint64_t{1} << 32U;
   bool first_round_ = true;

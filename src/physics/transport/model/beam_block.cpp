@@ -18,7 +18,7 @@ shared::BeamBlock block_of(const RadiationModel& model, const CounterLayout& lay
   beam.columns = grid.columns;
   beam.rows = grid.rows;
   beam.direction = grid.direction;
-  beam.key = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)};
+  beam.key = key_of(key);
   beam.period = model.canopy.period_m;
   beam.overlap = 0.5F * border_margin_m(model.canopy);
   beam.ground = make_ground_map(layout);

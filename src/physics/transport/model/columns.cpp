@@ -59,15 +59,15 @@ HWY_INLINE Words parts(Words quanta, Words coefficients, Words u) {
 }
 
 // Returns shared::scaled for what a side sends.
-HWY_INLINE Words scaled_parts(Words landed, const SentPart& sent, Words u, const ScaleColumns& by, std::size_t column) {
+HWY_INLINE Words scaled_parts(Words landed, const SentPart& sent, Words u, const FactorColumns& by, std::size_t column) {
   const Words quanta = hn::Sub(parts(landed, load(sent.to + column), u), parts(landed, load(sent.from + column), u));
-  const Words mantissa = load(&by.mantissa[column]);
+  const Words mantissa = load(&by.value[column]);
   const Words shift = load(&by.shift[column]);
   const Words high = hn::Shl(times(hn::ShiftRight<32>(quanta), mantissa), hn::Sub(hn::Set(words, 32), shift));
   return hn::Add(high, hn::Shr(times(quanta, mantissa), shift));
 }
 
-std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                          std::size_t first) {
   const Words u = hn::Set(words, sent.u);
   Words sums = hn::Zero(words);
@@ -77,7 +77,7 @@ std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& s
   return hn::GetLane(hn::SumOfLanes(words, sums)) + singly::sum_scaled(rest, landed, sent, by, first);
 }
 
-std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                              std::size_t first) {
   const Words u = hn::Set(words, sent.u);
   Words most = hn::Zero(words);
@@ -88,7 +88,7 @@ std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPar
                                  singly::largest_scaled(rest, landed, sent, by, first));
 }
 
-void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
            const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
   const Words u = hn::Set(words, sent.u);
   const Words inverse = hn::Set(words, sharing.inverse);
@@ -107,10 +107,10 @@ void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const Sca
   singly::weigh(rest, landed, sent, by, first, sharing, weights, sums);
 }
 
-void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta) {
+void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta) {
   const std::size_t rest = for_each_vector(weights.size(), [&](std::size_t k) HWY_ATTR {
     const Words weight = hn::PromoteTo(words, hn::LoadU(halves, &weights[k]));
-    const Words factor = load(&loads.factor[first + k]);
+    const Words factor = load(&loads.value[first + k]);
     const Words product = hn::Add(times(weight, hn::ShiftRight<32>(factor)), hn::ShiftRight<32>(times(weight, factor)));
     const Words shift = hn::Sub(load(&loads.shift[first + k]), hn::Set(words, 32));
     hn::StoreU(hn::BitCast(wholes, hn::Shr(product, shift)), wholes, quanta + k);
@@ -190,22 +190,22 @@ HWY_EXPORT(scale);
 HWY_EXPORT(add_products);
 HWY_EXPORT(add_scaled);
 
-std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                          std::size_t first) {
   return HWY_DYNAMIC_DISPATCH(sum_scaled)(landed, sent, by, first);
 }
 
-std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                              std::size_t first) {
   return HWY_DYNAMIC_DISPATCH(largest_scaled)(landed, sent, by, first);
 }
 
-void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
            const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
   HWY_DYNAMIC_DISPATCH(weigh)(landed, sent, by, first, sharing, weights, sums);
 }
 
-void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta) {
+void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta) {
   HWY_DYNAMIC_DISPATCH(carry)(weights, loads, first, quanta);
 }
 

@@ -32,14 +32,16 @@ struct SplitCoefficients {
   return {coefficient(reflectance), coefficient(reflectance + transmittance)};
 }
 
-// Splits quanta; `u` has 32 random bits.
+// Returns shared::part_of; `u` has 32 random bits.
+[[nodiscard]] inline std::int64_t part_of(std::int64_t quanta, std::uint64_t coefficient, std::uint32_t u) {
+  return static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(quanta), coefficient, u));
+}
+
+// Splits quanta; `u` is that of part_of.
 [[nodiscard]] inline QuantaSplit split_quanta(std::int64_t quanta, const SplitCoefficients& of, std::uint32_t u) {
-  const auto part = [&](std::uint64_t coefficient) {
-    return static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(quanta), coefficient, u));
-  };
-  const std::int64_t scattered = part(of.scattered);
+  const std::int64_t scattered = part_of(quanta, of.scattered, u);
   QuantaSplit split;
-  split.reflected = part(of.reflected);
+  split.reflected = part_of(quanta, of.reflected, u);
   split.transmitted = scattered - split.reflected;
   split.absorbed = quanta - scattered;
   return split;
@@ -57,29 +59,20 @@ struct FaceColumns {
 struct SentPart {
   const std::uint64_t* from = nullptr;
   const std::uint64_t* to = nullptr;
-  std::uint32_t u = 0;  // as in split_quanta
+  std::uint32_t u = 0;  // as in part_of
 };
 
-// A shared::Scale for each column.
-struct ScaleColumns {
-  explicit ScaleColumns(std::size_t columns) : mantissa(columns), shift(columns) {}
-  void set(std::size_t column, const shared::Scale& scale) {
-    mantissa[column] = scale.mantissa;
-    shift[column] = scale.shift;
+// A factor for each column, value / 2^shift: a shared::Scale or a shared::Load.
+struct FactorColumns {
+  explicit FactorColumns(std::size_t columns) : value(columns), shift(columns) {}
+  void set(std::size_t column, std::uint64_t of_value, std::uint32_t of_shift) {
+    value[column] = of_value;
+    shift[column] = of_shift;
   }
+  void set(std::size_t column, const shared::Scale& scale) { set(column, scale.mantissa, scale.shift); }
+  void set(std::size_t column, const shared::Load& load) { set(column, load.factor, load.shift); }
 
-  std::vector<std::uint64_t> mantissa, shift;
-};
-
-// A shared::Load for each column.
-struct LoadColumns {
-  explicit LoadColumns(std::size_t columns) : factor(columns), shift(columns) {}
-  void set(std::size_t column, const shared::Load& load) {
-    factor[column] = load.factor;
-    shift[column] = load.shift;
-  }
-
-  std::vector<std::uint64_t> factor, shift;
+  std::vector<std::uint64_t> value, shift;
 };
 
 // Neighbouring columns; all others have nothing left to send.
@@ -94,12 +87,13 @@ inline constexpr std::size_t least_in_vectors = 6;
 
 namespace in_vectors {
 
-std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first);
-std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
+                         std::size_t first);
+std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                              std::size_t first);
-void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
            const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums);
-void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta);
+void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta);
 void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u, std::int64_t* absorbed,
            std::int64_t* scattered);
 void add(std::span<const std::int64_t> quanta, std::int64_t* sums);
@@ -114,31 +108,27 @@ void add_scaled(double factor, std::span<const double> a, std::span<double> sums
 // The columns of a row from the k-th on, one by one. `first` is the number of the row's first column among all columns.
 namespace singly {
 
-inline std::uint64_t sent_quanta(std::int64_t landed, const SentPart& sent, std::size_t column) {
-  const auto quanta = static_cast<std::uint64_t>(landed);
-  return shared::part_of(quanta, sent.to[column], sent.u) - shared::part_of(quanta, sent.from[column], sent.u);
-}
-
-inline std::uint64_t scaled_part(std::int64_t landed, const SentPart& sent, const ScaleColumns& by, std::size_t column) {
-  return shared::scaled(sent_quanta(landed, sent, column),
-                        {static_cast<std::uint32_t>(by.mantissa[column]), static_cast<std::uint32_t>(by.shift[column])});
+inline std::uint64_t scaled_part(std::int64_t landed, const SentPart& sent, const FactorColumns& by, std::size_t column) {
+  const std::int64_t quanta = part_of(landed, sent.to[column], sent.u) - part_of(landed, sent.from[column], sent.u);
+  return shared::scaled(static_cast<std::uint64_t>(quanta),
+                        {static_cast<std::uint32_t>(by.value[column]), static_cast<std::uint32_t>(by.shift[column])});
 }
 
 inline std::uint64_t sum_scaled(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent,
-                                const ScaleColumns& by, std::size_t first) {
+                                const FactorColumns& by, std::size_t first) {
   std::uint64_t sum = 0;
   for (; k < landed.size(); ++k) sum += scaled_part(landed[k], sent, by, first + k);
   return sum;
 }
 
 inline std::uint64_t largest_scaled(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent,
-                                    const ScaleColumns& by, std::size_t first) {
+                                    const FactorColumns& by, std::size_t first) {
   std::uint64_t largest = 0;
   for (; k < landed.size(); ++k) largest = std::max(largest, scaled_part(landed[k], sent, by, first + k));
   return largest;
 }
 
-inline void weigh(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+inline void weigh(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                   std::size_t first, const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
   for (; k < landed.size(); ++k) {
     weights[k] = shared::share_of(scaled_part(landed[k], sent, by, first + k), sharing);
@@ -146,10 +136,10 @@ inline void weigh(std::size_t k, std::span<const std::int64_t> landed, const Sen
   }
 }
 
-inline void carry(std::size_t k, std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first,
+inline void carry(std::size_t k, std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first,
                   std::int64_t* quanta) {
   for (; k < weights.size(); ++k) {
-    const shared::Load load{loads.factor[first + k], static_cast<std::uint32_t>(loads.shift[first + k])};
+    const shared::Load load{loads.value[first + k], static_cast<std::uint32_t>(loads.shift[first + k])};
     quanta[k] = static_cast<std::int64_t>(shared::carried(weights[k], load));
   }
 }
@@ -157,7 +147,7 @@ inline void carry(std::size_t k, std::span<const std::uint32_t> weights, const L
 inline void split(std::size_t k, std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u,
                   std::int64_t* absorbed, std::int64_t* scattered) {
   for (; k < landed.size(); ++k) {
-    scattered[k] = static_cast<std::int64_t>(shared::part_of(static_cast<std::uint64_t>(landed[k]), coefficients[k], u));
+    scattered[k] = part_of(landed[k], coefficients[k], u);
     absorbed[k] += landed[k] - scattered[k];
   }
 }
@@ -187,28 +177,28 @@ inline void add_scaled(std::size_t first, double factor, std::span<const double>
 
 // Returns the sum of what a side sends of a row of quanta that landed, each column scaled. Here and below, the row's first column has the
 // number `first` in all arrays that are not rows.
-inline std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+inline std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                                 std::size_t first) {
   if (landed.size() >= least_in_vectors) return in_vectors::sum_scaled(landed, sent, by, first);
   return singly::sum_scaled(0, landed, sent, by, first);
 }
 
 // Returns the largest of them.
-inline std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by,
+inline std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                                     std::size_t first) {
   if (landed.size() >= least_in_vectors) return in_vectors::largest_scaled(landed, sent, by, first);
   return singly::largest_scaled(0, landed, sent, by, first);
 }
 
 // Sets the row `weights` to the weight of each column in a packet, and adds it to `sums`.
-inline void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const ScaleColumns& by, std::size_t first,
+inline void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
                   const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
   if (landed.size() >= least_in_vectors) return in_vectors::weigh(landed, sent, by, first, sharing, weights, sums);
   singly::weigh(0, landed, sent, by, first, sharing, weights, sums);
 }
 
 // Sets the row `quanta` to what a packet of these weights carries.
-inline void carry(std::span<const std::uint32_t> weights, const LoadColumns& loads, std::size_t first, std::int64_t* quanta) {
+inline void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta) {
   if (weights.size() >= least_in_vectors) return in_vectors::carry(weights, loads, first, quanta);
   singly::carry(0, weights, loads, first, quanta);
 }

@@ -84,8 +84,8 @@ TEST(Columns, AreWeighedAndCarriedAsOneByOne) {
     const FaceColumns face(some_faces(first + count, random), 1);
     const std::vector<std::int64_t> landed = some_quanta(count, random);
     const SentPart sent{face.reflected.data(), face.scattered.data(), static_cast<std::uint32_t>(random.word())};
-    ScaleColumns scales(first + count);
-    LoadColumns loads(first + count);
+    FactorColumns scales(first + count);
+    FactorColumns loads(first + count);
     for (std::size_t c = 0; c < first + count; ++c) {
       const std::uint64_t total = (random.word() >> 20U) + 1;
       scales.set(c, shared::scale_of(random.word() >> 24U, total + (std::uint64_t{1} << 47U)));
