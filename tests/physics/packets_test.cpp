@@ -38,7 +38,7 @@ class Places {
 
   // Adds a place on a mirror.
   void add(EmissionPoint place, std::span<const std::int64_t> quanta) {
-    place.face = scattering_.face_of(mirror_number, place.surface % 2);
+    place.face = face_of(mirror_number, place.surface % 2);
     flux.add(place, quanta);
     for (std::size_t b = 0; b < bands_; ++b) totals_[b] += quanta[b];
   }
@@ -178,7 +178,7 @@ TEST(Packets, UpperSidesAreDrawnBeforeLowerOnes) {
 TEST(Packets, LeaveFromBothSidesOfALeaf) {
   Places places(1);
   EmissionPoint place{.surface = 5, .order = 2};
-  place.face = places.scattering().face_of(leaf_number, 1);
+  place.face = face_of(leaf_number, 1);
   const std::array<std::int64_t, 1> landed = {1'000'000'000};
   places.flux.add(place, landed);
   const std::vector<std::int64_t> sent = {500'000'000};

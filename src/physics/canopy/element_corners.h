@@ -1,6 +1,7 @@
 #pragma once
 // The corners of all elements. Those of meshes that stand many times in a large canopy are kept once for each mesh.
 
+#include "base/prefetch.h"
 #include "base/shared_vector.h"
 #include "physics/canopy/triangle.h"
 #include "shared/turn.h"
@@ -63,6 +64,10 @@ class ElementCorners {
   [[nodiscard]] std::size_t size() const { return own_.size() + shared_; }
   [[nodiscard]] bool empty() const { return size() == 0; }
   [[nodiscard]] Triangle operator[](std::size_t element) const { return runs_.empty() ? own_[element] : in_run(element); }
+  // Asks for the memory of an element's corners, if they are its own.
+  void prefetch(std::size_t element) const {
+    if (runs_.empty()) sunfleck::prefetch(own_[element]);
+  }
   [[nodiscard]] Triangle front() const { return (*this)[0]; }
   [[nodiscard]] Iterator begin() const { return {*this, 0}; }
   [[nodiscard]] Iterator end() const { return {*this, size()}; }

@@ -1,17 +1,20 @@
 #include "physics/transport/indirect/indirect.h"
 
+#include "base/in_blocks.h"
+#include "base/prefetch.h"
 #include "base/random.h"
+#include "physics/transport/indirect/landing_places.h"
 #include "physics/transport/indirect/landing_points.h"
 #include "physics/transport/indirect/packet_books.h"
 #include "physics/transport/indirect/packet_draw.h"
 #include "physics/transport/indirect/packet_starts.h"
 #include "physics/transport/model/columns.h"
-#include "shared/beam.h"
 #include "shared/random.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -30,6 +33,13 @@ constexpr double shared_landings_per_packet = 0.25;
 constexpr double least_shared_landings = 64;
 // Quanta of a sampled landing are cut off here, far above all that a replicate has.
 constexpr double most_at_point = 0x1p52;
+
+// Rays and packets are booked in batches of which all that is read several times stays in a processor's own cache.
+constexpr std::size_t most_in_batch = 8192;
+constexpr std::size_t least_batch = 256;
+constexpr std::size_t most_carried_in_batch = std::size_t{1} << 17U;
+// Packets whose arrivals a thread finds at a time.
+constexpr std::size_t arrivals_per_block = 512;
 
 // The number in place of a packet's, for the random words that all packets of a round share.
 constexpr std::uint32_t whole_round = 0xffffffffU;
@@ -64,9 +74,9 @@ class IndirectPass {
         waiting_(arrays.waiting),
         next_(arrays.next),
         incident_(columns_),
-        active_(columns_, true),
-        shot_(columns_) {
-    books_.sums().side_landed.reserve(arrays.sides_landed);
+        active_(columns_, true) {
+    PlaceSums& sides = books_.sums().side_landed;
+    sides = PlaceSums(2 * scene.model.canopy.size(), columns_, arrays.sides_landed);
     next_.clear(books_.booked());
     for (std::size_t b = 0; b < bands_; ++b) {
       for (std::size_t k = 0; k < lights_; ++k) quanta_.push_back(&(*light.quanta[k])[b]);
@@ -86,7 +96,7 @@ class IndirectPass {
       if (!shoot(draw)) return std::nullopt;
     }
     books_.close();
-    arrays_.sides_landed = sums.side_landed.entries();
+    arrays_.sides_landed = sums.side_landed.extent();
     return std::move(sums);
   }
 
@@ -118,23 +128,23 @@ class IndirectPass {
     std::vector<shared::Landing> landings(rays.size());
     if (scene_.tracer.trace(scene_.block, rays, landings, stop_) == TraceOutcome::stopped) return false;
     SkyShares shares(*light_.sky, rays);
-    std::vector<std::int64_t> given(columns_), own(columns_);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-      const std::span<const double> up_to_ray = shares.next();
-      for (std::size_t c = 0; c < columns_; ++c) {
-        const auto up_to = static_cast<std::int64_t>(up_to_ray[c % lights_] * static_cast<double>(quanta_[c]->sky));
-        own[c] = up_to - given[c];
-        given[c] = up_to;
+    std::vector<std::int64_t> given(columns_);
+    for_each_batch(rays.size(), [&](std::size_t first, std::span<Arrival> arrivals) {
+      for (std::size_t k = 0; k < arrivals.size(); ++k) {
+        const std::size_t r = first + k;
+        arrivals[k] = arrival_from_above(scene_, rays[r], landings[r], words_of(r).x);
+        const std::span<std::int64_t> own = std::span(arrays_.carried).subspan(k * columns_, columns_);
+        const std::span<const double> up_to_ray = shares.next();
+        for (std::size_t c = 0; c < columns_; ++c) {
+          const auto up_to = static_cast<std::int64_t>(up_to_ray[c % lights_] * static_cast<double>(quanta_[c]->sky));
+          own[c] = up_to - std::exchange(given[c], up_to);
+          if (arrivals[k].beside_plot) continue;
+          incident_[c] += own[c];
+          books_.sums().ledger[c].incident += own[c];
+        }
       }
-      const Way way = books_.way_from_above(rays[r]);
-      if (fell_beside_plot(landings[r], rays[r])) {
-        books_.pass_receivers(landings[r], way, own);
-        continue;
-      }
-      columns::add(own, incident_.data());
-      for (std::size_t c = 0; c < columns_; ++c) books_.sums().ledger[c].incident += own[c];
-      books_.land(landings[r], way, words_of(r).x, own, next_);
-    }
+      books_.book({std::span(rays).subspan(first, arrivals.size()), arrivals, arrays_.carried}, next_);
+    });
     IndirectSums& sums = books_.sums();
     sums.side_sky = sums.side_landed;
     sums.cell_sky = sums.cell_landed;
@@ -142,11 +152,16 @@ class IndirectPass {
     return true;
   }
 
-  // Returns true for a ray of an isolated stand that met neither an element nor the plot's ground. Its flux counts only at
-  // the receivers that it passed.
-  [[nodiscard]] bool fell_beside_plot(const shared::Landing& landing, const shared::Packet& ray) const {
-    if (scene_.model.plot.periodic || landing.surface != shared::left_downwards) return false;
-    return !shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), scene_.block.ground);
+  // Calls take(first, arrivals) for batches of `count` rays. There is room for what arrivals carry in arrays_.carried.
+  template <class Take>
+  void for_each_batch(std::size_t count, const Take& take) {
+    const std::size_t width = books_.booked().count;
+    const std::size_t most = std::clamp(most_carried_in_batch / width, least_batch, most_in_batch);
+    for (std::size_t first = 0; first < count; first += most) {
+      arrays_.arrivals.resize(std::min(most, count - first));
+      arrays_.carried.resize(arrays_.arrivals.size() * width);
+      take(first, std::span(arrays_.arrivals));
+    }
   }
 
   // Calls take(place, weights) for each side on which beams land at the points; [light], 0 for those that land on the other side.
@@ -162,8 +177,13 @@ class IndirectPass {
           any = any || weights[k] > 0.0;
         }
         if (!any) continue;
-        const shared::Landing landing{sign > 0.0 ? point.surface : point.surface ^ 1U, point.order, point.a, point.b};
-        take(books_.place_of(landing, words_of(books_.sums().sky_rays + p).x), weights);
+        EmissionPoint place = point;
+        if (sign < 0.0) {  // faces are numbered side by side, as sides are
+          place.surface ^= 1U;
+          place.face ^= 1U;
+        }
+        place.u = words_of(books_.sums().sky_rays + p).x;
+        take(place, weights);
       }
     }
   }
@@ -208,13 +228,13 @@ class IndirectPass {
       place.surface = static_cast<std::uint32_t>(2 * e);
       place.order = static_cast<std::uint32_t>(e);
       place.a = anywhere;
-      place.face = books_.scattering().lamp_face();
+      place.face = lamp_face(scene_.model);
       if (scene_.surfaces.at(e).soil()) place.level = -1;
       for (std::size_t c = 0; c < columns_; ++c) {
         own[c] = has_lamps(quanta_[c]) ? quanta_[c]->lamp[e] : 0;
         if (own[c] == 0) continue;
         books_.add_waiting(level_index(place.level), c, own[c]);
-        if (scene_.receivers != nullptr) books_.add_waiting_in_zone(books_.zone_of(place), c, own[c]);
+        if (scene_.receivers != nullptr) books_.add_waiting_in_zone(zone_of(scene_, place), c, own[c]);
       }
       next_.add(place, own);
     }
@@ -238,7 +258,7 @@ class IndirectPass {
       arrays_.packets.resize(std::min(most_at_a_time, draw.packets() - first));
       starts.write(first, arrays_.packets);
       if (!trace_packets()) return false;
-      for (std::size_t p = 0; p < arrays_.packets.size(); ++p) book(draw, first + p, p);
+      book(draw, first);
     }
     books_.end_round();
     sums.most_places = std::max<std::uint64_t>(sums.most_places, next_.size());
@@ -252,13 +272,21 @@ class IndirectPass {
     return scene_.tracer.trace(scene_.block, arrays_.packets, arrays_.landings, stop_) != TraceOutcome::stopped;
   }
 
-  // Books a packet; `k` is its place in arrays_.packets.
-  void book(const PacketDraw& draw, std::size_t packet, std::size_t k) {
-    const std::span<std::int64_t> quanta = std::span(shot_).first(books_.booked().count);
-    draw.carry(packet, quanta);
-    const EmissionPoint& place = waiting_.place(draw.source(packet).place);
-    books_.leave(place, quanta);
-    books_.land(arrays_.landings[k], books_.way_from(place, arrays_.packets[k]), words_of(packet).x, quanta, next_);
+  // Books arrays_.packets, which begin with number `first_packet`.
+  void book(const PacketDraw& draw, std::size_t first_packet) {
+    const std::size_t width = books_.booked().count;
+    for_each_batch(arrays_.packets.size(), [&](std::size_t first, std::span<Arrival> arrivals) {
+      in_blocks(arrivals.size(), arrivals_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          if (k + prefetch_ahead < end) prefetch_place_of(scene_, arrays_.landings[first + k + prefetch_ahead]);
+          const std::size_t packet = first_packet + first + k;
+          draw.carry(packet, std::span(arrays_.carried).subspan(k * width, width));
+          arrivals[k] = arrival_from(scene_, waiting_.place(draw.source(packet).place), arrays_.packets[first + k],
+                                     arrays_.landings[first + k], words_of(packet).x);
+        }
+      });
+      books_.book({std::span(arrays_.packets).subspan(first, arrivals.size()), arrivals, arrays_.carried}, next_);
+    });
   }
 
   void retire(std::size_t column) {
@@ -302,7 +330,6 @@ class IndirectPass {
   WaitingFlux &waiting_, &next_;        // from which packets are drawn, and where they land
   std::vector<std::int64_t> incident_;  // [column], flux that met something, lamps included
   std::vector<bool> active_;            // [column], not retired
-  std::vector<std::int64_t> shot_;      // carried by the current packet
 };
 
 }  // namespace

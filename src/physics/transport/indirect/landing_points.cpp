@@ -1,6 +1,7 @@
 #include "physics/transport/indirect/landing_points.h"
 
 #include "physics/light/sun.h"
+#include "physics/transport/indirect/landing_places.h"
 #include "shared/beam.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ class LandingSampler {
     return true;
   }
 
-  // Traces at most `most` rays of a part again to find the points where they landed. Returns false if stopped.
+  // Takes at most `most` rays of a part, and adds the points where they landed. Returns false if stopped.
   [[nodiscard]] bool sample_part(std::size_t number, const BeamPart& part, double most, RandomStream& random) {
     const FirstLandings& first = light_.first[beams_[number].light];
     const auto count = static_cast<std::size_t>(std::min(most, static_cast<double>(part.rays())));
@@ -88,7 +89,7 @@ class LandingSampler {
         rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
       }
       if (!trace()) return false;
-      for (const shared::Landing& landing : arrays_.landings) add_point(landing, number, alone);
+      add_points(number, alone);
     }
     return true;
   }
@@ -99,13 +100,20 @@ class LandingSampler {
     return scene_.tracer.trace(scene_.block, arrays_.packets, arrays_.landings, stop_) != TraceOutcome::stopped;
   }
 
-  void add_point(const shared::Landing& landing, std::size_t number, double weight) {
-    if (landing.surface > shared::landed_on_ground) return;
+  // Adds the places where arrays_.landings met something.
+  void add_points(std::size_t number, double weight) {
+    const std::size_t before = points_.places.size();
+    points_.places.resize(before + arrays_.landings.size());
+    const auto added = [&] { return points_.places.begin() + static_cast<std::ptrdiff_t>(before); };
+    find_places(scene_, arrays_.landings, {added(), points_.places.end()});
+    const auto missed = [](const EmissionPoint& place) { return place.surface > shared::landed_on_ground; };
+    points_.places.erase(std::remove_if(added(), points_.places.end(), missed), points_.places.end());
     const std::size_t lights = light_.first.size();
-    points_.places.push_back(place_of(scene_, landing));
-    points_.weights.resize(points_.weights.size() + lights);
-    points_.weights[points_.weights.size() - lights + beams_[number].light] = weight;
-    if (beams_.size() > 1) sampled_by_.push_back(number);
+    points_.weights.resize(points_.places.size() * lights);
+    for (std::size_t p = before; p < points_.places.size(); ++p) {
+      points_.weights[p * lights + beams_[number].light] = weight;
+    }
+    if (beams_.size() > 1) sampled_by_.resize(points_.places.size(), number);
   }
 
   // Finds which other lights shine on the points, and weighs these. Returns false if stopped.
@@ -179,22 +187,6 @@ class LandingSampler {
 bool sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most, RandomStream& random,
                      const StopQuestion& stop, PassArrays& arrays) {
   return LandingSampler(scene, light, stop, arrays).sample(most, random);
-}
-
-EmissionPoint place_of(const IndirectScene& scene, const shared::Landing& landing) {
-  EmissionPoint place{landing.surface, landing.triangle, landing.place_a, landing.place_b, -1, 0, 0};
-  if (landing.surface < shared::landed_on_ground) {
-    const std::uint32_t element = landing.surface / 2;
-    if (scene.surfaces.at(element).soil()) return place;
-    const Triangle& corners = scene.model.canopy.corners[element];
-    const float y_m = shared::landing_y(corners[0].y, corners[1].y, corners[2].y, landing.place_a, landing.place_b);
-    place.level = static_cast<int>(layer_at(scene.layout.layers, y_m));
-  } else if (landing.surface == shared::landed_on_ground) {
-    place.order = ground_order + shared::soil_cell(scene.block.ground, {landing.place_a, landing.place_b});
-  } else if (landing.surface == shared::left_upwards) {
-    place.level = scene.layout.layers.count;
-  }
-  return place;
 }
 
 std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays) {

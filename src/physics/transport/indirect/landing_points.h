@@ -21,9 +21,6 @@ namespace sunfleck {
 [[nodiscard]] bool sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most, RandomStream& random,
                                    const StopQuestion& stop, PassArrays& arrays);
 
-// Returns the place of a landing, from which the flux that it scatters back is shot.
-[[nodiscard]] EmissionPoint place_of(const IndirectScene& scene, const shared::Landing& landing);
-
 // Returns the k-th ray of a systematic sample that takes one ray in `stride`. The offset is uniform over [0, 1). The last
 // sum may round up to `rays`.
 [[nodiscard]] std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays);

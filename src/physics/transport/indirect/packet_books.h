@@ -1,6 +1,7 @@
 #pragma once
 // The books of an indirect pass: where quanta landed, what surfaces absorbed, what passed the planes, and what waits where.
 
+#include "physics/transport/indirect/arrivals.h"
 #include "physics/transport/indirect/indirect_scene.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/indirect/scattering.h"
@@ -14,13 +15,6 @@
 
 namespace sunfleck {
 
-// The start and the ray that lead to a landing.
-struct Way {
-  std::int32_t from_level = 0;  // as EmissionPoint::level
-  std::size_t from_zone = 0;    // among the receivers
-  const shared::Packet& packet;
-};
-
 // The sums of one pass, and the flux that waits at each level and between the receivers. What waits there and what packets take along is
 // counted apart from the landings, so that no flux is created where drawing moves it.
 class PacketBooks {
@@ -32,21 +26,9 @@ class PacketBooks {
   void book_only(ColumnRange columns) { booked_ = columns; }
   [[nodiscard]] ColumnRange booked() const { return booked_; }
 
-  [[nodiscard]] Way way_from_above(const shared::Packet& ray) const;
-  [[nodiscard]] Way way_from(const EmissionPoint& place, const shared::Packet& packet) const;
-
-  // Books what a packet takes along from the place where it waited.
-  void leave(const EmissionPoint& place, std::span<const std::int64_t> quanta);
-  // Books what a ray or packet carries to its end, and adds to `next` what then waits there. `u` is that of EmissionPoint.
-  void land(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
-            WaitingFlux& next);
-  // Books quanta that only pass the receivers.
-  void pass_receivers(const shared::Landing& landing, const Way& way, std::span<const std::int64_t> quanta);
-
-  // Returns the place of a landing on an element or the ground, from which the flux that it scatters is shot.
-  [[nodiscard]] EmissionPoint place_of(const shared::Landing& landing, std::uint32_t u) const;
-  // Returns the zone of a place among the receivers, of which there must be some.
-  [[nodiscard]] std::size_t zone_of(const EmissionPoint& place) const;
+  // Books what rays and packets carry from where it waited to their ends, and adds to `next` what then waits there. The threads of the
+  // run share the work.
+  void book(const ArrivalBatch& batch, WaitingFlux& next);
 
   // Adds quanta that wait at a place although they did not land there.
   void add_waiting(std::size_t level_index, std::size_t column, std::int64_t quanta) {
@@ -72,12 +54,14 @@ class PacketBooks {
   void close();
 
  private:
-  void land_on_element(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
-                       WaitingFlux& next);
-  void land_on_soil(const shared::Landing& landing, const Way& way, std::uint32_t u, std::span<const std::int64_t> quanta,
-                    WaitingFlux& next);
-  void scatter(const EmissionPoint& place, Role role, std::span<const std::int64_t> quanta, WaitingFlux& next);
-  void pass(const shared::Landing& landing, const Way& way, int to_level, std::span<const std::int64_t> quanta);
+  // The parts of book(). No two of them change the same sums.
+  void book_sides(const ArrivalBatch& batch);
+  void book_surfaces(const ArrivalBatch& batch);
+  void book_layers(const ArrivalBatch& batch);
+  void book_receivers(const ArrivalBatch& batch);
+  void scatter(const ArrivalBatch& batch, WaitingFlux& next);
+
+  void end(const Arrival& arrival, std::span<const std::int64_t> quanta);
   void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const;
 
   const IndirectScene& scene_;

@@ -1,6 +1,10 @@
 #include "physics/transport/indirect/packet_draw.h"
 
+#include "base/in_blocks.h"
+
 #include <algorithm>
+#include <mutex>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -11,6 +15,9 @@ constexpr std::uint64_t least_packets = 256;
 constexpr std::uint64_t least_of_column = std::uint64_t{16} << 32U;
 // A sum of expectations below this draws nothing.
 constexpr std::uint64_t least_sum = std::uint64_t{1} << 20U;
+// Sides and packets that a thread takes at a time.
+constexpr std::size_t sides_per_block = 4096;
+constexpr std::size_t packets_per_block = 4096;
 // StandAim::packets_per_flux is at least 2^-aim_bits.
 constexpr unsigned aim_bits = StandAim::least_bits;
 
@@ -34,7 +41,8 @@ void PacketDraw::draw(const WaitingFlux& places, ColumnRange columns, std::span<
                       std::uint64_t offset) {
   columns_ = columns;
   set_scales(totals);
-  take(expect(places), offset);
+  expect(places);
+  take(offset);
   weigh(places, totals);
 }
 
@@ -64,55 +72,84 @@ std::uint64_t PacketDraw::expectation(const EmissionPoint& place, std::span<cons
   return std::max(sum, columns::largest_scaled(quanta, sent, least_, columns_.first));
 }
 
-// Returns the sum of all expectations before aiming.
-std::uint64_t PacketDraw::expect(const WaitingFlux& places) {
+// Sums the expectations within each block, and those of all blocks before it.
+void PacketDraw::expect(const WaitingFlux& places) {
   arrays_.up_to.resize(2 * places.size());
-  std::uint64_t unaimed = 0, sum = 0;
-  std::size_t number = 0;
-  for (const std::size_t side : {0, 1}) {
-    for (std::size_t k = 0; k < places.size(); ++k, ++number) {
+  before_.assign(block_count(arrays_.up_to.size(), sides_per_block) + 1, {});
+  in_blocks(arrays_.up_to.size(), sides_per_block, [&](std::size_t block, std::size_t first, std::size_t end) {
+    BlockSums sums;
+    for (std::size_t number = first; number < end; ++number) {
+      const std::size_t side = number < places.size() ? 0 : 1;
+      const std::size_t k = number - side * places.size();
       const EmissionPoint& place = places.place(k);
       if (scattering_.sends(place, side)) {
         const std::uint64_t expected = expectation(place, places.quanta(k, columns_), side);
-        unaimed += expected;
-        sum += aim_ == nullptr ? expected : shared::part_of(expected, aim_of(place), 0);
+        sums.unaimed += expected;
+        sums.aimed += aim_ == nullptr ? expected : shared::part_of(expected, aim_of(place), 0);
       }
-      arrays_.up_to[number] = sum;
+      arrays_.up_to[number] = sums.aimed;
     }
+    before_[block] = sums;
+  });
+  BlockSums sums;
+  for (BlockSums& block : before_) {
+    sums.aimed += std::exchange(block.aimed, sums.aimed);
+    sums.unaimed += std::exchange(block.unaimed, sums.unaimed);
   }
-  return unaimed;
 }
 
-void PacketDraw::take(std::uint64_t unaimed, std::uint64_t offset) {
+void PacketDraw::take(std::uint64_t offset) {
   arrays_.number.clear();
-  const std::uint64_t sum = arrays_.up_to.empty() ? 0 : arrays_.up_to.back();
+  const auto [sum, unaimed] = before_.back();
   if (sum < least_sum) return;
   if (first_round_ && aim_ != nullptr) pace_ = shared::long_quotient(unaimed >> 32U, unaimed << 32U, sum);
   first_round_ = false;
   const std::uint64_t gain = std::max(pace_, shared::long_quotient(least_packets, 0, sum) + 1);
-  std::uint64_t taken = 0;
-  for (std::size_t k = 0; k < arrays_.up_to.size(); ++k) {
+  arrays_.number.resize(shared::drawn_up_to(sum, gain, offset));
+  in_blocks(arrays_.up_to.size(), sides_per_block, [&](std::size_t block, std::size_t first, std::size_t end) {
+    take_block(before_[block].aimed, gain, offset, first, end);
+  });
+}
+
+// Completes the sums of a block, and numbers the sides of the packets that are drawn from it.
+void PacketDraw::take_block(std::uint64_t before, std::uint64_t gain, std::uint64_t offset, std::size_t first,
+                            std::size_t end) {
+  std::uint64_t taken = shared::drawn_up_to(before, gain, offset);
+  for (std::size_t k = first; k < end; ++k) {
+    arrays_.up_to[k] += before;
     const std::uint64_t up_to = shared::drawn_up_to(arrays_.up_to[k], gain, offset);
-    for (; taken < up_to; ++taken) arrays_.number.push_back(static_cast<std::uint32_t>(k));
+    for (; taken < up_to; ++taken) arrays_.number[taken] = static_cast<std::uint32_t>(k);
   }
 }
 
 void PacketDraw::weigh(const WaitingFlux& places, std::span<const std::int64_t> totals) {
   arrays_.weight.resize(packets() * columns_.count);
   std::fill(weights_.begin(), weights_.end(), 0);
+  std::mutex joining;
+  in_blocks(packets(), packets_per_block, [&](std::size_t, std::size_t first, std::size_t end) {
+    std::vector<std::uint64_t> weights(weights_.size());
+    weigh_block(places, first, end, weights);
+    const std::lock_guard lock(joining);
+    for (std::size_t c = 0; c < weights.size(); ++c) weights_[c] += weights[c];
+  });
+  for (std::size_t c = columns_.first; c < columns_.first + columns_.count; ++c) {
+    loads_.set(c, shared::load_of(static_cast<std::uint64_t>(totals[c]), weights_[c]));
+  }
+}
+
+// Adds the weights of the packets from `first` to `end`.
+void PacketDraw::weigh_block(const WaitingFlux& places, std::size_t first, std::size_t end,
+                             std::vector<std::uint64_t>& weights) {
   shared::Sharing sharing{};
-  for (std::size_t p = 0; p < packets(); ++p) {
+  for (std::size_t p = first; p < end; ++p) {
     const std::uint32_t number = arrays_.number[p];
-    if (p == 0 || number != arrays_.number[p - 1]) {
+    if (p == first || number != arrays_.number[p - 1]) {
       const std::uint64_t before = number > 0 ? arrays_.up_to[number - 1] : 0;
       sharing = shared::sharing_of(arrays_.up_to[number] - before, aim_ == nullptr ? 0 : aim_bits);
     }
     const PacketSource from = source(p);
     columns::weigh(places.quanta(from.place, columns_), scattering_.sent(places.place(from.place), from.side), scales_,
-                   columns_.first, sharing, &arrays_.weight[p * columns_.count], weights_.data());
-  }
-  for (std::size_t c = columns_.first; c < columns_.first + columns_.count; ++c) {
-    loads_.set(c, shared::load_of(static_cast<std::uint64_t>(totals[c]), weights_[c]));
+                   columns_.first, sharing, &arrays_.weight[p * columns_.count], weights.data());
   }
 }
 

@@ -30,6 +30,8 @@ struct DrawArrays {
 // landing next to each other, the same side would be taken every time when a landing's expectation is one packet (rho + tau = 1). A
 // packet stands for what its side sends divided by the number of packets expected from it; each column is then scaled so that all packets
 // together carry its total. (Scaling level by level would be biased, since it would be a ratio of a few packets each.)
+//
+// The threads of the run share each step. Sums of expectations are made in blocks: within each, then over the blocks, then of both.
 class PacketDraw {
  public:
   // A first round of all flux in `start`, [column], has about `packets` packets; each column that has any counts alike. `aim` is null if
@@ -56,10 +58,17 @@ class PacketDraw {
   }
 
  private:
+  // Sums of expectations.
+  struct BlockSums {
+    std::uint64_t aimed = 0, unaimed = 0;
+  };
+
   void set_scales(std::span<const std::int64_t> totals);
-  std::uint64_t expect(const WaitingFlux& places);
-  void take(std::uint64_t unaimed, std::uint64_t offset);
+  void expect(const WaitingFlux& places);
+  void take(std::uint64_t offset);
+  void take_block(std::uint64_t before, std::uint64_t gain, std::uint64_t offset, std::size_t first, std::size_t end);
   void weigh(const WaitingFlux& places, std::span<const std::int64_t> totals);
+  void weigh_block(const WaitingFlux& places, std::size_t first, std::size_t end, std::vector<std::uint64_t>& weights);
   [[nodiscard]] std::uint64_t expectation(const EmissionPoint& place, std::span<const std::int64_t> quanta,
                                           std::size_t side) const;
   [[nodiscard]] std::uint64_t aim_of(const EmissionPoint& place) const;
@@ -74,6 +83,7 @@ class PacketDraw {
   bool any_least_ = false;
   FactorColumns loads_;
   std::vector<std::uint64_t> weights_;  // [column], sums over all packets
+  std::vector<BlockSums> before_;       // [block], of all earlier blocks; the last element is of all blocks
   // Packets drawn for each one expected, in units of 2^-32. Aiming takes packets from the first round, which this makes up for.
   std::uint64_t pace_ = std::uint64_t{1} << 32U;
   bool first_round_ = true;

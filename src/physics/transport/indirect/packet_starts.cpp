@@ -1,9 +1,8 @@
 #include "physics/transport/indirect/packet_starts.h"
 
+#include "base/in_blocks.h"
+#include "base/prefetch.h"
 #include "shared/emission.h"
-
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 namespace sunfleck {
 namespace {
@@ -18,9 +17,18 @@ constexpr std::uint32_t lamp_step_v = 0x49d07e62U;
 }  // namespace
 
 void PacketStarts::write(std::size_t first, std::span<shared::Packet> packets) const {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 1024), [&](const auto& range) {
-    for (std::size_t p = range.begin(); p < range.end(); ++p) packets[p] = start(first + p);
+  constexpr std::size_t block_size = 1024;
+  in_blocks(packets.size(), block_size, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (p + prefetch_ahead < end) prefetch_start(first + p + prefetch_ahead);
+      packets[p] = start(first + p);
+    }
   });
+}
+
+void PacketStarts::prefetch_start(std::size_t packet) const {
+  const std::uint32_t surface = places_.place(draw_.source(packet).place).surface;
+  if (surface < shared::landed_on_ground) canopy_.corners.prefetch(surface / 2);
 }
 
 shared::Packet PacketStarts::start(std::size_t packet) const {

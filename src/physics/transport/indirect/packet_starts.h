@@ -27,6 +27,7 @@ class PacketStarts {
   void write(std::size_t first, std::span<shared::Packet> packets) const;
 
  private:
+  void prefetch_start(std::size_t packet) const;
   [[nodiscard]] shared::Packet start(std::size_t packet) const;
 
   const Canopy& canopy_;

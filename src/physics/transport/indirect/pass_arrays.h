@@ -2,7 +2,9 @@
 // The large arrays of an indirect pass. The next pass uses them again, so that their memory is not fetched anew from the system for
 // each replicate: that took an eighth of the processor time of runs with millions of packets.
 
+#include "physics/transport/indirect/arrivals.h"
 #include "physics/transport/indirect/packet_draw.h"
+#include "physics/transport/indirect/place_sums.h"
 #include "physics/transport/indirect/waiting_flux.h"
 #include "shared/layout.h"
 
@@ -32,7 +34,9 @@ struct PassArrays {
   DrawArrays draw;
   std::vector<shared::Packet> packets;    // a part of a round
   std::vector<shared::Landing> landings;  // of these packets
-  std::size_t sides_landed = 0;           // for how many sides the sums of the last pass had rows
+  std::vector<Arrival> arrivals;          // some of their ends, and what they carry there, [arrival * columns + column]
+  std::vector<std::int64_t> carried;
+  PlaceSums::Extent sides_landed;  // of the last pass
 };
 
 // Lends arrays to passes that run at the same time.

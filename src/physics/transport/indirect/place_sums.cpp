@@ -15,8 +15,11 @@ constexpr std::size_t list_part = 4;
 
 }  // namespace
 
-PlaceSums::PlaceSums(std::size_t places, std::size_t width, const PlaceSums& like) : PlaceSums(places, width) {
-  if (form_ == Form::list && (like.form_ == Form::all || like.at_.size() > most_entries_of_list())) {
+PlaceSums::PlaceSums(std::size_t places, std::size_t width, const Extent& like) : PlaceSums(places, width) {
+  if (form_ == Form::indexed) {
+    at_.reserve(like.entries);
+    rows_.reserve(like.entries * width_);
+  } else if (like.all || like.entries > most_entries_of_list()) {
     form_ = Form::all;
     all_.resize(size());
   }
@@ -25,12 +28,6 @@ PlaceSums::PlaceSums(std::size_t places, std::size_t width, const PlaceSums& lik
 std::size_t PlaceSums::bytes() const {
   return (at_.capacity() + entry_at_.capacity()) * sizeof(std::uint32_t) +
          (rows_.capacity() + all_.capacity()) * sizeof(std::int64_t);
-}
-
-void PlaceSums::reserve(std::size_t places) {
-  if (form_ != Form::indexed) return;
-  at_.reserve(std::min(places_, places));
-  rows_.reserve(std::min(places_, places) * width_);
 }
 
 double PlaceSums::likely_bytes(double list_bytes, double all_bytes) {

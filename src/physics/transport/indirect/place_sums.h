@@ -27,16 +27,17 @@ class PlaceSums {
   PlaceSums(std::size_t places, std::size_t width)
       : places_(places), width_(width), form_(width < least_indexed_width ? Form::list : Form::indexed) {}
 
-  // Does the same, ready for as many places as `like` holds.
-  PlaceSums(std::size_t places, std::size_t width, const PlaceSums& like);
+  // How much sums hold: all of them, or rows or entries in another form.
+  struct Extent {
+    bool all = false;
+    std::size_t entries = 0;
+  };
+  // Does the same, ready for as much as other sums of the same width held in the end.
+  PlaceSums(std::size_t places, std::size_t width, const Extent& like);
+  [[nodiscard]] Extent extent() const { return {form_ == Form::all, at_.size()}; }
 
   // Returns the number of sums, places times width.
   [[nodiscard]] std::size_t size() const { return places_ * width_; }
-
-  // Makes room for rows of as many places, if these are wide sums.
-  void reserve(std::size_t places);
-  // Returns the number of rows or entries that are kept; 0 in the form of all sums.
-  [[nodiscard]] std::size_t entries() const { return at_.size(); }
 
   // Returns the memory taken, in bytes.
   [[nodiscard]] std::size_t bytes() const;
@@ -46,6 +47,11 @@ class PlaceSums {
 
   // Adds `values` to the sums of the place, one for each from number `first` on. Narrow sums take all of them.
   void add(std::size_t place, std::span<const std::int64_t> values, std::size_t first = 0);
+
+  // Asks for the memory of the sums of a place.
+  void prefetch(std::size_t place) const {
+    if (form_ == Form::all) sunfleck::prefetch(all_[place * width_]);
+  }
 
   // Adds the sums of `other`, which has as many, or none.
   void add(const PlaceSums& other);
@@ -141,9 +147,6 @@ class PlaceSums {
     return std::span(rows).subspan(number * width_, width_);
   }
 
-  void prefetch(std::size_t place) const {
-    if (form_ == Form::all) sunfleck::prefetch(all_[place * width_]);
-  }
   void append(std::size_t place, std::span<const std::int64_t> values);
   void append_row(std::size_t place);
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places

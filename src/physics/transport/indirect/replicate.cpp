@@ -75,8 +75,8 @@ std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights) 
   dealt.assign(lights, joint);
   for (std::size_t k = 0; k < lights; ++k) {
     IndirectSums& own = dealt[k];
-    own.side_landed = PlaceSums(sides, own.bands, all.side_landed);
-    if (all.side_sky.size() > 0) own.side_sky = PlaceSums(sides, own.bands, all.side_sky);
+    own.side_landed = PlaceSums(sides, own.bands, all.side_landed.extent());
+    if (all.side_sky.size() > 0) own.side_sky = PlaceSums(sides, own.bands, all.side_sky.extent());
     own.surface_landed = of_light(all.surface_landed, k, lights);
     own.layer_landed = of_light(all.layer_landed, k, lights);
     own.cell_landed = of_light(all.cell_landed, k, lights);

@@ -12,19 +12,24 @@
 
 namespace sunfleck {
 
+// Returns the number of the face of an element.
+[[nodiscard]] inline std::uint32_t face_of(std::size_t optics, std::size_t side) {
+  return static_cast<std::uint32_t>(2 * optics + side);
+}
+// Returns that of the soil plane, which is black without soil.
+[[nodiscard]] inline std::uint32_t soil_face(const RadiationModel& model) {
+  return static_cast<std::uint32_t>(2 * model.optics.size());
+}
+// Returns that of lamps, whose places send all that waits there.
+[[nodiscard]] inline std::uint32_t lamp_face(const RadiationModel& model) {
+  return soil_face(model) + 1;
+}
+
 // The coefficients of all faces, and the sums of one pass.
 class Scattering {
  public:
   Scattering(const RadiationModel& model, std::size_t lights);
 
-  // Returns the number of the face of an element.
-  [[nodiscard]] std::uint32_t face_of(std::size_t optics, std::size_t side) const {
-    return static_cast<std::uint32_t>(2 * optics + side);
-  }
-  // Returns that of the soil plane, which is black without soil.
-  [[nodiscard]] std::uint32_t soil_face() const { return static_cast<std::uint32_t>(faces_.size() - 2); }
-  // Returns that of lamps, whose places send all that waits there.
-  [[nodiscard]] std::uint32_t lamp_face() const { return static_cast<std::uint32_t>(faces_.size() - 1); }
   [[nodiscard]] const FaceColumns& face(std::uint32_t number) const { return faces_[number]; }
 
   // Returns whether what landed at a place leaves from a side, 0 or 1.

@@ -22,7 +22,7 @@ class WaitingFlux {
   // Adds a place. One without quanta is dropped.
   void add(const EmissionPoint& place, std::span<const std::int64_t> quanta);
   // Replaces these places by those of `other`, part by part (shared::place_part); within a part they keep the order in which they were
-  // added. `other` must be cleared before it is used again.
+  // added. `other` must be cleared before it is used again. The threads of the run share the work.
   void take_sorted(WaitingFlux& other);
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
@@ -38,6 +38,8 @@ class WaitingFlux {
   LargeVector<EmissionPoint> places_;  // [place]
   LargeVector<std::int64_t> quanta_;   // [row * columns + column]
   std::vector<std::uint32_t> row_of_;  // [place]; empty if each has the row of its number
+  // Added places have orders, and numbers of cells, below these.
+  std::uint32_t end_of_elements_ = 0, end_of_cells_ = 0;
 };
 
 }  // namespace sunfleck
