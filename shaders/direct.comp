@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 // Each thread follows one beam ray from its grid cell on the incidence plane to its landing, and counts it by one atomic
-// increment.
+// increment. It also writes where the ray landed, if that is asked for.
 
 #include "shared/beam.h"
 #include "shared/layout.h"
@@ -15,8 +15,9 @@ layout(constant_id = 1) const bool has_soil = true;
 
 layout(set = 0, binding = 2, scalar) readonly buffer Beam { BeamBlock beam; };
 layout(set = 0, binding = 3, scalar) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Inbox { uint inbox_count; PausedRay inbox[]; };
-layout(set = 0, binding = 5, scalar) buffer Outbox { uint outbox_count; PausedRay outbox[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer Landings { Landing landings[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer Inbox { uint inbox_count; PausedRay inbox[]; };
+layout(set = 0, binding = 6, scalar) buffer Outbox { uint outbox_count; PausedRay outbox[]; };
 layout(push_constant, scalar) uniform Push { BeamPush push; };
 
 void pause(Ray ray, uint crossings, uint number, bool stuck) {
@@ -24,9 +25,14 @@ void pause(Ray ray, uint crossings, uint number, bool stuck) {
   outbox[place] = PausedRay(ray.origin, crossings, number, stuck ? 1u : 0u);
 }
 
+void record(uint number, Landing landing) {
+  if (push.first_landing != no_landings) landings[number - push.first_landing] = landing;
+}
+
 uint layer_at(float y) { return layer_of(y, beam.layer_base_y, beam.layers_per_metre, beam.layers); }
 
-void count_element(NearestHit hit) {
+void count_element(uint number, NearestHit hit) {
+  record(number, Landing(2u * hit.element + hit.lower, hit.triangle, hit.weight_b, hit.weight_c));
   uvec4 a = TRIANGLE_WORDS(3u * hit.reference);
   uvec4 b = TRIANGLE_WORDS(3u * hit.reference + 1u);
   uvec4 c = TRIANGLE_WORDS(3u * hit.reference + 2u);
@@ -47,10 +53,17 @@ void count_element(NearestHit hit) {
   if (!periodic) atomicAdd(counters[counter_met], 1u);
 }
 
-void count_ground(Ray ray, float t) {
+void count_ground(uint number, Ray ray, float t) {
+  vec2 at = ground_point(ray, t);
+  record(number, Landing(has_soil ? landed_on_ground : left_downwards, 0u, at.x, at.y));
   if (!has_soil) atomicAdd(counters[counter_transmitted], 1u);
-  if (has_soil) atomicAdd(counters[counter_first_cell + soil_cell(beam.ground, ground_point(ray, t))], 1u);
+  if (has_soil) atomicAdd(counters[counter_first_cell + soil_cell(beam.ground, at)], 1u);
   if (!periodic) atomicAdd(counters[counter_met], 1u);
+}
+
+void count_end(uint number, uint counter, uint how) {
+  record(number, Landing(how, 0u, 0.0, 0.0));
+  atomicAdd(counters[counter], 1u);
 }
 
 void follow_in_isolated_stand(Ray ray, uint number) {
@@ -61,11 +74,11 @@ void follow_in_isolated_stand(Ray ray, uint number) {
   if (steps >= steps_in_one_dispatch) {
     pause(ray, 0u, number, true);
   } else if (hit.found) {
-    count_element(hit);
+    count_element(number, hit);
   } else if (over_plot) {
-    count_ground(ray, ground.t);
+    count_ground(number, ray, ground.t);
   } else {
-    atomicAdd(counters[counter_missed], 1u);
+    count_end(number, counter_missed, left_downwards);
   }
 }
 
@@ -81,15 +94,15 @@ void follow_in_endless_canopy(Ray ray, uint crossings, uint number) {
       return;
     }
     if (hit.found) {
-      count_element(hit);
+      count_element(number, hit);
       return;
     }
     if (ground.t <= crossing.t) {
-      count_ground(ray, ground.t);
+      count_ground(number, ray, ground.t);
       return;
     }
     if (++crossings > max_crossings) {
-      atomicAdd(counters[counter_lost], 1u);
+      count_end(number, counter_lost, lost_on_its_way);
       return;
     }
     ray.origin = enter_next_period(ray, crossing, beam.period);

@@ -60,7 +60,9 @@ struct BeamPush {
   uint first;
   uint count;
   uint from_inbox;
+  uint first_landing;  // ray of the first place in the buffer of landings; no_landings if they are not wanted
 };
+const uint no_landings = 0xffffffffu;
 
 // A ray on its way, between two dispatches.
 struct PausedRay {

@@ -18,7 +18,7 @@ using Counters = std::vector<std::uint32_t>;
 Counters one_by_one(const CpuTracer& tracer, const shared::BeamBlock& beam, const CounterLayout& layout) {
   Counters counters(layout.words());
   for (std::uint32_t ray = 0; ray < beam.columns * beam.rows; ++ray) {
-    tracer.finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, counters);
+    tracer.finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, counters, {});
   }
   return counters;
 }

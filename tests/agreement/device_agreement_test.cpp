@@ -1,9 +1,11 @@
-// Tests that the CPU walk, the CPU test of every element, and Vulkan count the same landings, word for word, however the work
-// is cut.
+// Tests that the CPU walk, the CPU test of every element, and Vulkan count and record the same landings, word for word, however the
+// work is cut.
 
+#include "agreement/landings.h"
 #include "agreement/scenes.h"
 #include "devices/tracers/canopy_view.h"
 #include "devices/tracers/vulkan_tracer.h"
+#include "shared/beam.h"
 #include "support/copies.h"
 #include "support/device.h"
 
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace sunfleck::test {
@@ -40,6 +43,15 @@ std::size_t words_apart(const Counters& a, const Counters& b) {
   return apart;
 }
 
+// Returns where the rays of a beam land if they are traced as packets.
+Landings trace_rays(Tracer& tracer, const RadiationModel& model, const CounterLayout& layout, const shared::BeamBlock& beam) {
+  std::vector<shared::Packet> rays;
+  for (std::uint32_t ray = 0; ray < beam.columns * beam.rows; ++ray) {
+    rays.push_back({shared::beam_origin(beam, ray), shared::no_element, beam.direction, 0});
+  }
+  return follow(tracer, make_packet_block(model, layout), rays);
+}
+
 struct Cut {
   TreeFetch fetch;
   VulkanChoices choices;
@@ -47,12 +59,19 @@ struct Cut {
 
 class DeviceAgreement : public DeviceTest {
  protected:
-  [[nodiscard]] Counters count_on_device(const RadiationModel& model, const Prepared& prepared, const shared::BeamBlock& beam,
-                                         Cut cut) const {
+  // Counts the landings of a beam, without and with a record of them.
+  void expect_on_device(const RadiationModel& model, const Prepared& prepared, const shared::BeamBlock& beam, Cut cut,
+                        const Counters& counters, const Landings& landings) const {
+    SCOPED_TRACE("in dispatches of " + std::to_string(cut.choices.rays_per_dispatch));
     const GpuTree tree(context(), prepared.bvh, cut.fetch);
     const auto words = prepared.layout.words();
     VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), words, cut.choices);
-    return count(tracer, beam, prepared.layout);
+    EXPECT_EQ(words_apart(count(tracer, beam, prepared.layout), counters), 0U);
+    Counters counted(words);
+    Landings recorded(landings.size());
+    EXPECT_EQ(tracer.record_beam(beam, counted, recorded, {}), TraceOutcome::finished);
+    EXPECT_EQ(words_apart(counted, counters), 0U);
+    EXPECT_EQ(landings_apart(recorded, landings), 0U);
   }
 
   // Also traces `doubted_rays` rays by testing every element.
@@ -62,10 +81,10 @@ class DeviceAgreement : public DeviceTest {
     const shared::BeamBlock beam = make_beam_block(model, prepared.layout, rays, 1, 0);
     const Counters expected = count(cpu, beam, prepared.layout);
     expect_all_counted(expected, beam, model.plot.periodic);
+    const Landings landings = trace_rays(cpu, model, prepared.layout, beam);
     for (const Cut& cut : {Cut{TreeFetch::texel_buffers, {}}, Cut{TreeFetch::storage_buffers, {1000, 128}},
                            Cut{TreeFetch::texel_buffers, {64, 32}}}) {
-      EXPECT_EQ(words_apart(count_on_device(model, prepared, beam, cut), expected), 0U)
-          << "in dispatches of " << cut.choices.rays_per_dispatch;
+      expect_on_device(model, prepared, beam, cut, expected, landings);
     }
     if (doubted_rays == 0) return;
     const shared::BeamBlock few = make_beam_block(model, prepared.layout, doubted_rays, 2, 0);

@@ -1,6 +1,7 @@
 // Tests that packets land on the same places on the CPU path and on the device, bit by bit, however the work is cut, so that
 // whole runs with scattered light give the same numbers on both.
 
+#include "agreement/landings.h"
 #include "agreement/scenes.h"
 #include "devices/tracers/vulkan_tracer.h"
 #include "physics/transport/indirect/indirect.h"
@@ -12,7 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <vector>
 
 namespace sunfleck::test {
@@ -66,20 +66,6 @@ std::vector<shared::Packet> random_packets(const RadiationModel& model, const Pr
     packets.push_back(packet);
   }
   return packets;
-}
-
-using Landings = std::vector<shared::Landing>;
-
-Landings follow(Tracer& tracer, const shared::PacketBlock& scene, const std::vector<shared::Packet>& packets) {
-  Landings landings(packets.size());
-  EXPECT_TRUE(tracer.trace(scene, packets, landings, {}) == TraceOutcome::finished);
-  return landings;
-}
-
-std::size_t landings_apart(const Landings& a, const Landings& b) {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) count += std::memcmp(&a[k], &b[k], sizeof a[k]) == 0 ? 0 : 1;
-  return count;
 }
 
 class PacketsAgreement : public DeviceTest {

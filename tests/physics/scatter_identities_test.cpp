@@ -4,11 +4,14 @@
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
 #include "support/same_stands.h"
+#include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace sunfleck::test {
@@ -216,6 +219,48 @@ TEST(ScatterIdentities, SameNumbersHoweverManyReplicatesAtOnce) {
 }
 
 // A stopped run keeps the replicates that were complete, in their order; those being traced are discarded.
+// Records where beams land, or does not, so that the rays from which packets start are traced again.
+class RecordingTracer final : public WrappedTracer {
+ public:
+  RecordingTracer(CpuTracer& inner, bool records) : WrappedTracer(inner), inner_(inner), records_(records) {}
+
+  [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                        std::span<shared::Landing> landings,
+                                                        const StopQuestion& stop) override {
+    ++asked_;
+    if (!records_) return std::nullopt;
+    return inner_.record_beam(beam, counters, landings, stop);
+  }
+  [[nodiscard]] int asked() const { return asked_; }
+
+ private:
+  CpuTracer& inner_;
+  bool records_;
+  int asked_ = 0;
+};
+
+TEST(ScatterIdentities, RecordedLandingsAreThoseOfRaysTracedAgain) {
+  constexpr int replicates = 2;
+  constexpr double packets = 2048.0;
+  for (const bool periodic : {true, false}) {
+    RadiationModel model = leafy_model({1.0, 1.5, periodic});
+    if (!periodic) model.soil.reset();
+    const Prepared prepared(model);
+    for (const auto& [rays_per_packet, recorded] : {std::pair{0.8, true}, {1.7, true}, {2.6, false}}) {
+      const SolveSettings settings =
+          fixed_scatter(model, {.rays = rays_per_packet * packets * replicates, .packets = packets, .replicates = replicates});
+      std::vector<std::vector<std::uint64_t>> numbers;
+      for (const bool records : {true, false}) {
+        CpuTracer cpu(prepared.bvh, tracer_scene(model));
+        RecordingTracer tracer(cpu, records);
+        numbers.push_back(all_numbers(solve(model, prepared.layout, tracer, settings, {})));
+        EXPECT_EQ(tracer.asked(), recorded ? replicates : 0) << rays_per_packet << " rays per packet";
+      }
+      EXPECT_TRUE(numbers[0] == numbers[1]) << rays_per_packet << " rays per packet";
+    }
+  }
+}
+
 TEST(ScatterIdentities, StoppedBetweenReplicatesKeepsTheFirstOnes) {
   const RadiationModel model = leafy_model();
   const Prepared prepared(model);

@@ -14,7 +14,12 @@
 namespace sunfleck {
 namespace {
 
-using Origins = std::vector<glm::vec3>;
+// A ray at the place where it enters a period.
+struct Start {
+  glm::vec3 origin_m;
+  std::uint32_t number = 0;  // of the ray
+};
+using Starts = std::vector<Start>;
 
 // Largest distance between a ray and the first of its bundle, in cells of the beam's grid. A square of 4 x 4 cells needs six.
 // Bundles of neighbours with gaps between them are wider; limits of 8 to 20 cells take equally long.
@@ -46,8 +51,8 @@ class Batch {
     bundle_.along = shared::make_ray({}, beam.direction);
   }
 
-  void follow_in_isolated_stand(const Origins& origins) {
-    for (std::span<const glm::vec3> left = origins; !left.empty(); left = left.subspan(bundle_.rays)) {
+  void follow_in_isolated_stand(const Starts& starts) {
+    for (std::span<const Start> left = starts; !left.empty(); left = left.subspan(bundle_.rays)) {
       take_bundle(left);
       look_around_stand();
       nearest_hits(bvh_, bundle_, hits_);
@@ -55,34 +60,37 @@ class Batch {
     }
   }
 
-  void follow_in_endless_canopy(Origins origins) {
-    for (std::uint32_t crossings = 0; !origins.empty(); ++crossings) {
+  void follow_in_endless_canopy(Starts starts) {
+    for (std::uint32_t crossings = 0; !starts.empty(); ++crossings) {
       along_x_.clear();
       along_z_.clear();
-      for (std::span<const glm::vec3> left = origins; !left.empty(); left = left.subspan(bundle_.rays)) {
+      for (std::span<const Start> left = starts; !left.empty(); left = left.subspan(bundle_.rays)) {
         take_bundle(left);
         look_ahead_in_period();
         nearest_hits(bvh_, bundle_, hits_);
         for (std::uint32_t k = 0; k < bundle_.rays; ++k) land_or_cross(k, crossings + 1);
       }
-      origins.swap(along_x_);
-      origins.insert(origins.end(), along_z_.begin(), along_z_.end());
+      starts.swap(along_x_);
+      starts.insert(starts.end(), along_z_.begin(), along_z_.end());
     }
   }
 
  private:
   // Takes the first ray and those of the next that are near it.
-  void take_bundle(std::span<const glm::vec3> origins) {
-    const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(origins.size(), rays_per_bundle));
-    const auto near_first = [&](const glm::vec3& origin) {
-      return distance_squared(origin - origins.front(), bundle_.along.direction) <= widest_squared_;
+  void take_bundle(std::span<const Start> starts) {
+    const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(starts.size(), rays_per_bundle));
+    const auto near_first = [&](const Start& start) {
+      return distance_squared(start.origin_m - starts.front().origin_m, bundle_.along.direction) <= widest_squared_;
     };
     bundle_.rays = 0;
     do {
-      bundle_.origins[bundle_.rays] = origins[bundle_.rays];
+      bundle_.origins[bundle_.rays] = starts[bundle_.rays].origin_m;
       ++bundle_.rays;
-    } while (bundle_.rays < most && near_first(origins[bundle_.rays]));
+    } while (bundle_.rays < most && near_first(starts[bundle_.rays]));
+    starts_ = starts;
   }
+
+  [[nodiscard]] std::uint32_t number(std::uint32_t k) const { return starts_[k].number; }
 
   [[nodiscard]] shared::Ray ray(std::uint32_t k) const {
     shared::Ray result = bundle_.along;
@@ -100,11 +108,11 @@ class Batch {
 
   void land_in_isolated_stand(std::uint32_t k) const {
     if (hits_[k].found) {
-      landings_.count_element(hits_[k]);
+      landings_.count_element(number(k), hits_[k]);
     } else if (ways_.over_plot[k]) {
-      landings_.count_ground(ray(k), ways_.ground[k].t);
+      landings_.count_ground(number(k), ray(k), ways_.ground[k].t);
     } else {
-      landings_.count(shared::counter_missed);
+      landings_.count_missed(number(k));
     }
   }
 
@@ -119,13 +127,14 @@ class Batch {
   void land_or_cross(std::uint32_t k, std::uint32_t crossings) {
     const shared::Crossing& crossing = ways_.crossing[k];
     if (hits_[k].found) {
-      landings_.count_element(hits_[k]);
+      landings_.count_element(number(k), hits_[k]);
     } else if (ways_.ground[k].t <= crossing.t) {
-      landings_.count_ground(ray(k), ways_.ground[k].t);
+      landings_.count_ground(number(k), ray(k), ways_.ground[k].t);
     } else if (crossings > shared::max_crossings) {
-      landings_.count(shared::counter_lost);
+      landings_.count_lost(number(k));
     } else {
-      (crossing.along_x ? along_x_ : along_z_).push_back(shared::enter_next_period(ray(k), crossing, beam_.period));
+      Starts& going_on = crossing.along_x ? along_x_ : along_z_;
+      going_on.push_back({shared::enter_next_period(ray(k), crossing, beam_.period), number(k)});
     }
   }
 
@@ -136,21 +145,22 @@ class Batch {
   RayBundle bundle_;
   BundleHits hits_;
   Ways ways_;
-  Origins along_x_, along_z_;  // rays that go on in the next period, by the border that they cross
+  std::span<const Start> starts_;  // the rays of the bundle, and more
+  Starts along_x_, along_z_;       // rays that go on in the next period, by the border that they cross
 };
 
 }  // namespace
 
 void count_in_bundles(const Bvh& bvh, TraceDomain domain, const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end,
                       const LandingCounter& landings) {
-  Origins origins;
-  origins.reserve(end - first);
-  for (std::uint32_t ray = first; ray < end; ++ray) origins.push_back(shared::beam_origin(beam, ray));
+  Starts starts;
+  starts.reserve(end - first);
+  for (std::uint32_t ray = first; ray < end; ++ray) starts.push_back({shared::beam_origin(beam, ray), ray});
   Batch batch(bvh, beam, landings);
   if (domain.periodic) {
-    batch.follow_in_endless_canopy(std::move(origins));
+    batch.follow_in_endless_canopy(std::move(starts));
   } else {
-    batch.follow_in_isolated_stand(origins);
+    batch.follow_in_isolated_stand(starts);
   }
 }
 

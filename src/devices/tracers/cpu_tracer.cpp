@@ -72,47 +72,60 @@ CpuHit CpuTracer::nearest(const shared::Ray& ray, float limit, OwnElement own) c
   return walk_ == CpuWalk::tree ? nearest_hit(bvh_, ray, limit, Images::all, own) : nearest_hit_of_all(bvh_, ray, limit, own);
 }
 
-void CpuTracer::follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray,
+void CpuTracer::follow_in_isolated_stand(const shared::BeamBlock& beam, std::uint32_t number, const shared::Ray& ray,
                                          const LandingCounter& landings) const {
   const shared::Ground ground = shared::meet_ground(ray, beam.ground);
   const bool over_plot = shared::falls_on_plot(ray, beam.ground);
   const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F);
   if (hit.found) {
-    landings.count_element(hit);
+    landings.count_element(number, hit);
   } else if (over_plot) {
-    landings.count_ground(ray, ground.t);
+    landings.count_ground(number, ray, ground.t);
   } else {
-    landings.count(shared::counter_missed);
+    landings.count_missed(number);
   }
 }
 
-void CpuTracer::follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
-                                         const LandingCounter& landings) const {
+void CpuTracer::follow_in_endless_canopy(const shared::BeamBlock& beam, std::uint32_t number, shared::Ray ray,
+                                         std::uint32_t crossings, const LandingCounter& landings) const {
   while (true) {
     const shared::Ground ground = shared::meet_ground(ray, beam.ground);
     const shared::Crossing crossing = shared::next_crossing(ray, beam.period, beam.overlap);
     const CpuHit hit = nearest(ray, ground.limit < crossing.limit ? ground.limit : crossing.limit);
-    if (hit.found) return landings.count_element(hit);
-    if (ground.t <= crossing.t) return landings.count_ground(ray, ground.t);
-    if (++crossings > shared::max_crossings) return landings.count(shared::counter_lost);
+    if (hit.found) return landings.count_element(number, hit);
+    if (ground.t <= crossing.t) return landings.count_ground(number, ray, ground.t);
+    if (++crossings > shared::max_crossings) return landings.count_lost(number);
     ray.origin = shared::enter_next_period(ray, crossing, beam.period);
   }
 }
 
+void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters,
+                           std::span<shared::Landing> landings) const {
+  finish_ray(beam, paused, LandingCounter(bvh_, domain_, beam, counters, landings));
+}
+
 void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused,
-                           std::span<std::uint32_t> counters) const {
+                           const LandingCounter& landings) const {
   const shared::Ray ray = shared::make_ray(paused.origin, beam.direction);
-  const LandingCounter landings(bvh_, domain_, beam, counters);
   if (domain_.periodic) {
-    follow_in_endless_canopy(beam, ray, paused.crossings, landings);
+    follow_in_endless_canopy(beam, paused.ray, ray, paused.crossings, landings);
   } else {
-    follow_in_isolated_stand(beam, ray, landings);
+    follow_in_isolated_stand(beam, paused.ray, ray, landings);
   }
 }
 
 TraceOutcome CpuTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters, const StopQuestion& stop) {
+  return count_landings(beam, LandingCounter(bvh_, domain_, beam, counters, {}), stop);
+}
+
+std::optional<TraceOutcome> CpuTracer::record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                   std::span<shared::Landing> landings, const StopQuestion& stop) {
+  return count_landings(beam, LandingCounter(bvh_, domain_, beam, counters, landings), stop);
+}
+
+TraceOutcome CpuTracer::count_landings(const shared::BeamBlock& beam, const LandingCounter& landings,
+                                       const StopQuestion& stop) {
   const std::uint32_t rays = beam.columns * beam.rows;
-  const LandingCounter landings(bvh_, domain_, beam, counters);
   for (std::uint32_t first = 0; first < rays;) {
     if (stop && stop()) return TraceOutcome::stopped;
     const DispatchClock clock;
@@ -120,7 +133,7 @@ TraceOutcome CpuTracer::count_beam(const shared::BeamBlock& beam, std::span<std:
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, rays_per_batch), [&](const auto& range) {
       if (walk_ == CpuWalk::tree) return count_in_bundles(bvh_, domain_, beam, range.begin(), range.end(), landings);
       for (std::uint32_t ray = range.begin(); ray < range.end(); ++ray) {
-        finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, counters);
+        finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, landings);
       }
     });
     beam_budget_.record_duration(end - first, clock.seconds());

@@ -28,7 +28,8 @@ class CpuTracer final : public Tracer {
   [[nodiscard]] bool serves_several() const override { return true; }
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                         const StopQuestion& stop) override;
-
+  [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                        std::span<shared::Landing> landings, const StopQuestion& stop) override;
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
 
@@ -36,13 +37,17 @@ class CpuTracer final : public Tracer {
   [[nodiscard]] shared::Landing follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
                                               std::uint32_t crossings) const;
 
-  // Follows one paused ray to its end and counts its landing.
-  void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters) const;
+  // Follows one paused ray to its end and counts its landing; `landings` is that of record_beam, or empty.
+  void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters,
+                  std::span<shared::Landing> landings) const;
 
  private:
+  TraceOutcome count_landings(const shared::BeamBlock& beam, const LandingCounter& landings, const StopQuestion& stop);
+  void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, const LandingCounter& landings) const;
   [[nodiscard]] CpuHit nearest(const shared::Ray& ray, float limit, OwnElement own = {}) const;
-  void follow_in_isolated_stand(const shared::BeamBlock& beam, const shared::Ray& ray, const LandingCounter& landings) const;
-  void follow_in_endless_canopy(const shared::BeamBlock& beam, shared::Ray ray, std::uint32_t crossings,
+  void follow_in_isolated_stand(const shared::BeamBlock& beam, std::uint32_t number, const shared::Ray& ray,
+                                const LandingCounter& landings) const;
+  void follow_in_endless_canopy(const shared::BeamBlock& beam, std::uint32_t number, shared::Ray ray, std::uint32_t crossings,
                                 const LandingCounter& landings) const;
 
   const Bvh& bvh_;

@@ -24,6 +24,11 @@ struct CpuHit {
   std::uint32_t copy = 0;       // the node of the copy, in a tree with copies
 };
 
+// Returns where a ray with that hit lands.
+[[nodiscard]] inline shared::Landing landing_of(const CpuHit& hit) {
+  return {2 * hit.element + hit.lower, hit.triangle, hit.weight_b, hit.weight_c};
+}
+
 // Selects elements at their own place only, or also their copies that extend into the period.
 enum class Images { all, originals };
 

@@ -11,7 +11,18 @@ void LandingCounter::count(std::uint32_t counter) const {
   std::atomic_ref<std::uint32_t>(counters_[counter]).fetch_add(1, std::memory_order_relaxed);
 }
 
-void LandingCounter::count_element(const CpuHit& hit) const {
+void LandingCounter::count_missed(std::uint32_t number) const {
+  count(shared::counter_missed);
+  record(number, {shared::left_downwards, 0, 0.0F, 0.0F});
+}
+
+void LandingCounter::count_lost(std::uint32_t number) const {
+  count(shared::counter_lost);
+  record(number, {shared::lost_on_its_way, 0, 0.0F, 0.0F});
+}
+
+void LandingCounter::count_element(std::uint32_t number, const CpuHit& hit) const {
+  record(number, landing_of(hit));
   const BvhTriangle& reference = bvh_.triangles[hit.reference];
   const auto layer_at = [&](float y) { return shared::layer_of(y, beam_.layer_base_y, beam_.layers_per_metre, beam_.layers); };
   if (bvh_.copies.empty()) {
@@ -29,9 +40,11 @@ void LandingCounter::count_element(const CpuHit& hit) const {
   if (!domain_.periodic) count(shared::counter_met);
 }
 
-void LandingCounter::count_ground(const shared::Ray& ray, float t) const {
+void LandingCounter::count_ground(std::uint32_t number, const shared::Ray& ray, float t) const {
+  const glm::vec2 at = shared::ground_point(ray, t);
+  record(number, {domain_.has_soil ? shared::landed_on_ground : shared::left_downwards, 0, at.x, at.y});
   if (domain_.has_soil) {
-    count(shared::counter_first_cell + shared::soil_cell(beam_.ground, shared::ground_point(ray, t)));
+    count(shared::counter_first_cell + shared::soil_cell(beam_.ground, at));
   } else {
     count(shared::counter_transmitted);
   }

@@ -1,5 +1,6 @@
 #pragma once
-// Counts where the beam rays of one replicate end on the CPU path. Any number of threads may count in the same counters.
+// Counts where the beam rays of one replicate end on the CPU path, and records it where that is asked for. Any number of threads may
+// count in the same counters.
 
 #include "devices/tracers/cpu_walk.h"
 #include "devices/tracers/trace_domain.h"
@@ -13,21 +14,30 @@ namespace sunfleck {
 
 class LandingCounter {
  public:
-  // All of them must outlive the counter.
-  LandingCounter(const Bvh& bvh, TraceDomain domain, const shared::BeamBlock& beam, std::span<std::uint32_t> counters)
-      : bvh_(bvh), domain_(domain), beam_(beam), counters_(counters) {}
+  // All of them must outlive the counter. `landings` is [ray], or empty if they are not wanted.
+  LandingCounter(const Bvh& bvh, TraceDomain domain, const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                 std::span<shared::Landing> landings)
+      : bvh_(bvh), domain_(domain), beam_(beam), counters_(counters), landings_(landings) {}
 
-  void count_element(const CpuHit& hit) const;
+  // Here and below, `number` is that of the ray.
+  void count_element(std::uint32_t number, const CpuHit& hit) const;
   // Counts a ray that meets the ground at `t`.
-  void count_ground(const shared::Ray& ray, float t) const;
-  // Counts a ray that ends elsewhere; `counter` is one of shared::counter_missed and its neighbours.
-  void count(std::uint32_t counter) const;
+  void count_ground(std::uint32_t number, const shared::Ray& ray, float t) const;
+  // Counts a ray that meets neither an element nor the plot's ground, or one that is given up.
+  void count_missed(std::uint32_t number) const;
+  void count_lost(std::uint32_t number) const;
 
  private:
+  void count(std::uint32_t counter) const;
+  void record(std::uint32_t number, const shared::Landing& landing) const {
+    if (!landings_.empty()) landings_[number] = landing;
+  }
+
   const Bvh& bvh_;
   TraceDomain domain_;
   const shared::BeamBlock& beam_;
   std::span<std::uint32_t> counters_;
+  std::span<shared::Landing> landings_;
 };
 
 }  // namespace sunfleck

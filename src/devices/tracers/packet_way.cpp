@@ -27,7 +27,7 @@ void PacketWay::look_ahead() {
 }
 
 bool PacketWay::goes_on(const CpuHit& hit) {
-  if (hit.found) return land({2 * hit.element + hit.lower, hit.triangle, hit.weight_b, hit.weight_c});
+  if (hit.found) return land(landing_of(hit));
   if (!domain_.periodic || end_.t <= crossing_.t) {
     if (!over_plot_) return land({down_ ? shared::left_downwards : shared::left_upwards, 0, 0.0F, 0.0F});
     const glm::vec2 at = shared::ground_point(search_.ray, end_.t);

@@ -46,13 +46,12 @@ class PausedWork {
   // Returns how many rays fit one dispatch at the moment.
   [[nodiscard]] std::uint32_t rays_per_dispatch() const { return budget_.rays(); }
 
-  // Traces the rays `first` to `first + count - 1` to their end; `buffers` are those of the shader. before(submission) brings the
-  // device what the rays need. after(submission) takes from it what they left, each time that rays paused anew; the last time counts.
-  // Those that took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
+  // Traces the rays that `push` describes to their end; `buffers` are those of the shader. before(submission) brings the device what
+  // the rays need. after(submission) takes from it what they left, each time that rays paused anew; the last time counts. Those that
+  // took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
   template <class Before, class After, class Finish>
-  TraceOutcome run(std::uint32_t first, std::uint32_t count, const std::vector<const GpuBuffer*>& buffers,
-                   const StopQuestion& stop, const Before& before, const After& after, const Finish& finish_on_cpu) {
-    Push push{first, count, 0};
+  TraceOutcome run(Push push, const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop, const Before& before,
+                   const After& after, const Finish& finish_on_cpu) {
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
       const DispatchClock clock;
@@ -60,7 +59,9 @@ class PausedWork {
       if (push.from_inbox == 0) before(submission);
       const std::uint32_t paused = dispatch(push, buffers, submission, after);
       budget_.record_duration(push.count, clock.seconds());
-      push = {0, paused == 0 ? 0 : take_out_stuck(paused, finish_on_cpu), 1};
+      push.first = 0;
+      push.count = paused == 0 ? 0 : take_out_stuck(paused, finish_on_cpu);
+      push.from_inbox = 1;
       std::swap(inbox_, outbox_);
     }
     return TraceOutcome::finished;

@@ -18,17 +18,36 @@ void RememberedBeams::forget() {
   bytes_ = 0;
 }
 
+const RememberedBeams::Beam* RememberedBeams::find(const shared::BeamBlock& beam) const {
+  const auto known = std::find_if(beams_.begin(), beams_.end(), [&](const Beam& one) { return same(one.block, beam); });
+  return known == beams_.end() ? nullptr : &*known;
+}
+
 TraceOutcome RememberedBeams::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                          const StopQuestion& stop) {
-  const auto known = std::find_if(beams_.begin(), beams_.end(), [&](const Beam& one) { return same(one.block, beam); });
-  if (known != beams_.end()) {
+  if (const Beam* const known = find(beam)) {
     for (const auto& [word, count] : known->landed) counters[word] += count;
     ++spared_;
     return TraceOutcome::finished;
   }
-  if (!beams_.empty() && beams_.front().block.direction != beam.direction) forget();
   counted_.assign(counters.size(), 0);
-  if (tracer_.count_beam(beam, counted_, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
+  const TraceOutcome outcome = tracer_.count_beam(beam, counted_, stop);
+  if (outcome == TraceOutcome::finished) take_counted(beam, counters);
+  return outcome;
+}
+
+std::optional<TraceOutcome> RememberedBeams::record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                         std::span<shared::Landing> landings, const StopQuestion& stop) {
+  if (find(beam) != nullptr) return std::nullopt;
+  counted_.assign(counters.size(), 0);
+  const std::optional<TraceOutcome> outcome = tracer_.record_beam(beam, counted_, landings, stop);
+  if (outcome == TraceOutcome::finished) take_counted(beam, counters);
+  return outcome;
+}
+
+// Adds the counts of a beam to the counters, and remembers them if they fit.
+void RememberedBeams::take_counted(const shared::BeamBlock& beam, std::span<std::uint32_t> counters) {
+  if (!beams_.empty() && beams_.front().block.direction != beam.direction) forget();
   const auto words =
       static_cast<std::size_t>(counted_.size() - static_cast<std::size_t>(std::count(counted_.begin(), counted_.end(), 0U)));
   Beam kept{beam, {}};
@@ -40,11 +59,9 @@ TraceOutcome RememberedBeams::count_beam(const shared::BeamBlock& beam, std::spa
     counters[word] += counted_[word];
     if (keep) kept.landed.emplace_back(word, counted_[word]);
   }
-  if (keep) {
-    bytes_ += bytes;
-    beams_.push_back(std::move(kept));
-  }
-  return TraceOutcome::finished;
+  if (!keep) return;
+  bytes_ += bytes;
+  beams_.push_back(std::move(kept));
 }
 
 TraceOutcome RememberedBeams::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,

@@ -26,16 +26,21 @@ class RememberedBeams final : public Tracer {
   [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                         const StopQuestion& stop) override;
+  // Returns nothing for a beam that it remembers.
+  [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                        std::span<shared::Landing> landings, const StopQuestion& stop) override;
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
 
  private:
-  void forget();
-
   struct Beam {
     shared::BeamBlock block;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> landed;  // word of the counters, count; only words that are not 0
   };
+
+  void forget();
+  [[nodiscard]] const Beam* find(const shared::BeamBlock& beam) const;  // null if it is not remembered
+  void take_counted(const shared::BeamBlock& beam, std::span<std::uint32_t> counters);
 
   Tracer& tracer_;
   std::size_t most_bytes_;

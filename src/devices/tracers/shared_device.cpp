@@ -47,6 +47,12 @@ TraceOutcome TurnTakingTracer::count_beam(const shared::BeamBlock& beam, std::sp
   return tracer_.count_beam(beam, counters, giving_way(stop));
 }
 
+std::optional<TraceOutcome> TurnTakingTracer::record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                          std::span<shared::Landing> landings, const StopQuestion& stop) {
+  const TracingTurn turn(turn_);
+  return tracer_.record_beam(beam, counters, landings, giving_way(stop));
+}
+
 TraceOutcome TurnTakingTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                      std::span<shared::Landing> landings, const StopQuestion& stop) {
   const TracingTurn turn(turn_);

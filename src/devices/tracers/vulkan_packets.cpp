@@ -66,7 +66,7 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
       finished_on_cpu.emplace_back(paused.packet, cpu_.follow_packet(scene, packet, paused.crossings));
     };
     const auto count = static_cast<std::uint32_t>(sent_.size());
-    if (work_.run(0, count, {&scene_, &packets_, &landings_}, stop, send, take, finish) == TraceOutcome::stopped)
+    if (work_.run({0, count, 0}, {&scene_, &packets_, &landings_}, stop, send, take, finish) == TraceOutcome::stopped)
       return TraceOutcome::stopped;
     for (const auto& [packet, landing] : finished_on_cpu) landed_[packet] = landing;
     for_each_index(order.size(), [&](std::size_t k) { landings[first + order[k]] = landed_[k]; });

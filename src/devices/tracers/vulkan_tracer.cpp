@@ -20,7 +20,7 @@ static_assert(offsetof(shared::BeamBlock, ground) == 88);
 static_assert(offsetof(shared::GroundMap, cells_x) == 24);
 static_assert(sizeof(shared::GroundMap) == 40);
 static_assert(offsetof(shared::BeamBlock, layer_base_y) == 128);
-static_assert(sizeof(shared::BeamPush) == 12);
+static_assert(sizeof(shared::BeamPush) == 16);
 static_assert(sizeof(shared::PausedRay) == 24);
 
 // Rays per dispatch, measured as a compromise between overhead and the response time to Ctrl-C or a display: about 50 ms each
@@ -48,7 +48,8 @@ VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuT
       tree_(tree),
       beam_(create_buffer(context, BufferUse::storage, sizeof(shared::BeamBlock), "the beam's description")),
       counters_(create_buffer(context, BufferUse::storage, counter_words * sizeof(std::uint32_t), "the counters of landings")),
-      work_(context, tree, domain, choices_, {"direct", direct_spirv, direct_storage_spirv, 2}, "paused rays") {}
+      landings_(create_buffer(context, BufferUse::storage, sizeof(shared::Landing), "landings of beam rays")),
+      work_(context, tree, domain, choices_, {"direct", direct_spirv, direct_storage_spirv, 3}, "paused rays") {}
 
 TracerDevice VulkanTracer::device() const {
   const DeviceDescription& device = context_.description();
@@ -67,24 +68,44 @@ void VulkanTracer::add_landings(std::span<std::uint32_t> counters) const {
 
 TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                       const StopQuestion& stop) {
+  return follow_beam(beam, counters, {}, stop);
+}
+
+std::optional<TraceOutcome> VulkanTracer::record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                      std::span<shared::Landing> landings, const StopQuestion& stop) {
+  const std::size_t bytes = std::min(choices_.rays_per_dispatch, most_packets_per_dispatch) * sizeof(shared::Landing);
+  if (landings_.bytes < bytes) landings_ = create_buffer(context_, BufferUse::storage, bytes, "landings of beam rays");
+  return follow_beam(beam, counters, landings, stop);
+}
+
+TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                       std::span<shared::Landing> landings, const StopQuestion& stop) {
   EXPECT(counters.size_bytes(), ==, counters_.bytes);
   const std::uint32_t rays = beam.columns * beam.rows;
   if (rays == 0) return TraceOutcome::finished;
-  const auto finish = [&](const shared::PausedRay& ray) { cpu_.finish_ray(beam, ray, counters); };
+  const bool records = !landings.empty();
+  std::vector<shared::PausedRay> left_to_cpu;
+  const auto finish = [&](const shared::PausedRay& ray) { left_to_cpu.push_back(ray); };
   std::uint32_t first = 0;
   const auto send = [&](Submission& submission) {
     if (first > 0) return;
     submission.upload(beam_, std::as_bytes(std::span(&beam, 1)));
     submission.fill(counters_, 0);
   };
-  const auto leave = [](Submission&) {};  // the counters go on until all rays are traced
   while (first < rays) {
-    const std::uint32_t slice = std::min(work_.rays_per_dispatch(), rays - first);
-    if (work_.run(first, slice, {&beam_, &counters_}, stop, send, leave, finish) == TraceOutcome::stopped) {
+    const std::uint32_t most =
+        records ? std::min(work_.rays_per_dispatch(), most_packets_per_dispatch) : work_.rays_per_dispatch();
+    const std::uint32_t slice = std::min(most, rays - first);
+    const auto take = [&](Submission& submission) {  // the counters go on until all rays are traced
+      if (records) submission.download(landings_, std::as_writable_bytes(landings.subspan(first, slice)));
+    };
+    const shared::BeamPush push{first, slice, 0, records ? first : shared::no_landings};
+    if (work_.run(push, {&beam_, &counters_, &landings_}, stop, send, take, finish) == TraceOutcome::stopped) {
       return TraceOutcome::stopped;
     }
     first += slice;
   }
+  for (const shared::PausedRay& ray : left_to_cpu) cpu_.finish_ray(beam, ray, counters, landings);
   add_landings(counters);
   return TraceOutcome::finished;
 }

@@ -27,10 +27,15 @@ class VulkanTracer final : public Tracer {
   [[nodiscard]] TracerDevice device() const override;
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                         const StopQuestion& stop) override;
+  [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                        std::span<shared::Landing> landings, const StopQuestion& stop) override;
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
 
  private:
+  // `landings` is empty where they are not wanted.
+  TraceOutcome follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                           std::span<shared::Landing> landings, const StopQuestion& stop);
   // Adds the counts of the device to the counters.
   void add_landings(std::span<std::uint32_t> counters) const;
 
@@ -40,6 +45,7 @@ class VulkanTracer final : public Tracer {
   VulkanChoices choices_;
   const GpuTree& tree_;
   GpuBuffer beam_, counters_;
+  GpuBuffer landings_;  // of one dispatch; small until landings are asked for
   PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
 };

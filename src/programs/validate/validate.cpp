@@ -36,6 +36,11 @@ class DeviceTracer final : public Tracer {
                                         const StopQuestion& stop) override {
     return tracer_.count_beam(beam, counters, stop);
   }
+  [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                        std::span<shared::Landing> landings,
+                                                        const StopQuestion& stop) override {
+    return tracer_.record_beam(beam, counters, landings, stop);
+  }
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {
     return tracer_.trace(scene, packets, landings, stop);

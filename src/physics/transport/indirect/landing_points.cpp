@@ -82,16 +82,32 @@ class LandingSampler {
     // Only the parts of one beam differ in weight, and only while no other light shares the points.
     const double alone = first.beam.size() == 1 ? 1.0 : stride * part.weight;
     for (std::size_t begin = 0; begin < count; begin += most_at_a_time) {
-      std::vector<shared::Packet>& rays = arrays_.packets;
-      rays.resize(std::min(most_at_a_time, count - begin));
-      for (std::size_t k = 0; k < rays.size(); ++k) {
-        const std::uint32_t ray = sampled_ray(begin + k, offset, stride, part.rays());
-        rays[k] = {shared::beam_origin(part.block, ray), shared::no_element, part.block.direction, 0};
+      numbers_.resize(std::min(most_at_a_time, count - begin));
+      for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k] = sampled_ray(begin + k, offset, stride, part.rays());
+      if (!first.recorded.empty()) {
+        take_recorded(first);
+      } else if (!trace_again(part)) {
+        return false;
       }
-      if (!trace()) return false;
       add_points(number, alone);
     }
     return true;
+  }
+
+  // Finds where the rays numbers_ of a part landed, by tracing them. Returns false if stopped.
+  [[nodiscard]] bool trace_again(const BeamPart& part) {
+    std::vector<shared::Packet>& rays = arrays_.packets;
+    rays.resize(numbers_.size());
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      rays[k] = {shared::beam_origin(part.block, numbers_[k]), shared::no_element, part.block.direction, 0};
+    }
+    return trace();
+  }
+
+  // Does the same with what the direct pass found.
+  void take_recorded(const FirstLandings& first) {
+    arrays_.landings.resize(numbers_.size());
+    for (std::size_t k = 0; k < numbers_.size(); ++k) arrays_.landings[k] = first.recorded[numbers_[k]];
   }
 
   // Traces arrays_.packets. Returns false if stopped.
@@ -179,6 +195,7 @@ class LandingSampler {
   PassArrays& arrays_;
   LandingPoints& points_;
   std::vector<SampledBeam> beams_;
+  std::vector<std::uint32_t> numbers_;   // of the sampled rays in hand
   std::vector<std::size_t> sampled_by_;  // [point], number of the beam; empty for a single one
 };
 

@@ -10,7 +10,7 @@ namespace sunfleck {
 
 // The numbers of rays and packets of one replicate.
 struct RayCounts {
-  double beam_rays = 0.0;  // that may be traced again to find where they landed
+  double beam_rays = 0.0;  // from whose landings packets start
   double sky_rays = 0.0;
   double packets = 0.0;  // in the first round
 };

@@ -99,7 +99,7 @@ struct ReplicateOrder {
   double bound = 0.003;      // of the indirect pass; its stop rule leaves a tenth of it unshot
   std::uint64_t seed = 1;
   std::uint64_t number = 0;
-  // Largest number of beam rays that are traced again to find where they landed; there is also at most one for each packet.
+  // Largest number of beam rays from whose landings packets start; there is also at most one for each packet.
   double sampled_rays = std::numeric_limits<double>::infinity();
   std::vector<double> ray_shares;  // [light], of beam_rays; empty where each light has all of them
 };

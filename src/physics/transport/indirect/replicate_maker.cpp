@@ -8,6 +8,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <utility>
@@ -34,6 +35,14 @@ TraceOutcome ReplicateMaker::ForAllThreads::count_beam(const shared::BeamBlock& 
                                                        const StopQuestion& stop) {
   const std::unique_lock lock = turn();
   return tracer_.count_beam(beam, counters, stop);
+}
+
+std::optional<TraceOutcome> ReplicateMaker::ForAllThreads::record_beam(const shared::BeamBlock& beam,
+                                                                       std::span<std::uint32_t> counters,
+                                                                       std::span<shared::Landing> landings,
+                                                                       const StopQuestion& stop) {
+  const std::unique_lock lock = turn();
+  return tracer_.record_beam(beam, counters, landings, stop);
 }
 
 TraceOutcome ReplicateMaker::ForAllThreads::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
@@ -113,14 +122,30 @@ double ReplicateMaker::most_side_bytes() const {
   return copies * sides * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
 }
 
+// Several lights take a few landings of each. A ray that is recorded takes a small part of the time of one that is traced again.
+double ReplicateMaker::record_bytes(double beam_rays, double landings) const {
+  constexpr double most_rays_per_landing = 2.0;
+  if (!indirect_ || receivers_ || lights_.size() > 1 || beam_rays > most_rays_per_landing * landings) return 0.0;
+  return beam_rays * sizeof(shared::Landing);
+}
+
 // Light is not aimed in a scene with receivers.
-TraceOutcome ReplicateMaker::count_beam(std::span<const BeamPart> beam, Replicate& replicate, const StopQuestion& stop) {
-  const shared::BeamBlock& first = beam.front().block;
+TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
+                                        const StopQuestion& stop) {
+  const shared::BeamBlock& block = first.beam.front().block;
   if (receivers_) {
-    return count_beam_landings(model_, layout_, *receivers_, tracer_, first, replicate.counters, replicate.passed, stop);
+    return count_beam_landings(model_, layout_, *receivers_, tracer_, block, replicate.counters, replicate.passed, stop);
   }
-  TraceOutcome outcome = tracer_.count_beam(first, replicate.counters, stop);
-  for (const BeamPart& part : beam.subspan(1)) {
+  const std::uint64_t rays = first.beam.front().rays();
+  const bool alone = first.beam.size() == 1;  // rays of other parts have other weights
+  if (alone && record_bytes(static_cast<double>(rays), std::min(order.packets, order.sampled_rays)) > 0.0) {
+    first.recorded.resize(rays);
+    const std::optional<TraceOutcome> outcome = tracer_.record_beam(block, replicate.counters, first.recorded, stop);
+    if (outcome) return *outcome;
+    first.recorded.clear();
+  }
+  TraceOutcome outcome = tracer_.count_beam(block, replicate.counters, stop);
+  for (const BeamPart& part : std::span(first.beam).subspan(1)) {
     if (outcome == TraceOutcome::stopped) break;
     outcome = count_beam_landings(model_, layout_, tracer_, part, replicate.counters, stop);
   }
@@ -135,7 +160,7 @@ bool ReplicateMaker::make_direct(const ReplicateOrder& order, std::size_t light,
     // The rays of different lights are independent of each other.
     const std::uint64_t seed = light == 0 ? order.seed : RandomStream(order.seed, light_stream + light).word();
     first.beam = make_beam_parts(lights_[light], layout_, aim(order.aimed), order.rays_of(light), seed, order.number);
-    if (count_beam(first.beam, replicate, stop) == TraceOutcome::stopped) return false;
+    if (count_beam(order, replicate, first, stop) == TraceOutcome::stopped) return false;
   }
   replicate.direct = conversion.sum(replicate.counters);
   if (!indirect_ || order.packets == 0.0) return true;

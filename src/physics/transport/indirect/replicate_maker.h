@@ -55,6 +55,9 @@ class ReplicateMaker {
   // Returns the part of it that sums by side take if light lands on many of them; see PlaceSums.
   [[nodiscard]] double most_side_bytes() const;
 
+  // Returns the memory for where beam rays landed, in bytes. It is kept if packets start from at least half of the rays.
+  [[nodiscard]] double record_bytes(double beam_rays, double landings) const;
+
   // Makes a replicate of the conversions' incidence, [light]; returns nothing if stopped. Several threads may call this at the same
   // time; all of them call `stop`.
   [[nodiscard]] std::optional<ReplicateSet> make(const ReplicateOrder& order, std::span<const Conversion> conversions,
@@ -73,6 +76,9 @@ class ReplicateMaker {
     [[nodiscard]] bool takes_turns() const { return !tracer_.serves_several(); }
     [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                           const StopQuestion& stop) override;
+    [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                          std::span<shared::Landing> landings,
+                                                          const StopQuestion& stop) override;
     [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                      std::span<shared::Landing> landings, const StopQuestion& stop) override;
 
@@ -83,7 +89,9 @@ class ReplicateMaker {
     std::mutex mutex_;
   };
 
-  [[nodiscard]] TraceOutcome count_beam(std::span<const BeamPart> beam, Replicate& replicate, const StopQuestion& stop);
+  // Traces the beam of first.beam, and records its landings if record_bytes says so.
+  [[nodiscard]] TraceOutcome count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
+                                        const StopQuestion& stop);
   // Traces the beam of one light; returns false if stopped.
   [[nodiscard]] bool make_direct(const ReplicateOrder& order, std::size_t light, const Conversion& conversion,
                                  Replicate& replicate, FirstLandings& first, const StopQuestion& stop);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -37,6 +38,15 @@ class Tracer {
   // stopped, the counters hold only part of the rays and must not be used.
   [[nodiscard]] virtual TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                 const StopQuestion& stop) = 0;
+
+  // Does the same, and sets landings[ray] to where each ray landed: what trace() would find. Returns nothing, and does nothing, if that
+  // takes the tracer more than it would spare.
+  [[nodiscard]] virtual std::optional<TraceOutcome> record_beam(const shared::BeamBlock& /*beam*/,
+                                                                std::span<std::uint32_t> /*counters*/,
+                                                                std::span<shared::Landing> /*landings*/,
+                                                                const StopQuestion& /*stop*/) {
+    return std::nullopt;
+  }
 
   // Follows every packet to its end; landings[k] is where packets[k] landed. If stopped, the landings must not be used.
   [[nodiscard]] virtual TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,

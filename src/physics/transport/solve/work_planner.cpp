@@ -47,7 +47,7 @@ constexpr double comfortable_bytes = 0x1p28;
 // A bound that holds for each organ is met last by the organ whose error happens to look largest. More, smaller replicates know their
 // errors better: a run to 1 % on the sparse plot then needs a fifth fewer packets.
 constexpr double comfortable_bytes_for_organs = 0x1p27;
-// A ray costs a quarter of a packet, but more than a packet if it is traced again to find its landing. Where there are many packets for
+// A ray costs a quarter of a packet, but more than a packet if it is traced again to find its landing, as most are here. Where there are many packets for
 // organs, there is at least this number of rays for each, lest packets go on while the beam on some organ is still uncertain.
 constexpr double rays_per_packet_for_organs = 0.5;
 // Four packets then share a landing, which did not raise the errors; small replicates, as in pilots, need one for each packet.
@@ -210,7 +210,9 @@ std::size_t WorkPlanner::at_once(const Work& work) const {
 
 double WorkPlanner::replicate_bytes(const Work& work) const {
   if (!maker_.has_indirect_pass()) return maker_.sum_bytes();
-  return maker_.sum_bytes() - maker_.most_side_bytes() + side_bytes(work) + memory_.bytes(ray_counts(work));
+  const RayCounts counts = ray_counts(work);
+  const double recorded = maker_.record_bytes(has_beam_ ? work.rays : 0.0, std::min(counts.packets, counts.beam_rays));
+  return maker_.sum_bytes() - maker_.most_side_bytes() + side_bytes(work) + memory_.bytes(counts) + recorded;
 }
 
 double WorkPlanner::side_bytes(const Work& work) const {

@@ -71,7 +71,7 @@ class WorkPlanner {
   [[nodiscard]] Work next(const Work& work, const SeriesOutcome& run) const;
 
   [[nodiscard]] std::size_t sky_rays(const Work& work) const;
-  // Returns the largest number of beam rays that are traced again to find where they landed.
+  // Returns the largest number of beam rays from whose landings packets start.
   [[nodiscard]] double sampled_rays(const Work& work) const;
   // Returns the number of replicates to make at the same time in this process.
   [[nodiscard]] std::size_t at_once(const Work& work) const;

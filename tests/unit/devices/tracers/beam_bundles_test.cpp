@@ -1,4 +1,4 @@
-// Tests that beam rays followed in bundles are counted as single rays are, whatever the size of the grid and the part of it.
+// Tests that beam rays followed in bundles are counted and recorded as single rays are, whatever the size of the grid and the part of it.
 #include "devices/tracers/beam_bundles.h"
 #include "devices/tracers/cpu_tracer.h"
 
@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -16,7 +17,16 @@
 namespace sunfleck::test {
 namespace {
 
-using Counters = std::vector<std::uint32_t>;
+// What a beam left behind.
+struct Landed {
+  std::vector<std::uint32_t> counters;
+  std::vector<shared::Landing> landings;  // [ray]
+
+  friend bool operator==(const Landed& a, const Landed& b) {
+    return a.counters == b.counters && a.landings.size() == b.landings.size() &&
+           std::memcmp(a.landings.data(), b.landings.data(), a.landings.size() * sizeof(shared::Landing)) == 0;
+  }
+};
 
 struct Case {
   explicit Case(RadiationModel of) : model(std::move(of)), prepared(model) {}
@@ -29,22 +39,29 @@ struct Case {
     block.per_row = 1.0F / static_cast<float>(rows);
     return block;
   }
-  [[nodiscard]] Counters in_bundles(const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end) const {
-    Counters counters(prepared.layout.words());
-    const LandingCounter landings(prepared.bvh, tracer_scene(model), beam, counters);
-    count_in_bundles(prepared.bvh, tracer_scene(model), beam, first, end, landings);
-    return counters;
+  [[nodiscard]] Landed nothing(const shared::BeamBlock& beam) const {
+    return {std::vector<std::uint32_t>(prepared.layout.words()), std::vector<shared::Landing>(beam.columns * beam.rows)};
   }
-  [[nodiscard]] Counters one_by_one(const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end) const {
-    Counters counters(prepared.layout.words());
+  [[nodiscard]] Landed in_bundles(const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end) const {
+    Landed landed = nothing(beam);
+    const LandingCounter counter(prepared.bvh, tracer_scene(model), beam, landed.counters, landed.landings);
+    count_in_bundles(prepared.bvh, tracer_scene(model), beam, first, end, counter);
+    return landed;
+  }
+  [[nodiscard]] Landed one_by_one(const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end) const {
+    Landed landed = nothing(beam);
     const CpuTracer tracer(prepared.bvh, tracer_scene(model));
-    for (std::uint32_t ray = first; ray < end; ++ray)
-      tracer.finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, counters);
-    return counters;
+    for (std::uint32_t ray = first; ray < end; ++ray) {
+      tracer.finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, landed.counters, {});
+      landed.landings[ray] =
+          tracer.follow_packet(scene, {shared::beam_origin(beam, ray), shared::no_element, beam.direction, 0}, 0);
+    }
+    return landed;
   }
 
   RadiationModel model;
   Prepared prepared;
+  shared::PacketBlock scene = make_packet_block(model, prepared.layout);
 };
 
 RadiationModel leaves_on(const Plot& plot, const SunPosition& sun) {
@@ -57,9 +74,10 @@ TEST(BeamBundles, CountEachRayOfAGridOfAnySize) {
     for (const auto& [columns, rows] :
          {std::pair{1U, 1U}, {1U, 9U}, {9U, 1U}, {4U, 4U}, {5U, 3U}, {7U, 6U}, {33U, 2U}, {13U, 17U}, {40U, 41U}}) {
       const shared::BeamBlock beam = test.beam(columns, rows);
-      const Counters got = test.in_bundles(beam, 0, columns * rows);
-      EXPECT_EQ(got, test.one_by_one(beam, 0, columns * rows)) << columns << " x " << rows;
-      const std::uint64_t ends = std::accumulate(got.begin(), got.end(), std::uint64_t{0}) - got[shared::counter_met];
+      const Landed got = test.in_bundles(beam, 0, columns * rows);
+      EXPECT_TRUE(got == test.one_by_one(beam, 0, columns * rows)) << columns << " x " << rows;
+      const auto all = std::accumulate(got.counters.begin(), got.counters.end(), std::uint64_t{0});
+      const std::uint64_t ends = all - got.counters[shared::counter_met];
       EXPECT_EQ(ends, std::uint64_t{columns} * rows);
     }
   }
@@ -69,7 +87,7 @@ TEST(BeamBundles, CountThePartThatWasAskedFor) {
   const Case test(leaves_on(unit_plot, sun_at(30, 200)));
   const shared::BeamBlock beam = test.beam(21, 10);
   for (const auto& [first, end] : {std::pair{0U, 0U}, {0U, 1U}, {3U, 4U}, {5U, 37U}, {80U, 90U}, {209U, 210U}}) {
-    EXPECT_EQ(test.in_bundles(beam, first, end), test.one_by_one(beam, first, end)) << first << " to " << end;
+    EXPECT_TRUE(test.in_bundles(beam, first, end) == test.one_by_one(beam, first, end)) << first << " to " << end;
   }
 }
 
@@ -77,7 +95,7 @@ TEST(BeamBundles, CountThePartThatWasAskedFor) {
 TEST(BeamBundles, PassManySmallPeriods) {
   const Case test(leaves_on({0.05, 0.08, true}, sun_at(4, 37)));
   const shared::BeamBlock beam = test.beam(6, 9);
-  EXPECT_EQ(test.in_bundles(beam, 0, 54), test.one_by_one(beam, 0, 54));
+  EXPECT_TRUE(test.in_bundles(beam, 0, 54) == test.one_by_one(beam, 0, 54));
 }
 
 // Leaves below the ground stop only rays that pass the plot's ground by.
@@ -88,9 +106,9 @@ TEST(BeamBundles, EndOnTheGroundBeforeWhatIsBelow) {
   for (const Plot& plot : {unit_plot, unit_stand}) {
     const Case test(black_model(maker.mesh(), plot, sun_at(35, 60)));
     const shared::BeamBlock beam = test.beam(30, 30);
-    const Counters got = test.in_bundles(beam, 0, 900);
-    EXPECT_GT(got[shared::counter_first_cell], 0U);
-    EXPECT_EQ(got, test.one_by_one(beam, 0, 900));
+    const Landed got = test.in_bundles(beam, 0, 900);
+    EXPECT_GT(got.counters[shared::counter_first_cell], 0U);
+    EXPECT_TRUE(got == test.one_by_one(beam, 0, 900));
   }
 }
 
@@ -104,9 +122,13 @@ TEST(BeamBundles, LoseRaysThatCrossTooManyPeriods) {
   for (const int more : {-1, 0, 1}) {
     const float lowered = (static_cast<float>(shared::max_crossings) + static_cast<float>(more)) * 0x1p-10F;
     beam.corner = {0.5F, lowered + 0x1p-12F, 0.5F};
-    const Counters got = test.in_bundles(beam, 0, 1);
-    EXPECT_EQ(got[shared::counter_lost], more > 0 ? 1U : 0U);
-    EXPECT_EQ(got, test.one_by_one(beam, 0, 1));
+    const Landed got = test.in_bundles(beam, 0, 1);
+    EXPECT_EQ(got.counters[shared::counter_lost], more > 0 ? 1U : 0U);
+    EXPECT_EQ(got.landings[0].surface, more > 0 ? shared::lost_on_its_way : shared::landed_on_ground);
+    std::vector<std::uint32_t> counters(got.counters.size());
+    const shared::PausedRay ray{shared::beam_origin(beam, 0), 0, 0, 0};
+    CpuTracer(test.prepared.bvh, tracer_scene(test.model)).finish_ray(beam, ray, counters, {});
+    EXPECT_EQ(got.counters, counters);
   }
 }
 

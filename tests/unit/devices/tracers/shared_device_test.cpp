@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstring>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -108,6 +110,25 @@ TEST(RememberedBeams, CountTheSameWithoutTracing) {
   EXPECT_EQ(remembered.spared(), 4U) << "another sun is another beam";
   EXPECT_EQ(stand.trace(remembered, 0, sun), stand.trace(cpu, 0, sun));
   EXPECT_EQ(remembered.spared(), 4U) << "the first beams made room for those of the other sun";
+}
+
+TEST(RememberedBeams, AreRecordedOnce) {
+  Stand stand;
+  CpuTracer cpu(stand.bvh, {true, true});
+  RememberedBeams remembered(cpu, 1U << 20U);
+  const shared::BeamBlock beam = make_beam_block(stand.model, stand.layout, 5000, 1, 0);
+  std::vector<shared::Landing> landings(beam.columns * beam.rows), expected(landings.size());
+  std::vector<std::uint32_t> counters(stand.layout.words(), 3), counted(stand.layout.words(), 3);
+  EXPECT_EQ(remembered.record_beam(beam, counters, landings, [] { return true; }), TraceOutcome::stopped);
+  EXPECT_EQ(counters, counted) << "nothing half-counted";
+  EXPECT_EQ(remembered.record_beam(beam, counters, landings, {}), TraceOutcome::finished);
+  EXPECT_EQ(cpu.record_beam(beam, counted, expected, {}), TraceOutcome::finished);
+  EXPECT_EQ(counters, counted);
+  EXPECT_EQ(std::memcmp(landings.data(), expected.data(), landings.size() * sizeof landings[0]), 0);
+  EXPECT_EQ(remembered.record_beam(beam, counters, landings, {}), std::nullopt) << "it is not traced again";
+  EXPECT_EQ(counters, counted);
+  EXPECT_EQ(stand.trace(remembered, 0, *stand.model.sun), counted);
+  EXPECT_EQ(remembered.spared(), 1U);
 }
 
 TEST(RememberedBeams, WithoutRoomAreTracedEachTime) {
