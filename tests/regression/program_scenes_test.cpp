@@ -49,6 +49,10 @@ class Scenes : public ProgramTest, public ::testing::WithParamInterface<std::str
     ASSERT_FALSE(bands_.empty());
   }
 
+  void expect_what_the_manual_promises() const;
+  void expect_what_receivers_saw() const;  // the maps and sensors of scenes that have them
+  void expect_agreement() const;           // of the tables with each other
+
   [[nodiscard]] std::string header(std::string common, const std::vector<std::string>& of_band) const {
     for (const std::string& band : bands_)
       for (const std::string& column : of_band) common += "," + band + column;
@@ -113,7 +117,7 @@ void expect_summary_keys(const json& summary) {
   }
 }
 
-TEST_P(Scenes, GiveWhatTheManualPromises) {
+void Scenes::expect_what_the_manual_promises() const {
   expect_summary_keys(summary_);
   EXPECT_EQ(summary_["complete"], true);
   EXPECT_EQ(summary_["device"]["kind"], "cpu");
@@ -171,8 +175,7 @@ TEST_P(Scenes, GiveWhatTheManualPromises) {
   EXPECT_EQ(big_endian(picture, 20), height);
 }
 
-// Checks the maps and sensors of scenes that have them.
-TEST_P(Scenes, ShowWhatTheirReceiversSaw) {
+void Scenes::expect_what_receivers_saw() const {
   const json& planes = summary_["planes"];
   EXPECT_EQ(planes.empty(), text_.find("[[plane]]") == std::string::npos);
   for (const json& plane : planes) {
@@ -205,7 +208,7 @@ TEST_P(Scenes, ShowWhatTheirReceiversSaw) {
   }
 }
 
-TEST_P(Scenes, AgreeWithThemselves) {
+void Scenes::expect_agreement() const {
   const Table profile(file("profile.csv"));
   const Table organs(file("organs.csv"));
   const Table triangles(file("triangles.csv"));
@@ -275,6 +278,13 @@ TEST_P(Scenes, AgreeWithThemselves) {
   EXPECT_NEAR(leaf_area_index, summary_["leaf_area_index"], table_rounding * leaf_area_index);
   if (summary_["sun"].is_null()) return;
   EXPECT_NEAR(profile.number(0, "sunfleck_ratio"), summary_["ground_sunfleck_ratio"], periodic() ? table_rounding : 1.0);
+}
+
+// One run of each scene serves all three.
+TEST_P(Scenes, GiveWhatTheManualPromises) {
+  expect_what_the_manual_promises();
+  expect_what_receivers_saw();
+  expect_agreement();
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scenes, ::testing::ValuesIn(scene_names()),

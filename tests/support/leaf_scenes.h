@@ -53,4 +53,12 @@ inline double sky_on_soil_w_m2(const RadiationModel& model, const RadiationResul
   return sum_w / model.plot.area_m2();
 }
 
+// Returns leaves in the open under sun and sky, over reflecting soil.
+inline RadiationModel leaves_in_the_open() {
+  RadiationModel model = paper_model(random_leaves(30, 0.01, unit_plot, 0.5, 3), unit_plot, sun_at(30.0, 120.0));
+  model.sky = SkyModel{};
+  for (Waveband& band : model.bands) band.diffuse_w_m2 = 0.5;
+  return model;
+}
+
 }  // namespace sunfleck::test
