@@ -53,7 +53,11 @@ function(sunfleck_folder)
   sunfleck_targets(used ${ARG_USES})
   add_library(${target} STATIC ${ARG_SOURCES})
   target_link_libraries(${target} PUBLIC ${used} PRIVATE sunfleck_options)
-  if(folder MATCHES "^programs/")  # hardly any time is spent there, and its libraries take long to compile
+  # Hardly any time is spent in these folders, and their libraries take long to compile.
+  if(folder MATCHES "^(programs/|simulate|files/results)")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
+  endif()
+  if(folder MATCHES "^programs/")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   sunfleck_unity(${target} 12)
