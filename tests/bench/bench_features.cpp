@@ -13,8 +13,10 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace sunfleck::bench {
@@ -71,21 +73,26 @@ class Timed final : public Tracer {
   [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                         const StopQuestion& stop) override {
-    const Clock::time_point start = Clock::now();
-    const TraceOutcome outcome = tracer_.count_beam(beam, counters, stop);
-    return add_since(start, outcome);
+    return timed([&] { return tracer_.count_beam(beam, counters, stop); });
+  }
+  [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                        std::span<shared::Landing> landings,
+                                                        const StopQuestion& stop) override {
+    return timed([&] { return tracer_.record_beam(beam, counters, landings, stop); });
   }
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {
-    const Clock::time_point start = Clock::now();
-    const TraceOutcome outcome = tracer_.trace(scene, packets, landings, stop);
-    return add_since(start, outcome);
+    return timed([&] { return tracer_.trace(scene, packets, landings, stop); });
   }
   [[nodiscard]] double seconds() const { return seconds_; }
 
  private:
   using Clock = std::chrono::steady_clock;
-  TraceOutcome add_since(Clock::time_point start, TraceOutcome outcome) {
+
+  template <class Trace>
+  std::invoke_result_t<Trace> timed(const Trace& trace) {
+    const Clock::time_point start = Clock::now();
+    const std::invoke_result_t<Trace> outcome = trace();
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
     return outcome;
   }

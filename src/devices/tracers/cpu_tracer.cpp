@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 namespace sunfleck {
 namespace {
@@ -30,16 +31,12 @@ class PacketSearches final : public SearchSource {
   bool begin(std::size_t slot, Search& search) override {
     if (begun_ == packets_.size()) return false;
     packet_of_[slot] = begun_;
-    ways_[slot] = PacketWay(scene_, domain_, packets_[begun_++]);
-    search = ways_[slot].search();
+    std::construct_at(&ways_[slot], scene_, domain_, packets_[begun_++], 0U, search);
     return true;
   }
 
   bool next(std::size_t slot, const CpuHit& hit, Search& search) override {
-    if (ways_[slot].goes_on(hit)) {
-      search = ways_[slot].search();
-      return true;
-    }
+    if (ways_[slot].goes_on(hit, search)) return true;
     landings_[packet_of_[slot]] = ways_[slot].landing();
     return begin(slot, search);
   }
@@ -144,8 +141,9 @@ TraceOutcome CpuTracer::count_landings(const shared::BeamBlock& beam, const Land
 
 shared::Landing CpuTracer::follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
                                          std::uint32_t crossings) const {
-  PacketWay way(scene, domain_, packet, crossings);
-  while (way.goes_on(nearest(way.search().ray, way.search().limit, way.search().own))) {
+  Search search;
+  PacketWay way(scene, domain_, packet, crossings, search);
+  while (way.goes_on(nearest(search.ray, search.limit, search.own), search)) {
   }
   return way.landing();
 }

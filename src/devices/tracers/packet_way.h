@@ -14,24 +14,21 @@ class PacketWay {
  public:
   PacketWay() = default;  // no way
 
-  // Begins where the packet is after that many crossings of periods. `scene` must outlive the way.
-  PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet, std::uint32_t crossings = 0);
+  // Begins where the packet is after that many crossings of periods, and sets the search in that period. `scene` must outlive the way.
+  PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet, std::uint32_t crossings,
+            Search& search);
 
-  // Returns the search in the period that the packet has reached.
-  [[nodiscard]] const Search& search() const { return search_; }
-
-  // Takes the hit of that search; returns false if the packet has landed, else there is another search.
-  [[nodiscard]] bool goes_on(const CpuHit& hit);
+  // Takes the hit of the search; returns false if the packet has landed, else turns the search into that in the next period.
+  [[nodiscard]] bool goes_on(const CpuHit& hit, Search& search);
 
   [[nodiscard]] const shared::Landing& landing() const { return landing_; }
 
  private:
-  void look_ahead();
+  void look_ahead(Search& search);
   [[nodiscard]] bool land(const shared::Landing& landing);
 
   const shared::PacketBlock* scene_ = nullptr;
   TraceDomain domain_;
-  Search search_;
   std::uint32_t crossings_ = 0;
   bool down_ = false, over_plot_ = false;
   shared::Ground end_{};  // the soil, or the plane above the canopy

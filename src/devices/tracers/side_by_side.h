@@ -19,7 +19,7 @@ class SearchSource {
   // Sets the first search of a slot, a number below searches_at_once; returns false if there is none.
   [[nodiscard]] virtual bool begin(std::size_t slot, Search& search) = 0;
 
-  // Takes the nearest hit of a slot's search, and sets its next one; returns false if there is none.
+  // Takes the nearest hit of a slot's search, and turns `search`, which is that one, into the next; returns false if there is none.
   [[nodiscard]] virtual bool next(std::size_t slot, const CpuHit& hit, Search& search) = 0;
 };
 

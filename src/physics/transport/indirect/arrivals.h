@@ -24,15 +24,15 @@ struct Arrival {
   bool beside_plot = false;   // ends where nothing is booked but at the receivers on its way
 };
 
-// Rays or packets with what they carry in the booked columns, [ray * columns + column].
+// Rays or packets with what they carry in the booked columns.
 struct ArrivalBatch {
   std::span<const shared::Packet> packets;
   std::span<const Arrival> arrivals;
-  std::span<const std::int64_t> quanta;
+  std::span<const std::int64_t> quanta;  // [ray * columns + column]
+  std::size_t columns = 0;
 
   [[nodiscard]] std::size_t size() const { return arrivals.size(); }
   [[nodiscard]] std::span<const std::int64_t> quanta_of(std::size_t ray) const {
-    const std::size_t columns = quanta.size() / arrivals.size();
     return quanta.subspan(ray * columns, columns);
   }
 };

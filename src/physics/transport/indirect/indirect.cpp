@@ -130,9 +130,10 @@ class IndirectPass {
     SkyShares shares(*light_.sky, rays);
     std::vector<std::int64_t> given(columns_);
     for_each_batch(rays.size(), [&](std::size_t first, std::span<Arrival> arrivals) {
+      find_arrivals(std::span(landings).subspan(first), arrivals, [&](std::size_t k) {
+        return arrival_from_above(scene_, rays[first + k], landings[first + k], words_of(first + k).x);
+      });
       for (std::size_t k = 0; k < arrivals.size(); ++k) {
-        const std::size_t r = first + k;
-        arrivals[k] = arrival_from_above(scene_, rays[r], landings[r], words_of(r).x);
         const std::span<std::int64_t> own = std::span(arrays_.carried).subspan(k * columns_, columns_);
         const std::span<const double> up_to_ray = shares.next();
         for (std::size_t c = 0; c < columns_; ++c) {
@@ -143,7 +144,7 @@ class IndirectPass {
           books_.sums().ledger[c].incident += own[c];
         }
       }
-      books_.book({std::span(rays).subspan(first, arrivals.size()), arrivals, arrays_.carried}, next_);
+      book(std::span(rays).subspan(first), arrivals);
     });
     IndirectSums& sums = books_.sums();
     sums.side_sky = sums.side_landed;
@@ -258,7 +259,7 @@ class IndirectPass {
       arrays_.packets.resize(std::min(most_at_a_time, draw.packets() - first));
       starts.write(first, arrays_.packets);
       if (!trace_packets()) return false;
-      book(draw, first);
+      book_packets(draw, first);
     }
     books_.end_round();
     sums.most_places = std::max<std::uint64_t>(sums.most_places, next_.size());
@@ -273,20 +274,33 @@ class IndirectPass {
   }
 
   // Books arrays_.packets, which begin with number `first_packet`.
-  void book(const PacketDraw& draw, std::size_t first_packet) {
+  void book_packets(const PacketDraw& draw, std::size_t first_packet) {
     const std::size_t width = books_.booked().count;
     for_each_batch(arrays_.packets.size(), [&](std::size_t first, std::span<Arrival> arrivals) {
-      in_blocks(arrivals.size(), arrivals_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          if (k + prefetch_ahead < end) prefetch_place_of(scene_, arrays_.landings[first + k + prefetch_ahead]);
-          const std::size_t packet = first_packet + first + k;
-          draw.carry(packet, std::span(arrays_.carried).subspan(k * width, width));
-          arrivals[k] = arrival_from(scene_, waiting_.place(draw.source(packet).place), arrays_.packets[first + k],
-                                     arrays_.landings[first + k], words_of(packet).x);
-        }
+      find_arrivals(std::span(arrays_.landings).subspan(first), arrivals, [&](std::size_t k) {
+        const std::size_t packet = first_packet + first + k;
+        draw.carry(packet, std::span(arrays_.carried).subspan(k * width, width));
+        return arrival_from(scene_, waiting_.place(draw.source(packet).place), arrays_.packets[first + k],
+                            arrays_.landings[first + k], words_of(packet).x);
       });
-      books_.book({std::span(arrays_.packets).subspan(first, arrivals.size()), arrivals, arrays_.carried}, next_);
+      book(std::span(arrays_.packets).subspan(first), arrivals);
     });
+  }
+
+  // Sets each arrival to find(k). The threads of the run share the work.
+  template <class Find>
+  void find_arrivals(std::span<const shared::Landing> landings, std::span<Arrival> arrivals, const Find& find) const {
+    in_blocks(arrivals.size(), arrivals_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        if (k + prefetch_ahead < end) prefetch_place_of(scene_, landings[k + prefetch_ahead]);
+        arrivals[k] = find(k);
+      }
+    });
+  }
+
+  // Books the first rays, as many as there are arrivals; arrays_.carried holds what they carry.
+  void book(std::span<const shared::Packet> rays, std::span<const Arrival> arrivals) {
+    books_.book({rays.first(arrivals.size()), arrivals, arrays_.carried, books_.booked().count}, next_);
   }
 
   void retire(std::size_t column) {
