@@ -1,6 +1,8 @@
 #pragma once
 // Loops that the threads of a run share.
 
+#include "base/prefetch.h"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -22,6 +24,24 @@ void in_blocks(std::size_t count, std::size_t block_size, const Take& take) {
     return;
   }
   tbb::parallel_for(std::size_t{0}, block_count(count, block_size), one);
+}
+
+// Calls take(k) for each number k below `count`, block by block; before it come(k), some numbers ahead, so that memory can be asked for.
+template <class Come, class Take>
+void each_in_blocks(std::size_t count, std::size_t block_size, const Come& come, const Take& take) {
+  in_blocks(count, block_size, [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
+      if (k + prefetch_ahead < end) come(k + prefetch_ahead);
+      take(k);
+    }
+  });
+}
+
+// Does the same without looking ahead.
+template <class Take>
+void each_in_blocks(std::size_t count, std::size_t block_size, const Take& take) {
+  each_in_blocks(
+      count, block_size, [](std::size_t) {}, take);
 }
 
 }  // namespace sunfleck

@@ -5,7 +5,7 @@
 #include "agreement/scenes.h"
 #include "devices/tracers/canopy_view.h"
 #include "devices/tracers/vulkan_tracer.h"
-#include "shared/beam.h"
+#include "physics/transport/model/beam_block.h"
 #include "support/copies.h"
 #include "support/device.h"
 
@@ -46,9 +46,7 @@ std::size_t words_apart(const Counters& a, const Counters& b) {
 // Returns where the rays of a beam land if they are traced as packets.
 Landings trace_rays(Tracer& tracer, const RadiationModel& model, const CounterLayout& layout, const shared::BeamBlock& beam) {
   std::vector<shared::Packet> rays;
-  for (std::uint32_t ray = 0; ray < beam.columns * beam.rows; ++ray) {
-    rays.push_back({shared::beam_origin(beam, ray), shared::no_element, beam.direction, 0});
-  }
+  for (std::uint32_t ray = 0; ray < beam.columns * beam.rows; ++ray) rays.push_back(beam_packet(beam, ray));
   return follow(tracer, make_packet_block(model, layout), rays);
 }
 

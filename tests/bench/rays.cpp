@@ -3,7 +3,6 @@
 #include "devices/tracers/cpu_tracer.h"
 #include "physics/transport/model/beam_block.h"
 #include "physics/transport/solve/solve.h"
-#include "shared/beam.h"
 #include "support/wrapped_tracer.h"
 
 #include <algorithm>
@@ -56,7 +55,7 @@ std::vector<shared::Packet> packets_of(const Stand& stand, double packets, Order
 std::vector<shared::Packet> as_packets(const shared::BeamBlock& beam) {
   std::vector<shared::Packet> packets(std::size_t{beam.columns} * beam.rows);
   for (std::uint32_t ray = 0; ray < packets.size(); ++ray) {
-    packets[ray] = {shared::beam_origin(beam, ray), shared::no_element, beam.direction, 0};
+    packets[ray] = beam_packet(beam, ray);
   }
   return packets;
 }

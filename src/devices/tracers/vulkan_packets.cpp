@@ -1,12 +1,10 @@
 #include "devices/tracers/vulkan_packets.h"
 
 #include "base/check.h"
+#include "base/in_blocks.h"
 #include "devices/tracers/packet_order.h"
 #include "packets.spirv.h"
 #include "packets_storage.spirv.h"
-
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,13 +21,8 @@ static_assert(sizeof(shared::Landing) == 16);
 static_assert(sizeof(shared::PacketPush) == 12);
 static_assert(sizeof(shared::PausedPacket) == 28);
 
-// Uses all cores, because the device is idle while packets are being ordered.
-template <class Action>
-void for_each_index(std::size_t count, const Action& action) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k < range.end(); ++k) action(k);
-  });
-}
+// The device is idle while packets are being ordered.
+constexpr std::size_t packets_per_block = 8192;
 
 }  // namespace
 
@@ -49,7 +42,7 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
     const auto slice = packets.subspan(first, std::min<std::size_t>(work_.rays_per_dispatch(), packets.size() - first));
     const std::vector<std::uint32_t> order = order_by_direction(slice);
     sent_.resize(slice.size());
-    for_each_index(order.size(), [&](std::size_t k) { sent_[k] = slice[order[k]]; });
+    each_in_blocks(order.size(), packets_per_block, [&](std::size_t k) { sent_[k] = slice[order[k]]; });
     landed_.resize(sent_.size());
     const auto send = [&](Submission& submission) {
       submission.upload(scene_, std::as_bytes(std::span(&scene, 1)));
@@ -69,7 +62,7 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
     if (work_.run({0, count, 0}, {&scene_, &packets_, &landings_}, stop, send, take, finish) == TraceOutcome::stopped)
       return TraceOutcome::stopped;
     for (const auto& [packet, landing] : finished_on_cpu) landed_[packet] = landing;
-    for_each_index(order.size(), [&](std::size_t k) { landings[first + order[k]] = landed_[k]; });
+    each_in_blocks(order.size(), packets_per_block, [&](std::size_t k) { landings[first + order[k]] = landed_[k]; });
     first += slice.size();
   }
   return TraceOutcome::finished;

@@ -24,17 +24,13 @@ struct Arrival {
   bool beside_plot = false;   // ends where nothing is booked but at the receivers on its way
 };
 
-// Rays or packets with what they carry in the booked columns.
+// Rays or packets with what they carry.
 struct ArrivalBatch {
   std::span<const shared::Packet> packets;
   std::span<const Arrival> arrivals;
-  std::span<const std::int64_t> quanta;  // [ray * columns + column]
-  std::size_t columns = 0;
+  std::span<const std::int64_t> quanta;  // [ray * columns + column], in the booked columns (PacketBooks::book_only)
 
   [[nodiscard]] std::size_t size() const { return arrivals.size(); }
-  [[nodiscard]] std::span<const std::int64_t> quanta_of(std::size_t ray) const {
-    return quanta.subspan(ray * columns, columns);
-  }
 };
 
 // Returns the arrival of a sky ray. `u` is that of EmissionPoint.

@@ -42,9 +42,7 @@ TraceOutcome trace_part(const RadiationModel& model, const CounterLayout& layout
   std::vector<shared::Landing> landings(packets.size());
   for (std::uint32_t first = 0; first < rays; first += rays_at_once) {
     const std::uint32_t count = std::min(rays_at_once, rays - first);
-    for (std::uint32_t k = 0; k < count; ++k) {
-      packets[k] = {shared::beam_origin(beam, first + k), shared::no_element, beam.direction, 0};
-    }
+    for (std::uint32_t k = 0; k < count; ++k) packets[k] = beam_packet(beam, first + k);
     const std::span sent(packets.data(), count);
     if (tracer.trace(scene, sent, std::span(landings.data(), count), stop) == TraceOutcome::stopped) {
       return TraceOutcome::stopped;

@@ -1,7 +1,6 @@
 #include "physics/transport/indirect/indirect.h"
 
 #include "base/in_blocks.h"
-#include "base/prefetch.h"
 #include "base/random.h"
 #include "physics/transport/indirect/landing_places.h"
 #include "physics/transport/indirect/landing_points.h"
@@ -290,17 +289,14 @@ class IndirectPass {
   // Sets each arrival to find(k). The threads of the run share the work.
   template <class Find>
   void find_arrivals(std::span<const shared::Landing> landings, std::span<Arrival> arrivals, const Find& find) const {
-    in_blocks(arrivals.size(), arrivals_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        if (k + prefetch_ahead < end) prefetch_place_of(scene_, landings[k + prefetch_ahead]);
-        arrivals[k] = find(k);
-      }
-    });
+    each_in_blocks(
+        arrivals.size(), arrivals_per_block, [&](std::size_t k) { prefetch_place_of(scene_, landings[k]); },
+        [&](std::size_t k) { arrivals[k] = find(k); });
   }
 
   // Books the first rays, as many as there are arrivals; arrays_.carried holds what they carry.
   void book(std::span<const shared::Packet> rays, std::span<const Arrival> arrivals) {
-    books_.book({rays.first(arrivals.size()), arrivals, arrays_.carried, books_.booked().count}, next_);
+    books_.book({rays.first(arrivals.size()), arrivals, arrays_.carried}, next_);
   }
 
   void retire(std::size_t column) {

@@ -35,12 +35,9 @@ void prefetch_place_of(const IndirectScene& scene, const shared::Landing& landin
 
 void find_places(const IndirectScene& scene, std::span<const shared::Landing> landings, std::span<EmissionPoint> places) {
   constexpr std::size_t block_size = 4096;
-  in_blocks(landings.size(), block_size, [&](std::size_t, std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k < end; ++k) {
-      if (k + prefetch_ahead < end) prefetch_place_of(scene, landings[k + prefetch_ahead]);
-      places[k] = place_of(scene, landings[k]);
-    }
-  });
+  each_in_blocks(
+      landings.size(), block_size, [&](std::size_t k) { prefetch_place_of(scene, landings[k]); },
+      [&](std::size_t k) { places[k] = place_of(scene, landings[k]); });
 }
 
 }  // namespace sunfleck

@@ -2,7 +2,6 @@
 
 #include "physics/light/sun.h"
 #include "physics/transport/indirect/landing_places.h"
-#include "shared/beam.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,9 +97,7 @@ class LandingSampler {
   [[nodiscard]] bool trace_again(const BeamPart& part) {
     std::vector<shared::Packet>& rays = arrays_.packets;
     rays.resize(numbers_.size());
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      rays[k] = {shared::beam_origin(part.block, numbers_[k]), shared::no_element, part.block.direction, 0};
-    }
+    for (std::size_t k = 0; k < rays.size(); ++k) rays[k] = beam_packet(part.block, numbers_[k]);
     return trace();
   }
 

@@ -48,9 +48,9 @@ void PacketBooks::book_sides(const ArrivalBatch& batch) {
     const EmissionPoint& place = batch.arrivals[k].place;
     if (place.surface < shared::landed_on_ground) {
       ++sums_.element_hits[place.surface / 2];
-      sums_.side_landed.add(place.surface, batch.quanta_of(k), booked_.first);
+      sums_.side_landed.add(place.surface, quanta_of(batch, k), booked_.first);
     } else if (place.surface == shared::landed_on_ground) {
-      add_to(sums_.cell_landed, place.order - ground_order, batch.quanta_of(k));
+      add_to(sums_.cell_landed, place.order - ground_order, quanta_of(batch, k));
     }
   }
 }
@@ -59,14 +59,14 @@ void PacketBooks::book_surfaces(const ArrivalBatch& batch) {
   for (std::size_t k = 0; k < batch.size(); ++k) {
     const Arrival& arrival = batch.arrivals[k];
     const EmissionPoint& place = arrival.place;
-    if (place.surface > shared::landed_on_ground) end(arrival, batch.quanta_of(k));
+    if (place.surface > shared::landed_on_ground) end(arrival, quanta_of(batch, k));
     if (place.surface >= shared::landed_on_ground) continue;
     const Surface& surface = scene_.surfaces.of[arrival.surface];
     const std::uint32_t side = place.surface % 2;
-    add_to(sums_.surface_landed, arrival.surface * 2 + side, batch.quanta_of(k));
+    add_to(sums_.surface_landed, arrival.surface * 2 + side, quanta_of(batch, k));
     if (surface.soil()) continue;
     const std::size_t layer = static_cast<std::size_t>(place.level);
-    add_to(sums_.layer_landed, (layer * scene_.model.optics.size() + surface.optics) * 2 + side, batch.quanta_of(k));
+    add_to(sums_.layer_landed, (layer * scene_.model.optics.size() + surface.optics) * 2 + side, quanta_of(batch, k));
   }
 }
 
@@ -86,7 +86,7 @@ void PacketBooks::end(const Arrival& arrival, std::span<const std::int64_t> quan
 void PacketBooks::book_layers(const ArrivalBatch& batch) {
   for (std::size_t k = 0; k < batch.size(); ++k) {
     const Arrival& arrival = batch.arrivals[k];
-    const std::span<const std::int64_t> quanta = batch.quanta_of(k);
+    const std::span<const std::int64_t> quanta = quanta_of(batch, k);
     if (arrival.waited_level != Arrival::from_above) {
       columns::add(quanta, layers_.taken_from(level_index(arrival.waited_level)) + booked_.first);
     }
@@ -99,7 +99,7 @@ void PacketBooks::book_layers(const ArrivalBatch& batch) {
 void PacketBooks::book_receivers(const ArrivalBatch& batch) {
   for (std::size_t k = 0; scene_.receivers != nullptr && k < batch.size(); ++k) {
     const Arrival& arrival = batch.arrivals[k];
-    const std::span<const std::int64_t> quanta = batch.quanta_of(k);
+    const std::span<const std::int64_t> quanta = quanta_of(batch, k);
     if (arrival.waited_level != Arrival::from_above) {
       columns::add(quanta, receivers_.taken_from(arrival.waited_zone) + booked_.first);
     }
@@ -120,12 +120,12 @@ void PacketBooks::scatter(const ArrivalBatch& batch, WaitingFlux& next) {
     const EmissionPoint& place = arrival.place;
     if (place.surface > shared::landed_on_ground) continue;
     const Role role = place.surface == shared::landed_on_ground ? Role::soil : scene_.surfaces.of[arrival.surface].role;
-    columns::split(batch.quanta_of(k), scattering_.face(place.face).scattered.data() + booked_.first, place.u,
+    columns::split(quanta_of(batch, k), scattering_.face(place.face).scattered.data() + booked_.first, place.u,
                    scattering_.absorbed(role).data() + booked_.first, scattered.data());
     if (std::all_of(scattered.begin(), scattered.end(), [](std::int64_t q) { return q == 0; })) continue;
     columns::add(scattered, layers_.waiting(level_index(place.level)) + booked_.first);
     if (scene_.receivers != nullptr) columns::add(scattered, receivers_.waiting(arrival.to_zone) + booked_.first);
-    next.add(place, batch.quanta_of(k));
+    next.add(place, quanta_of(batch, k));
   }
 }
 

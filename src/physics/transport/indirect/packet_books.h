@@ -61,6 +61,9 @@ class PacketBooks {
   void book_receivers(const ArrivalBatch& batch);
   void scatter(const ArrivalBatch& batch, WaitingFlux& next);
 
+  [[nodiscard]] std::span<const std::int64_t> quanta_of(const ArrivalBatch& batch, std::size_t ray) const {
+    return batch.quanta.subspan(ray * booked_.count, booked_.count);
+  }
   void end(const Arrival& arrival, std::span<const std::int64_t> quanta);
   void add_to(std::vector<std::int64_t>& sums, std::size_t place, std::span<const std::int64_t> quanta) const;
 

@@ -1,7 +1,6 @@
 #include "physics/transport/indirect/packet_starts.h"
 
 #include "base/in_blocks.h"
-#include "base/prefetch.h"
 #include "shared/emission.h"
 
 namespace sunfleck {
@@ -18,12 +17,9 @@ constexpr std::uint32_t lamp_step_v = 0x49d07e62U;
 
 void PacketStarts::write(std::size_t first, std::span<shared::Packet> packets) const {
   constexpr std::size_t block_size = 1024;
-  in_blocks(packets.size(), block_size, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      if (p + prefetch_ahead < end) prefetch_start(first + p + prefetch_ahead);
-      packets[p] = start(first + p);
-    }
-  });
+  each_in_blocks(
+      packets.size(), block_size, [&](std::size_t p) { prefetch_start(first + p); },
+      [&](std::size_t p) { packets[p] = start(first + p); });
 }
 
 void PacketStarts::prefetch_start(std::size_t packet) const {

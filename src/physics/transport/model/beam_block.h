@@ -5,6 +5,7 @@
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/stand_aim.h"
+#include "shared/beam.h"
 #include "shared/layout.h"
 
 #include <cstdint>
@@ -18,6 +19,11 @@ namespace sunfleck {
 // Returns one replicate's beam rays in the form that tracers take; `rays` is their approximate number.
 [[nodiscard]] shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays,
                                                 std::uint64_t seed, std::uint64_t replicate);
+
+// Returns a ray of the beam as a packet, which lands where the ray does.
+[[nodiscard]] inline shared::Packet beam_packet(const shared::BeamBlock& beam, std::uint32_t ray) {
+  return {shared::beam_origin(beam, ray), shared::no_element, beam.direction, 0};
+}
 
 // Beam rays that each carry the flux of `weight` rays of the replicate's first part.
 struct BeamPart {

@@ -53,8 +53,7 @@ struct Case {
     const CpuTracer tracer(prepared.bvh, tracer_scene(model));
     for (std::uint32_t ray = first; ray < end; ++ray) {
       tracer.finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, landed.counters, {});
-      landed.landings[ray] =
-          tracer.follow_packet(scene, {shared::beam_origin(beam, ray), shared::no_element, beam.direction, 0}, 0);
+      landed.landings[ray] = tracer.follow_packet(scene, beam_packet(beam, ray), 0);
     }
     return landed;
   }
