@@ -16,8 +16,9 @@ layout(constant_id = 1) const bool has_soil = true;
 layout(set = 0, binding = 2, scalar) readonly buffer Scene { PacketBlock scene; };
 layout(set = 0, binding = 3, scalar) readonly buffer Packets { Packet packets[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Landings { Landing landings[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer Inbox { uint inbox_count; PausedPacket inbox[]; };
-layout(set = 0, binding = 6, scalar) buffer Outbox { uint outbox_count; PausedPacket outbox[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer PacketOrder { uint packet_order[]; };  // in which they are followed
+layout(set = 0, binding = 6, scalar) readonly buffer Inbox { uint inbox_count; PausedPacket inbox[]; };
+layout(set = 0, binding = 7, scalar) buffer Outbox { uint outbox_count; PausedPacket outbox[]; };
 layout(push_constant, scalar) uniform Push { PacketPush push; };
 
 struct Walk {
@@ -94,13 +95,14 @@ void follow_in_endless_canopy(Ray ray, Walk walk) {
 void main() {
   if (gl_GlobalInvocationID.x >= push.count) return;
   Walk walk;
-  walk.packet = push.first + gl_GlobalInvocationID.x;
   walk.crossings = 0u;
   PausedPacket paused;
   if (push.from_inbox != 0u) {
     paused = inbox[gl_GlobalInvocationID.x];
     walk.packet = paused.packet;
     walk.crossings = paused.crossings;
+  } else {
+    walk.packet = packet_order[push.first + gl_GlobalInvocationID.x];
   }
   Packet packet = packets[walk.packet];
   walk.element = packet.element;

@@ -128,6 +128,46 @@ INLINE Wrapped wrapped_into(float x, float period, float per_period) {
   return wrapped;
 }
 
+// Steps of the additive sequence of directions, as parts of 2^32: the first two powers of 1 / 1.3247..., the plastic number. Places on a
+// lamp take two other steps, because a sequence in four dimensions would have different ones in all of them.
+const uint step_u = 0xc13fa9a9u;
+const uint step_v = 0x91e10da6u;
+const uint lamp_step_u = 0x9e3779b9u;
+const uint lamp_step_v = 0x49d07e62u;
+
+// Returns the direction of a packet; the words are random and the same for all packets of a round.
+INLINE vec3 direction_of_packet(vec3 normal, uint number, uvec4 words) {
+  return cosine_direction(normal, words.x + number * step_u, words.y + number * step_v);
+}
+
+// Returns the weights of corners b and c of the point on a lamp where a packet starts.
+INLINE vec2 weights_on_lamp(uint number, uvec4 words) {
+  return even_weights(words.z + number * lamp_step_u, words.w + number * lamp_step_v);
+}
+
+// Returns the normal of a side of a triangle, 0 or 1.
+INLINE vec3 normal_of_side(vec3 a, vec3 b, vec3 c, uint side) {
+  const float sign = side == 0u ? 1.0f : -1.0f;
+  return exact_times(exact_normal(a, b, c), sign);
+}
+
+// A point of an endless plot, moved into the period that the tree covers, and the number of the element's copy there
+// (BvhTriangle::image).
+struct InPeriod {
+  vec3 at;
+  uint image;
+};
+
+// `per_period` is 1 / period.
+INLINE InPeriod moved_into_period(vec3 point, vec2 period, vec2 per_period) {
+  const Wrapped x = wrapped_into(point.x, period.x, per_period.x);
+  const Wrapped z = wrapped_into(point.z, period.y, per_period.y);
+  InPeriod moved;
+  moved.at = vec3(x.at, point.y, z.at);
+  moved.image = (uint(-int(x.periods)) & 0xffffu) | uint(-int(z.periods)) << 16u;
+  return moved;
+}
+
 SHARED_END
 
 #endif

@@ -13,5 +13,6 @@ void register_builds();
 void register_safeguards(const GpuContext* context);
 void register_features(const GpuContext* context);
 void register_device(const GpuContext* context);
+void register_rounds(const GpuContext* context);
 
 }  // namespace sunfleck::bench

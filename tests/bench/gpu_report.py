@@ -30,6 +30,16 @@ def rates(measured):
     return table(["rays, plot or choice", "million rays/s"], [[name.replace("/", ", "), million_rays(measured[name])] for name in names])
 
 
+def rounds(measured):
+    rows = []
+    for name in (name for name in measured if name.startswith("rounds/")):
+        run = measured[name]
+        rate = 8 * run["packets"] / (run["real_time"] / 1e3)
+        rows.append([name.removeprefix("rounds/").replace("/", ", rounds on the "), f"{rate / 1e6:.2f}", f"{run['cpu_time'] / 8:.1f}",
+                     f"{run['submissions']:.0f}", f"{run['up'] / 1e6:.2f}", f"{run['down'] / 1e6:.2f}"])
+    return table(["a replicate of 131,072 first packets", "million packets/s", "processor time, ms", "submissions", "MB up", "MB down"], rows)
+
+
 def seconds_of(command):
     start = time.monotonic()
     subprocess.run(command, check=True, capture_output=True)
@@ -86,7 +96,7 @@ def main():
     print(f"{options.device}, {datetime.date.today()}\n")
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder)
-        for part in (agreement(measured), whole_tables(options.program, options.device, path), rates(measured),
+        for part in (agreement(measured), whole_tables(options.program, options.device, path), rates(measured), rounds(measured),
                      whole(options.program, options.device, measured["solve/paper/device"], path), cores(options.program, path)):
             print(part)
     return 0

@@ -7,7 +7,8 @@
 //   safeguard/WHAT/WHO/WITH    with and without a precaution
 //   feature/WHAT/WHO           a whole simulation of fixed work, with one optional feature
 //   solve/paper/WHO            the paper's scene to its bounds; counter "tracing" is the tracer's part of the time, s
-//   device/...                 the measurements of gpu_check.sh: see bench_device.cpp
+//   device/...                 measurements of gpu_check.sh: see bench_device.cpp
+//   rounds/...                 the rounds of indirect passes on the device and on the host: see bench_rounds.cpp
 // The ratios compare medians: --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true, as report.sh runs it.
 
 #include "bench/benches.h"
@@ -54,6 +55,7 @@ int run(std::vector<char*> arguments) {
   bench::register_safeguards(context.get());
   bench::register_features(context.get());
   bench::register_device(context.get());
+  bench::register_rounds(context.get());
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

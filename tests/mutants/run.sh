@@ -2,7 +2,8 @@
 # Builds the program with one deliberate mistake at a time, in a separate folder, and expects it to be found:
 # tests/mutants/run.sh [MUTANT ...]. Without names it takes every *.patch of this folder. The first line of a patch may say what
 # finds it, such as "found by: validate differential": `sunfleck validate` on the CPU path and on software Vulkan, which is what a
-# patch without that line asks for, and the differential test of tests/long, which compares the CPU path with an independent tracer.
+# patch without that line asks for; the differential test of tests/long, which compares the CPU path with an independent tracer; or
+# `rounds`, which compares each stage of a device's rounds with the host's.
 # SUNFLECK_REQUIRE_DEVICE=1 makes the lack of software Vulkan an error.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
@@ -56,6 +57,20 @@ found_by_differential() {
   grep 'rms z' "$work/failed.txt" | sed 's/^/    /'
 }
 
+# Does the same for the comparison of rounds.
+found_by_rounds() {
+  if "$work/build/tests/agreement/agreement_tests" --gtest_filter="RoundsAgreement.*" > "$work/failed.txt" 2>&1; then
+    echo "  rounds: NOT FOUND"
+    return 1
+  fi
+  if ! grep -q '^\[  FAILED  \].*ms)$' "$work/failed.txt"; then
+    echo "  rounds: the test did not run"
+    cat "$work/failed.txt"
+    return 1
+  fi
+  echo "  rounds: found, $(grep -c '^\[  FAILED  \].*ms)$' "$work/failed.txt") tests fail"
+}
+
 build() {
   cmake --build "$work/build" --target "$1" > "$work/build.txt" 2>&1 || { cat "$work/build.txt"; exit 1; }
 }
@@ -74,6 +89,10 @@ for mutant in "${mutants[@]}"; do
       differential)
         build long_tests
         found_by_differential || missed=$((missed + 1))
+        ;;
+      rounds)
+        build agreement_tests
+        found_by_rounds || missed=$((missed + 1))
         ;;
       *)
         echo "  nothing is called $finder"

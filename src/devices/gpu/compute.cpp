@@ -70,12 +70,16 @@ void ComputePipeline::create_pipeline(const Specialisation& constants) {
   handles_->pipeline = device.createComputePipeline(nullptr, {{}, stage, *handles_->layout});
 }
 
-// Binds the buffers for every run. A handle alone does not show whether a buffer is still the one that was bound, since a new
-// buffer may get the handle of a destroyed one.
-void ComputePipeline::bind(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) {
+void ComputePipeline::check(std::uint64_t threads, std::span<const std::byte> push,
+                            std::span<const GpuBuffer* const> buffers) const {
   EXPECT(threads, <=, max_threads());
   EXPECT(push.size(), ==, code_.push_bytes);
   EXPECT(buffers.size(), ==, code_.bindings.size());
+}
+
+// Binds the buffers anew in every submission. A handle alone does not show whether a buffer is still the one that was bound, since a
+// new buffer may get the handle of a destroyed one.
+void ComputePipeline::bind(std::span<const GpuBuffer* const> buffers) {
   std::vector<vk::DescriptorBufferInfo> infos(buffers.size());
   std::vector<vk::WriteDescriptorSet> writes(buffers.size());
   for (std::uint32_t i = 0; i < buffers.size(); ++i) {

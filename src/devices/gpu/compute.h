@@ -47,8 +47,10 @@ class ComputePipeline {
 
   void create_layouts();
   void create_pipeline(const Specialisation& constants);
-  // Checks the arguments of a run and binds its buffers; the pipeline must not be in the commands recorded so far.
-  void bind(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers);
+  // Checks the arguments of a run.
+  void check(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) const;
+  // Binds the buffers of a run; the pipeline must not be in the commands recorded so far.
+  void bind(std::span<const GpuBuffer* const> buffers);
   // Records a dispatch of at least one thread.
   void record(std::uint64_t threads, std::span<const std::byte> push) const;
 

@@ -167,7 +167,10 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical) {
   limits.max_storage_buffer_bytes = core.maxStorageBufferRange;
   limits.max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
   limits.max_groups_per_dispatch = core.maxComputeWorkGroupCount[0];
-  limits.int64 = physical.getFeatures().shaderInt64 == VK_TRUE;
+  limits.max_storage_buffers = core.maxPerStageDescriptorStorageBuffers;
+  const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+  limits.int64 = features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 == VK_TRUE;
+  limits.int64_atomics = features.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics == VK_TRUE;
   const auto memory = physical.getMemoryProperties();
   for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
     const auto& heap = memory.memoryHeaps[i];
@@ -188,6 +191,7 @@ void create_device(GpuContext::Handles& handles, const DeviceLimits& limits) {
     extensions.push_back(portability_subset);
   vk::PhysicalDeviceVulkan12Features features;
   features.scalarBlockLayout = VK_TRUE;
+  features.shaderBufferInt64Atomics = limits.int64_atomics ? VK_TRUE : VK_FALSE;
   vk::PhysicalDeviceFeatures core_features;
   core_features.shaderInt64 = limits.int64 ? VK_TRUE : VK_FALSE;
   handles.device =

@@ -39,7 +39,9 @@ struct DeviceLimits {
   std::uint64_t max_allocation_bytes = 0;     // of one buffer of any use
   std::uint64_t max_groups_per_dispatch = 0;  // along x
   std::uint64_t heap_bytes = 0;               // largest device-local heap
+  std::uint64_t max_storage_buffers = 0;      // that one shader reads or writes
   bool int64 = false;                         // shaders may use 64-bit integers
+  bool int64_atomics = false;                 // and add to those in buffers atomically
 };
 
 // What a device was given so far: submissions, each with a fence, and bytes to and from its buffers.

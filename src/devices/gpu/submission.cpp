@@ -58,12 +58,16 @@ void Submission::fill(const GpuBuffer& buffer, std::uint32_t word) {
 
 void Submission::run(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
                      std::span<const GpuBuffer* const> buffers) {
-  if (std::find(pipelines_.begin(), pipelines_.end(), &pipeline) != pipelines_.end()) finish();
-  pipeline.bind(threads, push, buffers);
+  const std::vector<const GpuBuffer*> bound(buffers.begin(), buffers.end());
+  const auto earlier = pipelines_.find(&pipeline);
+  const bool is_bound = earlier != pipelines_.end() && earlier->second == bound;
+  if (earlier != pipelines_.end() && !is_bound) finish();
+  pipeline.check(threads, push, buffers);
+  if (!is_bound) pipeline.bind(buffers);
   if (threads == 0) return;
   begin_command();
   pipeline.record(threads, push);
-  pipelines_.push_back(&pipeline);
+  pipelines_[&pipeline] = bound;
 }
 
 void Submission::download(const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,7 @@
 namespace sunfleck {
 
 // Copies, fills and dispatches, each of which sees what those before it wrote. They are submitted together by finish(), or earlier where
-// the staging memory is full or a pipeline is to run again, since the buffers of a pipeline cannot change before it has run.
+// the staging memory is full or a pipeline is to run again with other buffers, since its buffers cannot change before it has run.
 // A context has at most one submission at a time. All buffers and pipelines must live until finish() returns; one that is not finished
 // is dropped.
 class Submission {
@@ -56,7 +57,8 @@ class Submission {
   bool begun_ = false;
   std::size_t staged_ = 0;  // bytes of the staging memory in use
   std::vector<Delivery> deliveries_;
-  std::vector<const ComputePipeline*> pipelines_;  // that run in the commands so far
+  // The pipelines that run in the commands so far, each with its buffers.
+  std::map<const ComputePipeline*, std::vector<const GpuBuffer*>> pipelines_;
 };
 
 }  // namespace sunfleck

@@ -148,6 +148,13 @@ shared::Landing CpuTracer::follow_packet(const shared::PacketBlock& scene, const
   return way.landing();
 }
 
+shared::Landing CpuTracer::finish_packet(const shared::PacketBlock& scene, shared::Packet packet,
+                                         const shared::PausedPacket& paused) const {
+  packet.origin = paused.origin;
+  packet.image = paused.image;
+  return follow_packet(scene, packet, paused.crossings);
+}
+
 TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                               std::span<shared::Landing> landings, const StopQuestion& stop) {
   for (std::size_t first = 0; first < packets.size();) {

@@ -37,6 +37,10 @@ class CpuTracer final : public Tracer {
   [[nodiscard]] shared::Landing follow_packet(const shared::PacketBlock& scene, const shared::Packet& packet,
                                               std::uint32_t crossings) const;
 
+  // Follows a packet that was paused to its end, and returns its landing.
+  [[nodiscard]] shared::Landing finish_packet(const shared::PacketBlock& scene, shared::Packet packet,
+                                              const shared::PausedPacket& paused) const;
+
   // Follows one paused ray to its end and counts its landing; `landings` is that of record_beam, or empty.
   void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters,
                   std::span<shared::Landing> landings) const;

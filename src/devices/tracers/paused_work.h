@@ -47,7 +47,7 @@ class PausedWork {
   [[nodiscard]] std::uint32_t rays_per_dispatch() const { return budget_.rays(); }
 
   // Traces the rays that `push` describes to their end; `buffers` are those of the shader. before(submission) brings the device what
-  // the rays need. after(submission) takes from it what they left, each time that rays paused anew; the last time counts. Those that
+  // the rays need. after(submission, outbox) takes from it what they left, each time that rays paused anew; the last time counts. Those that
   // took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
   template <class Before, class After, class Finish>
   TraceOutcome run(Push push, const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop, const Before& before,
@@ -88,7 +88,7 @@ class PausedWork {
     bound.insert(bound.end(), {&inbox_, &outbox_});
     submission.run(pipeline_, push.count, std::as_bytes(std::span(&push, 1)), bound);
     submission.download(outbox_, std::as_writable_bytes(std::span(&paused, 1)));
-    after(submission);
+    after(submission, outbox_);
     submission.finish();
     return paused;
   }

@@ -59,6 +59,12 @@ TraceOutcome TurnTakingTracer::trace(const shared::PacketBlock& scene, std::span
   return tracer_.trace(scene, packets, landings, giving_way(stop));
 }
 
+std::optional<TraceOutcome> TurnTakingTracer::make_rounds(const RoundsOrder& order, RoundsSums& sums,
+                                                          const StopQuestion& stop) {
+  const TracingTurn turn(turn_);
+  return tracer_.make_rounds(order, sums, giving_way(stop));
+}
+
 TurnTakingViewer::~TurnTakingViewer() {
   const DrawingTurn turn(turn_);
   viewer_.reset();

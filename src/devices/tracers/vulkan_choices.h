@@ -1,17 +1,22 @@
 #pragma once
 // How the Vulkan tracer divides its work.
 
-#include "shared/layout.h"
+#include "shared/rounds.h"
 
 #include <cstdint>
 
 namespace sunfleck {
+
+enum class RoundsAt { best, device, host };
 
 // None of these affects the results.
 struct VulkanChoices {
   std::uint32_t rays_per_dispatch = 0;            // at most; 0: a default for software or hardware
   std::uint32_t group_size = shared::group_size;  // threads per workgroup, at most 128
   double seconds_per_dispatch = 0.0;              // approximate, adapts to the device; 0: no target
+  // Where the rounds of indirect passes are made. Software Vulkan is slower at everything but tracing than the host is on the same cores.
+  RoundsAt rounds_at = RoundsAt::best;
+  shared::RoundChoices rounds{};  // if there are no copies: a default for software or hardware
 };
 
 }  // namespace sunfleck

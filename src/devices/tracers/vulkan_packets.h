@@ -12,6 +12,9 @@
 
 namespace sunfleck {
 
+// Returns the shader that follows packets; its buffers are the scene, the packets, their landings and their order.
+[[nodiscard]] WorkShader packets_shader();
+
 class VulkanPackets {
  public:
   // All arguments except the choices must outlive the object; the choices are complete.
@@ -24,10 +27,8 @@ class VulkanPackets {
  private:
   const GpuContext& context_;
   const CpuTracer& cpu_;
-  GpuBuffer scene_, packets_, landings_;
+  GpuBuffer scene_, packets_, landings_, order_;
   PausedWork<shared::PausedPacket, shared::PacketPush> work_;
-  std::vector<shared::Packet> sent_;     // of one dispatch, in the order of packet_order.h
-  std::vector<shared::Landing> landed_;  // of the packets in sent_
 };
 
 }  // namespace sunfleck

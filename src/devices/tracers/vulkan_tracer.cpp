@@ -96,7 +96,7 @@ TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<
     const std::uint32_t most =
         records ? std::min(work_.rays_per_dispatch(), most_packets_per_dispatch) : work_.rays_per_dispatch();
     const std::uint32_t slice = std::min(most, rays - first);
-    const auto take = [&](Submission& submission) {  // the counters go on until all rays are traced
+    const auto take = [&](Submission& submission, const GpuBuffer&) {  // the counters go on until all rays are traced
       if (records) submission.download(landings_, std::as_writable_bytes(landings.subspan(first, slice)));
     };
     const shared::BeamPush push{first, slice, 0, records ? first : shared::no_landings};
@@ -112,12 +112,22 @@ TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<
 
 TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                  std::span<shared::Landing> landings, const StopQuestion& stop) {
-  if (!packets_) {
-    VulkanChoices choices = choices_;
-    choices.rays_per_dispatch = std::min(choices.rays_per_dispatch, most_packets_per_dispatch);
-    packets_ = std::make_unique<VulkanPackets>(context_, tree_, cpu_, domain_, choices);
-  }
+  if (!packets_) packets_ = std::make_unique<VulkanPackets>(context_, tree_, cpu_, domain_, packet_choices());
   return packets_->trace(scene, packets, landings, stop);
+}
+
+std::optional<TraceOutcome> VulkanTracer::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
+  const bool software = context_.description().software;
+  if (choices_.rounds_at == RoundsAt::host || (choices_.rounds_at == RoundsAt::best && software)) return std::nullopt;
+  if (!RoundSteps::work_on(context_.limits())) return std::nullopt;
+  if (!rounds_) rounds_ = std::make_unique<VulkanRounds>(context_, tree_, cpu_, domain_, packet_choices());
+  return rounds_->make(order, sums, stop);
+}
+
+VulkanChoices VulkanTracer::packet_choices() const {
+  VulkanChoices choices = choices_;
+  choices.rays_per_dispatch = std::min(choices.rays_per_dispatch, most_packets_per_dispatch);
+  return choices;
 }
 
 }  // namespace sunfleck

@@ -9,6 +9,7 @@
 #include "devices/tracers/trace_domain.h"
 #include "devices/tracers/vulkan_choices.h"
 #include "devices/tracers/vulkan_packets.h"
+#include "devices/tracers/vulkan_rounds.h"
 #include "physics/bvh/bvh.h"
 #include "physics/transport/model/tracer.h"
 
@@ -31,8 +32,11 @@ class VulkanTracer final : public Tracer {
                                                         std::span<shared::Landing> landings, const StopQuestion& stop) override;
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
+                                                        const StopQuestion& stop) override;
 
  private:
+  [[nodiscard]] VulkanChoices packet_choices() const;
   // `landings` is empty where they are not wanted.
   TraceOutcome follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                            std::span<shared::Landing> landings, const StopQuestion& stop);
@@ -48,6 +52,7 @@ class VulkanTracer final : public Tracer {
   GpuBuffer landings_;  // of one dispatch; small until landings are asked for
   PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
+  std::unique_ptr<VulkanRounds> rounds_;    // created with the first pass
 };
 
 }  // namespace sunfleck

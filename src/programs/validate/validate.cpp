@@ -45,6 +45,10 @@ class DeviceTracer final : public Tracer {
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {
     return tracer_.trace(scene, packets, landings, stop);
   }
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
+                                                        const StopQuestion& stop) override {
+    return tracer_.make_rounds(order, sums, stop);
+  }
 
  private:
   GpuTree tree_;

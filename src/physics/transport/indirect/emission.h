@@ -2,7 +2,7 @@
 // Points of surfaces from which light leaves, and rays that start there.
 
 #include "physics/canopy/canopy.h"
-#include "shared/layout.h"
+#include "shared/rounds.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,16 +22,14 @@ struct EmissionPoint {
   std::uint32_t u = 0;        // random bits by which the quanta split (shared::part_of)
 };
 
-// Order of the first cell of the ground.
-inline constexpr std::uint32_t ground_order = 0x80000000U;
+using shared::ground_order;
 
 // Returns the array index of a level; the soil's level has index 0.
 [[nodiscard]] constexpr std::size_t level_index(std::int32_t level) {
   return static_cast<std::size_t>(std::int64_t{level} + 1);
 }
 
-// Value of EmissionPoint::a that stands for a point chosen uniformly on the element: packets of lamps start there.
-inline constexpr float anywhere = -1.0F;
+using shared::anywhere;
 
 // How far the origin of a packet lies from its surface, and the height of the ground.
 struct EmissionFrame {

@@ -2,6 +2,7 @@
 
 #include "base/in_blocks.h"
 #include "base/random.h"
+#include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/indirect/landing_places.h"
 #include "physics/transport/indirect/landing_points.h"
 #include "physics/transport/indirect/packet_books.h"
@@ -39,9 +40,6 @@ constexpr std::size_t least_batch = 256;
 constexpr std::size_t most_carried_in_batch = std::size_t{1} << 17U;
 // Packets whose arrivals a thread finds at a time.
 constexpr std::size_t arrivals_per_block = 512;
-
-// The number in place of a packet's, for the random words that all packets of a round share.
-constexpr std::uint32_t whole_round = 0xffffffffU;
 
 // Returns a coefficient (shaders/shared/quanta.h), rounded up.
 std::uint64_t coefficient_above(double part) {
@@ -89,10 +87,10 @@ class IndirectPass {
     add_lamps();
     IndirectSums& sums = books_.sums();
     sums.first_places = next_.size();
-    const std::optional<PlaceAim> aim = light_.aim != nullptr ? std::optional<PlaceAim>({scene_, *light_.aim}) : std::nullopt;
-    PacketDraw draw(books_.scattering(), aim ? &*aim : nullptr, order_.packets, books_.waiting(), arrays_.draw);
-    while (retire_faint_columns() && sums.rounds < most_rounds) {
-      if (!shoot(draw)) return std::nullopt;
+    if (const std::optional<TraceOutcome> outcome = make_rounds_on_device()) {
+      if (*outcome == TraceOutcome::stopped) return std::nullopt;
+    } else if (!make_rounds()) {
+      return std::nullopt;
     }
     books_.close();
     arrays_.sides_landed = sums.side_landed.extent();
@@ -100,6 +98,50 @@ class IndirectPass {
   }
 
  private:
+  // Makes all rounds on the host. Returns false if stopped.
+  [[nodiscard]] bool make_rounds() {
+    const std::optional<PlaceAim> aim = light_.aim != nullptr ? std::optional<PlaceAim>({scene_, *light_.aim}) : std::nullopt;
+    PacketDraw draw(books_.scattering(), aim ? &*aim : nullptr, order_.packets, books_.waiting(), arrays_.draw);
+    while (retire_faint_columns() && books_.sums().rounds < most_rounds) {
+      if (!shoot(draw)) return false;
+    }
+    return true;
+  }
+
+  // Lets the tracer make all rounds where it works, if it can; see Tracer::make_rounds.
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds_on_device() {
+    if (light_.aim != nullptr || !suits_device(scene_)) return std::nullopt;
+    const shared::PassBlock block = pass_block();
+    const RoundsOrder order{
+        scene_, next_, block, order_.packets, coefficients_of(books_.scattering()), round_columns(), books_.for_rounds(block)};
+    RoundsSums found;
+    const std::optional<TraceOutcome> outcome = scene_.tracer.make_rounds(order, found, stop_);
+    if (outcome == TraceOutcome::finished) books_.add_rounds(order.block, found);
+    return outcome;
+  }
+
+  [[nodiscard]] shared::PassBlock pass_block() const {
+    shared::PassBlock block = block_of(scene_);
+    block.each = PacketDraw::packets_for_each(order_.packets, books_.waiting());
+    block.unshot_part = unshot_part();
+    block.least_judged = least_judged();
+    block.key = key_;
+    block.most_rounds = static_cast<std::uint32_t>(most_rounds);
+    return block;
+  }
+
+  [[nodiscard]] std::vector<shared::RoundColumn> round_columns() const {
+    const std::vector<std::int64_t> waiting = books_.waiting();
+    std::vector<shared::RoundColumn> all(columns_);
+    for (std::size_t c = 0; c < columns_; ++c) {
+      all[c].start = static_cast<std::uint64_t>(waiting[c]);
+      all[c].incident = static_cast<std::uint64_t>(incident_[c]);
+      all[c].least_of_vegetation = static_cast<std::uint64_t>(whole_quanta(first(c).least_of_vegetation[band(c)]));
+      all[c].is_active = 1;
+    }
+    return all;
+  }
+
   [[nodiscard]] std::size_t band(std::size_t column) const { return column / lights_; }
   // Returns what the direct pass found in the light of a column.
   [[nodiscard]] const FirstLandings& first(std::size_t column) const { return light_.first[column % lights_]; }
@@ -245,12 +287,12 @@ class IndirectPass {
     IndirectSums& sums = books_.sums();
     ++sums.rounds;
     waiting_.take_sorted(next_);
-    const glm::uvec4 offset = words_of(whole_round);
+    const glm::uvec4 offset = words_of(shared::word_of_offset);
     draw.draw(waiting_, books_.booked(), books_.waiting(), std::uint64_t{offset.y} << 32U | offset.x);
     for (std::size_t c = 0; c < columns_; ++c) {
       if (active_[c] && !draw.carries(c)) retire(c);
     }
-    const PacketStarts starts(scene_.model.canopy, waiting_, draw, scene_.frame, words_of(whole_round - 1));
+    const PacketStarts starts(scene_.model.canopy, waiting_, draw, scene_.frame, words_of(shared::word_of_starts));
     next_.clear(books_.booked());
     next_.reserve(draw.packets());
     books_.begin_round();
@@ -304,17 +346,19 @@ class IndirectPass {
     active_[column] = false;
   }
 
+  [[nodiscard]] std::uint64_t unshot_part() const { return coefficient_above(unshot_part_of_bound * order_.bound); }
+  [[nodiscard]] static std::uint64_t least_judged() { return coefficient_above(least_judged_share); }
+
   // Ends the columns with too little flux left to matter. Returns false if none is left.
   [[nodiscard]] bool retire_faint_columns() {
     const std::vector<std::int64_t> waiting = books_.waiting();
-    const std::uint64_t part = coefficient_above(unshot_part_of_bound * order_.bound);
-    const std::uint64_t least_share = coefficient_above(least_judged_share);
+    const std::uint64_t part = unshot_part();
     std::size_t begin = columns_, end = 0;
     for (std::size_t c = 0; c < columns_; ++c) {
       if (!active_[c]) continue;
       const std::int64_t vegetation =
           std::max(whole_quanta(first(c).least_of_vegetation[band(c)]), books_.scattering().vegetation()[c]);
-      const std::int64_t least = part_of(incident_[c], least_share, 0);
+      const std::int64_t least = part_of(incident_[c], least_judged(), 0);
       const std::int64_t judged = std::min(vegetation, std::max(least, books_.scattering().soil()[c]));
       if (waiting[c] == 0 || waiting[c] < part_of(judged, part, 0)) {
         retire(c);

@@ -55,6 +55,7 @@ struct IndirectScene {
   const PlaneReceivers* receivers;
   shared::PacketBlock block;
   EmissionFrame frame;
+  std::uint64_t number;  // no other scene of this process has the same, and none has 0
 };
 
 }  // namespace sunfleck

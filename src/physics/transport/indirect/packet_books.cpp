@@ -134,6 +134,44 @@ void PacketBooks::add_to(std::vector<std::int64_t>& sums, std::size_t place, std
   columns::add(quanta, &sums[place * columns_ + booked_.first]);
 }
 
+std::vector<std::uint64_t> PacketBooks::for_rounds(const shared::PassBlock& block) const {
+  std::vector<std::uint64_t> totals(shared::small_words(block) + shared::layer_places(block) * columns_);
+  const auto put = [&](std::uint32_t row, const std::vector<std::int64_t>& values) {
+    std::copy(values.begin(), values.end(), totals.begin() + static_cast<std::ptrdiff_t>(row * columns_));
+  };
+  put(shared::sum_vegetation, scattering_.vegetation());
+  put(shared::sum_soil, scattering_.soil());
+  put(shared::place_row(block, shared::place_waiting, 0), layers_.waiting_everywhere());
+  return totals;
+}
+
+void PacketBooks::add_rounds(const shared::PassBlock& block, const RoundsSums& found) {
+  const auto row = [&](std::uint32_t number) { return std::span(found.totals).subspan(number * columns_, columns_); };
+  layers_.add_rounds(found.at_places(block, shared::place_waiting), found.at_places(block, shared::place_down),
+                     found.at_places(block, shared::place_up), std::span(found.totals).subspan(shared::small_words(block)));
+  for (std::size_t c = 0; c < columns_; ++c) {
+    scattering_.absorbed(Role::leaf)[c] = static_cast<std::int64_t>(row(shared::sum_vegetation)[c]);
+    scattering_.absorbed(Role::structure)[c] += static_cast<std::int64_t>(row(shared::sum_structure)[c]);
+    scattering_.absorbed(Role::soil)[c] = static_cast<std::int64_t>(row(shared::sum_soil)[c]);
+    FluxLedger& ledger = sums_.ledger[c];
+    ledger.reflected += static_cast<std::int64_t>(row(shared::sum_reflected)[c]);
+    ledger.transmitted += static_cast<std::int64_t>(row(shared::sum_transmitted)[c]);
+    ledger.unshot += static_cast<std::int64_t>(row(shared::sum_lost)[c] + found.columns[c].unshot);
+  }
+  sums_.side_landed.add_all(found.side_landed);
+  columns::add(found.cell_landed, sums_.cell_landed.data());
+  columns::add(found.surface_landed, sums_.surface_landed.data());
+  const std::size_t first_layer = shared::layer_row(block, 0, 0, 0) * columns_;
+  for (std::size_t k = 0; k < sums_.layer_landed.size(); ++k) {
+    sums_.layer_landed[k] += static_cast<std::int64_t>(found.totals[first_layer + k]);
+  }
+  for (std::size_t e = 0; e < sums_.element_hits.size(); ++e) sums_.element_hits[e] += found.element_hits[e];
+  sums_.lost += found.totals[shared::small_rows(block) * columns_ + 1];
+  sums_.packets += found.packets;
+  sums_.rounds += found.rounds;
+  sums_.most_places = std::max(sums_.most_places, found.most_places);
+}
+
 void PacketBooks::retire(std::size_t column) {
   sums_.ledger[column].unshot += layers_.drop_waiting(column);
   if (scene_.receivers != nullptr) receivers_.drop_waiting(column);

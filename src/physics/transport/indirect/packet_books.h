@@ -2,6 +2,7 @@
 // The books of an indirect pass: where quanta landed, what surfaces absorbed, what passed the planes, and what waits where.
 
 #include "physics/transport/indirect/arrivals.h"
+#include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/indirect/indirect_scene.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/indirect/scattering.h"
@@ -37,6 +38,10 @@ class PacketBooks {
   void add_waiting_in_zone(std::size_t zone, std::size_t column, std::int64_t quanta) {
     receivers_.waiting(zone)[column] += quanta;
   }
+
+  // Return what a device is given of the books for rounds of its own (RoundsOrder::totals), and complete them with what it found.
+  [[nodiscard]] std::vector<std::uint64_t> for_rounds(const shared::PassBlock& block) const;
+  void add_rounds(const shared::PassBlock& block, const RoundsSums& found);
 
   // Returns what waits. [column]
   [[nodiscard]] std::vector<std::int64_t> waiting() const { return layers_.all_waiting(); }

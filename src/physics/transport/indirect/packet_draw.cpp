@@ -10,16 +10,15 @@ namespace sunfleck {
 namespace {
 
 constexpr double unit = 0x1p32;  // of expectations
-// A round has at least this many packets, and each column is expected in this many.
-constexpr std::uint64_t least_packets = 256;
-constexpr std::uint64_t least_of_column = std::uint64_t{16} << 32U;
-// A sum of expectations below this draws nothing.
-constexpr std::uint64_t least_sum = std::uint64_t{1} << 20U;
 // Sides and packets that a thread takes at a time.
 constexpr std::size_t sides_per_block = 4096;
 constexpr std::size_t packets_per_block = 4096;
 // StandAim::packets_per_flux is at least 2^-aim_bits.
 constexpr unsigned aim_bits = StandAim::least_bits;
+
+using shared::least_of_column;
+using shared::least_packets;
+using shared::least_sum;
 
 }  // namespace
 
@@ -33,8 +32,12 @@ PacketDraw::PacketDraw(const Scattering& scattering, const PlaceAim* aim, double
       least_(start.size()),
       loads_(start.size()),
       weights_(start.size()) {
+  each_ = packets_for_each(packets, start);
+}
+
+std::uint64_t PacketDraw::packets_for_each(double packets, const std::vector<std::int64_t>& start) {
   const auto lit = std::count_if(start.begin(), start.end(), [](std::int64_t flux) { return flux > 0; });
-  each_ = static_cast<std::uint64_t>(packets * unit / static_cast<double>(std::max<std::ptrdiff_t>(1, lit)));
+  return static_cast<std::uint64_t>(packets * unit / static_cast<double>(std::max<std::ptrdiff_t>(1, lit)));
 }
 
 void PacketDraw::draw(const WaitingFlux& places, ColumnRange columns, std::span<const std::int64_t> totals,

@@ -39,6 +39,9 @@ class PacketDraw {
   PacketDraw(const Scattering& scattering, const PlaceAim* aim, double packets, const std::vector<std::int64_t>& start,
              DrawArrays& arrays);
 
+  // Returns the packets of the first round for each column, in units of 2^-32; the arguments are those of the constructor.
+  [[nodiscard]] static std::uint64_t packets_for_each(double packets, const std::vector<std::int64_t>& start);
+
   // Draws the packets of a round. `totals` is what waits, [column], and only `columns` have any; `offset` is random. The places must
   // not change as long as the draw is used.
   void draw(const WaitingFlux& places, ColumnRange columns, std::span<const std::int64_t> totals, std::uint64_t offset);

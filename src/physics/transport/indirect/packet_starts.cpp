@@ -4,16 +4,6 @@
 #include "shared/emission.h"
 
 namespace sunfleck {
-namespace {
-
-// Steps of the additive sequence, as parts of 2^32: the first two powers of 1 / 1.3247..., the plastic number. Places on a lamp take two
-// other steps, because a sequence in four dimensions would have different ones in all of them.
-constexpr std::uint32_t step_u = 0xc13fa9a9U;
-constexpr std::uint32_t step_v = 0x91e10da6U;
-constexpr std::uint32_t lamp_step_u = 0x9e3779b9U;
-constexpr std::uint32_t lamp_step_v = 0x49d07e62U;
-
-}  // namespace
 
 void PacketStarts::write(std::size_t first, std::span<shared::Packet> packets) const {
   constexpr std::size_t block_size = 1024;
@@ -32,10 +22,10 @@ shared::Packet PacketStarts::start(std::size_t packet) const {
   const PacketSource from = draw_.source(packet);
   const EmissionPoint& place = places_.place(from.place);
   glm::vec2 at(place.a, place.b);
-  if (place.a == anywhere) at = shared::even_weights(words_.z + number * lamp_step_u, words_.w + number * lamp_step_v);
+  if (place.a == anywhere) at = shared::weights_on_lamp(number, words_);
   const std::uint32_t surface = place.surface == shared::landed_on_ground ? place.surface : (place.surface & ~1U) | from.side;
   PacketStart start = start_at(canopy_, surface, at.x, at.y, frame_);
-  start.packet.direction = shared::cosine_direction(start.normal, words_.x + number * step_u, words_.y + number * step_v);
+  start.packet.direction = shared::direction_of_packet(start.normal, number, words_);
   return start.packet;
 }
 

@@ -91,6 +91,15 @@ void PlaceSums::add(const PlaceSums& other) {
   }
 }
 
+void PlaceSums::add_all(std::span<const std::int64_t> sums) {
+  EXPECT(sums.size(), ==, size());
+  if (form_ == Form::all) return columns::add(sums, all_.data());
+  for (std::size_t place = 0; place < places_; ++place) {
+    const std::span<const std::int64_t> values = sums.subspan(place * width_, width_);
+    if (std::any_of(values.begin(), values.end(), [](std::int64_t value) { return value != 0; })) add(place, values);
+  }
+}
+
 std::vector<std::int64_t> PlaceSums::all() const {
   if (form_ == Form::all) return all_;
   std::vector<std::int64_t> sums(size());

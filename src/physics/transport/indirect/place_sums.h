@@ -56,6 +56,9 @@ class PlaceSums {
   // Adds the sums of `other`, which has as many, or none.
   void add(const PlaceSums& other);
 
+  // Adds all sums of a device, [place * width + k].
+  void add_all(std::span<const std::int64_t> sums);
+
   // Return all sums, [place * width + k]; `take_all` leaves no place behind.
   [[nodiscard]] std::vector<std::int64_t> all() const;
   [[nodiscard]] std::vector<std::int64_t> take_all();

@@ -51,6 +51,12 @@ TraceOutcome ReplicateMaker::ForAllThreads::trace(const shared::PacketBlock& sce
   return tracer_.trace(scene, packets, landings, stop);
 }
 
+std::optional<TraceOutcome> ReplicateMaker::ForAllThreads::make_rounds(const RoundsOrder& order, RoundsSums& sums,
+                                                                       const StopQuestion& stop) {
+  const std::unique_lock lock = turn();
+  return tracer_.make_rounds(order, sums, stop);
+}
+
 ReplicateMaker::ReplicateMaker(Lights lights, const CounterLayout& layout, Tracer& tracer)
     : lights_(lights),
       model_(lights.front()),

@@ -81,6 +81,8 @@ class ReplicateMaker {
                                                           const StopQuestion& stop) override;
     [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                      std::span<shared::Landing> landings, const StopQuestion& stop) override;
+    [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
+                                                          const StopQuestion& stop) override;
 
    private:
     [[nodiscard]] std::unique_lock<std::mutex> turn();

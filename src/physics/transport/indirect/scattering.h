@@ -31,6 +31,7 @@ class Scattering {
   Scattering(const RadiationModel& model, std::size_t lights);
 
   [[nodiscard]] const FaceColumns& face(std::uint32_t number) const { return faces_[number]; }
+  [[nodiscard]] const std::vector<FaceColumns>& faces() const { return faces_; }
 
   // Returns whether what landed at a place leaves from a side, 0 or 1.
   [[nodiscard]] bool sends(const EmissionPoint& place, std::size_t side) const {

@@ -26,6 +26,12 @@ class WaitingFlux {
   void take_sorted(WaitingFlux& other);
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
+  // Return all places, and their quanta in the order in which both were added.
+  [[nodiscard]] std::span<const EmissionPoint> places() const { return places_; }
+  [[nodiscard]] std::span<const std::int64_t> rows() const { return quanta_; }
+  // Return numbers above the orders of all places on elements, and above all cells on the ground.
+  [[nodiscard]] std::uint32_t end_of_elements() const { return end_of_elements_; }
+  [[nodiscard]] std::uint32_t end_of_cells() const { return end_of_cells_; }
   [[nodiscard]] const EmissionPoint& place(std::size_t number) const { return places_[number]; }
   // Returns the quanta of a place in some of the columns.
   [[nodiscard]] std::span<const std::int64_t> quanta(std::size_t number, ColumnRange of) const {

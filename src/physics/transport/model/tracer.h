@@ -25,6 +25,10 @@ using StopQuestion = std::function<bool()>;
 
 enum class TraceOutcome { finished, stopped };
 
+// Rounds of packets that a device makes on its own, and what it finds (physics/transport/indirect/device_rounds.h).
+struct RoundsOrder;
+struct RoundsSums;
+
 class Tracer {
  public:
   virtual ~Tracer() = default;
@@ -51,6 +55,13 @@ class Tracer {
   // Follows every packet to its end; landings[k] is where packets[k] landed. If stopped, the landings must not be used.
   [[nodiscard]] virtual TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                            std::span<shared::Landing> landings, const StopQuestion& stop) = 0;
+
+  // Makes all rounds of an indirect pass where the tracer works, so that packets never come to the host, and sets `sums`. Returns nothing,
+  // and does nothing, if it cannot. If stopped, the sums must not be used.
+  [[nodiscard]] virtual std::optional<TraceOutcome> make_rounds(const RoundsOrder& /*order*/, RoundsSums& /*sums*/,
+                                                                const StopQuestion& /*stop*/) {
+    return std::nullopt;
+  }
 };
 
 }  // namespace sunfleck

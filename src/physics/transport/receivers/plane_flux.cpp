@@ -27,6 +27,16 @@ std::vector<std::int64_t> PlaneFlux::count_waiting() {
   return count(waiting_, -1);
 }
 
+void PlaneFlux::add_rounds(std::span<const std::uint64_t> waiting, std::span<const std::uint64_t> down,
+                           std::span<const std::uint64_t> up, std::span<const std::uint64_t> moved) {
+  for (std::size_t k = 0; k < waiting_.size(); ++k) {
+    waiting_[k] = static_cast<std::int64_t>(waiting[k]);
+    down_[k] += static_cast<std::int64_t>(down[k]);
+    up_[k] += static_cast<std::int64_t>(up[k]);
+    moved_[k] += static_cast<std::int64_t>(moved[k]);
+  }
+}
+
 void PlaneFlux::keep(std::size_t column, std::int64_t quanta) {
   waiting_[lowest_[column]] += quanta;
   moved_[lowest_[column]] += quanta;

@@ -143,7 +143,27 @@ TEST_F(GpuTest, CopiesFillsAndDispatchesSeeEachOtherInOneSubmission) {
   EXPECT_EQ(after, expected);
 }
 
-TEST_F(GpuTest, APipelineThatRunsTwiceOrAFullStagingMemoryEndsASubmissionEarly) {
+TEST_F(GpuTest, APipelineRunsAgainInASubmissionWithTheSameBuffers) {
+  constexpr std::uint32_t count = 1000;
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  const auto words = noise(count);
+  const auto buffer = make_buffer(context(), BufferUse::storage, words);
+  auto pipeline = make_pipeline(context(), Mode::add);
+  const GpuBuffer* buffers[] = {&buffer, &texels};
+  std::vector<std::uint32_t> sums(count);
+  const std::uint64_t start = context().traffic().submissions;
+  Submission submission(context());
+  for (const std::uint32_t number : {1U, 20U, 300U}) {
+    const Push push{count, number};
+    submission.run(pipeline, count, std::as_bytes(std::span(&push, 1)), buffers);
+  }
+  submission.download(buffer, std::as_writable_bytes(std::span(sums)));
+  submission.finish();
+  EXPECT_EQ(context().traffic().submissions - start, 1U);
+  for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(sums[i], words[i] + 321);
+}
+
+TEST_F(GpuTest, OtherBuffersOfAPipelineOrAFullStagingMemoryEndASubmissionEarly) {
   const auto words = noise(Staging::bytes / 4 + 3);
   const auto many = create_buffer(context(), BufferUse::storage, words.size() * 4, "many words");
   const auto one = create_buffer(context(), BufferUse::storage, 4, "one word");

@@ -54,6 +54,17 @@ TEST_P(PlaceSumsTest, AreTheSameInBothForms) {
   }
 }
 
+TEST_P(PlaceSumsTest, TakeAllSumsOfADevice) {
+  constexpr std::size_t places = 5000;
+  std::vector<std::int64_t> plain(places * width), other_plain(places * width);
+  PlaceSums sums(places, width), other(places, width);
+  land(sums, plain, GetParam(), places, 1);
+  land(other, other_plain, 700, places, 2);
+  sums.add_all(other_plain);
+  for (std::size_t k = 0; k < plain.size(); ++k) plain[k] += other_plain[k];
+  EXPECT_EQ(sums.all(), plain);
+}
+
 TEST_P(PlaceSumsTest, AreVisitedInParts) {
   constexpr std::size_t places = 5000;
   std::vector<std::int64_t> plain(places * width);

@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Finds what a unit of weight carries of each column, retires columns that no packet carries, and takes what waits off its places. Each
+// thread of one group takes some columns.
+
+#include "pass.glsl"
+
+void load_column(uint column) {
+  uint weight_word = sum_weights * pass.columns + column;
+  Load load = load_of(columns[column].total, totals[weight_word]);
+  totals[weight_word] = uint64_t(0u);
+  columns[column].load_factor = load.factor;
+  columns[column].load_shift = load.shift;
+  bool retired = columns[column].is_active != 0u && load.factor == uint64_t(0u);
+  if (retired) {
+    columns[column].is_active = 0u;
+    columns[column].unshot += columns[column].total;
+    columns[column].total = uint64_t(0u);
+  }
+  columns[column].waited = columns[column].total;
+  columns[column].lowest = 0u;
+  for (uint k = layer_places(pass); k > 0u; --k) {
+    uint word = place_row(pass, place_waiting, k - 1u) * pass.columns + column;
+    uint64_t waiting = retired ? uint64_t(0u) : totals[word];
+    if (waiting > uint64_t(0u)) columns[column].lowest = k - 1u;
+    totals[small_words(pass) + (k - 1u) * pass.columns + column] -= waiting;
+    totals[word] = uint64_t(0u);
+  }
+}
+
+void main() {
+  for (uint column = gl_LocalInvocationID.x; column < pass.columns; column += round_group_size) load_column(column);
+}

@@ -1,0 +1,169 @@
+// The rounds of an indirect pass: random words, limits of drawing, and all that a device keeps of a pass on its own.
+#ifndef SUNFLECK_SHARED_ROUNDS_H
+#define SUNFLECK_SHARED_ROUNDS_H
+
+#include "shared/layout.h"
+#include "shared/quanta.h"
+
+SHARED_BEGIN
+
+// The numbers in place of a packet's for the random words that all packets of a round share: the offset of drawing, and the starts of
+// the sequences of directions and of places on lamps.
+const uint word_of_offset = 0xffffffffu;
+const uint word_of_starts = 0xfffffffeu;
+
+// A round has at least this many packets, and each column is expected in `least_of_column`, in units of 2^-32 of a packet.
+const uint64_t least_packets = uint64_t(256u);
+const uint64_t least_of_column = uint64_t(16u) << 32u;
+// A sum of expectations below this draws nothing.
+const uint64_t least_sum = uint64_t(1u) << 20u;
+
+// Value of a place's weight of corner b that stands for a point chosen uniformly on the element: packets of lamps start there.
+const float anywhere = -1.0f;
+
+// Order of the first cell of the ground.
+const uint ground_order = 0x80000000u;
+
+// Threads of a group in the shaders of rounds.
+const uint round_group_size = 128u;
+const uint place_parts = element_parts + ground_parts;
+// Parts of the sphere by which packets are ordered.
+const uint sectors = 128u;
+// A side writes its number for this many of its packets; the others look for it.
+const uint most_numbered = 64u;
+
+// How a device divides the work of a round. None of these affects the results.
+struct RoundChoices {
+  uint copies;              // of the small sums, so that few threads add to the same one
+  uint places_per_run;      // that one thread sorts
+  uint numbers_per_sum;     // that one thread adds to running sums
+  uint packets_per_window;  // that one thread orders by direction
+};
+
+// What a device knows of a pass. Lengths in metres in the canopy's local frame.
+struct PassBlock {
+  uint64_t each;          // packets for each column in the first round, in units of 2^-32
+  uint64_t unshot_part;   // a column is retired when less than this part of what is absorbed waits
+  uint64_t least_judged;  // what is absorbed counts as at least this part of what came in
+  uvec2 key;              // of the random words
+  vec2 period;            // of an endless plot, along x and z; 0 for an isolated stand
+  vec2 per_period;        // 1 / period
+  GroundMap ground;
+  float offset;  // distance of a packet's origin from its surface
+  float layer_base_y;
+  float layers_per_metre;
+  uint layers;
+  uint columns;
+  uint optics;  // kinds
+  uint faces;   // of the kinds of optics, of the soil plane and of lamps
+  uint soil_face;
+  uint most_rounds;
+  RoundChoices choices;
+};
+
+// What the shaders of a pass tell each other and the host.
+struct RoundState {
+  uint64_t offset;  // of drawing
+  uint64_t gain;
+  uint64_t parts_of_elements;  // shared::place_part
+  uint64_t parts_of_ground;
+  uint rounds;
+  uint packets;  // drawn in this round
+  uint done;     // 1: no column is left
+  uint most_places;
+  uint end_of_elements;  // orders, and numbers of cells, of the places that wait next are below these
+  uint end_of_cells;
+  uint any_least;  // 1: some column is so faint that it needs a least number of packets
+};
+
+// A column of a pass.
+struct RoundColumn {
+  uint64_t start;   // what waited before the first round
+  uint64_t total;   // what waits
+  uint64_t waited;  // what waited when this round's packets left
+  uint64_t incident;
+  uint64_t least_of_vegetation;
+  uint64_t unshot;
+  uint64_t load_factor;
+  uint load_shift;
+  uint is_active;
+  Scale wanted;  // packets for a quantum
+  Scale least;   // the same for a faint column
+  uint lowest;   // lowest place among the layers at which any waited when this round's packets left
+};
+
+// What a device must know of an element.
+struct RoundElement {
+  uint surface;          // number of its surface
+  uint optics_and_role;  // kind of optics * 4, and one of:
+};
+const uint role_vegetation = 0u;
+const uint role_structure = 1u;
+const uint role_soil = 2u;
+
+// A place where flux waits; see EmissionPoint in physics/transport/indirect/emission.h.
+struct WaitingPlace {
+  uint surface;
+  uint order;
+  float a;
+  float b;
+  int level;
+  uint face;
+  uint u;
+};
+
+// One dispatch: `count` places, sides or packets from number `first` on.
+struct RoundPush {
+  uint first;
+  uint count;
+};
+
+// The small sums, each with `columns` words but for the last. Among the layers there are layers + 2 places: the soil, the layers, and above.
+const uint sum_weights = 0u;
+const uint sum_vegetation = 1u;  // absorbed; in the order of the roles
+const uint sum_structure = 2u;
+const uint sum_soil = 3u;
+const uint sum_reflected = 4u;
+const uint sum_transmitted = 5u;
+const uint sum_lost = 6u;
+const uint sums_of_places =
+    7u;  // then for each place among the layers what waits, what was taken along, and what passed down and up
+const uint place_waiting = 0u;
+const uint place_taken = 1u;
+const uint place_down = 2u;
+const uint place_up = 3u;
+const uint kinds_of_places = 4u;
+
+INLINE uint layer_places(PassBlock block) {
+  return block.layers + 2u;
+}
+
+// Returns the row of a kind of sum at a place among the layers.
+INLINE uint place_row(PassBlock block, uint kind, uint place) {
+  return sums_of_places + kind * layer_places(block) + place;
+}
+
+// Returns the row of what landed in a layer on a side of a kind of optics.
+INLINE uint layer_row(PassBlock block, uint layer, uint kind, uint side) {
+  return place_row(block, kinds_of_places, 0u) + (layer * block.optics + kind) * 2u + side;
+}
+
+// Returns the number of rows, and of words: two for the places kept and the packets lost follow the rows.
+INLINE uint small_rows(PassBlock block) {
+  return layer_row(block, block.layers, 0u, 0u);
+}
+INLINE uint small_words(PassBlock block) {
+  return small_rows(block) * block.columns + 2u;
+}
+
+// Returns the load of a column. (A Load inside the column would be laid out differently in C++ and in GLSL.)
+INLINE Load column_load(RoundColumn column) {
+  Load load;
+  load.factor = column.load_factor;
+  load.shift = column.load_shift;
+  return load;
+}
+
+SHARED_END
+
+#endif

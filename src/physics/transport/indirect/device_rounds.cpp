@@ -1,0 +1,69 @@
+#include "physics/transport/indirect/device_rounds.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace sunfleck {
+namespace {
+
+std::uint32_t role_number(Role role) {
+  if (role == Role::soil) return shared::role_soil;
+  return is_vegetation(role) ? shared::role_vegetation : shared::role_structure;
+}
+
+}  // namespace
+
+std::uint64_t RoundsOrder::most_packets() const {
+  const std::uint64_t for_columns = (shared::least_of_column >> 32U) * columns.size();
+  return static_cast<std::uint64_t>(std::ceil(packets)) + for_columns + shared::least_packets + 1;
+}
+
+std::span<const std::uint64_t> RoundsSums::at_places(const shared::PassBlock& block, std::uint32_t kind) const {
+  const std::size_t first = shared::place_row(block, kind, 0) * block.columns;
+  return std::span(totals).subspan(first, shared::layer_places(block) * block.columns);
+}
+
+bool suits_device(const IndirectScene& scene) {
+  return scene.receivers == nullptr && scene.model.canopy.corners.copies().empty();
+}
+
+shared::PassBlock block_of(const IndirectScene& scene) {
+  const glm::dvec2 period_m = scene.model.canopy.period_m;
+  const Layers& layers = scene.layout.layers;
+  shared::PassBlock block{};
+  if (period_m.x > 0.0) {
+    block.period = glm::vec2(period_m);
+    block.per_period = glm::vec2(1.0 / period_m);
+  }
+  block.ground = scene.block.ground;
+  block.offset = scene.frame.offset_m;
+  block.layer_base_y = layers.base_y_m;
+  block.layers_per_metre = layers.per_metre;
+  block.layers = static_cast<std::uint32_t>(layers.count);
+  block.columns = static_cast<std::uint32_t>(scene.model.bands.size() * scene.lights.size());
+  block.optics = static_cast<std::uint32_t>(scene.model.optics.size());
+  block.faces = lamp_face(scene.model) + 1;
+  block.soil_face = soil_face(scene.model);
+  return block;
+}
+
+std::vector<std::uint64_t> coefficients_of(const Scattering& scattering) {
+  std::vector<std::uint64_t> reflected, scattered;
+  for (const FaceColumns& face : scattering.faces()) {
+    reflected.insert(reflected.end(), face.reflected.begin(), face.reflected.end());
+    scattered.insert(scattered.end(), face.scattered.begin(), face.scattered.end());
+  }
+  reflected.insert(reflected.end(), scattered.begin(), scattered.end());
+  return reflected;
+}
+
+std::vector<shared::RoundElement> round_elements(const IndirectScene& scene) {
+  std::vector<shared::RoundElement> elements(scene.model.canopy.size());
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const std::uint32_t optics = scene.model.canopy.optics_of[e];
+    elements[e] = {scene.surfaces.number_of[e], optics * 4 + role_number(scene.surfaces.at(e).role)};
+  }
+  return elements;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,54 @@
+#pragma once
+// The rounds of an indirect pass as a device makes them on its own: what it is given, and what it finds. Shaders do what WaitingFlux,
+// PacketDraw, PacketStarts and PacketBooks do on the host, with the same integers.
+
+#include "physics/transport/indirect/indirect_scene.h"
+#include "physics/transport/indirect/scattering.h"
+#include "physics/transport/indirect/waiting_flux.h"
+#include "shared/rounds.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sunfleck {
+
+// What a device is given for the rounds of one pass.
+struct RoundsOrder {
+  const IndirectScene& scene;
+  const WaitingFlux& places;         // where flux waits before the first round
+  shared::PassBlock block;           // `choices` are the device's own
+  double packets = 0.0;              // of the first round, approximately; no round has many more
+  std::vector<std::uint64_t> faces;  // coefficients: what each reflects, then what each scatters, [face * columns + column]
+  std::vector<shared::RoundColumn> columns;  // [column]
+  std::vector<std::uint64_t>
+      totals;  // the small sums (shared/rounds.h), then what moved, [place among the layers * columns + column]
+
+  // Returns the largest number of packets in a round: each column may need a least number of its own.
+  [[nodiscard]] std::uint64_t most_packets() const;
+};
+
+// What a device found.
+struct RoundsSums {
+  std::vector<shared::RoundColumn> columns;  // as in RoundsOrder
+  std::vector<std::uint64_t> totals;
+  std::vector<std::int64_t> side_landed;  // as in IndirectSums, of the packets
+  std::vector<std::int64_t> cell_landed, surface_landed;
+  std::vector<std::uint32_t> element_hits;
+  std::uint64_t packets = 0, rounds = 0, most_places = 0;
+
+  // Returns the rows of one kind of small sums, [place among the layers * columns + column].
+  [[nodiscard]] std::span<const std::uint64_t> at_places(const shared::PassBlock& block, std::uint32_t kind) const;
+};
+
+// Returns whether a device can make the rounds of a scene: one without receivers, whose elements have corners of their own.
+[[nodiscard]] bool suits_device(const IndirectScene& scene);
+
+// Returns what a pass of any replicate needs of a scene; the rest is 0.
+[[nodiscard]] shared::PassBlock block_of(const IndirectScene& scene);
+// Returns the coefficients of all faces (RoundsOrder::faces).
+[[nodiscard]] std::vector<std::uint64_t> coefficients_of(const Scattering& scattering);
+// Returns what a device must know of the elements besides their corners. [element]
+[[nodiscard]] std::vector<shared::RoundElement> round_elements(const IndirectScene& scene);
+
+}  // namespace sunfleck

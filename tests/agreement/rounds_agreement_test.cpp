@@ -1,0 +1,196 @@
+// Tests that a device makes the rounds of indirect passes as the host does: every stage leaves the same integers and the same bits of
+// packets, however the work is divided, and whole runs give the same numbers.
+
+#include "agreement/scenes.h"
+#include "agreement/stage_check.h"
+#include "devices/tracers/vulkan_tracer.h"
+#include "support/device.h"
+#include "support/leaf_scenes.h"
+#include "support/result_numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace sunfleck::test {
+namespace {
+
+// One of everything, and sizes that leave a rest.
+constexpr shared::RoundChoices smallest{1, 1, 1, 1};
+constexpr shared::RoundChoices odd{3, 7, 5, 100};
+
+RadiationModel leaves_on(const Plot& plot) {
+  return paper_model(random_leaves(100, 0.12, 5), plot, beijing_sun());
+}
+
+// A leaf, a pole and a pot of soil over the plot's own soil.
+RadiationModel with_every_role() {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.level(0.1, 0.9, 0.1, 0.6, 0.5);
+  maker.organ("pole", 2, 1);
+  maker.triangle({0.3, 0.0, 0.7}, {0.35, 1.0, 0.7}, {0.3, 1.0, 0.75});
+  maker.organ("soil", 3, 1);
+  maker.level(0.5, 0.8, 0.5, 0.8, 0.2);
+  return paper_model(maker.mesh(), unit_plot, beijing_sun());
+}
+
+RadiationModel lit_by_lamps() {
+  RadiationModel model = lamp_model(random_leaves(20, 0.2, 3), unit_plot, 2);
+  for (SurfaceOptics& optics : model.optics) {
+    optics.emission_w_m2 = {10.0, 0.0};
+    for (std::size_t b = 0; b < 2; ++b) optics.upper[b].reflectance = optics.lower[b].reflectance = 0.4;
+  }
+  return model;
+}
+
+RadiationModel with_bands(std::size_t count) {
+  std::vector<LeafBand> bands;
+  for (std::size_t b = 0; b < count; ++b) {
+    const double part = static_cast<double>(b) / static_cast<double>(count);
+    bands.push_back({"band", 0.02 + 0.45 * part, 0.5 * part, 0.3 * (1.0 - part)});
+  }
+  RadiationModel model = leaf_model(random_leaves(50, 0.15, 5), unit_plot, beijing_sun(), bands);
+  for (std::size_t b = 0; b < count; ++b) model.bands[b].name += std::to_string(b);
+  return model;
+}
+
+class RoundsAgreement : public DeviceTest {
+ protected:
+  void SetUp() override {
+    DeviceTest::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    if (!RoundSteps::work_on(context().limits())) GTEST_SKIP() << "this device leaves the rounds to the host";
+  }
+
+  // Compares every stage of every round of `replicates` replicates.
+  void expect_same_stages(const RadiationModel& model, double packets, const shared::RoundChoices& choices = {},
+                          std::uint32_t at_a_time = 1U << 17U) const {
+    const Prepared prepared(model);
+    CpuTracer cpu(prepared.bvh, tracer_scene(model));
+    StageCheck check(context(), cpu, choices, at_a_time);
+    const SolveSettings settings = fixed_scatter(model, {.rays = 4e3, .packets = packets, .replicates = 2, .bound = 0.01});
+    const auto theirs = all_numbers(solve(model, prepared.layout, check, settings, {}));
+    EXPECT_TRUE(theirs == all_numbers(solve(model, prepared.layout, cpu, settings, {})));
+    EXPECT_GE(check.rounds(), 4U);
+  }
+
+  // Compares the numbers of a whole run, whose dispatches are cut as `choices` say.
+  void expect_same_run(const RadiationModel& model, const SolveSettings& settings, VulkanChoices choices = {}) const {
+    const Prepared prepared(model);
+    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    choices.rounds_at = RoundsAt::device;
+    VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), choices);
+    CpuTracer cpu(prepared.bvh, tracer_scene(model));
+    const auto theirs = all_numbers(solve(model, prepared.layout, device, settings, {}));
+    const RadiationResult result = solve(model, prepared.layout, cpu, settings, {});
+    EXPECT_GT(result.indirect.packets, 0U);
+    EXPECT_TRUE(theirs == all_numbers(result));
+  }
+};
+
+TEST_F(RoundsAgreement, OfEveryStage) {
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    expect_same_stages(leaves_on(plot), 3000);
+    expect_same_stages(without_soil(leaves_on(plot)), 3000);
+  }
+}
+
+TEST_F(RoundsAgreement, OfEveryStageHoweverTheWorkIsDivided) {
+  const RadiationModel model = leaves_on(unit_plot);
+  expect_same_stages(model, 700, smallest, 64);
+  expect_same_stages(model, 3000, odd, 1000);
+}
+
+TEST_F(RoundsAgreement, OfEveryStageAmongLeavesPolesAndPots) {
+  const RadiationModel model = with_every_role();
+  expect_same_stages(model, 2000);
+  expect_same_stages(without_soil(model), 2000);
+}
+
+// Thousands of packets leave each of few lamps.
+TEST_F(RoundsAgreement, OfEveryStageWithLamps) {
+  expect_same_stages(lit_by_lamps(), 20'000);
+}
+
+TEST_F(RoundsAgreement, OfEveryStageUnderTheSkyInManyBands) {
+  RadiationModel model = with_bands(20);
+  expect_same_stages(model, 1500);
+  shine_from_sky(model, {});
+  expect_same_stages(model, 1500);
+}
+
+// Almost nothing scatters in one band, and almost nothing is absorbed in another.
+TEST_F(RoundsAgreement, OfEveryStageWithFaintAndBrightBands) {
+  const std::vector<LeafBand> bands{{"faint", 0.005, 0.005, 0.01}, {"bright", 0.5, 0.45, 0.9}, {"black", 0.0, 0.0, 0.0}};
+  expect_same_stages(leaf_model(random_leaves(100, 0.12, 5), unit_plot, beijing_sun(), bands), 3000);
+}
+
+TEST_F(RoundsAgreement, OfWholeRuns) {
+  SolveSettings automatic;
+  automatic.accuracy.direct = 0.02;
+  automatic.accuracy.indirect = 0.05;
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    RadiationModel model = leaves_on(plot);
+    expect_same_run(model, automatic);
+    SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 4, .bound = 0.01});
+    fixed.element_errors = ElementErrors::refine;
+    shine_from_sky(model, {});
+    expect_same_run(model, fixed);
+    expect_same_run(without_soil(model), fixed);
+  }
+}
+
+TEST_F(RoundsAgreement, OfWholeRunsInShortDispatches) {
+  const RadiationModel model = leaves_on(unit_plot);
+  const SolveSettings fixed = fixed_scatter(model, {.rays = 4e3, .packets = 1000, .replicates = 2, .bound = 0.01});
+  for (const VulkanChoices cut : {VulkanChoices{64, 32}, VulkanChoices{1000, 128}}) expect_same_run(model, fixed, cut);
+}
+
+// A period of 5 cm lies below a leaf 12 m high: level packets pass thousands of periods and pause between dispatches.
+TEST_F(RoundsAgreement, OfWholeRunsWithPausedPackets) {
+  MeshMaker maker;
+  maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
+  maker.level(0.01, 0.04, 0.01, 0.04, 0.01);
+  const RadiationModel model = paper_model(maker.mesh(), {0.05, 0.05, true}, sun_at(60.0, 30.0));
+  expect_same_run(model, fixed_scatter(model, {.rays = 200, .packets = 1000, .replicates = 2, .bound = 0.05}));
+}
+
+// Packets that meet all leaves of a pile are left to the CPU.
+TEST_F(RoundsAgreement, OfWholeRunsWithAPileTooHighForOneDispatch) {
+  MeshMaker maker;
+  add_pile(maker, 20'000, 1.0, 0.5);
+  const RadiationModel model = paper_model(maker.mesh(), unit_plot, sun_at(60.0, 30.0));
+  expect_same_run(model, fixed_scatter(model, {.rays = 60, .packets = 60, .replicates = 2, .bound = 0.5}));
+}
+
+// The host waits twice a round: for the number of packets, and for their way.
+TEST_F(RoundsAgreement, TakeTwoSubmissionsARoundAndBringNoPacketToTheHost) {
+  const RadiationModel model = leaves_on(unit_plot);
+  const Prepared prepared(model);
+  const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+  VulkanChoices choices;
+  choices.rounds_at = RoundsAt::device;
+  VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), choices);
+  const auto traffic_of = [&](double packets, RadiationResult& result) {
+    const DeviceTraffic before = context().traffic();
+    const SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = packets, .replicates = 8, .bound = 0.01});
+    result = solve(model, prepared.layout, device, fixed, {});
+    const DeviceTraffic after = context().traffic();
+    return DeviceTraffic{after.submissions - before.submissions, after.uploaded_bytes - before.uploaded_bytes,
+                         after.downloaded_bytes - before.downloaded_bytes};
+  };
+  RadiationResult few, many;
+  const DeviceTraffic of_few = traffic_of(6000, few);
+  const DeviceTraffic of_many = traffic_of(12'000, many);
+  // A replicate takes one for its beam and one for its counters, then one each for the rounds' start, scene, end and last look.
+  EXPECT_EQ(of_many.submissions, 6 * many.direct.replicates + 2 * many.indirect.rounds + 1);
+  EXPECT_GT(many.indirect.packets, 3 * few.indirect.packets / 2);
+  // A round sends and fetches how many packets have paused, and fetches its state.
+  const std::uint64_t further_rounds = many.indirect.rounds - few.indirect.rounds;
+  EXPECT_EQ(of_many.uploaded_bytes - of_few.uploaded_bytes, 4 * further_rounds);
+  EXPECT_EQ(of_many.downloaded_bytes - of_few.downloaded_bytes, (4 + sizeof(shared::RoundState)) * further_rounds);
+}
+
+}  // namespace
+}  // namespace sunfleck::test

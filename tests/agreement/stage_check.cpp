@@ -1,0 +1,185 @@
+#include "agreement/stage_check.h"
+
+#include "shared/random.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace sunfleck::test {
+namespace {
+
+std::vector<std::int64_t> starts_of(const RoundsOrder& order) {
+  std::vector<std::int64_t> start;
+  for (const shared::RoundColumn& column : order.columns) start.push_back(static_cast<std::int64_t>(column.start));
+  return start;
+}
+
+template <class T>
+bool same_bytes(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+}  // namespace
+
+StageCheck::Host::Host(const RoundsOrder& of)
+    : order(of),
+      columns{0, of.columns.size()},
+      scattering(of.scene.model, of.scene.lights.size()),
+      draw(scattering, nullptr, of.packets, starts_of(of), arrays),
+      side_landed(2 * of.scene.model.canopy.size() * columns.count),
+      cell_landed(of.scene.layout.cells() * columns.count),
+      element_hits(of.scene.model.canopy.size()) {
+  next.clear(columns);
+  for (std::size_t k = 0; k < of.places.size(); ++k) next.add(of.places.place(k), of.places.quanta(k, columns));
+}
+
+std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion&) {
+  EXPECT_TRUE(steps_.take(order));
+  Host host(order);
+  auto places = static_cast<std::uint32_t>(order.places.size());
+  for (;;) {
+    compare_places(host, host.next, places, RoundBuffer::next_places, RoundBuffer::next_quanta);
+    shared::RoundState state{};
+    submit([&](Submission& submission) {
+      steps_.begin(submission);
+      steps_.fetch(submission, state);
+    });
+    if (state.done != 0) break;
+    submit([&](Submission& submission) { steps_.sort(submission, places); });
+    host.waiting.take_sorted(host.next);
+    compare_places(host, host.waiting, places, RoundBuffer::places, RoundBuffer::quanta);
+    submit([&](Submission& submission) {
+      steps_.draw(submission, places);
+      steps_.fetch(submission, state);
+    });
+    compare_draw(host, state, places);
+    if (testing::Test::HasFailure()) return TraceOutcome::stopped;  // what follows could be anything
+    submit([&](Submission& submission) { steps_.weigh(submission, places, state.packets); });
+    compare_weights(host, places);
+    host.next.clear(host.columns);
+    const PacketStarts starts(order.scene.model.canopy, host.waiting, host.draw, order.scene.frame,
+                              shared::random_words(order.block.key, shared::word_of_starts, state.rounds));
+    for (std::uint32_t first = 0; first < state.packets; first += at_a_time_) {
+      const shared::RoundPush part{first, std::min(at_a_time_, state.packets - first)};
+      submit([&](Submission& submission) { steps_.start(submission, part); });
+      compare_starts(starts, part);
+      landings_ = follow(cpu_, order.scene.block, packets_);
+      upload(context_, steps_.buffer(RoundBuffer::landings), std::as_bytes(std::span(landings_)));
+      submit([&](Submission& submission) { steps_.book(submission, part); });
+      book(host, state, part);
+    }
+    places = state.packets;
+    sums.packets += places;
+    ++rounds_;
+  }
+  steps_.fetch(sums);
+  EXPECT_TRUE(sums.side_landed == host.side_landed);
+  EXPECT_TRUE(sums.cell_landed == host.cell_landed);
+  EXPECT_TRUE(sums.element_hits == host.element_hits);
+  return TraceOutcome::finished;
+}
+
+// The host drops places that keep nothing; on the device they stay, without quanta.
+void StageCheck::compare_places(const Host& host, const WaitingFlux& expected, std::uint32_t count, RoundBuffer places,
+                                RoundBuffer quanta) {
+  const std::size_t width = host.columns.count;
+  const auto found = fetch<EmissionPoint>(places, count);
+  const auto rows = fetch<std::int64_t>(quanta, count * width);
+  kept_.clear();
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const auto row = rows.begin() + static_cast<std::ptrdiff_t>(k * width);
+    if (std::any_of(row, row + static_cast<std::ptrdiff_t>(width), [](std::int64_t q) { return q != 0; })) kept_.push_back(k);
+  }
+  ASSERT_EQ(kept_.size(), expected.size());
+  std::size_t apart = 0;
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    const std::span<const std::int64_t> row = std::span(rows).subspan(kept_[k] * width, width);
+    const bool same_row = std::equal(row.begin(), row.end(), expected.quanta(k, host.columns).begin());
+    apart += same_row && same_bytes(found[kept_[k]], expected.place(k)) ? 0 : 1;
+  }
+  EXPECT_EQ(apart, 0U) << "of " << kept_.size() << " places";
+}
+
+void StageCheck::compare_draw(Host& host, const shared::RoundState& state, std::uint32_t places) {
+  std::vector<std::int64_t> totals;
+  for (const auto& column : fetch<shared::RoundColumn>(RoundBuffer::columns, host.columns.count)) {
+    totals.push_back(static_cast<std::int64_t>(column.total));
+  }
+  host.draw.draw(host.waiting, host.columns, totals, state.offset);
+  EXPECT_EQ(state.packets, host.draw.packets());
+  const auto sums = fetch<std::uint64_t>(RoundBuffer::sums, 2 * std::size_t{places});
+  std::size_t apart = 0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      apart += sums[side * places + kept_[k]] == host.arrays.up_to[side * kept_.size() + k] ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(apart, 0U) << "of " << 2 * kept_.size() << " sums";
+}
+
+void StageCheck::compare_weights(Host& host, std::uint32_t places) {
+  const std::size_t packets = host.draw.packets();
+  const std::size_t width = host.columns.count;
+  const auto numbers = fetch<std::uint32_t>(RoundBuffer::numbers, packets);
+  const auto weights = fetch<std::uint32_t>(RoundBuffer::weights, packets * width);
+  const auto columns = fetch<shared::RoundColumn>(RoundBuffer::columns, width);
+  std::vector<std::uint32_t> host_number(places);
+  for (std::uint32_t k = 0; k < kept_.size(); ++k) host_number[kept_[k]] = k;
+  std::vector<std::int64_t> carried(width);
+  std::size_t apart = 0;
+  for (std::size_t p = 0; p < packets; ++p) {
+    const PacketSource from = host.draw.source(p);
+    const std::span<const std::uint32_t> own = std::span(weights).subspan(p * width, width);
+    host.draw.carry(p, carried);
+    bool same = host_number[numbers[p] / 2] == from.place && numbers[p] % 2 == from.side;
+    for (std::size_t c = 0; c < width; ++c) {
+      same = same && own[c] == host.arrays.weight[p * width + c];
+      same = same && shared::carried(own[c], shared::column_load(columns[c])) == static_cast<std::uint64_t>(carried[c]);
+    }
+    apart += same ? 0 : 1;
+  }
+  EXPECT_EQ(apart, 0U) << "of " << packets << " packets";
+}
+
+void StageCheck::compare_starts(const PacketStarts& starts, shared::RoundPush part) {
+  packets_.resize(part.count);
+  starts.write(part.first, packets_);
+  const auto found = fetch<shared::Packet>(RoundBuffer::packets, part.count);
+  std::size_t apart = 0;
+  for (std::size_t k = 0; k < part.count; ++k) apart += same_bytes(found[k], packets_[k]) ? 0 : 1;
+  EXPECT_EQ(apart, 0U) << "of " << part.count << " packets";
+  auto order = fetch<std::uint32_t>(RoundBuffer::order, part.count);
+  std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> all(part.count);
+  std::iota(all.begin(), all.end(), 0U);
+  EXPECT_TRUE(order == all);
+}
+
+void StageCheck::book(Host& host, const shared::RoundState& state, shared::RoundPush part) {
+  const std::size_t width = host.columns.count;
+  std::vector<std::int64_t> carried(width);
+  const auto add = [&](std::vector<std::int64_t>& sums, std::size_t place) {
+    for (std::size_t c = 0; c < width; ++c) sums[place * width + c] += carried[c];
+  };
+  for (std::uint32_t k = 0; k < part.count; ++k) {
+    const std::uint32_t packet = part.first + k;
+    const EmissionPoint& source = host.waiting.place(host.draw.source(packet).place);
+    const std::uint32_t u = shared::random_words(host.order.block.key, packet, state.rounds).x;
+    const EmissionPoint place = arrival_from(host.order.scene, source, packets_[k], landings_[k], u).place;
+    host.draw.carry(packet, carried);
+    if (place.surface > shared::landed_on_ground) continue;
+    if (place.surface == shared::landed_on_ground) {
+      add(host.cell_landed, place.order - ground_order);
+    } else {
+      add(host.side_landed, place.surface);
+      ++host.element_hits[place.surface / 2];
+    }
+    const std::vector<std::uint64_t>& scattered = host.scattering.face(place.face).scattered;
+    bool any = false;
+    for (std::size_t c = 0; c < width; ++c) any = any || part_of(carried[c], scattered[c], place.u) != 0;
+    if (any) host.next.add(place, carried);
+  }
+}
+
+}  // namespace sunfleck::test

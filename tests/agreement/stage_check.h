@@ -1,0 +1,87 @@
+#pragma once
+// A tracer that makes the rounds of indirect passes twice, on the host and on a device, and compares what each stage of each round leaves.
+
+#include "agreement/landings.h"
+#include "devices/tracers/round_steps.h"
+#include "physics/transport/indirect/arrivals.h"
+#include "physics/transport/indirect/device_rounds.h"
+#include "physics/transport/indirect/packet_draw.h"
+#include "physics/transport/indirect/packet_starts.h"
+#include "physics/transport/model/tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace sunfleck::test {
+
+class StageCheck final : public Tracer {
+ public:
+  // All arguments except the choices must outlive the object. Packets are started `at_a_time`.
+  StageCheck(const GpuContext& context, Tracer& cpu, const shared::RoundChoices& choices, std::uint32_t at_a_time)
+      : context_(context), cpu_(cpu), steps_(context, choices, at_a_time), at_a_time_(at_a_time) {}
+
+  [[nodiscard]] TracerDevice device() const override { return cpu_.device(); }
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override {
+    return cpu_.count_beam(beam, counters, stop);
+  }
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
+    return cpu_.trace(scene, packets, landings, stop);
+  }
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
+                                                        const StopQuestion& stop) override;
+
+  // Returns how many rounds were compared.
+  [[nodiscard]] std::uint64_t rounds() const { return rounds_; }
+
+ private:
+  // What the host has of a pass.
+  struct Host {
+    explicit Host(const RoundsOrder& order);
+
+    const RoundsOrder& order;
+    ColumnRange columns;
+    Scattering scattering;
+    DrawArrays arrays;
+    PacketDraw draw;
+    WaitingFlux waiting, next;
+    std::vector<std::int64_t> side_landed, cell_landed;
+    std::vector<std::uint32_t> element_hits;
+  };
+
+  void compare_places(const Host& host, const WaitingFlux& expected, std::uint32_t count, RoundBuffer places,
+                      RoundBuffer quanta);
+  void compare_draw(Host& host, const shared::RoundState& state, std::uint32_t places);
+  void compare_weights(Host& host, std::uint32_t places);
+  void compare_starts(const PacketStarts& starts, shared::RoundPush part);
+  // Books the packets of a part on the host.
+  void book(Host& host, const shared::RoundState& state, shared::RoundPush part);
+
+  template <class Step>
+  void submit(const Step& step) {
+    Submission submission(context_);
+    step(submission);
+    submission.finish();
+  }
+  template <class T>
+  [[nodiscard]] std::vector<T> fetch(RoundBuffer buffer, std::size_t count) const {
+    std::vector<T> values(count);
+    download(context_, steps_.buffer(buffer), std::as_writable_bytes(std::span(values)));
+    return values;
+  }
+
+  const GpuContext& context_;
+  Tracer& cpu_;
+  RoundSteps steps_;
+  std::uint32_t at_a_time_;
+  std::uint64_t rounds_ = 0;
+  // Of the places of a round: those that keep flux, by their numbers on the device.
+  std::vector<std::uint32_t> kept_;
+  std::vector<shared::Packet> packets_;
+  Landings landings_;
+};
+
+}  // namespace sunfleck::test
