@@ -73,15 +73,24 @@ void begin_column(uint column) {
 
 uint64_t parts_each(uint parts, uint count) { return (uint64_t(parts) << 32u) / uint64_t(count > 0u ? count : 1u); }
 
+void set_groups_of_places() {
+  set_groups(groups_of_runs, run_count(), round_group_size);
+  set_groups(groups_of_run_sums, parts_of(run_count() * place_parts, pass.choices.numbers_per_sum), round_group_size);
+  set_groups(groups_of_sides, side_count(), round_group_size);
+  set_groups(groups_of_side_sums, parts_of(side_count(), pass.choices.numbers_per_sum), round_group_size);
+}
+
 void begin_round() {
   uint kept_word = small_rows(pass) * pass.columns;
   uint kept = uint(totals[kept_word]);
   totals[kept_word] = uint64_t(0u);
   if (state.rounds > 0u && kept > state.most_places) state.most_places = kept;
   state.done = any_active != 0u && state.rounds < pass.most_rounds ? 0u : 1u;
+  if (state.rounds > 0u) state.places = state.packets;
   state.packets = 0u;
   if (state.done != 0u) return;
   ++state.rounds;
+  set_groups_of_places();
   uvec4 words = random_words(pass.key, word_of_offset, state.rounds);
   state.offset = uint64_t(words.y) << 32u | uint64_t(words.x);
   state.parts_of_elements = parts_each(element_parts, state.end_of_elements);
@@ -96,8 +105,15 @@ void main() {
   if (thread == 0u) {
     any_active = 0u;
     any_least = 0u;
+    state.has_to_wait = paused_packets > 0u ? 1u : 0u;
+    for (uint kind = 0u; kind < kinds_of_groups; ++kind) {
+      groups[kind * 3u] = 0u;
+      groups[kind * 3u + 1u] = 1u;
+      groups[kind * 3u + 2u] = 1u;
+    }
   }
   barrier();
+  if (is_at_rest()) return;
   for (uint column = thread; column < pass.columns; column += round_group_size) begin_column(column);
   barrier();
   if (thread == 0u) begin_round();

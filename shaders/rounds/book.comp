@@ -107,7 +107,7 @@ void keep_place(uint copy, uint order) {
 }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= push.count || paused_packets != 0u) return;
+  if (gl_GlobalInvocationID.x >= packets_here() || paused_packets != 0u) return;
   uint number = push.first + gl_GlobalInvocationID.x;
   Landing landing = landings[gl_GlobalInvocationID.x];
   Arrival arrival = arrival_of(landing, packets[gl_GlobalInvocationID.x].origin.y, places[numbers[number] >> 1u]);

@@ -7,11 +7,11 @@
 
 void main() {
   uint run = gl_GlobalInvocationID.x;
-  uint runs = (push.count + pass.choices.places_per_run - 1u) / pass.choices.places_per_run;
-  if (run >= runs || state.done != 0u) return;
+  uint runs = run_count();
+  if (run >= runs) return;
   uint counts[place_parts];
   for (uint part = 0u; part < place_parts; ++part) counts[part] = 0u;
-  uint end = min(push.count, (run + 1u) * pass.choices.places_per_run);
+  uint end = min(state.places, (run + 1u) * pass.choices.places_per_run);
   for (uint k = run * pass.choices.places_per_run; k < end; ++k) ++counts[part_of_place(next_places[k].order)];
   for (uint part = 0u; part < place_parts; ++part) sums[part * runs + run] = uint64_t(counts[part]);
 }

@@ -7,7 +7,7 @@
 #include "shared/emission.h"
 
 void main() {
-  if (gl_GlobalInvocationID.x >= push.count) return;
+  if (gl_GlobalInvocationID.x >= packets_here()) return;
   uint number = push.first + gl_GlobalInvocationID.x;
   WaitingPlace place = places[numbers[number] >> 1u];
   uint side = numbers[number] & 1u;

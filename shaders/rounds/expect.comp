@@ -5,9 +5,9 @@
 #include "pass.glsl"
 
 void main() {
-  if (gl_GlobalInvocationID.x >= push.count || state.done != 0u) return;
+  if (gl_GlobalInvocationID.x >= side_count()) return;
   uint number = gl_GlobalInvocationID.x;
-  Side side = side_of(number, push.count / 2u);
+  Side side = side_of(number);
   Sent sent = sent_from(side);
   uint64_t sum = uint64_t(0u);
   uint64_t largest = uint64_t(0u);

@@ -29,5 +29,7 @@ void load_column(uint column) {
 }
 
 void main() {
+  if (is_at_rest()) return;
+  if (gl_LocalInvocationID.x == 0u) paused_packets = 0u;
   for (uint column = gl_LocalInvocationID.x; column < pass.columns; column += round_group_size) load_column(column);
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Orders `count` packets by direction within windows, as packet_order.h does. Each thread takes a window. No landing depends on the order.
+// Orders packets from number `first` on by direction within windows, as packet_order.h does. Each thread takes a window. No landing depends on the order.
 
 #include "pass.glsl"
 
@@ -13,8 +13,9 @@ uint sector_of(vec3 direction) {
 
 void main() {
   uint first = gl_GlobalInvocationID.x * pass.choices.packets_per_window;
-  if (first >= push.count) return;
-  uint end = min(push.count, first + pass.choices.packets_per_window);
+  if (first >= packets_here()) return;
+  if (first == 0u) ordered_packets = packets_here();
+  uint end = min(packets_here(), first + pass.choices.packets_per_window);
   uint next[sectors];
   for (uint s = 0u; s < sectors; ++s) next[s] = 0u;
   for (uint k = first; k < end; ++k) ++next[sector_of(packets[k].direction)];

@@ -24,13 +24,31 @@ layout(set = 0, binding = 13, scalar) buffer BlockSums { uint64_t block_sums[]; 
 layout(set = 0, binding = 14, scalar) buffer Numbers { uint numbers[]; };  // of the packets' sides
 layout(set = 0, binding = 15, scalar) buffer Weights { uint weights[]; };
 layout(set = 0, binding = 16, scalar) buffer Packets { Packet packets[]; };
-layout(set = 0, binding = 17, scalar) buffer PacketOrder { uint packet_order[]; };
+layout(set = 0, binding = 17, scalar) buffer PacketOrder { uint ordered_packets; uint packet_order[]; };
 layout(set = 0, binding = 18, scalar) readonly buffer Landings { Landing landings[]; };
 layout(set = 0, binding = 19, scalar) buffer SideLanded { uint64_t side_landed[]; };
 layout(set = 0, binding = 20, scalar) buffer ElementHits { uint element_hits[]; };
 layout(set = 0, binding = 21, scalar) buffer CellLanded { uint64_t cell_landed[]; };
 layout(set = 0, binding = 22, scalar) buffer SurfaceLanded { uint64_t surface_landed[]; };
-layout(set = 0, binding = 23, scalar) readonly buffer Outbox { uint paused_packets; };
+layout(set = 0, binding = 23, scalar) buffer Groups { uint groups[]; };  // [kind * 3]
+layout(set = 0, binding = 24, scalar) buffer Outbox { uint paused_packets; };
+
+// Returns whether there is nothing to do: all columns are retired, or the host has to finish the last round first.
+bool is_at_rest() { return state.done != 0u || state.has_to_wait != 0u; }
+
+uint parts_of(uint count, uint each) { return (count + each - 1u) / each; }
+
+uint run_count() { return parts_of(state.places, pass.choices.places_per_run); }
+
+uint side_count() { return 2u * state.places; }
+
+// Returns of how many numbers running sums are made.
+uint summed_numbers() { return push.first == sums_of_runs ? run_count() * place_parts : side_count(); }
+
+// Returns how many packets this dispatch has.
+uint packets_here() { return min(push.count, state.packets - push.first); }
+
+void set_groups(uint kind, uint threads, uint group_size) { groups[kind * 3u] = parts_of(threads, group_size); }
 
 // A side from which packets start: of the upper sides of all places, then of the lower ones.
 struct Side {
@@ -38,8 +56,8 @@ struct Side {
   uint side;
 };
 
-Side side_of(uint number, uint place_count) {
-  return number < place_count ? Side(number, 0u) : Side(number - place_count, 1u);
+Side side_of(uint number) {
+  return number < state.places ? Side(number, 0u) : Side(number - state.places, 1u);
 }
 
 // What a side sends of what landed at its place: the part between two coefficients, [from + column] and [to + column]; `from` is

@@ -1,15 +1,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Finds how many packets are drawn. `count` is the number of blocks of the running sums. One thread does it.
+// Finds how many packets are drawn. One thread does it.
 
 #include "pass.glsl"
 
 void main() {
-  if (gl_GlobalInvocationID.x != 0u || state.done != 0u) return;
-  uint64_t sum = block_sums[push.count];
+  if (gl_GlobalInvocationID.x != 0u || is_at_rest()) return;
+  uint64_t sum = block_sums[parts_of(side_count(), pass.choices.numbers_per_sum)];
   if (sum < least_sum) return;
   uint64_t pace = uint64_t(1u) << 32u;
   uint64_t least = long_quotient(least_packets, uint64_t(0u), sum) + uint64_t(1u);
   state.gain = pace > least ? pace : least;
-  state.packets = uint(drawn_up_to(sum, state.gain, state.offset));
+  uint drawn = uint(drawn_up_to(sum, state.gain, state.offset));
+  state.most_drawn = max(state.most_drawn, drawn);
+  state.packets = min(drawn, pass.most_packets);
+  state.all_packets += uint64_t(state.packets);
+  set_groups(groups_of_packets, state.packets, round_group_size);
+  set_groups(groups_of_windows, parts_of(state.packets, pass.choices.packets_per_window), round_group_size);
+  set_groups(groups_of_traces, state.packets, pass.choices.trace_group_size);
 }

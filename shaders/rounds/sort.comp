@@ -7,11 +7,11 @@
 
 void main() {
   uint run = gl_GlobalInvocationID.x;
-  uint runs = (push.count + pass.choices.places_per_run - 1u) / pass.choices.places_per_run;
-  if (run >= runs || state.done != 0u) return;
+  uint runs = run_count();
+  if (run >= runs) return;
   uint next[place_parts];
   for (uint part = 0u; part < place_parts; ++part) next[part] = uint(sum_before(part * runs + run));
-  uint end = min(push.count, (run + 1u) * pass.choices.places_per_run);
+  uint end = min(state.places, (run + 1u) * pass.choices.places_per_run);
   for (uint k = run * pass.choices.places_per_run; k < end; ++k) {
     WaitingPlace place = next_places[k];
     uint part = part_of_place(place.order);

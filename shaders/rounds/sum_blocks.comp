@@ -7,8 +7,8 @@
 void main() {
   uint block = gl_GlobalInvocationID.x;
   uint first = block * pass.choices.numbers_per_sum;
-  if (first >= push.count || state.done != 0u) return;
-  uint end = min(push.count, first + pass.choices.numbers_per_sum);
+  if (first >= summed_numbers()) return;
+  uint end = min(summed_numbers(), first + pass.choices.numbers_per_sum);
   uint64_t sum = uint64_t(0u);
   for (uint k = first; k < end; ++k) sum += sums[k];
   block_sums[block] = sum;

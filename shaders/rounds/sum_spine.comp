@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The second step: one group turns the sums of `count` blocks into the sums of all blocks before each; the sum of all comes last.
+// The second step: one group turns the sums of the blocks into the sums of all blocks before each; the sum of all comes last.
 
 #include "pass.glsl"
 
@@ -8,9 +8,11 @@ shared uint64_t of_threads[round_group_size];
 
 void main() {
   uint thread = gl_LocalInvocationID.x;
-  uint each = (push.count + round_group_size - 1u) / round_group_size;
-  uint first = min(push.count, thread * each);
-  uint end = min(push.count, first + each);
+  if (is_at_rest()) return;
+  uint blocks = parts_of(summed_numbers(), pass.choices.numbers_per_sum);
+  uint each = parts_of(blocks, round_group_size);
+  uint first = min(blocks, thread * each);
+  uint end = min(blocks, first + each);
   uint64_t sum = uint64_t(0u);
   for (uint k = first; k < end; ++k) sum += block_sums[k];
   of_threads[thread] = sum;
@@ -22,5 +24,5 @@ void main() {
     block_sums[k] = before;
     before += own;
   }
-  if (thread == round_group_size - 1u) block_sums[push.count] = before;
+  if (thread == round_group_size - 1u) block_sums[blocks] = before;
 }

@@ -5,7 +5,7 @@
 #include "pass.glsl"
 
 void main() {
-  if (gl_GlobalInvocationID.x >= push.count || state.packets == 0u) return;
+  if (gl_GlobalInvocationID.x >= side_count() || state.packets == 0u) return;
   uint side = gl_GlobalInvocationID.x;
   uint first = uint(drawn_before(side));
   uint end = uint(drawn_before(side + 1u));

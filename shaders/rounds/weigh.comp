@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Divides the expectation of each packet's side among its columns, and sets the packet's number to 2 * place + side. `first` is the
-// number of sides. Each thread takes a packet.
+// Divides the expectation of each packet's side among its columns, and sets the packet's number to 2 * place + side. Each thread
+// takes a packet.
 
 #include "pass.glsl"
 
@@ -10,9 +10,9 @@ bool is_from(uint packet, uint side) { return drawn_before(side) <= uint64_t(pac
 // Returns the side from which a packet is drawn. A side with very many packets has numbered only the first ones.
 uint find_side(uint packet) {
   uint number = numbers[packet];
-  if (number < push.first && is_from(packet, number)) return number;
+  if (number < side_count() && is_from(packet, number)) return number;
   uint low = 0u;
-  uint high = push.first - 1u;
+  uint high = side_count() - 1u;
   while (low < high) {
     uint middle = low + (high - low) / 2u;
     if (drawn_before(middle + 1u) <= uint64_t(packet)) {
@@ -25,10 +25,10 @@ uint find_side(uint packet) {
 }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= push.count) return;
+  if (gl_GlobalInvocationID.x >= state.packets) return;
   uint packet = gl_GlobalInvocationID.x;
   uint number = find_side(packet);
-  Side side = side_of(number, push.first / 2u);
+  Side side = side_of(number);
   numbers[packet] = side.place * 2u + side.side;
   Sent sent = sent_from(side);
   Sharing sharing = sharing_of(sums[number] - sum_before(number), 0u);

@@ -38,6 +38,7 @@ struct RoundChoices {
   uint places_per_run;      // that one thread sorts
   uint numbers_per_sum;     // that one thread adds to running sums
   uint packets_per_window;  // that one thread orders by direction
+  uint trace_group_size;    // threads of a group that follows packets
 };
 
 // What a device knows of a pass. Lengths in metres in the canopy's local frame.
@@ -58,18 +59,23 @@ struct PassBlock {
   uint faces;   // of the kinds of optics, of the soil plane and of lamps
   uint soil_face;
   uint most_rounds;
+  uint most_packets;  // of a round, for which there is room
   RoundChoices choices;
 };
 
 // What the shaders of a pass tell each other and the host.
 struct RoundState {
-  uint64_t offset;  // of drawing
+  uint64_t all_packets;  // of all rounds so far
+  uint64_t offset;       // of drawing
   uint64_t gain;
   uint64_t parts_of_elements;  // shared::place_part
   uint64_t parts_of_ground;
   uint rounds;
-  uint packets;  // drawn in this round
-  uint done;     // 1: no column is left
+  uint places;       // from which this round's packets are drawn
+  uint packets;      // drawn in this round
+  uint most_drawn;   // the largest number so far
+  uint done;         // 1: no column is left
+  uint has_to_wait;  // 1: packets of the last round are still on their way
   uint most_places;
   uint end_of_elements;  // orders, and numbers of cells, of the places that wait next are below these
   uint end_of_cells;
@@ -112,11 +118,25 @@ struct WaitingPlace {
   uint u;
 };
 
-// One dispatch: `count` places, sides or packets from number `first` on.
+// One dispatch: at most `count` packets or words from number `first` on.
 struct RoundPush {
   uint first;
   uint count;
 };
+const uint all_packets = 0xffffffffu;
+// Numbers of which running sums are made: of the places of each run in each part, and of the sides' expectations.
+const uint sums_of_runs = 0u;
+const uint sums_of_sides = 1u;
+
+// Groups of threads that a round's steps need, as vkCmdDispatchIndirect reads them, each (n, 1, 1).
+const uint groups_of_runs = 0u;
+const uint groups_of_run_sums = 1u;
+const uint groups_of_sides = 2u;
+const uint groups_of_side_sums = 3u;
+const uint groups_of_packets = 4u;
+const uint groups_of_windows = 5u;
+const uint groups_of_traces = 6u;  // of `trace_group_size` threads
+const uint kinds_of_groups = 7u;
 
 // The small sums, each with `columns` words but for the last. Among the layers there are layers + 2 places: the soil, the layers, and above.
 const uint sum_weights = 0u;

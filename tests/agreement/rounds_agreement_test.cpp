@@ -16,8 +16,16 @@ namespace sunfleck::test {
 namespace {
 
 // One of everything, and sizes that leave a rest.
-constexpr shared::RoundChoices smallest{1, 1, 1, 1};
-constexpr shared::RoundChoices odd{3, 7, 5, 100};
+constexpr shared::RoundChoices smallest{1, 1, 1, 1, 64};
+constexpr shared::RoundChoices odd{3, 7, 5, 100, 64};
+constexpr shared::RoundChoices usual{32, 1024, 256, 512, 64};
+
+// A device that makes so many rounds before the host looks.
+VulkanChoices together(std::uint32_t rounds) {
+  VulkanChoices choices;
+  choices.rounds_at_once = rounds;
+  return choices;
+}
 
 RadiationModel leaves_on(const Plot& plot) {
   return paper_model(random_leaves(100, 0.12, 5), plot, beijing_sun());
@@ -64,7 +72,7 @@ class RoundsAgreement : public DeviceTest {
   }
 
   // Compares every stage of every round of `replicates` replicates.
-  void expect_same_stages(const RadiationModel& model, double packets, const shared::RoundChoices& choices = {},
+  void expect_same_stages(const RadiationModel& model, double packets, const shared::RoundChoices& choices = usual,
                           std::uint32_t at_a_time = 1U << 17U) const {
     const Prepared prepared(model);
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
@@ -147,13 +155,24 @@ TEST_F(RoundsAgreement, OfWholeRunsInShortDispatches) {
   for (const VulkanChoices cut : {VulkanChoices{64, 32}, VulkanChoices{1000, 128}}) expect_same_run(model, fixed, cut);
 }
 
+TEST_F(RoundsAgreement, OfWholeRunsInSeveralRoundsAtOnce) {
+  RadiationModel model = leaves_on(unit_plot);
+  const SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 4, .bound = 0.01});
+  for (const std::uint32_t rounds : {2U, 8U, 40U}) expect_same_run(model, fixed, together(rounds));
+  expect_same_run(lit_by_lamps(), fixed_scatter(model, {.packets = 20'000, .replicates = 2}), together(8));
+  shine_from_sky(model, {});
+  expect_same_run(model, fixed, together(8));
+}
+
 // A period of 5 cm lies below a leaf 12 m high: level packets pass thousands of periods and pause between dispatches.
 TEST_F(RoundsAgreement, OfWholeRunsWithPausedPackets) {
   MeshMaker maker;
   maker.level(0.01, 0.02, 0.01, 0.02, 12.0);
   maker.level(0.01, 0.04, 0.01, 0.04, 0.01);
   const RadiationModel model = paper_model(maker.mesh(), {0.05, 0.05, true}, sun_at(60.0, 30.0));
-  expect_same_run(model, fixed_scatter(model, {.rays = 200, .packets = 1000, .replicates = 2, .bound = 0.05}));
+  const SolveSettings fixed = fixed_scatter(model, {.rays = 200, .packets = 1000, .replicates = 2, .bound = 0.05});
+  expect_same_run(model, fixed);
+  expect_same_run(model, fixed, together(3));
 }
 
 // Packets that meet all leaves of a pile are left to the CPU.
@@ -161,35 +180,58 @@ TEST_F(RoundsAgreement, OfWholeRunsWithAPileTooHighForOneDispatch) {
   MeshMaker maker;
   add_pile(maker, 20'000, 1.0, 0.5);
   const RadiationModel model = paper_model(maker.mesh(), unit_plot, sun_at(60.0, 30.0));
-  expect_same_run(model, fixed_scatter(model, {.rays = 60, .packets = 60, .replicates = 2, .bound = 0.5}));
+  const SolveSettings fixed = fixed_scatter(model, {.rays = 60, .packets = 60, .replicates = 2, .bound = 0.5});
+  expect_same_run(model, fixed);
+  expect_same_run(model, fixed, together(3));
 }
 
-// The host waits twice a round: for the number of packets, and for their way.
-TEST_F(RoundsAgreement, TakeTwoSubmissionsARoundAndBringNoPacketToTheHost) {
-  const RadiationModel model = leaves_on(unit_plot);
-  const Prepared prepared(model);
-  const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
-  VulkanChoices choices;
-  choices.rounds_at = RoundsAt::device;
-  VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), choices);
-  const auto traffic_of = [&](double packets, RadiationResult& result) {
-    const DeviceTraffic before = context().traffic();
-    const SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = packets, .replicates = 8, .bound = 0.01});
-    result = solve(model, prepared.layout, device, fixed, {});
-    const DeviceTraffic after = context().traffic();
-    return DeviceTraffic{after.submissions - before.submissions, after.uploaded_bytes - before.uploaded_bytes,
-                         after.downloaded_bytes - before.downloaded_bytes};
+// Measures what a device is given in fixed work.
+class RoundsTraffic : public RoundsAgreement {
+ protected:
+  struct Measured {
+    RadiationResult result;
+    DeviceTraffic traffic;
   };
-  RadiationResult few, many;
-  const DeviceTraffic of_few = traffic_of(6000, few);
-  const DeviceTraffic of_many = traffic_of(12'000, many);
-  // A replicate takes one for its beam and one for its counters, then one each for the rounds' start, scene, end and last look.
-  EXPECT_EQ(of_many.submissions, 6 * many.direct.replicates + 2 * many.indirect.rounds + 1);
-  EXPECT_GT(many.indirect.packets, 3 * few.indirect.packets / 2);
+
+  [[nodiscard]] Measured measure(const RadiationModel& model, double packets, VulkanChoices choices) const {
+    const Prepared prepared(model);
+    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    choices.rounds_at = RoundsAt::device;
+    VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), choices);
+    const DeviceTraffic before = context().traffic();
+    const SolveSettings fixed =
+        fixed_scatter(model, {.rays = 4e4, .packets = packets, .replicates = replicates, .bound = 0.01});
+    const RadiationResult result = solve(model, prepared.layout, device, fixed, {});
+    const DeviceTraffic after = context().traffic();
+    return {result,
+            {after.submissions - before.submissions, after.uploaded_bytes - before.uploaded_bytes,
+             after.downloaded_bytes - before.downloaded_bytes}};
+  }
+
+  static constexpr int replicates = 8;
+};
+
+// The host waits twice a round: for the number of packets, and for their way.
+TEST_F(RoundsTraffic, TakesTwoSubmissionsARoundAndNoPacketToTheHost) {
+  const RadiationModel model = leaves_on(unit_plot);
+  const Measured few = measure(model, 6000, {});
+  const Measured many = measure(model, 12'000, {});
+  // One each for the beam, for its counters and for the sums, and one for the empty outbox of the first pass. The last look at the state
+  // takes one, the first goes with the pass.
+  EXPECT_EQ(many.traffic.submissions, 4 * replicates + 2 * many.result.indirect.rounds + 1);
+  EXPECT_GT(many.result.indirect.packets, 3 * few.result.indirect.packets / 2);
   // A round sends and fetches how many packets have paused, and fetches its state.
-  const std::uint64_t further_rounds = many.indirect.rounds - few.indirect.rounds;
-  EXPECT_EQ(of_many.uploaded_bytes - of_few.uploaded_bytes, 4 * further_rounds);
-  EXPECT_EQ(of_many.downloaded_bytes - of_few.downloaded_bytes, (4 + sizeof(shared::RoundState)) * further_rounds);
+  const std::uint64_t further_rounds = many.result.indirect.rounds - few.result.indirect.rounds;
+  EXPECT_EQ(many.traffic.uploaded_bytes - few.traffic.uploaded_bytes, 4 * further_rounds);
+  EXPECT_EQ(many.traffic.downloaded_bytes - few.traffic.downloaded_bytes, (4 + sizeof(shared::RoundState)) * further_rounds);
+}
+
+// A device that makes as many rounds as there are before the host looks takes four submissions: beam, counters, rounds, sums. (Fewer
+// packets would start from a sample of the rays, which would be traced again.)
+TEST_F(RoundsTraffic, TakesFourSubmissionsAReplicateWithRoundsTogether) {
+  const Measured measured = measure(leaves_on(unit_plot), 6000, together(40));
+  EXPECT_LT(measured.result.indirect.rounds, 40U * replicates);
+  EXPECT_EQ(measured.traffic.submissions, 4U * replicates + 1);
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ StageCheck::Host::Host(const RoundsOrder& of)
 }
 
 std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion&) {
-  EXPECT_TRUE(steps_.take(order));
+  EXPECT_TRUE(steps_.fits(order));
+  submit([&](Submission& submission) { steps_.give(submission, order); });
   Host host(order);
   auto places = static_cast<std::uint32_t>(order.places.size());
   for (;;) {
@@ -46,16 +47,16 @@ std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, Ro
       steps_.fetch(submission, state);
     });
     if (state.done != 0) break;
-    submit([&](Submission& submission) { steps_.sort(submission, places); });
+    submit([&](Submission& submission) { steps_.sort(submission); });
     host.waiting.take_sorted(host.next);
     compare_places(host, host.waiting, places, RoundBuffer::places, RoundBuffer::quanta);
     submit([&](Submission& submission) {
-      steps_.draw(submission, places);
+      steps_.draw(submission);
       steps_.fetch(submission, state);
     });
     compare_draw(host, state, places);
     if (testing::Test::HasFailure()) return TraceOutcome::stopped;  // what follows could be anything
-    submit([&](Submission& submission) { steps_.weigh(submission, places, state.packets); });
+    submit([&](Submission& submission) { steps_.weigh(submission); });
     compare_weights(host, places);
     host.next.clear(host.columns);
     const PacketStarts starts(order.scene.model.canopy, host.waiting, host.draw, order.scene.frame,
@@ -70,7 +71,6 @@ std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, Ro
       book(host, state, part);
     }
     places = state.packets;
-    sums.packets += places;
     ++rounds_;
   }
   steps_.fetch(sums);
@@ -149,7 +149,9 @@ void StageCheck::compare_starts(const PacketStarts& starts, shared::RoundPush pa
   std::size_t apart = 0;
   for (std::size_t k = 0; k < part.count; ++k) apart += same_bytes(found[k], packets_[k]) ? 0 : 1;
   EXPECT_EQ(apart, 0U) << "of " << part.count << " packets";
-  auto order = fetch<std::uint32_t>(RoundBuffer::order, part.count);
+  auto order = fetch<std::uint32_t>(RoundBuffer::order, part.count + 1);
+  EXPECT_EQ(order.front(), part.count);
+  order.erase(order.begin());
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> all(part.count);
   std::iota(all.begin(), all.end(), 0U);

@@ -43,7 +43,8 @@ void GpuBuffer::Destroy::operator()(Handles* handles) const noexcept {
 GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what) {
   using Usage = vk::BufferUsageFlagBits;
   check_limits(context, use, bytes, what);
-  const auto own_usage = use == BufferUse::storage ? Usage::eStorageBuffer : Usage::eUniformTexelBuffer;
+  const auto own_usage = use == BufferUse::storage ? Usage::eStorageBuffer | Usage::eIndirectBuffer
+                                                   : vk::BufferUsageFlags(Usage::eUniformTexelBuffer);
   GpuBuffer result{use, bytes, std::unique_ptr<GpuBuffer::Handles, GpuBuffer::Destroy>(new GpuBuffer::Handles)};
   try {
     const vk::raii::Device& device = context.handles().device;

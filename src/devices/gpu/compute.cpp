@@ -92,12 +92,22 @@ void ComputePipeline::bind(std::span<const GpuBuffer* const> buffers) {
   context_.handles().device.updateDescriptorSets(writes, {});
 }
 
-void ComputePipeline::record(std::uint64_t threads, std::span<const std::byte> push) const {
+void ComputePipeline::record_binding(std::span<const std::byte> push) const {
   const auto& commands = context_.handles().commands;
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *handles_->pipeline);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *handles_->layout, 0, *handles_->set, {});
   if (!push.empty()) commands.pushConstants<std::byte>(*handles_->layout, vk::ShaderStageFlagBits::eCompute, 0, push);
-  commands.dispatch(static_cast<std::uint32_t>((threads + code_.group_size - 1) / code_.group_size), 1, 1);
+}
+
+void ComputePipeline::record(std::uint64_t threads, std::span<const std::byte> push) const {
+  record_binding(push);
+  const std::uint64_t groups = (threads + code_.group_size - 1) / code_.group_size;
+  context_.handles().commands.dispatch(static_cast<std::uint32_t>(groups), 1, 1);
+}
+
+void ComputePipeline::record(const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push) const {
+  record_binding(push);
+  context_.handles().commands.dispatchIndirect(*groups.handles->buffer, offset);
 }
 
 void ComputePipeline::run(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) {

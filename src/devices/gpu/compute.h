@@ -51,8 +51,10 @@ class ComputePipeline {
   void check(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) const;
   // Binds the buffers of a run; the pipeline must not be in the commands recorded so far.
   void bind(std::span<const GpuBuffer* const> buffers);
-  // Records a dispatch of at least one thread.
+  // Record a dispatch of at least one thread, or of groups that a buffer holds.
   void record(std::uint64_t threads, std::span<const std::byte> push) const;
+  void record(const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push) const;
+  void record_binding(std::span<const std::byte> push) const;
 
   const GpuContext& context_;
   ShaderCode code_;

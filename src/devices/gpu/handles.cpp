@@ -37,8 +37,9 @@ void let_later_commands_see(const GpuContext& context) {
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
   const vk::MemoryBarrier barrier(Access::eTransferWrite | Access::eShaderWrite,
-                                  Access::eTransferRead | Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite);
-  const auto stages = Stage::eTransfer | Stage::eComputeShader;
+                                  Access::eTransferRead | Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite |
+                                      Access::eIndirectCommandRead);
+  const auto stages = Stage::eTransfer | Stage::eComputeShader | Stage::eDrawIndirect;
   context.handles().commands.pipelineBarrier(stages, stages, {}, barrier, {}, {});
 }
 

@@ -56,18 +56,30 @@ void Submission::fill(const GpuBuffer& buffer, std::uint32_t word) {
   context_.handles().commands.fillBuffer(*buffer.handles->buffer, 0, VK_WHOLE_SIZE, word);
 }
 
-void Submission::run(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
-                     std::span<const GpuBuffer* const> buffers) {
+void Submission::bind(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
+                      std::span<const GpuBuffer* const> buffers) {
   const std::vector<const GpuBuffer*> bound(buffers.begin(), buffers.end());
   const auto earlier = pipelines_.find(&pipeline);
   const bool is_bound = earlier != pipelines_.end() && earlier->second == bound;
   if (earlier != pipelines_.end() && !is_bound) finish();
   pipeline.check(threads, push, buffers);
   if (!is_bound) pipeline.bind(buffers);
+  pipelines_[&pipeline] = bound;
+}
+
+void Submission::run(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
+                     std::span<const GpuBuffer* const> buffers) {
+  bind(pipeline, threads, push, buffers);
   if (threads == 0) return;
   begin_command();
   pipeline.record(threads, push);
-  pipelines_[&pipeline] = bound;
+}
+
+void Submission::run(ComputePipeline& pipeline, const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push,
+                     std::span<const GpuBuffer* const> buffers) {
+  bind(pipeline, 0, push, buffers);
+  begin_command();
+  pipeline.record(groups, offset, push);
 }
 
 void Submission::download(const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset) {

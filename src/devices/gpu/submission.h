@@ -35,6 +35,11 @@ class Submission {
   void run(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
            std::span<const GpuBuffer* const> buffers);
 
+  // Does the same with as many groups as three words of a buffer say from an offset in bytes on, a multiple of 4: their numbers along x,
+  // y and z, as earlier commands leave them. Along x they may have max_threads() at most.
+  void run(ComputePipeline& pipeline, const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push,
+           std::span<const GpuBuffer* const> buffers);
+
   // Copies a buffer to `data`, which must live until finish() returns and are complete then. offset + size <= bytes.
   void download(const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset = 0);
 
@@ -47,6 +52,9 @@ class Submission {
     std::size_t staged_at;
   };
 
+  // Checks and binds what a pipeline needs.
+  void bind(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
+            std::span<const GpuBuffer* const> buffers);
   // Begins the next command, which sees what those before it wrote.
   void begin_command();
   // Returns where the next bytes of at most `wanted` are staged, and how many of them.

@@ -49,6 +49,7 @@ class PausedWork {
   // Traces the rays that `push` describes to their end; `buffers` are those of the shader. before(submission) brings the device what
   // the rays need. after(submission, outbox) takes from it what they left, each time that rays paused anew; the last time counts. Those that
   // took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
+  // Several such runs may also be recorded in one submission, with their own numbers of rays; see record().
   template <class Before, class After, class Finish>
   TraceOutcome run(Push push, const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop, const Before& before,
                    const After& after, const Finish& finish_on_cpu) {
@@ -67,6 +68,29 @@ class PausedWork {
     return TraceOutcome::finished;
   }
 
+  // Records a dispatch of as many groups as a buffer says; the outbox must be empty. Rays that pause stay there for resume().
+  void record(Submission& submission, const Push& push, const GpuBuffer& groups, std::size_t offset,
+              const std::vector<const GpuBuffer*>& buffers) {
+    submission.run(pipeline_, groups, offset, std::as_bytes(std::span(&push, 1)), bound(buffers));
+  }
+  // Brings rays that paused in a recorded dispatch to their end, as run() does.
+  template <class After, class Finish>
+  TraceOutcome resume(const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop, const After& after,
+                      const Finish& finish_on_cpu) {
+    std::uint32_t paused = 0;
+    download(context_, outbox_, std::as_writable_bytes(std::span(&paused, 1)));
+    Push push{};
+    push.count = take_out_stuck(paused, finish_on_cpu);
+    push.from_inbox = 1;
+    std::swap(inbox_, outbox_);
+    return run(
+        push, buffers, stop, [](Submission&) {}, after, finish_on_cpu);
+  }
+
+  // Returns the rays that paused in the last dispatch, after their number. Later runs have another one.
+  [[nodiscard]] const GpuBuffer& outbox() const { return outbox_; }
+  [[nodiscard]] std::uint64_t max_threads() const { return pipeline_.max_threads(); }
+
  private:
   static constexpr std::size_t head_bytes = sizeof(std::uint32_t);
 
@@ -77,16 +101,20 @@ class PausedWork {
     return {shader.name, texel ? shader.with_texel_buffers : shader.with_storage_buffers, bindings, sizeof(Push), group_size};
   }
 
+  [[nodiscard]] std::vector<const GpuBuffer*> bound(const std::vector<const GpuBuffer*>& buffers) const {
+    std::vector<const GpuBuffer*> all{&tree_.nodes, &tree_.triangles};
+    all.insert(all.end(), buffers.begin(), buffers.end());
+    all.insert(all.end(), {&inbox_, &outbox_});
+    return all;
+  }
+
   // Returns the number of rays that paused.
   template <class After>
   std::uint32_t dispatch(const Push& push, const std::vector<const GpuBuffer*>& buffers, Submission& submission,
                          const After& after) {
     std::uint32_t paused = 0;
     submission.upload(outbox_, std::as_bytes(std::span(&paused, 1)));
-    std::vector<const GpuBuffer*> bound{&tree_.nodes, &tree_.triangles};
-    bound.insert(bound.end(), buffers.begin(), buffers.end());
-    bound.insert(bound.end(), {&inbox_, &outbox_});
-    submission.run(pipeline_, push.count, std::as_bytes(std::span(&push, 1)), bound);
+    submission.run(pipeline_, push.count, std::as_bytes(std::span(&push, 1)), bound(buffers));
     submission.download(outbox_, std::as_writable_bytes(std::span(&paused, 1)));
     after(submission, outbox_);
     submission.finish();

@@ -6,9 +6,9 @@ namespace sunfleck {
 namespace {
 
 // The shaders read these structs in scalar block layout.
-static_assert(offsetof(shared::PassBlock, choices) == 124);
+static_assert(offsetof(shared::PassBlock, choices) == 128);
 static_assert(offsetof(shared::PassBlock, ground) == 48);
-static_assert(sizeof(shared::RoundState) == 64);
+static_assert(sizeof(shared::RoundState) == 80);
 static_assert(sizeof(shared::RoundColumn) == 88);
 static_assert(offsetof(shared::RoundColumn, load_shift) == 56);
 static_assert(offsetof(shared::RoundColumn, lowest) == 80);
@@ -20,6 +20,8 @@ static_assert(sizeof(Triangle) == 36);
 
 // Part of the device's memory that the buffers of rounds may take beside the tree.
 constexpr double most_of_heap = 0.5;
+
+constexpr std::size_t group_words = 3;  // along x, y and z
 
 constexpr std::array<const char*, round_buffer_count> names = {"the pass",
                                                                "the state of a round",
@@ -43,7 +45,8 @@ constexpr std::array<const char*, round_buffer_count> names = {"the pass",
                                                                "landed by side",
                                                                "hits",
                                                                "landed by cell",
-                                                               "landed by surface"};
+                                                               "landed by surface",
+                                                               "groups"};
 
 }  // namespace
 
@@ -99,7 +102,7 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
     case RoundBuffer::packets:
       return packets_at_a_time * sizeof(shared::Packet);
     case RoundBuffer::order:
-      return packets_at_a_time * word;
+      return (1 + packets_at_a_time) * word;
     case RoundBuffer::landings:
       return packets_at_a_time * sizeof(shared::Landing);
     case RoundBuffer::side_landed:
@@ -110,6 +113,8 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
       return cells * columns * quantum;
     case RoundBuffer::surface_landed:
       return 2 * surfaces * columns * quantum;
+    case RoundBuffer::groups:
+      return shared::kinds_of_groups * group_words * word;
   }
   return 0;
 }
@@ -123,6 +128,10 @@ bool RoundSizes::fit(const GpuContext& context, std::uint64_t most_threads) cons
     all += static_cast<double>(size);
   }
   return all <= most_of_heap * static_cast<double>(limits.heap_bytes) && 2 * places <= most_threads && packets <= most_threads;
+}
+
+std::size_t RoundBuffers::offset_of_groups(std::uint32_t kind) {
+  return kind * group_words * sizeof(std::uint32_t);
 }
 
 void RoundBuffers::make_room(const RoundSizes& sizes) {

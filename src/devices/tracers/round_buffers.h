@@ -37,8 +37,9 @@ enum class RoundBuffer : std::uint8_t {
   element_hits,
   cell_landed,
   surface_landed,
+  groups,
 };
-inline constexpr std::size_t round_buffer_count = 23;
+inline constexpr std::size_t round_buffer_count = 24;
 
 // The sizes of a pass that decide how large its buffers are.
 struct RoundSizes {
@@ -65,6 +66,9 @@ class RoundBuffers {
   void make_room(const RoundSizes& sizes);
 
   [[nodiscard]] const GpuBuffer& operator[](RoundBuffer buffer) const { return buffers_[static_cast<std::size_t>(buffer)]; }
+  // Returns where the numbers of groups of a kind begin in their buffer, in bytes.
+  [[nodiscard]] static std::size_t offset_of_groups(std::uint32_t kind);
+
   // Returns all of them in the order of their bindings, and `outbox` at the end.
   [[nodiscard]] std::vector<const GpuBuffer*> with(const GpuBuffer& outbox) const;
 

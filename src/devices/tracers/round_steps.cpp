@@ -21,10 +21,6 @@
 namespace sunfleck {
 namespace {
 
-// On a GPU each thread is slow, but there are many.
-constexpr shared::RoundChoices on_software{32, 1024, 256, 512};
-constexpr shared::RoundChoices on_hardware{32, 128, 64, 128};
-
 constexpr std::uint32_t parts_of(std::uint32_t count, std::uint32_t each) {
   return (count + each - 1) / each;
 }
@@ -59,9 +55,7 @@ bool RoundSteps::work_on(const DeviceLimits& limits) {
 
 RoundSteps::RoundSteps(const GpuContext& context, const shared::RoundChoices& choices, std::size_t packets_at_a_time)
     : context_(context),
-      choices_(choices.copies > 0               ? choices
-               : context.description().software ? on_software
-                                                : on_hardware),
+      choices_(choices),
       packets_at_a_time_(packets_at_a_time),
       buffers_(context),
       nothing_(create_buffer(context, BufferUse::storage, sizeof(std::uint32_t), "an empty outbox")),
@@ -69,32 +63,21 @@ RoundSteps::RoundSteps(const GpuContext& context, const shared::RoundChoices& ch
   ::sunfleck::fill(context, nothing_, 0);
 }
 
-bool RoundSteps::take(const RoundsOrder& order) {
-  const RoundSizes sizes(order, packets_at_a_time_, choices_);
-  if (!sizes.fit(context_, shaders_.take.max_threads())) return false;
-  sizes_ = sizes;
+bool RoundSteps::fits(const RoundsOrder& order) const {
+  return RoundSizes(order, packets_at_a_time_, choices_).fit(context_, shaders_.take.max_threads());
+}
+
+void RoundSteps::give(Submission& submission, const RoundsOrder& order) {
+  sizes_ = RoundSizes(order, packets_at_a_time_, choices_);
   buffers_.make_room(sizes_);
-  give_scene(order.scene);
-  give_pass(order);
-  return true;
-}
-
-void RoundSteps::give_scene(const IndirectScene& scene) {
-  if (scene.number == scene_number_) return;
-  Submission submission(context_);
-  upload(submission, RoundBuffer::elements, std::span<const shared::RoundElement>(round_elements(scene)));
-  upload(submission, RoundBuffer::corners, scene.model.canopy.corners.own());
-  submission.finish();
-  scene_number_ = scene.number;
-}
-
-void RoundSteps::give_pass(const RoundsOrder& order) {
+  give_scene(submission, order.scene);
   shared::PassBlock block = order.block;
   block.choices = choices_;
+  block.most_packets = static_cast<std::uint32_t>(sizes_.packets);
   shared::RoundState state{};
+  state.places = static_cast<std::uint32_t>(order.places.size());
   state.end_of_elements = order.places.end_of_elements();
   state.end_of_cells = order.places.end_of_cells();
-  Submission submission(context_);
   upload(submission, RoundBuffer::pass, std::span<const shared::PassBlock>(&block, 1));
   upload(submission, RoundBuffer::state, std::span<const shared::RoundState>(&state, 1));
   upload(submission, RoundBuffer::columns, std::span(order.columns));
@@ -106,59 +89,71 @@ void RoundSteps::give_pass(const RoundsOrder& order) {
                                  RoundBuffer::cell_landed, RoundBuffer::surface_landed}) {
     submission.fill(buffers_[sums], 0);
   }
-  submission.finish();
 }
 
-void RoundSteps::run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push,
-                     const GpuBuffer& outbox) {
-  submission.run(shader, threads, std::as_bytes(std::span(&push, 1)), buffers_.with(outbox));
+void RoundSteps::give_scene(Submission& submission, const IndirectScene& scene) {
+  if (scene.number == scene_number_) return;
+  upload(submission, RoundBuffer::elements, std::span<const shared::RoundElement>(round_elements(scene)));
+  upload(submission, RoundBuffer::corners, scene.model.canopy.corners.own());
+  scene_number_ = scene.number;
+}
+
+std::vector<const GpuBuffer*> RoundSteps::bound() const {
+  return buffers_.with(outbox_ != nullptr ? *outbox_ : nothing_);
 }
 
 void RoundSteps::run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push) {
-  run(submission, shader, threads, push, nothing_);
+  submission.run(shader, threads, std::as_bytes(std::span(&push, 1)), bound());
 }
 
-void RoundSteps::sum(Submission& submission, std::uint32_t numbers) {
-  const std::uint32_t blocks = parts_of(numbers, choices_.numbers_per_sum);
-  run(submission, shaders_.sum_blocks, blocks, {0, numbers});
-  run(submission, shaders_.sum_spine, shared::round_group_size, {0, blocks});
-  run(submission, shaders_.sum_up, blocks, {0, numbers});
+void RoundSteps::run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push) {
+  submission.run(shader, buffers_[RoundBuffer::groups], RoundBuffers::offset_of_groups(kind),
+                 std::as_bytes(std::span(&push, 1)), bound());
+}
+
+void RoundSteps::sum(Submission& submission, std::uint32_t kind, std::uint32_t groups) {
+  run_groups(submission, shaders_.sum_blocks, groups, {kind, 0});
+  run(submission, shaders_.sum_spine, shared::round_group_size, {kind, 0});
+  run_groups(submission, shaders_.sum_up, groups, {kind, 0});
 }
 
 void RoundSteps::begin(Submission& submission) {
   run(submission, shaders_.collect, sizes_.small_words, {0, static_cast<std::uint32_t>(sizes_.small_words)});
-  run(submission, shaders_.begin, shared::round_group_size, {0, 0});
+  run(submission, shaders_.begin, shared::round_group_size);
 }
 
-void RoundSteps::sort(Submission& submission, std::uint32_t places) {
-  const std::uint32_t runs = parts_of(places, choices_.places_per_run);
-  run(submission, shaders_.count, runs, {0, places});
-  sum(submission, runs * shared::place_parts);
-  run(submission, shaders_.sort, runs, {0, places});
+void RoundSteps::sort(Submission& submission) {
+  run_groups(submission, shaders_.count, shared::groups_of_runs);
+  sum(submission, shared::sums_of_runs, shared::groups_of_run_sums);
+  run_groups(submission, shaders_.sort, shared::groups_of_runs);
 }
 
-void RoundSteps::draw(Submission& submission, std::uint32_t places) {
-  const std::uint32_t sides = 2 * places;
-  run(submission, shaders_.expect, sides, {0, sides});
-  sum(submission, sides);
-  run(submission, shaders_.plan, 1, {0, parts_of(sides, choices_.numbers_per_sum)});
-  run(submission, shaders_.take, sides, {0, sides});
+void RoundSteps::draw(Submission& submission) {
+  run_groups(submission, shaders_.expect, shared::groups_of_sides);
+  sum(submission, shared::sums_of_sides, shared::groups_of_side_sums);
+  run(submission, shaders_.plan, 1);
+  run_groups(submission, shaders_.take, shared::groups_of_sides);
 }
 
-void RoundSteps::weigh(Submission& submission, std::uint32_t places, std::uint32_t packets) {
+void RoundSteps::weigh(Submission& submission) {
   const auto columns = static_cast<std::uint32_t>(sizes_.columns);
-  run(submission, shaders_.weigh, packets, {2 * places, packets});
+  run_groups(submission, shaders_.weigh, shared::groups_of_packets);
   run(submission, shaders_.collect, columns, {shared::sum_weights * columns, columns});
-  run(submission, shaders_.load, shared::round_group_size, {0, 0});
+  run(submission, shaders_.load, shared::round_group_size);
 }
 
 void RoundSteps::start(Submission& submission, shared::RoundPush packets) {
+  if (packets.count == shared::all_packets) {
+    run_groups(submission, shaders_.emit, shared::groups_of_packets, packets);
+    return run_groups(submission, shaders_.order, shared::groups_of_windows, packets);
+  }
   run(submission, shaders_.emit, packets.count, packets);
   run(submission, shaders_.order, parts_of(packets.count, choices_.packets_per_window), packets);
 }
 
-void RoundSteps::book(Submission& submission, shared::RoundPush packets, const GpuBuffer& outbox) {
-  run(submission, shaders_.book, packets.count, packets, outbox);
+void RoundSteps::book(Submission& submission, shared::RoundPush packets) {
+  if (packets.count == shared::all_packets) return run_groups(submission, shaders_.book, shared::groups_of_packets, packets);
+  run(submission, shaders_.book, packets.count, packets);
 }
 
 void RoundSteps::fetch(Submission& submission, shared::RoundState& state) const {
@@ -180,6 +175,7 @@ void RoundSteps::fetch(RoundsSums& sums) const {
   download(RoundBuffer::surface_landed, sums.surface_landed);
   fetch(submission, state);
   submission.finish();
+  sums.packets = state.all_packets;
   sums.rounds = state.rounds;
   sums.most_places = state.most_places;
 }

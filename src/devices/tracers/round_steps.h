@@ -10,35 +10,43 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace sunfleck {
 
 // Each step is recorded in a submission and sees what earlier ones left in the buffers. The order of a round is that of the functions.
 class RoundSteps {
  public:
+  static constexpr shared::RoundPush every_packet{0, shared::all_packets};
+
   // Returns whether a device has all that the steps need: 64-bit integers that can be added to atomically, and as many buffers as a
   // shader reads and writes.
   [[nodiscard]] static bool work_on(const DeviceLimits& limits);
 
-  // The context must outlive the object. Without copies, `choices` stand for a default for software or hardware.
+  // The context must outlive the object.
   RoundSteps(const GpuContext& context, const shared::RoundChoices& choices, std::size_t packets_at_a_time);
 
-  // Gives the device a pass. Returns false, and does nothing, if it is too large.
-  [[nodiscard]] bool take(const RoundsOrder& order);
+  // Returns whether a pass fits the device.
+  [[nodiscard]] bool fits(const RoundsOrder& order) const;
+  // Gives the device a pass that fits.
+  void give(Submission& submission, const RoundsOrder& order);
 
-  // Ends the round before, and begins one unless no column is left: RoundState::done.
+  // The outbox of the following steps, until another is set: packets that are still on their way. Without one there are none.
+  void set_outbox(const GpuBuffer* outbox) { outbox_ = outbox; }
+
+  // Ends the round before, and begins one unless no column is left (RoundState::done), or the outbox is not empty
+  // (RoundState::has_to_wait); in both cases the other steps do nothing.
   void begin(Submission& submission);
-  // Moves so many places to their parts, as WaitingFlux::take_sorted does.
-  void sort(Submission& submission, std::uint32_t places);
+  // Moves the places to their parts, as WaitingFlux::take_sorted does.
+  void sort(Submission& submission);
   // Draws packets from them, as PacketDraw does: RoundState::packets.
-  void draw(Submission& submission, std::uint32_t places);
-  // Finds what so many packets carry, and takes it off the places.
-  void weigh(Submission& submission, std::uint32_t places, std::uint32_t packets);
+  void draw(Submission& submission);
+  // Finds what the packets carry, takes it off the places, and empties the outbox.
+  void weigh(Submission& submission);
   // Starts some of them, as PacketStarts does, and orders them by direction. There are at most `packets_at_a_time`.
-  void start(Submission& submission, shared::RoundPush packets);
+  void start(Submission& submission, shared::RoundPush packets = every_packet);
   // Books where they landed, as PacketBooks does, unless the outbox holds packets that are still on their way.
-  void book(Submission& submission, shared::RoundPush packets, const GpuBuffer& outbox);
-  void book(Submission& submission, shared::RoundPush packets) { book(submission, packets, nothing_); }
+  void book(Submission& submission, shared::RoundPush packets = every_packet);
 
   // Fetches the state that the steps so far leave; it is there once the submission is finished.
   void fetch(Submission& submission, shared::RoundState& state) const;
@@ -47,6 +55,7 @@ class RoundSteps {
 
   [[nodiscard]] const GpuBuffer& buffer(RoundBuffer which) const { return buffers_[which]; }
   [[nodiscard]] const RoundSizes& sizes() const { return sizes_; }
+  [[nodiscard]] std::size_t packets_at_a_time() const { return packets_at_a_time_; }
 
  private:
   // Each is the shader of its name.
@@ -56,13 +65,13 @@ class RoundSteps {
         book;
   };
 
-  void give_scene(const IndirectScene& scene);
-  void give_pass(const RoundsOrder& order);
-  // Turns numbers into running sums.
-  void sum(Submission& submission, std::uint32_t numbers);
-  void run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push);
-  void run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push,
-           const GpuBuffer& outbox);
+  void give_scene(Submission& submission, const IndirectScene& scene);
+  // Turns numbers of a kind into running sums; `groups` is the kind of their groups.
+  void sum(Submission& submission, std::uint32_t kind, std::uint32_t groups);
+  // Run a shader with so many threads, or with groups of a kind.
+  void run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push = {});
+  void run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push = {});
+  [[nodiscard]] std::vector<const GpuBuffer*> bound() const;
   template <class T>
   void upload(Submission& submission, RoundBuffer to, std::span<const T> values) const {
     submission.upload(buffers_[to], std::as_bytes(values));
@@ -73,7 +82,8 @@ class RoundSteps {
   std::size_t packets_at_a_time_;
   RoundSizes sizes_;  // of the pass
   RoundBuffers buffers_;
-  GpuBuffer nothing_;               // an empty outbox
+  GpuBuffer nothing_;  // an empty outbox
+  const GpuBuffer* outbox_ = nullptr;
   std::uint64_t scene_number_ = 0;  // of the scene on the device
   Shaders shaders_;
 };

@@ -33,7 +33,7 @@ VulkanPackets::VulkanPackets(const GpuContext& context, const GpuTree& tree, con
       scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
       packets_(create_buffer(context, BufferUse::storage, choices.rays_per_dispatch * sizeof(shared::Packet), "packets")),
       landings_(create_buffer(context, BufferUse::storage, choices.rays_per_dispatch * sizeof(shared::Landing), "landings")),
-      order_(create_buffer(context, BufferUse::storage, choices.rays_per_dispatch * sizeof(std::uint32_t),
+      order_(create_buffer(context, BufferUse::storage, (1 + std::size_t{choices.rays_per_dispatch}) * sizeof(std::uint32_t),
                            "the order of packets")),
       work_(context, tree, domain, choices, packets_shader(), "paused packets") {}
 
@@ -43,11 +43,13 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
   for (std::size_t first = 0; first < packets.size();) {
     const auto slice = packets.subspan(first, std::min<std::size_t>(work_.rays_per_dispatch(), packets.size() - first));
     const std::vector<std::uint32_t> order = order_by_direction(slice);
+    const shared::PacketPush push{0, static_cast<std::uint32_t>(slice.size()), 0};
     const std::span<shared::Landing> landed = landings.subspan(first, slice.size());
     const auto send = [&](Submission& submission) {
       submission.upload(scene_, std::as_bytes(std::span(&scene, 1)));
       submission.upload(packets_, std::as_bytes(slice));
-      submission.upload(order_, std::as_bytes(std::span(order)));
+      submission.upload(order_, std::as_bytes(std::span(&push.count, 1)));
+      submission.upload(order_, std::as_bytes(std::span(order)), sizeof(push.count));
     };
     const auto take = [&](Submission& submission, const GpuBuffer&) {
       submission.download(landings_, std::as_writable_bytes(landed));
@@ -56,7 +58,6 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
     const auto finish = [&](const shared::PausedPacket& paused) {
       finished_on_cpu.emplace_back(paused.packet, cpu_.finish_packet(scene, slice[paused.packet], paused));
     };
-    const shared::PacketPush push{0, static_cast<std::uint32_t>(slice.size()), 0};
     if (work_.run(push, {&scene_, &packets_, &landings_, &order_}, stop, send, take, finish) == TraceOutcome::stopped) {
       return TraceOutcome::stopped;
     }

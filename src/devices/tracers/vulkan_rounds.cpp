@@ -5,55 +5,143 @@
 #include "devices/tracers/vulkan_packets.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
+#include <span>
 
 namespace sunfleck {
+namespace {
+
+constexpr std::uint32_t rounds_at_once_on_hardware = 8;
+
+// On a GPU each thread is slow, but there are many.
+shared::RoundChoices completed(const VulkanChoices& choices, bool software) {
+  shared::RoundChoices rounds = choices.rounds;
+  if (rounds.copies == 0)
+    rounds = software ? shared::RoundChoices{32, 1024, 256, 512, 0} : shared::RoundChoices{32, 128, 64, 128, 0};
+  rounds.trace_group_size = choices.group_size;
+  return rounds;
+}
+
+// Drawings wait for a dispatch at most, so that dispatches with a target of time must be short.
+std::uint32_t at_once(const VulkanChoices& choices, bool software) {
+  if (choices.seconds_per_dispatch > 0.0) return 1;
+  if (choices.rounds_at_once > 0) return choices.rounds_at_once;
+  return software ? 1 : rounds_at_once_on_hardware;
+}
+
+}  // namespace
 
 VulkanRounds::VulkanRounds(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, TraceDomain domain,
                            const VulkanChoices& choices)
     : context_(context),
       cpu_(cpu),
+      rounds_at_once_(at_once(choices, context.description().software)),
       scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
-      steps_(context, choices.rounds, choices.rays_per_dispatch),
+      steps_(context, completed(choices, context.description().software), choices.rays_per_dispatch),
       work_(context, tree, domain, choices, packets_shader(), "paused packets") {}
 
 std::optional<TraceOutcome> VulkanRounds::make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
-  if (!steps_.take(order)) return std::nullopt;
-  upload(context_, scene_, std::as_bytes(std::span(&order.scene.block, 1)));
-  auto places = static_cast<std::uint32_t>(order.places.size());
-  for (shared::RoundState state = draw(places); state.done == 0; state = draw(places)) {
-    ENSURE(state.packets, <=, steps_.sizes().packets);
-    if (send(order.scene.block, places, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
-    sums.packets += state.packets;
-    places = state.packets;
+  if (!steps_.fits(order)) return std::nullopt;
+  const std::uint64_t most_together = std::min<std::uint64_t>(steps_.packets_at_a_time(), work_.max_threads());
+  const bool together = rounds_at_once_ > 1 && order.most_packets() <= most_together;
+  const TraceOutcome outcome = together ? make_together(order, stop) : make_in_parts(order, stop);
+  if (outcome == TraceOutcome::finished) steps_.fetch(sums);
+  return outcome;
+}
+
+void VulkanRounds::give(Submission& submission, const RoundsOrder& order) {
+  steps_.give(submission, order);
+  submission.upload(scene_, std::as_bytes(std::span(&order.scene.block, 1)));
+}
+
+std::vector<const GpuBuffer*> VulkanRounds::traced() const {
+  return {&scene_, &steps_.buffer(RoundBuffer::packets), &steps_.buffer(RoundBuffer::landings),
+          &steps_.buffer(RoundBuffer::order)};
+}
+
+TraceOutcome VulkanRounds::make_together(const RoundsOrder& order, const StopQuestion& stop) {
+  bool is_given = false;
+  shared::RoundState state{};
+  state.has_to_wait = 1;  // the first round has not begun
+  while (state.done == 0) {
+    if (stop && stop()) return TraceOutcome::stopped;
+    Submission submission(context_);
+    if (!is_given) give(submission, order);
+    is_given = true;
+    if (state.has_to_wait != 0) begin_with_empty_outbox(submission);
+    for (std::uint32_t round = 0; round < rounds_at_once_; ++round) record_round(submission);
+    steps_.fetch(submission, state);
+    submission.finish();
+    ENSURE(state.most_drawn, <=, steps_.sizes().packets);
+    if (state.has_to_wait == 0) continue;
+    if (finish_round(order.scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
   }
-  steps_.fetch(sums);
   return TraceOutcome::finished;
 }
 
-shared::RoundState VulkanRounds::draw(std::uint32_t places) {
-  shared::RoundState state{};
-  Submission submission(context_);
+void VulkanRounds::begin_with_empty_outbox(Submission& submission) {
+  constexpr std::uint32_t none = 0;
+  submission.upload(work_.outbox(), std::as_bytes(std::span(&none, 1)));
+  steps_.set_outbox(&work_.outbox());
   steps_.begin(submission);
-  steps_.sort(submission, places);
-  steps_.draw(submission, places);
+}
+
+void VulkanRounds::record_round(Submission& submission) {
+  steps_.sort(submission);
+  steps_.draw(submission);
+  steps_.weigh(submission);
+  steps_.start(submission);
+  work_.record(submission, {0, shared::all_packets, 0}, steps_.buffer(RoundBuffer::groups),
+               RoundBuffers::offset_of_groups(shared::groups_of_traces), traced());
+  steps_.book(submission);
+  steps_.begin(submission);
+}
+
+TraceOutcome VulkanRounds::finish_round(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop) {
+  const shared::RoundPush all{0, packets};
+  Finished finished;
+  const auto after = [&](Submission& submission, const GpuBuffer& outbox) {
+    steps_.set_outbox(&outbox);
+    if (finished.empty()) steps_.book(submission, all);
+  };
+  const auto finish = [&](const shared::PausedPacket& paused) { finished.push_back(finish_on_cpu(scene, paused)); };
+  if (work_.resume(traced(), stop, after, finish) == TraceOutcome::stopped) return TraceOutcome::stopped;
+  if (!finished.empty()) book(finished, all);
+  return TraceOutcome::finished;
+}
+
+TraceOutcome VulkanRounds::make_in_parts(const RoundsOrder& order, const StopQuestion& stop) {
+  Submission first(context_);
+  give(first, order);
+  for (shared::RoundState state = draw(first);;) {
+    if (state.done != 0) return TraceOutcome::finished;
+    ENSURE(state.most_drawn, <=, steps_.sizes().packets);
+    if (send(order.scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
+    Submission next(context_);
+    state = draw(next);
+  }
+}
+
+shared::RoundState VulkanRounds::draw(Submission& submission) {
+  shared::RoundState state{};
+  steps_.set_outbox(nullptr);
+  steps_.begin(submission);
+  steps_.sort(submission);
+  steps_.draw(submission);
   steps_.fetch(submission, state);
   submission.finish();
   return state;
 }
 
-TraceOutcome VulkanRounds::send(const shared::PacketBlock& scene, std::uint32_t places, std::uint32_t packets,
-                                const StopQuestion& stop) {
+TraceOutcome VulkanRounds::send(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop) {
   if (packets == 0) {  // all columns are retired
     Submission submission(context_);
-    steps_.weigh(submission, places, packets);
+    steps_.weigh(submission);
     submission.finish();
   }
   for (std::uint32_t first = 0; first < packets;) {
     const shared::RoundPush part{first, std::min(work_.rays_per_dispatch(), packets - first)};
     const auto weigh = [&](Submission& submission) {
-      if (first == 0) steps_.weigh(submission, places, packets);
+      if (first == 0) steps_.weigh(submission);
     };
     if (send_part(scene, part, weigh, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
     first += part.count;
@@ -61,35 +149,42 @@ TraceOutcome VulkanRounds::send(const shared::PacketBlock& scene, std::uint32_t 
   return TraceOutcome::finished;
 }
 
-// Packets that are stuck are finished by the CPU, and only then are all of the part booked.
 template <class Before>
 TraceOutcome VulkanRounds::send_part(const shared::PacketBlock& scene, shared::RoundPush part, const Before& before,
                                      const StopQuestion& stop) {
-  const GpuBuffer& packets = steps_.buffer(RoundBuffer::packets);
-  const GpuBuffer& landings = steps_.buffer(RoundBuffer::landings);
-  std::vector<std::pair<std::uint32_t, shared::Landing>> finished_on_cpu;
+  Finished finished;
   const auto start = [&](Submission& submission) {
+    steps_.set_outbox(nullptr);
     before(submission);
     steps_.start(submission, part);
   };
-  const auto book = [&](Submission& submission, const GpuBuffer& outbox) {
-    if (finished_on_cpu.empty()) steps_.book(submission, part, outbox);
+  const auto after = [&](Submission& submission, const GpuBuffer& outbox) {
+    steps_.set_outbox(&outbox);
+    if (finished.empty()) steps_.book(submission, part);
   };
-  const auto finish = [&](const shared::PausedPacket& paused) {
-    shared::Packet packet;
-    download(context_, packets, std::as_writable_bytes(std::span(&packet, 1)), paused.packet * sizeof(packet));
-    finished_on_cpu.emplace_back(paused.packet, cpu_.finish_packet(scene, packet, paused));
-  };
-  const std::vector<const GpuBuffer*> traced{&scene_, &packets, &landings, &steps_.buffer(RoundBuffer::order)};
-  if (work_.run({0, part.count, 0}, traced, stop, start, book, finish) == TraceOutcome::stopped) return TraceOutcome::stopped;
-  if (finished_on_cpu.empty()) return TraceOutcome::finished;
+  const auto finish = [&](const shared::PausedPacket& paused) { finished.push_back(finish_on_cpu(scene, paused)); };
+  if (work_.run({0, part.count, 0}, traced(), stop, start, after, finish) == TraceOutcome::stopped)
+    return TraceOutcome::stopped;
+  if (!finished.empty()) book(finished, part);
+  return TraceOutcome::finished;
+}
+
+std::pair<std::uint32_t, shared::Landing> VulkanRounds::finish_on_cpu(const shared::PacketBlock& scene,
+                                                                      const shared::PausedPacket& paused) const {
+  shared::Packet packet;
+  download(context_, steps_.buffer(RoundBuffer::packets), std::as_writable_bytes(std::span(&packet, 1)),
+           paused.packet * sizeof(packet));
+  return {paused.packet, cpu_.finish_packet(scene, packet, paused)};
+}
+
+void VulkanRounds::book(const Finished& finished, shared::RoundPush part) {
   Submission submission(context_);
-  for (const auto& [packet, landing] : finished_on_cpu) {
-    submission.upload(landings, std::as_bytes(std::span(&landing, 1)), packet * sizeof(landing));
+  for (const auto& [packet, landing] : finished) {
+    submission.upload(steps_.buffer(RoundBuffer::landings), std::as_bytes(std::span(&landing, 1)), packet * sizeof(landing));
   }
+  steps_.set_outbox(nullptr);
   steps_.book(submission, part);
   submission.finish();
-  return TraceOutcome::finished;
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,6 @@
 #pragma once
 // The part of the Vulkan tracer that makes the rounds of indirect passes on the device: packets are drawn, started, traced and booked
-// there. The host learns only how many packets a round has, and at the end the sums. It is created for the first pass.
+// there. It is created for the first pass.
 
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/context.h"
@@ -15,6 +15,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace sunfleck {
 
@@ -28,18 +30,39 @@ class VulkanRounds {
   [[nodiscard]] std::optional<TraceOutcome> make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop);
 
  private:
-  // Draws the packets of the next round from so many places.
-  [[nodiscard]] shared::RoundState draw(std::uint32_t places);
-  // Sends the packets of a round, drawn from so many places.
-  [[nodiscard]] TraceOutcome send(const shared::PacketBlock& scene, std::uint32_t places, std::uint32_t packets,
-                                  const StopQuestion& stop);
+  // Packets that the CPU has finished, by their numbers in the dispatch, and where they landed.
+  using Finished = std::vector<std::pair<std::uint32_t, shared::Landing>>;
+
+  // Makes several rounds before the host looks; the host finishes packets that pause.
+  [[nodiscard]] TraceOutcome make_together(const RoundsOrder& order, const StopQuestion& stop);
+  void begin_with_empty_outbox(Submission& submission);
+  // Records a round that has begun, and the beginning of the next one.
+  void record_round(Submission& submission);
+  // Brings the packets that paused in the last round to their ends, and books it.
+  [[nodiscard]] TraceOutcome finish_round(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop);
+
+  // Makes one round after the other, in dispatches that are short enough.
+  [[nodiscard]] TraceOutcome make_in_parts(const RoundsOrder& order, const StopQuestion& stop);
+  // Draws the packets of the next round.
+  [[nodiscard]] shared::RoundState draw(Submission& submission);
+  [[nodiscard]] TraceOutcome send(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop);
   // Sends some of them; before(submission) comes first.
   template <class Before>
   [[nodiscard]] TraceOutcome send_part(const shared::PacketBlock& scene, shared::RoundPush part, const Before& before,
                                        const StopQuestion& stop);
 
+  void give(Submission& submission, const RoundsOrder& order);
+  // Returns the landing of a packet that is stuck.
+  [[nodiscard]] std::pair<std::uint32_t, shared::Landing> finish_on_cpu(const shared::PacketBlock& scene,
+                                                                        const shared::PausedPacket& paused) const;
+  // Books packets of which the CPU has finished some.
+  void book(const Finished& finished, shared::RoundPush part);
+  // Returns the buffers of the shader that follows packets.
+  [[nodiscard]] std::vector<const GpuBuffer*> traced() const;
+
   const GpuContext& context_;
   const CpuTracer& cpu_;
+  std::uint32_t rounds_at_once_;
   GpuBuffer scene_;
   RoundSteps steps_;
   PausedWork<shared::PausedPacket, shared::PacketPush> work_;

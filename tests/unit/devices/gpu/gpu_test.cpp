@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <numeric>
@@ -161,6 +162,29 @@ TEST_F(GpuTest, APipelineRunsAgainInASubmissionWithTheSameBuffers) {
   submission.finish();
   EXPECT_EQ(context().traffic().submissions - start, 1U);
   for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(sums[i], words[i] + 321);
+}
+
+TEST_F(GpuTest, EarlierCommandsSayHowManyGroupsRun) {
+  constexpr std::uint32_t count = 1000;
+  const auto texels = create_buffer(context(), BufferUse::uniform_texel, 0, "nothing");
+  constexpr std::array<std::uint32_t, 4> two_groups{9, 2, 1, 1};
+  auto pipeline = make_pipeline(context(), Mode::add);
+  for (const std::uint32_t more : {0U, 3U}) {
+    const auto groups = make_buffer(context(), BufferUse::storage, two_groups);
+    const auto words = noise(count);
+    const auto buffer = make_buffer(context(), BufferUse::storage, words);
+    const GpuBuffer* number[] = {&groups, &texels};
+    const GpuBuffer* buffers[] = {&buffer, &texels};
+    auto counter = make_pipeline(context(), Mode::add);
+    const Push add{2, more}, push{count, 42};
+    Submission submission(context());
+    submission.run(counter, 2, std::as_bytes(std::span(&add, 1)), number);
+    submission.run(pipeline, groups, 4, std::as_bytes(std::span(&push, 1)), buffers);
+    submission.finish();
+    const std::uint32_t threads = (2 + more) * 64;
+    const auto sums = read_words(context(), buffer);
+    for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(sums[i], words[i] + (i < threads ? 42 : 0)) << i;
+  }
 }
 
 TEST_F(GpuTest, OtherBuffersOfAPipelineOrAFullStagingMemoryEndASubmissionEarly) {
