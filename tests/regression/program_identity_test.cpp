@@ -65,7 +65,7 @@ TEST_F(IdentityOfDevices, CpuAndSoftwareVulkanWithStructures) {
 // Packets of a block carry the light of all of its steps.
 TEST_F(IdentityOfDevices, CpuAndSoftwareVulkanWithStepsTogether) {
   for (const char* device : {"cpu", "lavapipe"}) {
-    const Outcome day = run({"day", scene_file("maize_day.toml"), "--from", "08:00", "--to", "12:00", "--together", "4",
+    const Outcome day = run({"day", scene_file("maize_day.toml"), "--from", "08:00", "--to", "11:00", "--together", "2",
                              "--grid", "0.05", "--passes", "8", "--images", "none", "--device", device, "-o", device});
     ASSERT_EQ(day.status, 0) << day.err;
   }
