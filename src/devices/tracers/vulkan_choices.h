@@ -17,8 +17,8 @@ struct VulkanChoices {
   // Where the rounds of indirect passes are made. Software Vulkan is slower at everything but tracing than the host is on the same cores.
   RoundsAt rounds_at = RoundsAt::best;
   shared::RoundChoices rounds{};  // if there are no copies: a default for software or hardware
-  // Rounds that a device makes before the host looks, unless dispatches have a target of time or do not hold all packets of a round; 0: a
-  // default.
+  // Rounds of the first pass that a device makes before the host looks, unless dispatches have a target of time or do not hold all packets
+  // of a round; 0: a default. Later passes take as many as the one before needed.
   std::uint32_t rounds_at_once = 0;
 };
 

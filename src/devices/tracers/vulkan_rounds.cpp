@@ -10,7 +10,9 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uint32_t rounds_at_once_on_hardware = 8;
+constexpr std::uint32_t first_rounds_on_hardware = 8;
+// However many rounds a pass has, Ctrl-C waits for no more than these.
+constexpr std::uint32_t most_rounds_at_once = 32;
 
 // On a GPU each thread is slow, but there are many.
 shared::RoundChoices completed(const VulkanChoices& choices, bool software) {
@@ -25,7 +27,7 @@ shared::RoundChoices completed(const VulkanChoices& choices, bool software) {
 std::uint32_t at_once(const VulkanChoices& choices, bool software) {
   if (choices.seconds_per_dispatch > 0.0) return 1;
   if (choices.rounds_at_once > 0) return choices.rounds_at_once;
-  return software ? 1 : rounds_at_once_on_hardware;
+  return software ? 1 : first_rounds_on_hardware;
 }
 
 }  // namespace
@@ -75,6 +77,8 @@ TraceOutcome VulkanRounds::make_together(const RoundsOrder& order, const StopQue
     if (state.has_to_wait == 0) continue;
     if (finish_round(order.scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
   }
+  constexpr std::uint32_t least = 2;
+  rounds_at_once_ = std::clamp(state.rounds + 1, least, most_rounds_at_once);  // the next replicate needs about as many
   return TraceOutcome::finished;
 }
 

@@ -62,7 +62,7 @@ class VulkanRounds {
 
   const GpuContext& context_;
   const CpuTracer& cpu_;
-  std::uint32_t rounds_at_once_;
+  std::uint32_t rounds_at_once_;  // 1: each round in parts
   GpuBuffer scene_;
   RoundSteps steps_;
   PausedWork<shared::PausedPacket, shared::PacketPush> work_;
