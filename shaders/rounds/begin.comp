@@ -105,7 +105,7 @@ void main() {
   if (thread == 0u) {
     any_active = 0u;
     any_least = 0u;
-    state.has_to_wait = paused_packets > 0u ? 1u : 0u;
+    state.has_to_wait = paused_packets > 0u ? 1u : 0u;  // which the other threads may not see yet
     for (uint kind = 0u; kind < kinds_of_groups; ++kind) {
       groups[kind * 3u] = 0u;
       groups[kind * 3u + 1u] = 1u;
@@ -113,7 +113,7 @@ void main() {
     }
   }
   barrier();
-  if (is_at_rest()) return;
+  if (paused_packets > 0u || state.done != 0u) return;
   for (uint column = thread; column < pass.columns; column += round_group_size) begin_column(column);
   barrier();
   if (thread == 0u) begin_round();

@@ -167,7 +167,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical) {
   limits.max_storage_buffer_bytes = core.maxStorageBufferRange;
   limits.max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
   limits.max_groups_per_dispatch = core.maxComputeWorkGroupCount[0];
-  limits.max_storage_buffers = core.maxPerStageDescriptorStorageBuffers;
+  limits.max_storage_buffers = std::min(core.maxPerStageDescriptorStorageBuffers, core.maxDescriptorSetStorageBuffers);
   const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
   limits.int64 = features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 == VK_TRUE;
   limits.int64_atomics = features.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics == VK_TRUE;
