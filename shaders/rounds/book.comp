@@ -95,7 +95,7 @@ uint64_t book_column(uint copy, Arrival arrival, uint column, uint64_t carried) 
   return scatter(copy, arrival, column, carried);
 }
 
-// Counts a place that keeps flux.
+// Counts a place that keeps flux. An end that is read too early costs no more than an unneeded atomic operation.
 void keep_place(uint copy, uint order) {
   atomicAdd(copies[copy + small_rows(pass) * pass.columns], uint64_t(1u));
   uint end = (order & ~ground_order) + 1u;
