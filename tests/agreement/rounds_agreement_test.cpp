@@ -63,6 +63,34 @@ RadiationModel with_bands(std::size_t count) {
   return model;
 }
 
+// Counts the passes whose rounds a device makes.
+class RoundsCounter final : public Tracer {
+ public:
+  explicit RoundsCounter(Tracer& tracer) : tracer_(tracer) {}
+
+  [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override {
+    return tracer_.count_beam(beam, counters, stop);
+  }
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
+    return tracer_.trace(scene, packets, landings, stop);
+  }
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
+                                                        const StopQuestion& stop) override {
+    const std::optional<TraceOutcome> outcome = tracer_.make_rounds(order, sums, stop);
+    if (outcome) ++passes_;
+    return outcome;
+  }
+
+  [[nodiscard]] std::size_t passes() const { return passes_; }
+
+ private:
+  Tracer& tracer_;
+  std::size_t passes_ = 0;
+};
+
 class RoundsAgreement : public DeviceTest {
  protected:
   void SetUp() override {
@@ -90,7 +118,9 @@ class RoundsAgreement : public DeviceTest {
     choices.rounds_at = RoundsAt::device;
     VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), choices);
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
-    const auto theirs = all_numbers(solve(model, prepared.layout, device, settings, {}));
+    RoundsCounter counter(device);
+    const auto theirs = all_numbers(solve(model, prepared.layout, counter, settings, {}));
+    EXPECT_GT(counter.passes(), 0U) << "the host made all rounds";
     const RadiationResult result = solve(model, prepared.layout, cpu, settings, {});
     EXPECT_GT(result.indirect.packets, 0U);
     EXPECT_TRUE(theirs == all_numbers(result));
@@ -162,6 +192,34 @@ TEST_F(RoundsAgreement, OfWholeRunsInSeveralRoundsAtOnce) {
   expect_same_run(lit_by_lamps(), fixed_scatter(model, {.packets = 20'000, .replicates = 2}), together(8));
   shine_from_sky(model, {});
   expect_same_run(model, fixed, together(8));
+}
+
+// The columns of packets are then two bands in three lights.
+TEST_F(RoundsAgreement, OfLightsThatShareTheirPackets) {
+  std::vector<RadiationModel> moments;
+  for (const double elevation_deg : {20.0, 45.0, 70.0}) {
+    moments.push_back(paper_model(random_leaves(100, 0.12, 5), unit_plot, sun_at(elevation_deg, 150.0)));
+  }
+  shine_from_sky(moments.back(), {});
+  const Prepared prepared(moments.front());
+  const SolveSettings fixed = fixed_scatter(moments.front(), {.rays = 4e4, .packets = 3000, .replicates = 4, .bound = 0.01});
+  const auto numbers_of = [&](Tracer& tracer) {
+    std::vector<std::uint64_t> numbers;
+    const auto take = [&](std::size_t, const RadiationResult& result, const SharedOutcome&) {
+      const std::vector<std::uint64_t> own = all_numbers(result);
+      numbers.insert(numbers.end(), own.begin(), own.end());
+    };
+    (void)solve_lights(moments, prepared.layout, tracer, fixed, {}, nullptr, {}, take);
+    return numbers;
+  };
+  const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+  VulkanChoices choices = together(8);
+  choices.rounds_at = RoundsAt::device;
+  VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(moments.front()), prepared.layout.words(), choices);
+  CpuTracer cpu(prepared.bvh, tracer_scene(moments.front()));
+  RoundsCounter counter(device);
+  EXPECT_TRUE(numbers_of(counter) == numbers_of(cpu));
+  EXPECT_GE(counter.passes(), 4U);
 }
 
 // A period of 5 cm lies below a leaf 12 m high: level packets pass thousands of periods and pause between dispatches.

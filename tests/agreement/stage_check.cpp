@@ -35,7 +35,7 @@ StageCheck::Host::Host(const RoundsOrder& of)
 }
 
 std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion&) {
-  EXPECT_TRUE(steps_.fits(order));
+  EXPECT_TRUE(steps_.make_room(order));
   submit([&](Submission& submission) { steps_.give(submission, order); });
   Host host(order);
   auto places = static_cast<std::uint32_t>(order.places.size());

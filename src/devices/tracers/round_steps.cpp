@@ -1,5 +1,6 @@
 #include "devices/tracers/round_steps.h"
 
+#include "base/error.h"
 #include "rounds_begin.spirv.h"
 #include "rounds_book.spirv.h"
 #include "rounds_collect.spirv.h"
@@ -63,13 +64,20 @@ RoundSteps::RoundSteps(const GpuContext& context, const shared::RoundChoices& ch
   ::sunfleck::fill(context, nothing_, 0);
 }
 
-bool RoundSteps::fits(const RoundsOrder& order) const {
-  return RoundSizes(order, packets_at_a_time_, choices_).fit(context_, shaders_.take.max_threads());
+bool RoundSteps::make_room(const RoundsOrder& order) {
+  const RoundSizes sizes(order, packets_at_a_time_, choices_);
+  if (!sizes.fit(context_, shaders_.take.max_threads())) return false;
+  try {
+    buffers_.make_room(sizes);
+  } catch (const Error&) {  // the memory is short; the host can go on
+    scene_number_ = 0;
+    return false;
+  }
+  sizes_ = sizes;
+  return true;
 }
 
 void RoundSteps::give(Submission& submission, const RoundsOrder& order) {
-  sizes_ = RoundSizes(order, packets_at_a_time_, choices_);
-  buffers_.make_room(sizes_);
   give_scene(submission, order.scene);
   shared::PassBlock block = order.block;
   block.choices = choices_;

@@ -26,9 +26,9 @@ class RoundSteps {
   // The context must outlive the object.
   RoundSteps(const GpuContext& context, const shared::RoundChoices& choices, std::size_t packets_at_a_time);
 
-  // Returns whether a pass fits the device.
-  [[nodiscard]] bool fits(const RoundsOrder& order) const;
-  // Gives the device a pass that fits.
+  // Makes room for a pass. Returns false if it is too large for the device or its free memory.
+  [[nodiscard]] bool make_room(const RoundsOrder& order);
+  // Gives the device a pass for which there is room.
   void give(Submission& submission, const RoundsOrder& order);
 
   // The outbox of the following steps, until another is set: packets that are still on their way. Without one there are none.

@@ -42,7 +42,7 @@ VulkanRounds::VulkanRounds(const GpuContext& context, const GpuTree& tree, const
       work_(context, tree, domain, choices, packets_shader(), "paused packets") {}
 
 std::optional<TraceOutcome> VulkanRounds::make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
-  if (!steps_.fits(order)) return std::nullopt;
+  if (!steps_.make_room(order)) return std::nullopt;
   const std::uint64_t most_together = std::min<std::uint64_t>(steps_.packets_at_a_time(), work_.max_threads());
   const bool together = rounds_at_once_ > 1 && order.most_packets() <= most_together;
   const TraceOutcome outcome = together ? make_together(order, stop) : make_in_parts(order, stop);
