@@ -10,28 +10,24 @@
 shared uint any_active;
 shared uint any_least;
 
-uint word_of(uint kind, uint place, uint column) { return place_row(pass, kind, place) * pass.columns + column; }
-
-uint moved_word(uint place, uint column) { return small_words(pass) + place * pass.columns + column; }
-
 // Counts what packets took along, and lets wait what they did not.
 void end_round(uint column) {
   uint64_t taken = uint64_t(0u);
   for (uint place = 0u; place < layer_places(pass); ++place) {
-    uint word = word_of(place_taken, place, column);
+    uint word = word_of_place(place_taken, place, column);
     taken += totals[word];
     totals[moved_word(place, column)] += totals[word];
     totals[word] = uint64_t(0u);
   }
   uint64_t kept = columns[column].waited - taken;
   uint lowest = columns[column].lowest;
-  totals[word_of(place_waiting, lowest, column)] += kept;
+  totals[word_of_place(place_waiting, lowest, column)] += kept;
   totals[moved_word(lowest, column)] += kept;
 }
 
 uint64_t waiting_of(uint column) {
   uint64_t sum = uint64_t(0u);
-  for (uint place = 0u; place < layer_places(pass); ++place) sum += totals[word_of(place_waiting, place, column)];
+  for (uint place = 0u; place < layer_places(pass); ++place) sum += totals[word_of_place(place_waiting, place, column)];
   return sum;
 }
 
@@ -61,7 +57,7 @@ void begin_column(uint column) {
   if (columns[column].is_active != 0u && is_faint(column, waiting)) {
     columns[column].is_active = 0u;
     columns[column].unshot += waiting;
-    for (uint place = 0u; place < layer_places(pass); ++place) totals[word_of(place_waiting, place, column)] = uint64_t(0u);
+    for (uint place = 0u; place < layer_places(pass); ++place) totals[word_of_place(place_waiting, place, column)] = uint64_t(0u);
     waiting = uint64_t(0u);
   }
   columns[column].total = waiting;
@@ -105,7 +101,7 @@ void main() {
   if (thread == 0u) {
     any_active = 0u;
     any_least = 0u;
-    state.has_to_wait = paused_packets > 0u ? 1u : 0u;  // which the other threads may not see yet
+    state.has_to_wait = paused_packets > 0u ? 1u : 0u;  // has_to_wait may not be visible to the other threads yet
     for (uint kind = 0u; kind < kinds_of_groups; ++kind) {
       groups[kind * 3u] = 0u;
       groups[kind * 3u + 1u] = 1u;

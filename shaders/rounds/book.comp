@@ -7,7 +7,7 @@
 
 #include "shared/beam.h"
 
-// Where a packet ended, and where it came from; see Arrival. Places are those among the layers.
+// Where a packet ended, and where it came from; see Arrival. to, from and waited number places among the layers.
 struct Arrival {
   WaitingPlace place;
   uint to, from, waited;

@@ -20,10 +20,10 @@ void load_column(uint column) {
   columns[column].waited = columns[column].total;
   columns[column].lowest = 0u;
   for (uint k = layer_places(pass); k > 0u; --k) {
-    uint word = place_row(pass, place_waiting, k - 1u) * pass.columns + column;
+    uint word = word_of_place(place_waiting, k - 1u, column);
     uint64_t waiting = retired ? uint64_t(0u) : totals[word];
     if (waiting > uint64_t(0u)) columns[column].lowest = k - 1u;
-    totals[small_words(pass) + (k - 1u) * pass.columns + column] -= waiting;
+    totals[moved_word(k - 1u, column)] -= waiting;
     totals[word] = uint64_t(0u);
   }
 }

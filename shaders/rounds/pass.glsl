@@ -86,6 +86,10 @@ uint64_t sum_before(uint k) { return k > 0u ? sums[k - 1u] : uint64_t(0u); }
 
 uint64_t drawn_before(uint side) { return drawn_up_to(sum_before(side), state.gain, state.offset); }
 
+// Return where the totals have a kind of sum at a place among the layers, and what moved from there.
+uint word_of_place(uint kind, uint place, uint column) { return place_row(pass, kind, place) * pass.columns + column; }
+uint moved_word(uint place, uint column) { return small_words(pass) + place * pass.columns + column; }
+
 // Returns where this group's copy of the small sums begins.
 uint own_copy() { return (gl_WorkGroupID.x % pass.choices.copies) * small_words(pass); }
 

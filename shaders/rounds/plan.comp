@@ -11,7 +11,8 @@ void main() {
   uint64_t pace = uint64_t(1u) << 32u;
   uint64_t least = long_quotient(least_packets, uint64_t(0u), sum) + uint64_t(1u);
   state.gain = pace > least ? pace : least;
-  uint drawn = uint(drawn_up_to(sum, state.gain, state.offset));
+  uint64_t all_drawn = drawn_up_to(sum, state.gain, state.offset);
+  uint drawn = all_drawn < uint64_t(low_word) ? uint(all_drawn) : low_word;
   state.most_drawn = max(state.most_drawn, drawn);
   state.packets = min(drawn, pass.most_packets);
   state.all_packets += uint64_t(state.packets);

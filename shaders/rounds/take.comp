@@ -9,6 +9,6 @@ void main() {
   uint side = gl_GlobalInvocationID.x;
   uint first = uint(drawn_before(side));
   uint end = uint(drawn_before(side + 1u));
-  end = min(end, first + most_numbered);
+  end = min(min(end, first + most_numbered), state.packets);
   for (uint packet = first; packet < end; ++packet) numbers[packet] = side;
 }

@@ -7,8 +7,8 @@
 
 SHARED_BEGIN
 
-// The numbers in place of a packet's for the random words that all packets of a round share: the offset of drawing, and the starts of
-// the sequences of directions and of places on lamps.
+// Used instead of a packet's number for the random words that all packets of a round share: the offset of drawing, and the starts of the
+// sequences of directions and of places on lamps.
 const uint word_of_offset = 0xffffffffu;
 const uint word_of_starts = 0xfffffffeu;
 

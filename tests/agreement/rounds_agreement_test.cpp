@@ -15,7 +15,7 @@
 namespace sunfleck::test {
 namespace {
 
-// One of everything, and sizes that leave a rest.
+// One of everything, and sizes that leave a remainder.
 constexpr shared::RoundChoices smallest{1, 1, 1, 1, 64};
 constexpr shared::RoundChoices odd{3, 7, 5, 100, 64};
 constexpr shared::RoundChoices usual{32, 1024, 256, 512, 64};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t window = 512;
 constexpr std::size_t windows_per_task = 16;
-constexpr std::size_t sectors = 128;  // of the sphere: 16 per octant
+constexpr std::size_t sectors = shared::sectors;  // 16 per octant
 
 // Returns a sector: the octahedron's faces, each divided into a grid by two components of the direction.
 std::uint8_t sector_of(const glm::vec3& direction) {

@@ -49,7 +49,6 @@ class PausedWork {
   // Traces the rays that `push` describes to their end; `buffers` are those of the shader. before(submission) brings the device what
   // the rays need. after(submission, outbox) takes from it what they left, each time that rays paused anew; the last time counts. Those that
   // took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
-  // Several such runs may also be recorded in one submission, with their own numbers of rays; see record().
   template <class Before, class After, class Finish>
   TraceOutcome run(Push push, const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop, const Before& before,
                    const After& after, const Finish& finish_on_cpu) {
@@ -87,7 +86,7 @@ class PausedWork {
         push, buffers, stop, [](Submission&) {}, after, finish_on_cpu);
   }
 
-  // Returns the rays that paused in the last dispatch, after their number. Later runs have another one.
+  // Returns the buffer of the rays that pause in a recorded dispatch, after their number. The next run() or resume() exchanges it.
   [[nodiscard]] const GpuBuffer& outbox() const { return outbox_; }
   [[nodiscard]] std::uint64_t max_threads() const { return pipeline_.max_threads(); }
 

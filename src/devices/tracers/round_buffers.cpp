@@ -18,35 +18,10 @@ static_assert(offsetof(shared::WaitingPlace, level) == offsetof(EmissionPoint, l
 static_assert(offsetof(shared::WaitingPlace, u) == offsetof(EmissionPoint, u));
 static_assert(sizeof(Triangle) == 36);
 
-// Part of the device's memory that the buffers of rounds may take beside the tree.
+// Part of the device's memory that the buffers of rounds may take; the tree and the beam need the rest.
 constexpr double most_of_heap = 0.5;
 
 constexpr std::size_t group_words = 3;  // along x, y and z
-
-constexpr std::array<const char*, round_buffer_count> names = {"the pass",
-                                                               "the state of a round",
-                                                               "columns",
-                                                               "small sums",
-                                                               "copies of small sums",
-                                                               "coefficients",
-                                                               "elements",
-                                                               "corners",
-                                                               "next places",
-                                                               "next quanta",
-                                                               "places",
-                                                               "quanta",
-                                                               "running sums",
-                                                               "sums of blocks",
-                                                               "numbers",
-                                                               "weights",
-                                                               "packets of a round",
-                                                               "the order of packets",
-                                                               "landings of packets",
-                                                               "landed by side",
-                                                               "hits",
-                                                               "landed by cell",
-                                                               "landed by surface",
-                                                               "groups"};
 
 }  // namespace
 
@@ -127,7 +102,8 @@ bool RoundSizes::fit(const GpuContext& context, std::uint64_t most_threads) cons
     if (size > limits.max_storage_buffer_bytes || size > limits.max_allocation_bytes) return false;
     all += static_cast<double>(size);
   }
-  return all <= most_of_heap * static_cast<double>(limits.heap_bytes) && 2 * places <= most_threads && packets <= most_threads;
+  return all <= most_of_heap * static_cast<double>(limits.heap_bytes) &&
+         std::max({2 * places, packets, small_words}) <= most_threads;
 }
 
 std::size_t RoundBuffers::offset_of_groups(std::uint32_t kind) {
@@ -140,7 +116,7 @@ void RoundBuffers::make_room(const RoundSizes& sizes) {
     GpuBuffer& buffer = buffers_[k];
     if (buffer.handles && buffer.bytes >= size) continue;
     buffer = GpuBuffer();  // frees the memory first
-    buffer = create_buffer(context_, BufferUse::storage, size, names[k]);
+    buffer = create_buffer(context_, BufferUse::storage, size, "rounds of packets");
   }
 }
 

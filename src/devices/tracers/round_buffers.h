@@ -65,6 +65,9 @@ class RoundBuffers {
   // Replaces buffers that are too small by larger ones; these lose what they held.
   void make_room(const RoundSizes& sizes);
 
+  // Frees all buffers.
+  void free() { buffers_ = {}; }
+
   [[nodiscard]] const GpuBuffer& operator[](RoundBuffer buffer) const { return buffers_[static_cast<std::size_t>(buffer)]; }
   // Returns where the numbers of groups of a kind begin in their buffer, in bytes.
   [[nodiscard]] static std::size_t offset_of_groups(std::uint32_t kind);

@@ -66,11 +66,13 @@ RoundSteps::RoundSteps(const GpuContext& context, const shared::RoundChoices& ch
 
 bool RoundSteps::make_room(const RoundsOrder& order) {
   const RoundSizes sizes(order, packets_at_a_time_, choices_);
-  if (!sizes.fit(context_, shaders_.take.max_threads())) return false;
+  if (sizes.places >= refused_places_ || !sizes.fit(context_, shaders_.take.max_threads())) return false;
   try {
     buffers_.make_room(sizes);
-  } catch (const Error&) {  // the memory is short; the host can go on
+  } catch (const Error&) {  // the memory is short; the host can go on, which needs some of it
+    buffers_.free();
     scene_number_ = 0;
+    refused_places_ = sizes.places;
     return false;
   }
   sizes_ = sizes;

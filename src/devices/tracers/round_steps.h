@@ -9,6 +9,7 @@
 #include "physics/transport/indirect/device_rounds.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -80,7 +81,8 @@ class RoundSteps {
   const GpuContext& context_;
   shared::RoundChoices choices_;
   std::size_t packets_at_a_time_;
-  RoundSizes sizes_;  // of the pass
+  RoundSizes sizes_;                                                      // of the pass
+  std::size_t refused_places_ = std::numeric_limits<std::size_t>::max();  // of a pass for which memory was short
   RoundBuffers buffers_;
   GpuBuffer nothing_;  // an empty outbox
   const GpuBuffer* outbox_ = nullptr;

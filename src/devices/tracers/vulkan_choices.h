@@ -18,7 +18,7 @@ struct VulkanChoices {
   RoundsAt rounds_at = RoundsAt::best;
   shared::RoundChoices rounds{};  // if there are no copies: a default for software or hardware
   // Rounds of the first pass that a device makes before the host looks, unless dispatches have a target of time or do not hold all packets
-  // of a round; 0: a default. Later passes take as many as the one before needed.
+  // of a round; 0: a default; 1: each round of every pass in parts. Later passes take as many as the one before needed, from 2 to 32.
   std::uint32_t rounds_at_once = 0;
 };
 

@@ -11,8 +11,9 @@ namespace sunfleck {
 namespace {
 
 constexpr std::uint32_t first_rounds_on_hardware = 8;
-// However many rounds a pass has, Ctrl-C waits for no more than these.
+// What a submission holds at most, since Ctrl-C waits for it, and drivers end what takes seconds.
 constexpr std::uint32_t most_rounds_at_once = 32;
+constexpr std::uint64_t most_packets_at_once = std::uint64_t{1} << 22U;
 
 // On a GPU each thread is slow, but there are many.
 shared::RoundChoices completed(const VulkanChoices& choices, bool software) {
@@ -23,7 +24,7 @@ shared::RoundChoices completed(const VulkanChoices& choices, bool software) {
   return rounds;
 }
 
-// Drawings wait for a dispatch at most, so that dispatches with a target of time must be short.
+// The drawing of a window waits for a submission, so that those with a target of time must be short.
 std::uint32_t at_once(const VulkanChoices& choices, bool software) {
   if (choices.seconds_per_dispatch > 0.0) return 1;
   if (choices.rounds_at_once > 0) return choices.rounds_at_once;
@@ -44,8 +45,10 @@ VulkanRounds::VulkanRounds(const GpuContext& context, const GpuTree& tree, const
 std::optional<TraceOutcome> VulkanRounds::make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
   if (!steps_.make_room(order)) return std::nullopt;
   const std::uint64_t most_together = std::min<std::uint64_t>(steps_.packets_at_a_time(), work_.max_threads());
-  const bool together = rounds_at_once_ > 1 && order.most_packets() <= most_together;
-  const TraceOutcome outcome = together ? make_together(order, stop) : make_in_parts(order, stop);
+  const std::uint64_t rounds = std::min<std::uint64_t>(rounds_at_once_, most_packets_at_once / order.most_packets());
+  const bool together = rounds > 1 && order.most_packets() <= most_together;
+  const TraceOutcome outcome =
+      together ? make_together(order, static_cast<std::uint32_t>(rounds), stop) : make_in_parts(order, stop);
   if (outcome == TraceOutcome::finished) steps_.fetch(sums);
   return outcome;
 }
@@ -60,7 +63,7 @@ std::vector<const GpuBuffer*> VulkanRounds::traced() const {
           &steps_.buffer(RoundBuffer::order)};
 }
 
-TraceOutcome VulkanRounds::make_together(const RoundsOrder& order, const StopQuestion& stop) {
+TraceOutcome VulkanRounds::make_together(const RoundsOrder& order, std::uint32_t rounds, const StopQuestion& stop) {
   bool is_given = false;
   shared::RoundState state{};
   state.has_to_wait = 1;  // the first round has not begun
@@ -70,7 +73,7 @@ TraceOutcome VulkanRounds::make_together(const RoundsOrder& order, const StopQue
     if (!is_given) give(submission, order);
     is_given = true;
     if (state.has_to_wait != 0) begin_with_empty_outbox(submission);
-    for (std::uint32_t round = 0; round < rounds_at_once_; ++round) record_round(submission);
+    for (std::uint32_t round = 0; round < rounds; ++round) record_round(submission);
     steps_.fetch(submission, state);
     submission.finish();
     ENSURE(state.most_drawn, <=, steps_.sizes().packets);
@@ -120,6 +123,7 @@ TraceOutcome VulkanRounds::make_in_parts(const RoundsOrder& order, const StopQue
     if (state.done != 0) return TraceOutcome::finished;
     ENSURE(state.most_drawn, <=, steps_.sizes().packets);
     if (send(order.scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
+    if (stop && stop()) return TraceOutcome::stopped;
     Submission next(context_);
     state = draw(next);
   }
@@ -137,7 +141,7 @@ shared::RoundState VulkanRounds::draw(Submission& submission) {
 }
 
 TraceOutcome VulkanRounds::send(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop) {
-  if (packets == 0) {  // all columns are retired
+  if (packets == 0) {  // none carries any column, so that this retires all of them
     Submission submission(context_);
     steps_.weigh(submission);
     submission.finish();

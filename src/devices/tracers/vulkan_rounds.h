@@ -33,8 +33,8 @@ class VulkanRounds {
   // Packets that the CPU has finished, by their numbers in the dispatch, and where they landed.
   using Finished = std::vector<std::pair<std::uint32_t, shared::Landing>>;
 
-  // Makes several rounds before the host looks; the host finishes packets that pause.
-  [[nodiscard]] TraceOutcome make_together(const RoundsOrder& order, const StopQuestion& stop);
+  // Makes so many rounds before the host looks; the host finishes packets that pause.
+  [[nodiscard]] TraceOutcome make_together(const RoundsOrder& order, std::uint32_t rounds, const StopQuestion& stop);
   void begin_with_empty_outbox(Submission& submission);
   // Records a round that has begun, and the beginning of the next one.
   void record_round(Submission& submission);

@@ -1,8 +1,12 @@
 #include "devices/tracers/vulkan_tracer.h"
 
 #include "base/check.h"
+#include "base/error.h"
+#include "base/log.h"
 #include "direct.spirv.h"
 #include "direct_storage.spirv.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -117,11 +121,22 @@ TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<con
 }
 
 std::optional<TraceOutcome> VulkanTracer::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
-  const bool software = context_.description().software;
-  if (choices_.rounds_at == RoundsAt::host || (choices_.rounds_at == RoundsAt::best && software)) return std::nullopt;
-  if (!RoundSteps::work_on(context_.limits())) return std::nullopt;
-  if (!rounds_) rounds_ = std::make_unique<VulkanRounds>(context_, tree_, cpu_, domain_, packet_choices());
+  if (!create_rounds()) return std::nullopt;
   return rounds_->make(order, sums, stop);
+}
+
+bool VulkanTracer::create_rounds() {
+  if (rounds_ || leaves_rounds_to_host_) return rounds_ != nullptr;
+  const bool software = context_.description().software;
+  const bool wanted = choices_.rounds_at == RoundsAt::device || (choices_.rounds_at == RoundsAt::best && !software);
+  leaves_rounds_to_host_ = true;
+  if (!wanted || !RoundSteps::work_on(context_.limits())) return false;
+  try {
+    rounds_ = std::make_unique<VulkanRounds>(context_, tree_, cpu_, domain_, packet_choices());
+  } catch (const Error& error) {
+    say(fmt::format("packets are drawn and booked on the host: {}", error.what()));
+  }
+  return rounds_ != nullptr;
 }
 
 VulkanChoices VulkanTracer::packet_choices() const {

@@ -37,6 +37,8 @@ class VulkanTracer final : public Tracer {
 
  private:
   [[nodiscard]] VulkanChoices packet_choices() const;
+  // Creates rounds_ unless they exist; returns false if the device cannot make rounds.
+  bool create_rounds();
   // `landings` is empty where they are not wanted.
   TraceOutcome follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                            std::span<shared::Landing> landings, const StopQuestion& stop);
@@ -53,6 +55,7 @@ class VulkanTracer final : public Tracer {
   PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
   std::unique_ptr<VulkanRounds> rounds_;    // created with the first pass
+  bool leaves_rounds_to_host_ = false;      // because they could not be created
 };
 
 }  // namespace sunfleck

@@ -12,7 +12,7 @@ namespace {
 // Numbers the parts to which places belong.
 class Parts {
  public:
-  static constexpr std::size_t count = shared::element_parts + shared::ground_parts;
+  static constexpr std::size_t count = shared::place_parts;
 
   // Orders of elements and numbers of cells are below these.
   Parts(std::uint32_t elements, std::uint32_t cells)

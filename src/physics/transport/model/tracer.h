@@ -56,7 +56,7 @@ class Tracer {
   [[nodiscard]] virtual TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                            std::span<shared::Landing> landings, const StopQuestion& stop) = 0;
 
-  // Makes all rounds of an indirect pass where the tracer works, so that packets never come to the host, and sets `sums`. Returns nothing,
+  // Makes all rounds of an indirect pass where the tracer works, so that packets need not come to the host, and sets `sums`. Returns nothing,
   // and does nothing, if it cannot. If stopped, the sums must not be used.
   [[nodiscard]] virtual std::optional<TraceOutcome> make_rounds(const RoundsOrder& /*order*/, RoundsSums& /*sums*/,
                                                                 const StopQuestion& /*stop*/) {
