@@ -154,6 +154,11 @@ const uint place_down = 2u;
 const uint place_up = 3u;
 const uint kinds_of_places = 4u;
 
+// Returns how many parts of `each` hold `count`.
+INLINE uint parts_of(uint count, uint each) {
+  return (count + each - 1u) / each;
+}
+
 INLINE uint layer_places(PassBlock block) {
   return block.layers + 2u;
 }

@@ -7,6 +7,7 @@
 #include "support/device.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
+#include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ constexpr shared::RoundChoices smallest{1, 1, 1, 1, 64};
 constexpr shared::RoundChoices odd{3, 7, 5, 100, 64};
 constexpr shared::RoundChoices usual{32, 1024, 256, 512, 64};
 
-// A device that makes so many rounds before the host looks.
+// Returns the choices of a device that makes this many rounds before the host looks.
 VulkanChoices together(std::uint32_t rounds) {
   VulkanChoices choices;
   choices.rounds_at_once = rounds;
@@ -64,19 +65,10 @@ RadiationModel with_bands(std::size_t count) {
 }
 
 // Counts the passes whose rounds a device makes.
-class RoundsCounter final : public Tracer {
+class RoundsCounter final : public WrappedTracer {
  public:
-  explicit RoundsCounter(Tracer& tracer) : tracer_(tracer) {}
+  explicit RoundsCounter(Tracer& tracer) : WrappedTracer(tracer), tracer_(tracer) {}
 
-  [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
-  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                        const StopQuestion& stop) override {
-    return tracer_.count_beam(beam, counters, stop);
-  }
-  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
-                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
-    return tracer_.trace(scene, packets, landings, stop);
-  }
   [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
                                                         const StopQuestion& stop) override {
     const std::optional<TraceOutcome> outcome = tracer_.make_rounds(order, sums, stop);

@@ -65,7 +65,7 @@ std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, Ro
       const shared::RoundPush part{first, std::min(at_a_time_, state.packets - first)};
       submit([&](Submission& submission) { steps_.start(submission, part); });
       compare_starts(starts, part);
-      landings_ = follow(cpu_, order.scene.block, packets_);
+      landings_ = follow(*this, order.scene.block, packets_);
       upload(context_, steps_.buffer(RoundBuffer::landings), std::as_bytes(std::span(landings_)));
       submit([&](Submission& submission) { steps_.book(submission, part); });
       book(host, state, part);

@@ -7,7 +7,7 @@
 #include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/indirect/packet_draw.h"
 #include "physics/transport/indirect/packet_starts.h"
-#include "physics/transport/model/tracer.h"
+#include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
@@ -16,21 +16,12 @@
 
 namespace sunfleck::test {
 
-class StageCheck final : public Tracer {
+class StageCheck final : public WrappedTracer {
  public:
   // All arguments except the choices must outlive the object. Packets are started `at_a_time`.
   StageCheck(const GpuContext& context, Tracer& cpu, const shared::RoundChoices& choices, std::uint32_t at_a_time)
-      : context_(context), cpu_(cpu), steps_(context, choices, at_a_time), at_a_time_(at_a_time) {}
+      : WrappedTracer(cpu), context_(context), steps_(context, choices, at_a_time), at_a_time_(at_a_time) {}
 
-  [[nodiscard]] TracerDevice device() const override { return cpu_.device(); }
-  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                        const StopQuestion& stop) override {
-    return cpu_.count_beam(beam, counters, stop);
-  }
-  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
-                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
-    return cpu_.trace(scene, packets, landings, stop);
-  }
   [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
                                                         const StopQuestion& stop) override;
 
@@ -74,7 +65,6 @@ class StageCheck final : public Tracer {
   }
 
   const GpuContext& context_;
-  Tracer& cpu_;
   RoundSteps steps_;
   std::uint32_t at_a_time_;
   std::uint64_t rounds_ = 0;

@@ -42,33 +42,20 @@ found_on() {
   sed 's/^/    /' "$work/failed.txt"
 }
 
-# Does the same for the differential test.
-found_by_differential() {
-  if "$work/build/tests/long/long_tests" --gtest_filter="*Differential*" > "$work/failed.txt" 2>&1; then
-    echo "  differential: NOT FOUND"
+# Does the same for tests of an executable: found_by_tests NAME EXECUTABLE FILTER LINES, where LINES is a pattern of what they print.
+found_by_tests() {
+  local name="$1" executable="$2" filter="$3" lines="$4"
+  if "$work/build/tests/$executable" --gtest_filter="$filter" > "$work/failed.txt" 2>&1; then
+    echo "  $name: NOT FOUND"
     return 1
   fi
-  if ! grep -q 'rms z' "$work/failed.txt"; then
-    echo "  differential: the test did not run"
+  if ! grep -q "$lines" "$work/failed.txt"; then
+    echo "  $name: the test did not run"
     cat "$work/failed.txt"
     return 1
   fi
-  echo "  differential: found, $(grep -c '^\[  FAILED  \].*ms)$' "$work/failed.txt") kinds fail:"
-  grep 'rms z' "$work/failed.txt" | sed 's/^/    /'
-}
-
-# Does the same for the comparison of rounds.
-found_by_rounds() {
-  if "$work/build/tests/agreement/agreement_tests" --gtest_filter="RoundsAgreement.*" > "$work/failed.txt" 2>&1; then
-    echo "  rounds: NOT FOUND"
-    return 1
-  fi
-  if ! grep -q '^\[  FAILED  \].*ms)$' "$work/failed.txt"; then
-    echo "  rounds: the test did not run"
-    cat "$work/failed.txt"
-    return 1
-  fi
-  echo "  rounds: found, $(grep -c '^\[  FAILED  \].*ms)$' "$work/failed.txt") tests fail"
+  echo "  $name: found, $(grep -c '^\[  FAILED  \].*ms)$' "$work/failed.txt") tests fail:"
+  grep "$lines" "$work/failed.txt" | sed 's/^/    /'
 }
 
 build() {
@@ -88,11 +75,11 @@ for mutant in "${mutants[@]}"; do
         ;;
       differential)
         build long_tests
-        found_by_differential || missed=$((missed + 1))
+        found_by_tests differential long/long_tests '*Differential*' 'rms z' || missed=$((missed + 1))
         ;;
       rounds)
         build agreement_tests
-        found_by_rounds || missed=$((missed + 1))
+        found_by_tests rounds agreement/agreement_tests 'RoundsAgreement.*' '^\[  FAILED  \].*ms)$' || missed=$((missed + 1))
         ;;
       *)
         echo "  nothing is called $finder"

@@ -22,10 +22,6 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uint32_t parts_of(std::uint32_t count, std::uint32_t each) {
-  return (count + each - 1) / each;
-}
-
 ComputePipeline make_shader(const GpuContext& context, const char* name, std::span<const std::uint32_t> spirv) {
   const std::vector<BufferUse> bindings(round_buffer_count + 1, BufferUse::storage);
   return {context, ShaderCode{name, spirv, bindings, sizeof(shared::RoundPush), shared::round_group_size}, {}};
@@ -158,7 +154,7 @@ void RoundSteps::start(Submission& submission, shared::RoundPush packets) {
     return run_groups(submission, shaders_.order, shared::groups_of_windows, packets);
   }
   run(submission, shaders_.emit, packets.count, packets);
-  run(submission, shaders_.order, parts_of(packets.count, choices_.packets_per_window), packets);
+  run(submission, shaders_.order, shared::parts_of(packets.count, choices_.packets_per_window), packets);
 }
 
 void RoundSteps::book(Submission& submission, shared::RoundPush packets) {

@@ -56,7 +56,6 @@ class RoundSteps {
 
   [[nodiscard]] const GpuBuffer& buffer(RoundBuffer which) const { return buffers_[which]; }
   [[nodiscard]] const RoundSizes& sizes() const { return sizes_; }
-  [[nodiscard]] std::size_t packets_at_a_time() const { return packets_at_a_time_; }
 
  private:
   // Each is the shader of its name.
@@ -69,7 +68,7 @@ class RoundSteps {
   void give_scene(Submission& submission, const IndirectScene& scene);
   // Turns numbers of a kind into running sums; `groups` is the kind of their groups.
   void sum(Submission& submission, std::uint32_t kind, std::uint32_t groups);
-  // Run a shader with so many threads, or with groups of a kind.
+  // Run a shader with a number of threads, or with as many groups as the device has found for a kind.
   void run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push = {});
   void run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push = {});
   [[nodiscard]] std::vector<const GpuBuffer*> bound() const;

@@ -44,9 +44,9 @@ VulkanRounds::VulkanRounds(const GpuContext& context, const GpuTree& tree, const
 
 std::optional<TraceOutcome> VulkanRounds::make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
   if (!steps_.make_room(order)) return std::nullopt;
-  const std::uint64_t most_together = std::min<std::uint64_t>(steps_.packets_at_a_time(), work_.max_threads());
-  const std::uint64_t rounds = std::min<std::uint64_t>(rounds_at_once_, most_packets_at_once / order.most_packets());
-  const bool together = rounds > 1 && order.most_packets() <= most_together;
+  const std::size_t packets = steps_.sizes().packets;
+  const std::uint64_t rounds = std::min<std::uint64_t>(rounds_at_once_, most_packets_at_once / packets);
+  const bool together = rounds > 1 && packets == steps_.sizes().packets_at_a_time && packets <= work_.max_threads();
   const TraceOutcome outcome =
       together ? make_together(order, static_cast<std::uint32_t>(rounds), stop) : make_in_parts(order, stop);
   if (outcome == TraceOutcome::finished) steps_.fetch(sums);
@@ -103,30 +103,37 @@ void VulkanRounds::record_round(Submission& submission) {
   steps_.begin(submission);
 }
 
-TraceOutcome VulkanRounds::finish_round(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop) {
-  const shared::RoundPush all{0, packets};
+// Packets that are stuck are finished by the CPU, and only then are all of them booked.
+template <class Trace>
+TraceOutcome VulkanRounds::bring_to_ends(const shared::PacketBlock& scene, shared::RoundPush packets, const Trace& trace) {
   Finished finished;
   const auto after = [&](Submission& submission, const GpuBuffer& outbox) {
     steps_.set_outbox(&outbox);
-    if (finished.empty()) steps_.book(submission, all);
+    if (finished.empty()) steps_.book(submission, packets);
   };
   const auto finish = [&](const shared::PausedPacket& paused) { finished.push_back(finish_on_cpu(scene, paused)); };
-  if (work_.resume(traced(), stop, after, finish) == TraceOutcome::stopped) return TraceOutcome::stopped;
-  if (!finished.empty()) book(finished, all);
+  if (trace(after, finish) == TraceOutcome::stopped) return TraceOutcome::stopped;
+  if (!finished.empty()) book(finished, packets);
   return TraceOutcome::finished;
+}
+
+TraceOutcome VulkanRounds::finish_round(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop) {
+  return bring_to_ends(scene, {0, packets},
+                       [&](const auto& after, const auto& finish) { return work_.resume(traced(), stop, after, finish); });
 }
 
 TraceOutcome VulkanRounds::make_in_parts(const RoundsOrder& order, const StopQuestion& stop) {
   Submission first(context_);
   give(first, order);
-  for (shared::RoundState state = draw(first);;) {
-    if (state.done != 0) return TraceOutcome::finished;
+  shared::RoundState state = draw(first);
+  while (state.done == 0) {
     ENSURE(state.most_drawn, <=, steps_.sizes().packets);
     if (send(order.scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
     if (stop && stop()) return TraceOutcome::stopped;
     Submission next(context_);
     state = draw(next);
   }
+  return TraceOutcome::finished;
 }
 
 shared::RoundState VulkanRounds::draw(Submission& submission) {
@@ -148,32 +155,17 @@ TraceOutcome VulkanRounds::send(const shared::PacketBlock& scene, std::uint32_t 
   }
   for (std::uint32_t first = 0; first < packets;) {
     const shared::RoundPush part{first, std::min(work_.rays_per_dispatch(), packets - first)};
-    const auto weigh = [&](Submission& submission) {
+    const auto start = [&](Submission& submission) {
+      steps_.set_outbox(nullptr);
       if (first == 0) steps_.weigh(submission);
+      steps_.start(submission, part);
     };
-    if (send_part(scene, part, weigh, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
+    const auto trace = [&](const auto& after, const auto& finish) {
+      return work_.run({0, part.count, 0}, traced(), stop, start, after, finish);
+    };
+    if (bring_to_ends(scene, part, trace) == TraceOutcome::stopped) return TraceOutcome::stopped;
     first += part.count;
   }
-  return TraceOutcome::finished;
-}
-
-template <class Before>
-TraceOutcome VulkanRounds::send_part(const shared::PacketBlock& scene, shared::RoundPush part, const Before& before,
-                                     const StopQuestion& stop) {
-  Finished finished;
-  const auto start = [&](Submission& submission) {
-    steps_.set_outbox(nullptr);
-    before(submission);
-    steps_.start(submission, part);
-  };
-  const auto after = [&](Submission& submission, const GpuBuffer& outbox) {
-    steps_.set_outbox(&outbox);
-    if (finished.empty()) steps_.book(submission, part);
-  };
-  const auto finish = [&](const shared::PausedPacket& paused) { finished.push_back(finish_on_cpu(scene, paused)); };
-  if (work_.run({0, part.count, 0}, traced(), stop, start, after, finish) == TraceOutcome::stopped)
-    return TraceOutcome::stopped;
-  if (!finished.empty()) book(finished, part);
   return TraceOutcome::finished;
 }
 

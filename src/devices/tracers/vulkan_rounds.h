@@ -33,7 +33,7 @@ class VulkanRounds {
   // Packets that the CPU has finished, by their numbers in the dispatch, and where they landed.
   using Finished = std::vector<std::pair<std::uint32_t, shared::Landing>>;
 
-  // Makes so many rounds before the host looks; the host finishes packets that pause.
+  // Makes `rounds` rounds at a time without the host, which then finishes packets that paused.
   [[nodiscard]] TraceOutcome make_together(const RoundsOrder& order, std::uint32_t rounds, const StopQuestion& stop);
   void begin_with_empty_outbox(Submission& submission);
   // Records a round that has begun, and the beginning of the next one.
@@ -46,12 +46,11 @@ class VulkanRounds {
   // Draws the packets of the next round.
   [[nodiscard]] shared::RoundState draw(Submission& submission);
   [[nodiscard]] TraceOutcome send(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop);
-  // Sends some of them; before(submission) comes first.
-  template <class Before>
-  [[nodiscard]] TraceOutcome send_part(const shared::PacketBlock& scene, shared::RoundPush part, const Before& before,
-                                       const StopQuestion& stop);
 
   void give(Submission& submission, const RoundsOrder& order);
+  // Has packets traced by trace(after, finish), whose arguments are those of PausedWork::run, and books them.
+  template <class Trace>
+  [[nodiscard]] TraceOutcome bring_to_ends(const shared::PacketBlock& scene, shared::RoundPush packets, const Trace& trace);
   // Returns the landing of a packet that is stuck.
   [[nodiscard]] std::pair<std::uint32_t, shared::Landing> finish_on_cpu(const shared::PacketBlock& scene,
                                                                         const shared::PausedPacket& paused) const;
