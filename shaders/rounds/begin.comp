@@ -70,10 +70,10 @@ void begin_column(uint column) {
 uint64_t parts_each(uint parts, uint count) { return (uint64_t(parts) << 32u) / uint64_t(count > 0u ? count : 1u); }
 
 void set_groups_of_places() {
-  set_groups(groups_of_runs, run_count(), round_group_size);
-  set_groups(groups_of_run_sums, parts_of(run_count() * place_parts, pass.choices.numbers_per_sum), round_group_size);
+  set_groups(groups_of_places, state.places, round_group_size);
+  set_groups(groups_of_run_sums, run_count() * place_parts, numbers_per_block);
   set_groups(groups_of_sides, side_count(), round_group_size);
-  set_groups(groups_of_side_sums, parts_of(side_count(), pass.choices.numbers_per_sum), round_group_size);
+  set_groups(groups_of_side_sums, side_count(), numbers_per_block);
 }
 
 void begin_round() {

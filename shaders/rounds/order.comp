@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Orders packets from number `first` on by direction within windows, as packet_order.h does. Each thread takes a window. No landing depends on the order.
+// Orders packets from number `first` on by direction within windows, as packet_order.h does. Each group takes a window, and each thread a
+// packet of it. No landing depends on the order.
 
 #include "pass.glsl"
 
@@ -11,23 +12,20 @@ uint sector_of(vec3 direction) {
   return min(octant * 16u + uint(size.x * per_share) * 4u + uint(size.y * per_share), sectors - 1u);
 }
 
+shared uint sectors_of[round_group_size];
+
 void main() {
-  uint first = gl_GlobalInvocationID.x * pass.choices.packets_per_window;
-  if (first >= packets_here()) return;
-  if (first == 0u) ordered_packets = packets_here();
-  uint end = min(packets_here(), first + pass.choices.packets_per_window);
-  uint next[sectors];
-  for (uint s = 0u; s < sectors; ++s) next[s] = 0u;
-  for (uint k = first; k < end; ++k) ++next[sector_of(packets[k].direction)];
-  uint sum = first;
-  for (uint s = 0u; s < sectors; ++s) {
-    uint own = next[s];
-    next[s] = sum;
-    sum += own;
+  uint thread = gl_LocalInvocationID.x;
+  uint k = gl_GlobalInvocationID.x;
+  uint own = k < packets_here() ? sector_of(packets[k].direction) : sectors;
+  sectors_of[thread] = own;
+  barrier();
+  if (k == 0u) ordered_packets = packets_here();
+  if (own == sectors) return;
+  uint place = gl_WorkGroupID.x * round_group_size;
+  for (uint other = 0u; other < round_group_size; ++other) {
+    bool is_before = sectors_of[other] < own || (sectors_of[other] == own && other < thread);
+    place += is_before ? 1u : 0u;
   }
-  for (uint k = first; k < end; ++k) {
-    uint sector = sector_of(packets[k].direction);
-    packet_order[next[sector]] = k;
-    ++next[sector];
-  }
+  packet_order[place] = k;
 }

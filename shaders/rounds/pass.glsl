@@ -36,7 +36,7 @@ layout(set = 0, binding = 24, scalar) buffer Outbox { uint paused_packets; };
 // Returns whether there is nothing to do: all columns are retired, or the host has to finish the last round first.
 bool is_at_rest() { return state.done != 0u || state.has_to_wait != 0u; }
 
-uint run_count() { return parts_of(state.places, pass.choices.places_per_run); }
+uint run_count() { return parts_of(state.places, round_group_size); }
 
 uint side_count() { return 2u * state.places; }
 

@@ -6,7 +6,7 @@
 
 void main() {
   if (gl_GlobalInvocationID.x != 0u || is_at_rest()) return;
-  uint64_t sum = block_sums[parts_of(side_count(), pass.choices.numbers_per_sum)];
+  uint64_t sum = block_sums[parts_of(side_count(), numbers_per_block)];
   if (sum < least_sum) return;
   uint64_t pace = uint64_t(1u) << 32u;
   uint64_t least = long_quotient(least_packets, uint64_t(0u), sum) + uint64_t(1u);
@@ -17,6 +17,5 @@ void main() {
   state.packets = min(drawn, pass.most_packets);
   state.all_packets += uint64_t(state.packets);
   set_groups(groups_of_packets, state.packets, round_group_size);
-  set_groups(groups_of_windows, parts_of(state.packets, pass.choices.packets_per_window), round_group_size);
   set_groups(groups_of_traces, state.packets, pass.choices.trace_group_size);
 }

@@ -29,16 +29,16 @@ const uint round_group_size = 128u;
 const uint place_parts = element_parts + ground_parts;
 // Parts of the sphere by which packets are ordered.
 const uint sectors = 128u;
+// Each thread of a group turns this many numbers into running sums.
+const uint numbers_per_thread = 8u;
+const uint numbers_per_block = numbers_per_thread * round_group_size;
 // A side writes its number for this many of its packets; the others look for it.
 const uint most_numbered = 64u;
 
 // How a device divides the work of a round. None of these affects the results.
 struct RoundChoices {
-  uint copies;              // of the small sums, so that few threads add to the same one
-  uint places_per_run;      // that one thread sorts
-  uint numbers_per_sum;     // that one thread adds to running sums
-  uint packets_per_window;  // that one thread orders by direction
-  uint trace_group_size;    // threads of a group that follows packets
+  uint copies;            // of the small sums, so that few threads add to the same one
+  uint trace_group_size;  // threads of a group that follows packets
 };
 
 // What a device knows of a pass. Lengths in metres in the canopy's local frame.
@@ -124,19 +124,19 @@ struct RoundPush {
   uint count;
 };
 const uint all_packets = 0xffffffffu;
-// Numbers of which running sums are made: of the places of each run in each part, and of the sides' expectations.
+// Numbers of which running sums are made: of the places of each run in each part, where a run is what one group sorts, and of the sides'
+// expectations.
 const uint sums_of_runs = 0u;
 const uint sums_of_sides = 1u;
 
 // Groups of threads that a round's steps need, as vkCmdDispatchIndirect reads them, each (n, 1, 1).
-const uint groups_of_runs = 0u;
+const uint groups_of_places = 0u;
 const uint groups_of_run_sums = 1u;
 const uint groups_of_sides = 2u;
 const uint groups_of_side_sums = 3u;
 const uint groups_of_packets = 4u;
-const uint groups_of_windows = 5u;
-const uint groups_of_traces = 6u;  // of `trace_group_size` threads
-const uint kinds_of_groups = 7u;
+const uint groups_of_traces = 5u;  // of `trace_group_size` threads
+const uint kinds_of_groups = 6u;
 
 // The small sums, each with `columns` words but for the last. Among the layers there are layers + 2 places: the soil, the layers, and above.
 const uint sum_weights = 0u;

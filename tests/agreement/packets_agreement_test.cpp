@@ -193,7 +193,9 @@ TEST_F(PacketsAgreement, TakeOneSubmissionARound) {
   const RadiationModel model = paper_model(random_leaves(100, 0.12, 5), unit_plot, beijing_sun());
   const Prepared prepared(model);
   const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
-  VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
+  VulkanChoices on_host;
+  on_host.rounds_at = RoundsAt::host;
+  VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), on_host);
   const DeviceTraffic before = context().traffic();
   const SolveSettings fixed = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8, .bound = 0.01});
   const RadiationResult result = solve(model, prepared.layout, device, fixed, {});

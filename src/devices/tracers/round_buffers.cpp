@@ -41,7 +41,7 @@ RoundSizes::RoundSizes(const RoundsOrder& order, std::size_t at_a_time, const sh
 std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
   constexpr std::size_t word = sizeof(std::uint32_t);
   constexpr std::size_t quantum = sizeof(std::uint64_t);
-  const std::size_t runs = places / choices.places_per_run + 1;
+  const std::size_t runs = places / shared::round_group_size + 1;
   const std::size_t sums = std::max(2 * places, runs * shared::place_parts);
   switch (buffer) {
     case RoundBuffer::pass:
@@ -69,7 +69,7 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
     case RoundBuffer::sums:
       return sums * quantum;
     case RoundBuffer::block_sums:
-      return (sums / choices.numbers_per_sum + 2) * quantum;
+      return (sums / shared::numbers_per_block + 2) * quantum;
     case RoundBuffer::numbers:
       return packets * word;
     case RoundBuffer::weights:

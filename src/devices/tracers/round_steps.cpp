@@ -129,9 +129,9 @@ void RoundSteps::begin(Submission& submission) {
 }
 
 void RoundSteps::sort(Submission& submission) {
-  run_groups(submission, shaders_.count, shared::groups_of_runs);
+  run_groups(submission, shaders_.count, shared::groups_of_places);
   sum(submission, shared::sums_of_runs, shared::groups_of_run_sums);
-  run_groups(submission, shaders_.sort, shared::groups_of_runs);
+  run_groups(submission, shaders_.sort, shared::groups_of_places);
 }
 
 void RoundSteps::draw(Submission& submission) {
@@ -151,10 +151,10 @@ void RoundSteps::weigh(Submission& submission) {
 void RoundSteps::start(Submission& submission, shared::RoundPush packets) {
   if (packets.count == shared::all_packets) {
     run_groups(submission, shaders_.emit, shared::groups_of_packets, packets);
-    return run_groups(submission, shaders_.order, shared::groups_of_windows, packets);
+    return run_groups(submission, shaders_.order, shared::groups_of_packets, packets);
   }
   run(submission, shaders_.emit, packets.count, packets);
-  run(submission, shaders_.order, shared::parts_of(packets.count, choices_.packets_per_window), packets);
+  run(submission, shaders_.order, packets.count, packets);
 }
 
 void RoundSteps::book(Submission& submission, shared::RoundPush packets) {

@@ -15,11 +15,10 @@ constexpr std::uint32_t first_rounds_on_hardware = 8;
 constexpr std::uint32_t most_rounds_at_once = 32;
 constexpr std::uint64_t most_packets_at_once = std::uint64_t{1} << 22U;
 
-// On a GPU each thread is slow, but there are many.
-shared::RoundChoices completed(const VulkanChoices& choices, bool software) {
+shared::RoundChoices completed(const VulkanChoices& choices) {
+  constexpr std::uint32_t copies = 32;
   shared::RoundChoices rounds = choices.rounds;
-  if (rounds.copies == 0)
-    rounds = software ? shared::RoundChoices{32, 1024, 256, 512, 0} : shared::RoundChoices{32, 128, 64, 128, 0};
+  if (rounds.copies == 0) rounds.copies = copies;
   rounds.trace_group_size = choices.group_size;
   return rounds;
 }
@@ -39,7 +38,7 @@ VulkanRounds::VulkanRounds(const GpuContext& context, const GpuTree& tree, const
       cpu_(cpu),
       rounds_at_once_(at_once(choices, context.description().software)),
       scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
-      steps_(context, completed(choices, context.description().software), choices.rays_per_dispatch),
+      steps_(context, completed(choices), choices.rays_per_dispatch),
       work_(context, tree, domain, choices, packets_shader(), "paused packets") {}
 
 std::optional<TraceOutcome> VulkanRounds::make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
