@@ -34,9 +34,18 @@ StageCheck::Host::Host(const RoundsOrder& of)
   for (std::size_t k = 0; k < of.places.size(); ++k) next.add(of.places.place(k), of.places.quanta(k, columns));
 }
 
-std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion&) {
-  EXPECT_TRUE(steps_.make_room(order));
-  submit([&](Submission& submission) { steps_.give(submission, order); });
+std::optional<TraceOutcome> StageCheck::make_rounds(std::span<const RoundsPass> passes, const StopQuestion&) {
+  for (const RoundsPass& pass : passes) {
+    if (make_rounds(pass) == TraceOutcome::stopped) return TraceOutcome::stopped;
+  }
+  return TraceOutcome::finished;
+}
+
+TraceOutcome StageCheck::make_rounds(const RoundsPass& pass) {
+  const std::span<const RoundsPass> passes(&pass, 1);
+  EXPECT_EQ(steps_.make_room(passes), 1U);
+  submit([&](Submission& submission) { steps_.give(submission, passes); });
+  const RoundsOrder& order = *pass.order;
   Host host(order);
   auto places = static_cast<std::uint32_t>(order.places.size());
   for (;;) {
@@ -44,7 +53,7 @@ std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, Ro
     shared::RoundState state{};
     submit([&](Submission& submission) {
       steps_.begin(submission);
-      steps_.fetch(submission, state);
+      steps_.fetch(submission, std::span(&state, 1));
     });
     if (state.done != 0) break;
     submit([&](Submission& submission) { steps_.sort(submission); });
@@ -52,7 +61,7 @@ std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, Ro
     compare_places(host, host.waiting, places, RoundBuffer::places, RoundBuffer::quanta);
     submit([&](Submission& submission) {
       steps_.draw(submission);
-      steps_.fetch(submission, state);
+      steps_.fetch(submission, std::span(&state, 1));
     });
     compare_draw(host, state, places);
     if (testing::Test::HasFailure()) return TraceOutcome::stopped;  // what follows could be anything
@@ -73,7 +82,8 @@ std::optional<TraceOutcome> StageCheck::make_rounds(const RoundsOrder& order, Ro
     places = state.packets;
     ++rounds_;
   }
-  steps_.fetch(sums);
+  steps_.fetch(passes);
+  const RoundsSums& sums = *pass.sums;
   EXPECT_TRUE(sums.side_landed == host.side_landed);
   EXPECT_TRUE(sums.cell_landed == host.cell_landed);
   EXPECT_TRUE(sums.element_hits == host.element_hits);

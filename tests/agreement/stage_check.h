@@ -22,8 +22,7 @@ class StageCheck final : public WrappedTracer {
   StageCheck(const GpuContext& context, Tracer& cpu, const shared::RoundChoices& choices, std::uint32_t at_a_time)
       : WrappedTracer(cpu), context_(context), steps_(context, choices, at_a_time), at_a_time_(at_a_time) {}
 
-  [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
-                                                        const StopQuestion& stop) override;
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) override;
 
   // Returns how many rounds were compared.
   [[nodiscard]] std::uint64_t rounds() const { return rounds_; }
@@ -43,6 +42,7 @@ class StageCheck final : public WrappedTracer {
     std::vector<std::uint32_t> element_hits;
   };
 
+  [[nodiscard]] TraceOutcome make_rounds(const RoundsPass& pass);
   void compare_places(const Host& host, const WaitingFlux& expected, std::uint32_t count, RoundBuffer places,
                       RoundBuffer quanta);
   void compare_draw(Host& host, const shared::RoundState& state, std::uint32_t places);

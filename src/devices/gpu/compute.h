@@ -49,12 +49,13 @@ class ComputePipeline {
   void create_pipeline(const Specialisation& constants);
   // Checks the arguments of a run.
   void check(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) const;
-  // Binds the buffers of a run; the pipeline must not be in the commands recorded so far.
-  void bind(std::span<const GpuBuffer* const> buffers);
+  void add_binding();
+  // Binds the buffers of runs under a number, at most the number of bindings so far; none of the commands recorded so far may use it.
+  void bind(std::size_t binding, std::span<const GpuBuffer* const> buffers);
   // Record a dispatch of at least one thread, or of groups that a buffer holds.
-  void record(std::uint64_t threads, std::span<const std::byte> push) const;
-  void record(const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push) const;
-  void record_binding(std::span<const std::byte> push) const;
+  void record(std::size_t binding, std::uint64_t threads, std::span<const std::byte> push) const;
+  void record(std::size_t binding, const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push) const;
+  void record_binding(std::size_t binding, std::span<const std::byte> push) const;
 
   const GpuContext& context_;
   ShaderCode code_;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace sunfleck {
@@ -41,11 +42,15 @@ struct GpuBuffer::Handles {
 };
 
 struct ComputePipeline::Handles {
+  // Buffers bound to the pipeline.
+  struct Binding {
+    vk::raii::DescriptorPool pool{nullptr};
+    vk::raii::DescriptorSet set{nullptr};
+  };
   vk::raii::DescriptorSetLayout set_layout{nullptr};
   vk::raii::PipelineLayout layout{nullptr};
   vk::raii::Pipeline pipeline{nullptr};
-  vk::raii::DescriptorPool pool{nullptr};
-  vk::raii::DescriptorSet set{nullptr};
+  std::vector<Binding> bindings;  // as many as a submission needed at most
 };
 
 // Allocates memory of a type that has all `required` properties, and the `preferred` ones too if such a type exists. Lets

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "base/check.h"
 
@@ -13,13 +14,23 @@ Submission::~Submission() {
   if (begun_) drop_commands(context_);
 }
 
+Submission::SideBySide::SideBySide(Submission& submission) : submission_(submission) {
+  submission_.is_side_by_side_ = true;
+  submission_.has_waited_ = false;
+}
+
+Submission::SideBySide::~SideBySide() {
+  submission_.is_side_by_side_ = false;
+}
+
 void Submission::begin_command() {
   if (!begun_) {
     begin_commands(context_);
-  } else {
+  } else if (!is_side_by_side_ || !has_waited_) {
     let_later_commands_see(context_);
   }
   begun_ = true;
+  has_waited_ = true;
 }
 
 std::span<std::byte> Submission::stage(std::size_t wanted) {
@@ -56,30 +67,32 @@ void Submission::fill(const GpuBuffer& buffer, std::uint32_t word) {
   context_.handles().commands.fillBuffer(*buffer.handles->buffer, 0, VK_WHOLE_SIZE, word);
 }
 
-void Submission::bind(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
-                      std::span<const GpuBuffer* const> buffers) {
-  const std::vector<const GpuBuffer*> bound(buffers.begin(), buffers.end());
-  const auto earlier = pipelines_.find(&pipeline);
-  const bool is_bound = earlier != pipelines_.end() && earlier->second == bound;
-  if (earlier != pipelines_.end() && !is_bound) finish();
+std::size_t Submission::bind(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
+                             std::span<const GpuBuffer* const> buffers) {
   pipeline.check(threads, push, buffers);
-  if (!is_bound) pipeline.bind(buffers);
-  pipelines_[&pipeline] = bound;
+  std::vector<std::vector<const GpuBuffer*>>& bindings = pipelines_[&pipeline];
+  std::vector<const GpuBuffer*> bound(buffers.begin(), buffers.end());
+  const auto earlier = std::find(bindings.begin(), bindings.end(), bound);
+  const auto number = static_cast<std::size_t>(earlier - bindings.begin());
+  if (earlier != bindings.end()) return number;
+  pipeline.bind(number, buffers);
+  bindings.push_back(std::move(bound));
+  return number;
 }
 
 void Submission::run(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
                      std::span<const GpuBuffer* const> buffers) {
-  bind(pipeline, threads, push, buffers);
+  const std::size_t binding = bind(pipeline, threads, push, buffers);
   if (threads == 0) return;
   begin_command();
-  pipeline.record(threads, push);
+  pipeline.record(binding, threads, push);
 }
 
 void Submission::run(ComputePipeline& pipeline, const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push,
                      std::span<const GpuBuffer* const> buffers) {
-  bind(pipeline, 0, push, buffers);
+  const std::size_t binding = bind(pipeline, 0, push, buffers);
   begin_command();
-  pipeline.record(groups, offset, push);
+  pipeline.record(binding, groups, offset, push);
 }
 
 void Submission::download(const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset) {

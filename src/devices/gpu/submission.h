@@ -14,7 +14,7 @@
 namespace sunfleck {
 
 // Copies, fills and dispatches, each of which sees what those before it wrote. They are submitted together by finish(), or earlier where
-// the staging memory is full or a pipeline is to run again with other buffers, since its buffers cannot change before it has run.
+// the staging memory is full.
 // A context has at most one submission at a time. All buffers and pipelines must live until finish() returns; one that is not finished
 // is dropped.
 class Submission {
@@ -24,6 +24,19 @@ class Submission {
   ~Submission();
   Submission(const Submission&) = delete;
   Submission& operator=(const Submission&) = delete;
+
+  // While it lives, commands need not wait for each other, but only for those before it: none may write what another one reads or writes.
+  // So small dispatches share a device that each of them would leave idle.
+  class SideBySide {
+   public:
+    explicit SideBySide(Submission& submission);
+    ~SideBySide();
+    SideBySide(const SideBySide&) = delete;
+    SideBySide& operator=(const SideBySide&) = delete;
+
+   private:
+    Submission& submission_;
+  };
 
   // Copies data to a buffer; they may change as soon as this returns. offset + size <= bytes.
   void upload(const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset = 0);
@@ -52,10 +65,10 @@ class Submission {
     std::size_t staged_at;
   };
 
-  // Checks and binds what a pipeline needs.
-  void bind(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
-            std::span<const GpuBuffer* const> buffers);
-  // Begins the next command, which sees what those before it wrote.
+  // Checks what a pipeline needs and returns the number under which it is bound.
+  std::size_t bind(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
+                   std::span<const GpuBuffer* const> buffers);
+  // Begins the next command, which sees what those before it wrote, but for those to its side.
   void begin_command();
   // Returns where the next bytes of at most `wanted` are staged, and how many of them.
   std::span<std::byte> stage(std::size_t wanted);
@@ -63,10 +76,12 @@ class Submission {
 
   const GpuContext& context_;
   bool begun_ = false;
-  std::size_t staged_ = 0;  // bytes of the staging memory in use
+  bool is_side_by_side_ = false;
+  bool has_waited_ = false;  // the first one of several side by side has waited for those before
+  std::size_t staged_ = 0;   // bytes of the staging memory in use
   std::vector<Delivery> deliveries_;
-  // The pipelines that run in the commands so far, each with its buffers.
-  std::map<const ComputePipeline*, std::vector<const GpuBuffer*>> pipelines_;
+  // The pipelines that run in the commands so far, each with the buffers of its bindings.
+  std::map<const ComputePipeline*, std::vector<std::vector<const GpuBuffer*>>> pipelines_;
 };
 
 }  // namespace sunfleck

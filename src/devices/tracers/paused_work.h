@@ -38,7 +38,7 @@ class PausedWork {
       : context_(context),
         tree_(tree),
         budget_(choices.rays_per_dispatch, choices.seconds_per_dispatch),
-        inbox_(create_buffer(context, BufferUse::storage, head_bytes + choices.rays_per_dispatch * sizeof(Paused), what)),
+        inbox_(create_buffer(context, BufferUse::storage, outbox_bytes(choices.rays_per_dispatch), what)),
         outbox_(create_buffer(context, BufferUse::storage, inbox_.bytes, what)),
         pipeline_(context, code_of(shader, tree, choices.group_size),
                   {domain.periodic ? 1U : 0U, domain.has_soil ? 1U : 0U, choices.group_size, tree.has_copies ? 1U : 0U}) {}
@@ -60,34 +60,36 @@ class PausedWork {
       const std::uint32_t paused = dispatch(push, buffers, submission, after);
       budget_.record_duration(push.count, clock.seconds());
       push.first = 0;
-      push.count = paused == 0 ? 0 : take_out_stuck(paused, finish_on_cpu);
+      push.count = paused == 0 ? 0 : take_out_stuck(outbox_, paused, finish_on_cpu);
       push.from_inbox = 1;
       std::swap(inbox_, outbox_);
     }
     return TraceOutcome::finished;
   }
 
-  // Records a dispatch of as many groups as a buffer says; the outbox must be empty. Rays that pause stay there for resume().
+  // Records a dispatch of as many groups as a buffer says. Rays that pause stay in `outbox`, which must be empty, for resume().
   void record(Submission& submission, const Push& push, const GpuBuffer& groups, std::size_t offset,
-              const std::vector<const GpuBuffer*>& buffers) {
-    submission.run(pipeline_, groups, offset, std::as_bytes(std::span(&push, 1)), bound(buffers));
+              const std::vector<const GpuBuffer*>& buffers, const GpuBuffer& outbox) {
+    submission.run(pipeline_, groups, offset, std::as_bytes(std::span(&push, 1)), bound(buffers, outbox));
   }
-  // Brings rays that paused in a recorded dispatch to their end, as run() does.
+  // Brings rays that paused in a recorded dispatch to their end, as run() does, and empties their outbox.
   template <class After, class Finish>
-  TraceOutcome resume(const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop, const After& after,
-                      const Finish& finish_on_cpu) {
+  TraceOutcome resume(const GpuBuffer& outbox, const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop,
+                      const After& after, const Finish& finish_on_cpu) {
     std::uint32_t paused = 0;
-    download(context_, outbox_, std::as_writable_bytes(std::span(&paused, 1)));
+    download(context_, outbox, std::as_writable_bytes(std::span(&paused, 1)));
     Push push{};
-    push.count = take_out_stuck(paused, finish_on_cpu);
+    push.count = take_out_stuck(outbox, paused, finish_on_cpu);
     push.from_inbox = 1;
     std::swap(inbox_, outbox_);
+    constexpr std::uint32_t none = 0;
+    upload(context_, outbox, std::as_bytes(std::span(&none, 1)));
     return run(
         push, buffers, stop, [](Submission&) {}, after, finish_on_cpu);
   }
 
-  // Returns the buffer of the rays that pause in a recorded dispatch, after their number. The next run() or resume() exchanges it.
-  [[nodiscard]] const GpuBuffer& outbox() const { return outbox_; }
+  // Returns the size of an outbox for a number of rays.
+  [[nodiscard]] static std::size_t outbox_bytes(std::size_t rays) { return head_bytes + rays * sizeof(Paused); }
   [[nodiscard]] std::uint64_t max_threads() const { return pipeline_.max_threads(); }
 
  private:
@@ -100,10 +102,11 @@ class PausedWork {
     return {shader.name, texel ? shader.with_texel_buffers : shader.with_storage_buffers, bindings, sizeof(Push), group_size};
   }
 
-  [[nodiscard]] std::vector<const GpuBuffer*> bound(const std::vector<const GpuBuffer*>& buffers) const {
+  [[nodiscard]] std::vector<const GpuBuffer*> bound(const std::vector<const GpuBuffer*>& buffers,
+                                                    const GpuBuffer& outbox) const {
     std::vector<const GpuBuffer*> all{&tree_.nodes, &tree_.triangles};
     all.insert(all.end(), buffers.begin(), buffers.end());
-    all.insert(all.end(), {&inbox_, &outbox_});
+    all.insert(all.end(), {&inbox_, &outbox});
     return all;
   }
 
@@ -113,20 +116,20 @@ class PausedWork {
                          const After& after) {
     std::uint32_t paused = 0;
     submission.upload(outbox_, std::as_bytes(std::span(&paused, 1)));
-    submission.run(pipeline_, push.count, std::as_bytes(std::span(&push, 1)), bound(buffers));
+    submission.run(pipeline_, push.count, std::as_bytes(std::span(&push, 1)), bound(buffers, outbox_));
     submission.download(outbox_, std::as_writable_bytes(std::span(&paused, 1)));
     after(submission, outbox_);
     submission.finish();
     return paused;
   }
 
-  // Returns how many of the paused rays continue.
+  // Leaves the rays of an outbox that continue in outbox_, and returns their number.
   template <class Finish>
-  std::uint32_t take_out_stuck(std::uint32_t count, const Finish& finish_on_cpu) {
+  std::uint32_t take_out_stuck(const GpuBuffer& outbox, std::uint32_t count, const Finish& finish_on_cpu) {
     std::vector<Paused> paused(count);
-    download(context_, outbox_, std::as_writable_bytes(std::span(paused)), head_bytes);
+    download(context_, outbox, std::as_writable_bytes(std::span(paused)), head_bytes);
     const auto stuck = std::partition(paused.begin(), paused.end(), [](const Paused& each) { return each.stuck == 0; });
-    if (stuck == paused.end()) return count;
+    if (stuck == paused.end() && &outbox == &outbox_) return count;
     std::for_each(stuck, paused.end(), finish_on_cpu);
     paused.erase(stuck, paused.end());
     upload(context_, outbox_, std::as_bytes(std::span(paused)), head_bytes);

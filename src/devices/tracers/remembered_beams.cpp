@@ -69,8 +69,8 @@ TraceOutcome RememberedBeams::trace(const shared::PacketBlock& scene, std::span<
   return tracer_.trace(scene, packets, landings, stop);
 }
 
-std::optional<TraceOutcome> RememberedBeams::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
-  return tracer_.make_rounds(order, sums, stop);
+std::optional<TraceOutcome> RememberedBeams::make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) {
+  return tracer_.make_rounds(passes, stop);
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,7 @@
 #include "devices/tracers/round_buffers.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 
 namespace sunfleck {
@@ -23,20 +25,30 @@ constexpr double most_of_heap = 0.5;
 
 constexpr std::size_t group_words = 3;  // along x, y and z
 
+constexpr std::array<RoundBuffer, round_buffer_count> round_buffers() {
+  std::array<RoundBuffer, round_buffer_count> all{};
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<RoundBuffer>(k);
+  return all;
+}
+
 }  // namespace
 
-RoundSizes::RoundSizes(const RoundsOrder& order, std::size_t at_a_time, const shared::RoundChoices& of_choices)
-    : elements(order.scene.model.canopy.size()),
-      surfaces(order.scene.surfaces.of.size()),
-      cells(order.scene.layout.cells()),
-      columns(order.block.columns),
-      faces(order.block.faces),
-      small_words(shared::small_words(order.block)),
-      layer_places(shared::layer_places(order.block)),
-      places(std::max<std::size_t>(order.places.size(), order.most_packets())),
-      packets(order.most_packets()),
-      packets_at_a_time(std::min(at_a_time, packets)),
-      choices(of_choices) {}
+RoundSizes::RoundSizes(std::span<const RoundsPass> passes, std::size_t at_a_time, const shared::RoundChoices& of_choices)
+    : choices(of_choices) {
+  const RoundsOrder& any = *passes.front().order;
+  elements = any.scene.model.canopy.size();
+  surfaces = any.scene.surfaces.of.size();
+  cells = any.scene.layout.cells();
+  columns = any.block.columns;
+  faces = any.block.faces;
+  small_words = shared::small_words(any.block);
+  layer_places = shared::layer_places(any.block);
+  for (const RoundsPass& pass : passes) {
+    packets = std::max<std::size_t>(packets, pass.order->most_packets());
+    places = std::max({places, pass.order->places.size(), packets});
+  }
+  packets_at_a_time = std::min(at_a_time, packets);
+}
 
 std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
   constexpr std::size_t word = sizeof(std::uint32_t);
@@ -90,40 +102,57 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
       return 2 * surfaces * columns * quantum;
     case RoundBuffer::groups:
       return shared::kinds_of_groups * group_words * word;
+    case RoundBuffer::outbox:
+      return word + packets_at_a_time * sizeof(shared::PausedPacket);
   }
   return 0;
 }
 
-bool RoundSizes::fit(const GpuContext& context, std::uint64_t most_threads) const {
+std::size_t RoundSizes::most_lanes(const GpuContext& context, std::uint64_t most_threads) const {
   const DeviceLimits& limits = context.limits();
-  double all = 0.0;
-  for (std::size_t k = 0; k < round_buffer_count; ++k) {
-    const std::size_t size = bytes(static_cast<RoundBuffer>(k));
-    if (size > limits.max_storage_buffer_bytes || size > limits.max_allocation_bytes) return false;
-    all += static_cast<double>(size);
+  std::size_t of_scene = 0, of_lane = 0;
+  for (const RoundBuffer buffer : round_buffers()) {
+    const std::size_t size = bytes(buffer);
+    if (size > limits.max_storage_buffer_bytes || size > limits.max_allocation_bytes) return 0;
+    (is_of_scene(buffer) ? of_scene : of_lane) += size;
   }
-  return all <= most_of_heap * static_cast<double>(limits.heap_bytes) &&
-         std::max({2 * places, packets, small_words}) <= most_threads;
+  if (std::max({2 * places, packets, small_words}) > most_threads) return 0;
+  const auto most = static_cast<std::size_t>(most_of_heap * static_cast<double>(limits.heap_bytes));
+  return most < of_scene ? 0 : (most - of_scene) / of_lane;
 }
 
 std::size_t RoundBuffers::offset_of_groups(std::uint32_t kind) {
   return kind * group_words * sizeof(std::uint32_t);
 }
 
-void RoundBuffers::make_room(const RoundSizes& sizes) {
-  for (std::size_t k = 0; k < round_buffer_count; ++k) {
-    const std::size_t size = sizes.bytes(static_cast<RoundBuffer>(k));
-    GpuBuffer& buffer = buffers_[k];
+bool RoundBuffers::make_room(const RoundSizes& sizes, std::size_t lanes) {
+  if (lanes_.size() < lanes) lanes_.resize(lanes);
+  try {
+    make_room(sizes, true, of_scene_);
+    for (std::size_t lane = 0; lane < lanes; ++lane) make_room(sizes, false, lanes_[lane]);
+  } catch (const Error&) {  // the host can go on, which needs some of the memory
+    of_scene_ = {};
+    lanes_.clear();
+    return false;
+  }
+  return true;
+}
+
+void RoundBuffers::make_room(const RoundSizes& sizes, bool of_scene, Buffers& buffers) {
+  for (const RoundBuffer which : round_buffers()) {
+    if (is_of_scene(which) != of_scene) continue;
+    const std::size_t size = sizes.bytes(which);
+    GpuBuffer& buffer = buffers[static_cast<std::size_t>(which)];
     if (buffer.handles && buffer.bytes >= size) continue;
     buffer = GpuBuffer();  // frees the memory first
     buffer = create_buffer(context_, BufferUse::storage, size, "rounds of packets");
   }
 }
 
-std::vector<const GpuBuffer*> RoundBuffers::with(const GpuBuffer& outbox) const {
+std::vector<const GpuBuffer*> RoundBuffers::of(std::size_t lane, const GpuBuffer* outbox) const {
   std::vector<const GpuBuffer*> all;
-  for (const GpuBuffer& buffer : buffers_) all.push_back(&buffer);
-  all.push_back(&outbox);
+  for (const RoundBuffer buffer : round_buffers()) all.push_back(&at(lane, buffer));
+  if (outbox != nullptr) all.back() = outbox;
   return all;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The buffers of an indirect pass that a device makes on its own.
+// The buffers of indirect passes that a device makes on its own.
 
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/context.h"
@@ -8,11 +8,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sunfleck {
 
-// The bindings of shaders/rounds/pass.glsl but for the last, which belongs to the packets on their way.
+// The bindings of shaders/rounds/pass.glsl.
 enum class RoundBuffer : std::uint8_t {
   pass,
   state,
@@ -38,13 +39,20 @@ enum class RoundBuffer : std::uint8_t {
   cell_landed,
   surface_landed,
   groups,
+  outbox,  // packets that are still on their way, after their number
 };
-inline constexpr std::size_t round_buffer_count = 24;
+inline constexpr std::size_t round_buffer_count = 25;
 
-// The sizes of a pass that decide how large its buffers are.
+// Returns whether all passes of a scene share a buffer; each has the others for itself.
+[[nodiscard]] constexpr bool is_of_scene(RoundBuffer buffer) {
+  return buffer == RoundBuffer::elements || buffer == RoundBuffer::corners;
+}
+
+// The sizes that decide how large the buffers of passes are.
 struct RoundSizes {
   RoundSizes() = default;
-  RoundSizes(const RoundsOrder& order, std::size_t packets_at_a_time, const shared::RoundChoices& choices);
+  // Those of the largest of several passes of one scene.
+  RoundSizes(std::span<const RoundsPass> passes, std::size_t packets_at_a_time, const shared::RoundChoices& choices);
 
   std::size_t elements = 0, surfaces = 0, cells = 0;
   std::size_t columns = 0, faces = 0, small_words = 0, layer_places = 0;
@@ -54,30 +62,37 @@ struct RoundSizes {
 
   // Returns the size of a buffer in bytes.
   [[nodiscard]] std::size_t bytes(RoundBuffer buffer) const;
-  // Returns whether all buffers fit a device, as well as the dispatches of the pass.
-  [[nodiscard]] bool fit(const GpuContext& context, std::uint64_t most_threads) const;
+  // Returns the number of passes side by side whose buffers fit a device; 0 if those of one do not, or its dispatches.
+  [[nodiscard]] std::size_t most_lanes(const GpuContext& context, std::uint64_t most_threads) const;
 };
 
+// The buffers of several passes side by side, each of which has a lane.
 class RoundBuffers {
  public:
   explicit RoundBuffers(const GpuContext& context) : context_(context) {}
 
-  // Replaces buffers that are too small by larger ones; these lose what they held.
-  void make_room(const RoundSizes& sizes);
+  // Has as many lanes at least, and replaces buffers that are too small by larger ones; these lose what they held. Returns false if the
+  // memory is short, and leaves no buffer then.
+  [[nodiscard]] bool make_room(const RoundSizes& sizes, std::size_t lanes);
 
-  // Frees all buffers.
-  void free() { buffers_ = {}; }
-
-  [[nodiscard]] const GpuBuffer& operator[](RoundBuffer buffer) const { return buffers_[static_cast<std::size_t>(buffer)]; }
+  [[nodiscard]] const GpuBuffer& at(std::size_t lane, RoundBuffer buffer) const {
+    return (is_of_scene(buffer) ? of_scene_ : lanes_[lane])[static_cast<std::size_t>(buffer)];
+  }
   // Returns where the numbers of groups of a kind begin in their buffer, in bytes.
   [[nodiscard]] static std::size_t offset_of_groups(std::uint32_t kind);
 
-  // Returns all of them in the order of their bindings, and `outbox` at the end.
-  [[nodiscard]] std::vector<const GpuBuffer*> with(const GpuBuffer& outbox) const;
+  // Returns all of a lane in the order of their bindings, with another outbox if one is given.
+  [[nodiscard]] std::vector<const GpuBuffer*> of(std::size_t lane, const GpuBuffer* outbox = nullptr) const;
 
  private:
+  using Buffers =
+      std::array<GpuBuffer, round_buffer_count>;  // in a lane those of the scene are missing, and the other way round
+
+  void make_room(const RoundSizes& sizes, bool of_scene, Buffers& buffers);
+
   const GpuContext& context_;
-  std::array<GpuBuffer, round_buffer_count> buffers_;
+  Buffers of_scene_;
+  std::vector<Buffers> lanes_;
 };
 
 }  // namespace sunfleck

@@ -1,6 +1,5 @@
 #include "devices/tracers/round_steps.h"
 
-#include "base/error.h"
 #include "rounds_begin.spirv.h"
 #include "rounds_book.spirv.h"
 #include "rounds_collect.spirv.h"
@@ -17,13 +16,14 @@
 #include "rounds_take.spirv.h"
 #include "rounds_weigh.spirv.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace sunfleck {
 namespace {
 
 ComputePipeline make_shader(const GpuContext& context, const char* name, std::span<const std::uint32_t> spirv) {
-  const std::vector<BufferUse> bindings(round_buffer_count + 1, BufferUse::storage);
+  const std::vector<BufferUse> bindings(round_buffer_count, BufferUse::storage);
   return {context, ShaderCode{name, spirv, bindings, sizeof(shared::RoundPush), shared::round_group_size}, {}};
 }
 
@@ -47,36 +47,34 @@ RoundSteps::Shaders::Shaders(const GpuContext& context)
       book(make_shader(context, "book", rounds_book_spirv)) {}
 
 bool RoundSteps::work_on(const DeviceLimits& limits) {
-  return limits.int64 && limits.int64_atomics && limits.max_storage_buffers > round_buffer_count;
+  return limits.int64 && limits.int64_atomics && limits.max_storage_buffers >= round_buffer_count;
 }
 
 RoundSteps::RoundSteps(const GpuContext& context, const shared::RoundChoices& choices, std::size_t packets_at_a_time)
-    : context_(context),
-      choices_(choices),
-      packets_at_a_time_(packets_at_a_time),
-      buffers_(context),
-      nothing_(create_buffer(context, BufferUse::storage, sizeof(std::uint32_t), "an empty outbox")),
-      shaders_(context) {
-  ::sunfleck::fill(context, nothing_, 0);
-}
+    : context_(context), choices_(choices), packets_at_a_time_(packets_at_a_time), buffers_(context), shaders_(context) {}
 
-bool RoundSteps::make_room(const RoundsOrder& order) {
-  const RoundSizes sizes(order, packets_at_a_time_, choices_);
-  if (sizes.places >= refused_places_ || !sizes.fit(context_, shaders_.take.max_threads())) return false;
-  try {
-    buffers_.make_room(sizes);
-  } catch (const Error&) {  // the memory is short; the host can go on, which needs some of it
-    buffers_.free();
+std::size_t RoundSteps::make_room(std::span<const RoundsPass> passes) {
+  const RoundSizes sizes(passes, packets_at_a_time_, choices_);
+  if (sizes.places >= refused_places_) return 0;
+  std::size_t lanes = std::min({sizes.most_lanes(context_, shaders_.take.max_threads()), passes.size(), most_lanes_});
+  while (lanes > 0 && !buffers_.make_room(sizes, lanes)) {
     scene_number_ = 0;
-    refused_places_ = sizes.places;
-    return false;
+    if (lanes == 1) refused_places_ = sizes.places;
+    lanes /= 2;
+    most_lanes_ = std::max<std::size_t>(1, lanes);
   }
   sizes_ = sizes;
-  return true;
+  return lanes;
 }
 
-void RoundSteps::give(Submission& submission, const RoundsOrder& order) {
-  give_scene(submission, order.scene);
+void RoundSteps::give(Submission& submission, std::span<const RoundsPass> passes) {
+  lanes_ = passes.size();
+  const Submission::SideBySide side_by_side(submission);
+  give_scene(submission, passes.front().order->scene);
+  for (std::size_t lane = 0; lane < lanes_; ++lane) give(submission, lane, *passes[lane].order);
+}
+
+void RoundSteps::give(Submission& submission, std::size_t lane, const RoundsOrder& order) {
   shared::PassBlock block = order.block;
   block.choices = choices_;
   block.most_packets = static_cast<std::uint32_t>(sizes_.packets);
@@ -84,48 +82,61 @@ void RoundSteps::give(Submission& submission, const RoundsOrder& order) {
   state.places = static_cast<std::uint32_t>(order.places.size());
   state.end_of_elements = order.places.end_of_elements();
   state.end_of_cells = order.places.end_of_cells();
-  upload(submission, RoundBuffer::pass, std::span<const shared::PassBlock>(&block, 1));
-  upload(submission, RoundBuffer::state, std::span<const shared::RoundState>(&state, 1));
-  upload(submission, RoundBuffer::columns, std::span(order.columns));
-  upload(submission, RoundBuffer::totals, std::span(order.totals));
-  upload(submission, RoundBuffer::faces, std::span(order.faces));
-  upload(submission, RoundBuffer::next_places, order.places.places());
-  upload(submission, RoundBuffer::next_quanta, order.places.rows());
+  upload(submission, lane, RoundBuffer::pass, std::span<const shared::PassBlock>(&block, 1));
+  upload(submission, lane, RoundBuffer::state, std::span<const shared::RoundState>(&state, 1));
+  upload(submission, lane, RoundBuffer::columns, std::span(order.columns));
+  upload(submission, lane, RoundBuffer::totals, std::span(order.totals));
+  upload(submission, lane, RoundBuffer::faces, std::span(order.faces));
+  upload(submission, lane, RoundBuffer::next_places, order.places.places());
+  upload(submission, lane, RoundBuffer::next_quanta, order.places.rows());
+  constexpr std::uint32_t none = 0;
+  upload(submission, lane, RoundBuffer::outbox, std::span(&none, 1));
   for (const RoundBuffer sums : {RoundBuffer::copies, RoundBuffer::side_landed, RoundBuffer::element_hits,
                                  RoundBuffer::cell_landed, RoundBuffer::surface_landed}) {
-    submission.fill(buffers_[sums], 0);
+    submission.fill(buffer(sums, lane), 0);
   }
 }
 
 void RoundSteps::give_scene(Submission& submission, const IndirectScene& scene) {
   if (scene.number == scene_number_) return;
-  upload(submission, RoundBuffer::elements, std::span<const shared::RoundElement>(round_elements(scene)));
-  upload(submission, RoundBuffer::corners, scene.model.canopy.corners.own());
+  upload(submission, 0, RoundBuffer::elements, std::span<const shared::RoundElement>(round_elements(scene)));
+  upload(submission, 0, RoundBuffer::corners, scene.model.canopy.corners.own());
   scene_number_ = scene.number;
 }
 
-std::vector<const GpuBuffer*> RoundSteps::bound() const {
-  return buffers_.with(outbox_ != nullptr ? *outbox_ : nothing_);
-}
-
-void RoundSteps::run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push) {
-  submission.run(shader, threads, std::as_bytes(std::span(&push, 1)), bound());
+void RoundSteps::run(Submission& submission, Lanes lanes, ComputePipeline& shader, std::uint64_t threads,
+                     shared::RoundPush push, const GpuBuffer* outbox) {
+  const Submission::SideBySide side_by_side(submission);
+  for (std::size_t lane = lanes.first; lane < lanes.end; ++lane) {
+    submission.run(shader, threads, std::as_bytes(std::span(&push, 1)), buffers_.of(lane, outbox));
+  }
 }
 
 void RoundSteps::run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push) {
-  submission.run(shader, buffers_[RoundBuffer::groups], RoundBuffers::offset_of_groups(kind),
-                 std::as_bytes(std::span(&push, 1)), bound());
+  const Submission::SideBySide side_by_side(submission);
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    submission.run(shader, buffer(RoundBuffer::groups, lane), RoundBuffers::offset_of_groups(kind),
+                   std::as_bytes(std::span(&push, 1)), buffers_.of(lane));
+  }
 }
 
 void RoundSteps::sum(Submission& submission, std::uint32_t kind, std::uint32_t groups) {
   run_groups(submission, shaders_.sum_blocks, groups, {kind, 0});
-  run(submission, shaders_.sum_spine, shared::round_group_size, {kind, 0});
+  run(submission, all_lanes(), shaders_.sum_spine, shared::round_group_size, {kind, 0});
   run_groups(submission, shaders_.sum_up, groups, {kind, 0});
 }
 
 void RoundSteps::begin(Submission& submission) {
-  run(submission, shaders_.collect, sizes_.small_words, {0, static_cast<std::uint32_t>(sizes_.small_words)});
-  run(submission, shaders_.begin, shared::round_group_size);
+  begin(submission, all_lanes());
+}
+
+void RoundSteps::begin(Submission& submission, std::size_t lane) {
+  begin(submission, Lanes{lane, lane + 1});
+}
+
+void RoundSteps::begin(Submission& submission, Lanes lanes) {
+  run(submission, lanes, shaders_.collect, sizes_.small_words, {0, static_cast<std::uint32_t>(sizes_.small_words)});
+  run(submission, lanes, shaders_.begin, shared::round_group_size);
 }
 
 void RoundSteps::sort(Submission& submission) {
@@ -137,53 +148,69 @@ void RoundSteps::sort(Submission& submission) {
 void RoundSteps::draw(Submission& submission) {
   run_groups(submission, shaders_.expect, shared::groups_of_sides);
   sum(submission, shared::sums_of_sides, shared::groups_of_side_sums);
-  run(submission, shaders_.plan, 1);
+  run(submission, all_lanes(), shaders_.plan, 1);
   run_groups(submission, shaders_.take, shared::groups_of_sides);
 }
 
 void RoundSteps::weigh(Submission& submission) {
   const auto columns = static_cast<std::uint32_t>(sizes_.columns);
   run_groups(submission, shaders_.weigh, shared::groups_of_packets);
-  run(submission, shaders_.collect, columns, {shared::sum_weights * columns, columns});
-  run(submission, shaders_.load, shared::round_group_size);
+  run(submission, all_lanes(), shaders_.collect, columns, {shared::sum_weights * columns, columns});
+  run(submission, all_lanes(), shaders_.load, shared::round_group_size);
 }
 
 void RoundSteps::start(Submission& submission, shared::RoundPush packets) {
-  if (packets.count == shared::all_packets) {
-    run_groups(submission, shaders_.emit, shared::groups_of_packets, packets);
-    return run_groups(submission, shaders_.order, shared::groups_of_packets, packets);
+  for (ComputePipeline* shader : {&shaders_.emit, &shaders_.order}) {
+    if (packets.count == shared::all_packets) {
+      run_groups(submission, *shader, shared::groups_of_packets, packets);
+    } else {
+      run(submission, all_lanes(), *shader, packets.count, packets);
+    }
   }
-  run(submission, shaders_.emit, packets.count, packets);
-  run(submission, shaders_.order, packets.count, packets);
 }
 
 void RoundSteps::book(Submission& submission, shared::RoundPush packets) {
   if (packets.count == shared::all_packets) return run_groups(submission, shaders_.book, shared::groups_of_packets, packets);
-  run(submission, shaders_.book, packets.count, packets);
+  run(submission, all_lanes(), shaders_.book, packets.count, packets);
 }
 
-void RoundSteps::fetch(Submission& submission, shared::RoundState& state) const {
-  submission.download(buffers_[RoundBuffer::state], std::as_writable_bytes(std::span(&state, 1)));
+void RoundSteps::book(Submission& submission, std::size_t lane, shared::RoundPush packets, const GpuBuffer* outbox) {
+  run(submission, {lane, lane + 1}, shaders_.book, packets.count, packets, outbox);
 }
 
-void RoundSteps::fetch(RoundsSums& sums) const {
-  shared::RoundState state{};
+void RoundSteps::fetch(Submission& submission, std::span<shared::RoundState> states) const {
+  const Submission::SideBySide side_by_side(submission);
+  for (std::size_t lane = 0; lane < states.size(); ++lane) {
+    submission.download(buffer(RoundBuffer::state, lane), std::as_writable_bytes(states.subspan(lane, 1)));
+  }
+}
+
+void RoundSteps::fetch(std::span<const RoundsPass> passes) const {
+  std::vector<shared::RoundState> states(passes.size());
   Submission submission(context_);
-  const auto download = [&](RoundBuffer buffer, auto& values) {
-    values.resize(sizes_.bytes(buffer) / sizeof(values[0]));
-    submission.download(buffers_[buffer], std::as_writable_bytes(std::span(values)));
-  };
-  download(RoundBuffer::columns, sums.columns);
-  download(RoundBuffer::totals, sums.totals);
-  download(RoundBuffer::side_landed, sums.side_landed);
-  download(RoundBuffer::element_hits, sums.element_hits);
-  download(RoundBuffer::cell_landed, sums.cell_landed);
-  download(RoundBuffer::surface_landed, sums.surface_landed);
-  fetch(submission, state);
+  {
+    const Submission::SideBySide side_by_side(submission);
+    for (std::size_t lane = 0; lane < passes.size(); ++lane) {
+      const auto download = [&](RoundBuffer which, auto& values) {
+        values.resize(sizes_.bytes(which) / sizeof(values[0]));
+        submission.download(buffer(which, lane), std::as_writable_bytes(std::span(values)));
+      };
+      RoundsSums& sums = *passes[lane].sums;
+      download(RoundBuffer::columns, sums.columns);
+      download(RoundBuffer::totals, sums.totals);
+      download(RoundBuffer::side_landed, sums.side_landed);
+      download(RoundBuffer::element_hits, sums.element_hits);
+      download(RoundBuffer::cell_landed, sums.cell_landed);
+      download(RoundBuffer::surface_landed, sums.surface_landed);
+    }
+  }
+  fetch(submission, states);
   submission.finish();
-  sums.packets = state.all_packets;
-  sums.rounds = state.rounds;
-  sums.most_places = state.most_places;
+  for (std::size_t lane = 0; lane < passes.size(); ++lane) {
+    passes[lane].sums->packets = states[lane].all_packets;
+    passes[lane].sums->rounds = states[lane].rounds;
+    passes[lane].sums->most_places = states[lane].most_places;
+  }
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,5 @@
 #pragma once
-// The steps of the rounds of an indirect pass, as shaders of shaders/rounds do them on a device.
+// The steps of the rounds of indirect passes, as shaders of shaders/rounds do them on a device.
 
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/compute.h"
@@ -8,6 +8,7 @@
 #include "devices/tracers/round_buffers.h"
 #include "physics/transport/indirect/device_rounds.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -16,6 +17,7 @@
 namespace sunfleck {
 
 // Each step is recorded in a submission and sees what earlier ones left in the buffers. The order of a round is that of the functions.
+// Several passes may be made side by side: a step is then one of all of them, with a dispatch for each lane.
 class RoundSteps {
  public:
   static constexpr shared::RoundPush every_packet{0, shared::all_packets};
@@ -27,17 +29,16 @@ class RoundSteps {
   // The context must outlive the object.
   RoundSteps(const GpuContext& context, const shared::RoundChoices& choices, std::size_t packets_at_a_time);
 
-  // Makes room for a pass. Returns false if it is too large for the device or its free memory.
-  [[nodiscard]] bool make_room(const RoundsOrder& order);
-  // Gives the device a pass for which there is room.
-  void give(Submission& submission, const RoundsOrder& order);
+  // Makes room for passes of one scene. Returns how many of them it has room for side by side; 0 if each is too large for the device or
+  // its free memory.
+  [[nodiscard]] std::size_t make_room(std::span<const RoundsPass> passes);
+  // Gives the device passes for which there is room, each in a lane, with an empty outbox. Later steps are those of these lanes.
+  void give(Submission& submission, std::span<const RoundsPass> passes);
 
-  // The outbox of the following steps, until another is set: packets that are still on their way. Without one there are none.
-  void set_outbox(const GpuBuffer* outbox) { outbox_ = outbox; }
-
-  // Ends the round before, and begins one unless no column is left (RoundState::done), or the outbox is not empty
+  // Ends the round before, and begins one unless no column is left (RoundState::done), or the lane's outbox is not empty
   // (RoundState::has_to_wait); in both cases the other steps do nothing.
   void begin(Submission& submission);
+  void begin(Submission& submission, std::size_t lane);
   // Moves the places to their parts, as WaitingFlux::take_sorted does.
   void sort(Submission& submission);
   // Draws packets from them, as PacketDraw does: RoundState::packets.
@@ -46,15 +47,17 @@ class RoundSteps {
   void weigh(Submission& submission);
   // Starts some of them, as PacketStarts does, and orders them by direction. There are at most `packets_at_a_time`.
   void start(Submission& submission, shared::RoundPush packets = every_packet);
-  // Books where they landed, as PacketBooks does, unless the outbox holds packets that are still on their way.
+  // Books where they landed, as PacketBooks does, unless the lane's outbox holds packets that are still on their way.
   void book(Submission& submission, shared::RoundPush packets = every_packet);
+  // Does the same in one lane, with another outbox if one is given.
+  void book(Submission& submission, std::size_t lane, shared::RoundPush packets, const GpuBuffer* outbox);
 
-  // Fetches the state that the steps so far leave; it is there once the submission is finished.
-  void fetch(Submission& submission, shared::RoundState& state) const;
-  // Fetches the sums of the pass.
-  void fetch(RoundsSums& sums) const;
+  // Fetches the states that the steps so far leave, [lane]; they are there once the submission is finished.
+  void fetch(Submission& submission, std::span<shared::RoundState> states) const;
+  // Fetches the sums of all lanes.
+  void fetch(std::span<const RoundsPass> passes) const;
 
-  [[nodiscard]] const GpuBuffer& buffer(RoundBuffer which) const { return buffers_[which]; }
+  [[nodiscard]] const GpuBuffer& buffer(RoundBuffer which, std::size_t lane = 0) const { return buffers_.at(lane, which); }
   [[nodiscard]] const RoundSizes& sizes() const { return sizes_; }
 
  private:
@@ -65,26 +68,34 @@ class RoundSteps {
         book;
   };
 
+  // Lanes from one number to another.
+  struct Lanes {
+    std::size_t first, end;
+  };
+  [[nodiscard]] Lanes all_lanes() const { return {0, lanes_}; }
+
+  void give(Submission& submission, std::size_t lane, const RoundsOrder& order);
   void give_scene(Submission& submission, const IndirectScene& scene);
+  void begin(Submission& submission, Lanes lanes);
   // Turns numbers of a kind into running sums; `groups` is the kind of their groups.
   void sum(Submission& submission, std::uint32_t kind, std::uint32_t groups);
-  // Run a shader with a number of threads, or with as many groups as the device has found for a kind.
-  void run(Submission& submission, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push = {});
+  // Run a shader with a number of threads, or in all lanes with as many groups as the device has found for a kind.
+  void run(Submission& submission, Lanes lanes, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push = {},
+           const GpuBuffer* outbox = nullptr);
   void run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push = {});
-  [[nodiscard]] std::vector<const GpuBuffer*> bound() const;
   template <class T>
-  void upload(Submission& submission, RoundBuffer to, std::span<const T> values) const {
-    submission.upload(buffers_[to], std::as_bytes(values));
+  void upload(Submission& submission, std::size_t lane, RoundBuffer to, std::span<const T> values) const {
+    submission.upload(buffer(to, lane), std::as_bytes(values));
   }
 
   const GpuContext& context_;
   shared::RoundChoices choices_;
   std::size_t packets_at_a_time_;
-  RoundSizes sizes_;                                                      // of the pass
+  RoundSizes sizes_;                                                      // of the passes
   std::size_t refused_places_ = std::numeric_limits<std::size_t>::max();  // of a pass for which memory was short
+  std::size_t most_lanes_ = std::numeric_limits<std::size_t>::max();      // fewer once it was short for more
   RoundBuffers buffers_;
-  GpuBuffer nothing_;  // an empty outbox
-  const GpuBuffer* outbox_ = nullptr;
+  std::size_t lanes_ = 0;           // in use
   std::uint64_t scene_number_ = 0;  // of the scene on the device
   Shaders shaders_;
 };

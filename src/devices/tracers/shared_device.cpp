@@ -59,10 +59,9 @@ TraceOutcome TurnTakingTracer::trace(const shared::PacketBlock& scene, std::span
   return tracer_.trace(scene, packets, landings, giving_way(stop));
 }
 
-std::optional<TraceOutcome> TurnTakingTracer::make_rounds(const RoundsOrder& order, RoundsSums& sums,
-                                                          const StopQuestion& stop) {
+std::optional<TraceOutcome> TurnTakingTracer::make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) {
   const TracingTurn turn(turn_);
-  return tracer_.make_rounds(order, sums, giving_way(stop));
+  return tracer_.make_rounds(passes, giving_way(stop));
 }
 
 TurnTakingViewer::~TurnTakingViewer() {

@@ -20,6 +20,8 @@ struct VulkanChoices {
   // Rounds of the first pass that a device makes before the host looks, unless dispatches have a target of time or do not hold all packets
   // of a round; 0: a default; 1: each round of every pass in parts. Later passes take as many as the one before needed, from 2 to 32.
   std::uint32_t rounds_at_once = 0;
+  // Passes whose rounds a device makes side by side, at most, if it makes several rounds before the host looks; 0: a default.
+  std::uint32_t lanes = 0;
 };
 
 }  // namespace sunfleck

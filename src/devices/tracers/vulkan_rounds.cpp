@@ -11,9 +11,11 @@ namespace sunfleck {
 namespace {
 
 constexpr std::uint32_t first_rounds_on_hardware = 8;
+constexpr std::uint32_t default_lanes = 16;
 // What a submission holds at most, since Ctrl-C waits for it, and drivers end what takes seconds.
 constexpr std::uint32_t most_rounds_at_once = 32;
-constexpr std::uint64_t most_packets_at_once = std::uint64_t{1} << 22U;
+constexpr std::uint64_t most_packets_at_once = std::uint64_t{1} << 24U;
+constexpr std::uint32_t least_rounds_at_once = 2;
 
 shared::RoundChoices completed(const VulkanChoices& choices) {
   constexpr std::uint32_t copies = 32;
@@ -37,97 +39,126 @@ VulkanRounds::VulkanRounds(const GpuContext& context, const GpuTree& tree, const
     : context_(context),
       cpu_(cpu),
       rounds_at_once_(at_once(choices, context.description().software)),
+      most_lanes_(choices.lanes > 0 ? choices.lanes : default_lanes),
       scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
       steps_(context, completed(choices), choices.rays_per_dispatch),
       work_(context, tree, domain, choices, packets_shader(), "paused packets") {}
 
-std::optional<TraceOutcome> VulkanRounds::make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
-  if (!steps_.make_room(order)) return std::nullopt;
-  const std::size_t packets = steps_.sizes().packets;
-  const std::uint64_t rounds = std::min<std::uint64_t>(rounds_at_once_, most_packets_at_once / packets);
-  const bool together = rounds > 1 && packets == steps_.sizes().packets_at_a_time && packets <= work_.max_threads();
-  const TraceOutcome outcome =
-      together ? make_together(order, static_cast<std::uint32_t>(rounds), stop) : make_in_parts(order, stop);
-  if (outcome == TraceOutcome::finished) steps_.fetch(sums);
-  return outcome;
-}
-
-void VulkanRounds::give(Submission& submission, const RoundsOrder& order) {
-  steps_.give(submission, order);
-  submission.upload(scene_, std::as_bytes(std::span(&order.scene.block, 1)));
-}
-
-std::vector<const GpuBuffer*> VulkanRounds::traced() const {
-  return {&scene_, &steps_.buffer(RoundBuffer::packets), &steps_.buffer(RoundBuffer::landings),
-          &steps_.buffer(RoundBuffer::order)};
-}
-
-TraceOutcome VulkanRounds::make_together(const RoundsOrder& order, std::uint32_t rounds, const StopQuestion& stop) {
-  bool is_given = false;
-  shared::RoundState state{};
-  state.has_to_wait = 1;  // the first round has not begun
-  while (state.done == 0) {
-    if (stop && stop()) return TraceOutcome::stopped;
-    Submission submission(context_);
-    if (!is_given) give(submission, order);
-    is_given = true;
-    if (state.has_to_wait != 0) begin_with_empty_outbox(submission);
-    for (std::uint32_t round = 0; round < rounds; ++round) record_round(submission);
-    steps_.fetch(submission, state);
-    submission.finish();
-    ENSURE(state.most_drawn, <=, steps_.sizes().packets);
-    if (state.has_to_wait == 0) continue;
-    if (finish_round(order.scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
+std::optional<TraceOutcome> VulkanRounds::make(std::span<const RoundsPass> passes, const StopQuestion& stop) {
+  while (!passes.empty()) {
+    const std::size_t lanes = make_room(passes);
+    if (lanes == 0) return std::nullopt;
+    const std::span<const RoundsPass> next = passes.first(lanes);
+    const bool together = rounds_at_once(lanes) > 1;
+    const TraceOutcome outcome = together ? make_together(next, stop) : make_in_parts(next.front(), stop);
+    if (outcome == TraceOutcome::stopped) return outcome;
+    steps_.fetch(next);
+    passes = passes.subspan(lanes);
   }
-  constexpr std::uint32_t least = 2;
-  rounds_at_once_ = std::clamp(state.rounds + 1, least, most_rounds_at_once);  // the next replicate needs about as many
   return TraceOutcome::finished;
 }
 
-void VulkanRounds::begin_with_empty_outbox(Submission& submission) {
-  constexpr std::uint32_t none = 0;
-  submission.upload(work_.outbox(), std::as_bytes(std::span(&none, 1)));
-  steps_.set_outbox(&work_.outbox());
-  steps_.begin(submission);
+std::size_t VulkanRounds::make_room(std::span<const RoundsPass> passes) {
+  const std::uint64_t packets = passes.front().order->most_packets();
+  const std::uint64_t most = rounds_at_once_ > 1 ? most_packets_at_once / (least_rounds_at_once * packets) : 1;
+  const std::size_t lanes = std::clamp<std::size_t>(most, 1, std::min(most_lanes_, passes.size()));
+  const std::size_t found = steps_.make_room(passes.first(lanes));
+  return rounds_at_once(found) > 1 ? found : std::min<std::size_t>(found, 1);
 }
 
-void VulkanRounds::record_round(Submission& submission) {
+std::uint32_t VulkanRounds::rounds_at_once(std::size_t lanes) const {
+  const std::size_t packets = steps_.sizes().packets;
+  if (packets != steps_.sizes().packets_at_a_time || packets > work_.max_threads()) return 1;
+  const std::uint64_t most = most_packets_at_once / (std::max<std::size_t>(1, lanes) * packets);
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(rounds_at_once_, most));
+}
+
+void VulkanRounds::give(Submission& submission, std::span<const RoundsPass> passes) {
+  steps_.give(submission, passes);
+  submission.upload(scene_, std::as_bytes(std::span(&passes.front().order->scene.block, 1)));
+}
+
+std::vector<const GpuBuffer*> VulkanRounds::traced(std::size_t lane) const {
+  return {&scene_, &steps_.buffer(RoundBuffer::packets, lane), &steps_.buffer(RoundBuffer::landings, lane),
+          &steps_.buffer(RoundBuffer::order, lane)};
+}
+
+TraceOutcome VulkanRounds::make_together(std::span<const RoundsPass> passes, const StopQuestion& stop) {
+  const std::uint32_t rounds = rounds_at_once(passes.size());
+  std::vector<shared::RoundState> states(passes.size());
+  const auto is_done = [](const shared::RoundState& state) { return state.done != 0; };
+  for (bool is_first = true; is_first || !std::all_of(states.begin(), states.end(), is_done); is_first = false) {
+    if (stop && stop()) return TraceOutcome::stopped;
+    Submission submission(context_);
+    if (is_first) {
+      give(submission, passes);
+      steps_.begin(submission);
+    }
+    for (std::size_t lane = 0; lane < passes.size(); ++lane) {
+      if (states[lane].has_to_wait != 0) steps_.begin(submission, lane);
+    }
+    for (std::uint32_t round = 0; round < rounds; ++round) record_round(submission, passes.size());
+    steps_.fetch(submission, states);
+    submission.finish();
+    for (std::size_t lane = 0; lane < passes.size(); ++lane) {
+      ENSURE(states[lane].most_drawn, <=, steps_.sizes().packets);
+      if (states[lane].has_to_wait == 0) continue;
+      const shared::PacketBlock& scene = passes[lane].order->scene.block;
+      if (finish_round(scene, lane, states[lane].packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
+    }
+  }
+  const auto fewer_rounds = [](const shared::RoundState& a, const shared::RoundState& b) { return a.rounds < b.rounds; };
+  const std::uint32_t needed = std::max_element(states.begin(), states.end(), fewer_rounds)->rounds;
+  rounds_at_once_ = std::clamp(needed + 1, least_rounds_at_once, most_rounds_at_once);  // the next ones need about as many
+  return TraceOutcome::finished;
+}
+
+void VulkanRounds::record_round(Submission& submission, std::size_t lanes) {
   steps_.sort(submission);
   steps_.draw(submission);
   steps_.weigh(submission);
   steps_.start(submission);
-  work_.record(submission, {0, shared::all_packets, 0}, steps_.buffer(RoundBuffer::groups),
-               RoundBuffers::offset_of_groups(shared::groups_of_traces), traced());
+  {
+    const Submission::SideBySide side_by_side(submission);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      work_.record(submission, {0, shared::all_packets, 0}, steps_.buffer(RoundBuffer::groups, lane),
+                   RoundBuffers::offset_of_groups(shared::groups_of_traces), traced(lane),
+                   steps_.buffer(RoundBuffer::outbox, lane));
+    }
+  }
   steps_.book(submission);
   steps_.begin(submission);
 }
 
 // Packets that are stuck are finished by the CPU, and only then are all of them booked.
 template <class Trace>
-TraceOutcome VulkanRounds::bring_to_ends(const shared::PacketBlock& scene, shared::RoundPush packets, const Trace& trace) {
+TraceOutcome VulkanRounds::bring_to_ends(const shared::PacketBlock& scene, std::size_t lane, shared::RoundPush packets,
+                                         const Trace& trace) {
   Finished finished;
   const auto after = [&](Submission& submission, const GpuBuffer& outbox) {
-    steps_.set_outbox(&outbox);
-    if (finished.empty()) steps_.book(submission, packets);
+    if (finished.empty()) steps_.book(submission, lane, packets, &outbox);
   };
-  const auto finish = [&](const shared::PausedPacket& paused) { finished.push_back(finish_on_cpu(scene, paused)); };
+  const auto finish = [&](const shared::PausedPacket& paused) { finished.push_back(finish_on_cpu(scene, lane, paused)); };
   if (trace(after, finish) == TraceOutcome::stopped) return TraceOutcome::stopped;
-  if (!finished.empty()) book(finished, packets);
+  if (!finished.empty()) book(finished, lane, packets);
   return TraceOutcome::finished;
 }
 
-TraceOutcome VulkanRounds::finish_round(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop) {
-  return bring_to_ends(scene, {0, packets},
-                       [&](const auto& after, const auto& finish) { return work_.resume(traced(), stop, after, finish); });
+TraceOutcome VulkanRounds::finish_round(const shared::PacketBlock& scene, std::size_t lane, std::uint32_t packets,
+                                        const StopQuestion& stop) {
+  const auto trace = [&](const auto& after, const auto& finish) {
+    return work_.resume(steps_.buffer(RoundBuffer::outbox, lane), traced(lane), stop, after, finish);
+  };
+  return bring_to_ends(scene, lane, {0, packets}, trace);
 }
 
-TraceOutcome VulkanRounds::make_in_parts(const RoundsOrder& order, const StopQuestion& stop) {
+TraceOutcome VulkanRounds::make_in_parts(const RoundsPass& pass, const StopQuestion& stop) {
   Submission first(context_);
-  give(first, order);
+  give(first, std::span(&pass, 1));
   shared::RoundState state = draw(first);
   while (state.done == 0) {
     ENSURE(state.most_drawn, <=, steps_.sizes().packets);
-    if (send(order.scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
+    if (send(pass.order->scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
     if (stop && stop()) return TraceOutcome::stopped;
     Submission next(context_);
     state = draw(next);
@@ -137,11 +168,10 @@ TraceOutcome VulkanRounds::make_in_parts(const RoundsOrder& order, const StopQue
 
 shared::RoundState VulkanRounds::draw(Submission& submission) {
   shared::RoundState state{};
-  steps_.set_outbox(nullptr);
   steps_.begin(submission);
   steps_.sort(submission);
   steps_.draw(submission);
-  steps_.fetch(submission, state);
+  steps_.fetch(submission, std::span(&state, 1));
   submission.finish();
   return state;
 }
@@ -155,34 +185,33 @@ TraceOutcome VulkanRounds::send(const shared::PacketBlock& scene, std::uint32_t 
   for (std::uint32_t first = 0; first < packets;) {
     const shared::RoundPush part{first, std::min(work_.rays_per_dispatch(), packets - first)};
     const auto start = [&](Submission& submission) {
-      steps_.set_outbox(nullptr);
       if (first == 0) steps_.weigh(submission);
       steps_.start(submission, part);
     };
     const auto trace = [&](const auto& after, const auto& finish) {
-      return work_.run({0, part.count, 0}, traced(), stop, start, after, finish);
+      return work_.run({0, part.count, 0}, traced(0), stop, start, after, finish);
     };
-    if (bring_to_ends(scene, part, trace) == TraceOutcome::stopped) return TraceOutcome::stopped;
+    if (bring_to_ends(scene, 0, part, trace) == TraceOutcome::stopped) return TraceOutcome::stopped;
     first += part.count;
   }
   return TraceOutcome::finished;
 }
 
-std::pair<std::uint32_t, shared::Landing> VulkanRounds::finish_on_cpu(const shared::PacketBlock& scene,
+std::pair<std::uint32_t, shared::Landing> VulkanRounds::finish_on_cpu(const shared::PacketBlock& scene, std::size_t lane,
                                                                       const shared::PausedPacket& paused) const {
   shared::Packet packet;
-  download(context_, steps_.buffer(RoundBuffer::packets), std::as_writable_bytes(std::span(&packet, 1)),
+  download(context_, steps_.buffer(RoundBuffer::packets, lane), std::as_writable_bytes(std::span(&packet, 1)),
            paused.packet * sizeof(packet));
   return {paused.packet, cpu_.finish_packet(scene, packet, paused)};
 }
 
-void VulkanRounds::book(const Finished& finished, shared::RoundPush part) {
+void VulkanRounds::book(const Finished& finished, std::size_t lane, shared::RoundPush part) {
   Submission submission(context_);
   for (const auto& [packet, landing] : finished) {
-    submission.upload(steps_.buffer(RoundBuffer::landings), std::as_bytes(std::span(&landing, 1)), packet * sizeof(landing));
+    submission.upload(steps_.buffer(RoundBuffer::landings, lane), std::as_bytes(std::span(&landing, 1)),
+                      packet * sizeof(landing));
   }
-  steps_.set_outbox(nullptr);
-  steps_.book(submission, part);
+  steps_.book(submission, lane, part, nullptr);
   submission.finish();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // The part of the Vulkan tracer that makes the rounds of indirect passes on the device: packets are drawn, started, traced and booked
-// there. It is created for the first pass.
+// there. It is created for the first pass. A round has too little work for a GPU, so that several passes are made side by side.
 
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/context.h"
@@ -13,8 +13,10 @@
 #include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/model/tracer.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,42 +28,49 @@ class VulkanRounds {
   VulkanRounds(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, TraceDomain domain,
                const VulkanChoices& choices);
 
-  // Does what Tracer::make_rounds does. Returns nothing if the pass is too large for the device.
-  [[nodiscard]] std::optional<TraceOutcome> make(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop);
+  // Does what Tracer::make_rounds does. Returns nothing if a pass is too large for the device.
+  [[nodiscard]] std::optional<TraceOutcome> make(std::span<const RoundsPass> passes, const StopQuestion& stop);
 
  private:
   // Packets that the CPU has finished, by their numbers in the dispatch, and where they landed.
   using Finished = std::vector<std::pair<std::uint32_t, shared::Landing>>;
 
-  // Makes `rounds` rounds at a time without the host, which then finishes packets that paused.
-  [[nodiscard]] TraceOutcome make_together(const RoundsOrder& order, std::uint32_t rounds, const StopQuestion& stop);
-  void begin_with_empty_outbox(Submission& submission);
-  // Records a round that has begun, and the beginning of the next one.
-  void record_round(Submission& submission);
-  // Brings the packets that paused in the last round to their ends, and books it.
-  [[nodiscard]] TraceOutcome finish_round(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop);
+  // Makes room for some of the passes, and returns how many are to be made together; 0 if none has room.
+  [[nodiscard]] std::size_t make_room(std::span<const RoundsPass> passes);
+  // Returns how many rounds of as many lanes a submission may hold.
+  [[nodiscard]] std::uint32_t rounds_at_once(std::size_t lanes) const;
 
-  // Makes one round after the other, in dispatches that are short enough.
-  [[nodiscard]] TraceOutcome make_in_parts(const RoundsOrder& order, const StopQuestion& stop);
+  // Makes several rounds at a time without the host, which then finishes packets that paused.
+  [[nodiscard]] TraceOutcome make_together(std::span<const RoundsPass> passes, const StopQuestion& stop);
+  // Records a round that has begun, and the beginning of the next one.
+  void record_round(Submission& submission, std::size_t lanes);
+  // Brings the packets that paused in the last round of a lane to their ends, and books it.
+  [[nodiscard]] TraceOutcome finish_round(const shared::PacketBlock& scene, std::size_t lane, std::uint32_t packets,
+                                          const StopQuestion& stop);
+
+  // Makes one round of the only lane after the other, in dispatches that are short enough.
+  [[nodiscard]] TraceOutcome make_in_parts(const RoundsPass& pass, const StopQuestion& stop);
   // Draws the packets of the next round.
   [[nodiscard]] shared::RoundState draw(Submission& submission);
   [[nodiscard]] TraceOutcome send(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop);
 
-  void give(Submission& submission, const RoundsOrder& order);
-  // Has packets traced by trace(after, finish), whose arguments are those of PausedWork::run, and books them.
+  void give(Submission& submission, std::span<const RoundsPass> passes);
+  // Has packets of a lane traced by trace(after, finish), whose arguments are those of PausedWork::run, and books them.
   template <class Trace>
-  [[nodiscard]] TraceOutcome bring_to_ends(const shared::PacketBlock& scene, shared::RoundPush packets, const Trace& trace);
+  [[nodiscard]] TraceOutcome bring_to_ends(const shared::PacketBlock& scene, std::size_t lane, shared::RoundPush packets,
+                                           const Trace& trace);
   // Returns the landing of a packet that is stuck.
-  [[nodiscard]] std::pair<std::uint32_t, shared::Landing> finish_on_cpu(const shared::PacketBlock& scene,
+  [[nodiscard]] std::pair<std::uint32_t, shared::Landing> finish_on_cpu(const shared::PacketBlock& scene, std::size_t lane,
                                                                         const shared::PausedPacket& paused) const;
   // Books packets of which the CPU has finished some.
-  void book(const Finished& finished, shared::RoundPush part);
+  void book(const Finished& finished, std::size_t lane, shared::RoundPush part);
   // Returns the buffers of the shader that follows packets.
-  [[nodiscard]] std::vector<const GpuBuffer*> traced() const;
+  [[nodiscard]] std::vector<const GpuBuffer*> traced(std::size_t lane) const;
 
   const GpuContext& context_;
   const CpuTracer& cpu_;
   std::uint32_t rounds_at_once_;  // 1: each round in parts
+  std::size_t most_lanes_;
   GpuBuffer scene_;
   RoundSteps steps_;
   PausedWork<shared::PausedPacket, shared::PacketPush> work_;

@@ -120,9 +120,9 @@ TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<con
   return packets_->trace(scene, packets, landings, stop);
 }
 
-std::optional<TraceOutcome> VulkanTracer::make_rounds(const RoundsOrder& order, RoundsSums& sums, const StopQuestion& stop) {
+std::optional<TraceOutcome> VulkanTracer::make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) {
   if (!create_rounds()) return std::nullopt;
-  return rounds_->make(order, sums, stop);
+  return rounds_->make(passes, stop);
 }
 
 bool VulkanTracer::create_rounds() {

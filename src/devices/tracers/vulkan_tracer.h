@@ -32,8 +32,7 @@ class VulkanTracer final : public Tracer {
                                                         std::span<shared::Landing> landings, const StopQuestion& stop) override;
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
-  [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
-                                                        const StopQuestion& stop) override;
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) override;
 
  private:
   [[nodiscard]] VulkanChoices packet_choices() const;

@@ -45,9 +45,8 @@ class DeviceTracer final : public Tracer {
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {
     return tracer_.trace(scene, packets, landings, stop);
   }
-  [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
-                                                        const StopQuestion& stop) override {
-    return tracer_.make_rounds(order, sums, stop);
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) override {
+    return tracer_.make_rounds(passes, stop);
   }
 
  private:

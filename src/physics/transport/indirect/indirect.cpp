@@ -115,7 +115,8 @@ class IndirectPass {
     const RoundsOrder order{
         scene_, next_, block, order_.packets, coefficients_of(books_.scattering()), round_columns(), books_.for_rounds(block)};
     RoundsSums found;
-    const std::optional<TraceOutcome> outcome = scene_.tracer.make_rounds(order, found, stop_);
+    const RoundsPass pass{&order, &found};
+    const std::optional<TraceOutcome> outcome = scene_.tracer.make_rounds(std::span(&pass, 1), stop_);
     if (outcome == TraceOutcome::finished) books_.add_rounds(order.block, found);
     return outcome;
   }

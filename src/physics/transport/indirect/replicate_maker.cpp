@@ -51,10 +51,40 @@ TraceOutcome ReplicateMaker::ForAllThreads::trace(const shared::PacketBlock& sce
   return tracer_.trace(scene, packets, landings, stop);
 }
 
-std::optional<TraceOutcome> ReplicateMaker::ForAllThreads::make_rounds(const RoundsOrder& order, RoundsSums& sums,
+std::optional<TraceOutcome> ReplicateMaker::ForAllThreads::make_rounds(std::span<const RoundsPass> passes,
                                                                        const StopQuestion& stop) {
+  if (!takes_turns()) return tracer_.make_rounds(passes, stop);
+  WaitingPass own{passes.front(), false, {}, {}};
+  {
+    const std::lock_guard lock(waiting_mutex_);
+    waiting_.push_back(&own);
+  }
   const std::unique_lock lock = turn();
-  return tracer_.make_rounds(order, sums, stop);
+  if (!own.is_made) make_waiting(stop);
+  if (own.error) std::rethrow_exception(own.error);
+  return own.outcome;
+}
+
+void ReplicateMaker::ForAllThreads::make_waiting(const StopQuestion& stop) {
+  std::vector<WaitingPass*> waiting;
+  {
+    const std::lock_guard lock(waiting_mutex_);
+    waiting.swap(waiting_);
+  }
+  std::vector<RoundsPass> passes;
+  for (const WaitingPass* each : waiting) passes.push_back(each->pass);
+  std::optional<TraceOutcome> outcome;
+  std::exception_ptr error;
+  try {
+    outcome = tracer_.make_rounds(passes, stop);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  for (WaitingPass* each : waiting) {
+    each->outcome = outcome;
+    each->error = error;
+    each->is_made = true;
+  }
 }
 
 ReplicateMaker::ReplicateMaker(Lights lights, const CounterLayout& layout, Tracer& tracer)

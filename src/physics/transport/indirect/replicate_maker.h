@@ -15,6 +15,7 @@
 #include "physics/transport/receivers/planes.h"
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -81,14 +82,25 @@ class ReplicateMaker {
                                                           const StopQuestion& stop) override;
     [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                      std::span<shared::Landing> landings, const StopQuestion& stop) override;
-    [[nodiscard]] std::optional<TraceOutcome> make_rounds(const RoundsOrder& order, RoundsSums& sums,
+    [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes,
                                                           const StopQuestion& stop) override;
 
    private:
+    // A pass of one thread, which waits until its own turn comes, or another thread has its rounds made side by side with that one's.
+    struct WaitingPass {
+      RoundsPass pass;
+      bool is_made = false;
+      std::optional<TraceOutcome> outcome;
+      std::exception_ptr error;
+    };
+
     [[nodiscard]] std::unique_lock<std::mutex> turn();
+    // Makes the rounds of all passes that wait, in this thread's turn.
+    void make_waiting(const StopQuestion& stop);
 
     Tracer& tracer_;
-    std::mutex mutex_;
+    std::mutex mutex_, waiting_mutex_;
+    std::vector<WaitingPass*> waiting_;
   };
 
   // Traces the beam of first.beam, and records its landings if record_bytes says so.

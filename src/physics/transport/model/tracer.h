@@ -25,9 +25,13 @@ using StopQuestion = std::function<bool()>;
 
 enum class TraceOutcome { finished, stopped };
 
-// Rounds of packets that a device makes on its own, and what it finds (physics/transport/indirect/device_rounds.h).
+// The rounds of an indirect pass that a device makes on its own, and what it finds (physics/transport/indirect/device_rounds.h).
 struct RoundsOrder;
 struct RoundsSums;
+struct RoundsPass {
+  const RoundsOrder* order;
+  RoundsSums* sums;
+};
 
 class Tracer {
  public:
@@ -56,9 +60,9 @@ class Tracer {
   [[nodiscard]] virtual TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                            std::span<shared::Landing> landings, const StopQuestion& stop) = 0;
 
-  // Makes all rounds of an indirect pass where the tracer works, so that packets need not come to the host, and sets `sums`. Returns nothing,
-  // and does nothing, if it cannot. If stopped, the sums must not be used.
-  [[nodiscard]] virtual std::optional<TraceOutcome> make_rounds(const RoundsOrder& /*order*/, RoundsSums& /*sums*/,
+  // Makes all rounds of indirect passes of one scene where the tracer works, so that packets need not come to the host, and sets their
+  // sums. Returns nothing if it cannot. If it does, or is stopped, the sums must not be used.
+  [[nodiscard]] virtual std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> /*passes*/,
                                                                 const StopQuestion& /*stop*/) {
     return std::nullopt;
   }
