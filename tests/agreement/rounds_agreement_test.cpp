@@ -219,6 +219,12 @@ TEST_F(RoundsAgreement, OfWholeRuns) {
   }
 }
 
+// What lands is then kept as lists.
+TEST_F(RoundsAgreement, OfWholeRunsOfFewPacketsAmongManyLeaves) {
+  const RadiationModel model = paper_model(random_leaves(5000, 0.02, 5), unit_plot, beijing_sun());
+  expect_same_run(model, fixed_scatter(model, {.rays = 500, .packets = 500, .replicates = 4, .bound = 0.05}));
+}
+
 TEST_F(RoundsAgreement, OfWholeRunsInShortDispatches) {
   const RadiationModel model = leaves_on(unit_plot);
   const SolveSettings fixed = fixed_scatter(model, {.rays = 4e3, .packets = 1000, .replicates = 2, .bound = 0.01});

@@ -18,6 +18,10 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
   const auto estimates = [&](std::span<const Estimate> all) {
     for (const Estimate& estimate : all) number(estimate.value), number(estimate.half_width);
   };
+  const auto classes = [&](const ShadeClassResult& of) {
+    estimates(std::array{of.sunlit_m2, of.shaded_m2});
+    for (const auto* all : {&of.absorbed_sunlit, &of.absorbed_shaded, &of.sunlit_sd, &of.shaded_sd}) estimates(*all);
+  };
   for (const BandResult& band : result.bands) {
     const FluxLedger& ledger = band.ledger;
     for (const std::int64_t term : {ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_structure,
@@ -33,12 +37,18 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
     number(organ.area_m2);
     estimates(std::array{organ.sunlit_fraction});
     for (const auto* all : {&organ.direct, &organ.indirect, &organ.absorbed}) estimates(*all);
+    classes(organ.classes);
+  }
+  for (const PlantResult& plant : result.plants) {
+    estimates(std::array{plant.sunlit_leaf_fraction});
+    for (const auto* all : {&plant.incident_w, &plant.absorbed_w}) estimates(*all);
   }
   for (const LayerResult& layer : result.layers) {
     number(layer.height_m);
     number(layer.leaf_area_index);
     estimates(std::array{layer.sunfleck_ratio, layer.sunlit_leaf_fraction});
     for (const auto* all : {&layer.down, &layer.up, &layer.absorbed, &layer.absorbed_structure}) estimates(*all);
+    classes(layer.leaf_classes);
   }
   for (const auto parts : result.side_direct) integer(parts);
   for (const double error : result.side_error) number(error);
@@ -58,6 +68,7 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
     estimates(plane.total_down);
   }
   for (const double watts : result.w_per_quantum) number(watts);
+  classes(result.leaf_classes);
   estimates(std::array{result.sunlit_leaf_fraction, result.ground_sunfleck_ratio});
   integer(result.lost_rays);
   integer(result.direct.rays);

@@ -114,10 +114,9 @@ class IndirectPass {
     const shared::PassBlock block = pass_block();
     const RoundsOrder order{
         scene_, next_, block, order_.packets, coefficients_of(books_.scattering()), round_columns(), books_.for_rounds(block)};
-    RoundsSums found;
-    const RoundsPass pass{&order, &found};
+    const RoundsPass pass{&order, &arrays_.found};
     const std::optional<TraceOutcome> outcome = scene_.tracer.make_rounds(std::span(&pass, 1), stop_);
-    if (outcome == TraceOutcome::finished) books_.add_rounds(order.block, found);
+    if (outcome == TraceOutcome::finished) books_.add_rounds(order.block, arrays_.found);
     return outcome;
   }
 

@@ -14,6 +14,7 @@
 #include "physics/transport/receivers/planes.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sunfleck {
@@ -22,7 +23,7 @@ namespace sunfleck {
 struct FirstLandings {
   std::vector<BeamPart> beam;  // empty without direct light
   // [ray], where each ray of the beam's only part landed; empty if that was not recorded.
-  std::vector<shared::Landing> recorded;
+  std::span<const shared::Landing> recorded;
   double ground_per_ray_m2 = 0.0;  // level ground that a beam ray of weight 1 represents
   std::uint64_t met = 0;           // number of beam rays that met anything, by weight
   // Quanta waiting where they landed, [(level + 1) * bands + band]; `level` as in EmissionPoint, so index 0 is the soil

@@ -194,6 +194,7 @@ void PacketBooks::end_round() {
 void PacketBooks::close() {
   for (std::size_t c = 0; c < columns_; ++c) retire(c);
   scattering_.add_to(sums_.ledger);
+  sums_.side_landed.put_in_order();
   layers_.close([](std::size_t plane) { return plane == 0; });
   sums_.down = layers_.down();
   sums_.up = layers_.up();

@@ -3,6 +3,7 @@
 // each replicate: that took an eighth of the processor time of runs with millions of packets.
 
 #include "physics/transport/indirect/arrivals.h"
+#include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/indirect/packet_draw.h"
 #include "physics/transport/indirect/place_sums.h"
 #include "physics/transport/indirect/waiting_flux.h"
@@ -32,10 +33,12 @@ struct PassArrays {
   LandingPoints points;
   WaitingFlux waiting, next;
   DrawArrays draw;
+  std::vector<shared::Landing> recorded;  // of all beam rays, if they are recorded
   std::vector<shared::Packet> packets;    // a part of a round
   std::vector<shared::Landing> landings;  // of these packets
   std::vector<Arrival> arrivals;          // some of their ends, and what they carry there, [arrival * columns + column]
   std::vector<std::int64_t> carried;
+  RoundsSums found;                // by a device that makes the rounds
   PlaceSums::Extent sides_landed;  // of the last pass
 };
 

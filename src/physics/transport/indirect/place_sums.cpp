@@ -3,6 +3,8 @@
 #include "base/check.h"
 #include "physics/transport/model/columns.h"
 
+#include <oneapi/tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -112,10 +114,19 @@ std::vector<std::int64_t> PlaceSums::take_all() {
   return taken.form_ == Form::all ? std::move(taken.all_) : taken.all();
 }
 
+void PlaceSums::put_in_order() {
+  if (form_ == Form::list) *this = merged();
+}
+
+std::size_t PlaceSums::step_of(std::size_t place) const {
+  if (form_ == Form::list) return static_cast<std::size_t>(std::lower_bound(at_.begin(), at_.end(), place) - at_.begin());
+  return form_ == Form::indexed && at_.empty() ? 0 : place;
+}
+
 PlaceSums PlaceSums::merged() const {
   std::vector<std::uint32_t> order(at_.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) { return at_[a] < at_[b]; });
+  tbb::parallel_sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) { return at_[a] < at_[b]; });
   PlaceSums list(places_, width_);
   for (const std::uint32_t entry : order) {
     if (list.at_.empty() || list.at_.back() != at_[entry]) {

@@ -72,27 +72,18 @@ class PlaceSums {
   // Does the same, and first calls come(place) for each place, in the same order but some steps ahead, so that memory can be asked for.
   template <class Take, class Come>
   void for_each(const Take& take, const Come& come) const {
-    for_each(0, steps(), take, come);
+    take_steps(0, form_ == Form::list ? at_.size() : step_of(places_), take, come);
   }
-  // Does the same from one step of its way to another; the way begins at 0 and ends at steps(), and its parts together are the whole.
+  // Does the same with the places from one number to another, each once in ascending order; a list must be in order.
   template <class Take, class Come>
   void for_each(std::size_t first, std::size_t end, const Take& take, const Come& come) const {
-    for (std::size_t step = first; step < end; ++step) {
-      if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < end && has(ahead)) {
-        come(place_of(ahead));
-        sunfleck::prefetch(rows_[entry_of(ahead) * width_]);
-      }
-      if (!has(step)) continue;
-      const std::span<const std::int64_t> values = form_ == Form::all ? row(all_, step) : row(rows_, entry_of(step));
-      if (std::all_of(values.begin(), values.end(), [](std::int64_t value) { return value == 0; })) continue;
-      take(place_of(step), values);
-    }
+    take_steps(step_of(first), step_of(end), take, come);
   }
 
-  [[nodiscard]] std::size_t steps() const {
-    if (form_ == Form::list) return at_.size();
-    return form_ == Form::indexed && at_.empty() ? 0 : places_;
-  }
+  // Brings a list into order: one entry for each place, in ascending order, however its values were added.
+  void put_in_order();
+
+  [[nodiscard]] std::size_t places() const { return places_; }
 
   // Finds the sums of single places, as they are when it is made. The sums must outlive it and not change meanwhile.
   class Finder {
@@ -140,8 +131,23 @@ class PlaceSums {
  private:
   enum class Form { list, indexed, all };
 
-  // for_each takes the entries of a list or the places of the other forms in turn. Return whether there is anything at a step, its place,
-  // and where its values are.
+  // for_each takes the entries of a list or the places of the other forms in turn, each in a step.
+  template <class Take, class Come>
+  void take_steps(std::size_t first, std::size_t end, const Take& take, const Come& come) const {
+    for (std::size_t step = first; step < end; ++step) {
+      if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < end && has(ahead)) {
+        come(place_of(ahead));
+        sunfleck::prefetch(rows_[entry_of(ahead) * width_]);
+      }
+      if (!has(step)) continue;
+      const std::span<const std::int64_t> values = form_ == Form::all ? row(all_, step) : row(rows_, entry_of(step));
+      if (std::all_of(values.begin(), values.end(), [](std::int64_t value) { return value == 0; })) continue;
+      take(place_of(step), values);
+    }
+  }
+  // Returns the first step of the places from a number on.
+  [[nodiscard]] std::size_t step_of(std::size_t place) const;
+  // Return whether there is anything at a step, its place, and where its values are.
   [[nodiscard]] bool has(std::size_t step) const { return form_ != Form::indexed || entry_at_[step] != 0; }
   [[nodiscard]] std::size_t place_of(std::size_t step) const { return form_ == Form::list ? at_[step] : step; }
   [[nodiscard]] std::size_t entry_of(std::size_t step) const { return form_ == Form::indexed ? entry_at_[step] - 1 : step; }

@@ -167,7 +167,7 @@ double ReplicateMaker::record_bytes(double beam_rays, double landings) const {
 
 // Light is not aimed in a scene with receivers.
 TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
-                                        const StopQuestion& stop) {
+                                        std::vector<shared::Landing>& recorded, const StopQuestion& stop) {
   const shared::BeamBlock& block = first.beam.front().block;
   if (receivers_) {
     return count_beam_landings(model_, layout_, *receivers_, tracer_, block, replicate.counters, replicate.passed, stop);
@@ -175,10 +175,10 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
   const std::uint64_t rays = first.beam.front().rays();
   const bool alone = first.beam.size() == 1;  // rays of other parts have other weights
   if (alone && record_bytes(static_cast<double>(rays), std::min(order.packets, order.sampled_rays)) > 0.0) {
-    first.recorded.resize(rays);
-    const std::optional<TraceOutcome> outcome = tracer_.record_beam(block, replicate.counters, first.recorded, stop);
+    recorded.resize(rays);
+    const std::optional<TraceOutcome> outcome = tracer_.record_beam(block, replicate.counters, recorded, stop);
+    if (outcome) first.recorded = recorded;
     if (outcome) return *outcome;
-    first.recorded.clear();
   }
   TraceOutcome outcome = tracer_.count_beam(block, replicate.counters, stop);
   for (const BeamPart& part : std::span(first.beam).subspan(1)) {
@@ -189,14 +189,15 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
 }
 
 bool ReplicateMaker::make_direct(const ReplicateOrder& order, std::size_t light, const Conversion& conversion,
-                                 Replicate& replicate, FirstLandings& first, const StopQuestion& stop) {
+                                 Replicate& replicate, FirstLandings& first, std::vector<shared::Landing>& recorded,
+                                 const StopQuestion& stop) {
   replicate.counters.resize(layout_.words());
   if (receivers_) replicate.passed = PlaneSums(*receivers_, model_);
   if (lights_[light].has_beam()) {
     // The rays of different lights are independent of each other.
     const std::uint64_t seed = light == 0 ? order.seed : RandomStream(order.seed, light_stream + light).word();
     first.beam = make_beam_parts(lights_[light], layout_, aim(order.aimed), order.rays_of(light), seed, order.number);
-    if (count_beam(order, replicate, first, stop) == TraceOutcome::stopped) return false;
+    if (count_beam(order, replicate, first, recorded, stop) == TraceOutcome::stopped) return false;
   }
   replicate.direct = conversion.sum(replicate.counters);
   if (!indirect_ || order.packets == 0.0) return true;
@@ -212,19 +213,25 @@ std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, st
                                                  const StopQuestion& stop) {
   if (stop()) return std::nullopt;
   const CountedThread thread;
+  std::unique_ptr<PassArrays> arrays = spare_.take();
+  std::optional<ReplicateSet> made = make(order, conversions, *arrays, stop);
+  spare_.give_back(std::move(arrays));
+  return made;
+}
+
+std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, std::span<const Conversion> conversions,
+                                                 PassArrays& arrays, const StopQuestion& stop) {
   const Clock::time_point start = Clock::now();
   ReplicateSet replicates(lights_.size());
   LightFromAbove light{aim(order.aimed), sky_ ? &sky(order.aimed) : nullptr, std::vector<FirstLandings>(lights_.size()), {}};
   for (std::size_t k = 0; k < lights_.size(); ++k) {
-    if (!make_direct(order, k, conversions[k], replicates[k], light.first[k], stop)) return std::nullopt;
+    if (!make_direct(order, k, conversions[k], replicates[k], light.first[k], arrays.recorded, stop)) return std::nullopt;
     light.quanta.push_back(&conversions[k].quanta);
   }
   const double direct_s = seconds_since(start);
   std::optional<IndirectSums> packets;
   if (indirect_ && order.packets > 0.0) {
-    std::unique_ptr<PassArrays> arrays = spare_.take();
-    packets = run_indirect_pass(*indirect_, order, light, *arrays, stop);
-    spare_.give_back(std::move(arrays));
+    packets = run_indirect_pass(*indirect_, order, light, arrays, stop);
     if (!packets) return std::nullopt;
     std::vector<IndirectSums> by_light = sums_by_light(*std::move(packets), lights_.size());
     for (std::size_t k = 0; k < lights_.size(); ++k) replicates[k].packets = std::move(by_light[k]);

@@ -103,12 +103,16 @@ class ReplicateMaker {
     std::vector<WaitingPass*> waiting_;
   };
 
-  // Traces the beam of first.beam, and records its landings if record_bytes says so.
+  // Traces the beam of first.beam, and records its landings in `recorded` if record_bytes says so.
   [[nodiscard]] TraceOutcome count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
-                                        const StopQuestion& stop);
+                                        std::vector<shared::Landing>& recorded, const StopQuestion& stop);
   // Traces the beam of one light; returns false if stopped.
   [[nodiscard]] bool make_direct(const ReplicateOrder& order, std::size_t light, const Conversion& conversion,
-                                 Replicate& replicate, FirstLandings& first, const StopQuestion& stop);
+                                 Replicate& replicate, FirstLandings& first, std::vector<shared::Landing>& recorded,
+                                 const StopQuestion& stop);
+  // Makes a replicate with the help of arrays.
+  [[nodiscard]] std::optional<ReplicateSet> make(const ReplicateOrder& order, std::span<const Conversion> conversions,
+                                                 PassArrays& arrays, const StopQuestion& stop);
 
   [[nodiscard]] const StandAim* aim(bool aimed) const { return aimed && aim_ ? &*aim_ : nullptr; }
   [[nodiscard]] const SkyRays& sky(bool aimed) const { return aimed && aimed_sky_ ? *aimed_sky_ : *sky_; }

@@ -12,10 +12,10 @@ namespace sunfleck {
 namespace {
 
 // A replicate is summed in parts side by side, each with sums of its own, which are then added up in their order. Their number depends
-// on the scene and on what landed, never on the number of threads, so that the sums have the same bits on every machine.
+// on the scene and on what landed, never on threads, devices or how sums are kept, so that they have the same bits on every machine.
 constexpr std::size_t most_parts = 16;
 constexpr std::size_t most_bytes_of_parts = std::size_t{1} << 24U;
-constexpr std::size_t least_landings_of_part = 2048;
+constexpr std::size_t least_of_part = 2048;  // landings and sides
 
 constexpr std::vector<double> ShadeSums::*by_band[] = {&ShadeSums::direct_w,        &ShadeSums::indirect_w,
                                                        &ShadeSums::lit_indirect_w,  &ShadeSums::lit_square,
@@ -71,7 +71,7 @@ class ShadeAddition {
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
       ShadeGroupSums& own = part == 0 ? sums : others[part - 1];
       if (conversion_.model.has_beam()) add_beam(begin_of(part, parts, hits()), begin_of(part + 1, parts, hits()), own);
-      if (replicate_.packets) add_other_light(begin_of(part, parts, steps()), begin_of(part + 1, parts, steps()), own);
+      if (replicate_.packets) add_other_light(begin_of(part, parts, sides()), begin_of(part + 1, parts, sides()), own);
     });
     for (const ShadeGroupSums& other : others) sums.add(other);
     return sums;
@@ -79,13 +79,12 @@ class ShadeAddition {
 
  private:
   [[nodiscard]] std::size_t hits() const { return replicate_.direct.hit.size(); }
-  [[nodiscard]] std::size_t steps() const { return replicate_.packets ? replicate_.packets->side_landed.steps() : 0; }
+  [[nodiscard]] std::size_t sides() const { return replicate_.packets ? replicate_.packets->side_landed.places() : 0; }
 
   [[nodiscard]] std::size_t number_of_parts(const ShadeGroupSums& sums) const {
     const std::size_t groups = sums.organs.groups() + sums.layers.groups() + sums.leaves.groups();
     const std::size_t bytes = groups * (1 + std::size(by_band) * bands_) * sizeof(double);
-    return std::clamp<std::size_t>(std::min(most_bytes_of_parts / bytes, (hits() + steps()) / least_landings_of_part), 1,
-                                   most_parts);
+    return std::clamp<std::size_t>(std::min(most_bytes_of_parts / bytes, (hits() + sides()) / least_of_part), 1, most_parts);
   }
 
   void add_beam(std::size_t first_hit, std::size_t end_hit, ShadeGroupSums& groups) const {
@@ -122,7 +121,7 @@ class ShadeAddition {
     }
   }
 
-  void add_other_light(std::size_t first_step, std::size_t end_step, ShadeGroupSums& groups) const {
+  void add_other_light(std::size_t first_side, std::size_t end_side, ShadeGroupSums& groups) const {
     LayerShares shares(conversion_.layout);
     SideLight light(bands_);
     const std::span<const Triangle> own =
@@ -142,7 +141,7 @@ class ShadeAddition {
       if (!foliage) return;
       shares.visit(e, canopy_.corners[e], [&](std::size_t k, double share) { light.add_to(groups.layers, k, share); });
     };
-    replicate_.packets->side_landed.for_each(first_step, end_step, add_side, come);
+    replicate_.packets->side_landed.for_each(first_side, end_side, add_side, come);
   }
 
   // Most elements have no landing in a replicate.

@@ -65,11 +65,12 @@ TEST_P(PlaceSumsTest, TakeAllSumsOfADevice) {
   EXPECT_EQ(sums.all(), plain);
 }
 
-TEST_P(PlaceSumsTest, AreVisitedInParts) {
+TEST_P(PlaceSumsTest, AreVisitedInPartsInTheOrderOfTheirPlaces) {
   constexpr std::size_t places = 5000;
   std::vector<std::int64_t> plain(places * width);
   PlaceSums sums(places, width);
   land(sums, plain, GetParam(), places, 3);
+  sums.put_in_order();
   using Visits = std::vector<std::pair<std::size_t, std::vector<std::int64_t>>>;
   const auto visit = [&](std::size_t first, std::size_t end, Visits& visits) {
     const auto take = [&](std::size_t place, std::span<const std::int64_t> values) {
@@ -78,10 +79,12 @@ TEST_P(PlaceSumsTest, AreVisitedInParts) {
     sums.for_each(first, end, take, [](std::size_t) {});
   };
   Visits whole, parts;
-  visit(0, sums.steps(), whole);
+  visit(0, places, whole);
   constexpr std::size_t cuts = 7;
-  for (std::size_t k = 0; k < cuts; ++k) visit(k * sums.steps() / cuts, (k + 1) * sums.steps() / cuts, parts);
+  for (std::size_t k = 0; k < cuts; ++k) visit(k * places / cuts, (k + 1) * places / cuts, parts);
   EXPECT_EQ(parts, whole);
+  const auto is_after = [](const auto& a, const auto& b) { return a.first >= b.first; };
+  EXPECT_EQ(std::adjacent_find(whole.begin(), whole.end(), is_after), whole.end());
   std::vector<std::int64_t> added(places * width);
   for (const auto& [place, values] : whole) {
     for (std::size_t j = 0; j < width; ++j) added[place * width + j] += values[j];
