@@ -4,6 +4,7 @@
 #include "base/prefetch.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -24,6 +25,12 @@ void in_blocks(std::size_t count, std::size_t block_size, const Take& take) {
     return;
   }
   tbb::parallel_for(std::size_t{0}, block_count(count, block_size), one);
+}
+
+// Calls take(k) for each number k below `count`, several at a time. The thread does nothing else meanwhile, so that it may hold a lock.
+template <class Take>
+void side_by_side(std::size_t count, const Take& take) {
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, take); });
 }
 
 // Calls take(k) for each number k below `count`, block by block; before it come(k), some numbers ahead, so that memory can be asked for.

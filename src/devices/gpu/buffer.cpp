@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -19,9 +21,13 @@ namespace {
 constexpr vk::Format texel_format = vk::Format::eR32G32B32A32Uint;
 constexpr std::size_t texel_bytes = 16;
 
+std::string size_of(const char* what, std::size_t bytes) {
+  return fmt::format("{}: {:.1f} MiB", what, static_cast<double>(bytes) / (1 << 20));
+}
+
 void check_limits(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what) {
   const auto refuse = [&](const char* limit, std::uint64_t most, const char* unit) {
-    throw_device(fmt::format("{}: {:.1f} MiB on {}", what, static_cast<double>(bytes) / (1 << 20), context.description().name),
+    throw_device(fmt::format("{} on {}", size_of(what, bytes), context.description().name),
                  fmt::format("its {} is {} {}", limit, most, unit), "make the scene smaller or use another device");
   };
   const DeviceLimits& limits = context.limits();
@@ -34,6 +40,28 @@ void check_limits(const GpuContext& context, BufferUse use, std::size_t bytes, c
   if (bytes > limits.max_allocation_bytes) refuse("maxMemoryAllocationSize", limits.max_allocation_bytes, "bytes");
 }
 
+// Returns a buffer without memory. Lets Vulkan-Hpp's exceptions pass through, as the next two do.
+GpuBuffer without_memory(const GpuContext& context, BufferUse use, std::size_t bytes) {
+  using Usage = vk::BufferUsageFlagBits;
+  const auto own_usage = use == BufferUse::storage ? Usage::eStorageBuffer | Usage::eIndirectBuffer
+                                                   : vk::BufferUsageFlags(Usage::eUniformTexelBuffer);
+  GpuBuffer result{use, bytes, std::unique_ptr<GpuBuffer::Handles, GpuBuffer::Destroy>(new GpuBuffer::Handles)};
+  const std::size_t room = std::max(bytes, texel_bytes);
+  result.handles->buffer =
+      context.handles().device.createBuffer({{}, room, own_usage | Usage::eTransferSrc | Usage::eTransferDst});
+  return result;
+}
+
+std::shared_ptr<vk::raii::DeviceMemory> allocate_shared(const GpuContext& context, const vk::MemoryRequirements& needs) {
+  return std::make_shared<vk::raii::DeviceMemory>(
+      allocate(context.handles(), needs, vk::MemoryPropertyFlagBits::eDeviceLocal, {}));
+}
+
+void bind(GpuBuffer& buffer, const std::shared_ptr<vk::raii::DeviceMemory>& memory, std::size_t offset) {
+  buffer.handles->memory = memory;
+  buffer.handles->buffer.bindMemory(**memory, offset);
+}
+
 }  // namespace
 
 void GpuBuffer::Destroy::operator()(Handles* handles) const noexcept {
@@ -41,23 +69,46 @@ void GpuBuffer::Destroy::operator()(Handles* handles) const noexcept {
 }
 
 GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what) {
-  using Usage = vk::BufferUsageFlagBits;
   check_limits(context, use, bytes, what);
-  const auto own_usage = use == BufferUse::storage ? Usage::eStorageBuffer | Usage::eIndirectBuffer
-                                                   : vk::BufferUsageFlags(Usage::eUniformTexelBuffer);
-  GpuBuffer result{use, bytes, std::unique_ptr<GpuBuffer::Handles, GpuBuffer::Destroy>(new GpuBuffer::Handles)};
   try {
-    const vk::raii::Device& device = context.handles().device;
-    auto& [memory, buffer, view] = *result.handles;
-    const std::size_t room = std::max(bytes, texel_bytes);
-    buffer = device.createBuffer({{}, room, own_usage | Usage::eTransferSrc | Usage::eTransferDst});
-    memory = allocate(context.handles(), buffer.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal, {});
-    buffer.bindMemory(*memory, 0);
-    if (use == BufferUse::uniform_texel) view = device.createBufferView({{}, *buffer, texel_format, 0, VK_WHOLE_SIZE});
+    GpuBuffer result = without_memory(context, use, bytes);
+    const auto memory = allocate_shared(context, result.handles->buffer.getMemoryRequirements());
+    bind(result, memory, 0);
+    if (use == BufferUse::uniform_texel) {
+      const vk::raii::Device& device = context.handles().device;
+      result.handles->view = device.createBufferView({{}, *result.handles->buffer, texel_format, 0, VK_WHOLE_SIZE});
+    }
+    return result;
   } catch (const vk::SystemError& error) {
-    throw_call_failed(context, fmt::format("{}: {:.1f} MiB", what, static_cast<double>(bytes) / (1 << 20)), error);
+    throw_call_failed(context, size_of(what, bytes), error);
   }
-  return result;
+}
+
+std::vector<GpuBuffer> create_storage_buffers(const GpuContext& context, std::span<const std::size_t> bytes, const char* what) {
+  std::vector<GpuBuffer> all;
+  std::vector<std::size_t> offsets;
+  vk::MemoryRequirements together(0, 1, ~std::uint32_t{0});
+  try {
+    for (const std::size_t each : bytes) {
+      check_limits(context, BufferUse::storage, each, what);
+      all.push_back(without_memory(context, BufferUse::storage, each));
+      const vk::MemoryRequirements own = all.back().handles->buffer.getMemoryRequirements();
+      offsets.push_back((together.size + own.alignment - 1) / own.alignment * own.alignment);
+      together.size = offsets.back() + own.size;
+      together.alignment = std::max(together.alignment, own.alignment);
+      together.memoryTypeBits &= own.memoryTypeBits;
+    }
+    const bool fits = together.size <= context.limits().max_allocation_bytes;
+    std::shared_ptr<vk::raii::DeviceMemory> memory;
+    if (fits && !all.empty()) memory = allocate_shared(context, together);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto own = fits ? memory : allocate_shared(context, all[k].handles->buffer.getMemoryRequirements());
+      bind(all[k], own, fits ? offsets[k] : 0);
+    }
+  } catch (const vk::SystemError& error) {
+    throw_call_failed(context, size_of(what, together.size), error);
+  }
+  return all;
 }
 
 void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "devices/gpu/context.h"
 
@@ -30,6 +31,11 @@ struct GpuBuffer {
 // Creates a buffer with undefined contents. `bytes` may be 0: the buffer then has room for one texel, so that it can be bound.
 // Throws Error (failure) naming `what` if memory runs out, Error (device) if the size exceeds the device's limit for this use.
 [[nodiscard]] GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what);
+
+// Creates storage buffers in one piece of memory, which is freed with the last of them: devices take a tenth of a millisecond for each
+// piece. Where a device gives no piece as large, each buffer has its own. Throws as create_buffer does.
+[[nodiscard]] std::vector<GpuBuffer> create_storage_buffers(const GpuContext& context, std::span<const std::size_t> bytes,
+                                                            const char* what);
 
 // Do what Submission does with the same names, each in a submission of its own.
 void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset = 0);

@@ -6,6 +6,7 @@
 #include "devices/gpu/context.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
@@ -36,7 +37,7 @@ struct GpuContext::Handles {
 };
 
 struct GpuBuffer::Handles {
-  vk::raii::DeviceMemory memory{nullptr};
+  std::shared_ptr<vk::raii::DeviceMemory> memory;  // which several buffers may share
   vk::raii::Buffer buffer{nullptr};
   vk::raii::BufferView view{nullptr};  // of a texel buffer
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/in_blocks.h"
 
 namespace sunfleck {
 
@@ -118,8 +119,9 @@ void Submission::finish() {
     submit_and_wait(context_);
   }
   const std::byte* const staging = context_.handles().staging.data;
-  for (const Delivery& delivery : deliveries_)
-    std::memcpy(delivery.to.data(), staging + delivery.staged_at, delivery.to.size());
+  side_by_side(deliveries_.size(), [&](std::size_t k) {
+    std::memcpy(deliveries_[k].to.data(), staging + deliveries_[k].staged_at, deliveries_[k].to.size());
+  });
   deliveries_.clear();
   pipelines_.clear();
   staged_ = 0;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -139,14 +140,20 @@ bool RoundBuffers::make_room(const RoundSizes& sizes, std::size_t lanes) {
 }
 
 void RoundBuffers::make_room(const RoundSizes& sizes, bool of_scene, Buffers& buffers) {
+  std::vector<RoundBuffer> own;
+  std::vector<std::size_t> bytes;
+  bool have_room = true;
   for (const RoundBuffer which : round_buffers()) {
     if (is_of_scene(which) != of_scene) continue;
-    const std::size_t size = sizes.bytes(which);
-    GpuBuffer& buffer = buffers[static_cast<std::size_t>(which)];
-    if (buffer.handles && buffer.bytes >= size) continue;
-    buffer = GpuBuffer();  // frees the memory first
-    buffer = create_buffer(context_, BufferUse::storage, size, "rounds of packets");
+    const GpuBuffer& buffer = buffers[static_cast<std::size_t>(which)];
+    own.push_back(which);
+    bytes.push_back(sizes.bytes(which));
+    have_room = have_room && buffer.handles && buffer.bytes >= bytes.back();
   }
+  if (have_room) return;
+  buffers = {};  // frees the memory first
+  std::vector<GpuBuffer> created = create_storage_buffers(context_, bytes, "rounds of packets");
+  for (std::size_t k = 0; k < own.size(); ++k) buffers[static_cast<std::size_t>(own[k])] = std::move(created[k]);
 }
 
 std::vector<const GpuBuffer*> RoundBuffers::of(std::size_t lane, const GpuBuffer* outbox) const {

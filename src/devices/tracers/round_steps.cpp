@@ -1,5 +1,6 @@
 #include "devices/tracers/round_steps.h"
 
+#include "base/in_blocks.h"
 #include "rounds_begin.spirv.h"
 #include "rounds_book.spirv.h"
 #include "rounds_collect.spirv.h"
@@ -186,22 +187,26 @@ void RoundSteps::fetch(Submission& submission, std::span<shared::RoundState> sta
 }
 
 void RoundSteps::fetch(std::span<const RoundsPass> passes) const {
+  const auto each_sum = [](RoundsSums& sums, const auto& take) {
+    take(RoundBuffer::columns, sums.columns);
+    take(RoundBuffer::totals, sums.totals);
+    take(RoundBuffer::side_landed, sums.side_landed);
+    take(RoundBuffer::element_hits, sums.element_hits);
+    take(RoundBuffer::cell_landed, sums.cell_landed);
+    take(RoundBuffer::surface_landed, sums.surface_landed);
+  };
+  side_by_side(passes.size(), [&](std::size_t lane) {
+    each_sum(*passes[lane].sums,
+             [&](RoundBuffer which, auto& values) { values.resize(sizes_.bytes(which) / sizeof(values[0])); });
+  });
   std::vector<shared::RoundState> states(passes.size());
   Submission submission(context_);
   {
-    const Submission::SideBySide side_by_side(submission);
+    const Submission::SideBySide no_order(submission);
     for (std::size_t lane = 0; lane < passes.size(); ++lane) {
-      const auto download = [&](RoundBuffer which, auto& values) {
-        values.resize(sizes_.bytes(which) / sizeof(values[0]));
+      each_sum(*passes[lane].sums, [&](RoundBuffer which, auto& values) {
         submission.download(buffer(which, lane), std::as_writable_bytes(std::span(values)));
-      };
-      RoundsSums& sums = *passes[lane].sums;
-      download(RoundBuffer::columns, sums.columns);
-      download(RoundBuffer::totals, sums.totals);
-      download(RoundBuffer::side_landed, sums.side_landed);
-      download(RoundBuffer::element_hits, sums.element_hits);
-      download(RoundBuffer::cell_landed, sums.cell_landed);
-      download(RoundBuffer::surface_landed, sums.surface_landed);
+      });
     }
   }
   fetch(submission, states);

@@ -60,11 +60,11 @@ TracerDevice VulkanTracer::device() const {
   return {"vulkan", device.name, device.driver, device.software};
 }
 
-void VulkanTracer::add_landings(std::span<std::uint32_t> counters) const {
+void VulkanTracer::add_landings(std::span<std::uint32_t> counters) {
   constexpr std::size_t words_at_a_time = std::size_t{1} << 20U;
-  std::vector<std::uint32_t> landed(std::min(words_at_a_time, counters.size()));
-  for (std::size_t first = 0; first < counters.size(); first += landed.size()) {
-    const std::span<std::uint32_t> part = std::span(landed).first(std::min(landed.size(), counters.size() - first));
+  landed_.resize(std::min(words_at_a_time, counters.size()));
+  for (std::size_t first = 0; first < counters.size(); first += landed_.size()) {
+    const std::span<std::uint32_t> part = std::span(landed_).first(std::min(landed_.size(), counters.size() - first));
     download(context_, counters_, std::as_writable_bytes(part), first * sizeof(std::uint32_t));
     for (std::size_t word = 0; word < part.size(); ++word) counters[first + word] += part[word];
   }

@@ -14,6 +14,7 @@
 #include "physics/transport/model/tracer.h"
 
 #include <memory>
+#include <vector>
 
 namespace sunfleck {
 
@@ -42,7 +43,7 @@ class VulkanTracer final : public Tracer {
   TraceOutcome follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                            std::span<shared::Landing> landings, const StopQuestion& stop);
   // Adds the counts of the device to the counters.
-  void add_landings(std::span<std::uint32_t> counters) const;
+  void add_landings(std::span<std::uint32_t> counters);
 
   const GpuContext& context_;
   CpuTracer cpu_;
@@ -51,6 +52,7 @@ class VulkanTracer final : public Tracer {
   const GpuTree& tree_;
   GpuBuffer beam_, counters_;
   GpuBuffer landings_;  // of one dispatch; small until landings are asked for
+  std::vector<std::uint32_t> landed_;
   PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
   std::unique_ptr<VulkanRounds> rounds_;    // created with the first pass

@@ -36,6 +36,12 @@ int output_lost(int code) {
                        .c_str());
 }
 
+void keep_freed(int large_bytes) {
+  constexpr int kept_bytes = 256 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, large_bytes);
+  ::mallopt(M_TRIM_THRESHOLD, kept_bytes);
+}
+
 }  // namespace
 
 void prepare_process() {
@@ -58,10 +64,11 @@ void prepare_process() {
 }
 
 void keep_freed_memory() {
-  constexpr int large_bytes = 4 << 20;
-  constexpr int kept_bytes = 256 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, large_bytes);
-  ::mallopt(M_TRIM_THRESHOLD, kept_bytes);
+  keep_freed(4 << 20);
+}
+
+void keep_freed_memory_for_gpu() {
+  keep_freed(32 << 20);  // the most that glibc allows
 }
 
 int finish_output(int status) {

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "files/results/tables/judged_figure.h"
+#include "programs/cli/process.h"
 #include "programs/cli/report.h"
 #include "simulate/interrupt.h"
 #include "simulate/result_folder.h"
@@ -45,6 +46,7 @@ Monitor terminal_monitor(ProgressLine& line) {
 
 SimulatedScene simulate_at_terminal(Simulation& simulation, const SolveSettings& settings, Checkpoint* checkpoint,
                                     Ranks* ranks) {
+  if (!simulation.device().software) keep_freed_memory_for_gpu();
   ProgressLine line("simulating");
   return simulation.run(settings, {terminal_monitor(line), checkpoint, ranks});
 }

@@ -303,6 +303,29 @@ TEST_F(GpuTest, OneRunReachesTheLastThreadOfTheLargestDispatch) {
   EXPECT_EQ(std::count(words.begin(), words.end(), 1u), threads);
 }
 
+TEST_F(GpuTest, BuffersInOnePieceOfMemoryDoNotOverlap) {
+  const std::vector<std::size_t> bytes{4, 0, 400, 4096, 12};
+  std::vector<GpuBuffer> buffers = create_storage_buffers(context(), bytes, "several");
+  ASSERT_EQ(buffers.size(), bytes.size());
+  std::vector<std::vector<std::uint32_t>> words;
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    EXPECT_EQ(buffers[k].bytes, bytes[k]);
+    words.push_back(noise(bytes[k] / 4));
+    for (std::uint32_t& word : words.back()) word += static_cast<std::uint32_t>(k);
+    upload(context(), buffers[k], std::as_bytes(std::span(words[k])));
+  }
+  buffers.erase(buffers.begin() + 3);  // the others keep the memory
+  words.erase(words.begin() + 3);
+  for (std::size_t k = 0; k < buffers.size(); ++k) {
+    std::vector<std::uint32_t> found(words[k].size());
+    download(context(), buffers[k], std::as_writable_bytes(std::span(found)));
+    EXPECT_EQ(found, words[k]) << k;
+  }
+  EXPECT_TRUE(create_storage_buffers(context(), {}, "none").empty());
+  const std::vector<std::size_t> too_large{4, context().limits().max_storage_buffer_bytes + 1};
+  EXPECT_THROW((void)create_storage_buffers(context(), too_large, "too large"), Error);
+}
+
 TEST_F(GpuTest, BuffersAboveTheLimitsAreRefusedByName) {
   const auto storage = [&] {
     static_cast<void>(create_buffer(context(), BufferUse::storage, context().limits().max_storage_buffer_bytes + 1, "big"));
