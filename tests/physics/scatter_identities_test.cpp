@@ -1,5 +1,6 @@
 // Tests what must hold in every scene whose leaves reflect and transmit (B14 of the validation table), and that a run gives the
 // same numbers with any number of threads.
+#include "base/error.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
@@ -280,6 +281,43 @@ TEST(ScatterIdentities, StoppedBetweenReplicatesKeepsTheFirstOnes) {
   fewer.grid_m = *settings.grid_m * std::sqrt(12.0 / static_cast<double>(stopped.direct.replicates));
   fewer.passes = static_cast<int>(stopped.direct.replicates);
   EXPECT_TRUE(all_numbers(stopped) == all_numbers(simulate(model, prepared, fewer)));
+}
+
+// Takes turns as devices do, and either leaves the rounds to the host or fails.
+class RoundsRefuser final : public WrappedTracer {
+ public:
+  RoundsRefuser(Tracer& inner, bool fails) : WrappedTracer(inner), fails_(fails) {}
+
+  [[nodiscard]] TracerDevice device() const override {
+    TracerDevice device = WrappedTracer::device();
+    device.software = false;  // for which two replicates would be made at once
+    return device;
+  }
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion&) override {
+    passes_ += passes.size();
+    if (fails_) throw_failure("rounds", "the device was lost", "use another one");
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::size_t passes() const { return passes_; }
+
+ private:
+  bool fails_;
+  std::size_t passes_ = 0;
+};
+
+// Threads that wait for a device at the same time have their passes made together, and each of them gets the answer.
+TEST(ScatterIdentities, PassesThatWaitTogetherAllGetTheAnswer) {
+  const RadiationModel model = leafy_model({1.0, 1.5, true});
+  const Prepared prepared(model);
+  SolveSettings settings = fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 12});
+  settings.replicates_at_once = 5;
+  CpuTracer cpu(prepared.bvh, tracer_scene(model));
+  RoundsRefuser leaves_them(cpu, false), fails(cpu, true);
+  const auto numbers = all_numbers(solve(model, prepared.layout, cpu, settings, {}));
+  EXPECT_TRUE(all_numbers(solve(model, prepared.layout, leaves_them, settings, {})) == numbers);
+  EXPECT_EQ(leaves_them.passes(), 12U);
+  EXPECT_THROW((void)solve(model, prepared.layout, fails, settings, {}), Error);
 }
 
 }  // namespace
