@@ -1,6 +1,7 @@
 // Measures where the rounds of indirect passes are made: fixed work, eight replicates of 131,072 first packets.
-//   rounds/BAND/WHERE   WHERE is `device` or `host`, while the device traces in both; counters of one replicate: submissions, bytes to
-//                       and from the device, and packets
+//   rounds/BAND/WHERE   WHERE is `device` or `host`, while the device traces in both, one replicate at a time; `lanes`: on the device, all
+//                       eight at once, as far as there are threads; counters of one replicate: submissions, bytes to and from the
+//                       device, and packets
 
 #include "bench/benches.h"
 #include "bench/measure.h"
@@ -16,7 +17,7 @@
 namespace sunfleck::bench {
 namespace {
 
-void make_rounds(benchmark::State& state, const GpuContext* context, const LeafBand& band, RoundsAt where) {
+void make_rounds(benchmark::State& state, const GpuContext* context, const LeafBand& band, RoundsAt where, int at_once) {
   Stand stand(paper_plants);
   set_leaf_bands(stand.model, std::array{band});
   OurChoices choices;
@@ -25,6 +26,7 @@ void make_rounds(benchmark::State& state, const GpuContext* context, const LeafB
   SolveSettings settings;
   settings.passes = 8;
   settings.packets = 1U << 17U;
+  settings.replicates_at_once = at_once;
   settings.grid_m = std::sqrt(stand.model.plot.area_m2() / (*settings.packets * *settings.passes));
   const DeviceTraffic before = context->traffic();
   std::uint64_t packets = 0;
@@ -42,8 +44,9 @@ void make_rounds(benchmark::State& state, const GpuContext* context, const LeafB
 void register_rounds(const GpuContext* context) {
   if (context == nullptr) return;
   for (const LeafBand& band : {par_band, nir_band}) {
-    add_benchmark(fmt::format("rounds/{}/device", band.name), make_rounds, context, band, RoundsAt::device);
-    add_benchmark(fmt::format("rounds/{}/host", band.name), make_rounds, context, band, RoundsAt::host);
+    add_benchmark(fmt::format("rounds/{}/device", band.name), make_rounds, context, band, RoundsAt::device, 1);
+    add_benchmark(fmt::format("rounds/{}/lanes", band.name), make_rounds, context, band, RoundsAt::device, 8);
+    add_benchmark(fmt::format("rounds/{}/host", band.name), make_rounds, context, band, RoundsAt::host, 1);
   }
 }
 
