@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Orders packets from number `first` on by direction within windows, as packet_order.h does. Each group takes a window, and each thread a
+// Orders packets from number `first` on by direction within windows of 128, as packet_order.h does in larger ones. Each group takes a window, and each thread a
 // packet of it. No landing depends on the order.
 
 #include "pass.glsl"

@@ -295,9 +295,12 @@ class RoundsRefuser final : public WrappedTracer {
   }
   [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion&) override {
     passes_ += passes.size();
+    EXPECT_LE(passes.size(), most_passes());
     if (fails_) throw_failure("rounds", "the device was lost", "use another one");
     return std::nullopt;
   }
+
+  [[nodiscard]] std::size_t most_passes() const override { return 3; }
 
   [[nodiscard]] std::size_t passes() const { return passes_; }
 
@@ -316,7 +319,7 @@ TEST(ScatterIdentities, PassesThatWaitTogetherAllGetTheAnswer) {
   RoundsRefuser leaves_them(cpu, false), fails(cpu, true);
   const auto numbers = all_numbers(solve(model, prepared.layout, cpu, settings, {}));
   EXPECT_TRUE(all_numbers(solve(model, prepared.layout, leaves_them, settings, {})) == numbers);
-  EXPECT_EQ(leaves_them.passes(), 12U);
+  EXPECT_GE(leaves_them.passes(), 12U);  // those that are refused together are asked for again one by one
   EXPECT_THROW((void)solve(model, prepared.layout, fails, settings, {}), Error);
 }
 

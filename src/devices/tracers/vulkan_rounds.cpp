@@ -39,10 +39,15 @@ VulkanRounds::VulkanRounds(const GpuContext& context, const GpuTree& tree, const
     : context_(context),
       cpu_(cpu),
       rounds_at_once_(at_once(choices, context.description().software)),
-      most_lanes_(choices.lanes > 0 ? choices.lanes : default_lanes),
+      most_lanes_(most_lanes(choices, context.description().software)),
       scene_(create_buffer(context, BufferUse::storage, sizeof(shared::PacketBlock), "the scene's description")),
       steps_(context, completed(choices), choices.rays_per_dispatch),
       work_(context, tree, domain, choices, packets_shader(), "paused packets") {}
+
+std::size_t VulkanRounds::most_lanes(const VulkanChoices& choices, bool software) {
+  if (at_once(choices, software) == 1) return 1;
+  return choices.lanes > 0 ? choices.lanes : default_lanes;
+}
 
 std::optional<TraceOutcome> VulkanRounds::make(std::span<const RoundsPass> passes, const StopQuestion& stop) {
   while (!passes.empty()) {

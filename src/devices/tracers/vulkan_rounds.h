@@ -28,6 +28,9 @@ class VulkanRounds {
   VulkanRounds(const GpuContext& context, const GpuTree& tree, const CpuTracer& cpu, TraceDomain domain,
                const VulkanChoices& choices);
 
+  // Returns how many passes are made side by side, at most.
+  [[nodiscard]] static std::size_t most_lanes(const VulkanChoices& choices, bool software);
+
   // Does what Tracer::make_rounds does. Returns nothing if a pass is too large for the device.
   [[nodiscard]] std::optional<TraceOutcome> make(std::span<const RoundsPass> passes, const StopQuestion& stop);
 

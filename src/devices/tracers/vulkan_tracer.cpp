@@ -125,6 +125,10 @@ std::optional<TraceOutcome> VulkanTracer::make_rounds(std::span<const RoundsPass
   return rounds_->make(passes, stop);
 }
 
+std::size_t VulkanTracer::most_passes() const {
+  return VulkanRounds::most_lanes(choices_, context_.description().software);
+}
+
 bool VulkanTracer::create_rounds() {
   if (rounds_ || leaves_rounds_to_host_) return rounds_ != nullptr;
   const bool software = context_.description().software;

@@ -33,6 +33,7 @@ class VulkanTracer final : public Tracer {
                                                         std::span<shared::Landing> landings, const StopQuestion& stop) override;
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
+  [[nodiscard]] std::size_t most_passes() const override;
   [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) override;
 
  private:

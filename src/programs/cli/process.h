@@ -10,7 +10,7 @@ void prepare_process();
 
 // Keeps freed memory for later use, up to a quarter of a gigabyte, where the same large arrays come back again and again.
 void keep_freed_memory();
-// Does the same with arrays of any size that a replicate of a whole stand has, where a GPU would wait for their pages.
+// Does the same with arrays of up to 32 MiB, where a GPU would wait for their pages.
 void keep_freed_memory_for_gpu();
 
 // Call at the very end. Flushes standard output; if that fails the run failed, unless the reader merely stopped reading.

@@ -58,4 +58,12 @@ CountedThread::~CountedThread() {
   counted().end();
 }
 
+UncountedThread::UncountedThread() {
+  counted().end();
+}
+
+UncountedThread::~UncountedThread() {
+  counted().begin();
+}
+
 }  // namespace sunfleck

@@ -13,4 +13,13 @@ class CountedThread {
   CountedThread& operator=(const CountedThread&) = delete;
 };
 
+// Does not count a counted thread while it waits for others.
+class UncountedThread {
+ public:
+  UncountedThread();
+  ~UncountedThread();
+  UncountedThread(const UncountedThread&) = delete;
+  UncountedThread& operator=(const UncountedThread&) = delete;
+};
+
 }  // namespace sunfleck

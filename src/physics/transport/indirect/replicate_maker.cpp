@@ -1,5 +1,6 @@
 #include "physics/transport/indirect/replicate_maker.h"
 
+#include "base/check.h"
 #include "base/random.h"
 #include "physics/light/beam_grid.h"
 #include "physics/transport/indirect/beam_landings.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -54,37 +56,58 @@ TraceOutcome ReplicateMaker::ForAllThreads::trace(const shared::PacketBlock& sce
 std::optional<TraceOutcome> ReplicateMaker::ForAllThreads::make_rounds(std::span<const RoundsPass> passes,
                                                                        const StopQuestion& stop) {
   if (!takes_turns()) return tracer_.make_rounds(passes, stop);
-  WaitingPass own{passes.front(), false, {}, {}};
+  EXPECT(passes.size(), ==, 1U);
+  WaitingPass own{passes.front(), &stop, false, {}, {}};
   {
     const std::lock_guard lock(waiting_mutex_);
     waiting_.push_back(&own);
   }
-  const std::unique_lock lock = turn();
-  if (!own.is_made) make_waiting(stop);
+  std::unique_lock<std::mutex> lock;
+  {
+    const UncountedThread waits;
+    lock = turn();
+  }
+  if (!own.is_made) make_waiting(own);
   if (own.error) std::rethrow_exception(own.error);
   return own.outcome;
 }
 
-void ReplicateMaker::ForAllThreads::make_waiting(const StopQuestion& stop) {
-  std::vector<WaitingPass*> waiting;
-  {
-    const std::lock_guard lock(waiting_mutex_);
-    waiting.swap(waiting_);
+std::vector<ReplicateMaker::ForAllThreads::WaitingPass*> ReplicateMaker::ForAllThreads::take_waiting(WaitingPass& own) {
+  const std::lock_guard lock(waiting_mutex_);
+  const auto first = waiting_.begin();
+  std::iter_swap(first, std::find(first, waiting_.end(), &own));
+  const auto end = first + static_cast<std::ptrdiff_t>(std::min(waiting_.size(), tracer_.most_passes()));
+  std::vector<WaitingPass*> taken(first, end);
+  waiting_.erase(first, end);
+  return taken;
+}
+
+// Each thread has a question of its own, so that a pass that is no longer wanted stops no other.
+void ReplicateMaker::ForAllThreads::make_waiting(WaitingPass& own) {
+  std::vector<WaitingPass*> waiting = take_waiting(own);
+  for (WaitingPass* each : waiting) each->is_made = true;
+  const auto wanted = std::partition(waiting.begin(), waiting.end(), [](const WaitingPass* each) { return !(*each->stop)(); });
+  std::for_each(wanted, waiting.end(), [](WaitingPass* each) { each->outcome = TraceOutcome::stopped; });
+  waiting.erase(wanted, waiting.end());
+  try {
+    if (!waiting.empty()) make_together(waiting);
+  } catch (...) {
+    for (WaitingPass* each : waiting) each->error = std::current_exception();
   }
+}
+
+void ReplicateMaker::ForAllThreads::make_together(std::span<WaitingPass* const> waiting) {
   std::vector<RoundsPass> passes;
   for (const WaitingPass* each : waiting) passes.push_back(each->pass);
-  std::optional<TraceOutcome> outcome;
-  std::exception_ptr error;
-  try {
-    outcome = tracer_.make_rounds(passes, stop);
-  } catch (...) {
-    error = std::current_exception();
+  const auto none_wanted = [&] {
+    return std::all_of(waiting.begin(), waiting.end(), [](const WaitingPass* each) { return (*each->stop)(); });
+  };
+  const std::optional<TraceOutcome> outcome = tracer_.make_rounds(passes, none_wanted);
+  if (outcome || waiting.size() == 1) {
+    for (WaitingPass* each : waiting) each->outcome = outcome;
+    return;
   }
-  for (WaitingPass* each : waiting) {
-    each->outcome = outcome;
-    each->error = error;
-    each->is_made = true;
-  }
+  for (std::size_t k = 0; k < waiting.size(); ++k) make_together(waiting.subspan(k, 1));
 }
 
 ReplicateMaker::ReplicateMaker(Lights lights, const CounterLayout& layout, Tracer& tracer)
@@ -156,6 +179,13 @@ double ReplicateMaker::most_side_bytes() const {
   // The sums of several lights are dealt to them from joint ones.
   const auto copies = static_cast<double>(lights_.size() == 1 ? 1 : 2 * lights_.size());
   return copies * sides * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
+}
+
+double ReplicateMaker::device_sum_bytes() const {
+  if (!indirect_ || !tracer_.takes_turns() || tracer_.device().software || !suits_device(*indirect_)) return 0.0;
+  const double columns = static_cast<double>(model_.bands.size()) * static_cast<double>(lights_.size());
+  const double places = 2.0 * static_cast<double>(model_.canopy.size()) + static_cast<double>(layout_.cells());
+  return places * columns * sizeof(std::int64_t) + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
 }
 
 // Several lights take a few landings of each. A ray that is recorded takes a small part of the time of one that is traced again.

@@ -56,6 +56,9 @@ class ReplicateMaker {
   // Returns the part of it that sums by side take if light lands on many of them; see PlaceSums.
   [[nodiscard]] double most_side_bytes() const;
 
+  // Returns the memory for what a GPU that makes the rounds finds, in bytes.
+  [[nodiscard]] double device_sum_bytes() const;
+
   // Returns the memory for where beam rays landed, in bytes. It is kept if packets start from at least half of the rays.
   [[nodiscard]] double record_bytes(double beam_rays, double landings) const;
 
@@ -89,14 +92,18 @@ class ReplicateMaker {
     // A pass of one thread, which waits until its own turn comes, or another thread has its rounds made side by side with that one's.
     struct WaitingPass {
       RoundsPass pass;
+      const StopQuestion* stop;
       bool is_made = false;
       std::optional<TraceOutcome> outcome;
       std::exception_ptr error;
     };
 
     [[nodiscard]] std::unique_lock<std::mutex> turn();
-    // Makes the rounds of all passes that wait, in this thread's turn.
-    void make_waiting(const StopQuestion& stop);
+    // Makes the rounds of this thread's pass in its turn, and of as many others that wait as the tracer makes side by side.
+    void make_waiting(WaitingPass& own);
+    // Makes the rounds of passes, and those of one after the other if the tracer has no room for all of them.
+    void make_together(std::span<WaitingPass* const> waiting);
+    [[nodiscard]] std::vector<WaitingPass*> take_waiting(WaitingPass& own);
 
     Tracer& tracer_;
     std::mutex mutex_, waiting_mutex_;

@@ -4,6 +4,7 @@
 
 #include "shared/layout.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -59,6 +60,9 @@ class Tracer {
   // Follows every packet to its end; landings[k] is where packets[k] landed. If stopped, the landings must not be used.
   [[nodiscard]] virtual TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                            std::span<shared::Landing> landings, const StopQuestion& stop) = 0;
+
+  // Returns how many passes make_rounds() makes side by side, at most.
+  [[nodiscard]] virtual std::size_t most_passes() const { return 1; }
 
   // Makes all rounds of indirect passes of one scene where the tracer works, so that packets need not come to the host, and sets their
   // sums. Returns nothing if it cannot. If it does, or is stopped, the sums must not be used.

@@ -212,7 +212,8 @@ double WorkPlanner::replicate_bytes(const Work& work) const {
   if (!maker_.has_indirect_pass()) return maker_.sum_bytes();
   const RayCounts counts = ray_counts(work);
   const double recorded = maker_.record_bytes(has_beam_ ? work.rays : 0.0, std::min(counts.packets, counts.beam_rays));
-  return maker_.sum_bytes() - maker_.most_side_bytes() + side_bytes(work) + memory_.bytes(counts) + recorded;
+  return maker_.sum_bytes() - maker_.most_side_bytes() + side_bytes(work) + memory_.bytes(counts) + recorded +
+         maker_.device_sum_bytes();
 }
 
 double WorkPlanner::side_bytes(const Work& work) const {
