@@ -89,6 +89,40 @@ void parallel_for(Index first, Index end, const Body& body) {
   });
 }
 
+// Calls all functions, each in a thread of its own but for the first.
+template <class First, class... Others>
+void parallel_invoke(const First& first, const Others&... others) {
+  std::exception_ptr error;
+  std::mutex of_error;
+  const auto call = [&](const auto& function) {
+    try {
+      function();
+    } catch (...) {
+      const std::lock_guard lock(of_error);
+      error = std::current_exception();
+    }
+  };
+  std::vector<std::thread> threads;
+  (threads.emplace_back([&] { call(others); }), ...);
+  call(first);
+  for (std::thread& thread : threads) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+
+// Its threads would touch nothing but what is sorted.
+template <class Iterator, class Compare>
+void parallel_sort(Iterator begin, Iterator end, const Compare& compare) {
+  std::sort(begin, end, compare);
+}
+
+namespace this_task_arena {
+// A thread here never takes on other work while it waits.
+template <class Function>
+auto isolate(const Function& function) {
+  return function();
+}
+}  // namespace this_task_arena
+
 }  // namespace tbb
 
 namespace oneapi {
