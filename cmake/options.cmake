@@ -6,7 +6,7 @@ if(SUNFLECK_WERROR)
   target_compile_options(sunfleck_options INTERFACE -Werror)
 endif()
 if(SUNFLECK_SANITIZE)
-  # What is left out takes more than half of the time to compile. The address sanitizer finds accesses through null and beyond objects
+  # What is left out takes about a third of the time to compile. The address sanitizer finds accesses through null and beyond objects
   # too, and the fuzz targets have all checks.
   target_compile_options(sunfleck_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize=alignment,null,object-size,pointer-overflow,vptr -fno-sanitize-recover=all
