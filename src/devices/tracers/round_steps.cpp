@@ -160,19 +160,18 @@ void RoundSteps::weigh(Submission& submission) {
   run(submission, all_lanes(), shaders_.load, shared::round_group_size);
 }
 
+void RoundSteps::run_packets(Submission& submission, ComputePipeline& shader, shared::RoundPush packets) {
+  if (packets.count == shared::all_packets) return run_groups(submission, shader, shared::groups_of_packets, packets);
+  run(submission, all_lanes(), shader, packets.count, packets);
+}
+
 void RoundSteps::start(Submission& submission, shared::RoundPush packets) {
-  for (ComputePipeline* shader : {&shaders_.emit, &shaders_.order}) {
-    if (packets.count == shared::all_packets) {
-      run_groups(submission, *shader, shared::groups_of_packets, packets);
-    } else {
-      run(submission, all_lanes(), *shader, packets.count, packets);
-    }
-  }
+  run_packets(submission, shaders_.emit, packets);
+  run_packets(submission, shaders_.order, packets);
 }
 
 void RoundSteps::book(Submission& submission, shared::RoundPush packets) {
-  if (packets.count == shared::all_packets) return run_groups(submission, shaders_.book, shared::groups_of_packets, packets);
-  run(submission, all_lanes(), shaders_.book, packets.count, packets);
+  run_packets(submission, shaders_.book, packets);
 }
 
 void RoundSteps::book(Submission& submission, std::size_t lane, shared::RoundPush packets, const GpuBuffer* outbox) {

@@ -83,6 +83,8 @@ class RoundSteps {
   void run(Submission& submission, Lanes lanes, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push = {},
            const GpuBuffer* outbox = nullptr);
   void run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push = {});
+  // Runs a shader with a thread for each packet, in all lanes.
+  void run_packets(Submission& submission, ComputePipeline& shader, shared::RoundPush packets);
   template <class T>
   void upload(Submission& submission, std::size_t lane, RoundBuffer to, std::span<const T> values) const {
     submission.upload(buffer(to, lane), std::as_bytes(values));
