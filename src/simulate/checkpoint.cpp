@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/log.h"
 #include "base/sealed_file.h"
 #include "base/version.h"
 #include "files/results/exports/exports.h"
@@ -22,9 +21,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr int pauses_per_write = 50;  // limits writing the state to 1/50 of the time
-constexpr std::chrono::milliseconds shortest_pause{500};
-
 // Returns everything on which the bytes of the tables depend, as in summary.json.
 ordered_json run_settings(const Scene& scene, const SolveSettings& settings) {
   ordered_json noted = {{"command", "run"}, {"sunfleck", version()}, {"scene_digest", scene.digest}, {"seed", settings.seed}};
@@ -43,14 +39,12 @@ ordered_json state_settings(ordered_json settings, ElementErrors element_errors)
 Checkpoint::Checkpoint(fs::path folder, std::vector<std::string> exports, const Scene& scene, const SolveSettings& settings)
     : folder_(std::move(folder)),
       exports_(std::move(exports)),
-      element_errors_(settings.element_errors),
       settings_(run_settings(scene, settings)),
-      store_(folder_, state_settings(settings_, element_errors_)),
-      pause_(shortest_pause) {}
+      keeper_(RunStore(folder_, state_settings(settings_, settings.element_errors))) {}
 
-Checkpoint::Found Checkpoint::find(const RadiationModel& model) {
+Checkpoint::Found Checkpoint::find(const RadiationModel& model, const SolveSettings& settings) {
   if (is_finished()) return Found::finished;
-  found_ = store_.read(blank_state(model, make_counter_layout(model), element_errors_));
+  found_ = keeper_.store().read(state_shape({&model, 1}, make_counter_layout(model), settings, {}));
   return found_ ? Found::begun : Found::nothing;
 }
 
@@ -83,32 +77,8 @@ std::string Checkpoint::resume_line() const {
   return fmt::format("{}: nothing to resume, the run starts from the beginning", printable(folder_.string()));
 }
 
-void Checkpoint::attend(Monitor& monitor) {
-  begin_ = last_ = Clock::now();
-  monitor.wants_state = [this] { return is_due(); };
-  monitor.receive_state = [this](const SolveStateView& state) { keep(state); };
-}
-
-bool Checkpoint::is_due() {
-  begin_ = Clock::now();
-  return !failed_ && begin_ - last_ >= pause_;
-}
-
-void Checkpoint::keep(const SolveStateView& state) {
-  if (failed_) return;
-  try {
-    store_.write(state);
-    written_ = true;
-  } catch (const Error& error) {
-    failed_ = true;
-    warn(fmt::format("{}; the run continues, but --resume will find no later state than this", error.what()));
-  }
-  last_ = Clock::now();
-  pause_ = std::max<Clock::duration>(shortest_pause, pauses_per_write * (last_ - begin_));
-}
-
 void Checkpoint::finish() const {
-  store_.remove();
+  keeper_.store().remove();
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,8 @@
 #include "simulate/day.h"
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/log.h"
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
@@ -10,6 +12,9 @@
 #include "files/results/tables/work_settings.h"
 #include "simulate/day_blocks.h"
 #include "simulate/ranks.h"
+#include "simulate/state_keeper.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
@@ -30,7 +35,7 @@ constexpr double share_of_next_rays = 1.6;
 // The sun may have moved to where much more work is needed, for example when the first beams reach the ground. If the error is
 // still this many times the bound after this many replicates, the step starts again with pilots: otherwise it would need 75
 // replicates instead of about 20.
-constexpr int judged_replicates = 12;
+constexpr std::size_t judged_replicates = 12;
 constexpr double most_bounds = 2.5;
 
 class DayRun {
@@ -77,12 +82,45 @@ class DayRun {
     SolveSettings settings = settings_;
     settings.seed = RandomStream(settings_.seed, block.first).word();
     if (!settings.grid_m && !settings.passes) settings.begin_with = work_to_begin_with(block);
+    const std::optional<SolveState> left = find_state(block, settings);
+    settings.resume_from = left ? &*left : nullptr;
+    if (left) say(fmt::format("resuming step{} after {} replicates", steps_text(block), left->replicates()));
     if (!solve(block, settings)) {
       settings.begin_with.clear();
+      settings.resume_from = nullptr;
       static_cast<void>(solve(block, settings));
     }
     simulation_.check_validation();
     return day_.steps == block.end;
+  }
+
+  // Returns the state that an earlier process left of the first block that it did not finish. If that block had begun with too little
+  // work and begun again, `settings` will not begin with it once more. A state that is damaged, or of another block, is of no use.
+  [[nodiscard]] std::optional<SolveState> find_state(const DayBlock& block, SolveSettings& settings) {
+    if (std::exchange(has_looked_, true) || !sink_.block_store(block_settings(block, settings))) return std::nullopt;
+    const StateShape shape =
+        state_shape(lights_of(simulation_.model(), plan_, block), simulation_.layout(), settings, wanted_sums(block));
+    const auto find = [&]() -> std::optional<SolveState> {
+      try {
+        return sink_.block_store(block_settings(block, settings))->read(shape);
+      } catch (const Error&) {
+        return std::nullopt;
+      }
+    };
+    std::optional<SolveState> state = find();
+    if (state || settings.begin_with.empty()) return state;
+    const std::vector<Work> begin_with = std::exchange(settings.begin_with, {});
+    state = find();
+    if (!state) settings.begin_with = begin_with;
+    return state;
+  }
+
+  static std::string steps_text(const DayBlock& block) {
+    return block.size() == 1 ? fmt::format(" {}", block.end) : fmt::format("s {} to {}", block.first + 1, block.end);
+  }
+
+  [[nodiscard]] static ordered_json block_settings(const DayBlock& block, const SolveSettings& settings) {
+    return {{"first_step", block.first}, {"begins_with_pilots", settings.begin_with.empty()}};
   }
 
   // Returns the work that a single step takes over from the last one, and that the steps of a block take over from those at the same hours
@@ -105,8 +143,16 @@ class DayRun {
   // Returns false if the block began with far too little work; counts decide that, not the clock.
   [[nodiscard]] bool solve(const DayBlock& block, const SolveSettings& settings) {
     std::atomic<bool> too_little = false;  // the solver's threads read it
-    int replicates = 0;
+    std::size_t replicates = settings.resume_from != nullptr ? settings.resume_from->replicates() : 0;
     Monitor monitor;
+    std::optional<StateKeeper> keeper;
+    if (std::optional<RunStore> store = sink_.block_store(block_settings(block, settings))) {
+      keeper.emplace(*std::move(store)).attend(monitor);
+      // The state of a block that begins again would hide that it does.
+      monitor.receive_state = [&, keep = monitor.receive_state](const SolveStateView& state) {
+        if (!too_little) keep(state);
+      };
+    }
     monitor.interrupted = [&] { return too_little || stopped(); };
     monitor.report = [&](const Progress& state) {
       ++replicates;
@@ -209,6 +255,7 @@ class DayRun {
   const RunHooks& hooks_;
   OrganKinds kinds_;
   double lit_steps_ = 0.0;
+  bool has_looked_ = false;                   // for the state of an earlier process
   std::optional<Work> next_work_;             // of the last step
   std::vector<std::optional<Work>> of_hour_;  // [number of a step within its date], of the last such step
   SimulatedDay day_;

@@ -29,6 +29,8 @@ class DaySink {
   [[nodiscard]] virtual std::optional<StoredStep> find(std::size_t step) = 0;
   // Returns whether the steps need the light of every triangle.
   [[nodiscard]] virtual StepFields fields() const = 0;
+  // Returns the store of the state of the block that is being simulated, if states are kept; see StepStore::block_store.
+  [[nodiscard]] virtual std::optional<RunStore> block_store(const nlohmann::ordered_json& settings) = 0;
   // Takes a step that was just simulated, in the order of the steps; its light, fields and maps are not used afterwards.
   virtual void take(std::size_t step, StoredStep& simulated) = 0;
 };
@@ -55,8 +57,8 @@ void plan_blocks(const DayRequest& request, const SolveSettings& settings, const
 // Returns how many steps an earlier day in the folder simulated together; nothing if there is none.
 [[nodiscard]] std::optional<int> noted_steps_together(const std::filesystem::path& folder);
 
-// Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them, which discards the block in
-// progress. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps. Throws as
+// Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them; of the block in progress only
+// its state is kept. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps and the state. Throws as
 // Simulation::solve does, and what the sink throws.
 [[nodiscard]] SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings,
                                         DaySink& sink, const RunHooks& hooks);

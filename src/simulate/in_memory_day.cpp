@@ -25,6 +25,7 @@ class MemorySink final : public DaySink {
 
   [[nodiscard]] std::optional<StoredStep> find(std::size_t) override { return std::nullopt; }
   [[nodiscard]] StepFields fields() const override { return keep_; }
+  [[nodiscard]] std::optional<RunStore> block_store(const nlohmann::ordered_json&) override { return std::nullopt; }
   void take(std::size_t step, StoredStep& simulated) override {
     lights[step] = std::move(simulated.light);
     for (; counted_ < step; ++counted_) plane_sums.add_night();

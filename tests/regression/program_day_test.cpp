@@ -86,7 +86,8 @@ class Day : public PreloadTest {
     std::error_code error;
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / of / "steps", error)) {
-      count += entry.path().extension() == ".bin" ? 1 : 0;
+      const std::string name = entry.path().filename().string();
+      count += name.starts_with("step_") && name.ends_with(".bin") ? 1 : 0;
     }
     return count;
   }
@@ -304,7 +305,7 @@ TEST_F(Day, GoesOnWhereItWasKilled) {
   EXPECT_EQ(finished_steps(), 0U);
 }
 
-// Steps that share packets have the light of steps simulated one by one, within the errors of both; a killed day resumes with whole
+// Steps that share packets have the light of steps simulated one by one, within the errors of both; a killed day resumes with
 // blocks of the size it had.
 TEST_F(Day, SimulatesStepsTogether) {
   const Arguments together{"--together", "4"};
@@ -326,6 +327,47 @@ TEST_F(Day, SimulatesStepsTogether) {
   kill_day(together, signal_at(SIGKILL, "rename steps/step_", 6));
   EXPECT_EQ(finished_steps(), 5U);
   expect_day({"--resume"});
+  expect_same_tables("whole", "out");
+}
+
+// The state of a block is kept while it is being simulated: a kill loses a few replicates, and Ctrl-C none. A clock that advances with
+// each reading makes states fall due every few replicates.
+TEST_F(Day, GoesOnWithinABlock) {
+  const Arguments together{"--together", "4", "--error", "0.01"};
+  expect_day(together, 0, "whole");
+  const auto stop_at = [&](int signal, int count, const Arguments& more) {
+    preload_signals(signal_at(signal, "rename steps/block_state.bin", count), {{"SUNFLECK_FAULT_STRIDE", "0.05"}});
+    may_be_killed_ = signal == SIGKILL;
+    const Outcome outcome = day(more);
+    EXPECT_EQ(outcome.status, signal == SIGKILL ? -1 : 130) << outcome.err;
+    may_be_killed_ = false;
+    preload_nothing();
+    return outcome.err;
+  };
+  stop_at(SIGKILL, 2, together);
+  EXPECT_EQ(finished_steps(), 0U);
+  const std::string told = stop_at(SIGKILL, 3, {"--error", "0.01", "--resume"});
+  EXPECT_NE(told.find("resuming steps 1 to 3 after "), std::string::npos) << told;
+  stop_at(SIGINT, 1, {"--error", "0.01", "--resume"});
+  const Outcome last = day({"--error", "0.01", "--resume"});
+  EXPECT_EQ(last.status, 0) << last.err;
+  EXPECT_NE(last.err.find("resuming steps "), std::string::npos) << last.err;
+  expect_same_tables("whole", "out");
+  EXPECT_FALSE(exists("steps/block_state.bin"));
+}
+
+TEST_F(Day, DoesWithoutAStateThatIsDamaged) {
+  const Arguments together{"--together", "4", "--error", "0.01"};
+  expect_day(together, 0, "whole");
+  preload_signals(signal_at(SIGINT, "rename steps/step_", 2), {{"SUNFLECK_FAULT_STRIDE", "0.05"}});
+  expect_day(together, 130);
+  preload_nothing();
+  std::string state = file("steps/block_state.bin");
+  state[state.size() / 2] ^= 1;
+  folder_.write("out/steps/block_state.bin", state);
+  const Outcome outcome = day({"--error", "0.01", "--resume"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("resuming steps "), std::string::npos) << outcome.err;
   expect_same_tables("whole", "out");
 }
 

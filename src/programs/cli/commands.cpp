@@ -47,7 +47,7 @@ int run(const RunOptions& asked) {
   check_grid(options, scene);
   const ProfileOverlays overlays = read_overlays(options, scene.model);
   Checkpoint checkpoint(folder, options.exports, scene, settings);
-  const auto found = options.resume ? checkpoint.find(scene.model) : Checkpoint::Found::nothing;
+  const auto found = options.resume ? checkpoint.find(scene.model, settings) : Checkpoint::Found::nothing;
   if (found == Checkpoint::Found::finished) return report_finished(folder, options, "run");
   settings.resume_from = checkpoint.state();
   const double load_s = watch.lap();

@@ -41,6 +41,9 @@ class FolderSink final : public DaySink {
 
   [[nodiscard]] std::optional<StoredStep> find(std::size_t step) override { return store_.read(step); }
   [[nodiscard]] StepFields fields() const override { return fields_; }
+  [[nodiscard]] std::optional<RunStore> block_store(const ordered_json& settings) override {
+    return store_.block_store(settings);
+  }
   void take(std::size_t step, StoredStep& simulated) override {
     wait();
     writing_ = store_.begin_write(step, simulated);

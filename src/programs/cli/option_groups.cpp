@@ -189,7 +189,7 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
       ->transform(whole_number(1, 1440));
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
   day.add_option("--to-date", options.to_date, "Last of several dates, all with the same hours")->check(not_empty());
-  day.add_flag("--resume", options.run.resume, "Resume a stopped day; its finished steps are kept");
+  day.add_flag("--resume", options.run.resume, "Resume a stopped or killed day from its last saved replicate, or start it");
   day.add_option("--export", options.run.exports, "nc: day.nc also for several dates, and plane_H_day.nc")
       ->delimiter(',')
       ->allow_extra_args(false)

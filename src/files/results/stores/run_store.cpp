@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view state_mark = "SUNRUNS6";
+constexpr std::string_view state_mark = "SUNRUNS7";
 
 // Returns whether the file begins with the letters of a run's state and the digit of another version.
 bool is_of_another_version(std::string_view bytes) {
@@ -27,24 +27,25 @@ bool is_of_another_version(std::string_view bytes) {
   throw_input(printable(file.string()), "it is damaged", "omit --resume to start the run again");
 }
 
-// Writes or reads a state whose sums are as many as those of `blank`.
+// Writes or reads a state of that shape.
 template <class Archive, class State>
-void visit(const Archive& archive, State& state, const SolveState& blank) {
+void visit(const Archive& archive, State& state, const StateShape& shape) {
   archive["rays"].value(state.work.rays);
   archive["packets"].value(state.work.packets);
+  archive["ray_shares"].value(state.ray_shares, 0.0, 1.0);
   archive["next_check"].value(state.next_check);
-  archive["integers"].packed(state.sums.integers, blank.sums.integers.size());
-  archive["reals"].packed(state.sums.reals, blank.sums.reals.size());
+  archive["integers"].packed(state.sums.integers, shape.integers);
+  archive["reals"].packed(state.sums.reals, shape.reals);
 }
 
 }  // namespace
 
-RunStore::RunStore(const fs::path& result_folder, const ordered_json& settings)
+RunStore::RunStore(const fs::path& result_folder, const ordered_json& settings, const fs::path& file)
     : folder_(result_folder),
-      file_(result_folder / run_state_file),
+      file_(result_folder / file),
       settings_(settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace)) {}
 
-std::optional<SolveState> RunStore::read(const SolveState& blank) const {
+std::optional<SolveState> RunStore::read(const StateShape& shape) const {
   std::error_code error;
   if (!fs::exists(file_, error)) return std::nullopt;
   const std::string bytes = read_file(file_);
@@ -61,8 +62,8 @@ std::optional<SolveState> RunStore::read(const SolveState& blank) const {
   expect_same_settings(ordered_json::parse(settings_), noted, "that run", folder_);
   try {
     SolveState state;
-    visit(StoreReader(*content), state, blank);
-    if (is_state_of(state, blank)) return state;
+    visit(StoreReader(*content), state, shape);
+    if (is_state_of(state, shape)) return state;
   } catch (const json::exception&) {  // the content is that of no state
   } catch (const std::runtime_error&) {
   }
@@ -71,7 +72,7 @@ std::optional<SolveState> RunStore::read(const SolveState& blank) const {
 
 void RunStore::write(const SolveStateView& state) const {
   json content = {{"settings", settings_}};
-  visit(StoreWriter(content), state, SolveState());
+  visit(StoreWriter(content), state, StateShape());
   write_file(file_, sealed(state_mark, content));
 }
 

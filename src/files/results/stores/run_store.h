@@ -1,6 +1,7 @@
 #pragma once
-// Stores the state of an unfinished run in run_state.bin of the result folder, from which `run --resume` resumes. The file
-// format is that of base/sealed_file.h; its arrays are deflated (zlib).
+// Stores the state of an unfinished simulation, from which --resume resumes: of a run in run_state.bin of the result folder, of a
+// day's block of steps in steps/block_state.bin (step_store.h). The file format is that of base/sealed_file.h; its arrays are deflated
+// (zlib).
 
 #include "physics/transport/solve/solve_state.h"
 
@@ -15,12 +16,13 @@ inline constexpr const char* run_state_file = "run_state.bin";
 
 class RunStore {
  public:
-  // `settings` is a JSON object of plain values with everything that determines the bytes of the run's tables.
-  RunStore(const std::filesystem::path& result_folder, const nlohmann::ordered_json& settings);
+  // `settings` is a JSON object of plain values with everything that determines the bytes of the results.
+  RunStore(const std::filesystem::path& result_folder, const nlohmann::ordered_json& settings,
+           const std::filesystem::path& file = run_state_file);
 
-  // Returns the state left by an earlier run, or nothing. `blank` provides the sizes. Throws Error (input) if the settings
+  // Returns the state left by an earlier run, or nothing. Throws Error (input) if the settings
   // differ, naming the first difference, or if the file is damaged.
-  [[nodiscard]] std::optional<SolveState> read(const SolveState& blank) const;
+  [[nodiscard]] std::optional<SolveState> read(const StateShape& shape) const;
 
   // Writes the file aside and renames it. Throws Error (failure).
   void write(const SolveStateView& state) const;

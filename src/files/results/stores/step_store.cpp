@@ -20,6 +20,7 @@ using nlohmann::ordered_json;
 constexpr std::string_view step_mark = "SUNSTEP8";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
+constexpr const char* state_file = "block_state.bin";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
 constexpr int step_format = 8;  // of the steps, and of the tables that a finished day has
@@ -59,13 +60,14 @@ void remove_file(const fs::path& file) {
   if (error) throw_failure(printable(file.string()), error.message(), "remove it, or choose another folder with -o");
 }
 
-// Removes finished steps and temporary files.
+// Removes finished steps, the state of a block, and temporary files.
 void remove_steps(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (name.rfind("step_", 0) == 0 || is_left_aside(name, settings_file)) files.push_back(entry.path());
+    const bool aside = is_left_aside(name, settings_file) || is_left_aside(name, state_file);
+    if (name.rfind("step_", 0) == 0 || name == state_file || aside) files.push_back(entry.path());
   }
   for (const fs::path& file : files) remove_file(file);
 }
@@ -154,6 +156,12 @@ std::optional<StoredStep> StepStore::read(std::size_t step, StepFields fields) c
   } catch (const std::runtime_error&) {  // an array cannot be unpacked
     return std::nullopt;
   }
+}
+
+RunStore StepStore::block_store(const ordered_json& settings) const {
+  ordered_json all = ordered_json::parse(settings_);
+  all.update(settings);
+  return {folder_, all, state_file};
 }
 
 fs::path StepStore::scratch_file(std::string_view file) const {

@@ -2,10 +2,13 @@
 // Stores the finished steps of a day in the folder `steps` of the result folder. The tables and fields are made from them, so
 // an interrupted day resumes where it stopped.
 //
+// While a block of steps is being simulated, its state is kept too, so that no more than a few replicates are lost.
+//
 // settings.json holds the settings of the steps, the format and whether the day is finished; the steps of a finished day are removed.
 // step_00007.bin is step 7, counted from 0, in the format of base/sealed_file.h; long arrays are byte strings, little-endian
 // and deflated (zlib).
 
+#include "files/results/stores/run_store.h"
 #include "files/results/tables/day_course.h"
 #include "files/results/tables/element_fields.h"
 
@@ -64,6 +67,10 @@ class StepStore {
   // left out to save time.
   [[nodiscard]] std::optional<StoredStep> read(std::size_t step) const { return read(step, fields_); }
   [[nodiscard]] std::optional<StoredStep> read(std::size_t step, StepFields fields) const;
+
+  // Returns the store of the state of the block that is being simulated; `settings` are those of the block, besides those of the
+  // day.
+  [[nodiscard]] RunStore block_store(const nlohmann::ordered_json& settings) const;
 
   // Returns the path at which a large file can be written before it is renamed to `file`; `begin` and `finish` remove any
   // file left there.

@@ -30,20 +30,22 @@ struct Adders {
 
 }  // namespace
 
-JointSums::JointSums(LightSum sum, std::span<const std::size_t> group_of_organ)
-    : sum_(std::move(sum)), group_of_organ_(group_of_organ.begin(), group_of_organ.end()) {
+JointSums::JointSums(LightSum sum, std::span<const std::size_t> group_of_organ, const RunSums& like)
+    : sum_(std::move(sum)),
+      group_of_organ_(group_of_organ.begin(), group_of_organ.end()),
+      bands_(like.conversion.quanta.size()) {
   for (const std::size_t group : group_of_organ_) groups_ = std::max(groups_, group + 1);
+  const Conversion& conversion = like.conversion;
+  for (const double area_m2 : conversion.areas.organ_m2) organ_area_index_.push_back(area_m2 / conversion.model.plot.area_m2());
+  means_.bands.resize(terms * bands_);
+  means_.organs.resize(like.organs.size() * bands_);
+  means_.plants.resize(like.plants.size() * bands_);
+  means_.groups.resize(groups_ * bands_);
+  means_.planes.resize(like.planes ? like.planes->planes() * bands_ : 0);
 }
 
 void JointSums::add(std::span<const std::unique_ptr<RunSums>> lights) {
-  if (organ_area_index_.empty()) {
-    const Conversion& conversion = lights.front()->conversion;
-    bands_ = conversion.quanta.size();
-    for (const double area_m2 : conversion.areas.organ_m2)
-      organ_area_index_.push_back(area_m2 / conversion.model.plot.area_m2());
-  }
   const auto add_to = [](std::vector<ReplicateMean>& means, const std::vector<double>& values) {
-    means.resize(values.size());
     for (std::size_t k = 0; k < values.size(); ++k) means[k].add(values[k]);
   };
   const Figures<double> last = last_values(lights);

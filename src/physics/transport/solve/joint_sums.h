@@ -16,14 +16,20 @@ namespace sunfleck {
 
 class JointSums {
  public:
-  // Each organ has a group, or there are none.
-  JointSums(LightSum sum, std::span<const std::size_t> group_of_organ);
+  // Each organ has a group, or there are none. `like` are the sums of any of the lights.
+  JointSums(LightSum sum, std::span<const std::size_t> group_of_organ, const RunSums& like);
 
   // Adds the replicate that was added last to the sums of all lights.
   void add(std::span<const std::unique_ptr<RunSums>> lights);
 
   // Returns the half-widths. Where all replicates agree, they are the sums of those of the lights, [light].
   [[nodiscard]] JointErrors errors(double t_quantile, std::span<const RadiationResult> lights) const;
+
+  // Passes everything that other sums of the same lights need to continue to `archive`.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.means_.bands, self.means_.organs, self.means_.plants, self.means_.groups, self.means_.planes);
+  }
 
  private:
   // A value for each figure, in the order of JointErrors; those of the bands are [band * terms + term].
@@ -41,7 +47,7 @@ class JointSums {
 
   LightSum sum_;
   std::vector<std::size_t> group_of_organ_;
-  std::size_t groups_ = 0, bands_ = 0;
+  std::size_t groups_ = 0, bands_;
   std::vector<double> organ_area_index_;  // [organ], area per area of ground
   Figures<ReplicateMean> means_;
 };

@@ -349,8 +349,10 @@ double Spread::half_width(double t_quantile, std::size_t replicates) const {
   return t_quantile * std::sqrt(std::max(0.0, squares - sum * sum / n) / (n - 1.0) / n);
 }
 
-RunSums::RunSums(const Conversion& of, ElementErrors element_errors, ShadeGroups shade_groups)
+RunSums::RunSums(const Conversion& of, ElementErrors element_errors, ShadeGroups shade_groups, Lights lights)
     : conversion(of),
+      has_sky(of.model.has_sky() || any_sky(lights)),
+      has_packets(has_sky || scatters(of.model)),
       landed(of.quanta.size()),
       ledgers(of.quanta.size()),
       bands(of.quanta.size()),
@@ -374,7 +376,7 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors, ShadeGroups
   direct_spread.resize(elements.size());
   element_hits.resize(elements.size());
   absorbed_spread.resize(elements.size() * bands.size());
-  if (scatters(model) || model.has_sky()) indirect_spread.resize(elements.size() * bands.size());
+  if (has_packets) indirect_spread.resize(elements.size() * bands.size());
   if (element_errors != ElementErrors::keep) side_spread.resize(2 * elements.size() * bands.size());
 }
 

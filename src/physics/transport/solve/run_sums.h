@@ -4,6 +4,7 @@
 #include "physics/transport/indirect/conversion.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/model/accuracy.h"
+#include "physics/transport/model/lights.h"
 #include "physics/transport/model/result.h"
 #include "physics/transport/model/statistics.h"
 #include "physics/transport/receivers/planes.h"
@@ -49,8 +50,10 @@ struct Spread {
 };
 
 struct RunSums {
-  // All replicates have the incidence of `conversion`, which must outlive the sums.
-  RunSums(const Conversion& conversion, ElementErrors element_errors, ShadeGroups shade_groups = ShadeGroups::all);
+  // All replicates have the incidence of `conversion`, which must outlive the sums. `lights` are those of the simulation, if it has
+  // more than that one.
+  RunSums(const Conversion& conversion, ElementErrors element_errors, ShadeGroups shade_groups = ShadeGroups::all,
+          Lights lights = {});
 
   // Adds a replicate. Without an indirect pass the flux scattered by first landings counts as unshot, as does the sky's flux
   // in an endless canopy. Throws Error (failure) if the sums over all replicates would overflow: light between mirrors can
@@ -62,11 +65,12 @@ struct RunSums {
   [[nodiscard]] double unseen(double event, double confidence) const;
 
   // Passes every sum to `archive`, which writes those of const sums and fills others. The number of values depends only on
-  // the model and on the element errors: zeros are passed for arrays that are empty before the first replicate.
+  // the lights and on the element errors: zeros are passed for arrays that are empty before the first replicate.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive);
 
   const Conversion& conversion;
+  bool has_sky, has_packets;  // in any of the lights
   bool keeps_half = false;
   std::size_t replicates = 0;
   std::uint64_t lost = 0, sky_rays = 0, packets = 0, rounds = 0;
@@ -127,16 +131,15 @@ void RunSums::visit(Self& self, Archive& archive) {
     std::int64_t none = 0;
     for (std::size_t k = sums.size(); k < size; ++k) archive(none);
   };
-  const bool packets = scatters(model) || model.has_sky();
   const std::size_t sides = 2 * self.elements.size() * model.bands.size();
   const std::size_t cells = self.soil_cells.size() * model.bands.size();
-  visit_sides(self.side_landed, packets ? sides : 0);
-  visit_late(self.cell_landed, packets ? cells : 0);
-  visit_sides(self.side_sky, model.has_sky() ? sides : 0);
-  visit_late(self.cell_sky, model.has_sky() ? cells : 0);
+  visit_sides(self.side_landed, self.has_packets ? sides : 0);
+  visit_late(self.cell_landed, self.has_packets ? cells : 0);
+  visit_sides(self.side_sky, self.has_sky ? sides : 0);
+  visit_late(self.cell_sky, self.has_sky ? cells : 0);
   for (auto& element : self.half_elements) archive(element.upper, element.lower);
-  visit_sides(self.half_side_landed, packets && self.keeps_half ? sides : 0);
-  visit_sides(self.half_side_sky, model.has_sky() && self.keeps_half ? sides : 0);
+  visit_sides(self.half_side_landed, self.has_packets && self.keeps_half ? sides : 0);
+  visit_sides(self.half_side_sky, self.has_sky && self.keeps_half ? sides : 0);
   archive(self.soil_cells, self.element_hits);
   for (auto* spreads : {&self.direct_spread, &self.absorbed_spread, &self.indirect_spread, &self.side_spread}) {
     for (auto& spread : *spreads) archive(spread.sum, spread.squares);

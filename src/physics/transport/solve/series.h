@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace sunfleck {
@@ -28,6 +29,17 @@ struct Series {
   [[nodiscard]] std::size_t replicates() const { return front().replicates; }
   // Returns the number of rays and packets.
   [[nodiscard]] std::uint64_t traced() const { return replicates() * grid_rays + front().packets + front().sky_rays; }
+
+  // Passes everything that another series of such replicates needs to continue to `archive`. The number of values depends only on
+  // the lights, the settings and the wanted sums; the first integer is the number of replicates.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    for (const auto& of_light : self.sums) {
+      std::conditional_t<std::is_const_v<Self>, const RunSums, RunSums>& light_sums = *of_light;
+      RunSums::visit(light_sums, archive);
+    }
+    archive(self.joint);
+  }
 
   std::vector<Conversion> conversions;         // [light]
   std::vector<std::unique_ptr<RunSums>> sums;  // [light]; they refer to the conversions, so that a series cannot be copied

@@ -246,8 +246,9 @@ class Solver {
   }
 
   SharedOutcome resume(const SolveState& state) {
+    ray_shares_ = state.ray_shares;
     begin(state.work, state.replicates());
-    ENSURE(restore(series_->front(), state.sums), ==, true);
+    ENSURE(restore(*series_, state.sums), ==, true);
     begun_with_ = series_->replicates();
     traced_ = series_->traced();
     next_check_ = state.next_check;
@@ -285,7 +286,7 @@ class Solver {
 
   void keep_state() const {
     if (!monitor_.receive_state || series_->replicates() < 2 || planner_.fitted_to_time()) return;
-    monitor_.receive_state({work_, next_check_, pieces_of(series_->front())});
+    monitor_.receive_state({work_, ray_shares_, next_check_, pieces_of(*series_)});
   }
 
   // Returns true if the next replicate would need more rays than are left.

@@ -39,7 +39,7 @@ struct SolveSettings {
   // speed of the machine, and such a run has no state: a run resumed from it would end in different bytes each time.
   bool fit_to_time = true;
   ElementErrors element_errors = ElementErrors::skip;
-  ShadeGroups shade_groups = ShadeGroups::all;  // states and resumed runs have all
+  ShadeGroups shade_groups = ShadeGroups::all;
   // Largest number of replicates made at the same time, in this process and by each worker, if there is an indirect pass and no
   // max_rays; memory_bytes and software Vulkan may allow fewer.
   int replicates_at_once = 2;
@@ -115,7 +115,7 @@ using TakeLight = std::function<void(std::size_t light, RadiationResult result, 
 // Runs one simulation of several lights, none of which may be dark; a single one may be. They share its packets; each has beam rays of
 // its own, as many as its error needs. Every light keeps the bounds that has at least 1 % of the brightest light's flux. Hands the
 // results over one after the other when all replicates are made, so that they need not lie in memory together; hands nothing over if
-// several lights were interrupted. The monitor's results and states, and settings.resume_from, are for single lights only. Throws as
+// several lights were interrupted. The monitor's results are for single lights only. Throws as
 // `solve` does.
 [[nodiscard]] SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer,
                                          const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers,

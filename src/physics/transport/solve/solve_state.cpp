@@ -4,8 +4,9 @@
 #include "physics/light/beam_grid.h"
 #include "physics/transport/model/surfaces.h"
 #include "physics/transport/receivers/planes.h"
-#include "physics/transport/solve/run_sums.h"
+#include "physics/transport/solve/series.h"
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -14,10 +15,10 @@
 namespace sunfleck {
 namespace {
 
-// Returns the integers of the sums, or their other numbers.
+// Returns the integers of all sums, or their other numbers.
 template <class T>
-NumberPieces<T> numbers_of(const RunSums& sums) {
-  return [&sums](const std::function<void(std::span<const T>)>& take) {
+NumberPieces<T> numbers_of(const Series& series) {
+  return [&series](const std::function<void(std::span<const T>)>& take) {
     constexpr std::size_t most = 8192;
     std::vector<T> piece;
     piece.reserve(most);
@@ -29,7 +30,7 @@ NumberPieces<T> numbers_of(const RunSums& sums) {
         piece.clear();
       }
     });
-    RunSums::visit(sums, collect);
+    Series::visit(series, collect);
     take(piece);
   };
 }
@@ -46,31 +47,24 @@ std::vector<T> all_of(const NumberPieces<T>& pieces) {
   return values;
 }
 
-PlainSums copied(const SumPieces& pieces) {
-  return {all_of(pieces.integers), all_of(pieces.reals)};
-}
-
 }  // namespace
 
-SumPieces pieces_of(const RunSums& sums) {
-  return {numbers_of<std::int64_t>(sums), numbers_of<double>(sums)};
+SumPieces pieces_of(const Series& series) {
+  return {numbers_of<std::int64_t>(series), numbers_of<double>(series)};
 }
 
-PlainSums plain_sums(const RunSums& sums) {
-  return copied(pieces_of(sums));
-}
-
-SolveStateView::SolveStateView(Work of_work, std::size_t check, SumPieces pieces)
-    : work(of_work), next_check(check), sums(std::move(pieces)) {}
+SolveStateView::SolveStateView(Work of_work, std::vector<double> shares, std::size_t check, SumPieces pieces)
+    : work(of_work), ray_shares(std::move(shares)), next_check(check), sums(std::move(pieces)) {}
 
 SolveStateView::SolveStateView(const SolveState& state)
-    : SolveStateView(state.work, state.next_check, {one_piece(state.sums.integers), one_piece(state.sums.reals)}) {}
+    : SolveStateView(state.work, state.ray_shares, state.next_check,
+                     {one_piece(state.sums.integers), one_piece(state.sums.reals)}) {}
 
 SolveStateView::operator SolveState() const {
-  return {work, next_check, copied(sums)};
+  return {work, ray_shares, next_check, {all_of(sums.integers), all_of(sums.reals)}};
 }
 
-bool restore(RunSums& sums, const PlainSums& plain) {
+bool restore(Series& series, const PlainSums& plain) {
   std::size_t integers = 0;
   std::size_t reals = 0;
   const auto next = [](const auto& values, std::size_t& k) { return k++ < values.size() ? values[k - 1] : 0; };
@@ -81,7 +75,7 @@ bool restore(RunSums& sums, const PlainSums& plain) {
       number = next(plain.reals, reals);
     }
   });
-  RunSums::visit(sums, read);
+  Series::visit(series, read);
   return integers == plain.integers.size() && reals == plain.reals.size();
 }
 
@@ -89,23 +83,33 @@ std::size_t SolveState::replicates() const {
   return sums.integers.empty() ? 0 : static_cast<std::size_t>(sums.integers.front());
 }
 
-SolveState blank_state(const RadiationModel& model, const CounterLayout& layout, ElementErrors element_errors) {
+StateShape state_shape(Lights lights, const CounterLayout& layout, const SolveSettings& settings, const WantedSums& wanted) {
+  const RadiationModel& model = lights.front();
   const Surfaces surfaces(model);
   std::optional<PlaneReceivers> receivers;
   if (!model.planes.empty()) receivers.emplace(model, layout, surfaces);
-  SolveState blank;
-  blank.work = {model.has_beam() ? 1.0 : 0.0, 0.0};
-  const CanopyAreas areas(model, layout, surfaces);
-  const Conversion conversion(model, layout, surfaces, areas, receivers ? &*receivers : nullptr, {});
-  blank.sums = plain_sums(RunSums(conversion, element_errors));
-  return blank;
+  StateShape shape{.lights = lights.size(), .least_rays = any_beam(lights) ? 1.0 : 0.0};
+  const EachNumber count([&shape](auto number) { ++(std::is_integral_v<decltype(number)> ? shape.integers : shape.reals); });
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    const CanopyAreas areas(lights[k], layout, surfaces);
+    const Conversion conversion(lights[k], layout, surfaces, areas, receivers ? &*receivers : nullptr, {});
+    const RunSums sums(conversion, settings.element_errors, settings.shade_groups, lights);
+    RunSums::visit(sums, count);
+    for (const LightSum& sum : k == 0 ? wanted.of_lights : std::vector<LightSum>()) {
+      const JointSums joint(sum, wanted.group_of_organ, sums);
+      count(joint);
+    }
+  }
+  return shape;
 }
 
-bool is_state_of(const SolveState& state, const SolveState& blank) {
+bool is_state_of(const SolveState& state, const StateShape& shape) {
   const auto is_in = [](auto value, auto least, auto most) { return value >= least && value <= most; };
-  return state.sums.integers.size() == blank.sums.integers.size() && state.sums.reals.size() == blank.sums.reals.size() &&
-         is_in(state.replicates(), std::size_t{2}, most_replicates) &&
-         is_in(state.work.rays, blank.work.rays, static_cast<double>(max_grid_rays)) &&
+  const std::size_t shares = state.ray_shares.size();
+  return state.sums.integers.size() == shape.integers && state.sums.reals.size() == shape.reals &&
+         is_in(state.replicates(), std::size_t{2}, most_replicates) && (shares == 0 || shares == shape.lights) &&
+         std::all_of(state.ray_shares.begin(), state.ray_shares.end(), [&](double s) { return is_in(s, 0.0, 1.0); }) &&
+         is_in(state.work.rays, shape.least_rays, static_cast<double>(max_grid_rays)) &&
          is_in(state.work.packets, 0.0, most_first_packets) && is_in(state.next_check, first_check, most_replicates);
 }
 

@@ -2,9 +2,8 @@
 // The state of a run between two replicates: everything needed to resume it as if it had never stopped.
 
 #include "base/number_pieces.h"
-#include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/counters.h"
-#include "physics/transport/model/model.h"
+#include "physics/transport/model/lights.h"
 #include "physics/transport/model/result.h"
 
 #include <cstddef>
@@ -13,14 +12,15 @@
 
 namespace sunfleck {
 
-struct RunSums;
+struct Series;
+struct SolveSettings;
 
 // Number of replicates after which the bounds are checked for the first time.
 inline constexpr std::size_t first_check = 12;
 // Largest number of packets in the first round of a replicate; on most machines memory limits it further.
 inline constexpr double most_first_packets = 0x1p24;
 
-// All sums of a run as plain numbers, in a fixed order; the first integer is the number of replicates.
+// All sums of a run, light by light, as plain numbers, in a fixed order; the first integer is the number of replicates.
 struct PlainSums {
   std::vector<std::int64_t> integers;
   std::vector<double> reals;
@@ -32,17 +32,16 @@ struct SumPieces {
   NumberPieces<double> reals;
 };
 
-// Return everything that other sums with the same conversion need to continue. The number of values depends only on the
-// model and on the element errors. The sums must outlive their pieces.
-[[nodiscard]] PlainSums plain_sums(const RunSums& sums);
-[[nodiscard]] SumPieces pieces_of(const RunSums& sums);
+// Returns everything that another series with the same conversions needs to continue. The series must outlive the pieces.
+[[nodiscard]] SumPieces pieces_of(const Series& series);
 
 // Takes them over. Returns false if there are too few or too many.
-[[nodiscard]] bool restore(RunSums& sums, const PlainSums& plain);
+[[nodiscard]] bool restore(Series& series, const PlainSums& plain);
 
 // The state of a run after its pilots.
 struct SolveState {
   Work work;                             // of each replicate
+  std::vector<double> ray_shares;        // [light], of the work's rays; empty for a single light and for fixed work
   std::size_t next_check = first_check;  // number of replicates at which it is due; unused if the work is fixed
   PlainSums sums;
 
@@ -51,19 +50,28 @@ struct SolveState {
 
 // A state as it is handed over and written; what it is made of must outlive it.
 struct SolveStateView {
-  SolveStateView(Work of_work, std::size_t check, SumPieces pieces);
+  SolveStateView(Work of_work, std::vector<double> shares, std::size_t check, SumPieces pieces);
   SolveStateView(const SolveState& state);  // NOLINT(google-explicit-constructor): a view of the state
   operator SolveState() const;              // NOLINT(google-explicit-constructor): a copy
 
   Work work;
+  std::vector<double> ray_shares;
   std::size_t next_check = first_check;
   SumPieces sums;
 };
 
-// Returns an empty state with arrays as large as those of such runs, and with the least work they can have.
-[[nodiscard]] SolveState blank_state(const RadiationModel& model, const CounterLayout& layout, ElementErrors element_errors);
+// What all states of a run have in common.
+struct StateShape {
+  std::size_t lights = 1;
+  std::size_t integers = 0, reals = 0;  // numbers of sums
+  double least_rays = 0.0;              // of the work
+};
+
+// Returns the shape of the states of runs in these lights.
+[[nodiscard]] StateShape state_shape(Lights lights, const CounterLayout& layout, const SolveSettings& settings,
+                                     const WantedSums& wanted);
 
 // Returns false for a state that no such run can have had: a different number of sums, or counts or work out of range.
-[[nodiscard]] bool is_state_of(const SolveState& state, const SolveState& blank);
+[[nodiscard]] bool is_state_of(const SolveState& state, const StateShape& shape);
 
 }  // namespace sunfleck

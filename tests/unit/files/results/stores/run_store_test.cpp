@@ -23,47 +23,45 @@ const ordered_json run_settings{{"scene_digest", "0123"}, {"seed", 1}, {"grid_m"
 SolveState some_state() {
   SolveState state;
   state.work = {1e6 / 7.0, 4096.0};
+  state.ray_shares = {1.0, 1.0 / 3.0};
   state.next_check = 16;
   state.sums.integers = {13, std::numeric_limits<std::int64_t>::min(), -1, 0, std::numeric_limits<std::int64_t>::max()};
   state.sums.reals = {1.0 / 3.0, -0.0, std::numeric_limits<double>::quiet_NaN(), 1e-300};
   return state;
 }
 
-SolveState blank_of(const SolveState& state) {
-  SolveState blank;
-  blank.work.rays = 1.0;
-  blank.sums.integers.resize(state.sums.integers.size());
-  blank.sums.reals.resize(state.sums.reals.size());
-  return blank;
+StateShape shape_of(const SolveState& state) {
+  return {state.ray_shares.size(), state.sums.integers.size(), state.sums.reals.size(), 1.0};
 }
 
 class RunStoreTest : public ::testing::Test {
  protected:
   // Returns the message that rejects the state, or an empty text if it is accepted.
   [[nodiscard]] std::string refusal(const ordered_json& now = run_settings) const {
-    return message_of([&] { static_cast<void>(RunStore(folder_.path(), now).read(blank_)); }).value_or("");
+    return message_of([&] { static_cast<void>(RunStore(folder_.path(), now).read(shape_)); }).value_or("");
   }
   [[nodiscard]] std::string bytes() const { return read_file(folder_ / run_state_file); }
 
   const SolveState state_ = some_state();
-  const SolveState blank_ = blank_of(state_);
+  const StateShape shape_ = shape_of(state_);
   TempFolder folder_;
   RunStore store_{folder_.path(), run_settings};
 };
 
 TEST_F(RunStoreTest, GivesBackWhatWasWritten) {
-  EXPECT_FALSE(store_.read(blank_));
+  EXPECT_FALSE(store_.read(shape_));
   store_.write(state_);
-  const std::optional<SolveState> read = store_.read(blank_);
+  const std::optional<SolveState> read = store_.read(shape_);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->work.rays, state_.work.rays);
   EXPECT_EQ(read->work.packets, state_.work.packets);
+  EXPECT_EQ(read->ray_shares, state_.ray_shares);
   EXPECT_EQ(read->next_check, 16U);
   EXPECT_EQ(read->sums.integers, state_.sums.integers);
   ASSERT_EQ(read->sums.reals.size(), state_.sums.reals.size());
   EXPECT_EQ(std::memcmp(read->sums.reals.data(), state_.sums.reals.data(), sizeof(double) * state_.sums.reals.size()), 0);
   store_.remove();
-  EXPECT_FALSE(store_.read(blank_));
+  EXPECT_FALSE(store_.read(shape_));
   store_.remove();
 }
 
@@ -99,9 +97,9 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherVersion) {
 // The checksum is right, but this program writes other maps.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   store_.write(state_);
-  const json good = *unsealed("SUNRUNS6", bytes());
+  const json good = *unsealed("SUNRUNS7", bytes());
   const auto expect_refused = [&](const json& content) {
-    folder_.write(run_state_file, sealed("SUNRUNS6", content));
+    folder_.write(run_state_file, sealed("SUNRUNS7", content));
     EXPECT_NE(refusal().find("it is damaged"), std::string::npos)
         << content.dump(-1, ' ', true, json::error_handler_t::replace);
   };
@@ -112,6 +110,7 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
     for (const json& other : {json(-1), json(1e300), json("text"), json::array(), json(nullptr), json(1ULL << 63U),
                               json::binary({1, 2, 3}), json({{"a", 1}})}) {
       if ((key == "rays" || key == "packets") && other.is_number()) continue;
+      if (key == "ray_shares" && other.is_array()) continue;
       bad = good;
       bad[key] = other;
       expect_refused(bad);
@@ -124,11 +123,11 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
 // Ten million times the file's content is neither reserved nor read.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherSize) {
   store_.write(state_);
-  SolveState other = blank_;
-  other.sums.integers.resize(6);
+  StateShape other = shape_;
+  other.integers = 6;
   EXPECT_THROW(static_cast<void>(store_.read(other)), Error);
-  other = blank_;
-  other.sums.reals.resize(3);
+  other = shape_;
+  other.reals = 3;
   EXPECT_THROW(static_cast<void>(store_.read(other)), Error);
 }
 

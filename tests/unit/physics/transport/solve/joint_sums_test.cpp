@@ -38,7 +38,7 @@ TEST_F(JointSumsTest, OfALightWithItselfHasTheErrorOfTheLight) {
   // Every organ is a group of its own.
   std::vector<std::size_t> groups(model_.canopy.organs.size());
   std::iota(groups.begin(), groups.end(), std::size_t{0});
-  JointSums joint({{0, 0.5}, {1, 0.5}}, groups);
+  JointSums joint({{0, 0.5}, {1, 0.5}}, groups, *lights.front());
   for (std::uint64_t number = 0; number < 4; ++number) {
     const ReplicateSet made = made_replicate(number);
     for (const auto& sums : lights) sums->add(made.front());
@@ -74,7 +74,7 @@ TEST_F(JointSumsTest, OfALightWithItselfHasTheErrorOfTheLight) {
 // Replicates that agree tell no spread; what may have escaped all of them remains.
 TEST_F(JointSumsTest, KeepTheErrorsOfUnseenEvents) {
   const std::vector<std::unique_ptr<RunSums>> lights = no_sums(1);
-  JointSums joint({{0, 600.0}}, {});
+  JointSums joint({{0, 600.0}}, {}, *lights.front());
   const ReplicateSet made = made_replicate(0);
   for (int twice = 0; twice < 2; ++twice) {
     lights.front()->add(made.front());

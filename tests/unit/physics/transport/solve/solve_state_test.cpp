@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -33,7 +36,7 @@ class SolveStateTest : public ::testing::Test {
     EXPECT_EQ(solve_from(from, monitor).stop, StopReason::interrupted);
     settings_.replicates_at_once = 2;
     EXPECT_EQ(last.replicates(), replicates);
-    EXPECT_TRUE(is_state_of(last, blank_state(model_, prepared_.layout, settings_.element_errors)));
+    EXPECT_TRUE(is_state_of(last, state_shape({&model_, 1}, prepared_.layout, settings_, {})));
     return last;
   }
 
@@ -104,6 +107,42 @@ TEST_F(SolveStateTest, KeepsToItsLimitOfRays) {
   EXPECT_TRUE(test::all_numbers(resumed) == test::all_numbers(whole));
 }
 
+// Lights that share packets, each with rays of its own, and their sum, whose error is that of the replicates' sums.
+TEST_F(SolveStateTest, GoesOnWithSeveralLights) {
+  std::vector<RadiationModel> lights(3, model_);
+  lights[1].sun = sun_at(15.0, 60.0);
+  lights[2].sky.reset();
+  const WantedSums wanted{{{{0, 600.0}, {1, 600.0}, {2, 300.0}}}, {}};
+  settings_.shade_groups = ShadeGroups::leaves;
+  const auto solve_all = [&](const SolveState* from, const Monitor& monitor = {}) {
+    settings_.resume_from = from;
+    std::vector<std::uint64_t> numbers;
+    const auto take = [&](std::size_t, RadiationResult result, const SharedOutcome& outcome) {
+      for (const std::uint64_t number : test::all_numbers(result)) numbers.push_back(number);
+      for (const double error : outcome.sum_errors.front().organs) numbers.push_back(std::bit_cast<std::uint64_t>(error));
+    };
+    static_cast<void>(solve_lights(lights, prepared_.layout, tracer_, settings_, monitor, nullptr, wanted, take));
+    return numbers;
+  };
+  const std::vector<std::uint64_t> whole = solve_all(nullptr);
+  ASSERT_FALSE(whole.empty());
+  SolveState state;
+  for (const std::size_t replicates : {3, 11}) {
+    const SolveState from = state;
+    Monitor monitor;
+    monitor.interrupted = [&] { return state.replicates() >= replicates; };
+    monitor.wants_state = [] { return true; };
+    monitor.receive_state = [&](const SolveState& now) { state = now; };
+    settings_.replicates_at_once = 1;
+    EXPECT_TRUE(solve_all(from.replicates() > 0 ? &from : nullptr, monitor).empty());
+    settings_.replicates_at_once = 2;
+    ASSERT_EQ(state.replicates(), replicates);
+    EXPECT_EQ(state.ray_shares.size(), lights.size());
+    EXPECT_TRUE(is_state_of(state, state_shape(lights, prepared_.layout, settings_, wanted)));
+    EXPECT_TRUE(solve_all(&state) == whole) << replicates;
+  }
+}
+
 TEST_F(SolveStateTest, IsHandedOverWhenAskedForAndNotOfPilots) {
   int questions = 0;
   int states = 0;
@@ -119,18 +158,18 @@ TEST_F(SolveStateTest, IsHandedOverWhenAskedForAndNotOfPilots) {
 }
 
 TEST_F(SolveStateTest, ThatNoRunCanHaveIsRefused) {
-  const SolveState blank = blank_state(model_, prepared_.layout, settings_.element_errors);
+  const StateShape shape = state_shape({&model_, 1}, prepared_.layout, settings_, {});
   const SolveState good = stopped_after(3);
-  ASSERT_TRUE(is_state_of(good, blank));
-  EXPECT_FALSE(is_state_of(blank, blank)) << "a run before its first replicate has no state";
+  ASSERT_TRUE(is_state_of(good, shape));
   const auto expect_refused = [&](const char* what, const auto& spoil) {
     SolveState bad = good;
     spoil(bad);
-    EXPECT_FALSE(is_state_of(bad, blank)) << what;
+    EXPECT_FALSE(is_state_of(bad, shape)) << what;
   };
   expect_refused("no integers", [](SolveState& s) { s.sums.integers.clear(); });
   expect_refused("one integer more", [](SolveState& s) { s.sums.integers.push_back(0); });
   expect_refused("one real less", [](SolveState& s) { s.sums.reals.pop_back(); });
+  expect_refused("no replicate", [](SolveState& s) { s.sums.integers.front() = 0; });
   expect_refused("one replicate", [](SolveState& s) { s.sums.integers.front() = 1; });
   expect_refused("replicates below 0", [](SolveState& s) { s.sums.integers.front() = -2; });
   expect_refused("too many replicates", [](SolveState& s) { s.sums.integers.front() = 65537; });
@@ -139,6 +178,8 @@ TEST_F(SolveStateTest, ThatNoRunCanHaveIsRefused) {
   expect_refused("more rays than a grid has", [](SolveState& s) { s.work.rays = 1e12; });
   expect_refused("packets below 0", [](SolveState& s) { s.work.packets = -1.0; });
   expect_refused("endless packets", [](SolveState& s) { s.work.packets = std::numeric_limits<double>::infinity(); });
+  expect_refused("shares of rays for two lights", [](SolveState& s) { s.ray_shares = {1.0, 0.5}; });
+  expect_refused("a share above 1", [](SolveState& s) { s.ray_shares = {1.5}; });
   expect_refused("no further check", [](SolveState& s) { s.next_check = 0; });
   expect_refused("a check that never comes", [](SolveState& s) { s.next_check = 100000; });
 }

@@ -1,0 +1,45 @@
+#include "simulate/state_keeper.h"
+
+#include "base/error.h"
+#include "base/log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+constexpr int pauses_per_write = 50;  // limits writing the state to 1/50 of the time
+constexpr std::chrono::milliseconds shortest_pause{500};
+
+}  // namespace
+
+StateKeeper::StateKeeper(RunStore store) : store_(std::move(store)), pause_(shortest_pause) {}
+
+void StateKeeper::attend(Monitor& monitor) {
+  begin_ = last_ = Clock::now();
+  monitor.wants_state = [this] { return is_due(); };
+  monitor.receive_state = [this](const SolveStateView& state) { keep(state); };
+}
+
+bool StateKeeper::is_due() {
+  begin_ = Clock::now();
+  return !failed_ && begin_ - last_ >= pause_;
+}
+
+void StateKeeper::keep(const SolveStateView& state) {
+  if (failed_) return;
+  try {
+    store_.write(state);
+    written_ = true;
+  } catch (const Error& error) {
+    failed_ = true;
+    warn(fmt::format("{}; the simulation continues, but --resume will find no later state than this", error.what()));
+  }
+  last_ = Clock::now();
+  pause_ = std::max<Clock::duration>(shortest_pause, pauses_per_write * (last_ - begin_));
+}
+
+}  // namespace sunfleck
