@@ -125,7 +125,7 @@ TEST(Copies, ReceiveWhatTheirOwnTrianglesReceive) {
       shine_from_sky(shared, {});
     }
     constexpr int replicates = 12;
-    ScatterWork work{.rays = 6e4, .packets = 1e3, .replicates = replicates, .seed = 2 * scene + 1};
+    ScatterWork work{.rays = 2e4, .packets = 1e3, .replicates = replicates, .seed = 2 * scene + 1};
     const RadiationResult expected = simulate(flat, fixed_scatter(flat, work));
     ++work.seed;
     const RadiationResult got = simulate(shared, fixed_scatter(shared, work));

@@ -4,9 +4,9 @@ import os
 import struct
 import subprocess
 import time
-import zlib
 
 import numpy
+from PIL import Image
 
 WIDTH, HEIGHT = 1100, 900
 # The font "fixed" is on every X server.
@@ -85,54 +85,11 @@ class Screen:
 
 
 def write_png(file, pixels):
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    height, width, _ = pixels.shape
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-    with open(file, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-                  chunk(b"IDAT", zlib.compress(rows, 3)) + chunk(b"IEND", b""))
+    Image.fromarray(pixels).save(file, compress_level=1)
 
 
 def read_png(file):
-    """Reads 8-bit red-green-blue without interlacing, the format that the program writes."""
-    with open(file, "rb") as stream:
-        data = stream.read()
-    place, body = 8, b""
-    while place < len(data):
-        length, kind = struct.unpack(">I4s", data[place:place + 8])
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", data[place + 8:place + 18])
-            assert (depth, colour) == (8, 2)
-        if kind == b"IDAT":
-            body += data[place + 8:place + 8 + length]
-        place += 12 + length
-    raw = numpy.frombuffer(zlib.decompress(body), numpy.uint8).reshape(height, 1 + 3 * width)
-    pixels = numpy.zeros((height, 3 * width), numpy.int32)
-    above = numpy.zeros(3 * width, numpy.int32)
-    for y in range(height):
-        above = pixels[y] = unfiltered(raw[y, 0], raw[y, 1:].astype(numpy.int32), above)
-    return pixels.reshape(height, width, 3).astype(numpy.uint8)
-
-
-def unfiltered(kind, row, above):
-    """Reverses the filter of one row by the PNG specification, section 9.2."""
-    if kind == 0:
-        return row
-    if kind == 2:
-        return (row + above) & 255
-    out = numpy.zeros_like(row)
-    for i, value in enumerate(row):
-        a = out[i - 3] if i >= 3 else 0
-        b = above[i]
-        c = above[i - 3] if i >= 3 else 0
-        if kind == 1:
-            guess = a
-        elif kind == 3:
-            guess = (a + b) // 2
-        else:
-            p = a + b - c
-            guess = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-        out[i] = (value + guess) & 255
-    return out
+    """Reads 8-bit red-green-blue, the format that the program writes."""
+    with Image.open(file) as image:
+        assert image.mode == "RGB"
+        return numpy.array(image)
