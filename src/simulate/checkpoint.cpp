@@ -40,7 +40,7 @@ Checkpoint::Checkpoint(fs::path folder, std::vector<std::string> exports, const 
     : folder_(std::move(folder)),
       exports_(std::move(exports)),
       settings_(run_settings(scene, settings)),
-      keeper_(RunStore(folder_, state_settings(settings_, settings.element_errors))) {}
+      keeper_(RunStore(folder_, state_settings(settings_, settings.element_errors)), "run") {}
 
 Checkpoint::Found Checkpoint::find(const RadiationModel& model, const SolveSettings& settings) {
   if (is_finished()) return Found::finished;

@@ -147,7 +147,7 @@ class DayRun {
     Monitor monitor;
     std::optional<StateKeeper> keeper;
     if (std::optional<RunStore> store = sink_.block_store(block_settings(block, settings))) {
-      keeper.emplace(*std::move(store)).attend(monitor);
+      keeper.emplace(*std::move(store), "day").attend(monitor);
       // The state of a block that begins again would hide that it does.
       monitor.receive_state = [&, keep = monitor.receive_state](const SolveStateView& state) {
         if (!too_little) keep(state);

@@ -16,7 +16,8 @@ constexpr std::chrono::milliseconds shortest_pause{500};
 
 }  // namespace
 
-StateKeeper::StateKeeper(RunStore store) : store_(std::move(store)), pause_(shortest_pause) {}
+StateKeeper::StateKeeper(RunStore store, const char* command)
+    : store_(std::move(store)), command_(command), pause_(shortest_pause) {}
 
 void StateKeeper::attend(Monitor& monitor) {
   begin_ = last_ = Clock::now();
@@ -36,7 +37,7 @@ void StateKeeper::keep(const SolveStateView& state) {
     written_ = true;
   } catch (const Error& error) {
     failed_ = true;
-    warn(fmt::format("{}; the simulation continues, but --resume will find no later state than this", error.what()));
+    warn(fmt::format("{}; the {} continues, but --resume will find no later state than this", error.what(), command_));
   }
   last_ = Clock::now();
   pause_ = std::max<Clock::duration>(shortest_pause, pauses_per_write * (last_ - begin_));

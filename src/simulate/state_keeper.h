@@ -12,7 +12,8 @@ namespace sunfleck {
 // second: this costs at most 2 % of the time. Writes it once more at the end of a stopped simulation.
 class StateKeeper {
  public:
-  explicit StateKeeper(RunStore store);
+  // `command` is the one that is resumed, "run" or "day".
+  StateKeeper(RunStore store, const char* command);
 
   // Makes the monitor hand over states, and writes them; a disk that rejects them is reported once. The keeper must outlive the
   // monitor's use.
@@ -28,6 +29,7 @@ class StateKeeper {
   void keep(const SolveStateView& state);
 
   RunStore store_;
+  const char* command_;
   bool written_ = false, failed_ = false;
   Clock::time_point begin_ = Clock::now(), last_ = begin_;
   Clock::duration pause_;

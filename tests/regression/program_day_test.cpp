@@ -335,8 +335,9 @@ TEST_F(Day, SimulatesStepsTogether) {
 TEST_F(Day, GoesOnWithinABlock) {
   const Arguments together{"--together", "4", "--error", "0.01"};
   expect_day(together, 0, "whole");
-  const auto stop_at = [&](int signal, int count, const Arguments& more) {
-    preload_signals(signal_at(signal, "rename steps/block_state.bin", count), {{"SUNFLECK_FAULT_STRIDE", "0.05"}});
+  const auto stop_at_first_state = [&](int signal, const Arguments& more) {
+    preload_signals(signal_at(0, "rename steps/block_state.bin") + "," + signal_at(signal, "fsync steps"),
+                    {{"SUNFLECK_FAULT_STRIDE", "0.05"}});
     may_be_killed_ = signal == SIGKILL;
     const Outcome outcome = day(more);
     EXPECT_EQ(outcome.status, signal == SIGKILL ? -1 : 130) << outcome.err;
@@ -344,11 +345,11 @@ TEST_F(Day, GoesOnWithinABlock) {
     preload_nothing();
     return outcome.err;
   };
-  stop_at(SIGKILL, 2, together);
+  stop_at_first_state(SIGKILL, together);
   EXPECT_EQ(finished_steps(), 0U);
-  const std::string told = stop_at(SIGKILL, 3, {"--error", "0.01", "--resume"});
+  const std::string told = stop_at_first_state(SIGKILL, {"--error", "0.01", "--resume"});
   EXPECT_NE(told.find("resuming steps 1 to 3 after "), std::string::npos) << told;
-  stop_at(SIGINT, 1, {"--error", "0.01", "--resume"});
+  stop_at_first_state(SIGINT, {"--error", "0.01", "--resume"});
   const Outcome last = day({"--error", "0.01", "--resume"});
   EXPECT_EQ(last.status, 0) << last.err;
   EXPECT_NE(last.err.find("resuming steps "), std::string::npos) << last.err;

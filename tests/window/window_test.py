@@ -48,6 +48,7 @@ file = "leaves.obj"
 optics = "leaf"
 up = "y"
 """
+NOON = "time = 2002-08-08T12:00:00+08:00\nlatitude = 40.02\nlongitude = 116.28"
 # The same leaf as a .can file of CARIBU, one polygon per line.
 CAN = """p 1 100001001001 3  0.3 0.3 0.4  0.7 0.3 0.4  0.3 0.7 0.4
 p 1 100001001001 3  0.7 0.3 0.4  0.7 0.7 0.4  0.3 0.7 0.4
@@ -270,6 +271,20 @@ class WindowTest(unittest.TestCase):
             for name, place in event["controls"].items() if event["event"] == "controls" else ():
                 self.assertEqual(places.setdefault(name, place), place, name)
         self.assertIn("save_result", places)
+        self.expect_clean_end(window)
+
+    def test_a_played_day_moves_on_and_a_pause_refines_it(self):
+        self.write("leaves.toml", SCENE.replace("elevation = 60.0\nazimuth = 120.0", NOON))
+        window = self.open()
+        window.key("space")
+        wishes = [window.wait_for("restarted", because="sun")["wish"] for _ in range(8)]  # more moments than are simulated together
+        window.heard_or_awaited("first_picture", wish=wishes[-2])
+        self.keep_shot("played")
+        window.key("space")
+        paused = window.wait_for("restarted", because="pause")["wish"]
+        window.wait_for("converged", wish=paused)
+        window.wait_until_input_is_taken()
+        self.assertEqual(max(event["wish"] for event in window.events if event["event"] == "restarted"), paused)
         self.expect_clean_end(window)
 
     def test_orbiting_does_not_begin_the_simulation_anew(self):

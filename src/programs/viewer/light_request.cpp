@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "files/scene/moment_light.h"
+#include "physics/light/sun_events.h"
 
 #include <fmt/format.h>
 
@@ -227,6 +228,34 @@ std::string digest_of(const LightRequest& request) {
 
 UtcTime time_of(const SunRequest& sun) {
   return plus_seconds({sun.year, sun.month, sun.day, 0, 0, 0.0}, std::round(3600.0 * sun.hour) - 60.0 * sun.offset_minutes);
+}
+
+double next_played_hour(const SunRequest& sun, double step_min) {
+  const Place where{sun.latitude_deg * degree, sun.longitude_deg * degree, sun.altitude_m};
+  SunRequest midnight = sun;
+  midnight.hour = 0.0;
+  const UtcTime begin = time_of(midnight);
+  const SunEvents events = sun_events({sun.year, sun.month, sun.day, sun.offset_minutes}, where);
+  const auto hour_of = [&](const std::optional<UtcTime>& time, double otherwise) {
+    return time ? std::clamp(seconds_between(begin, *time) / 3600.0, 0.0, 24.0) : otherwise;
+  };
+  const double first_h = hour_of(events.sunrise, 0.0);
+  const double last_h = hour_of(events.sunset, 24.0);
+  const double step_h = step_min / 60.0;
+  const double next_h = sun.hour + step_h;
+  return next_h < first_h || next_h > last_h ? std::min(last_h, first_h + step_h) : next_h;
+}
+
+std::vector<LightRequest> moments_after(LightRequest moment, double step_min, std::size_t count) {
+  std::vector<LightRequest> moments;
+  try {
+    while (moment.sun.by_clock && moments.size() < count) {
+      moment.sun.hour = next_played_hour(moment.sun, step_min);
+      moments.push_back(moment);
+    }
+  } catch (const Error&) {  // there is no such date
+  }
+  return moments;
 }
 
 double assumed_diffuse_share(const LightRequest& request) {

@@ -4,6 +4,7 @@
 #include "files/scene/scene_reader.h"
 #include "physics/transport/model/model.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,6 +83,12 @@ struct LightRequest {
 
 // Returns the local date and time of a sun that follows the clock, in UTC, to the second, as a scene file can hold it. Throws Error (input) for a date that does not exist.
 [[nodiscard]] UtcTime time_of(const SunRequest& sun);
+
+// Returns the hour that follows when a day is played in such steps: from sunrise to sunset, over and over. Throws like time_of.
+[[nodiscard]] double next_played_hour(const SunRequest& sun, double step_min);
+
+// Returns the moments that follow when a day is played from this one; none if the sun does not follow the clock.
+[[nodiscard]] std::vector<LightRequest> moments_after(LightRequest moment, double step_min, std::size_t count);
 
 // Applies the requested light to `model`, which began as a copy of scene.model. If that is impossible, throws Error (input)
 // with one line and leaves the model unchanged.

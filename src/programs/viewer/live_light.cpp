@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/folder_lock.h"
+#include "physics/transport/solve/darkness.h"
 #include "programs/viewer/saved_scene.h"
+#include "simulate/day_blocks.h"
 #include "simulate/result_folder.h"
 #include "simulate/scene_source.h"
 
@@ -36,6 +38,12 @@ Scene light_of_scene(Scene& scene) {
   return light;
 }
 
+// Returns how many moments of a played day are simulated together. The results of the last ones are kept meanwhile.
+std::size_t moments_together(const RadiationModel& model, const SolveSettings& settings) {
+  const double fit = 0.5 * lights_in_memory(model, true, false, settings.memory_bytes.value());
+  return static_cast<std::size_t>(std::clamp(fit, 1.0, double{usual_steps_together}));
+}
+
 SolveSettings live_settings(const RunOptions& options, const Scene& scene) {
   SolveSettings settings = solve_settings(options, scene, options.threads);
   const std::size_t side_bytes = 2 * scene.model.canopy.size() * scene.model.bands.size() * 2 * sizeof(double);
@@ -59,13 +67,15 @@ std::uint64_t rays_of(const RadiationResult& result) {
 
 }  // namespace
 
-LiveLight::LiveLight(Simulation& simulation, const RunOptions& options, std::function<void()> notify)
+LiveLight::LiveLight(Simulation& simulation, const RunOptions& options, std::function<void()> notify, double played_s)
     : original_(light_of_scene(simulation.scene())),
       simulation_(simulation),
       options_(options),
       notify_(std::move(notify)),
       settings_(live_settings(options, simulation.scene())),
+      played_s_(played_s),
       has_receivers_(remove_receivers(simulation.scene())),
+      most_together_(moments_together(simulation.model(), settings_)),
       request_(request_of(original_)) {
   simulation.remember_beams(most_beam_bytes);
   asked_ = 1;
@@ -82,11 +92,14 @@ LiveLight::~LiveLight() {
   worker_.join();
 }
 
-std::uint64_t LiveLight::ask(const LightRequest& request) {
+std::uint64_t LiveLight::ask(const LightRequest& request, std::vector<LightRequest> ahead) {
   std::uint64_t number = 0;
   {
     const std::lock_guard lock(news_mutex_);
     request_ = request;
+    ahead_ = std::move(ahead);
+    if (ahead_.empty()) kept_.clear();
+    in_vain_ = !is_foreseen();
     number = ++asked_;
     asked_at_ = Clock::now();
   }
@@ -112,25 +125,35 @@ LightNews LiveLight::news() const {
 
 bool LiveLight::wait_for_order() {
   std::unique_lock lock(news_mutex_);
-  order_.wait(lock, [this] { return quitting_ || asked_ != news_.request || (save_asked_ && news_.version > 0); });
+  order_.wait(lock, [this] {
+    return quitting_ || asked_ != news_.request || !ahead_.empty() || (save_asked_ && !is_played_ && news_.version > 0);
+  });
   return !quitting_;
 }
 
 void LiveLight::work() {
   while (wait_for_order()) {
     LightRequest request;
+    std::vector<LightRequest> ahead;
     std::uint64_t number = 0;
     {
       const std::lock_guard lock(news_mutex_);
       request = request_;
+      ahead = ahead_;
       number = asked_;
     }
     std::string problem;
     try {
       if (number != news().request) {
-        simulate_request(request, number);
-      } else if (save_asked_) {
+        std::vector<LightRequest> moments = ahead;
+        moments.insert(moments.begin(), request);
+        const bool shown = show_kept() || (!ahead.empty() && simulate_together(moments, 2.0 * played_s_));
+        if (!shown) simulate_request(request, number);
+      } else if (save_asked_ && !is_played_) {
         save_if_asked();
+      } else if (!simulate_together(ahead, static_cast<double>(most_together_) * played_s_)) {
+        const std::lock_guard lock(news_mutex_);
+        if (asked_ == number) ahead_.clear();
       }
       continue;
     } catch (const std::exception& error) {
@@ -140,6 +163,7 @@ void LiveLight::work() {
       const std::lock_guard lock(news_mutex_);
       news_.request = number;
       news_.problem = problem;
+      ahead_.clear();
     }
     notify_();
   }
@@ -152,7 +176,7 @@ bool LiveLight::wants_result() const {
   return news_.result_request != news_.request || seconds_between(last_result_, Clock::now()) >= pause_s;
 }
 
-void LiveLight::simulate_request(const LightRequest& request, std::uint64_t number) {
+void LiveLight::begin_request(const LightRequest& request, std::uint64_t number) {
   std::optional<double> assumed;
   {
     const std::lock_guard lock(result_mutex_);
@@ -173,12 +197,104 @@ void LiveLight::simulate_request(const LightRequest& request, std::uint64_t numb
     news_.sun = simulation_.model().sun;
     news_.incoming = simulation_.model().bands;
   }
+}
+
+void LiveLight::simulate_request(const LightRequest& request, std::uint64_t number) {
+  is_played_ = false;
+  begin_request(request, number);
   Monitor monitor;
   monitor.interrupted = [this, number] { return superseded(number); };
   monitor.wants_result = [this] { return wants_result(); };
   monitor.receive_result = [this, number](RadiationResult result) { take_result(std::move(result), number, false); };
   RadiationResult result = simulation_.solve(settings_, monitor);
   if (!superseded(number)) take_result(std::move(result), number, true);
+}
+
+LiveLight::Kept::const_iterator LiveLight::find_kept(const LightRequest& request) const {
+  return std::find_if(kept_.begin(), kept_.end(), [&](const auto& one) { return one.first == request; });
+}
+
+bool LiveLight::is_foreseen() const {
+  return find_kept(request_) != kept_.end() || std::find(together_.begin(), together_.end(), request_) != together_.end();
+}
+
+std::vector<LightRequest> LiveLight::missing(const std::vector<LightRequest>& moments) const {
+  const std::lock_guard lock(news_mutex_);
+  std::vector<LightRequest> missing;
+  for (const LightRequest& moment : moments) {
+    if (find_kept(moment) == kept_.end() && missing.size() < most_together_) missing.push_back(moment);
+  }
+  return missing;
+}
+
+std::optional<RadiationModel> LiveLight::granted(const LightRequest& request) const {
+  RadiationModel light = simulation_.model();
+  try {
+    grant(request, original_, light);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  return light;
+}
+
+bool LiveLight::simulate_together(const std::vector<LightRequest>& moments, double most_s) {
+  if (most_together_ < 2) return false;
+  std::vector<LightRequest> together = missing(moments);
+  std::vector<RadiationModel> lights;
+  for (const LightRequest& moment : together) {
+    std::optional<RadiationModel> light = granted(moment);
+    if (!light || is_dark(*light)) break;
+    lights.push_back(*std::move(light));
+  }
+  together.resize(lights.size());
+  if (lights.empty()) return false;
+  {
+    const std::lock_guard lock(news_mutex_);
+    if (ahead_.empty()) return false;  // the day is no longer played
+    together_ = together;
+    in_vain_ = asked_ != news_.request && !is_foreseen();
+  }
+  SolveSettings settings = settings_;
+  settings.element_errors = ElementErrors::skip;
+  settings.max_seconds = most_s;
+  Monitor monitor;
+  monitor.interrupted = [this] { return quitting_ || in_vain_; };
+  monitor.report = [this](const Progress&) { show_kept(); };
+  bool in_time = true;
+  const auto keep = [&](std::size_t moment, RadiationResult result, const SharedOutcome&) {
+    if (result.stop == StopReason::interrupted) return;
+    in_time = result.direct.replicates >= 2;
+    if (!in_time) return;
+    const std::lock_guard lock(news_mutex_);
+    kept_.emplace_back(together[moment], std::move(result));
+  };
+  static_cast<void>(simulation_.solve_lights(lights, settings, monitor, nullptr, {}, keep));
+  {
+    const std::lock_guard lock(news_mutex_);
+    together_.clear();
+  }
+  if (!in_time) most_together_ = 1;
+  show_kept();
+  return in_time;
+}
+
+bool LiveLight::show_kept() {
+  LightRequest request;
+  RadiationResult result;
+  std::uint64_t number = 0;
+  {
+    const std::lock_guard lock(news_mutex_);
+    const auto shown = find_kept(request_);
+    if (asked_ == news_.request || shown == kept_.end()) return false;
+    request = request_;
+    number = asked_;
+    result = std::move(kept_[static_cast<std::size_t>(shown - kept_.begin())].second);
+    kept_.erase(kept_.begin(), shown + 1);
+  }
+  is_played_ = true;
+  begin_request(request, number);
+  take_result(std::move(result), number, true);
+  return true;
 }
 
 void LiveLight::take_result(RadiationResult result, std::uint64_t number, bool complete) {
@@ -192,7 +308,7 @@ void LiveLight::take_result(RadiationResult result, std::uint64_t number, bool c
   }
   tell(*result_, number, complete);
   notify_();
-  if (save_asked_) save_if_asked();
+  if (save_asked_ && !is_played_) save_if_asked();
 }
 
 void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool complete) {

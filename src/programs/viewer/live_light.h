@@ -1,5 +1,6 @@
 #pragma once
-// The simulation behind a window. It restarts whenever the light changes, and publishes intermediate results.
+// The simulation behind a window. It restarts whenever the light changes, and publishes intermediate results. The moments of a day that is
+// played are simulated together, some ahead of being shown, for as long as they will be shown.
 
 #include "files/scene/scene_reader.h"
 #include "physics/transport/model/result.h"
@@ -17,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -58,20 +60,26 @@ struct LightStamp {
   bool complete = false;
 };
 
+// How long each moment of a played day is shown at least, s.
+inline constexpr double played_moment_s = 0.35;
+
 class LiveLight {
  public:
   // Starts with the scene's own light. The simulation must outlive the object; `notify` is called from the simulating thread when
-  // there is news.
-  LiveLight(Simulation& simulation, const RunOptions& options, std::function<void()> notify);
+  // there is news. `played_s` is how long each moment of a played day is simulated at most.
+  LiveLight(Simulation& simulation, const RunOptions& options, std::function<void()> notify, double played_s = played_moment_s);
   ~LiveLight();
   LiveLight(const LiveLight&) = delete;
   LiveLight& operator=(const LiveLight&) = delete;
 
-  // Restarts with other light. Returns the number of the request.
-  std::uint64_t ask(const LightRequest& request);
+  // Restarts with other light. Returns the number of the request. `ahead` are the moments of a day that will be asked for next, with no
+  // other difference than the sun's hour: this moment and they share packets, as far as memory allows, and have one result each, whose
+  // accuracy is what the time for which moments are shown allows.
+  std::uint64_t ask(const LightRequest& request, std::vector<LightRequest> ahead = {});
 
   // Writes the result into a folder as `run` does, complete or not, as soon as there is one; planes and sensors are left out.
-  // Beside it goes scene.toml, from which `run` makes the same result, with copies of the files that it names.
+  // Beside it goes scene.toml, from which `run` makes the same result, with copies of the files that it names. `run` makes no moment of a
+  // played day: these are not saved, but what is asked for next.
   void save(const std::filesystem::path& folder);
 
   // Returns whether the scene's beam keeps its irradiance while the sun moves.
@@ -94,10 +102,25 @@ class LiveLight {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Kept = std::vector<std::pair<LightRequest, RadiationResult>>;
 
   void work();
   [[nodiscard]] bool wait_for_order();
   void simulate_request(const LightRequest& request, std::uint64_t number);
+  // Makes a request's light that of the scene.
+  void begin_request(const LightRequest& request, std::uint64_t number);
+  // Simulates those of the moments together that are not kept, up to the first without light. Returns false if there are none, or if so
+  // little time is not enough for this scene.
+  [[nodiscard]] bool simulate_together(const std::vector<LightRequest>& moments, double most_s);
+  // Shows the moment that is asked for if its result is kept; returns whether it was.
+  bool show_kept();
+  // Returns the scene in a moment's light; nothing if that is impossible.
+  [[nodiscard]] std::optional<RadiationModel> granted(const LightRequest& request) const;
+  // Return the kept result of a moment, and whether that of the request is kept or being made. The caller holds news_mutex_.
+  [[nodiscard]] Kept::const_iterator find_kept(const LightRequest& request) const;
+  [[nodiscard]] bool is_foreseen() const;
+  // Returns the first of the moments that are not kept, as many as are simulated together.
+  [[nodiscard]] std::vector<LightRequest> missing(const std::vector<LightRequest>& moments) const;
   void take_result(RadiationResult result, std::uint64_t number, bool complete);
   void tell(const RadiationResult& result, std::uint64_t number, bool complete);
   void save_if_asked();
@@ -110,11 +133,15 @@ class LiveLight {
   RunOptions options_;
   std::function<void()> notify_;
   SolveSettings settings_;
-  bool has_receivers_;  // planes or sensors, which the window does not show
+  double played_s_;
+  bool has_receivers_;         // planes or sensors, which the window does not show
+  bool is_played_ = false;     // the result is that of a moment of a played day
+  std::size_t most_together_;  // moments that are simulated together; 1 if there is no time or memory for more
 
   std::atomic<bool> quitting_ = false;
   std::atomic<std::uint64_t> asked_ = 0;  // number of the last request
   std::atomic<bool> save_asked_ = false;
+  std::atomic<bool> in_vain_ = false;  // what is asked for is not among the moments that are kept or being simulated
 
   mutable std::mutex result_mutex_;  // guards the simulation's scene and the next three members; readers may hold it
   std::optional<RadiationResult> result_;
@@ -125,6 +152,9 @@ class LiveLight {
   mutable std::mutex news_mutex_;
   std::condition_variable order_;
   LightRequest request_;
+  std::vector<LightRequest> ahead_;     // empty once they were simulated
+  std::vector<LightRequest> together_;  // moments that are being simulated
+  Kept kept_;
   LightNews news_;
   std::filesystem::path save_folder_;
   Clock::time_point asked_at_, last_result_;

@@ -6,11 +6,11 @@
 #include "base/units.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "physics/canopy/axes.h"
-#include "physics/light/sun_events.h"
 #include "programs/cli/terminal.h"
 #include "programs/viewer/compass.h"
 #include "programs/viewer/panel.h"
 #include "programs/viewer/reports.h"
+#include "simulate/day_blocks.h"
 #include "simulate/interrupt.h"
 #include "simulate/scene_source.h"
 
@@ -35,8 +35,6 @@ using nlohmann::json;
 constexpr double longest_wait_active_s = 0.03;
 constexpr double longest_wait_idle_s = 0.25;
 constexpr double message_s = 8.0;
-// Shortest time each moment of a played day is shown, once it has a first picture.
-constexpr double played_moment_s = 0.35;
 constexpr std::uint32_t background = 0x00e8ecf0;
 
 }  // namespace
@@ -83,6 +81,7 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.playing = false;
   if (another || !asked_picture_) choose_view(another ? ViewKind::camera : options_.run.pictures.view);
   asked_light_ = state_.light;
+  asked_played_ = false;
   asked_light_at_s_ = now_s();
   light_number_ = 1;
   told_first_ = told_done_ = 0;
@@ -303,6 +302,7 @@ void Viewer::obey(const PanelOrders& orders) {
   }
   if (orders.save_picture) save_picture();
   if (orders.save_result && !state_.news.saving) {
+    state_.playing = false;  // a moment of a played day is not what `run` computes
     save_told_ = false;
     session_->light.save(save_folder());
     say_to_user(fmt::format("Saving in {} …", save_folder().string()), false);
@@ -388,30 +388,25 @@ void Viewer::play() {
   if (!state_.playing || !sun.by_clock) return;
   const bool refused = state_.news.request == light_number_ && !state_.news.problem.empty();
   if ((told_first_ != light_number_ && !refused) || now_s() - asked_light_at_s_ < played_moment_s) return;
-  double first_h = 0.0;
-  double last_h = 24.0;
   try {
-    const Place where{sun.latitude_deg * degree, sun.longitude_deg * degree, sun.altitude_m};
-    const SunEvents events = sun_events({sun.year, sun.month, sun.day, sun.offset_minutes}, where);
-    SunRequest midnight = sun;
-    midnight.hour = 0.0;
-    if (events.sunrise) first_h = std::clamp(seconds_between(time_of(midnight), *events.sunrise) / 3600.0, 0.0, 24.0);
-    if (events.sunset) last_h = std::clamp(seconds_between(time_of(midnight), *events.sunset) / 3600.0, 0.0, 24.0);
+    sun.hour = next_played_hour(sun, state_.play_step_min);
   } catch (const Error& error) {
     say_to_user(error.what(), true);
     state_.playing = false;
-    return;
   }
-  sun.hour += state_.play_step_min / 60.0;
-  if (sun.hour < first_h || sun.hour > last_h) sun.hour = std::min(last_h, first_h + state_.play_step_min / 60.0);
 }
 
 void Viewer::ask_for_light() {
-  if (state_.light == *asked_light_) return;
-  const std::string because = first_difference(*asked_light_, state_.light);
+  const bool has_paused = asked_played_ && !state_.playing;
+  if (state_.light == *asked_light_ && !has_paused) return;
+  std::string because = first_difference(*asked_light_, state_.light);
+  if (because.empty()) because = "pause";
   asked_light_ = state_.light;
+  asked_played_ = state_.playing;
   asked_light_at_s_ = now_s();
-  light_number_ = session_->light.ask(state_.light);
+  std::vector<LightRequest> ahead;
+  if (state_.playing) ahead = moments_after(state_.light, state_.play_step_min, 2 * std::size_t{usual_steps_together} - 1);
+  light_number_ = session_->light.ask(state_.light, std::move(ahead));
   events_.tell("restarted", {{"wish", light_number_}, {"because", because}});
 }
 

@@ -85,6 +85,7 @@ class Viewer {
   std::optional<LightRequest> asked_light_;
   std::optional<PictureRequest> asked_picture_;
   double asked_light_at_s_ = 0.0;
+  bool asked_played_ = false;       // as a moment of a day that is played
   std::uint64_t light_number_ = 0;  // of the last request
   std::uint64_t told_first_ = 0;    // requests whose first picture and whose end were reported
   std::uint64_t told_done_ = 0;

@@ -49,5 +49,34 @@ TEST(LightRequest, KnowsABeamThatDoesNotFollowTheSun) {
   EXPECT_FALSE(has_fixed_beam(scene_with("\"\ndirect = ", "\"\ndirect_normal = ")));
 }
 
+TEST(LightRequest, ADayIsPlayedFromSunriseToSunset) {
+  SunRequest sun;
+  sun.by_clock = true;
+  sun.latitude_deg = 40.0;
+  sun.longitude_deg = 116.0;
+  sun.offset_minutes = 480;
+  sun.year = 2002;
+  sun.month = 8;
+  sun.day = 8;
+  sun.hour = 12.0;
+  EXPECT_EQ(next_played_hour(sun, 10.0), 12.0 + 10.0 / 60.0);
+  sun.hour = 19.4;  // the sun sets at 19:20
+  const double morning = next_played_hour(sun, 10.0);
+  EXPECT_NEAR(morning, 5.3 + 10.0 / 60.0, 0.1);
+  LightRequest evening;
+  evening.sun = sun;
+  evening.sun.hour = 19.1;
+  const std::vector<LightRequest> moments = moments_after(evening, 10.0, 3);
+  ASSERT_EQ(moments.size(), 3U);
+  EXPECT_NEAR(moments[0].sun.hour, 19.1 + 10.0 / 60.0, 1e-9);
+  EXPECT_EQ(moments[1].sun.hour, morning);
+  EXPECT_EQ(moments[2].sun.hour, morning + 10.0 / 60.0);
+  evening.sun.day = 31;
+  evening.sun.month = 2;
+  EXPECT_TRUE(moments_after(evening, 10.0, 3).empty());
+  evening.sun.by_clock = false;
+  EXPECT_TRUE(moments_after(evening, 10.0, 3).empty());
+}
+
 }  // namespace
 }  // namespace sunfleck

@@ -8,8 +8,10 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <thread>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -100,6 +102,81 @@ TEST(LiveLight, OtherOpticsKeepTheBeams) {
   const RadiationResult after = result_of(light);
   expect_same(after, run_of(live, model));
   EXPECT_NE(after.side_indirect, before.side_indirect);
+}
+
+// The moments of a played day share the packets of one simulation; a pause refines the moment that is shown to what `run` computes.
+TEST(LiveLight, PlaysADayAsMomentsOfOneSimulation) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  constexpr double no_limit_s = 1e6;
+  LiveLight light(
+      live.simulation, live.options, [] {}, no_limit_s);
+  ASSERT_TRUE(wait_until_done(light, 1));
+  LightRequest moment = request_of(live.scene);
+  constexpr double step_min = 30.0;
+  std::vector<std::uint64_t> packets;
+  for (int k = 0; k < 9; ++k) {
+    moment.sun.hour = next_played_hour(moment.sun, step_min);
+    ASSERT_TRUE(wait_until_done(light, light.ask(moment, moments_after(moment, step_min, 11))));
+    const RadiationResult shown = result_of(light);
+    RadiationModel model = live.scene.model;
+    grant(moment, live.scene, model);
+    EXPECT_EQ(light.news().sun->azimuth_rad, model.sun->azimuth_rad);
+    EXPECT_EQ(light.news().problem, "");
+    packets.push_back(shown.indirect.packets);
+    const RadiationResult run = run_of(live, model);
+    for (std::size_t b = 0; b < run.bands.size(); ++b) {
+      const Estimate& played = shown.bands[b].absorbed_vegetation;
+      const Estimate& alone = run.bands[b].absorbed_vegetation;
+      // Three half-widths of 95 % are 5.9 standard errors.
+      EXPECT_NEAR(played.value, alone.value, 3.0 * std::hypot(played.half_width, alone.half_width)) << moment.sun.hour;
+      EXPECT_EQ(shown.bands[b].ledger.residual(), 0);
+    }
+  }
+  for (int k = 1; k < 6; ++k) EXPECT_EQ(packets[static_cast<std::size_t>(k)], packets[0]) << "the first six share packets";
+  light.save(folder / "saved");  // not before the moment has a simulation of its own
+  ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
+  RadiationModel model = live.scene.model;
+  grant(moment, live.scene, model);
+  expect_same(result_of(light), run_of(live, model));
+  ASSERT_TRUE(test::wait_for([&] { return light.news().saved.has_value(); }));
+  EXPECT_TRUE(light.news().saved->done) << light.news().saved->text;
+}
+
+// The user may change anything while moments are being simulated ahead.
+TEST(LiveLight, ForgetsMomentsThatAreNoLongerPlayed) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  LiveLight light(live.simulation, live.options, [] {});
+  LightRequest moment = request_of(live.scene);
+  moment.sun.hour = 9.0;
+  light.ask(moment, moments_after(moment, 20.0, 11));
+  LightRequest other = moment;
+  other.optics.at(0).upper[0] = other.optics.at(0).lower[0] = {0.3, 0.3};
+  ASSERT_TRUE(wait_until_done(light, light.ask(other, moments_after(other, 20.0, 11))));
+  EXPECT_EQ(live.simulation.model().optics[0].upper[0].reflectance, 0.3);
+  moment.sun.hour = 15.0;
+  ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
+  RadiationModel model = live.scene.model;
+  grant(moment, live.scene, model);
+  expect_same(result_of(light), run_of(live, model));
+}
+
+// Night has no moments that share packets with those of the day.
+TEST(LiveLight, PlaysMomentsInTheDark) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  LiveLight light(live.simulation, live.options, [] {});
+  LightRequest moment = request_of(live.scene);
+  moment.sky.kind = SkyRequestKind::none;
+  std::vector<LightRequest> ahead(2, moment);
+  moment.sun.hour = 1.0;
+  ahead[0].sun.hour = 2.0;
+  ASSERT_TRUE(test::wait_for([&] { return light.news().complete; }));
+  ASSERT_TRUE(wait_until_done(light, light.ask(moment, ahead)));
+  EXPECT_EQ(result_of(light).direct.rays, 0U);
+  ASSERT_TRUE(wait_until_done(light, light.ask(ahead[1], {ahead[1]})));
+  EXPECT_GT(result_of(light).direct.rays, 0U);
 }
 
 TEST(LiveLight, ContinuesAfterARequestThatCannotBeMet) {
