@@ -9,7 +9,8 @@
 The module uses the engine of the program `sunfleck`: same scene files, same options, same numbers, bit for bit. Axes are X
 south, Y up, Z west, or x east, y north, z up in scenes with axes = "east-north-up"; lengths are in metres, fluxes in W m-2,
 angles in degrees. `Simulation` keeps the tree and the device for scenes that are simulated again under other light; `day`
-simulates one or more days; `sun_position` and `sky` need no canopy; `sunfleck.caribu` offers CARIBU's interface.
+simulates one or more days; `sweep` simulates several optical properties at once; `sun_position` and `sky` need no canopy;
+`sunfleck.caribu` offers CARIBU's interface.
 """
 
 from ._core import commit as __commit__
@@ -19,8 +20,9 @@ from ._errors import DeviceError, Error, InputError, MissingFileError, SunfleckE
 from ._light import Sky, sky, sun_position
 from ._result import Result
 from ._simulation import UNCHANGED, Simulation, run
+from ._sweep import Variant, sweep
 
 __all__ = [
     "UNCHANGED", "DayResult", "DeviceError", "Error", "InputError", "MissingFileError", "Result", "Simulation", "Sky",
-    "SunfleckError", "__commit__", "__version__", "day", "run", "sky", "sun_position",
+    "SunfleckError", "Variant", "__commit__", "__version__", "day", "run", "sky", "sun_position", "sweep",
 ]  # fmt: skip
