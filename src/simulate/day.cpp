@@ -145,9 +145,10 @@ class DayRun {
     std::atomic<bool> too_little = false;  // the solver's threads read it
     std::size_t replicates = settings.resume_from != nullptr ? settings.resume_from->replicates() : 0;
     Monitor monitor;
-    std::optional<StateKeeper> keeper;
     if (std::optional<RunStore> store = sink_.block_store(block_settings(block, settings))) {
-      keeper.emplace(*std::move(store), "day").attend(monitor);
+      if (!keeper_) keeper_.emplace(*store, "day");
+      keeper_->turn_to(*std::move(store));
+      keeper_->attend(monitor);
       // The state of a block that begins again would hide that it does.
       monitor.receive_state = [&, keep = monitor.receive_state](const SolveStateView& state) {
         if (!too_little) keep(state);
@@ -166,7 +167,8 @@ class DayRun {
     double shared_s = 0.0;  // each step's part of the time that all of them took
     const auto take = [&](std::size_t light, RadiationResult result, const SharedOutcome& outcome) {
       simulation_.add_sensors(lights[light], settings, monitor, watch, result);
-      if (result.stop == StopReason::interrupted) return;
+      // What stopped the block may have cut the light of its triangles short.
+      if (too_little || stopped() || result.stop == StopReason::interrupted) return;
       StoredStep step = stored_step(lights[light], result);
       const double lap_s = watch.lap();
       if (light == 0) shared_s = lap_s / static_cast<double>(lights.size());
@@ -255,6 +257,7 @@ class DayRun {
   const RunHooks& hooks_;
   OrganKinds kinds_;
   double lit_steps_ = 0.0;
+  std::optional<StateKeeper> keeper_;
   bool has_looked_ = false;                   // for the state of an earlier process
   std::optional<Work> next_work_;             // of the last step
   std::vector<std::optional<Work>> of_hour_;  // [number of a step within its date], of the last such step

@@ -5,6 +5,7 @@
 #include "physics/transport/solve/solve.h"
 
 #include <chrono>
+#include <utility>
 
 namespace sunfleck {
 
@@ -14,6 +15,9 @@ class StateKeeper {
  public:
   // `command` is the one that is resumed, "run" or "day".
   StateKeeper(RunStore store, const char* command);
+
+  // Makes it keep the states of another simulation; how long writing takes is remembered.
+  void turn_to(RunStore store) { store_ = std::move(store); }
 
   // Makes the monitor hand over states, and writes them; a disk that rejects them is reported once. The keeper must outlive the
   // monitor's use.

@@ -65,6 +65,55 @@ def test_data_frames(variants):
     assert list(variants[2].to_dataframe("bands").index) == ["PAR", "NIR"]
 
 
+FACES = {"upper": {"reflectance": 0.1, "transmittance": 0.05}, "lower": {"reflectance": 0.2, "transmittance": 0.1}}
+PLAIN = {"reflectance": 0.1, "transmittance": 0.05}
+
+
+@pytest.mark.parametrize(
+    "leaf, change, same",
+    [
+        (FACES, {"reflectance": [0.3]}, {face: {**FACES[face], "reflectance": 0.3} for face in FACES}),
+        (FACES, {"upper": {"reflectance": [0.3]}}, {"upper": {**FACES["upper"], "reflectance": 0.3}, "lower": FACES["lower"]}),
+        (PLAIN, {"upper": {"reflectance": [0.3]}}, {"upper": {**PLAIN, "reflectance": 0.3}, "lower": PLAIN}),
+        (PLAIN, {"reflectance": {"PAR": [0.3]}}, {**PLAIN, "reflectance": {"PAR": 0.3, "NIR": 0.1}}),
+    ],
+    ids=["both_faces", "one_face", "a_face_of_a_plain_table", "one_band"],
+)
+def test_what_is_left_out_stays(leaf, change, same):
+    tables = {**TABLES, "optics": {**TABLES["optics"], "leaf": leaf}}
+    (only,) = sunfleck.sweep(with_arrays(tables), optics={"leaf": change}, **WORK)
+    run = sunfleck.run(with_arrays({**tables, "optics": {**TABLES["optics"], "leaf": same}}), **WORK)
+    for name, band in run.bands.items():
+        for term in ("absorbed_vegetation", "absorbed_soil", "reflected"):
+            assert only.bands[name][term] == band[term], (name, term)
+
+
+def test_lamps_spectra_and_photons(tmp_path):
+    (tmp_path / "leaf.csv").write_text("wavelength,reflectance,transmittance\n300,0.1,0.05\n2500,0.1,0.05\n")
+    band = [{"name": "PAR", "direct": 500.0, "unit": "umol_m2_s", "diffuse": 10.0}]
+    optics = {"leaf": {"reflectance": 0.1}, "stem": {"reflectance": 0.2, "emission": 10.0}}
+    scene = with_arrays({**TABLES, "band": band, "optics": optics, "soil": {"reflectance": 0.15}})
+    changes = {"stem": {"upper": {"reflectance": [0.2]}}}
+    (only,) = sunfleck.sweep(scene, optics=changes, **WORK)
+    run = sunfleck.run(scene, **WORK)
+    assert only.bands["PAR"]["absorbed_vegetation"] == run.bands["PAR"]["absorbed_vegetation"]
+    band = [{"name": "PAR", "direct": 100.0, "diffuse": 20.0, "range_nm": [400.0, 700.0]}]
+    optics = {"leaf": {"spectrum": "leaf.csv"}, "stem": {"reflectance": 0.2}}
+    scene = with_arrays({**TABLES, "band": band, "optics": optics, "soil": {"reflectance": 0.15}})
+    (only,) = sunfleck.sweep(scene, folder=tmp_path, optics={"stem": {"reflectance": [0.2]}}, **WORK)
+    run = sunfleck.run(scene, folder=tmp_path, **WORK)
+    assert only.bands["PAR"]["reflected"] == run.bands["PAR"]["reflected"]
+    assert only.to_dataframe("sensors").shape == run.to_dataframe("sensors").shape
+
+
+def test_a_file_that_is_missing_or_broken_is_named(tmp_path):
+    with pytest.raises(sunfleck.MissingFileError, match="absent.toml"):
+        sunfleck.sweep(tmp_path / "absent.toml", optics=OPTICS, device="cpu")
+    (tmp_path / "broken.toml").write_text("[plot\n")
+    with pytest.raises(sunfleck.InputError, match="broken.toml"):
+        sunfleck.sweep(tmp_path / "broken.toml", optics=OPTICS, device="cpu")
+
+
 def test_of_a_file(tmp_path):
     from conftest import OBJ
 
@@ -84,6 +133,8 @@ def test_of_a_file(tmp_path):
         ({"optics": {"leaf": {"reflectance": 0.1}}}, "nothing varies"),
         ({}, "nothing varies"),
         ({"optics": {"leaf": [0.1, 0.2]}}, "optics.leaf: list"),
+        ({"optics": [0.1, 0.2]}, "optics: list"),
+        ({"optics": {"leaf": {"reflectance": [0.1, 0.2]}}, "band": []}, "band"),
         ({"optics": {"leaf": {"reflectance": [0.1, 1.2]}}}, "1.2"),
         ({"optics": {"leaf": {"spectrum": "leaf.csv", "reflectance": [0.1, 0.2]}}}, "optics.leaf.spectrum"),
         ({"optics": {"leaf": {"reflectance": {"PAR": [0.1, 0.2], "UV": 0.1}}}}, "UV"),

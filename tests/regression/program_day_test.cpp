@@ -360,9 +360,11 @@ TEST_F(Day, GoesOnWithinABlock) {
 TEST_F(Day, DoesWithoutAStateThatIsDamaged) {
   const Arguments together{"--together", "4", "--error", "0.01"};
   expect_day(together, 0, "whole");
-  preload_signals(signal_at(SIGINT, "rename steps/step_", 2), {{"SUNFLECK_FAULT_STRIDE", "0.05"}});
+  preload_signals(signal_at(0, "rename steps/block_state.bin") + "," + signal_at(SIGINT, "fsync steps"),
+                  {{"SUNFLECK_FAULT_STRIDE", "0.05"}});
   expect_day(together, 130);
   preload_nothing();
+  EXPECT_EQ(finished_steps(), 0U);
   std::string state = file("steps/block_state.bin");
   state[state.size() / 2] ^= 1;
   folder_.write("out/steps/block_state.bin", state);

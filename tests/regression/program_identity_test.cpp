@@ -10,8 +10,8 @@ const std::vector<std::string> result_tables{"profile.csv", "organs.csv", "trian
 class Identity : public ProgramTest {
  protected:
   void compute(const std::string& to, const Arguments& more) const {
-    simulate(scene_file("maize_sparse.toml"), Arguments{"--grid", "0.01", "--export", "csv", "--size", "160x120"} + more, 0,
-             to);
+    simulate(scene_file("maize_sparse.toml"),
+             Arguments{"--grid", "0.01", "--export", "csv", "--images", "rank_direct", "--size", "160x120"} + more, 0, to);
     for (const std::string& table : result_tables) EXPECT_GT(file(table, to).size(), 1000U) << table;
   }
   void expect_same(const std::string& one, const std::string& other) const {
@@ -65,7 +65,7 @@ TEST_F(IdentityOfDevices, CpuAndSoftwareVulkanWithStepsTogether) {
   for (const char* device : {"cpu", "lavapipe"}) {
     const Outcome day = run({"day",        scene_file("maize_day.toml"),
                              "--from",     "08:00",
-                             "--to",       "12:00",
+                             "--to",       "10:00",
                              "--step",     "60",
                              "--together", "2",
                              "--grid",     "0.05",

@@ -49,13 +49,9 @@ TEST_F(ProgramSky, AnUprightSquareSeesTheTables) {
     const char* sky;
     std::array<double, 4> toward;  // north, east, south, west
   };
-  const std::array rows = {Row{"model = \"uniform\"", {0.5, 0.5, 0.5, 0.5}},
-                           Row{"model = \"cie-overcast\"", {0.396177, 0.396177, 0.396177, 0.396177}},
-                           Row{"model = \"cie\"\ntype = 1", {0.37918, 0.37918, 0.37918, 0.37918}},
+  const std::array rows = {Row{"model = \"cie-overcast\"", {0.396177, 0.396177, 0.396177, 0.396177}},
                            Row{"model = \"cie\"\ntype = 7", {0.31939, 0.56812, 0.48199, 0.29284}},
-                           Row{"model = \"cie-clear\"", {0.39034, 0.78120, 0.64176, 0.35554}},
-                           Row{"model = \"perez\"\ndni = 850\ndhi = 100", {0.43355, 0.80890, 0.66418, 0.41844}},
-                           Row{"model = \"perez\"\ndni = 400\ndhi = 250", {0.31613, 0.69144, 0.55646, 0.28457}}};
+                           Row{"model = \"perez\"\ndni = 850\ndhi = 100", {0.43355, 0.80890, 0.66418, 0.41844}}};
   for (const Row& row : rows) {
     const std::array north_south = faces("north.obj", row.sky);
     const std::array east_west = faces("east.obj", row.sky);

@@ -282,7 +282,9 @@ class WindowTest(unittest.TestCase):
         self.keep_shot("played")
         window.key("space")
         paused = window.wait_for("restarted", because="pause")["wish"]
-        window.wait_for("converged", wish=paused)
+        converged = window.wait_for("converged", wish=paused)
+        self.assertLessEqual(converged["direct_relative_error"], 0.005)
+        self.assertLessEqual(converged["indirect_relative_error"], 0.01)
         window.wait_until_input_is_taken()
         self.assertEqual(max(event["wish"] for event in window.events if event["event"] == "restarted"), paused)
         self.expect_clean_end(window)

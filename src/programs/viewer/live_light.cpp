@@ -99,7 +99,7 @@ std::uint64_t LiveLight::ask(const LightRequest& request, std::vector<LightReque
     request_ = request;
     ahead_ = std::move(ahead);
     if (ahead_.empty()) kept_.clear();
-    in_vain_ = !is_foreseen();
+    in_vain_ = ahead_.empty() || !is_foreseen();
     number = ++asked_;
     asked_at_ = Clock::now();
   }
@@ -161,9 +161,10 @@ void LiveLight::work() {
     }
     {
       const std::lock_guard lock(news_mutex_);
-      news_.request = number;
+      news_.request = std::max(news_.request, number);
       news_.problem = problem;
-      ahead_.clear();
+      together_.clear();
+      if (asked_ == number) ahead_.clear();
     }
     notify_();
   }
@@ -222,7 +223,8 @@ std::vector<LightRequest> LiveLight::missing(const std::vector<LightRequest>& mo
   const std::lock_guard lock(news_mutex_);
   std::vector<LightRequest> missing;
   for (const LightRequest& moment : moments) {
-    if (find_kept(moment) == kept_.end() && missing.size() < most_together_) missing.push_back(moment);
+    const bool is_new = find_kept(moment) == kept_.end() && std::find(missing.begin(), missing.end(), moment) == missing.end();
+    if (is_new && missing.size() < most_together_) missing.push_back(moment);
   }
   return missing;
 }
@@ -264,11 +266,14 @@ bool LiveLight::simulate_together(const std::vector<LightRequest>& moments, doub
   const auto keep = [&](std::size_t moment, RadiationResult result, const SharedOutcome&) {
     if (result.stop == StopReason::interrupted) return;
     in_time = result.direct.replicates >= 2;
-    if (!in_time) return;
     const std::lock_guard lock(news_mutex_);
-    kept_.emplace_back(together[moment], std::move(result));
+    if (in_time && !ahead_.empty()) kept_.emplace_back(together[moment], std::move(result));
   };
-  static_cast<void>(simulation_.solve_lights(lights, settings, monitor, nullptr, {}, keep));
+  try {
+    static_cast<void>(simulation_.solve_lights(lights, settings, monitor, nullptr, {}, keep));
+  } catch (const std::bad_alloc&) {
+    in_time = false;  // one moment at a time may fit into the memory
+  }
   {
     const std::lock_guard lock(news_mutex_);
     together_.clear();
@@ -285,7 +290,7 @@ bool LiveLight::show_kept() {
   {
     const std::lock_guard lock(news_mutex_);
     const auto shown = find_kept(request_);
-    if (asked_ == news_.request || shown == kept_.end()) return false;
+    if (asked_ == news_.request || ahead_.empty() || shown == kept_.end()) return false;
     request = request_;
     number = asked_;
     result = std::move(kept_[static_cast<std::size_t>(shown - kept_.begin())].second);

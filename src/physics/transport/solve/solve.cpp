@@ -271,10 +271,13 @@ class Solver {
   // happens to be small costs less than one percent of coverage.
   SharedOutcome run_to_bound() {
     while (true) {
-      if (spent() || !add_replicate(next_check_, most_replicates)) return finish(stop_);
+      const bool was_stopped_at_check = series_->replicates() >= next_check_;
+      if (!was_stopped_at_check && (spent() || !add_replicate(next_check_, most_replicates))) return finish(stop_);
       const std::size_t done = series_->replicates();
       const bool due = done >= next_check_;
       if (due) judge_.judge_triangles(*series_);
+      // It may have cut the judgement of triangles short.
+      if (due && monitor_.interrupted && monitor_.interrupted()) return finish(StopReason::interrupted);
       const bool good = due && judge_.bounds_hold(*series_);
       report(good ? done : std::max(judge_.needed_replicates(*series_), due ? done + 1 : next_check_));
       if (good) return finish(StopReason::bound_reached);

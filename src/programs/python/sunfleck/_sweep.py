@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional, Union
@@ -17,8 +18,9 @@ from ._simulation import Simulation
 if TYPE_CHECKING:
     import pandas
 
-_COEFFICIENTS = ("reflectance", "transmittance", "emission")
+_COEFFICIENTS = ("reflectance", "transmittance")  # of a face
 _FACES = ("upper", "lower")
+_PAR_UMOL_PER_JOULE = 4.57  # of sunlight, as the program assumes it (McCree 1972)
 
 
 class Variant:
@@ -91,7 +93,7 @@ class Variant:
         frame = self.result.to_dataframe(table)
         if table == "bands":
             return frame.loc[list(self._bands)].rename(index=self._bands)
-        units = self._own(frame.attrs["units"])
+        units = self._own(frame.attrs.get("units", {}))
         frame = frame[[name for name in frame.columns if not name.startswith(self._others)]].rename(columns=self._own_name)
         frame.attrs["units"] = units
         return frame
@@ -125,7 +127,8 @@ def sweep(
 
     optics, soil: changes of the scene's tables, with a list in place of every number that varies, one value for each variant:
         optics={"leaf": {"reflectance": [0.08, 0.12, 0.16], "transmittance": {"PAR": [0.04, 0.06, 0.08], "NIR": 0.4}}}. All lists have
-        the same length. A number holds for all variants; what is left out stays as the scene has it.
+        the same length. A number holds for all variants; what is left out stays as the scene has it,
+        but for a `spectrum` of a table that changes, which the values replace.
     All other arguments: as for `run`.
 
     The variants are bands of one simulation: packets find their way through the canopy once and carry the light of all variants. The
@@ -133,22 +136,23 @@ def sweep(
 
     Raises InputError (a ValueError) like `run`, and for lists of different lengths.
     """
+    if "band" in work:
+        refuse("band", "a sweep takes its bands from the scene", "change them there")
     given = {key: table for key, table in (("optics", optics), ("soil", soil)) if table}
     variants = _count(given)
-    source = SceneSource(scene, folder)
-    tables = source.tables
+    tables = _tables(scene, folder, device, threads, allow_outside)
     names = _band_names(tables)
+    changed_optics = given.get("optics", {})
 
     def expanded(table: Mapping[str, Any], changes: Mapping[str, Any], place: str) -> dict[str, Any]:
-        return _expanded(_merged(table, changes), names, variants, place)
+        return _expanded(_overlaid(table, changes, names, place), names, variants)
 
-    columns = [(band, variant) for variant in range(variants) for band in range(len(names))]
     changed = {
         **(scene if isinstance(scene, Mapping) else tables),
-        "band": [{**tables["band"][band], "name": _name(names[band], variant)} for band, variant in columns],
+        "band": [_renamed(band, variant) for variant in range(variants) for band in tables["band"]],
         "optics": {
-            name: expanded(tables.get("optics", {}).get(name, {}), given.get("optics", {}).get(name, {}), f"optics.{name}")
-            for name in {**tables.get("optics", {}), **given.get("optics", {})}
+            name: expanded(tables.get("optics", {}).get(name, {}), changed_optics.get(name, {}), f"optics.{name}")
+            for name in {**tables.get("optics", {}), **changed_optics}
         },
     }
     if "soil" in tables or "soil" in given:
@@ -157,6 +161,23 @@ def sweep(
     simulation = Simulation(changed, folder=place, device=device, threads=threads, allow_outside=allow_outside)
     result = simulation.run(**work)
     return [Variant(result, names, variant) for variant in range(variants)]
+
+
+def _tables(scene: Scene, folder: Any, device: str, threads: int, allow_outside: bool) -> Mapping[str, Any]:
+    """Returns the keys of the scene."""
+    try:
+        return SceneSource(scene, folder).tables
+    except (OSError, tomllib.TOMLDecodeError):
+        Simulation(scene, folder=folder, device=device, threads=threads, allow_outside=allow_outside)  # raises the program's error
+        raise
+
+
+def _renamed(band: Mapping[str, Any], variant: int) -> dict[str, Any]:
+    """Returns the band of a variant. Only the name tells how many photons a joule of PAR has, if nothing else does."""
+    renamed = {**band, "name": _name(band["name"], variant)}
+    if band["name"] in ("PAR", "par") and "unit" in band and "range_nm" not in band:
+        renamed.setdefault("umol_per_joule", _PAR_UMOL_PER_JOULE)
+    return renamed
 
 
 def _name(band: str, variant: int) -> str:
@@ -171,18 +192,22 @@ def _band_names(tables: Mapping[str, Any]) -> list[str]:
 
 
 def _is_list(value: Any) -> bool:
-    return isinstance(value, (list, tuple, np.ndarray))
+    return isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim > 0)
+
+
+def _checked(table: Any, place: str) -> Mapping[str, Any]:
+    if not isinstance(table, Mapping):
+        refuse(f"{place}: {type(table).__name__}", "must be a dict", 'give {"reflectance": [0.1, 0.2]}, for example')
+    return table
 
 
 def _lists(table: Any, place: str) -> Iterator[tuple[str, int]]:
     """Returns the lists of values that vary, with their lengths."""
-    if not isinstance(table, Mapping):
-        refuse(f"{place}: {type(table).__name__}", "must be a dict", 'give {"reflectance": [0.1, 0.2]}, for example')
-    for key, value in table.items():
+    for key, value in _checked(table, place).items():
         name = f"{place}.{key}"
         if key in _FACES:
             yield from _lists(value, name)
-        elif key in _COEFFICIENTS:
+        elif key in (*_COEFFICIENTS, "emission"):
             for band, item in value.items() if isinstance(value, Mapping) else ((None, value),):
                 if _is_list(item):
                     yield (name if band is None else f"{name}.{band}"), len(item)
@@ -191,7 +216,7 @@ def _lists(table: Any, place: str) -> Iterator[tuple[str, int]]:
 def _count(given: Mapping[str, Any]) -> int:
     """Returns the number of variants."""
     lists = list(_lists(given["soil"], "soil")) if "soil" in given else []
-    for name, table in given.get("optics", {}).items():
+    for name, table in _checked(given.get("optics", {}), "optics").items():
         lists += _lists(table, f"optics.{name}")
     if not lists:
         refuse("sweep", "nothing varies", 'give a list of values, such as optics={"leaf": {"reflectance": [0.1, 0.2]}}')
@@ -201,31 +226,50 @@ def _count(given: Mapping[str, Any]) -> int:
     return lists[0][1]
 
 
-def _merged(table: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Returns the table with the changes. A table has coefficients either of both faces together or of each."""
-    replaced = _COEFFICIENTS if any(face in changes for face in _FACES) else ()
-    if any(key in changes for key in _COEFFICIENTS):
-        replaced += _FACES
-    merged = {**{key: value for key, value in table.items() if key not in replaced}, **changes}
+def _coefficients(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Returns the coefficients of a table by band."""
+    return {
+        key: dict(table[key]) if isinstance(table[key], Mapping) else dict.fromkeys(names, table[key])
+        for key in (*_COEFFICIENTS, "emission")
+        if key in table
+    }
+
+
+def _together(*parts: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Returns the coefficients of all parts; later ones replace earlier ones of the same band."""
+    joint: dict[str, dict[str, Any]] = {}
+    for part in parts:
+        for key, of_bands in part.items():
+            joint[key] = {**joint.get(key, {}), **of_bands}
+    return joint
+
+
+def _overlaid(table: Mapping[str, Any], changes: Mapping[str, Any], names: Sequence[str], place: str) -> dict[str, Any]:
+    """Returns the table with the changes, its coefficients by band."""
+    faces = [face for face in _FACES if face in table or face in changes]
+    for part in (changes, *(changes.get(face, {}) for face in faces)):
+        if "spectrum" in part:
+            refuse(f"{place}.spectrum", "a sweep needs the values of each band", "give reflectance and transmittance instead")
+    if changes:  # replace a spectrum of the scene
+        table = {key: value for key, value in table.items() if key != "spectrum"}
+        table.update({face: {k: v for k, v in table[face].items() if k != "spectrum"} for face in _FACES if face in table})
+    own, changed = _coefficients(table, names), _coefficients(changes, names)
+    overlaid = {key: value for key, value in {**table, **changes}.items() if key not in _COEFFICIENTS}
+    if not faces:
+        return {**overlaid, **_together(own, changed)}
+    overlaid.update(_together(*({"emission": part["emission"]} for part in (own, changed) if "emission" in part)))
     for face in _FACES:
-        if face in table and face in changes:
-            merged[face] = {**table[face], **changes[face]}
-    return merged
+        of_face = [_coefficients(part.get(face, {}), names) for part in (table, changes)]
+        kept = {key: value for key, value in {**table.get(face, {}), **changes.get(face, {})}.items() if key not in _COEFFICIENTS}
+        both = [{key: part[key] for key in _COEFFICIENTS if key in part} for part in (own, changed)]
+        overlaid[face] = {**kept, **_together(both[0], of_face[0], both[1], of_face[1])}
+    return overlaid
 
 
-def _expanded(table: Mapping[str, Any], names: Sequence[str], variants: int, place: str) -> dict[str, Any]:
+def _expanded(table: Mapping[str, Any], names: Sequence[str], variants: int) -> dict[str, Any]:
     """Returns the table with a value for every band of every variant."""
-    if "spectrum" in table:
-        refuse(f"{place}.spectrum", "a sweep needs the values of each band", "give reflectance and transmittance instead")
-    expanded = dict(table)
-    for face in _FACES:
-        if face in table:
-            expanded[face] = _expanded(table[face], names, variants, f"{place}.{face}")
-    for key in _COEFFICIENTS:
-        if key not in table:
-            continue
-        value = table[key]
-        of_bands = value if isinstance(value, Mapping) else dict.fromkeys(names, value)
+    expanded = {**table, **{face: _expanded(table[face], names, variants) for face in _FACES if face in table}}
+    for key, of_bands in _coefficients(table, names).items():
         expanded[key] = {
             _name(str(band), variant): item[variant] if _is_list(item) else item
             for band, item in of_bands.items()

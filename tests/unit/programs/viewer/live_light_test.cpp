@@ -162,6 +162,23 @@ TEST(LiveLight, ForgetsMomentsThatAreNoLongerPlayed) {
   expect_same(result_of(light), run_of(live, model));
 }
 
+// The pause may come while the moment is being simulated with those ahead.
+TEST(LiveLight, RefinesAMomentThatIsPausedAtOnce) {
+  const TempFolder folder;
+  test::LiveScene live(test::write_live_scene(folder));
+  LiveLight light(live.simulation, live.options, [] {});
+  LightRequest moment = request_of(live.scene);
+  for (const double hour : {8.0, 9.0, 10.0, 13.0, 15.0}) {
+    moment.sun.hour = hour;
+    light.ask(moment, moments_after(moment, 20.0, 11));
+    std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(2.0 * hour)));
+    ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
+    RadiationModel model = live.scene.model;
+    grant(moment, live.scene, model);
+    expect_same(result_of(light), run_of(live, model));
+  }
+}
+
 // Night has no moments that share packets with those of the day.
 TEST(LiveLight, PlaysMomentsInTheDark) {
   const TempFolder folder;
