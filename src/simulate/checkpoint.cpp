@@ -40,11 +40,11 @@ Checkpoint::Checkpoint(fs::path folder, std::vector<std::string> exports, const 
     : folder_(std::move(folder)),
       exports_(std::move(exports)),
       settings_(run_settings(scene, settings)),
-      keeper_(RunStore(folder_, state_settings(settings_, settings.element_errors)), "run") {}
+      store_(folder_, state_settings(settings_, settings.element_errors)) {}
 
 Checkpoint::Found Checkpoint::find(const RadiationModel& model, const SolveSettings& settings) {
   if (is_finished()) return Found::finished;
-  found_ = keeper_.store().read(state_shape({&model, 1}, make_counter_layout(model), settings, {}));
+  found_ = store_.read(state_shape({&model, 1}, make_counter_layout(model), settings, {}));
   return found_ ? Found::begun : Found::nothing;
 }
 
@@ -78,7 +78,7 @@ std::string Checkpoint::resume_line() const {
 }
 
 void Checkpoint::finish() const {
-  keeper_.store().remove();
+  store_.remove();
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #pragma once
 // Keeps the state of a run in its folder while it works, so that `run --resume` can resume it.
 
+#include "files/results/stores/run_store.h"
 #include "files/scene/scene_reader.h"
 #include "physics/transport/solve/solve.h"
 #include "simulate/state_keeper.h"
@@ -30,7 +31,7 @@ class Checkpoint {
   [[nodiscard]] std::string resume_line() const;
 
   // Has the state written while the monitor watches the run.
-  void attend(Monitor& monitor) { keeper_.attend(monitor); }
+  void attend(Monitor& monitor) { keeper_.attend(monitor, store_); }
 
   // Returns whether a state of this run is in the folder.
   [[nodiscard]] bool holds_state() const { return found_.has_value() || keeper_.has_written(); }
@@ -44,7 +45,8 @@ class Checkpoint {
   std::filesystem::path folder_;
   std::vector<std::string> exports_;
   nlohmann::ordered_json settings_;
-  StateKeeper keeper_;
+  RunStore store_;
+  StateKeeper keeper_{"run"};
   std::optional<SolveState> found_;
 };
 

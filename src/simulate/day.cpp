@@ -97,7 +97,9 @@ class DayRun {
   // Returns the state that an earlier process left of the first block that it did not finish. If that block had begun with too little
   // work and begun again, `settings` will not begin with it once more. A state that is damaged, or of another block, is of no use.
   [[nodiscard]] std::optional<SolveState> find_state(const DayBlock& block, SolveSettings& settings) {
-    if (std::exchange(has_looked_, true) || !sink_.block_store(block_settings(block, settings))) return std::nullopt;
+    if (std::exchange(has_looked_, true)) return std::nullopt;
+    const std::optional<RunStore> any = sink_.block_store(block_settings(block, settings));
+    if (!any || !any->exists()) return std::nullopt;
     const StateShape shape =
         state_shape(lights_of(simulation_.model(), plan_, block), simulation_.layout(), settings, wanted_sums(block));
     const auto find = [&]() -> std::optional<SolveState> {
@@ -145,10 +147,8 @@ class DayRun {
     std::atomic<bool> too_little = false;  // the solver's threads read it
     std::size_t replicates = settings.resume_from != nullptr ? settings.resume_from->replicates() : 0;
     Monitor monitor;
-    if (std::optional<RunStore> store = sink_.block_store(block_settings(block, settings))) {
-      if (!keeper_) keeper_.emplace(*store, "day");
-      keeper_->turn_to(*std::move(store));
-      keeper_->attend(monitor);
+    if (const std::optional<RunStore> store = sink_.block_store(block_settings(block, settings))) {
+      keeper_.attend(monitor, *store);
       // The state of a block that begins again would hide that it does.
       monitor.receive_state = [&, keep = monitor.receive_state](const SolveStateView& state) {
         if (!too_little) keep(state);
@@ -257,7 +257,7 @@ class DayRun {
   const RunHooks& hooks_;
   OrganKinds kinds_;
   double lit_steps_ = 0.0;
-  std::optional<StateKeeper> keeper_;
+  StateKeeper keeper_{"day"};
   bool has_looked_ = false;                   // for the state of an earlier process
   std::optional<Work> next_work_;             // of the last step
   std::vector<std::optional<Work>> of_hour_;  // [number of a step within its date], of the last such step

@@ -57,9 +57,9 @@ void plan_blocks(const DayRequest& request, const SolveSettings& settings, const
 // Returns how many steps an earlier day in the folder simulated together; nothing if there is none.
 [[nodiscard]] std::optional<int> noted_steps_together(const std::filesystem::path& folder);
 
-// Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them; of the block in progress only
-// its state is kept. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps and the state. Throws as
-// Simulation::solve does, and what the sink throws.
+// Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them; of the block in progress only its state
+// is kept. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps and the state.
+// Throws as Simulation::solve does, and what the sink throws.
 [[nodiscard]] SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings,
                                         DaySink& sink, const RunHooks& hooks);
 

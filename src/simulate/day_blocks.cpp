@@ -23,12 +23,12 @@ double light_bytes(const RadiationModel& model, bool has_sky, bool of_triangles)
 std::size_t steps_in_memory(const RadiationModel& model, const DayPlan& plan, bool of_triangles, double memory_bytes) {
   const bool has_sky =
       std::any_of(plan.lights.begin(), plan.lights.end(), [](const MomentLight& l) { return l.sky.has_value(); });
-  const double fit = lights_in_memory(model, has_sky, of_triangles, memory_bytes);
-  return static_cast<std::size_t>(std::clamp(fit, 1.0, double{usual_steps_together}));
+  return lights_in_memory(model, has_sky, of_triangles, memory_bytes);
 }
 
-double lights_in_memory(const RadiationModel& model, bool has_sky, bool of_triangles, double memory_bytes) {
-  return memory_bytes / std::max(1.0, light_bytes(model, has_sky, of_triangles));
+std::size_t lights_in_memory(const RadiationModel& model, bool has_sky, bool of_triangles, double memory_bytes) {
+  const double fit = memory_bytes / std::max(1.0, light_bytes(model, has_sky, of_triangles));
+  return static_cast<std::size_t>(std::clamp(fit, 1.0, double{usual_steps_together}));
 }
 
 void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {

@@ -20,8 +20,8 @@ inline constexpr int usual_steps_together = 6;
 [[nodiscard]] std::size_t steps_in_memory(const RadiationModel& model, const DayPlan& plan, bool of_triangles,
                                           double memory_bytes);
 
-// Returns the same for other lights of a scene: how many fit, not yet limited to most_steps_together.
-[[nodiscard]] double lights_in_memory(const RadiationModel& model, bool has_sky, bool of_triangles, double memory_bytes);
+// Returns the same for other lights of a scene.
+[[nodiscard]] std::size_t lights_in_memory(const RadiationModel& model, bool has_sky, bool of_triangles, double memory_bytes);
 
 // Gives the plan the blocks of all daytime steps, each with at most `most` of them. The blocks between two nights or dark steps are
 // of nearly the same size.

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -16,13 +15,12 @@ constexpr std::chrono::milliseconds shortest_pause{500};
 
 }  // namespace
 
-StateKeeper::StateKeeper(RunStore store, const char* command)
-    : store_(std::move(store)), command_(command), pause_(shortest_pause) {}
+StateKeeper::StateKeeper(const char* command) : command_(command), pause_(shortest_pause) {}
 
-void StateKeeper::attend(Monitor& monitor) {
+void StateKeeper::attend(Monitor& monitor, const RunStore& store) {
   begin_ = last_ = Clock::now();
   monitor.wants_state = [this] { return is_due(); };
-  monitor.receive_state = [this](const SolveStateView& state) { keep(state); };
+  monitor.receive_state = [this, store](const SolveStateView& state) { keep(store, state); };
 }
 
 bool StateKeeper::is_due() {
@@ -30,10 +28,10 @@ bool StateKeeper::is_due() {
   return !failed_ && begin_ - last_ >= pause_;
 }
 
-void StateKeeper::keep(const SolveStateView& state) {
+void StateKeeper::keep(const RunStore& store, const SolveStateView& state) {
   if (failed_) return;
   try {
-    store_.write(state);
+    store.write(state);
     written_ = true;
   } catch (const Error& error) {
     failed_ = true;

@@ -1,11 +1,10 @@
 #pragma once
-// Writes the state of a simulation to its store while the simulation works.
+// Writes the states of simulations to their stores while they work.
 
 #include "files/results/stores/run_store.h"
 #include "physics/transport/solve/solve.h"
 
 #include <chrono>
-#include <utility>
 
 namespace sunfleck {
 
@@ -14,25 +13,20 @@ namespace sunfleck {
 class StateKeeper {
  public:
   // `command` is the one that is resumed, "run" or "day".
-  StateKeeper(RunStore store, const char* command);
+  explicit StateKeeper(const char* command);
 
-  // Makes it keep the states of another simulation; how long writing takes is remembered.
-  void turn_to(RunStore store) { store_ = std::move(store); }
+  // Makes the monitor hand over states, and writes them to the store; a disk that rejects them is reported once. Of another simulation
+  // before, it knows how long writing takes. The keeper must outlive the monitor's use.
+  void attend(Monitor& monitor, const RunStore& store);
 
-  // Makes the monitor hand over states, and writes them; a disk that rejects them is reported once. The keeper must outlive the
-  // monitor's use.
-  void attend(Monitor& monitor);
-
-  [[nodiscard]] const RunStore& store() const { return store_; }
   [[nodiscard]] bool has_written() const { return written_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] bool is_due();
-  void keep(const SolveStateView& state);
+  void keep(const RunStore& store, const SolveStateView& state);
 
-  RunStore store_;
   const char* command_;
   bool written_ = false, failed_ = false;
   Clock::time_point begin_ = Clock::now(), last_ = begin_;

@@ -38,12 +38,6 @@ Scene light_of_scene(Scene& scene) {
   return light;
 }
 
-// Returns how many moments of a played day are simulated together. The results of the last ones are kept meanwhile.
-std::size_t moments_together(const RadiationModel& model, const SolveSettings& settings) {
-  const double fit = 0.5 * lights_in_memory(model, true, false, settings.memory_bytes.value());
-  return static_cast<std::size_t>(std::clamp(fit, 1.0, double{usual_steps_together}));
-}
-
 SolveSettings live_settings(const RunOptions& options, const Scene& scene) {
   SolveSettings settings = solve_settings(options, scene, options.threads);
   const std::size_t side_bytes = 2 * scene.model.canopy.size() * scene.model.bands.size() * 2 * sizeof(double);
@@ -75,7 +69,8 @@ LiveLight::LiveLight(Simulation& simulation, const RunOptions& options, std::fun
       settings_(live_settings(options, simulation.scene())),
       played_s_(played_s),
       has_receivers_(remove_receivers(simulation.scene())),
-      most_together_(moments_together(simulation.model(), settings_)),
+      // The results of the last ones are kept meanwhile.
+      most_together_(lights_in_memory(simulation.model(), true, false, 0.5 * settings_.memory_bytes.value())),
       request_(request_of(original_)) {
   simulation.remember_beams(most_beam_bytes);
   asked_ = 1;

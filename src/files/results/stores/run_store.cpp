@@ -45,9 +45,13 @@ RunStore::RunStore(const fs::path& result_folder, const ordered_json& settings, 
       file_(result_folder / file),
       settings_(settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace)) {}
 
-std::optional<SolveState> RunStore::read(const StateShape& shape) const {
+bool RunStore::exists() const {
   std::error_code error;
-  if (!fs::exists(file_, error)) return std::nullopt;
+  return fs::exists(file_, error);
+}
+
+std::optional<SolveState> RunStore::read(const StateShape& shape) const {
+  if (!exists()) return std::nullopt;
   const std::string bytes = read_file(file_);
   if (is_of_another_version(bytes)) {
     throw_input(printable(file_.string()), "another version of the program wrote it, in another format",

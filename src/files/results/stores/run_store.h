@@ -20,8 +20,11 @@ class RunStore {
   RunStore(const std::filesystem::path& result_folder, const nlohmann::ordered_json& settings,
            const std::filesystem::path& file = run_state_file);
 
-  // Returns the state left by an earlier run, or nothing. Throws Error (input) if the settings
-  // differ, naming the first difference, or if the file is damaged.
+  // Returns whether an earlier run left a file.
+  [[nodiscard]] bool exists() const;
+
+  // Returns the state left by an earlier run, or nothing. Throws Error (input) if the settings differ, naming the first difference,
+  // or if the file is damaged.
   [[nodiscard]] std::optional<SolveState> read(const StateShape& shape) const;
 
   // Writes the file aside and renames it. Throws Error (failure).

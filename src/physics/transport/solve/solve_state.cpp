@@ -95,7 +95,8 @@ StateShape state_shape(Lights lights, const CounterLayout& layout, const SolveSe
     const Conversion conversion(lights[k], layout, surfaces, areas, receivers ? &*receivers : nullptr, {});
     const RunSums sums(conversion, settings.element_errors, settings.shade_groups, lights);
     RunSums::visit(sums, count);
-    for (const LightSum& sum : k == 0 ? wanted.of_lights : std::vector<LightSum>()) {
+    if (k > 0) continue;
+    for (const LightSum& sum : wanted.of_lights) {
       const JointSums joint(sum, wanted.group_of_organ, sums);
       count(joint);
     }

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import pandas
 
 _COEFFICIENTS = ("reflectance", "transmittance")  # of a face
+_BY_BAND = (*_COEFFICIENTS, "emission")
 _FACES = ("upper", "lower")
 _PAR_UMOL_PER_JOULE = 4.57  # of sunlight, as the program assumes it (McCree 1972)
 
@@ -127,8 +128,8 @@ def sweep(
 
     optics, soil: changes of the scene's tables, with a list in place of every number that varies, one value for each variant:
         optics={"leaf": {"reflectance": [0.08, 0.12, 0.16], "transmittance": {"PAR": [0.04, 0.06, 0.08], "NIR": 0.4}}}. All lists have
-        the same length. A number holds for all variants; what is left out stays as the scene has it,
-        but for a `spectrum` of a table that changes, which the values replace.
+        the same length. A number holds for all variants; what is left out stays as the scene has it, but for a `spectrum` of a
+        table that changes, which the values replace.
     All other arguments: as for `run`.
 
     The variants are bands of one simulation: packets find their way through the canopy once and carry the light of all variants. The
@@ -207,7 +208,7 @@ def _lists(table: Any, place: str) -> Iterator[tuple[str, int]]:
         name = f"{place}.{key}"
         if key in _FACES:
             yield from _lists(value, name)
-        elif key in (*_COEFFICIENTS, "emission"):
+        elif key in _BY_BAND:
             for band, item in value.items() if isinstance(value, Mapping) else ((None, value),):
                 if _is_list(item):
                     yield (name if band is None else f"{name}.{band}"), len(item)
@@ -230,9 +231,13 @@ def _coefficients(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, d
     """Returns the coefficients of a table by band."""
     return {
         key: dict(table[key]) if isinstance(table[key], Mapping) else dict.fromkeys(names, table[key])
-        for key in (*_COEFFICIENTS, "emission")
+        for key in _BY_BAND
         if key in table
     }
+
+
+def _without(table: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    return {key: value for key, value in table.items() if key not in keys}
 
 
 def _together(*parts: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
@@ -251,17 +256,17 @@ def _overlaid(table: Mapping[str, Any], changes: Mapping[str, Any], names: Seque
         if "spectrum" in part:
             refuse(f"{place}.spectrum", "a sweep needs the values of each band", "give reflectance and transmittance instead")
     if changes:  # replace a spectrum of the scene
-        table = {key: value for key, value in table.items() if key != "spectrum"}
-        table.update({face: {k: v for k, v in table[face].items() if k != "spectrum"} for face in _FACES if face in table})
+        own_faces = {face: _without(table[face], ("spectrum",)) for face in _FACES if face in table}
+        table = {**_without(table, ("spectrum",)), **own_faces}
     own, changed = _coefficients(table, names), _coefficients(changes, names)
-    overlaid = {key: value for key, value in {**table, **changes}.items() if key not in _COEFFICIENTS}
+    overlaid = _without({**table, **changes}, _COEFFICIENTS)
     if not faces:
         return {**overlaid, **_together(own, changed)}
     overlaid.update(_together(*({"emission": part["emission"]} for part in (own, changed) if "emission" in part)))
+    both = [_without(part, ("emission",)) for part in (own, changed)]
     for face in _FACES:
         of_face = [_coefficients(part.get(face, {}), names) for part in (table, changes)]
-        kept = {key: value for key, value in {**table.get(face, {}), **changes.get(face, {})}.items() if key not in _COEFFICIENTS}
-        both = [{key: part[key] for key in _COEFFICIENTS if key in part} for part in (own, changed)]
+        kept = _without({**table.get(face, {}), **changes.get(face, {})}, _COEFFICIENTS)
         overlaid[face] = {**kept, **_together(both[0], of_face[0], both[1], of_face[1])}
     return overlaid
 

@@ -55,6 +55,13 @@ void expect_same(const RadiationResult& live, const RadiationResult& run) {
   }
 }
 
+// Expects what `run` would compute for the requested light.
+void expect_run_of(const test::LiveScene& live, const LiveLight& light, const LightRequest& request) {
+  RadiationModel model = live.scene.model;
+  grant(request, live.scene, model);
+  expect_same(result_of(light), run_of(live, model));
+}
+
 TEST(LiveLight, EndsWithWhatRunComputes) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));
@@ -136,9 +143,7 @@ TEST(LiveLight, PlaysADayAsMomentsOfOneSimulation) {
   for (int k = 1; k < 6; ++k) EXPECT_EQ(packets[static_cast<std::size_t>(k)], packets[0]) << "the first six share packets";
   light.save(folder / "saved");  // not before the moment has a simulation of its own
   ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
-  RadiationModel model = live.scene.model;
-  grant(moment, live.scene, model);
-  expect_same(result_of(light), run_of(live, model));
+  expect_run_of(live, light, moment);
   ASSERT_TRUE(test::wait_for([&] { return light.news().saved.has_value(); }));
   EXPECT_TRUE(light.news().saved->done) << light.news().saved->text;
 }
@@ -157,9 +162,7 @@ TEST(LiveLight, ForgetsMomentsThatAreNoLongerPlayed) {
   EXPECT_EQ(live.simulation.model().optics[0].upper[0].reflectance, 0.3);
   moment.sun.hour = 15.0;
   ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
-  RadiationModel model = live.scene.model;
-  grant(moment, live.scene, model);
-  expect_same(result_of(light), run_of(live, model));
+  expect_run_of(live, light, moment);
 }
 
 // The pause may come while the moment is being simulated with those ahead.
@@ -173,9 +176,7 @@ TEST(LiveLight, RefinesAMomentThatIsPausedAtOnce) {
     light.ask(moment, moments_after(moment, 20.0, 11));
     std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(2.0 * hour)));
     ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
-    RadiationModel model = live.scene.model;
-    grant(moment, live.scene, model);
-    expect_same(result_of(light), run_of(live, model));
+    expect_run_of(live, light, moment);
   }
 }
 
