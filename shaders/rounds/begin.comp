@@ -80,6 +80,7 @@ void begin_round() {
   uint kept_word = small_rows(pass) * pass.columns;
   uint kept = uint(totals[kept_word]);
   totals[kept_word] = uint64_t(0u);
+  if (state.rounds == 0u) state.first_places = kept;
   if (state.rounds > 0u && kept > state.most_places) state.most_places = kept;
   state.done = any_active != 0u && state.rounds < pass.most_rounds ? 0u : 1u;
   if (state.rounds > 0u) state.places = state.packets;

@@ -3,34 +3,13 @@
 // Books what packets from number `first` on carry to their landings, and lets wait there what is scattered; see PacketBooks. Each thread
 // takes a packet.
 
-#include "pass.glsl"
-
-#include "shared/beam.h"
+#include "landing_place.glsl"
 
 // Where a packet ended, and where it came from; see Arrival. to, from and waited number places among the layers.
 struct Arrival {
   WaitingPlace place;
   uint to, from, waited;
 };
-
-WaitingPlace place_of(Landing landing) {
-  WaitingPlace place = WaitingPlace(landing.surface, landing.triangle, landing.place_a, landing.place_b, -1, 0u, 0u);
-  if (landing.surface < landed_on_ground) {
-    uint element = landing.surface >> 1u;
-    RoundElement of = elements[element];
-    place.face = (of.optics_and_role >> 2u) * 2u + (landing.surface & 1u);
-    if ((of.optics_and_role & 3u) == role_soil) return place;
-    float y = landing_y(corners[3u * element].y, corners[3u * element + 1u].y, corners[3u * element + 2u].y, landing.place_a,
-                        landing.place_b);
-    place.level = int(layer_of(y, pass.layer_base_y, pass.layers_per_metre, pass.layers));
-  } else if (landing.surface == landed_on_ground) {
-    place.order = ground_order + soil_cell(pass.ground, vec2(landing.place_a, landing.place_b));
-    place.face = pass.soil_face;
-  } else if (landing.surface == left_upwards) {
-    place.level = int(pass.layers);
-  }
-  return place;
-}
 
 Arrival arrival_of(Landing landing, float start_y, WaitingPlace source) {
   Arrival arrival;
@@ -95,17 +74,6 @@ uint64_t book_column(uint copy, Arrival arrival, uint column, uint64_t carried) 
   return scatter(copy, arrival, column, carried);
 }
 
-// Counts a place that keeps flux. An end that is read too early costs no more than an unneeded atomic operation.
-void keep_place(uint copy, uint order) {
-  atomicAdd(copies[copy + small_rows(pass) * pass.columns], uint64_t(1u));
-  uint end = (order & ~ground_order) + 1u;
-  if (order < ground_order) {
-    if (end > state.end_of_elements) atomicMax(state.end_of_elements, end);
-  } else {
-    if (end > state.end_of_cells) atomicMax(state.end_of_cells, end);
-  }
-}
-
 void main() {
   if (gl_GlobalInvocationID.x >= packets_here() || paused_packets != 0u) return;
   uint number = push.first + gl_GlobalInvocationID.x;
@@ -126,7 +94,7 @@ void main() {
   if (any) {
     keep_place(copy, arrival.place.order);
   } else {  // keeps its number, but sends nothing
-    arrival.place = WaitingPlace(0u, 0u, 0.0, 0.0, -1, pass.soil_face, 0u);
+    arrival.place = no_place();
     for (uint c = 0u; c < pass.columns; ++c) next_quanta[number * pass.columns + c] = uint64_t(0u);
   }
   next_places[number] = arrival.place;

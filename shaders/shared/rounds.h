@@ -41,6 +41,13 @@ struct RoundChoices {
   uint trace_group_size;  // threads of a group that follows packets
 };
 
+// A systematic sample of a beam's rays; packets start where these landed.
+struct BeamSample {
+  uint rays;    // of the beam
+  uint count;   // of the sample, at most as many
+  uint offset;  // random, less than `rays`
+};
+
 // What a device knows of a pass. Lengths in metres in the canopy's local frame.
 struct PassBlock {
   uint64_t each;          // packets for each column in the first round, in units of 2^-32
@@ -60,6 +67,8 @@ struct PassBlock {
   uint soil_face;
   uint most_rounds;
   uint most_packets;  // of a round, for which there is room
+  BeamSample sampled;  // of landings that the device has kept; their places follow those that the host has sent
+  uint sample_word;   // number of the random words of the sample's first ray
   RoundChoices choices;
 };
 
@@ -77,6 +86,7 @@ struct RoundState {
   uint done;         // 1: no column is left
   uint has_to_wait;  // 1: packets of the last round are still on their way
   uint most_places;
+  uint first_places;  // of landings of the sample, with flux
   uint end_of_elements;  // orders, and numbers of cells, of the places that wait next are below these
   uint end_of_cells;
   uint any_least;  // 1: some column is so faint that it needs a least number of packets
@@ -96,6 +106,8 @@ struct RoundColumn {
   Scale wanted;  // packets for a quantum
   Scale least;   // the same for a faint column
   uint lowest;   // lowest place among the layers at which any waited when this round's packets left
+  uint64_t from_beam;  // what the beam's first landings leave to be shot, if they are on the device
+  uint64_t at_point;   // what landed at each point of the sample
 };
 
 // What a device must know of an element.
@@ -153,6 +165,12 @@ const uint place_taken = 1u;
 const uint place_down = 2u;
 const uint place_up = 3u;
 const uint kinds_of_places = 4u;
+
+// Returns the k-th ray of a sample.
+INLINE uint sampled_ray(BeamSample sample_of_beam, uint k) {
+  const uint64_t up_to = uint64_t(k) * uint64_t(sample_of_beam.rays) + uint64_t(sample_of_beam.offset);
+  return uint(up_to / uint64_t(sample_of_beam.count));
+}
 
 // Returns how many parts of `each` hold `count`.
 INLINE uint parts_of(uint count, uint each) {

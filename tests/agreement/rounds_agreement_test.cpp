@@ -103,7 +103,7 @@ class SideBySide final : public WrappedTracer {
  private:
   struct Kept {
     explicit Kept(const RoundsOrder& of)
-        : places(of.places), order{of.scene, places, of.block, of.packets, of.faces, of.columns, of.totals} {}
+        : places(of.places), order{of.scene, places, of.landings, of.block, of.packets, of.faces, of.columns, of.totals} {}
     WaitingFlux places;
     RoundsOrder order;
     RoundsSums sums;
@@ -148,6 +148,7 @@ class RoundsAgreement : public DeviceTest {
     const auto theirs = all_numbers(solve(model, prepared.layout, check, settings, {}));
     EXPECT_TRUE(theirs == all_numbers(solve(model, prepared.layout, cpu, settings, {})));
     EXPECT_GE(check.rounds(), 4U);
+    EXPECT_EQ(check.sampled() > 0, model.has_beam());
   }
 
   // Compares the numbers of a whole run, whose dispatches are cut as `choices` say. `Wrapper` counts the passes made on the device.
@@ -343,8 +344,20 @@ TEST_F(RoundsTraffic, TakesTwoSubmissionsARoundAndNoPacketToTheHost) {
   EXPECT_EQ(many.traffic.downloaded_bytes - few.traffic.downloaded_bytes, (4 + sizeof(shared::RoundState)) * further_rounds);
 }
 
-// A device that makes as many rounds as there are before the host looks takes four submissions: beam, counters, rounds, sums. (Fewer
-// packets would start from a sample of the rays, which would be traced again.) Passes side by side share the last two.
+// The device keeps where the beam landed and draws the sample there, so that what it is given does not grow with rays or packets.
+TEST_F(RoundsTraffic, BringsNoPlaceToTheDevice) {
+  const RadiationModel model = leaves_on(unit_plot);
+  const std::size_t scene = model.canopy.size() * (sizeof(Triangle) + sizeof(shared::RoundElement));
+  std::vector<std::uint64_t> uploaded;
+  for (const double packets : {700.0, 12'000.0}) {
+    uploaded.push_back(measure(model, packets, together(40)).traffic.uploaded_bytes - scene);
+  }
+  EXPECT_EQ(uploaded[0], uploaded[1]);
+  EXPECT_LE(uploaded[1], 4096U * replicates);
+}
+
+// A device that makes as many rounds as there are before the host looks takes four submissions: beam, counters, rounds, sums. Passes
+// side by side share the last two.
 TEST_F(RoundsTraffic, TakesFourSubmissionsAReplicateWithRoundsTogether) {
   VulkanChoices one_lane = together(40);
   one_lane.lanes = 1;

@@ -1,8 +1,10 @@
 #include "agreement/stage_check.h"
 
+#include "physics/transport/indirect/landing_places.h"
 #include "shared/random.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -41,13 +43,48 @@ std::optional<TraceOutcome> StageCheck::make_rounds(std::span<const RoundsPass> 
   return TraceOutcome::finished;
 }
 
+std::optional<KeptBeam> StageCheck::keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                              const StopQuestion& stop) {
+  Landings landings(std::size_t{beam.columns} * beam.rows);
+  const std::optional<TraceOutcome> outcome = cpu_.record_beam(beam, counters, landings, stop);
+  std::shared_ptr<const LandingsOnDevice> kept = landing_buffers_.take(landings.size());
+  upload(context_, kept->buffer(), std::as_bytes(std::span(landings)));
+  return KeptBeam{*outcome, std::move(kept)};
+}
+
+void StageCheck::add_landings(Host& host) {
+  const RoundsOrder& order = host.order;
+  if (order.landings == nullptr) return;
+  const shared::BeamSample& sample = order.block.sampled;
+  const auto landings = fetch<shared::Landing>(dynamic_cast<const LandingsOnDevice&>(*order.landings).buffer(), sample.rays);
+  std::vector<EmissionPoint> points;
+  for (std::uint32_t k = 0; k < sample.count; ++k) {
+    const shared::Landing& landing = landings[(std::uint64_t{k} * sample.rays + sample.offset) / sample.count];
+    if (landing.surface > shared::landed_on_ground) continue;
+    points.push_back(place_of(order.scene, landing));
+    points.back().u = shared::random_words(order.block.key, order.block.sample_word + k, 0).x;
+  }
+  std::vector<std::int64_t> own(host.columns.count);
+  for (std::size_t c = 0; c < own.size(); ++c) {
+    double sent = 0.0;
+    for (const EmissionPoint& point : points) {
+      sent += static_cast<double>(host.scattering.face(point.face).scattered[c]) * 0x1p-32;
+    }
+    own[c] = sent > 0.0 ? std::llround(static_cast<double>(order.columns[c].from_beam) / sent) : 0;
+  }
+  for (const EmissionPoint& point : points) host.next.add(point, own);
+  sampled_ += points.size();
+}
+
 TraceOutcome StageCheck::make_rounds(const RoundsPass& pass) {
   const std::span<const RoundsPass> passes(&pass, 1);
   EXPECT_EQ(steps_.make_room(passes), 1U);
   submit([&](Submission& submission) { steps_.give(submission, passes); });
   const RoundsOrder& order = *pass.order;
   Host host(order);
-  auto places = static_cast<std::uint32_t>(order.places.size());
+  add_landings(host);
+  const std::uint64_t first_places = host.next.size();
+  auto places = static_cast<std::uint32_t>(order.first_places());
   for (;;) {
     compare_places(host, host.next, places, RoundBuffer::next_places, RoundBuffer::next_quanta);
     shared::RoundState state{};
@@ -84,6 +121,7 @@ TraceOutcome StageCheck::make_rounds(const RoundsPass& pass) {
   }
   steps_.fetch(passes);
   const RoundsSums& sums = *pass.sums;
+  EXPECT_EQ(sums.first_places, first_places);
   EXPECT_TRUE(sums.side_landed == host.side_landed);
   EXPECT_TRUE(sums.cell_landed == host.cell_landed);
   EXPECT_TRUE(sums.element_hits == host.element_hits);

@@ -80,6 +80,10 @@ class Timed final : public Tracer {
                                                         const StopQuestion& stop) override {
     return timed([&] { return tracer_.record_beam(beam, counters, landings, stop); });
   }
+  [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                  const StopQuestion& stop) override {
+    return timed([&] { return tracer_.keep_beam(beam, counters, stop); });
+  }
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {
     return timed([&] { return tracer_.trace(scene, packets, landings, stop); });

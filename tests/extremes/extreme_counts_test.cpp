@@ -146,14 +146,13 @@ TEST(ExtremeCounts, LastRaysOfTheLargestGrids) {
   }
 }
 
-// The last ray of a sample is one that exists, though its place may round up to the number of rays.
+// A sample may begin with the first ray and end with the last one, of the most rays that a grid has too.
 TEST(ExtremeCounts, SampledRaysExist) {
-  constexpr double nearly_one = 1.0 - 0x1p-53;
-  for (const std::uint64_t rays : {std::uint64_t{4}, std::uint64_t{1} << 20U, max_grid_rays}) {
-    for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{4}, std::size_t{1} << 24U}) {
-      const double stride = static_cast<double>(rays) / static_cast<double>(count);
-      EXPECT_EQ(sampled_ray(0, 0.0, stride, rays), 0U);
-      EXPECT_EQ(sampled_ray(count - 1, nearly_one, stride, rays), rays - 1);
+  for (const std::uint32_t rays : {4U, 1U << 20U, static_cast<std::uint32_t>(max_grid_rays)}) {
+    for (const std::uint32_t count : {1U, 3U, 4U, 1U << 20U, static_cast<std::uint32_t>(max_grid_rays)}) {
+      if (count > rays) continue;
+      EXPECT_EQ(shared::sampled_ray({rays, count, 0}, 0), 0U);
+      EXPECT_EQ(shared::sampled_ray({rays, count, rays - 1}, count - 1), rays - 1);
     }
   }
 }

@@ -219,7 +219,6 @@ TEST(ScatterIdentities, SameNumbersHoweverManyReplicatesAtOnce) {
   }
 }
 
-// A stopped run keeps the replicates that were complete, in their order; those being traced are discarded.
 // Records where beams land, or does not, so that the rays from which packets start are traced again.
 class RecordingTracer final : public WrappedTracer {
  public:
@@ -262,6 +261,7 @@ TEST(ScatterIdentities, RecordedLandingsAreThoseOfRaysTracedAgain) {
   }
 }
 
+// A stopped run keeps the replicates that were complete, in their order; those being traced are discarded.
 TEST(ScatterIdentities, StoppedBetweenReplicatesKeepsTheFirstOnes) {
   const RadiationModel model = leafy_model();
   const Prepared prepared(model);
@@ -283,7 +283,7 @@ TEST(ScatterIdentities, StoppedBetweenReplicatesKeepsTheFirstOnes) {
   EXPECT_TRUE(all_numbers(stopped) == all_numbers(simulate(model, prepared, fewer)));
 }
 
-// Takes turns as devices do, and either leaves the rounds to the host or fails.
+// Takes turns as devices do, and pretends to keep where beams land. Either leaves the rounds to the host or fails.
 class RoundsRefuser final : public WrappedTracer {
  public:
   RoundsRefuser(Tracer& inner, bool fails) : WrappedTracer(inner), fails_(fails) {}
@@ -292,6 +292,10 @@ class RoundsRefuser final : public WrappedTracer {
     TracerDevice device = WrappedTracer::device();
     device.software = false;  // for which two replicates would be made at once
     return device;
+  }
+  [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                  const StopQuestion& stop) override {
+    return KeptBeam{count_beam(beam, counters, stop), std::make_shared<KeptLandings>()};
   }
   [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion&) override {
     passes_ += passes.size();

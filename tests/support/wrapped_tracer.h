@@ -15,6 +15,10 @@ class WrappedTracer : public Tracer {
                                         const StopQuestion& stop) override {
     return inner_.count_beam(beam, counters, stop);
   }
+  [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                  const StopQuestion& stop) override {
+    return inner_.keep_beam(beam, counters, stop);
+  }
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {
     return inner_.trace(scene, packets, landings, stop);

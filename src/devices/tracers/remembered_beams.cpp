@@ -45,6 +45,15 @@ std::optional<TraceOutcome> RememberedBeams::record_beam(const shared::BeamBlock
   return outcome;
 }
 
+std::optional<KeptBeam> RememberedBeams::keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                   const StopQuestion& stop) {
+  if (find(beam) != nullptr) return std::nullopt;
+  counted_.assign(counters.size(), 0);
+  std::optional<KeptBeam> kept = tracer_.keep_beam(beam, counted_, stop);
+  if (kept && kept->outcome == TraceOutcome::finished) take_counted(beam, counters);
+  return kept;
+}
+
 // Adds the counts of a beam to the counters, and remembers them if they fit.
 void RememberedBeams::take_counted(const shared::BeamBlock& beam, std::span<std::uint32_t> counters) {
   if (!beams_.empty() && beams_.front().block.direction != beam.direction) forget();

@@ -9,12 +9,13 @@ namespace sunfleck {
 namespace {
 
 // The shaders read these structs in scalar block layout.
-static_assert(offsetof(shared::PassBlock, choices) == 128);
+static_assert(offsetof(shared::PassBlock, choices) == 144);
 static_assert(offsetof(shared::PassBlock, ground) == 48);
-static_assert(sizeof(shared::RoundState) == 80);
-static_assert(sizeof(shared::RoundColumn) == 88);
+static_assert(sizeof(shared::RoundState) == 88);
+static_assert(sizeof(shared::RoundColumn) == 104);
 static_assert(offsetof(shared::RoundColumn, load_shift) == 56);
 static_assert(offsetof(shared::RoundColumn, lowest) == 80);
+static_assert(offsetof(shared::RoundColumn, from_beam) == 88);
 static_assert(sizeof(shared::RoundElement) == 8);
 static_assert(sizeof(shared::WaitingPlace) == sizeof(EmissionPoint));
 static_assert(offsetof(shared::WaitingPlace, level) == offsetof(EmissionPoint, level));
@@ -46,7 +47,7 @@ RoundSizes::RoundSizes(std::span<const RoundsPass> passes, std::size_t at_a_time
   layer_places = shared::layer_places(any.block);
   for (const RoundsPass& pass : passes) {
     packets = std::max<std::size_t>(packets, pass.order->most_packets());
-    places = std::max({places, pass.order->places.size(), packets});
+    places = std::max({places, pass.order->first_places(), packets});
   }
   packets_at_a_time = std::min(at_a_time, packets);
 }
@@ -156,10 +157,11 @@ void RoundBuffers::make_room(const RoundSizes& sizes, bool of_scene, Buffers& bu
   for (std::size_t k = 0; k < own.size(); ++k) buffers[static_cast<std::size_t>(own[k])] = std::move(created[k]);
 }
 
-std::vector<const GpuBuffer*> RoundBuffers::of(std::size_t lane, const GpuBuffer* outbox) const {
+std::vector<const GpuBuffer*> RoundBuffers::of(std::size_t lane, const OtherBuffer& instead) const {
   std::vector<const GpuBuffer*> all;
-  for (const RoundBuffer buffer : round_buffers()) all.push_back(&at(lane, buffer));
-  if (outbox != nullptr) all.back() = outbox;
+  for (const RoundBuffer buffer : round_buffers()) {
+    all.push_back(instead.buffer != nullptr && buffer == instead.which ? instead.buffer : &at(lane, buffer));
+  }
   return all;
 }
 

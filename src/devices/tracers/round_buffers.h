@@ -66,6 +66,12 @@ struct RoundSizes {
   [[nodiscard]] std::size_t most_lanes(const GpuContext& context, std::uint64_t most_threads) const;
 };
 
+// A buffer that takes the place of one of a lane, if there is one.
+struct OtherBuffer {
+  RoundBuffer which = RoundBuffer::outbox;
+  const GpuBuffer* buffer = nullptr;
+};
+
 // The buffers of several passes side by side, each of which has a lane.
 class RoundBuffers {
  public:
@@ -81,8 +87,8 @@ class RoundBuffers {
   // Returns where the numbers of groups of a kind begin in their buffer, in bytes.
   [[nodiscard]] static std::size_t offset_of_groups(std::uint32_t kind);
 
-  // Returns all of a lane in the order of their bindings, with another outbox if one is given.
-  [[nodiscard]] std::vector<const GpuBuffer*> of(std::size_t lane, const GpuBuffer* outbox = nullptr) const;
+  // Returns all of a lane in the order of their bindings.
+  [[nodiscard]] std::vector<const GpuBuffer*> of(std::size_t lane, const OtherBuffer& instead = {}) const;
 
  private:
   using Buffers =

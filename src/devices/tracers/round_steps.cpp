@@ -1,12 +1,16 @@
 #include "devices/tracers/round_steps.h"
 
 #include "base/in_blocks.h"
+#include "devices/tracers/kept_landings.h"
 #include "rounds_begin.spirv.h"
 #include "rounds_book.spirv.h"
 #include "rounds_collect.spirv.h"
 #include "rounds_count.spirv.h"
 #include "rounds_emit.spirv.h"
 #include "rounds_expect.spirv.h"
+#include "rounds_first_load.spirv.h"
+#include "rounds_first_sum.spirv.h"
+#include "rounds_first_wait.spirv.h"
 #include "rounds_load.spirv.h"
 #include "rounds_order.spirv.h"
 #include "rounds_plan.spirv.h"
@@ -31,7 +35,10 @@ ComputePipeline make_shader(const GpuContext& context, const char* name, std::sp
 }  // namespace
 
 RoundSteps::Shaders::Shaders(const GpuContext& context)
-    : collect(make_shader(context, "collect", rounds_collect_spirv)),
+    : first_sum(make_shader(context, "first_sum", rounds_first_sum_spirv)),
+      first_load(make_shader(context, "first_load", rounds_first_load_spirv)),
+      first_wait(make_shader(context, "first_wait", rounds_first_wait_spirv)),
+      collect(make_shader(context, "collect", rounds_collect_spirv)),
       begin(make_shader(context, "begin", rounds_begin_spirv)),
       count(make_shader(context, "count", rounds_count_spirv)),
       sum_blocks(make_shader(context, "sum_blocks", rounds_sum_blocks_spirv)),
@@ -70,9 +77,13 @@ std::size_t RoundSteps::make_room(std::span<const RoundsPass> passes) {
 
 void RoundSteps::give(Submission& submission, std::span<const RoundsPass> passes) {
   lanes_ = passes.size();
-  const Submission::SideBySide side_by_side(submission);
-  give_scene(submission, passes.front().order->scene);
-  for (std::size_t lane = 0; lane < lanes_; ++lane) give(submission, lane, *passes[lane].order);
+  {
+    const Submission::SideBySide side_by_side(submission);
+    give_scene(submission, passes.front().order->scene);
+    for (std::size_t lane = 0; lane < lanes_; ++lane) give(submission, lane, *passes[lane].order);
+  }
+  const auto has_landings = [](const RoundsPass& pass) { return pass.order->landings != nullptr; };
+  if (std::any_of(passes.begin(), passes.end(), has_landings)) add_landings(submission, passes);
 }
 
 void RoundSteps::give(Submission& submission, std::size_t lane, const RoundsOrder& order) {
@@ -80,7 +91,7 @@ void RoundSteps::give(Submission& submission, std::size_t lane, const RoundsOrde
   block.choices = choices_;
   block.most_packets = static_cast<std::uint32_t>(sizes_.packets);
   shared::RoundState state{};
-  state.places = static_cast<std::uint32_t>(order.places.size());
+  state.places = static_cast<std::uint32_t>(order.first_places());
   state.end_of_elements = order.places.end_of_elements();
   state.end_of_cells = order.places.end_of_cells();
   upload(submission, lane, RoundBuffer::pass, std::span<const shared::PassBlock>(&block, 1));
@@ -106,11 +117,29 @@ void RoundSteps::give_scene(Submission& submission, const IndirectScene& scene) 
 }
 
 void RoundSteps::run(Submission& submission, Lanes lanes, ComputePipeline& shader, std::uint64_t threads,
-                     shared::RoundPush push, const GpuBuffer* outbox) {
+                     shared::RoundPush push, const OtherBuffer& instead) {
   const Submission::SideBySide side_by_side(submission);
   for (std::size_t lane = lanes.first; lane < lanes.end; ++lane) {
-    submission.run(shader, threads, std::as_bytes(std::span(&push, 1)), buffers_.of(lane, outbox));
+    submission.run(shader, threads, std::as_bytes(std::span(&push, 1)), buffers_.of(lane, instead));
   }
+}
+
+void RoundSteps::run_sampled(Submission& submission, std::span<const RoundsPass> passes, ComputePipeline& shader) {
+  const Submission::SideBySide side_by_side(submission);
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    const RoundsOrder& order = *passes[lane].order;
+    if (order.landings == nullptr) continue;
+    const GpuBuffer& landings = dynamic_cast<const LandingsOnDevice&>(*order.landings).buffer();
+    run(submission, {lane, lane + 1}, shader, order.block.sampled.count, {}, {RoundBuffer::landings, &landings});
+  }
+}
+
+void RoundSteps::add_landings(Submission& submission, std::span<const RoundsPass> passes) {
+  const auto columns = static_cast<std::uint32_t>(sizes_.columns);
+  run_sampled(submission, passes, shaders_.first_sum);
+  run(submission, all_lanes(), shaders_.collect, columns, {shared::sum_weights * columns, columns});
+  run(submission, all_lanes(), shaders_.first_load, shared::round_group_size);
+  run_sampled(submission, passes, shaders_.first_wait);
 }
 
 void RoundSteps::run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push) {
@@ -175,7 +204,7 @@ void RoundSteps::book(Submission& submission, shared::RoundPush packets) {
 }
 
 void RoundSteps::book(Submission& submission, std::size_t lane, shared::RoundPush packets, const GpuBuffer* outbox) {
-  run(submission, {lane, lane + 1}, shaders_.book, packets.count, packets, outbox);
+  run(submission, {lane, lane + 1}, shaders_.book, packets.count, packets, {RoundBuffer::outbox, outbox});
 }
 
 void RoundSteps::fetch(Submission& submission, std::span<shared::RoundState> states) const {
@@ -213,6 +242,7 @@ void RoundSteps::fetch(std::span<const RoundsPass> passes) const {
   for (std::size_t lane = 0; lane < passes.size(); ++lane) {
     passes[lane].sums->packets = states[lane].all_packets;
     passes[lane].sums->rounds = states[lane].rounds;
+    passes[lane].sums->first_places = passes[lane].order->places.size() + states[lane].first_places;
     passes[lane].sums->most_places = states[lane].most_places;
   }
 }

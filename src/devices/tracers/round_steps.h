@@ -32,7 +32,8 @@ class RoundSteps {
   // Makes room for passes of one scene. Returns how many of them it has room for side by side; 0 if each is too large for the device or
   // its free memory.
   [[nodiscard]] std::size_t make_room(std::span<const RoundsPass> passes);
-  // Gives the device passes for which there is room, each in a lane, with an empty outbox. Later steps are those of these lanes.
+  // Gives the device passes for which there is room, each in a lane, with an empty outbox, and lets the flux of the landings wait that
+  // it has kept for them. Later steps are those of these lanes.
   void give(Submission& submission, std::span<const RoundsPass> passes);
 
   // Ends the round before, and begins one unless no column is left (RoundState::done), or the lane's outbox is not empty
@@ -64,8 +65,8 @@ class RoundSteps {
   // Each is the shader of its name.
   struct Shaders {
     explicit Shaders(const GpuContext& context);
-    ComputePipeline collect, begin, count, sum_blocks, sum_spine, sum_up, sort, expect, plan, take, weigh, load, emit, order,
-        book;
+    ComputePipeline first_sum, first_load, first_wait, collect, begin, count, sum_blocks, sum_spine, sum_up, sort, expect, plan,
+        take, weigh, load, emit, order, book;
   };
 
   // Lanes from one number to another.
@@ -76,12 +77,15 @@ class RoundSteps {
 
   void give(Submission& submission, std::size_t lane, const RoundsOrder& order);
   void give_scene(Submission& submission, const IndirectScene& scene);
+  // Does what IndirectPass::add_equal_points does on the host.
+  void add_landings(Submission& submission, std::span<const RoundsPass> passes);
+  void run_sampled(Submission& submission, std::span<const RoundsPass> passes, ComputePipeline& shader);
   void begin(Submission& submission, Lanes lanes);
   // Turns numbers of a kind into running sums; `groups` is the kind of their groups.
   void sum(Submission& submission, std::uint32_t kind, std::uint32_t groups);
   // Run a shader with a number of threads, or in all lanes with as many groups as the device has found for a kind.
   void run(Submission& submission, Lanes lanes, ComputePipeline& shader, std::uint64_t threads, shared::RoundPush push = {},
-           const GpuBuffer* outbox = nullptr);
+           const OtherBuffer& instead = {});
   void run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push = {});
   // Runs a shader with a thread for each packet, in all lanes.
   void run_packets(Submission& submission, ComputePipeline& shader, shared::RoundPush packets);

@@ -53,6 +53,12 @@ std::optional<TraceOutcome> TurnTakingTracer::record_beam(const shared::BeamBloc
   return tracer_.record_beam(beam, counters, landings, giving_way(stop));
 }
 
+std::optional<KeptBeam> TurnTakingTracer::keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                    const StopQuestion& stop) {
+  const TracingTurn turn(turn_);
+  return tracer_.keep_beam(beam, counters, giving_way(stop));
+}
+
 TraceOutcome TurnTakingTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                      std::span<shared::Landing> landings, const StopQuestion& stop) {
   const TracingTurn turn(turn_);

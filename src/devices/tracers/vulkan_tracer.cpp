@@ -53,6 +53,7 @@ VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuT
       beam_(create_buffer(context, BufferUse::storage, sizeof(shared::BeamBlock), "the beam's description")),
       counters_(create_buffer(context, BufferUse::storage, counter_words * sizeof(std::uint32_t), "the counters of landings")),
       landings_(create_buffer(context, BufferUse::storage, sizeof(shared::Landing), "landings of beam rays")),
+      kept_landings_(context),
       work_(context, tree, domain, choices_, {"direct", direct_spirv, direct_storage_spirv, 3}, "paused rays") {}
 
 TracerDevice VulkanTracer::device() const {
@@ -79,15 +80,25 @@ std::optional<TraceOutcome> VulkanTracer::record_beam(const shared::BeamBlock& b
                                                       std::span<shared::Landing> landings, const StopQuestion& stop) {
   const std::size_t bytes = std::min(choices_.rays_per_dispatch, most_packets_per_dispatch) * sizeof(shared::Landing);
   if (landings_.bytes < bytes) landings_ = create_buffer(context_, BufferUse::storage, bytes, "landings of beam rays");
-  return follow_beam(beam, counters, landings, stop);
+  return follow_beam(beam, counters, {nullptr, landings}, stop);
 }
 
-TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                       std::span<shared::Landing> landings, const StopQuestion& stop) {
+std::optional<KeptBeam> VulkanTracer::keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                const StopQuestion& stop) {
+  if (!create_rounds()) return std::nullopt;
+  std::shared_ptr<const LandingsOnDevice> landings = kept_landings_.take(std::size_t{beam.columns} * beam.rows);
+  if (landings == nullptr) return std::nullopt;
+  const TraceOutcome outcome = follow_beam(beam, counters, {&landings->buffer(), {}}, stop);
+  return KeptBeam{outcome, std::move(landings)};
+}
+
+TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters, const Record& record,
+                                       const StopQuestion& stop) {
   EXPECT(counters.size_bytes(), ==, counters_.bytes);
   const std::uint32_t rays = beam.columns * beam.rows;
   if (rays == 0) return TraceOutcome::finished;
-  const bool records = !landings.empty();
+  const bool fetches = !record.fetched.empty();
+  const GpuBuffer& landings = record.buffer != nullptr ? *record.buffer : landings_;
   std::vector<shared::PausedRay> left_to_cpu;
   const auto finish = [&](const shared::PausedRay& ray) { left_to_cpu.push_back(ray); };
   std::uint32_t first = 0;
@@ -98,20 +109,32 @@ TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<
   };
   while (first < rays) {
     const std::uint32_t most =
-        records ? std::min(work_.rays_per_dispatch(), most_packets_per_dispatch) : work_.rays_per_dispatch();
+        fetches ? std::min(work_.rays_per_dispatch(), most_packets_per_dispatch) : work_.rays_per_dispatch();
     const std::uint32_t slice = std::min(most, rays - first);
     const auto take = [&](Submission& submission, const GpuBuffer&) {  // the counters go on until all rays are traced
-      if (records) submission.download(landings_, std::as_writable_bytes(landings.subspan(first, slice)));
+      if (fetches) submission.download(landings, std::as_writable_bytes(record.fetched.subspan(first, slice)));
     };
-    const shared::BeamPush push{first, slice, 0, records ? first : shared::no_landings};
-    if (work_.run(push, {&beam_, &counters_, &landings_}, stop, send, take, finish) == TraceOutcome::stopped) {
+    const std::uint32_t first_landing = fetches ? first : record.buffer != nullptr ? 0 : shared::no_landings;
+    const shared::BeamPush push{first, slice, 0, first_landing};
+    if (work_.run(push, {&beam_, &counters_, &landings}, stop, send, take, finish) == TraceOutcome::stopped) {
       return TraceOutcome::stopped;
     }
     first += slice;
   }
-  for (const shared::PausedRay& ray : left_to_cpu) cpu_.finish_ray(beam, ray, counters, landings);
+  finish_on_cpu(beam, left_to_cpu, counters, record);
   add_landings(counters);
   return TraceOutcome::finished;
+}
+
+void VulkanTracer::finish_on_cpu(const shared::BeamBlock& beam, std::span<const shared::PausedRay> rays,
+                                 std::span<std::uint32_t> counters, const Record& record) const {
+  std::vector<shared::Landing> to_upload(record.buffer != nullptr && !rays.empty() ? beam.columns * beam.rows : 0);
+  for (const shared::PausedRay& ray : rays) {
+    cpu_.finish_ray(beam, ray, counters, to_upload.empty() ? record.fetched : std::span(to_upload));
+    if (to_upload.empty()) continue;
+    const auto landing = std::as_bytes(std::span(to_upload).subspan(ray.ray, 1));
+    upload(context_, *record.buffer, landing, ray.ray * sizeof(shared::Landing));
+  }
 }
 
 TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,

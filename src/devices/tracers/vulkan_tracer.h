@@ -5,6 +5,7 @@
 #include "devices/gpu/context.h"
 #include "devices/tracers/cpu_tracer.h"
 #include "devices/tracers/gpu_tree.h"
+#include "devices/tracers/kept_landings.h"
 #include "devices/tracers/paused_work.h"
 #include "devices/tracers/trace_domain.h"
 #include "devices/tracers/vulkan_choices.h"
@@ -31,6 +32,8 @@ class VulkanTracer final : public Tracer {
                                         const StopQuestion& stop) override;
   [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                         std::span<shared::Landing> landings, const StopQuestion& stop) override;
+  [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                  const StopQuestion& stop) override;
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override;
   [[nodiscard]] std::size_t most_passes() const override;
@@ -40,9 +43,16 @@ class VulkanTracer final : public Tracer {
   [[nodiscard]] VulkanChoices packet_choices() const;
   // Creates rounds_ unless they exist; returns false if the device cannot make rounds.
   bool create_rounds();
-  // `landings` is empty where they are not wanted.
-  TraceOutcome follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                           std::span<shared::Landing> landings, const StopQuestion& stop);
+  // Where landings go: all of them stay in a buffer, or each dispatch leaves some in landings_ that are fetched. Or they are not wanted.
+  struct Record {
+    const GpuBuffer* buffer = nullptr;  // of all rays
+    std::span<shared::Landing> fetched;
+  };
+  [[nodiscard]] TraceOutcome follow_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters, const Record& record,
+                                         const StopQuestion& stop);
+  // Brings rays that took too many steps to their ends.
+  void finish_on_cpu(const shared::BeamBlock& beam, std::span<const shared::PausedRay> rays, std::span<std::uint32_t> counters,
+                     const Record& record) const;
   // Adds the counts of the device to the counters.
   void add_landings(std::span<std::uint32_t> counters);
 
@@ -52,7 +62,8 @@ class VulkanTracer final : public Tracer {
   VulkanChoices choices_;
   const GpuTree& tree_;
   GpuBuffer beam_, counters_;
-  GpuBuffer landings_;  // of one dispatch; small until landings are asked for
+  GpuBuffer landings_;            // of one dispatch; small until landings are asked for
+  LandingBuffers kept_landings_;  // of whole beams
   std::vector<std::uint32_t> landed_;
   PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet

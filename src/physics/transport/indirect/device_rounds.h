@@ -8,6 +8,7 @@
 #include "shared/rounds.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,10 @@ namespace sunfleck {
 // What a device is given for the rounds of one pass.
 struct RoundsOrder {
   const IndirectScene& scene;
-  const WaitingFlux& places;         // where flux waits before the first round
-  shared::PassBlock block;           // `choices` are the device's own
-  double packets = 0.0;              // of the first round, approximately; no round has many more
+  const WaitingFlux& places;                     // where flux waits before the first round, but for the landings
+  std::shared_ptr<const KeptLandings> landings;  // of which packets also start from block.sampled; null: from none
+  shared::PassBlock block;                       // `choices` are the device's own
+  double packets = 0.0;                          // of the first round, approximately; no round has many more
   std::vector<std::uint64_t> faces;  // coefficients: what each reflects, then what each scatters, [face * columns + column]
   std::vector<shared::RoundColumn> columns;  // [column]
   std::vector<std::uint64_t>
@@ -26,6 +28,8 @@ struct RoundsOrder {
 
   // Returns the largest number of packets in a round: each column may need a least number of its own.
   [[nodiscard]] std::uint64_t most_packets() const;
+  // Returns the number of places, those of landings that met nothing included.
+  [[nodiscard]] std::size_t first_places() const { return places.size() + block.sampled.count; }
 };
 
 // What a device found.
@@ -35,7 +39,7 @@ struct RoundsSums {
   std::vector<std::int64_t> side_landed;  // as in IndirectSums, of the packets
   std::vector<std::int64_t> cell_landed, surface_landed;
   std::vector<std::uint32_t> element_hits;
-  std::uint64_t packets = 0, rounds = 0, most_places = 0;
+  std::uint64_t packets = 0, rounds = 0, first_places = 0, most_places = 0;  // places with flux
 
   // Returns the rows of one kind of small sums, [place among the layers * columns + column].
   [[nodiscard]] std::span<const std::uint64_t> at_places(const shared::PassBlock& block, std::uint32_t kind) const;

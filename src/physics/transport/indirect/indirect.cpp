@@ -32,7 +32,7 @@ constexpr std::uint64_t indirect_stream = std::uint64_t{1} << 48U;
 constexpr double shared_landings_per_packet = 0.25;
 constexpr double least_shared_landings = 64;
 // Quanta of a sampled landing are cut off here, far above all that a replicate has.
-constexpr double most_at_point = 0x1p52;
+constexpr auto most_at_point = static_cast<double>(shared::most_at_point);
 
 // Rays and packets are booked in batches of which all that is read several times stays in a processor's own cache.
 constexpr std::size_t most_in_batch = 8192;
@@ -82,38 +82,58 @@ class IndirectPass {
 
   std::optional<IndirectSums> run() {
     if (!let_sky_in()) return std::nullopt;
-    if (!sample_landings(scene_, light_, wanted_landings(), random_, stop_, arrays_)) return std::nullopt;
-    add_first_landings(arrays_.points);
     add_lamps();
+    const std::vector<std::int64_t> scattered = let_first_landings_wait();
+    std::optional<TraceOutcome> outcome = start_on_device(scattered);
     IndirectSums& sums = books_.sums();
-    sums.first_places = next_.size();
-    if (const std::optional<TraceOutcome> outcome = make_rounds_on_device()) {
-      if (*outcome == TraceOutcome::stopped) return std::nullopt;
-    } else if (!make_rounds()) {
-      return std::nullopt;
+    if (!outcome) {
+      if (!sample_landings(scene_, light_, wanted_landings(), random_, stop_, arrays_)) return std::nullopt;
+      add_points(arrays_.points, scattered);
+      sums.first_places = next_.size();
+      if (light_.first.front().kept == nullptr) outcome = make_rounds_on_device({}, {});
+      if (!outcome) outcome = make_rounds();
     }
+    if (*outcome == TraceOutcome::stopped) return std::nullopt;
     books_.close();
     arrays_.sides_landed = sums.side_landed.extent();
     return std::move(sums);
   }
 
  private:
-  // Makes all rounds on the host. Returns false if stopped.
-  [[nodiscard]] bool make_rounds() {
+  // Makes all rounds on the host.
+  [[nodiscard]] TraceOutcome make_rounds() {
     const std::optional<PlaceAim> aim = light_.aim != nullptr ? std::optional<PlaceAim>({scene_, *light_.aim}) : std::nullopt;
     PacketDraw draw(books_.scattering(), aim ? &*aim : nullptr, order_.packets, books_.waiting(), arrays_.draw);
     while (retire_faint_columns() && books_.sums().rounds < most_rounds) {
-      if (!shoot(draw)) return false;
+      if (!shoot(draw)) return TraceOutcome::stopped;
     }
-    return true;
+    return TraceOutcome::finished;
   }
 
-  // Lets the tracer make all rounds where it works, if it can; see Tracer::make_rounds.
-  [[nodiscard]] std::optional<TraceOutcome> make_rounds_on_device() {
+  // Makes all rounds where the tracer has kept the landings of the beam, with a sample of them; sample_landings() takes the same one.
+  // Returns nothing, and does nothing, if there are none, or if the tracer cannot.
+  [[nodiscard]] std::optional<TraceOutcome> start_on_device(std::span<const std::int64_t> scattered) {
+    const FirstLandings& first = light_.first.front();
+    if (first.kept == nullptr) return std::nullopt;
+    RandomStream random = random_;
+    return make_rounds_on_device(sample_of(first.beam.front(), wanted_landings(), random), scattered);
+  }
+
+  // Lets the tracer make all rounds where it works, if it can; see Tracer::make_rounds. `sample` are kept landings from which packets
+  // start, of which `scattered` is [column].
+  [[nodiscard]] std::optional<TraceOutcome> make_rounds_on_device(const shared::BeamSample& sample,
+                                                                  std::span<const std::int64_t> scattered) {
     if (light_.aim != nullptr || !suits_device(scene_)) return std::nullopt;
-    const shared::PassBlock block = pass_block();
-    const RoundsOrder order{
-        scene_, next_, block, order_.packets, coefficients_of(books_.scattering()), round_columns(), books_.for_rounds(block)};
+    shared::PassBlock block = pass_block();
+    block.sampled = sample;
+    const RoundsOrder order{scene_,
+                            next_,
+                            sample.count > 0 ? light_.first.front().kept : nullptr,
+                            block,
+                            order_.packets,
+                            coefficients_of(books_.scattering()),
+                            round_columns(scattered),
+                            books_.for_rounds(block)};
     const RoundsPass pass{&order, &arrays_.found};
     const std::optional<TraceOutcome> outcome = scene_.tracer.make_rounds(std::span(&pass, 1), stop_);
     if (outcome == TraceOutcome::finished) books_.add_rounds(order.block, arrays_.found);
@@ -126,11 +146,12 @@ class IndirectPass {
     block.unshot_part = unshot_part();
     block.least_judged = least_judged();
     block.key = key_;
+    block.sample_word = static_cast<std::uint32_t>(books_.sums().sky_rays);
     block.most_rounds = static_cast<std::uint32_t>(most_rounds);
     return block;
   }
 
-  [[nodiscard]] std::vector<shared::RoundColumn> round_columns() const {
+  [[nodiscard]] std::vector<shared::RoundColumn> round_columns(std::span<const std::int64_t> from_beam) const {
     const std::vector<std::int64_t> waiting = books_.waiting();
     std::vector<shared::RoundColumn> all(columns_);
     for (std::size_t c = 0; c < columns_; ++c) {
@@ -138,6 +159,7 @@ class IndirectPass {
       all[c].incident = static_cast<std::uint64_t>(incident_[c]);
       all[c].least_of_vegetation = static_cast<std::uint64_t>(whole_quanta(first(c).least_of_vegetation[band(c)]));
       all[c].is_active = 1;
+      if (!from_beam.empty()) all[c].from_beam = static_cast<std::uint64_t>(from_beam[c]);
     }
     return all;
   }
@@ -224,15 +246,20 @@ class IndirectPass {
           place.surface ^= 1U;
           place.face ^= 1U;
         }
-        place.u = words_of(books_.sums().sky_rays + p).x;
+        place.u = random_bits(point);
         take(place, weights);
       }
     }
   }
 
-  // Lets the flux scattered by all beam rays wait at the sampled points: where it waits is exact, what the points send is scaled to it.
-  void add_first_landings(const LandingPoints& points) {
-    std::vector<std::int64_t> scattered(columns_), own(columns_);
+  // Returns the random bits by which the quanta at a sampled point split.
+  [[nodiscard]] std::uint32_t random_bits(const EmissionPoint& point) const {
+    return words_of(books_.sums().sky_rays + point.u).x;
+  }
+
+  // Lets the flux scattered by all beam rays wait, where it is known to be; returns it for each column.
+  std::vector<std::int64_t> let_first_landings_wait() {
+    std::vector<std::int64_t> scattered(columns_);
     for (std::size_t c = 0; c < columns_; ++c) {
       const FirstLandings& landings = first(c);
       for (std::size_t k = band(c); k < landings.scattered.size(); k += bands_) {
@@ -243,6 +270,35 @@ class IndirectPass {
         books_.add_waiting_in_zone(k / bands_, c, landings.scattered_by_zone[k]);
       }
     }
+    return scattered;
+  }
+
+  // Adds the sampled points, of which packets are to carry what is scattered in all.
+  void add_points(const LandingPoints& points, std::span<const std::int64_t> scattered) {
+    next_.reserve(next_.size() + points.places.size());
+    if (points.weights.empty()) return add_equal_points(points.places, scattered);
+    add_weighted_points(points, scattered);
+  }
+
+  // A device does the same with landings that it keeps (shaders/rounds/first_sum.comp and its neighbours).
+  void add_equal_points(std::span<const EmissionPoint> points, std::span<const std::int64_t> scattered) {
+    std::vector<std::uint64_t> coefficients(columns_);
+    for (const EmissionPoint& point : points) {
+      const FaceColumns& face = books_.scattering().face(point.face);
+      for (std::size_t c = 0; c < columns_; ++c) coefficients[c] += face.scattered[c];
+    }
+    std::vector<std::int64_t> own(columns_);
+    for (std::size_t c = 0; c < columns_; ++c) {
+      own[c] = static_cast<std::int64_t>(shared::quanta_at_point(static_cast<std::uint64_t>(scattered[c]), coefficients[c]));
+    }
+    for (EmissionPoint point : points) {
+      point.u = random_bits(point);
+      next_.add(point, own);
+    }
+  }
+
+  void add_weighted_points(const LandingPoints& points, std::span<const std::int64_t> scattered) {
+    std::vector<std::int64_t> own(columns_);
     std::vector<double> sent(columns_), scale(columns_);  // by all points for a weight of one, and quanta for it
     for_each_landing(points, [&](const EmissionPoint& place, std::span<const double> weights) {
       const FaceColumns& face = books_.scattering().face(place.face);
@@ -251,7 +307,6 @@ class IndirectPass {
       }
     });
     for (std::size_t c = 0; c < columns_; ++c) scale[c] = sent[c] > 0.0 ? static_cast<double>(scattered[c]) / sent[c] : 0.0;
-    next_.reserve(next_.size() + points.places.size());
     for_each_landing(points, [&](const EmissionPoint& place, std::span<const double> weights) {
       for (std::size_t c = 0; c < columns_; ++c) {
         own[c] = static_cast<std::int64_t>(std::min(most_at_point, weights[c % lights_] * scale[c] + 0.5));

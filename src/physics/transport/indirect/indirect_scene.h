@@ -14,6 +14,7 @@
 #include "physics/transport/receivers/planes.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,9 @@ struct FirstLandings {
   std::vector<BeamPart> beam;  // empty without direct light
   // [ray], where each ray of the beam's only part landed; empty if that was not recorded.
   std::span<const shared::Landing> recorded;
-  double ground_per_ray_m2 = 0.0;  // level ground that a beam ray of weight 1 represents
-  std::uint64_t met = 0;           // number of beam rays that met anything, by weight
+  std::shared_ptr<const KeptLandings> kept;  // the same where the tracer works; null if they are not kept there
+  double ground_per_ray_m2 = 0.0;            // level ground that a beam ray of weight 1 represents
+  std::uint64_t met = 0;                     // number of beam rays that met anything, by weight
   // Quanta waiting where they landed, [(level + 1) * bands + band]; `level` as in EmissionPoint, so index 0 is the soil
   // and index 1 the lowest layer.
   std::vector<std::int64_t> scattered;

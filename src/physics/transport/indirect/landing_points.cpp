@@ -66,7 +66,7 @@ class LandingSampler {
     for (std::size_t k = 1; k < beam.size(); ++k) around += weighted_rays(beam[k]);
     for (std::size_t k = 0; k < beam.size(); ++k) {
       const double share = around == 0.0 ? 1.0 : k == 0 ? 0.5 : 0.5 * weighted_rays(beam[k]) / around;
-      if (!sample_part(number, beam[k], std::max(1.0, share * most), random)) return false;
+      if (!sample_part(number, beam[k], share * most, random)) return false;
     }
     return true;
   }
@@ -74,15 +74,16 @@ class LandingSampler {
   // Takes at most `most` rays of a part, and adds the points where they landed. Returns false if stopped.
   [[nodiscard]] bool sample_part(std::size_t number, const BeamPart& part, double most, RandomStream& random) {
     const FirstLandings& first = light_.first[beams_[number].light];
-    const auto count = static_cast<std::size_t>(std::min(most, static_cast<double>(part.rays())));
-    const double stride = static_cast<double>(part.rays()) / static_cast<double>(count);
-    const double offset = random.unit();
+    const shared::BeamSample sample = sample_of(part, most, random);
+    const double stride = static_cast<double>(sample.rays) / static_cast<double>(sample.count);
     beams_[number].parts.push_back({&part, first.ground_per_ray_m2 * stride * part.weight});
     // Only the parts of one beam differ in weight, and only while no other light shares the points.
     const double alone = first.beam.size() == 1 ? 1.0 : stride * part.weight;
-    for (std::size_t begin = 0; begin < count; begin += most_at_a_time) {
-      numbers_.resize(std::min(most_at_a_time, count - begin));
-      for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k] = sampled_ray(begin + k, offset, stride, part.rays());
+    for (std::size_t begin = 0; begin < sample.count; begin += most_at_a_time) {
+      numbers_.resize(std::min(most_at_a_time, sample.count - begin));
+      for (std::size_t k = 0; k < numbers_.size(); ++k) {
+        numbers_[k] = shared::sampled_ray(sample, static_cast<std::uint32_t>(begin + k));
+      }
       if (!first.recorded.empty()) {
         take_recorded(first);
       } else if (!trace_again(part)) {
@@ -119,8 +120,10 @@ class LandingSampler {
     points_.places.resize(before + arrays_.landings.size());
     const auto added = [&] { return points_.places.begin() + static_cast<std::ptrdiff_t>(before); };
     find_places(scene_, arrays_.landings, {added(), points_.places.end()});
+    std::for_each(added(), points_.places.end(), [&](EmissionPoint& place) { place.u = next_number_++; });
     const auto missed = [](const EmissionPoint& place) { return place.surface > shared::landed_on_ground; };
     points_.places.erase(std::remove_if(added(), points_.places.end(), missed), points_.places.end());
+    if (all_weigh_the_same()) return;
     const std::size_t lights = light_.first.size();
     points_.weights.resize(points_.places.size() * lights);
     for (std::size_t p = before; p < points_.places.size(); ++p) {
@@ -128,6 +131,8 @@ class LandingSampler {
     }
     if (beams_.size() > 1) sampled_by_.resize(points_.places.size(), number);
   }
+
+  [[nodiscard]] bool all_weigh_the_same() const { return light_.first.size() == 1 && light_.first.front().beam.size() == 1; }
 
   // Finds which other lights shine on the points, and weighs these. Returns false if stopped.
   [[nodiscard]] bool share_points() {
@@ -193,6 +198,7 @@ class LandingSampler {
   LandingPoints& points_;
   std::vector<SampledBeam> beams_;
   std::vector<std::uint32_t> numbers_;   // of the sampled rays in hand
+  std::uint32_t next_number_ = 0;        // in the sample
   std::vector<std::size_t> sampled_by_;  // [point], number of the beam; empty for a single one
 };
 
@@ -203,8 +209,11 @@ bool sample_landings(const IndirectScene& scene, const LightFromAbove& light, do
   return LandingSampler(scene, light, stop, arrays).sample(most, random);
 }
 
-std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays) {
-  return static_cast<std::uint32_t>(std::min((static_cast<double>(k) + offset) * stride, static_cast<double>(rays - 1)));
+shared::BeamSample sample_of(const BeamPart& part, double most, RandomStream& random) {
+  const auto rays = static_cast<double>(part.rays());
+  const double count = std::max(1.0, std::min(most, rays));
+  const double offset = std::min(random.unit() * rays, rays - 1.0);  // the product may be rounded up to all rays
+  return {static_cast<std::uint32_t>(part.rays()), static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(offset)};
 }
 
 }  // namespace sunfleck

@@ -11,8 +11,7 @@
 #include "base/random.h"
 #include "physics/transport/indirect/indirect_scene.h"
 #include "physics/transport/indirect/pass_arrays.h"
-
-#include <cstdint>
+#include "shared/rounds.h"
 
 namespace sunfleck {
 
@@ -21,8 +20,7 @@ namespace sunfleck {
 [[nodiscard]] bool sample_landings(const IndirectScene& scene, const LightFromAbove& light, double most, RandomStream& random,
                                    const StopQuestion& stop, PassArrays& arrays);
 
-// Returns the k-th ray of a systematic sample that takes one ray in `stride`. The offset is uniform over [0, 1). The last
-// sum may round up to `rays`.
-[[nodiscard]] std::uint32_t sampled_ray(std::size_t k, double offset, double stride, std::uint64_t rays);
+// Returns a systematic sample of at most `most` rays of a part of a beam, but of one at least.
+[[nodiscard]] shared::BeamSample sample_of(const BeamPart& part, double most, RandomStream& random);
 
 }  // namespace sunfleck

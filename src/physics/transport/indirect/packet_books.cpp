@@ -169,6 +169,7 @@ void PacketBooks::add_rounds(const shared::PassBlock& block, const RoundsSums& f
   sums_.lost += found.totals[shared::small_rows(block) * columns_ + 1];
   sums_.packets += found.packets;
   sums_.rounds += found.rounds;
+  sums_.first_places = found.first_places;
   sums_.most_places = std::max(sums_.most_places, found.most_places);
 }
 

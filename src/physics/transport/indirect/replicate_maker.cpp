@@ -47,6 +47,12 @@ std::optional<TraceOutcome> ReplicateMaker::ForAllThreads::record_beam(const sha
   return tracer_.record_beam(beam, counters, landings, stop);
 }
 
+std::optional<KeptBeam> ReplicateMaker::ForAllThreads::keep_beam(const shared::BeamBlock& beam,
+                                                                 std::span<std::uint32_t> counters, const StopQuestion& stop) {
+  const std::unique_lock lock = turn();
+  return tracer_.keep_beam(beam, counters, stop);
+}
+
 TraceOutcome ReplicateMaker::ForAllThreads::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                                   std::span<shared::Landing> landings, const StopQuestion& stop) {
   const std::unique_lock lock = turn();
@@ -195,6 +201,10 @@ double ReplicateMaker::record_bytes(double beam_rays, double landings) const {
   return beam_rays * sizeof(shared::Landing);
 }
 
+bool ReplicateMaker::keeps_landings(const ReplicateOrder& order) const {
+  return indirect_ && order.packets > 0.0 && lights_.size() == 1 && aim(order.aimed) == nullptr && suits_device(*indirect_);
+}
+
 // Light is not aimed in a scene with receivers.
 TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
                                         std::vector<shared::Landing>& recorded, const StopQuestion& stop) {
@@ -204,6 +214,11 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
   }
   const std::uint64_t rays = first.beam.front().rays();
   const bool alone = first.beam.size() == 1;  // rays of other parts have other weights
+  if (alone && keeps_landings(order)) {
+    const std::optional<KeptBeam> kept = tracer_.keep_beam(block, replicate.counters, stop);
+    if (kept) first.kept = kept->landings;
+    if (kept) return kept->outcome;
+  }
   if (alone && record_bytes(static_cast<double>(rays), std::min(order.packets, order.sampled_rays)) > 0.0) {
     recorded.resize(rays);
     const std::optional<TraceOutcome> outcome = tracer_.record_beam(block, replicate.counters, recorded, stop);

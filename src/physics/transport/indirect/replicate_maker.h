@@ -83,6 +83,8 @@ class ReplicateMaker {
     [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                           std::span<shared::Landing> landings,
                                                           const StopQuestion& stop) override;
+    [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                    const StopQuestion& stop) override;
     [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                      std::span<shared::Landing> landings, const StopQuestion& stop) override;
     [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes,
@@ -110,7 +112,9 @@ class ReplicateMaker {
     std::vector<WaitingPass*> waiting_;
   };
 
-  // Traces the beam of first.beam, and records its landings in `recorded` if record_bytes says so.
+  // Returns whether the rounds may start from landings that the tracer keeps: those of one light in one part, without receivers.
+  [[nodiscard]] bool keeps_landings(const ReplicateOrder& order) const;
+  // Traces the beam of first.beam, and has its landings kept by the tracer, or records them in `recorded` if record_bytes says so.
   [[nodiscard]] TraceOutcome count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
                                         std::vector<shared::Landing>& recorded, const StopQuestion& stop);
   // Traces the beam of one light; returns false if stopped.

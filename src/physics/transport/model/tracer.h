@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,19 @@ struct TracerDevice {
 using StopQuestion = std::function<bool()>;
 
 enum class TraceOutcome { finished, stopped };
+
+// Where the rays of a beam landed, kept where the tracer works until its last owner lets go of it. The tracer's device must outlive it.
+class KeptLandings {
+ public:
+  KeptLandings() = default;
+  virtual ~KeptLandings() = default;
+  KeptLandings(const KeptLandings&) = delete;
+  KeptLandings& operator=(const KeptLandings&) = delete;
+};
+struct KeptBeam {
+  TraceOutcome outcome;
+  std::shared_ptr<const KeptLandings> landings;  // of no use if stopped
+};
 
 // The rounds of an indirect pass that a device makes on its own, and what it finds (physics/transport/indirect/device_rounds.h).
 struct RoundsOrder;
@@ -54,6 +68,13 @@ class Tracer {
                                                                 std::span<std::uint32_t> /*counters*/,
                                                                 std::span<shared::Landing> /*landings*/,
                                                                 const StopQuestion& /*stop*/) {
+    return std::nullopt;
+  }
+
+  // Does what count_beam() does, and keeps where each ray landed for make_rounds(). Returns nothing, and does nothing, if the tracer makes
+  // no rounds or is short of memory.
+  [[nodiscard]] virtual std::optional<KeptBeam> keep_beam(const shared::BeamBlock& /*beam*/,
+                                                          std::span<std::uint32_t> /*counters*/, const StopQuestion& /*stop*/) {
     return std::nullopt;
   }
 
