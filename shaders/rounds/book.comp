@@ -81,7 +81,7 @@ void main() {
   Arrival arrival = arrival_of(landing, packets[gl_GlobalInvocationID.x].origin.y, places[numbers[number] >> 1u]);
   arrival.place.u = random_words(pass.key, number, state.rounds).x;
   uint copy = own_copy();
-  if (landing.surface < landed_on_ground) atomicAdd(element_hits[landing.surface >> 1u], 1u);
+  if (pass.counts_hits != 0u && landing.surface < landed_on_ground) atomicAdd(element_hits[landing.surface >> 1u], 1u);
   if (landing.surface == lost_on_its_way) {
     atomicAdd(copies[copy + small_rows(pass) * pass.columns + 1u], uint64_t(1u));
   }

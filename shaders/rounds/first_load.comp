@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Finds what landed at each of these points. Each thread of one group takes some columns.
+// Finds how many quanta landed at each point where a sampled ray of the beam landed. Each thread of one group takes some columns.
 
 #include "pass.glsl"
 

@@ -45,9 +45,10 @@ INLINE uint64_t part_of(uint64_t quanta, uint64_t coefficient, uint u) {
   return (quanta >> 32u) * coefficient + (((quanta & uint64_t(low_word)) * coefficient + uint64_t(u)) >> 32u);
 }
 
+const uint64_t most_at_point = uint64_t(1u) << 52u;
+
 // Returns what landed at each of several points that send `sent` quanta together, if the coefficients of what they scatter add up to
 // `coefficients`, which is at most 2^63: the nearest number of quanta, at most most_at_point. 0 if the points scatter nothing.
-const uint64_t most_at_point = uint64_t(1u) << 52u;
 INLINE uint64_t quanta_at_point(uint64_t sent, uint64_t coefficients) {
   if (coefficients == uint64_t(0u)) return uint64_t(0u);
   const uint64_t low = (sent << 32u) + (coefficients >> 1u);

@@ -44,7 +44,7 @@ struct RoundChoices {
 // A systematic sample of a beam's rays; packets start where these landed.
 struct BeamSample {
   uint rays;    // of the beam
-  uint count;   // of the sample, at most as many
+  uint count;   // rays in the sample, at most `rays`
   uint offset;  // random, less than `rays`
 };
 
@@ -69,6 +69,7 @@ struct PassBlock {
   uint most_packets;  // of a round, for which there is room
   BeamSample sampled;  // of landings that the device has kept; their places follow those that the host has sent
   uint sample_word;   // number of the random words of the sample's first ray
+  uint counts_hits;   // 1: landings of packets are counted by element
   RoundChoices choices;
 };
 
@@ -86,7 +87,7 @@ struct RoundState {
   uint done;         // 1: no column is left
   uint has_to_wait;  // 1: packets of the last round are still on their way
   uint most_places;
-  uint first_places;  // of landings of the sample, with flux
+  uint first_places;  // places with flux among the sampled landings
   uint end_of_elements;  // orders, and numbers of cells, of the places that wait next are below these
   uint end_of_cells;
   uint any_least;  // 1: some column is so faint that it needs a least number of packets

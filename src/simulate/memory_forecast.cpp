@@ -67,7 +67,7 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
     bytes.refining = elements * bytes_refining_element + 3.0 * sides;
     spreads = 2.0 * (landings + of_run);
   }
-  if (element_errors != ElementErrors::skip && element_errors != ElementErrors::refine) {
+  if (keeps_spreads(element_errors)) {
     spreads += 2.0 * elements * (16.0 + 32.0 * bands);
   }
   bytes.tracing = numbering + 2.0 * (exposure + landings + cells) + of_run + of_pilot + spreads;

@@ -31,7 +31,7 @@ StageCheck::Host::Host(const RoundsOrder& of)
       draw(scattering, nullptr, of.packets, starts_of(of), arrays),
       side_landed(2 * of.scene.model.canopy.size() * columns.count),
       cell_landed(of.scene.layout.cells() * columns.count),
-      element_hits(of.scene.model.canopy.size()) {
+      element_hits(of.block.counts_hits != 0 ? of.scene.model.canopy.size() : 0) {
   next.clear(columns);
   for (std::size_t k = 0; k < of.places.size(); ++k) next.add(of.places.place(k), of.places.quanta(k, columns));
 }
@@ -223,7 +223,7 @@ void StageCheck::book(Host& host, const shared::RoundState& state, shared::Round
       add(host.cell_landed, place.order - ground_order);
     } else {
       add(host.side_landed, place.surface);
-      ++host.element_hits[place.surface / 2];
+      if (!host.element_hits.empty()) ++host.element_hits[place.surface / 2];
     }
     const std::vector<std::uint64_t>& scattered = host.scattering.face(place.face).scattered;
     bool any = false;

@@ -1,5 +1,5 @@
 #pragma once
-// A tracer that passes everything on to another one. Tests change a part of it.
+// A tracer that passes rays on to another one, which neither records beams nor makes rounds. Tests change a part of it.
 
 #include "physics/transport/model/tracer.h"
 
@@ -14,10 +14,6 @@ class WrappedTracer : public Tracer {
   [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                         const StopQuestion& stop) override {
     return inner_.count_beam(beam, counters, stop);
-  }
-  [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                                  const StopQuestion& stop) override {
-    return inner_.keep_beam(beam, counters, stop);
   }
   [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                                    std::span<shared::Landing> landings, const StopQuestion& stop) override {

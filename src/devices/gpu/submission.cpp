@@ -16,6 +16,7 @@ Submission::~Submission() {
 }
 
 Submission::SideBySide::SideBySide(Submission& submission) : submission_(submission) {
+  EXPECT(submission_.is_side_by_side_, ==, false);
   submission_.is_side_by_side_ = true;
   submission_.has_waited_ = false;
 }

@@ -97,8 +97,8 @@ void CpuTracer::follow_in_endless_canopy(const shared::BeamBlock& beam, std::uin
 }
 
 void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters,
-                           std::span<shared::Landing> landings) const {
-  finish_ray(beam, paused, LandingCounter(bvh_, domain_, beam, counters, landings));
+                           std::span<shared::Landing> landing) const {
+  finish_ray(beam, paused, LandingCounter(bvh_, domain_, beam, counters, landing, paused.ray));
 }
 
 void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused,

@@ -41,9 +41,9 @@ class CpuTracer final : public Tracer {
   [[nodiscard]] shared::Landing finish_packet(const shared::PacketBlock& scene, shared::Packet packet,
                                               const shared::PausedPacket& paused) const;
 
-  // Follows one paused ray to its end and counts its landing; `landings` is that of record_beam, or empty.
+  // Follows one paused ray to its end and counts its landing; `landing` is where it is recorded, or empty.
   void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters,
-                  std::span<shared::Landing> landings) const;
+                  std::span<shared::Landing> landing) const;
 
  private:
   TraceOutcome count_landings(const shared::BeamBlock& beam, const LandingCounter& landings, const StopQuestion& stop);

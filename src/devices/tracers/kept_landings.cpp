@@ -9,42 +9,55 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uint64_t heap_parts = 8;  // one of them may hold landings
+constexpr std::uint64_t heap_parts = 8;  // landings may take one of these
 
 }  // namespace
 
-LandingBuffers::LandingBuffers(const GpuContext& context) : context_(context), spare_(std::make_shared<Spare>()) {}
+LandingBuffers::LandingBuffers(const GpuContext& context) : context_(context), pool_(std::make_shared<Pool>()) {}
 
 std::shared_ptr<const LandingsOnDevice> LandingBuffers::take(std::size_t rays) {
   const DeviceLimits& limits = context_.limits();
   const std::size_t bytes = rays * sizeof(shared::Landing);
   if (bytes > limits.max_storage_buffer_bytes || bytes > limits.max_allocation_bytes) return nullptr;
-  const std::lock_guard lock(spare_->mutex);
-  std::vector<GpuBuffer>& buffers = spare_->buffers;
-  const auto fits = std::find_if(buffers.begin(), buffers.end(), [&](const GpuBuffer& one) { return one.bytes >= bytes; });
-  if (fits != buffers.end()) {
+  const std::lock_guard lock(pool_->mutex);
+  std::vector<GpuBuffer>& unused = pool_->unused;
+  const auto fits = std::find_if(unused.begin(), unused.end(), [&](const GpuBuffer& one) { return one.bytes >= bytes; });
+  if (fits != unused.end()) {
     GpuBuffer found = std::move(*fits);
-    buffers.erase(fits);
-    return std::make_shared<LandingsOnDevice>(std::move(found), spare_);
+    unused.erase(fits);
+    return std::make_shared<LandingsOnDevice>(std::move(found), pool_);
   }
-  for (const GpuBuffer& too_small : buffers) spare_->bytes -= too_small.bytes;
-  buffers.clear();
-  if (spare_->bytes + bytes > limits.heap_bytes / heap_parts) return nullptr;
+  pool_->free_unused();  // they are too small
+  if (pool_->bytes + bytes > limits.heap_bytes / heap_parts) return nullptr;
   try {
     GpuBuffer created = create_buffer(context_, BufferUse::storage, bytes, "landings of beam rays");
-    spare_->bytes += created.bytes;
-    return std::make_shared<LandingsOnDevice>(std::move(created), spare_);
-  } catch (const Error&) {  // the host can keep them, or have some rays traced again
+    unused.reserve(++pool_->buffers);  // so that giving back cannot fail
+    pool_->bytes += created.bytes;
+    return std::make_shared<LandingsOnDevice>(std::move(created), pool_);
+  } catch (const Error&) {  // the host can keep the landings, or have some rays traced again
     return nullptr;
   }
 }
 
-LandingsOnDevice::LandingsOnDevice(GpuBuffer buffer, std::shared_ptr<LandingBuffers::Spare> spare)
-    : buffer_(std::move(buffer)), spare_(std::move(spare)) {}
+bool LandingBuffers::free_unused() {
+  const std::lock_guard lock(pool_->mutex);
+  return pool_->free_unused();
+}
+
+bool LandingBuffers::Pool::free_unused() {
+  const bool any = !unused.empty();
+  for (const GpuBuffer& buffer : unused) bytes -= buffer.bytes;
+  buffers -= unused.size();
+  unused.clear();
+  return any;
+}
+
+LandingsOnDevice::LandingsOnDevice(GpuBuffer buffer, std::shared_ptr<LandingBuffers::Pool> pool)
+    : buffer_(std::move(buffer)), pool_(std::move(pool)) {}
 
 LandingsOnDevice::~LandingsOnDevice() {
-  const std::lock_guard lock(spare_->mutex);
-  spare_->buffers.push_back(std::move(buffer_));
+  const std::lock_guard lock(pool_->mutex);
+  pool_->unused.push_back(std::move(buffer_));
 }
 
 }  // namespace sunfleck

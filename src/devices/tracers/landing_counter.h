@@ -14,10 +14,10 @@ namespace sunfleck {
 
 class LandingCounter {
  public:
-  // All of them must outlive the counter. `landings` is [ray], or empty if they are not wanted.
+  // All of them must outlive the counter. `landings` is [ray - first_landing], or empty if they are not wanted.
   LandingCounter(const Bvh& bvh, TraceDomain domain, const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                 std::span<shared::Landing> landings)
-      : bvh_(bvh), domain_(domain), beam_(beam), counters_(counters), landings_(landings) {}
+                 std::span<shared::Landing> landings, std::uint32_t first_landing = 0)
+      : bvh_(bvh), domain_(domain), beam_(beam), counters_(counters), landings_(landings), first_landing_(first_landing) {}
 
   // Here and below, `number` is that of the ray.
   void count_element(std::uint32_t number, const CpuHit& hit) const;
@@ -30,7 +30,7 @@ class LandingCounter {
  private:
   void count(std::uint32_t counter) const;
   void record(std::uint32_t number, const shared::Landing& landing) const {
-    if (!landings_.empty()) landings_[number] = landing;
+    if (!landings_.empty()) landings_[number - first_landing_] = landing;
   }
 
   const Bvh& bvh_;
@@ -38,6 +38,7 @@ class LandingCounter {
   const shared::BeamBlock& beam_;
   std::span<std::uint32_t> counters_;
   std::span<shared::Landing> landings_;
+  std::uint32_t first_landing_;
 };
 
 }  // namespace sunfleck

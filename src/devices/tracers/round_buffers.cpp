@@ -9,7 +9,7 @@ namespace sunfleck {
 namespace {
 
 // The shaders read these structs in scalar block layout.
-static_assert(offsetof(shared::PassBlock, choices) == 144);
+static_assert(offsetof(shared::PassBlock, choices) == 148);
 static_assert(offsetof(shared::PassBlock, ground) == 48);
 static_assert(sizeof(shared::RoundState) == 88);
 static_assert(sizeof(shared::RoundColumn) == 104);
@@ -48,6 +48,7 @@ RoundSizes::RoundSizes(std::span<const RoundsPass> passes, std::size_t at_a_time
   for (const RoundsPass& pass : passes) {
     packets = std::max<std::size_t>(packets, pass.order->most_packets());
     places = std::max({places, pass.order->first_places(), packets});
+    counts_hits = counts_hits || pass.order->block.counts_hits != 0;
   }
   packets_at_a_time = std::min(at_a_time, packets);
 }
@@ -97,7 +98,7 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
     case RoundBuffer::side_landed:
       return 2 * elements * columns * quantum;
     case RoundBuffer::element_hits:
-      return elements * word;
+      return counts_hits ? elements * word : 0;
     case RoundBuffer::cell_landed:
       return cells * columns * quantum;
     case RoundBuffer::surface_landed:

@@ -58,6 +58,7 @@ struct RoundSizes {
   std::size_t columns = 0, faces = 0, small_words = 0, layer_places = 0;
   std::size_t places = 0, packets = 0;  // at most
   std::size_t packets_at_a_time = 0;
+  bool counts_hits = false;
   shared::RoundChoices choices{};
 
   // Returns the size of a buffer in bytes.

@@ -130,7 +130,9 @@ void RoundSteps::run_sampled(Submission& submission, std::span<const RoundsPass>
     const RoundsOrder& order = *passes[lane].order;
     if (order.landings == nullptr) continue;
     const GpuBuffer& landings = dynamic_cast<const LandingsOnDevice&>(*order.landings).buffer();
-    run(submission, {lane, lane + 1}, shader, order.block.sampled.count, {}, {RoundBuffer::landings, &landings});
+    constexpr shared::RoundPush push{};
+    submission.run(shader, order.block.sampled.count, std::as_bytes(std::span(&push, 1)),
+                   buffers_.of(lane, {RoundBuffer::landings, &landings}));
   }
 }
 

@@ -32,8 +32,8 @@ class RoundSteps {
   // Makes room for passes of one scene. Returns how many of them it has room for side by side; 0 if each is too large for the device or
   // its free memory.
   [[nodiscard]] std::size_t make_room(std::span<const RoundsPass> passes);
-  // Gives the device passes for which there is room, each in a lane, with an empty outbox, and lets the flux of the landings wait that
-  // it has kept for them. Later steps are those of these lanes.
+  // Gives the device passes for which there is room, each in a lane, with an empty outbox, and lets flux wait at the landings that
+  // the device has kept for them. Later steps are those of these lanes.
   void give(Submission& submission, std::span<const RoundsPass> passes);
 
   // Ends the round before, and begins one unless no column is left (RoundState::done), or the lane's outbox is not empty

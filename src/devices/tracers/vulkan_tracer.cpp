@@ -79,13 +79,19 @@ TraceOutcome VulkanTracer::count_beam(const shared::BeamBlock& beam, std::span<s
 std::optional<TraceOutcome> VulkanTracer::record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                       std::span<shared::Landing> landings, const StopQuestion& stop) {
   const std::size_t bytes = std::min(choices_.rays_per_dispatch, most_packets_per_dispatch) * sizeof(shared::Landing);
-  if (landings_.bytes < bytes) landings_ = create_buffer(context_, BufferUse::storage, bytes, "landings of beam rays");
+  if (landings_.bytes < bytes) {
+    try {
+      landings_ = create_buffer(context_, BufferUse::storage, bytes, "landings of beam rays");
+    } catch (const Error&) {  // memory is short, and the rays can be traced again
+      return std::nullopt;
+    }
+  }
   return follow_beam(beam, counters, {nullptr, landings}, stop);
 }
 
 std::optional<KeptBeam> VulkanTracer::keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                 const StopQuestion& stop) {
-  if (!create_rounds()) return std::nullopt;
+  if (refuses_passes_ || !create_rounds()) return std::nullopt;
   std::shared_ptr<const LandingsOnDevice> landings = kept_landings_.take(std::size_t{beam.columns} * beam.rows);
   if (landings == nullptr) return std::nullopt;
   const TraceOutcome outcome = follow_beam(beam, counters, {&landings->buffer(), {}}, stop);
@@ -128,13 +134,16 @@ TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<
 
 void VulkanTracer::finish_on_cpu(const shared::BeamBlock& beam, std::span<const shared::PausedRay> rays,
                                  std::span<std::uint32_t> counters, const Record& record) const {
-  std::vector<shared::Landing> to_upload(record.buffer != nullptr && !rays.empty() ? beam.columns * beam.rows : 0);
+  if (rays.empty()) return;
+  Submission submission(context_);
   for (const shared::PausedRay& ray : rays) {
-    cpu_.finish_ray(beam, ray, counters, to_upload.empty() ? record.fetched : std::span(to_upload));
-    if (to_upload.empty()) continue;
-    const auto landing = std::as_bytes(std::span(to_upload).subspan(ray.ray, 1));
-    upload(context_, *record.buffer, landing, ray.ray * sizeof(shared::Landing));
+    shared::Landing landing{};
+    cpu_.finish_ray(beam, ray, counters, std::span(&landing, 1));
+    if (!record.fetched.empty()) record.fetched[ray.ray] = landing;
+    if (record.buffer == nullptr) continue;
+    submission.upload(*record.buffer, std::as_bytes(std::span(&landing, 1)), ray.ray * sizeof(landing));
   }
+  submission.finish();
 }
 
 TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
@@ -145,7 +154,10 @@ TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<con
 
 std::optional<TraceOutcome> VulkanTracer::make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) {
   if (!create_rounds()) return std::nullopt;
-  return rounds_->make(passes, stop);
+  std::optional<TraceOutcome> outcome = rounds_->make(passes, stop);
+  if (!outcome && kept_landings_.free_unused()) outcome = rounds_->make(passes, stop);
+  if (!outcome && passes.size() == 1) refuses_passes_ = true;
+  return outcome;
 }
 
 std::size_t VulkanTracer::most_passes() const {

@@ -43,7 +43,7 @@ class VulkanTracer final : public Tracer {
   [[nodiscard]] VulkanChoices packet_choices() const;
   // Creates rounds_ unless they exist; returns false if the device cannot make rounds.
   bool create_rounds();
-  // Where landings go: all of them stay in a buffer, or each dispatch leaves some in landings_ that are fetched. Or they are not wanted.
+  // Where landings go: all of them stay in a buffer, or those of each dispatch are fetched, or they are not wanted.
   struct Record {
     const GpuBuffer* buffer = nullptr;  // of all rays
     std::span<shared::Landing> fetched;
@@ -67,8 +67,9 @@ class VulkanTracer final : public Tracer {
   std::vector<std::uint32_t> landed_;
   PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet
-  std::unique_ptr<VulkanRounds> rounds_;    // created with the first pass
+  std::unique_ptr<VulkanRounds> rounds_;    // created with the first beam that is kept, or the first pass
   bool leaves_rounds_to_host_ = false;      // because they could not be created
+  bool refuses_passes_ = false;             // because one was too large, so that no landings are kept for the next ones
 };
 
 }  // namespace sunfleck

@@ -17,10 +17,11 @@ namespace sunfleck {
 // What a device is given for the rounds of one pass.
 struct RoundsOrder {
   const IndirectScene& scene;
-  const WaitingFlux& places;                     // where flux waits before the first round, but for the landings
-  std::shared_ptr<const KeptLandings> landings;  // of which packets also start from block.sampled; null: from none
-  shared::PassBlock block;                       // `choices` are the device's own
-  double packets = 0.0;                          // of the first round, approximately; no round has many more
+  const WaitingFlux& places;  // where flux waits before the first round, but for the landings
+  std::shared_ptr<const KeptLandings>
+      landings;                      // kept by the tracer; packets also start from block.sampled of them; null: none
+  shared::PassBlock block;           // `choices` are the device's own
+  double packets = 0.0;              // of the first round, approximately; no round has many more
   std::vector<std::uint64_t> faces;  // coefficients: what each reflects, then what each scatters, [face * columns + column]
   std::vector<shared::RoundColumn> columns;  // [column]
   std::vector<std::uint64_t>

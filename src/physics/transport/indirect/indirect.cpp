@@ -66,7 +66,7 @@ class IndirectPass {
         columns_(lights_ * bands_),
         random_(order.seed, indirect_stream + order.number),
         key_(key_of(random_.word())),
-        books_(scene),
+        books_(scene, order.counts_hits),
         arrays_(arrays),
         waiting_(arrays.waiting),
         next_(arrays.next),
@@ -110,8 +110,8 @@ class IndirectPass {
     return TraceOutcome::finished;
   }
 
-  // Makes all rounds where the tracer has kept the landings of the beam, with a sample of them; sample_landings() takes the same one.
-  // Returns nothing, and does nothing, if there are none, or if the tracer cannot.
+  // Makes all rounds where the tracer works, starting from a sample of the landings that it has kept: the one that sample_landings()
+  // would take. Does nothing and returns nothing if no landings are kept, or if the tracer cannot make the rounds.
   [[nodiscard]] std::optional<TraceOutcome> start_on_device(std::span<const std::int64_t> scattered) {
     const FirstLandings& first = light_.first.front();
     if (first.kept == nullptr) return std::nullopt;
@@ -119,8 +119,8 @@ class IndirectPass {
     return make_rounds_on_device(sample_of(first.beam.front(), wanted_landings(), random), scattered);
   }
 
-  // Lets the tracer make all rounds where it works, if it can; see Tracer::make_rounds. `sample` are kept landings from which packets
-  // start, of which `scattered` is [column].
+  // Lets the tracer make all rounds where it works, if it can; see Tracer::make_rounds. Packets also start from a sample of kept landings,
+  // which scatter `scattered` in all, [column]; both are empty if none are kept.
   [[nodiscard]] std::optional<TraceOutcome> make_rounds_on_device(const shared::BeamSample& sample,
                                                                   std::span<const std::int64_t> scattered) {
     if (light_.aim != nullptr || !suits_device(scene_)) return std::nullopt;
@@ -146,6 +146,7 @@ class IndirectPass {
     block.unshot_part = unshot_part();
     block.least_judged = least_judged();
     block.key = key_;
+    block.counts_hits = order_.counts_hits ? 1 : 0;
     block.sample_word = static_cast<std::uint32_t>(books_.sums().sky_rays);
     block.most_rounds = static_cast<std::uint32_t>(most_rounds);
     return block;

@@ -8,7 +8,7 @@
 
 namespace sunfleck {
 
-PacketBooks::PacketBooks(const IndirectScene& scene)
+PacketBooks::PacketBooks(const IndirectScene& scene, bool counts_hits)
     : scene_(scene),
       columns_(scene.lights.size() * scene.model.bands.size()),
       booked_{0, columns_},
@@ -17,6 +17,7 @@ PacketBooks::PacketBooks(const IndirectScene& scene)
       layers_(static_cast<std::size_t>(scene.layout.layers.count) + 1, columns_),
       receivers_(scene.receivers != nullptr ? scene.receivers->size() : 0, columns_),
       scattered_(columns_) {
+  if (counts_hits) sums_.element_hits.resize(scene.model.canopy.size());
   if (scene.receivers != nullptr) sums_.receivers = PlaneSums(*scene.receivers, scene.model, columns_);
 }
 
@@ -37,17 +38,18 @@ void PacketBooks::book(const ArrivalBatch& batch, WaitingFlux& next) {
 }
 
 void PacketBooks::book_sides(const ArrivalBatch& batch) {
+  const bool counts_hits = !sums_.element_hits.empty();
   for (std::size_t k = 0; k < batch.size(); ++k) {
     if (k + prefetch_ahead < batch.size()) {
       const std::uint32_t surface = batch.arrivals[k + prefetch_ahead].place.surface;
       if (surface < shared::landed_on_ground) {
         sums_.side_landed.prefetch(surface);
-        prefetch(sums_.element_hits[surface / 2]);
+        if (counts_hits) prefetch(sums_.element_hits[surface / 2]);
       }
     }
     const EmissionPoint& place = batch.arrivals[k].place;
     if (place.surface < shared::landed_on_ground) {
-      ++sums_.element_hits[place.surface / 2];
+      if (counts_hits) ++sums_.element_hits[place.surface / 2];
       sums_.side_landed.add(place.surface, quanta_of(batch, k), booked_.first);
     } else if (place.surface == shared::landed_on_ground) {
       add_to(sums_.cell_landed, place.order - ground_order, quanta_of(batch, k));

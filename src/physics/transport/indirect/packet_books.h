@@ -21,7 +21,7 @@ namespace sunfleck {
 class PacketBooks {
  public:
   // The scene must outlive the books.
-  explicit PacketBooks(const IndirectScene& scene);
+  PacketBooks(const IndirectScene& scene, bool counts_hits);
 
   // Only these columns are booked from now on; rows of quanta hold them and no others.
   void book_only(ColumnRange columns) { booked_ = columns; }

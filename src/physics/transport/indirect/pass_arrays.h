@@ -25,7 +25,7 @@ struct LandingPoints {
   std::vector<EmissionPoint>
       places;  // [point], on the side on which the sampled ray landed; `u` is the ray's number in the sample
   // [point * lights + light], the flux of that light that lands there, relative to all points; below 0 where it lands on the other
-  // side of the element. Empty if as much lands at each point.
+  // side of the element. Empty if the same flux lands at every point.
   std::vector<double> weights;
 };
 

@@ -44,7 +44,7 @@ struct IndirectSums {
   std::vector<std::int64_t> surface_landed;  // [(surface * 2 + side) * bands + band]
   std::vector<std::int64_t> layer_landed;    // [((layer * optics + optics) * 2 + side) * bands + band], without soil
   PlaceSums side_landed;                     // [(2 * element + side) * bands + band]
-  std::vector<std::uint32_t> element_hits;   // [element], packets that landed on either side
+  std::vector<std::uint32_t> element_hits;   // [element], packets that landed on either side; empty if not asked for
   std::vector<std::int64_t> cell_landed;     // [cell of the soil's map * bands + band]
   PlaceSums side_sky;                        // as side_landed, sky rays only; empty without a sky
   std::vector<std::int64_t> cell_sky;        // as cell_landed, sky rays only
@@ -84,7 +84,7 @@ struct ReplicateOrder {
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
     archive(self.beam_rays, self.aimed, self.packets, self.sky_rays, self.bound, self.seed, self.number, self.sampled_rays,
-            self.ray_shares);
+            self.ray_shares, self.counts_hits);
   }
 
   // Returns the approximate number of rays of one light's beam.
@@ -102,6 +102,7 @@ struct ReplicateOrder {
   // Largest number of beam rays from whose landings packets start; there is also at most one for each packet.
   double sampled_rays = std::numeric_limits<double>::infinity();
   std::vector<double> ray_shares;  // [light], of beam_rays; empty where each light has all of them
+  bool counts_hits = false;        // whether IndirectSums::element_hits is counted
 };
 
 }  // namespace sunfleck

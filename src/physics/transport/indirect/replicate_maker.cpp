@@ -157,6 +157,7 @@ ReplicateSet ReplicateMaker::blank(const ReplicateOrder& order) const {
   if (receivers_) blank.passed = PlaneSums(*receivers_, model_);
   if (!indirect_ || order.packets == 0.0) return ReplicateSet(lights_.size(), blank);
   blank.packets.emplace(model_, layout_, surfaces_);
+  if (order.counts_hits) blank.packets->element_hits.resize(model_.canopy.size());
   if (receivers_) blank.packets->receivers = blank.passed;
   if (sky_) {
     blank.packets->side_sky = blank.packets->side_landed;
@@ -214,10 +215,11 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
   }
   const std::uint64_t rays = first.beam.front().rays();
   const bool alone = first.beam.size() == 1;  // rays of other parts have other weights
-  if (alone && keeps_landings(order)) {
-    const std::optional<KeptBeam> kept = tracer_.keep_beam(block, replicate.counters, stop);
-    if (kept) first.kept = kept->landings;
-    if (kept) return kept->outcome;
+  if (keeps_landings(order)) {
+    if (const std::optional<KeptBeam> kept = tracer_.keep_beam(block, replicate.counters, stop)) {
+      first.kept = kept->landings;
+      return kept->outcome;
+    }
   }
   if (alone && record_bytes(static_cast<double>(rays), std::min(order.packets, order.sampled_rays)) > 0.0) {
     recorded.resize(rays);

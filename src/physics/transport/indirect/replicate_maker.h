@@ -50,13 +50,13 @@ class ReplicateMaker {
   // Returns how many replicates are worth making at once: two where software Vulkan needs the cores while it traces, else any number.
   [[nodiscard]] std::size_t most_at_once() const;
 
-  // Returns the size of a replicate's counters and sums in bytes; it does not depend on the numbers of rays and packets.
+  // Returns the size of a replicate's counters and sums in bytes, with hits; it does not depend on the numbers of rays and packets.
   [[nodiscard]] double sum_bytes() const;
 
   // Returns the part of it that sums by side take if light lands on many of them; see PlaceSums.
   [[nodiscard]] double most_side_bytes() const;
 
-  // Returns the memory for what a GPU that makes the rounds finds, in bytes.
+  // Returns the memory for what a GPU that makes the rounds finds, in bytes, with hits.
   [[nodiscard]] double device_sum_bytes() const;
 
   // Returns the memory for where beam rays landed, in bytes. It is kept if packets start from at least half of the rays.

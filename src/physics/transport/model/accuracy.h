@@ -21,6 +21,11 @@ enum class ElementErrors {
   return errors == ElementErrors::refine || errors == ElementErrors::keep_sides_and_refine;
 }
 
+// Returns whether the spread of each element is kept.
+[[nodiscard]] constexpr bool keeps_spreads(ElementErrors errors) {
+  return errors != ElementErrors::skip && errors != ElementErrors::refine;
+}
+
 // Selects the groups whose light is divided between sunlit and shaded area: organs, the leaves in layers and all leaves, or all leaves
 // alone, which takes less time.
 enum class ShadeGroups { all, leaves };

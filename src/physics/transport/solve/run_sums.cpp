@@ -372,7 +372,7 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors, ShadeGroups
   if (of.receivers != nullptr) planes.emplace(*of.receivers, model);
   keeps_half = refines(element_errors);
   if (keeps_half) half_elements.resize(elements.size());
-  if (element_errors == ElementErrors::skip || element_errors == ElementErrors::refine) return;
+  if (!keeps_spreads(element_errors)) return;
   direct_spread.resize(elements.size());
   element_hits.resize(elements.size());
   absorbed_spread.resize(elements.size() * bands.size());

@@ -162,6 +162,7 @@ class Solver {
     ReplicateOrder order{work.rays,     !settings_.grid_m, work.packets, planner_.sky_rays(work), settings_.accuracy.indirect,
                          settings_.seed};
     order.sampled_rays = planner_.sampled_rays(work);
+    order.counts_hits = keeps_spreads(settings_.element_errors);
     for (const double share : ray_shares_) {
       order.ray_shares.push_back(std::clamp(share, std::min(1.0, first_pilot.rays / std::max(1.0, work.rays)), 1.0));
     }

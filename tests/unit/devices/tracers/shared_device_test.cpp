@@ -7,6 +7,7 @@
 #include "physics/bvh/build.h"
 #include "physics/transport/model/beam_block.h"
 #include "support/models.h"
+#include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
@@ -129,6 +130,32 @@ TEST(RememberedBeams, AreRecordedOnce) {
   EXPECT_EQ(counters, counted);
   EXPECT_EQ(stand.trace(remembered, 0, *stand.model.sun), counted);
   EXPECT_EQ(remembered.spared(), 1U);
+}
+
+// Counts beams and pretends to keep where they land.
+class Keeper final : public test::WrappedTracer {
+ public:
+  using WrappedTracer::WrappedTracer;
+  [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                                  const StopQuestion& stop) override {
+    return KeptBeam{count_beam(beam, counters, stop), std::make_shared<KeptLandings>()};
+  }
+};
+
+TEST(RememberedBeams, AreKeptOnce) {
+  Stand stand;
+  CpuTracer cpu(stand.bvh, {true, true});
+  Keeper keeper(cpu);
+  RememberedBeams remembered(keeper, 1U << 20U);
+  const shared::BeamBlock beam = make_beam_block(stand.model, stand.layout, 5000, 1, 0);
+  std::vector<std::uint32_t> counters(stand.layout.words(), 3), counted(stand.layout.words(), 3);
+  EXPECT_EQ(remembered.keep_beam(beam, counters, [] { return true; })->outcome, TraceOutcome::stopped);
+  EXPECT_EQ(counters, counted) << "nothing half-counted";
+  EXPECT_NE(remembered.keep_beam(beam, counters, {})->landings, nullptr);
+  EXPECT_EQ(cpu.count_beam(beam, counted, {}), TraceOutcome::finished);
+  EXPECT_EQ(counters, counted);
+  EXPECT_FALSE(remembered.keep_beam(beam, counters, {})) << "it is not traced again";
+  EXPECT_EQ(counters, counted);
 }
 
 TEST(RememberedBeams, WithoutRoomAreTracedEachTime) {

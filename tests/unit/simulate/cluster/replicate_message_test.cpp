@@ -28,6 +28,7 @@ void expect_whole_only(const Bytes& good, const Unpack& unpack) {
 TEST(Orders, ArriveAsTheyWereSent) {
   OrderMessage sent{{3, 17}, 5, {1e6 / 7.0, true, 4096.5, 1U << 22U, 0.003, ~0ULL, (1ULL << 40U) + 17}};
   sent.order.ray_shares = {1.0, 0.25, 1.0 / 3.0};
+  sent.order.counts_hits = true;
   const Bytes bytes = pack(sent);
   const OrderMessage got = unpack<OrderMessage>(bytes);
   EXPECT_EQ(got.key.series, 3U);
@@ -41,6 +42,7 @@ TEST(Orders, ArriveAsTheyWereSent) {
   EXPECT_EQ(got.order.seed, sent.order.seed);
   EXPECT_EQ(got.order.number, sent.order.number);
   EXPECT_EQ(got.order.ray_shares, sent.order.ray_shares);
+  EXPECT_EQ(got.order.counts_hits, sent.order.counts_hits);
   expect_whole_only(bytes, [](std::span<const std::byte> cut) { static_cast<void>(unpack<OrderMessage>(cut)); });
 }
 
@@ -70,7 +72,11 @@ class Replicates : public ::testing::Test {
     const Conversion conversion = maker_.conversion(maker_.incidence(order.beam_rays, order.aimed));
     return *maker_.make(order, {&conversion, 1}, [] { return false; });
   }
-  [[nodiscard]] ReplicateOrder order(double packets) const { return {4000.0, true, packets, 500, 0.01, 1, 7}; }
+  [[nodiscard]] ReplicateOrder order(double packets) const {
+    ReplicateOrder order{4000.0, true, packets, 500, 0.01, 1, 7};
+    order.counts_hits = true;
+    return order;
+  }
 
   RadiationModel model_ = test::light_mix();
   test::Prepared prepared_{model_};
@@ -97,6 +103,8 @@ TEST_F(Replicates, ArriveAsTheyWereMade) {
     EXPECT_EQ(got.packets->receivers.through_up, made.packets->receivers.through_up);
     EXPECT_EQ(got.packets->ledger[1].unshot, made.packets->ledger[1].unshot);
     EXPECT_EQ(got.packets->lost, made.packets->lost);
+    EXPECT_FALSE(got.packets->element_hits.empty());
+    EXPECT_EQ(got.packets->element_hits, made.packets->element_hits);
   }
 }
 
