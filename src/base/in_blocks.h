@@ -29,7 +29,7 @@ void in_blocks(std::size_t count, std::size_t block_size, const Take& take) {
 
 // Calls take(k) for each number k below `count`, several at a time. The thread does nothing else meanwhile, so that it may hold a lock.
 template <class Take>
-void side_by_side(std::size_t count, const Take& take) {
+void each_at_once(std::size_t count, const Take& take) {
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, take); });
 }
 

@@ -120,7 +120,7 @@ void Submission::finish() {
     submit_and_wait(context_);
   }
   const std::byte* const staging = context_.handles().staging.data;
-  side_by_side(deliveries_.size(), [&](std::size_t k) {
+  each_at_once(deliveries_.size(), [&](std::size_t k) {
     std::memcpy(deliveries_[k].to.data(), staging + deliveries_[k].staged_at, deliveries_[k].to.size());
   });
   deliveries_.clear();

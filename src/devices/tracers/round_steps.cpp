@@ -225,7 +225,7 @@ void RoundSteps::fetch(std::span<const RoundsPass> passes) const {
     take(RoundBuffer::cell_landed, sums.cell_landed);
     take(RoundBuffer::surface_landed, sums.surface_landed);
   };
-  side_by_side(passes.size(), [&](std::size_t lane) {
+  each_at_once(passes.size(), [&](std::size_t lane) {
     each_sum(*passes[lane].sums,
              [&](RoundBuffer which, auto& values) { values.resize(sizes_.bytes(which) / sizeof(values[0])); });
   });

@@ -80,7 +80,7 @@ class BinaryBuilder {
     DCHECK(ceil_log2(range.subtree.count), <=, levels);
     const Halves halves = divide(range, levels - 1);
     nodes_[range.subtree.node].left_count = halves.left.subtree.count;
-    side_by_side(
+    in_both_children(
         range.subtree, [&] { build(halves.left, levels - 1); }, [&] { build(halves.right, levels - 1); });
   }
 

@@ -70,7 +70,7 @@ struct Subtree {
 
 // Runs what is to be done in both children of a subtree, by two threads if it is large.
 template <class Left, class Right>
-void side_by_side(const Subtree& subtree, const Left& left, const Right& right) {
+void in_both_children(const Subtree& subtree, const Left& left, const Right& right) {
   constexpr std::uint32_t large = 4096;
   if (subtree.count >= large) return tbb::parallel_invoke(left, right);
   left();

@@ -111,7 +111,7 @@ class Collapser {
       return costs;
     }
     Costs left, right;
-    side_by_side(
+    in_both_children(
         subtree, [&] { left = solve(left_of(subtree)); }, [&] { right = solve(right_of(subtree)); });
     costs.box.grow(left.box);
     costs.box.grow(right.box);
