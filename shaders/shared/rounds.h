@@ -66,10 +66,10 @@ struct PassBlock {
   uint faces;   // of the kinds of optics, of the soil plane and of lamps
   uint soil_face;
   uint most_rounds;
-  uint most_packets;  // of a round, for which there is room
+  uint most_packets;   // of a round, for which there is room
   BeamSample sampled;  // of landings that the device has kept; their places follow those that the host has sent
-  uint sample_word;   // number of the random words of the sample's first ray
-  uint counts_hits;   // 1: landings of packets are counted by element
+  uint sample_word;    // number of the random words of the sample's first ray
+  uint counts_hits;    // 1: landings of packets are counted by element
   RoundChoices choices;
 };
 
@@ -87,7 +87,7 @@ struct RoundState {
   uint done;         // 1: no column is left
   uint has_to_wait;  // 1: packets of the last round are still on their way
   uint most_places;
-  uint first_places;  // places with flux among the sampled landings
+  uint first_places;     // places with flux among the sampled landings
   uint end_of_elements;  // orders, and numbers of cells, of the places that wait next are below these
   uint end_of_cells;
   uint any_least;  // 1: some column is so faint that it needs a least number of packets
@@ -104,9 +104,9 @@ struct RoundColumn {
   uint64_t load_factor;
   uint load_shift;
   uint is_active;
-  Scale wanted;  // packets for a quantum
-  Scale least;   // the same for a faint column
-  uint lowest;   // lowest place among the layers at which any waited when this round's packets left
+  Scale wanted;        // packets for a quantum
+  Scale least;         // the same for a faint column
+  uint lowest;         // lowest place among the layers at which any waited when this round's packets left
   uint64_t from_beam;  // what the beam's first landings leave to be shot, if they are on the device
   uint64_t at_point;   // what landed at each point of the sample
 };
