@@ -47,7 +47,7 @@ std::optional<KeptBeam> StageCheck::keep_beam(const shared::BeamBlock& beam, std
                                               const StopQuestion& stop) {
   Landings landings(std::size_t{beam.columns} * beam.rows);
   const std::optional<TraceOutcome> outcome = cpu_.record_beam(beam, counters, landings, stop);
-  std::shared_ptr<const LandingsOnDevice> kept = landing_buffers_.take(landings.size());
+  std::shared_ptr<const LandingsOnDevice> kept = steps_.keep_landings(landings.size());
   upload(context_, kept->buffer(), std::as_bytes(std::span(landings)));
   return KeptBeam{*outcome, std::move(kept)};
 }

@@ -2,7 +2,6 @@
 // A tracer that makes the rounds of indirect passes twice, on the host and on a device, and compares what each stage of each round leaves.
 
 #include "agreement/landings.h"
-#include "devices/tracers/kept_landings.h"
 #include "devices/tracers/round_steps.h"
 #include "physics/transport/indirect/arrivals.h"
 #include "physics/transport/indirect/device_rounds.h"
@@ -21,12 +20,7 @@ class StageCheck final : public WrappedTracer {
  public:
   // All arguments except the choices must outlive the object. Packets are started `at_a_time`.
   StageCheck(const GpuContext& context, Tracer& cpu, const shared::RoundChoices& choices, std::uint32_t at_a_time)
-      : WrappedTracer(cpu),
-        context_(context),
-        cpu_(cpu),
-        steps_(context, choices, at_a_time),
-        landing_buffers_(context),
-        at_a_time_(at_a_time) {}
+      : WrappedTracer(cpu), context_(context), cpu_(cpu), steps_(context, choices, at_a_time), at_a_time_(at_a_time) {}
 
   [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                   const StopQuestion& stop) override;
@@ -84,7 +78,6 @@ class StageCheck final : public WrappedTracer {
   const GpuContext& context_;
   Tracer& cpu_;
   RoundSteps steps_;
-  LandingBuffers landing_buffers_;
   std::uint32_t at_a_time_;
   std::uint64_t rounds_ = 0, sampled_ = 0;
   // Of the places of a round: those that keep flux, by their numbers on the device.

@@ -1,7 +1,6 @@
 #include "devices/tracers/round_steps.h"
 
 #include "base/in_blocks.h"
-#include "devices/tracers/kept_landings.h"
 #include "rounds_begin.spirv.h"
 #include "rounds_book.spirv.h"
 #include "rounds_collect.spirv.h"
@@ -59,7 +58,12 @@ bool RoundSteps::work_on(const DeviceLimits& limits) {
 }
 
 RoundSteps::RoundSteps(const GpuContext& context, const shared::RoundChoices& choices, std::size_t packets_at_a_time)
-    : context_(context), choices_(choices), packets_at_a_time_(packets_at_a_time), buffers_(context), shaders_(context) {}
+    : context_(context),
+      choices_(choices),
+      packets_at_a_time_(packets_at_a_time),
+      landings_(context),
+      buffers_(context),
+      shaders_(context) {}
 
 std::size_t RoundSteps::make_room(std::span<const RoundsPass> passes) {
   const RoundSizes sizes(passes, packets_at_a_time_, choices_);
@@ -67,6 +71,7 @@ std::size_t RoundSteps::make_room(std::span<const RoundsPass> passes) {
   std::size_t lanes = std::min({sizes.most_lanes(context_, shaders_.take.max_threads()), passes.size(), most_lanes_});
   while (lanes > 0 && !buffers_.make_room(sizes, lanes)) {
     scene_number_ = 0;
+    if (landings_.free_unused()) continue;
     if (lanes == 1) refused_places_ = sizes.places;
     lanes /= 2;
     most_lanes_ = std::max<std::size_t>(1, lanes);

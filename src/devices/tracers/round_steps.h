@@ -5,12 +5,14 @@
 #include "devices/gpu/compute.h"
 #include "devices/gpu/context.h"
 #include "devices/gpu/submission.h"
+#include "devices/tracers/kept_landings.h"
 #include "devices/tracers/round_buffers.h"
 #include "physics/transport/indirect/device_rounds.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,6 +30,9 @@ class RoundSteps {
 
   // The context must outlive the object.
   RoundSteps(const GpuContext& context, const shared::RoundChoices& choices, std::size_t packets_at_a_time);
+
+  // Returns room for the landings of a beam, from which passes may start; see LandingBuffers::take.
+  [[nodiscard]] std::shared_ptr<const LandingsOnDevice> keep_landings(std::size_t rays) { return landings_.take(rays); }
 
   // Makes room for passes of one scene. Returns how many of them it has room for side by side; 0 if each is too large for the device or
   // its free memory.
@@ -100,6 +105,7 @@ class RoundSteps {
   RoundSizes sizes_;                                                      // of the passes
   std::size_t refused_places_ = std::numeric_limits<std::size_t>::max();  // of a pass for which memory was short
   std::size_t most_lanes_ = std::numeric_limits<std::size_t>::max();      // fewer once it was short for more
+  LandingBuffers landings_;
   RoundBuffers buffers_;
   std::size_t lanes_ = 0;           // in use
   std::uint64_t scene_number_ = 0;  // of the scene on the device

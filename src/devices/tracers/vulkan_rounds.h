@@ -1,6 +1,7 @@
 #pragma once
 // The part of the Vulkan tracer that makes the rounds of indirect passes on the device: packets are drawn, started, traced and booked
-// there. It is created with the first beam whose landings are kept, or the first pass. A round has too little work for a GPU, so that several passes are made side by side.
+// there. It is created with the first beam whose landings are kept, or the first pass. A round has too little work for a GPU, so that
+// several passes are made side by side.
 
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/context.h"
@@ -15,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -30,6 +32,9 @@ class VulkanRounds {
 
   // Returns how many passes are made side by side, at most.
   [[nodiscard]] static std::size_t most_lanes(const VulkanChoices& choices, bool software);
+
+  // Returns room for the landings of a beam; see RoundSteps.
+  [[nodiscard]] std::shared_ptr<const LandingsOnDevice> keep_landings(std::size_t rays) { return steps_.keep_landings(rays); }
 
   // Does what Tracer::make_rounds does. Returns nothing if a pass is too large for the device.
   [[nodiscard]] std::optional<TraceOutcome> make(std::span<const RoundsPass> passes, const StopQuestion& stop);

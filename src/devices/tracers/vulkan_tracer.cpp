@@ -53,7 +53,6 @@ VulkanTracer::VulkanTracer(const GpuContext& context, const Bvh& bvh, const GpuT
       beam_(create_buffer(context, BufferUse::storage, sizeof(shared::BeamBlock), "the beam's description")),
       counters_(create_buffer(context, BufferUse::storage, counter_words * sizeof(std::uint32_t), "the counters of landings")),
       landings_(create_buffer(context, BufferUse::storage, sizeof(shared::Landing), "landings of beam rays")),
-      kept_landings_(context),
       work_(context, tree, domain, choices_, {"direct", direct_spirv, direct_storage_spirv, 3}, "paused rays") {}
 
 TracerDevice VulkanTracer::device() const {
@@ -92,7 +91,7 @@ std::optional<TraceOutcome> VulkanTracer::record_beam(const shared::BeamBlock& b
 std::optional<KeptBeam> VulkanTracer::keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                 const StopQuestion& stop) {
   if (refuses_passes_ || !create_rounds()) return std::nullopt;
-  std::shared_ptr<const LandingsOnDevice> landings = kept_landings_.take(std::size_t{beam.columns} * beam.rows);
+  std::shared_ptr<const LandingsOnDevice> landings = rounds_->keep_landings(std::size_t{beam.columns} * beam.rows);
   if (landings == nullptr) return std::nullopt;
   const TraceOutcome outcome = follow_beam(beam, counters, {&landings->buffer(), {}}, stop);
   return KeptBeam{outcome, std::move(landings)};
@@ -154,8 +153,7 @@ TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<con
 
 std::optional<TraceOutcome> VulkanTracer::make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) {
   if (!create_rounds()) return std::nullopt;
-  std::optional<TraceOutcome> outcome = rounds_->make(passes, stop);
-  if (!outcome && kept_landings_.free_unused()) outcome = rounds_->make(passes, stop);
+  const std::optional<TraceOutcome> outcome = rounds_->make(passes, stop);
   if (!outcome && passes.size() == 1) refuses_passes_ = true;
   return outcome;
 }

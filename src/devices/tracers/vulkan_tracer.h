@@ -5,7 +5,6 @@
 #include "devices/gpu/context.h"
 #include "devices/tracers/cpu_tracer.h"
 #include "devices/tracers/gpu_tree.h"
-#include "devices/tracers/kept_landings.h"
 #include "devices/tracers/paused_work.h"
 #include "devices/tracers/trace_domain.h"
 #include "devices/tracers/vulkan_choices.h"
@@ -62,8 +61,7 @@ class VulkanTracer final : public Tracer {
   VulkanChoices choices_;
   const GpuTree& tree_;
   GpuBuffer beam_, counters_;
-  GpuBuffer landings_;            // of one dispatch; small until landings are asked for
-  LandingBuffers kept_landings_;  // of whole beams
+  GpuBuffer landings_;  // of one dispatch; small until landings are asked for
   std::vector<std::uint32_t> landed_;
   PausedWork<shared::PausedRay, shared::BeamPush> work_;
   std::unique_ptr<VulkanPackets> packets_;  // created with the first packet

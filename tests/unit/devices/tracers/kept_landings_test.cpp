@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -41,8 +42,9 @@ TEST_F(LandingBuffersTest, TakeAnEighthOfTheMemoryAtMost) {
     taken.push_back(pool.take(rays));
     EXPECT_NE(taken.back(), nullptr) << k;
   }
-  if (fit > 4) GTEST_SKIP() << "this device has more memory than a test should fill";
-  EXPECT_EQ(pool.take(rays), nullptr);
+  if (fit <= 4) {  // other devices have more memory than a test should fill
+    EXPECT_EQ(pool.take(rays), nullptr);
+  }
   taken.clear();
   EXPECT_NE(pool.take(rays), nullptr);
 }
