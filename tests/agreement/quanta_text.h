@@ -30,6 +30,7 @@ struct QuantaOutput {
   uvec2 high;
   uvec2 quotient;
   uvec2 part;
+  uvec2 at_point;
   uint place;
   Scale scale;
   uvec2 scaled_quanta;
@@ -60,6 +61,7 @@ INLINE QuantaOutput all_of_the_quanta(QuantaInput given) {
   result.high = apart(product_high(a, b));
   result.quotient = apart(long_quotient(joined(given.rest), a, joined(given.divisor)));
   result.part = apart(part_of(a, joined(given.coefficient), given.word));
+  result.at_point = apart(quanta_at_point(a, joined(given.divisor)));
   result.place = place_part(given.number, joined(given.parts_each));
   result.scale = scale_of(a, joined(given.denominator));
   result.scaled_quanta = apart(scaled(joined(given.scaled_quanta), given.scale));

@@ -25,7 +25,7 @@ using test::Wide;
 
 // All members are 32-bit words or vectors of them.
 static_assert(sizeof(shared::QuantaInput) == 29 * 4);
-static_assert(sizeof(shared::QuantaOutput) == 21 * 4);
+static_assert(sizeof(shared::QuantaOutput) == 23 * 4);
 
 constexpr std::uint32_t quanta_batch = 1U << 17U;
 constexpr int quanta_batches = 8;

@@ -323,5 +323,20 @@ TEST(Carried, AddsUpToTheTotal) {
   EXPECT_LT(nothing, 1'000);
 }
 
+TEST(QuantaAtPoint, AreTheNearestNumber) {
+  std::mt19937_64 random(8);
+  std::size_t cut_off = 0;
+  for (int k = 0; k < tries; ++k) {
+    const uint64_t sent = some_number(random);
+    const uint64_t coefficients = at_least_one(some_number_up_to(random, two_to_63));
+    const Wide nearest = ((Wide{sent} << 32U) + coefficients / 2) / coefficients;
+    cut_off += nearest > most_at_point ? 1 : 0;
+    ASSERT_EQ(quanta_at_point(sent, coefficients), low_half(std::min<Wide>(nearest, most_at_point)))
+        << sent << ' ' << coefficients;
+  }
+  EXPECT_GT(cut_off, 1000U);
+  EXPECT_EQ(quanta_at_point(1000, 0), 0U) << "points that scatter nothing";
+}
+
 }  // namespace
 }  // namespace sunfleck::shared
