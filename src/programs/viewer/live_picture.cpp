@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "files/results/tables/irradiance.h"
 #include "pictures/drawing/chart.h"
 #include "pictures/drawing/image_writer.h"
 
@@ -10,7 +9,6 @@
 #include <array>
 #include <chrono>
 #include <exception>
-#include <limits>
 #include <new>
 #include <utility>
 
@@ -22,7 +20,6 @@ constexpr double preview_s = 0.035;
 // No preview is drawn if one sample per pixel takes no longer than this.
 constexpr double soon_s = 0.06;
 constexpr int coarsest_step = 12;  // pixels
-constexpr std::uint32_t outline_colour = 0x00ff00c8;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -58,79 +55,6 @@ std::vector<std::uint32_t> words_of(const Image& image) {
     return static_cast<std::uint32_t>(pixel[0]) << 16U | static_cast<std::uint32_t>(pixel[1]) << 8U | pixel[2];
   });
   return words;
-}
-
-PickedElement::Face face_of(const Scene& scene, const RadiationResult& result, std::size_t side, std::size_t band) {
-  const RadiationModel& model = scene.model;
-  const std::size_t element = side / 2;
-  const double area = area_m2(model.canopy.corners[element]);
-  const Irradiance light = side_irradiance(model, result, side, area, band);
-  PickedElement::Face face;
-  face.direct_w_m2 = light.direct_w_m2;
-  face.sky_w_m2 = light.sky_w_m2;
-  face.scattered_w_m2 = light.scattered_w_m2();
-  face.half_width_w_m2 = result.side_error.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                                   : result.side_error[side * model.bands.size() + band];
-  return face;
-}
-
-PickedElement describe(const Scene& scene, const RadiationResult& result, std::uint32_t element, std::size_t band) {
-  const RadiationModel& model = scene.model;
-  const SurfaceOptics& optics = model.optics[model.canopy.optics_of[element]];
-  PickedElement picked;
-  picked.element = element;
-  picked.errors_known = !result.side_error.empty();
-  picked.area_m2 = area_m2(model.canopy.corners[element]);
-  picked.upper = face_of(scene, result, 2 * std::size_t{element}, band);
-  picked.lower = face_of(scene, result, 2 * std::size_t{element} + 1, band);
-  picked.absorbed_w_m2 = absorbed_w_m2(optics, picked.upper.total_w_m2(), picked.lower.total_w_m2(), band);
-  picked.absorbed_half_width_w_m2 = result.element_error.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                                                 : result.element_error[band * model.canopy.size() + element];
-  return picked;
-}
-
-PickedOrgan describe_organ(const Scene& scene, const RadiationResult& result, std::uint32_t element, std::size_t band) {
-  const Canopy& canopy = scene.model.canopy;
-  const std::uint32_t number = canopy.organ_of[element];
-  const OrganResult& light = result.organs[number];
-  PickedOrgan picked;
-  picked.organ = canopy.organs[number].name;
-  picked.plant = canopy.organs[number].plant;
-  picked.rank = canopy.organs[number].rank;
-  picked.optics = scene.model.optics[canopy.optics_of[element]].name;
-  for (std::size_t e = 0; e < canopy.size(); ++e) picked.triangles += canopy.organ_of[e] == number ? 1 : 0;
-  picked.area_m2 = light.area_m2;
-  picked.sunlit_fraction = light.sunlit_fraction;
-  picked.direct = light.direct[band];
-  picked.indirect = light.indirect[band];
-  picked.absorbed = light.absorbed[band];
-  return picked;
-}
-
-// Draws a line around the pixels that see the picked organ or triangle, outside of it.
-void outline_pick(LivePictureFrame& frame, const Canopy& canopy) {
-  const auto is_picked = [&](std::uint32_t surface) {
-    const std::size_t element = surface / 2;
-    if (element >= canopy.size()) return false;
-    if (frame.pick->what == Pick::What::triangle) return element == frame.pick->element;
-    return canopy.organ_of[element] == canopy.organ_of[frame.pick->element];
-  };
-  const int reach = std::max(1, frame.height / 400);  // px
-  const auto at = [&](int row, int column) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(column);
-  };
-  std::vector<char> inside(frame.surface.size());
-  std::transform(frame.surface.begin(), frame.surface.end(), inside.begin(), is_picked);
-  for (int row = 0; row < frame.height; ++row) {
-    for (int column = 0; column < frame.width; ++column) {
-      if (!inside[at(row, column)]) continue;
-      for (int y = std::max(0, row - reach); y <= std::min(frame.height - 1, row + reach); ++y) {
-        for (int x = std::max(0, column - reach); x <= std::min(frame.width - 1, column + reach); ++x) {
-          if (!inside[at(y, x)]) frame.pixels[at(y, x)] = outline_colour;
-        }
-      }
-    }
-  }
 }
 
 }  // namespace
@@ -383,7 +307,8 @@ void LivePicture::refresh_content(const PictureRequest& request) {
     if (request.picked && request.picked->element < scene.model.canopy.size()) {
       const std::size_t band = picture_band(scene.model, request.options.band);
       next.organ = describe_organ(scene, result, request.picked->element, band);
-      if (request.picked->what == Pick::What::triangle) next.picked = describe(scene, result, request.picked->element, band);
+      if (request.picked->what == Pick::What::triangle)
+        next.picked = describe_element(scene, result, request.picked->element, band);
     }
     content_ = std::move(next);
   }));
@@ -410,7 +335,7 @@ void LivePicture::paint(const Sight& sight) {
   next->picked = content_->picked;
   if (next->organ) {
     next->pick = content_->request.picked;
-    outline_pick(*next, light_.geometry().model.canopy);
+    outline_pick(*next->pick, light_.geometry().model.canopy, next->surface, next->width, next->pixels);
   }
   {
     const std::lock_guard lock(mutex_);

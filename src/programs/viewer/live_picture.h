@@ -3,6 +3,7 @@
 
 #include "pictures/charts/pictures.h"
 #include "programs/viewer/live_light.h"
+#include "programs/viewer/picked.h"
 #include "simulate/simulated_scene.h"
 
 #include <atomic>
@@ -18,15 +19,6 @@
 
 namespace sunfleck {
 
-// What the user has picked: the organ of an element, or the element itself.
-struct Pick {
-  enum class What { organ, triangle };
-  std::uint32_t element = 0;
-  What what = What::organ;
-
-  friend bool operator==(const Pick&, const Pick&) = default;
-};
-
 struct PictureRequest {
   Camera camera;
   PictureOptions options;  // size, samples, repeat, band and upper end of the scale; the view is the camera's
@@ -38,29 +30,6 @@ struct PictureRequest {
 // Return whether two requests see the same surfaces, and whether they colour them alike.
 [[nodiscard]] bool same_look(const PictureRequest& a, const PictureRequest& b);
 [[nodiscard]] bool same_style(const PictureRequest& a, const PictureRequest& b);
-
-// Description of the organ of a picked element, and the light it receives, W m-2 of its one-sided area, both faces together.
-struct PickedOrgan {
-  std::string organ, optics;
-  std::int64_t plant = 0, rank = 0;
-  std::size_t triangles = 0;
-  double area_m2 = 0.0;
-  Estimate sunlit_fraction, direct, indirect, absorbed;
-};
-
-// Description of a picked element and the light it receives.
-struct PickedElement {
-  std::uint32_t element = 0;
-  double area_m2 = 0.0;
-  bool errors_known = false;  // false for a scene whose triangles are too many
-  struct Face {
-    double direct_w_m2 = 0.0, sky_w_m2 = 0.0, scattered_w_m2 = 0.0;  // incident
-    double half_width_w_m2 = 0.0;                                    // of their sum; NaN if there are too few hits
-    [[nodiscard]] double total_w_m2() const { return direct_w_m2 + sky_w_m2 + scattered_w_m2; }
-  };
-  Face upper, lower;
-  double absorbed_w_m2 = 0.0, absorbed_half_width_w_m2 = 0.0;
-};
 
 enum class Fineness { preview, one_sample, full };
 
