@@ -22,9 +22,9 @@ find src shaders tests \( -name '*.h' -o -name '*.cpp' \) -not -path 'tests/data
 
 echo "== build =="
 if [ "$full" = yes ]; then
-  cmake --preset ci -DSUNFLECK_UNIT_TESTS=ON -DSUNFLECK_UNITY=OFF # clang-tidy reads each source by itself
+  cmake --preset ci -DSUNFLECK_UNIT_TESTS=ON -DSUNFLECK_LONG_TESTS=ON -DSUNFLECK_UNITY=OFF # clang-tidy reads each source by itself
 elif [ ! -f build/ci/build.ninja ]; then
-  cmake --preset ci -DSUNFLECK_UNIT_TESTS=OFF
+  cmake --preset ci -DSUNFLECK_UNIT_TESTS=OFF -DSUNFLECK_LONG_TESTS=OFF
 fi
 cmake --build --preset ci
 

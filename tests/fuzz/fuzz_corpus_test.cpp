@@ -2,13 +2,12 @@
 
 #include "base/log.h"
 #include "fuzz/targets.h"
+#include "support/content.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -26,9 +25,7 @@ TEST_P(Corpus, IsReadOrRefused) {
   EXPECT_FALSE(files.empty());
   for (const std::filesystem::path& file : files) {
     SCOPED_TRACE(file);
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
-    EXPECT_NO_THROW(GetParam().feed(bytes));
+    EXPECT_NO_THROW(GetParam().feed(test::content(file)));
   }
 }
 

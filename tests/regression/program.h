@@ -1,6 +1,7 @@
 #pragma once
 // Runs the built program as a user does, in a separate folder and with its output in files, and reads the files that it wrote.
 
+#include "support/content.h"
 #include "support/temp_folder.h"
 
 #include <fcntl.h>
@@ -15,7 +16,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -33,10 +33,7 @@ struct Outcome {
   double peak_mib = 0.0;  // peak of resident memory
 };
 
-inline std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using test::content;
 
 inline std::filesystem::path scene_file(const std::string& name) {
   return std::filesystem::path(SUNFLECK_SOURCE_DIR) / "scenes" / name;

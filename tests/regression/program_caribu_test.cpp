@@ -149,7 +149,7 @@ TEST_F(CaribuProgram, AWrittenSceneStandsByItself) {
   std::filesystem::create_directory(folder_ / "to");
   for (const char* name : {"stand.can", "sky.light", "par.opt"})
     std::filesystem::rename(folder_ / name, folder_ / "from" / name);
-  const Arguments files{"--optics", "from/par.opt", "--light", "from/sky.light"};
+  const Arguments files{"--optics", "from/par.opt", "--light", "from/sky.light", "--scale", "0.01"};
   EXPECT_EQ(run(Arguments{"convert", "from/stand.can", "from/here.toml"} + files).status, 0);
   EXPECT_NE(file("here.toml", "from").find("file  = \"stand.can\""), std::string::npos);
   EXPECT_EQ(run(Arguments{"convert", "from/stand.can", "above.toml"} + files).status, 0);

@@ -49,9 +49,9 @@ TEST_F(ProgramMesh, InfoDescribesMeshes) {
 }
 
 TEST_F(ProgramMesh, InfoCountsObjectsAndGroupsApart) {
-  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 9 9 9\n";
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 9 9 9\n";
   folder_.write("plant.obj",
-                corners + "o plant\ng leaf a\nusemtl green\nf 1 2 3\ng leaf b\nf 1 4 3\nf 1 4 4\no idle\ng empty\n");
+                vertices + "o plant\ng leaf a\nusemtl green\nf 1 2 3\ng leaf b\nf 1 4 3\nf 1 4 4\no idle\ng empty\n");
   const json found = survey("plant.obj");
   EXPECT_EQ(found["objects"], 1);
   EXPECT_EQ(found["groups"], 2);

@@ -11,13 +11,6 @@
 
 #include "devices/gpu/context.h"
 
-#if defined(__SANITIZE_ADDRESS__)
-// The validation layer (1.3.239) leaks and is unloaded before the report, so its leaks cannot be recognised by their origin.
-extern "C" [[gnu::used]] inline const char* __asan_default_options() {
-  return "detect_leaks=0";
-}
-#endif
-
 namespace sunfleck {
 
 // Runs with validation wherever the layer is installed; a validation message fails the test that caused it.

@@ -10,7 +10,7 @@ namespace sunfleck {
 
 namespace {
 
-constexpr std::array<FileAxis, 3> axes = {FileAxis::x, FileAxis::y, FileAxis::z};
+constexpr std::array<FileAxis, 3> every_axis = {FileAxis::x, FileAxis::y, FileAxis::z};
 constexpr std::size_t least_pieces = 3;
 
 int index_of(FileAxis axis) {
@@ -33,7 +33,7 @@ double score_of(const ShapeFigures& shape, FileAxis axis) {
 std::string why_up(const ShapeFigures& shape, FileAxis up) {
   const int a = index_of(up);
   double others = 0.0;
-  for (const FileAxis axis : axes)
+  for (const FileAxis axis : every_axis)
     if (axis != up) others = std::max(others, shape.net_facing[index_of(axis)]);
   return fmt::format(
       "net of opposite sides, {:.0f} % of the area faces along {} and at most {:.0f} % along another axis; {} {}",

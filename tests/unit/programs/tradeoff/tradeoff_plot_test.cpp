@@ -105,7 +105,7 @@ TEST_F(TradeoffPlot, FitsTheSlopesThatTheProgramPrints) {
   EXPECT_EQ(draw_plot(script.substr(0, at) + to_file + script.substr(at), folder_ / "a.png").value_or(""), "");
   std::string expected;
   for (const TradeoffFit& fit : fits) expected += fmt::format("{:.2f}\n", fit.of_rays.exponent);
-  EXPECT_EQ(test::file_bytes(printed), expected);
+  EXPECT_EQ(test::content(printed), expected);
 }
 
 TEST_F(TradeoffPlot, WholeRunsAndCoarserMeshesAreDrawnToo) {

@@ -313,10 +313,9 @@ TEST(GltfReader, RefusesPositionsThatAreNotFinite) {
 
 TEST(GltfReader, RefusesTextInItsOwnWords) {
   const TempFolder folder;
-  for (const auto& [text, words] :
-       {std::pair("some words\n", "not a glTF file"), std::pair("{\"a\": x}", "malformed JSON (parse")}) {
-    const std::string message = refusal_of([&] { static_cast<void>(read_mesh(folder.write("a.glb", text), {})); });
-    EXPECT_NE(message.find(words), std::string::npos) << message;
+  for (const auto& wrong : {std::pair("some words\n", "not a glTF file"), std::pair("{\"a\": x}", "malformed JSON (parse")}) {
+    const std::string message = refusal_of([&] { static_cast<void>(read_mesh(folder.write("a.glb", wrong.first), {})); });
+    EXPECT_NE(message.find(wrong.second), std::string::npos) << message;
     EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
   }
 }
