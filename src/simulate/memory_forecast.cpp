@@ -15,7 +15,8 @@ namespace sunfleck {
 namespace {
 
 constexpr double mib = 1048576.0;
-// Replicates that take turns at a device seldom reach their peaks at the same time; those of the CPU path, which begin together, do.
+// Replicates that take turns at a device seldom reach their peaks at the same time; those of the CPU path, which begin
+// together, do.
 constexpr double at_their_peak_on_device = 0.7;
 
 // Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
@@ -59,8 +60,8 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
     sides = 2.0 * elements * kinds * sizeof(std::int64_t);
     cells = layout.cells() * kinds * sizeof(std::int64_t);
   }
-  const double of_run = PlaceSums::likely_bytes(planned_replicates * run.side_bytes, sides);
-  const double of_pilot = PlaceSums::likely_bytes(pilot_replicates * run.side_bytes, sides);
+  const double of_run = PlaceSums::likely_bytes(planned_replicates * run.place_bytes, sides + cells);
+  const double of_pilot = PlaceSums::likely_bytes(pilot_replicates * run.place_bytes, sides + cells);
   double spreads = 0.0;
   SumBytes bytes;
   if (refines(element_errors)) {
@@ -70,9 +71,9 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
   if (keeps_spreads(element_errors)) {
     spreads += 2.0 * elements * (16.0 + 32.0 * bands);
   }
-  bytes.tracing = numbering + 2.0 * (exposure + landings + cells) + of_run + of_pilot + spreads;
+  bytes.tracing = numbering + 2.0 * (exposure + landings) + of_run + of_pilot + spreads;
   bytes.ending = numbering + exposure + landings + cells + sides + spreads + bytes.refining;
-  if (of_run < sides) bytes.ending += of_run;
+  if (of_run < sides + cells) bytes.ending += of_run;
   bytes.result = elements * sizeof(std::uint32_t) + landings + cells + sides + 0.5 * spreads;
   return bytes;
 }

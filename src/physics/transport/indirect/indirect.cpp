@@ -26,8 +26,8 @@ constexpr std::uint64_t most_rounds = 20000;
 // First stream of random numbers, apart from those of the beam.
 constexpr std::uint64_t indirect_stream = std::uint64_t{1} << 48U;
 // Where lights share the packets, points where beams landed, per packet of the first round. A ray towards each sun goes out from
-// every point. Scaling a column to its exact total is a ratio estimate, whose bias falls as 1 / landings; the second number is the
-// least for each light.
+// every point. Scaling a column to its exact total is a ratio estimate, whose bias falls as 1 / landings; the second number is
+// the least for each light.
 constexpr double shared_landings_per_packet = 0.25;
 constexpr double least_shared_landings = 64;
 
@@ -41,8 +41,8 @@ std::int64_t whole_quanta(double quanta) {
   return quanta < 0x1p62 ? static_cast<std::int64_t>(quanta) : std::int64_t{1} << 62U;
 }
 
-// The pass of one replicate, with the flux that is still on its way. Random numbers of rounds and packets are functions of the key, the
-// round and the packet (shaders/shared/random.h); the first landings are round 0.
+// The pass of one replicate, with the flux that is still on its way. Random numbers of rounds and packets are functions of the
+// key, the round and the packet (shaders/shared/random.h); the first landings are round 0.
 class IndirectPass {
  public:
   IndirectPass(const IndirectScene& scene, const ReplicateOrder& order, const LightFromAbove& light, PassArrays& arrays,
@@ -62,8 +62,9 @@ class IndirectPass {
         next_(arrays.next),
         first_flux_(scene, light, key_, books_, arrays),
         active_(columns_, true) {
-    PlaceSums& sides = books_.sums().side_landed;
-    sides = PlaceSums(2 * scene.model.canopy.size(), columns_, arrays.sides_landed);
+    IndirectSums& sums = books_.sums();
+    sums.side_landed = PlaceSums(2 * scene.model.canopy.size(), columns_, arrays.sides_landed);
+    sums.cell_landed = PlaceSums(scene.layout.cells(), columns_, arrays.cells_landed);
     next_.clear(books_.booked());
   }
 
@@ -83,6 +84,7 @@ class IndirectPass {
     if (*outcome == TraceOutcome::stopped) return std::nullopt;
     books_.close();
     arrays_.sides_landed = sums.side_landed.extent();
+    arrays_.cells_landed = sums.cell_landed.extent();
     return std::move(sums);
   }
 
@@ -97,8 +99,9 @@ class IndirectPass {
     return TraceOutcome::finished;
   }
 
-  // Makes all rounds where the tracer works, starting from a sample of the landings that it has kept: the one that sample_landings()
-  // would take. Does nothing and returns nothing if no landings are kept, or if the tracer cannot make the rounds.
+  // Makes all rounds where the tracer works, starting from a sample of the landings that it has kept: the one that
+  // sample_landings() would take. Does nothing and returns nothing if no landings are kept, or if the tracer cannot make the
+  // rounds.
   [[nodiscard]] std::optional<TraceOutcome> start_on_device(std::span<const std::int64_t> scattered) {
     const FirstLandings& first = light_.first.front();
     if (first.kept == nullptr) return std::nullopt;
@@ -106,8 +109,8 @@ class IndirectPass {
     return make_rounds_on_device(sample_of(first.beam.front(), wanted_landings(), random), scattered);
   }
 
-  // Lets the tracer make all rounds where it works, if it can; see Tracer::make_rounds. Packets also start from a sample of kept landings,
-  // which scatter `scattered` in all, [column]; both are empty if none are kept.
+  // Lets the tracer make all rounds where it works, if it can; see Tracer::make_rounds. Packets also start from a sample of
+  // kept landings, which scatter `scattered` in all, [column]; both are empty if none are kept.
   [[nodiscard]] std::optional<TraceOutcome> make_rounds_on_device(const shared::BeamSample& sample,
                                                                   std::span<const std::int64_t> scattered) {
     if (light_.aim != nullptr || !suits_device(scene_)) return std::nullopt;

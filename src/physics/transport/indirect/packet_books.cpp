@@ -52,7 +52,7 @@ void PacketBooks::book_sides(const ArrivalBatch& batch) {
       if (counts_hits) ++sums_.element_hits[place.surface / 2];
       sums_.side_landed.add(place.surface, quanta_of(batch, k), booked_.first);
     } else if (place.surface == shared::landed_on_ground) {
-      add_to(sums_.cell_landed, place.order - ground_order, quanta_of(batch, k));
+      sums_.cell_landed.add(place.order - ground_order, quanta_of(batch, k), booked_.first);
     }
   }
 }
@@ -161,7 +161,7 @@ void PacketBooks::add_rounds(const shared::PassBlock& block, const RoundsSums& f
     ledger.unshot += static_cast<std::int64_t>(row(shared::sum_lost)[c] + found.columns[c].unshot);
   }
   sums_.side_landed.add_all(found.side_landed);
-  columns::add(found.cell_landed, sums_.cell_landed.data());
+  sums_.cell_landed.add_all(found.cell_landed);
   columns::add(found.surface_landed, sums_.surface_landed.data());
   const std::size_t first_layer = shared::layer_row(block, 0, 0, 0) * columns_;
   for (std::size_t k = 0; k < sums_.layer_landed.size(); ++k) {
@@ -198,6 +198,7 @@ void PacketBooks::close() {
   for (std::size_t c = 0; c < columns_; ++c) retire(c);
   scattering_.add_to(sums_.ledger);
   sums_.side_landed.put_in_order();
+  sums_.cell_landed.put_in_order();
   layers_.close([](std::size_t plane) { return plane == 0; });
   sums_.down = layers_.down();
   sums_.up = layers_.up();

@@ -38,18 +38,19 @@ void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
   if (counts.packets > 0.0) {
     // The sums of several lights are dealt to them from joint ones.
     const std::size_t copies = lights_ == 1 ? 1 : 2 * lights_;
-    const auto side_bytes = static_cast<double>(copies * (sums.side_landed.bytes() + sums.side_sky.bytes()));
-    side_bytes_per_packet_ = std::max(side_bytes_per_packet_, side_bytes / counts.packets);
+    std::size_t bytes = 0;
+    for (const PlaceSums* of : {&sums.side_landed, &sums.side_sky, &sums.cell_landed, &sums.cell_sky}) bytes += of->bytes();
+    place_bytes_per_packet_ = std::max(place_bytes_per_packet_, static_cast<double>(copies * bytes) / counts.packets);
   }
   learned_ = true;
 }
 
-double PacketMemory::side_bytes(const RayCounts& counts, double most) const {
-  return learned_ ? PlaceSums::likely_bytes(side_bytes_per_packet_ * counts.packets, most) : most;
+double PacketMemory::place_bytes(const RayCounts& counts, double most) const {
+  return learned_ ? PlaceSums::likely_bytes(place_bytes_per_packet_ * counts.packets, most) : most;
 }
 
-// The arrays of a pass stay for the next one (PassArrays), so that all of them count, each with its peak: those of places in the round
-// with most of them.
+// The arrays of a pass stay for the next one (PassArrays), so that all of them count, each with its peak: those of places in
+// the round with most of them.
 double PacketMemory::bytes(const RayCounts& counts) const {
   const auto columns = static_cast<double>(columns_);
   const double place_bytes = 2.0 * (sizeof(EmissionPoint) + columns * sizeof(std::int64_t)) + 2.0 * sizeof(std::uint64_t);

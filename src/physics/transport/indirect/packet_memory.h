@@ -19,16 +19,17 @@ class PacketMemory {
  public:
   explicit PacketMemory(const RadiationModel& model, std::size_t lights = 1);
 
-  // Records at how many places flux waited in a replicate with these rays had, and the memory of its sums by side. `sums` are those of one light.
+  // Records at how many places flux waited in a replicate with these rays, and the memory of its sums by place. `sums` are
+  // those of one light.
   void learn(const RayCounts& counts, const IndirectSums& sums);
 
   // Returns the peak memory of such a replicate, in bytes: an upper limit until something has been learned, then an
   // estimate from earlier replicates. It grows with the number of packets.
   [[nodiscard]] double bytes(const RayCounts& counts) const;
 
-  // Returns the memory of its sums by side, of `most` bytes if they were all kept: an upper limit until something has been
+  // Returns the memory of its sums by place, of `most` bytes if they were all kept: an upper limit until something has been
   // learned. See PlaceSums.
-  [[nodiscard]] double side_bytes(const RayCounts& counts, double most) const;
+  [[nodiscard]] double place_bytes(const RayCounts& counts, double most) const;
 
  private:
   std::size_t columns_, lights_;
@@ -36,7 +37,7 @@ class PacketMemory {
   bool learned_ = false;
   double per_landing_;       // places per first landing
   double per_packet_ = 1.0;  // places per packet
-  double side_bytes_per_packet_ = 0.0;
+  double place_bytes_per_packet_ = 0.0;
 };
 
 }  // namespace sunfleck

@@ -1,6 +1,6 @@
 #pragma once
-// The large arrays of an indirect pass. The next pass uses them again, so that their memory is not fetched anew from the system for
-// each replicate: that took an eighth of the processor time of runs with millions of packets.
+// The large arrays of an indirect pass. The next pass uses them again, so that their memory is not fetched anew from the system
+// for each replicate: that took an eighth of the processor time of runs with millions of packets.
 
 #include "physics/transport/indirect/arrivals.h"
 #include "physics/transport/indirect/device_rounds.h"
@@ -16,16 +16,16 @@
 
 namespace sunfleck {
 
-// Largest number of rays or packets that are started, traced and booked together: enough to keep a GPU busy, and few enough that their
-// arrays stay small beside those of the places.
+// Largest number of rays or packets that are started, traced and booked together: enough to keep a GPU busy, and few enough
+// that their arrays stay small beside those of the places.
 inline constexpr std::size_t most_at_a_time = std::size_t{1} << 18U;
 
 // Points at which beam rays landed; see landing_points.h.
 struct LandingPoints {
   std::vector<EmissionPoint>
       places;  // [point], on the side on which the sampled ray landed; `u` is the ray's number in the sample
-  // [point * lights + light], the flux of that light that lands there, relative to all points; below 0 where it lands on the other
-  // side of the element. Empty if the same flux lands at every point.
+  // [point * lights + light], the flux of that light that lands there, relative to all points; below 0 where it lands on the
+  // other side of the element. Empty if the same flux lands at every point.
   std::vector<double> weights;
 };
 
@@ -39,8 +39,8 @@ struct PassArrays {
   std::vector<shared::Landing> landings;  // of these packets
   std::vector<Arrival> arrivals;          // some of their ends, and what they carry there, [arrival * columns + column]
   std::vector<std::int64_t> carried;
-  RoundsSums found;                // by a device that makes the rounds
-  PlaceSums::Extent sides_landed;  // of the last pass
+  RoundsSums found;                              // by a device that makes the rounds
+  PlaceSums::Extent sides_landed, cells_landed;  // of the last pass
 };
 
 // Lends arrays to passes that run at the same time.

@@ -16,7 +16,10 @@ std::vector<std::int64_t> of_light(const std::vector<std::int64_t>& joint, std::
   return own;
 }
 
-// Deals the sums by side to the lights. Places without quanta of a light are left out of its list.
+constexpr PlaceSums IndirectSums::*by_place[] = {&IndirectSums::side_landed, &IndirectSums::side_sky,
+                                                 &IndirectSums::cell_landed, &IndirectSums::cell_sky};
+
+// Deals sums by place to the lights. Places without quanta of a light are left out of its list.
 template <class Member>
 void deal(const PlaceSums& joint, Member member, std::vector<IndirectSums>& dealt) {
   const std::size_t lights = dealt.size();
@@ -57,7 +60,7 @@ IndirectSums::IndirectSums(const RadiationModel& model, const CounterLayout& lay
       surface_landed(surfaces.of.size() * 2 * bands),
       layer_landed(static_cast<std::size_t>(layout.layers.count) * model.optics.size() * 2 * bands),
       side_landed(model.canopy.size() * 2, bands),
-      cell_landed(std::size_t{layout.cells()} * bands),
+      cell_landed(layout.cells(), bands),
       down((static_cast<std::size_t>(layout.layers.count) + 1) * bands),
       up(down.size()),
       ledger(bands) {}
@@ -70,16 +73,15 @@ std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights) 
   }
   const IndirectSums all = take_arrays(joint);
   joint.bands = all.bands / lights;
-  const std::size_t sides = all.side_landed.size() / all.bands;
   dealt.assign(lights, joint);
   for (std::size_t k = 0; k < lights; ++k) {
     IndirectSums& own = dealt[k];
-    own.side_landed = PlaceSums(sides, own.bands, all.side_landed.extent());
-    if (all.side_sky.size() > 0) own.side_sky = PlaceSums(sides, own.bands, all.side_sky.extent());
+    for (const auto sums : by_place) {
+      const PlaceSums& of_all = all.*sums;
+      if (of_all.size() > 0) own.*sums = PlaceSums(of_all.places(), own.bands, of_all.extent());
+    }
     own.surface_landed = of_light(all.surface_landed, k, lights);
     own.layer_landed = of_light(all.layer_landed, k, lights);
-    own.cell_landed = of_light(all.cell_landed, k, lights);
-    own.cell_sky = of_light(all.cell_sky, k, lights);
     own.down = of_light(all.down, k, lights);
     own.up = of_light(all.up, k, lights);
     own.receivers.down = of_light(all.receivers.down, k, lights);
@@ -87,8 +89,7 @@ std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights) 
     own.receivers.through_up = of_light(all.receivers.through_up, k, lights);
     for (std::size_t b = 0; b < own.bands; ++b) own.ledger.push_back(all.ledger[column_of(b, k, lights)]);
   }
-  deal(all.side_landed, &IndirectSums::side_landed, dealt);
-  deal(all.side_sky, &IndirectSums::side_sky, dealt);
+  for (const auto sums : by_place) deal(all.*sums, sums, dealt);
   return dealt;
 }
 

@@ -45,9 +45,9 @@ struct IndirectSums {
   std::vector<std::int64_t> layer_landed;    // [((layer * optics + optics) * 2 + side) * bands + band], without soil
   PlaceSums side_landed;                     // [(2 * element + side) * bands + band]
   std::vector<std::uint32_t> element_hits;   // [element], packets that landed on either side; empty if not asked for
-  std::vector<std::int64_t> cell_landed;     // [cell of the soil's map * bands + band]
+  PlaceSums cell_landed;                     // [cell of the soil's map * bands + band]
   PlaceSums side_sky;                        // as side_landed, sky rays only; empty without a sky
-  std::vector<std::int64_t> cell_sky;        // as cell_landed, sky rays only
+  PlaceSums cell_sky;                        // as cell_landed, sky rays only
   std::vector<std::int64_t> down, up;        // [plane * bands + band], through the planes of the layers, top plane last
   std::vector<FluxLedger> ledger;            // [band]; `incident` holds flux from the lamps and the sky
   PlaneSums receivers;                       // at the horizontal receivers, if there are any

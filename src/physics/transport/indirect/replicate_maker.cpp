@@ -161,7 +161,7 @@ ReplicateSet ReplicateMaker::blank(const ReplicateOrder& order) const {
   if (receivers_) blank.packets->receivers = blank.passed;
   if (sky_) {
     blank.packets->side_sky = blank.packets->side_landed;
-    blank.packets->cell_sky.resize(blank.packets->cell_landed.size());
+    blank.packets->cell_sky = blank.packets->cell_landed;
   }
   return ReplicateSet(lights_.size(), blank);
 }
@@ -175,17 +175,15 @@ double ReplicateMaker::sum_bytes() const {
   const auto lights = static_cast<double>(lights_.size());
   double bytes = lights * static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
   if (!indirect_) return bytes;
-  const double cells = static_cast<double>(layout_.cells()) * static_cast<double>(model_.bands.size()) * lights;
-  bytes += cells * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0) + most_side_bytes();
-  return bytes + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
+  return bytes + most_place_bytes() + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
 }
 
-double ReplicateMaker::most_side_bytes() const {
+double ReplicateMaker::most_place_bytes() const {
   if (!indirect_) return 0.0;
-  const double sides = 2.0 * static_cast<double>(model_.canopy.size()) * static_cast<double>(model_.bands.size());
+  const double places = 2.0 * static_cast<double>(model_.canopy.size()) + static_cast<double>(layout_.cells());
   // The sums of several lights are dealt to them from joint ones.
   const auto copies = static_cast<double>(lights_.size() == 1 ? 1 : 2 * lights_.size());
-  return copies * sides * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
+  return copies * places * static_cast<double>(model_.bands.size()) * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
 }
 
 double ReplicateMaker::device_sum_bytes() const {

@@ -47,14 +47,17 @@ class ReplicateMaker {
   // Returns a replicate without landings, with all arrays as large as those of an ordered one.
   [[nodiscard]] ReplicateSet blank(const ReplicateOrder& order) const;
 
-  // Returns how many replicates are worth making at once: two where software Vulkan needs the cores while it traces, else any number.
+  // Returns how many replicates are worth making at once: two where software Vulkan needs the cores while it traces, else any
+  // number.
   [[nodiscard]] std::size_t most_at_once() const;
 
-  // Returns the size of a replicate's counters and sums in bytes, with hits; it does not depend on the numbers of rays and packets.
+  // Returns the size of a replicate's counters and sums in bytes, with hits; it does not depend on the numbers of rays and
+  // packets.
   [[nodiscard]] double sum_bytes() const;
 
-  // Returns the part of it that sums by side take if light lands on many of them; see PlaceSums.
-  [[nodiscard]] double most_side_bytes() const;
+  // Returns the part of it that sums by place, of sides and cells of the soil's map, take if light lands on many of them; see
+  // PlaceSums.
+  [[nodiscard]] double most_place_bytes() const;
 
   // Returns the memory for what a GPU that makes the rounds finds, in bytes, with hits.
   [[nodiscard]] double device_sum_bytes() const;
@@ -62,8 +65,8 @@ class ReplicateMaker {
   // Returns the memory for where beam rays landed, in bytes. It is kept if packets start from at least half of the rays.
   [[nodiscard]] double record_bytes(double beam_rays, double landings) const;
 
-  // Makes a replicate of the conversions' incidence, [light]; returns nothing if stopped. Several threads may call this at the same
-  // time; all of them call `stop`.
+  // Makes a replicate of the conversions' incidence, [light]; returns nothing if stopped. Several threads may call this at the
+  // same time; all of them call `stop`.
   [[nodiscard]] std::optional<ReplicateSet> make(const ReplicateOrder& order, std::span<const Conversion> conversions,
                                                  const StopQuestion& stop);
 
@@ -91,7 +94,8 @@ class ReplicateMaker {
                                                           const StopQuestion& stop) override;
 
    private:
-    // A pass of one thread, which waits until its own turn comes, or another thread has its rounds made side by side with that one's.
+    // A pass of one thread, which waits until its own turn comes, or another thread has its rounds made side by side with that
+    // one's.
     struct WaitingPass {
       RoundsPass pass;
       const StopQuestion* stop;
@@ -114,7 +118,8 @@ class ReplicateMaker {
 
   // Returns whether the rounds may start from landings that the tracer keeps: those of one light in one part, without receivers.
   [[nodiscard]] bool keeps_landings(const ReplicateOrder& order) const;
-  // Traces the beam of first.beam, and has its landings kept by the tracer, or records them in `recorded` if record_bytes says so.
+  // Traces the beam of first.beam, and has its landings kept by the tracer, or records them in `recorded` if record_bytes says
+  // so.
   [[nodiscard]] TraceOutcome count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
                                         std::vector<shared::Landing>& recorded, const StopQuestion& stop);
   // Traces the beam of one light; returns false if stopped.

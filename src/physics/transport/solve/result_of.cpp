@@ -321,18 +321,18 @@ void copy_arrays(const RunSums& sums, RadiationResult& result) {
   result.elements = sums.elements;
   result.soil_cells = sums.soil_cells;
   result.side_indirect = sums.side_landed.all();
-  result.cell_indirect = sums.cell_landed;
+  result.cell_indirect = sums.cell_landed.all();
   result.side_sky = sums.side_sky.all();
-  result.cell_sky = sums.cell_sky;
+  result.cell_sky = sums.cell_sky.all();
 }
 
 void move_arrays(RunSums& sums, RadiationResult& result) {
   result.elements = std::move(sums.elements);
   result.soil_cells = std::move(sums.soil_cells);
   result.side_indirect = sums.side_landed.take_all();
-  result.cell_indirect = std::move(sums.cell_landed);
+  result.cell_indirect = sums.cell_landed.take_all();
   result.side_sky = sums.side_sky.take_all();
-  result.cell_sky = std::move(sums.cell_sky);
+  result.cell_sky = sums.cell_sky.take_all();
 }
 
 RadiationResult result_of(const RunSums& sums, double confidence) {

@@ -17,9 +17,11 @@ constexpr double most_landed = 0x1p62;
 // Returns the quanta that landed in a band, counted once per landing.
 double landed_quanta(const IndirectSums& indirect, std::size_t band) {
   double landed = 0.0;
-  for (const auto* sums : {&indirect.surface_landed, &indirect.cell_landed}) {
-    for (std::size_t k = band; k < sums->size(); k += indirect.bands) landed += static_cast<double>((*sums)[k]);
+  for (std::size_t k = band; k < indirect.surface_landed.size(); k += indirect.bands) {
+    landed += static_cast<double>(indirect.surface_landed[k]);
   }
+  indirect.cell_landed.for_each(
+      [&](std::size_t, std::span<const std::int64_t> quanta) { landed += static_cast<double>(quanta[band]); });
   return landed;
 }
 
@@ -275,13 +277,13 @@ class Addition {
     add_up(std::span(replicate_.counters).subspan(shared::counter_first_cell, sums_.soil_cells.size()), sums_.soil_cells);
     if (indirect_ == nullptr) return;
     sums_.side_landed.add(indirect_->side_landed);
-    add_up(indirect_->cell_landed, sums_.cell_landed);
+    sums_.cell_landed.add(indirect_->cell_landed);
     sums_.side_sky.add(indirect_->side_sky);
     if (in_half()) {
       sums_.half_side_landed.add(indirect_->side_landed);
       sums_.half_side_sky.add(indirect_->side_sky);
     }
-    add_up(indirect_->cell_sky, sums_.cell_sky);
+    sums_.cell_sky.add(indirect_->cell_sky);
   }
 
   // Returns whether this is one of every other replicate, the first included.

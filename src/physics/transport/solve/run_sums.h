@@ -50,8 +50,8 @@ struct Spread {
 };
 
 struct RunSums {
-  // All replicates have the incidence of `conversion`, which must outlive the sums. `lights` are those of the simulation, if it has
-  // more than that one.
+  // All replicates have the incidence of `conversion`, which must outlive the sums. `lights` are those of the simulation, if it
+  // has more than that one.
   RunSums(const Conversion& conversion, ElementErrors element_errors, ShadeGroups shade_groups = ShadeGroups::all,
           Lights lights = {});
 
@@ -83,8 +83,8 @@ struct RunSums {
   std::vector<LayerMeans> layers;  // [layer, + 1 for the top plane]
   ShadeClasses classes;
   std::vector<BeamLandings> elements;  // [element]
-  PlaceSums side_landed, side_sky;     // as in IndirectSums, over all replicates; empty before the first
-  std::vector<std::int64_t> cell_landed, cell_sky;
+  // As in IndirectSums, over all replicates; empty before the first.
+  PlaceSums side_landed, side_sky, cell_landed, cell_sky;
   std::vector<std::uint64_t> soil_cells;
   // As `elements`, side_landed and side_sky, over every other replicate from the first on; empty unless the light of triangles
   // is to be estimated.
@@ -118,14 +118,8 @@ void RunSums::visit(Self& self, Archive& archive) {
     archive(layer.ratio, layer.sunlit, layer.down, layer.up, layer.absorbed, layer.absorbed_structure);
   archive(self.classes);
   for (auto& element : self.elements) archive(element.upper, element.lower);
-  const auto visit_late = [&](auto& values, std::size_t size) {
-    if constexpr (!std::is_const_v<Self>) values.resize(size);
-    archive(values);
-    std::int64_t none = 0;
-    for (std::size_t k = values.size(); k < size; ++k) archive(none);
-  };
   const RadiationModel& model = self.conversion.model;
-  const auto visit_sides = [&](auto& sums, std::size_t size) {
+  const auto visit_places = [&](auto& sums, std::size_t size) {
     if constexpr (!std::is_const_v<Self>) sums = PlaceSums(size / model.bands.size(), model.bands.size());
     archive(sums);
     std::int64_t none = 0;
@@ -133,13 +127,13 @@ void RunSums::visit(Self& self, Archive& archive) {
   };
   const std::size_t sides = 2 * self.elements.size() * model.bands.size();
   const std::size_t cells = self.soil_cells.size() * model.bands.size();
-  visit_sides(self.side_landed, self.has_packets ? sides : 0);
-  visit_late(self.cell_landed, self.has_packets ? cells : 0);
-  visit_sides(self.side_sky, self.has_sky ? sides : 0);
-  visit_late(self.cell_sky, self.has_sky ? cells : 0);
+  visit_places(self.side_landed, self.has_packets ? sides : 0);
+  visit_places(self.cell_landed, self.has_packets ? cells : 0);
+  visit_places(self.side_sky, self.has_sky ? sides : 0);
+  visit_places(self.cell_sky, self.has_sky ? cells : 0);
   for (auto& element : self.half_elements) archive(element.upper, element.lower);
-  visit_sides(self.half_side_landed, self.has_packets && self.keeps_half ? sides : 0);
-  visit_sides(self.half_side_sky, self.has_sky && self.keeps_half ? sides : 0);
+  visit_places(self.half_side_landed, self.has_packets && self.keeps_half ? sides : 0);
+  visit_places(self.half_side_sky, self.has_sky && self.keeps_half ? sides : 0);
   archive(self.soil_cells, self.element_hits);
   for (auto* spreads : {&self.direct_spread, &self.absorbed_spread, &self.indirect_spread, &self.side_spread}) {
     for (auto& spread : *spreads) archive(spread.sum, spread.squares);

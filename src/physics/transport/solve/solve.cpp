@@ -60,7 +60,7 @@ class Solver {
     const std::optional<Work> work = choose_work();
     if (!work) return std::nullopt;
     const std::size_t certain = planner_.fixed() ? static_cast<std::size_t>(planner_.asked_replicates()) : first_check;
-    return RunForecast{*work, planner_.replicate_bytes(*work), planner_.side_bytes(*work),
+    return RunForecast{*work, planner_.replicate_bytes(*work), planner_.place_bytes(*work),
                        std::min(planner_.at_once(*work), certain)};
   }
 

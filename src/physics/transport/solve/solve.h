@@ -88,7 +88,7 @@ struct Monitor {
 struct RunForecast {
   Work work;                     // of one replicate
   double replicate_bytes = 0.0;  // memory of one replicate while it is made
-  double side_bytes = 0.0;       // the part of it that its sums by side take
+  double place_bytes = 0.0;      // the part of it that its sums by side and by cell of the soil take
   std::size_t at_once = 1;       // replicates made at the same time
 };
 
@@ -112,11 +112,11 @@ struct SharedOutcome {
 // Receives the result of a light.
 using TakeLight = std::function<void(std::size_t light, RadiationResult result, const SharedOutcome& outcome)>;
 
-// Runs one simulation of several lights, none of which may be dark; a single one may be. They share its packets; each has beam rays of
-// its own, as many as its error needs. Every light keeps the bounds that has at least 1 % of the brightest light's flux. Hands the
-// results over one after the other when all replicates are made, so that they need not lie in memory together; hands nothing over if
-// several lights were interrupted. The monitor's results are for single lights only. Throws as
-// `solve` does.
+// Runs one simulation of several lights, none of which may be dark, unless there is only one. They share its packets; each has
+// beam rays of its own, as many as its error needs. The bounds hold for every light with at least 1 % of the brightest light's
+// flux. Hands the results over one after the other when all replicates are made, so that they need not lie in memory together;
+// hands nothing over if several lights were interrupted. The monitor's results are for single lights only. Throws as `solve`
+// does.
 [[nodiscard]] SharedOutcome solve_lights(Lights lights, const CounterLayout& layout, Tracer& tracer,
                                          const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers,
                                          const WantedSums& sums, const TakeLight& take);

@@ -21,12 +21,13 @@ struct Forecast {
     return forecast > trusted * pilot ? forecast / next : pilot;
   }
 };
-// Pilots with a twentieth of the rays cost about a tenth of the run: their rays lie further apart, which makes each dearer, so that
-// another series costs more than what a less certain forecast of the rays wastes. The slope of packets is known.
+// Pilots with a twentieth of the rays cost about a tenth of the run: their rays lie further apart, which makes each dearer, so
+// that another series costs more than what a less certain forecast of the rays wastes. The slope of packets is known.
 constexpr Forecast ray_forecast{64, 20};
 constexpr Forecast packet_forecast{128, 64};
-// Lights of one simulation, and replicates that hold fewer packets than asked, get this multiple of the rays that their own errors ask
-// for: errors from pilots are uncertain, and a beam that lags behind costs more replicates with all of their packets.
+// Lights of one simulation, and replicates that hold fewer packets than asked, get this multiple of the rays that their own
+// errors ask for: errors from pilots are uncertain, and a beam that lags behind costs more replicates with all of their
+// packets.
 constexpr double spare_rays = 1.5;
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
@@ -44,11 +45,12 @@ constexpr double aimed_sky_rays_per_packet = 0.5;
 constexpr double most_sky_rays = 0x1p22;
 // A replicate whose packets take more memory than this gains nothing: more replicates do the same work.
 constexpr double comfortable_bytes = 0x1p28;
-// A bound that holds for each organ is met last by the organ whose error happens to look largest. More, smaller replicates know their
-// errors better: a run to 1 % on the sparse plot then needs a fifth fewer packets.
+// A bound that holds for each organ is met last by the organ whose error happens to look largest. More, smaller replicates know
+// their errors better: a run to 1 % on the sparse plot then needs a fifth fewer packets.
 constexpr double comfortable_bytes_for_organs = 0x1p27;
-// A ray costs a quarter of a packet, but more than a packet if it is traced again to find its landing, as most are here. Where there are many packets for
-// organs, there is at least this number of rays for each, lest packets go on while the beam on some organ is still uncertain.
+// A ray costs a quarter of a packet, but more than a packet if it is traced again to find its landing, as most are here. Where
+// there are many packets for organs, there is at least this number of rays for each, lest packets go on while the beam on some
+// organ is still uncertain.
 constexpr double rays_per_packet_for_organs = 0.5;
 // Four packets then share a landing, which did not raise the errors; small replicates, as in pilots, need one for each packet.
 constexpr double sampled_rays_per_packet_for_organs = 0.25;
@@ -80,8 +82,8 @@ std::optional<Work> WorkPlanner::choose(const RunPilots& run_pilots) {
   return work;
 }
 
-// Returns the work of a replicate such that the planned number of replicates reaches the bounds. Pilots trace all light: each tells
-// how many rays and how many packets the run needs, and larger ones follow until both forecasts can be trusted. Returns
+// Returns the work of a replicate such that the planned number of replicates reaches the bounds. Pilots trace all light: each
+// tells how many rays and how many packets the run needs, and larger ones follow until both forecasts can be trusted. Returns
 // nothing if stopped.
 std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
   double most_rays = static_cast<double>(max_grid_rays);
@@ -212,12 +214,12 @@ double WorkPlanner::replicate_bytes(const Work& work) const {
   if (!maker_.has_indirect_pass()) return maker_.sum_bytes();
   const RayCounts counts = ray_counts(work);
   const double recorded = maker_.record_bytes(has_beam_ ? work.rays : 0.0, std::min(counts.packets, counts.beam_rays));
-  return maker_.sum_bytes() - maker_.most_side_bytes() + side_bytes(work) + memory_.bytes(counts) + recorded +
+  return maker_.sum_bytes() - maker_.most_place_bytes() + place_bytes(work) + memory_.bytes(counts) + recorded +
          maker_.device_sum_bytes();
 }
 
-double WorkPlanner::side_bytes(const Work& work) const {
-  return memory_.side_bytes(ray_counts(work), maker_.most_side_bytes());
+double WorkPlanner::place_bytes(const Work& work) const {
+  return memory_.place_bytes(ray_counts(work), maker_.most_place_bytes());
 }
 
 double WorkPlanner::grid_rays_asked() const {

@@ -61,9 +61,9 @@ class WorkPlanner {
   // lacked starts as small as in pilots.
   [[nodiscard]] Work begin_with(Work earlier) const;
 
-  // Returns the share of the rays that each light gets, [light], if lights with these rays had these errors: what its own error needs,
-  // and a half more, since errors are uncertain, compared with the light that needs most. Lights that are not judged do not count as
-  // such.
+  // Returns the share of the rays that each light gets, [light], if lights with these rays had these errors: what its own error
+  // needs, and a half more, since errors are uncertain, compared with the light that needs most. Lights that are not judged do
+  // not count as such.
   [[nodiscard]] std::vector<double> ray_shares(std::span<const double> rays, std::span<const SeriesOutcome> lights,
                                                const std::vector<bool>& judged) const;
 
@@ -77,8 +77,8 @@ class WorkPlanner {
   [[nodiscard]] std::size_t at_once(const Work& work) const;
   // Returns the memory of a replicate while it is made, in bytes.
   [[nodiscard]] double replicate_bytes(const Work& work) const;
-  // Returns the part of it that its sums by side take.
-  [[nodiscard]] double side_bytes(const Work& work) const;
+  // Returns the part of it that its sums by place take.
+  [[nodiscard]] double place_bytes(const Work& work) const;
   // Records the memory that a replicate took.
   void learn(const Work& work, const IndirectSums& packets) { memory_.learn(ray_counts(work), packets); }
 

@@ -6,8 +6,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <algorithm>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <vector>
@@ -379,11 +380,17 @@ TEST_F(SceneReader, WarnsOfUnusedOptics) {
   EXPECT_NE(scene.warnings[0].find("optics.ear"), std::string::npos) << scene.warnings[0];
 }
 
-TEST_F(SceneReader, LargePlotGetsCoarserDefaultPatches) {
-  const Scene scene = read("[plot]\nsize = [1000, 1000]\n[[band]]\nname = \"PAR\"\n[soil]\nreflectance = 0.1\n");
+TEST_F(SceneReader, PlotsAboveAHectareGetCoarserDefaultPatches) {
+  const auto with = [&](const char* size, const char* patch) {
+    return read(fmt::format("[plot]\nsize = {}\n[[band]]\nname = \"PAR\"\n[soil]\nreflectance = 0.1\n{}", size, patch));
+  };
+  const Scene scene = with("[1000, 1000]", "");
   EXPECT_DOUBLE_EQ(scene.model.soil->patch_m, 0.5);
   ASSERT_EQ(scene.warnings.size(), 1U);
   EXPECT_NE(scene.warnings[0].find("soil.patch"), std::string::npos) << scene.warnings[0];
+  EXPECT_DOUBLE_EQ(with("[160, 100]", "").model.soil->patch_m, std::sqrt(16000 / 4e6));
+  EXPECT_EQ(with("[100, 99]", "").model.soil->patch_m, 0.05);
+  EXPECT_EQ(with("[160, 100]", "patch = 0.05\n").model.soil->patch_m, 0.05) << "as the user says";
 }
 
 // Rounding may make the sum of decimal fractions exceed 1.
