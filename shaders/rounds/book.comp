@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Books what packets from number `first` on carry to their landings, and lets wait there what is scattered; see PacketBooks. Each thread
-// takes a packet.
+// Books what packets from number `first` on carry to their landings, and lets wait there what is scattered; see PacketBooks.
+// Each thread takes a packet.
 
 #include "landing_place.glsl"
 

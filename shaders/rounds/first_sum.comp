@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Adds up, for each column, the coefficients of what is scattered where the sampled rays of the beam landed. Each thread takes a ray.
+// Adds up, for each column, the coefficients of what is scattered where the sampled rays of the beam landed. Each thread takes
+// a ray.
 
 #include "landing_place.glsl"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Lets flux wait where the sampled rays of the beam landed; these places follow those that the host has sent. Each thread takes a ray.
+// Lets flux wait where the sampled rays of the beam landed; these places follow those that the host has sent. Each thread takes
+// a ray.
 
 #include "landing_place.glsl"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Finds what a unit of weight carries of each column, retires columns that no packet carries, and takes what waits off its places. Each
-// thread of one group takes some columns.
+// Finds what a unit of weight carries of each column, retires columns that no packet carries, and takes what waits off its
+// places. Each thread of one group takes some columns.
 
 #include "pass.glsl"
 

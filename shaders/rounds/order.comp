@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Orders packets from number `first` on by direction within windows of 128, as packet_order.h does in larger ones. Each group takes a
-// window, and each thread a packet of it. No landing depends on the order.
+// Orders packets from number `first` on by direction within windows of 128, as packet_order.h does in larger ones. Each group
+// takes a window, and each thread a packet of it. No landing depends on the order.
 
 #include "pass.glsl"
 

@@ -1,8 +1,8 @@
 // The few macros that let the files beside this one compile as GLSL and as C++; nothing else.
 // Rules of the shared text: 32-bit float, uint, uint64_t, vectors and free functions; suffixes f and u always; no overloads,
 // references, doubles or library calls that are not named here. Lines that decide hit or miss store into EXACT variables: no
-// contraction of a*b+c. Division of floats, roots, trigonometry, min and max are not used, because devices may differ in their last
-// bit; floor is exact everywhere.
+// contraction of a*b+c. Division of floats, roots, trigonometry, min and max are not used, because devices may differ in their
+// last bit; floor is exact everywhere.
 #ifndef SUNFLECK_SHARED_BRIDGE_H
 #define SUNFLECK_SHARED_BRIDGE_H
 

@@ -28,9 +28,9 @@ INLINE vec3 exact_times(vec3 v, float factor) {
   return vec3(x, y, z);
 }
 
-// Returns the unit normal of a triangle's upper side; straight up if it has no area. Edges and normal are brought to magnitudes near 1
-// first, so that nothing underflows. The error is about 2^-22 divided by the sine of the angle between the edges, as much as
-// rounding the corners to float has done to the normal of such a sliver.
+// Returns the unit normal of a triangle's upper side; straight up if it has no area. Edges and normal are brought to magnitudes
+// near 1 first, so that nothing underflows. The error is about 2^-22 divided by the sine of the angle between the edges, as
+// much as rounding the corners to float has done to the normal of such a sliver.
 INLINE vec3 exact_normal(vec3 a, vec3 b, vec3 c) {
   EXACT vec3 along_b = b - a;
   EXACT vec3 along_c = c - a;
@@ -62,10 +62,10 @@ INLINE vec2 exact_turn(uint word) {
   return vec2(sine, -cosine);
 }
 
-// Returns a direction of any length that is cosine-distributed about the unit normal if both words are even over all words: the normal
-// plus a point that is even over the unit sphere. No frame turns with the leaf, so that an even sequence of words is even over the
-// directions in space. Directions that rise less than 7e-4 above the surface, one in two million, become the normal, because rounding
-// could send them to the other side.
+// Returns a direction of any length that is cosine-distributed about the unit normal if both words are even over all words: the
+// normal plus a point that is even over the unit sphere. No frame turns with the leaf, so that an even sequence of words is
+// even over the directions in space. Directions that rise less than 7e-4 above the surface, one in two million, become the
+// normal, because rounding could send them to the other side.
 INLINE vec3 cosine_direction(vec3 normal, uint u, uint v) {
   const float height = unit_interval(u);
   EXACT float z = 1.0f - 2.0f * height;
@@ -79,8 +79,8 @@ INLINE vec3 cosine_direction(vec3 normal, uint u, uint v) {
   return rise < 9.5367431640625e-7f ? normal : vec3(x, y, along_z);
 }
 
-// Returns the barycentric weights of corners b and c of a point that is even over a triangle if both words are even over all words
-// (Turk 1990, Graphics Gems).
+// Returns the barycentric weights of corners b and c of a point that is even over a triangle if both words are even over all
+// words (Turk 1990, Graphics Gems).
 INLINE vec2 even_weights(uint u, uint v) {
   const float root = exact_root(unit_interval(u));
   const float part = unit_interval(v);
@@ -128,8 +128,8 @@ INLINE Wrapped wrapped_into(float x, float period, float per_period) {
   return wrapped;
 }
 
-// Steps of the additive sequence of directions, as parts of 2^32: the first two powers of 1 / 1.3247..., the plastic number. Places on a
-// lamp take two other steps, because a sequence in four dimensions would have different ones in all of them.
+// Steps of the additive sequence of directions, as parts of 2^32: the first two powers of 1 / 1.3247..., the plastic number.
+// Places on a lamp take two other steps, because a sequence in four dimensions would have different ones in all of them.
 const uint step_u = 0xc13fa9a9u;
 const uint step_v = 0x91e10da6u;
 const uint lamp_step_u = 0x9e3779b9u;

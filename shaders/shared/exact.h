@@ -30,8 +30,8 @@ INLINE float direction_reciprocal(float x) {
   return exact_reciprocal(x);
 }
 
-// Returns 1 / sqrt(x) within three units in the last place, for 2^-100 < x < 2^100: an integer guess (error below 4 %; Lomont 2003,
-// "Fast inverse square root") and four Newton steps y (3 - x y^2) / 2.
+// Returns 1 / sqrt(x) within three units in the last place, for 2^-100 < x < 2^100: an integer guess (error below 4 %; Lomont
+// 2003, "Fast inverse square root") and four Newton steps y (3 - x y^2) / 2.
 INLINE float exact_inverse_root(float x) {
   float y = uintBitsToFloat(0x5f375a86u - (floatBitsToUint(x) >> 1u));
   EXACT float half_x = 0.5f * x;

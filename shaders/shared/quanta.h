@@ -1,5 +1,5 @@
-// The arithmetic of quanta: how they split where they land, how many packets are drawn, and what each of them carries. It is exact
-// in 64-bit integers, so that every device gives the same bits. GLSL needs GL_EXT_shader_explicit_arithmetic_types_int64.
+// The arithmetic of quanta: how they split where they land, how many packets are drawn, and what each of them carries. It is
+// exact in 64-bit integers, so that every device gives the same bits. GLSL needs GL_EXT_shader_explicit_arithmetic_types_int64.
 //
 // A coefficient is a part of 2^32, up to 2^32 itself. Numbers of packets are in units of 2^-32 until they are drawn.
 #ifndef SUNFLECK_SHARED_QUANTA_H
@@ -37,9 +37,9 @@ INLINE uint64_t long_quotient(uint64_t high, uint64_t low, uint64_t divisor) {
   return result;
 }
 
-// Returns the part of some quanta that a coefficient describes, rounded down or up at random so that its expectation is right; u has
-// 32 random bits. All parts with the same u are in the order of their coefficients, 0 gives 0 and 2^32 gives all quanta, so that what
-// is reflected, transmitted and absorbed are differences of parts and add up to the quanta. Nothing overflows:
+// Returns the part of some quanta that a coefficient describes, rounded down or up at random so that its expectation is right;
+// u has 32 random bits. All parts with the same u are in the order of their coefficients, 0 gives 0 and 2^32 gives all quanta,
+// so that what is reflected, transmitted and absorbed are differences of parts and add up to the quanta. Nothing overflows:
 // (2^32 - 1) 2^32 + 2^32 - 1 = 2^64 - 1.
 INLINE uint64_t part_of(uint64_t quanta, uint64_t coefficient, uint u) {
   return (quanta >> 32u) * coefficient + (((quanta & uint64_t(low_word)) * coefficient + uint64_t(u)) >> 32u);
@@ -47,8 +47,9 @@ INLINE uint64_t part_of(uint64_t quanta, uint64_t coefficient, uint u) {
 
 const uint64_t most_at_point = uint64_t(1u) << 52u;
 
-// Returns what landed at each of several points that send `sent` quanta together, if the coefficients of what they scatter add up to
-// `coefficients`, which is at most 2^63: the nearest number of quanta, at most most_at_point. 0 if the points scatter nothing.
+// Returns what landed at each of several points that send `sent` quanta together, if the coefficients of what they scatter add
+// up to `coefficients`, which is at most 2^63: the nearest number of quanta, at most most_at_point. 0 if the points scatter
+// nothing.
 INLINE uint64_t quanta_at_point(uint64_t sent, uint64_t coefficients) {
   if (coefficients == uint64_t(0u)) return uint64_t(0u);
   const uint64_t low = (sent << 32u) + (coefficients >> 1u);
@@ -62,7 +63,8 @@ INLINE uint64_t quanta_at_point(uint64_t sent, uint64_t coefficients) {
 const uint element_parts = 240u;
 const uint ground_parts = 16u;
 
-// Returns the part of the number-th place; `parts_each` is 2^32 times the number of parts divided by that of numbers, rounded down.
+// Returns the part of the number-th place; `parts_each` is 2^32 times the number of parts divided by that of numbers, rounded
+// down.
 INLINE uint place_part(uint number, uint64_t parts_each) {
   return uint(uint64_t(number) * parts_each >> 32u);
 }
@@ -73,7 +75,8 @@ struct Scale {
   uint shift;
 };
 
-// Returns the largest scale up to numerator / denominator, which is at most 2^63; the largest of all, 2^32 - 1, if that is not enough.
+// Returns the largest scale up to numerator / denominator, which is at most 2^63; the largest of all, 2^32 - 1, if that is not
+// enough.
 INLINE Scale scale_of(uint64_t numerator, uint64_t denominator) {
   Scale scale;
   scale.mantissa = low_word;
@@ -96,8 +99,8 @@ INLINE uint64_t scaled(uint64_t quanta, Scale by) {
   return ((quanta >> 32u) * mantissa << (32u - by.shift)) + ((quanta & uint64_t(low_word)) * mantissa >> by.shift);
 }
 
-// Returns how many packets are drawn from all places up to one, with the sum of their expectations, of which `gain` / 2^32 packets are
-// drawn: systematic sampling with one random offset for all places (Madow & Madow 1944, Ann. Math. Stat. 15:1).
+// Returns how many packets are drawn from all places up to one, with the sum of their expectations, of which `gain` / 2^32
+// packets are drawn: systematic sampling with one random offset for all places (Madow & Madow 1944, Ann. Math. Stat. 15:1).
 INLINE uint64_t drawn_up_to(uint64_t sum, uint64_t gain, uint64_t offset) {
   const uint64_t low = sum * gain;
   return product_high(sum, gain) + (low + offset < low ? uint64_t(1u) : uint64_t(0u));
@@ -109,8 +112,8 @@ struct Sharing {
   int shift_right;  // to the leading bits; to the left if negative
 };
 
-// `expectation` is not 0 and below 2^63. The parts of a place that draws fewer packets than its flux stands for may reach, but not exceed,
-// (expectation + 1) 2^spare_bits.
+// `expectation` is not 0 and below 2^63. The parts of a place that draws fewer packets than its flux stands for may reach, but
+// not exceed, (expectation + 1) 2^spare_bits.
 INLINE Sharing sharing_of(uint64_t expectation, uint spare_bits) {
   const uint high = uint(expectation >> 32u);
   const int leading = high != 0u ? 32 + findMSB(high) : findMSB(uint(expectation & uint64_t(low_word)));
@@ -126,8 +129,8 @@ INLINE uint64_t half_of(Sharing sharing) {
   return sharing.shift_right > 0 ? uint64_t(1u) << uint(sharing.shift_right - 1) : uint64_t(0u);
 }
 
-// Returns the weight of a column in a packet, in units of 2^(spare_bits - 31) of a packet, within two of them: at most 2^31 without spare
-// bits, and below 2^32 with them. `expected` is the column's own part of the expectation.
+// Returns the weight of a column in a packet, in units of 2^(spare_bits - 31) of a packet, within two of them: at most 2^31
+// without spare bits, and below 2^32 with them. `expected` is the column's own part of the expectation.
 INLINE uint share_of(uint64_t expected, Sharing sharing) {
   const uint64_t rounded = expected + half_of(sharing);
   const uint64_t bits = sharing.shift_right >= 0 ? rounded >> uint(sharing.shift_right) : rounded << uint(-sharing.shift_right);
@@ -141,8 +144,8 @@ struct Load {
   uint shift;
 };
 
-// Returns the largest load of which `weights` units are not more than the column's total; both are below 2^63. No packet carries a column whose weights come
-// to less than 2^-32 of its quanta.
+// Returns the largest load of which `weights` units are not more than the column's total; both are below 2^63. No packet
+// carries a column whose weights come to less than 2^-32 of its quanta.
 INLINE Load load_of(uint64_t total, uint64_t weights) {
   Load load;
   load.factor = uint64_t(0u);
@@ -153,8 +156,8 @@ INLINE Load load_of(uint64_t total, uint64_t weights) {
   return load;
 }
 
-// Returns the quanta that a packet carries. They add up to the total but for what rounding leaves: hardly more than one quantum a packet
-// at the usual shifts, and less than two, which wait for the next round.
+// Returns the quanta that a packet carries. They add up to the total but for what rounding leaves: hardly more than one quantum
+// a packet at the usual shifts, and less than two, which wait for the next round.
 INLINE uint64_t carried(uint weight, Load load) {
   const uint64_t low = uint64_t(weight) * (load.factor & uint64_t(low_word)) >> 32u;
   return (uint64_t(weight) * (load.factor >> 32u) + low) >> (load.shift - 32u);

@@ -7,8 +7,8 @@
 
 SHARED_BEGIN
 
-// Used instead of a packet's number for the random words that all packets of a round share: the offset of drawing, and the starts of the
-// sequences of directions and of places on lamps.
+// Used instead of a packet's number for the random words that all packets of a round share: the offset of drawing, and the
+// starts of the sequences of directions and of places on lamps.
 const uint word_of_offset = 0xffffffffu;
 const uint word_of_starts = 0xfffffffeu;
 
@@ -137,8 +137,8 @@ struct RoundPush {
   uint count;
 };
 const uint all_packets = 0xffffffffu;
-// Numbers of which running sums are made: of the places of each run in each part, where a run is what one group sorts, and of the sides'
-// expectations.
+// Numbers of which running sums are made: of the places of each run in each part, where a run is what one group sorts, and of
+// the sides' expectations.
 const uint sums_of_runs = 0u;
 const uint sums_of_sides = 1u;
 
@@ -151,7 +151,8 @@ const uint groups_of_packets = 4u;
 const uint groups_of_traces = 5u;  // of `trace_group_size` threads
 const uint kinds_of_groups = 6u;
 
-// The small sums, each with `columns` words but for the last. Among the layers there are layers + 2 places: the soil, the layers, and above.
+// The small sums, each with `columns` words but for the last. Among the layers there are layers + 2 places: the soil, the
+// layers, and above.
 const uint sum_weights = 0u;
 const uint sum_vegetation = 1u;  // absorbed; in the order of the roles
 const uint sum_structure = 2u;

@@ -11,8 +11,8 @@ const uint view_perspective = 0u;
 const uint view_orthographic = 1u;
 const uint view_fisheye = 2u;
 
-// The camera of a picture, as in pictures/drawing/camera.h, in the canopy's local frame. Right and up are scaled by the tangents of half
-// the angles of view or, in an orthographic picture, by half its width and height in the scene.
+// The camera of a picture, as in pictures/drawing/camera.h, in the canopy's local frame. Right and up are scaled by the
+// tangents of half the angles of view or, in an orthographic picture, by half its width and height in the scene.
 struct ViewBlock {
   vec3 position;
   uint width;

@@ -15,8 +15,8 @@ namespace sunfleck {
   return (count + block_size - 1) / block_size;
 }
 
-// Calls take(block, first, end) for each block of the numbers below `count`, `block_size` of them but in the last one, in any order and
-// several at a time.
+// Calls take(block, first, end) for each block of the numbers below `count`, `block_size` of them but in the last one, in any
+// order and several at a time.
 template <class Take>
 void in_blocks(std::size_t count, std::size_t block_size, const Take& take) {
   const auto one = [&](std::size_t block) { take(block, block * block_size, std::min(count, (block + 1) * block_size)); };
@@ -27,13 +27,15 @@ void in_blocks(std::size_t count, std::size_t block_size, const Take& take) {
   tbb::parallel_for(std::size_t{0}, block_count(count, block_size), one);
 }
 
-// Calls take(k) for each number k below `count`, several at a time. The thread does nothing else meanwhile, so that it may hold a lock.
+// Calls take(k) for each number k below `count`, several at a time. The thread does nothing else meanwhile, so that it may hold
+// a lock.
 template <class Take>
 void each_at_once(std::size_t count, const Take& take) {
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, take); });
 }
 
-// Calls take(k) for each number k below `count`, block by block; before it come(k), some numbers ahead, so that memory can be asked for.
+// Calls take(k) for each number k below `count`, block by block; before it come(k), some numbers ahead, so that memory can be
+// asked for.
 template <class Come, class Take>
 void each_in_blocks(std::size_t count, std::size_t block_size, const Come& come, const Take& take) {
   in_blocks(count, block_size, [&](std::size_t, std::size_t first, std::size_t end) {

@@ -1,6 +1,6 @@
 #pragma once
-// Memory for long arrays in large pages, where the system has them: such memory is fetched in a fraction of the time, and found faster
-// where it is read in no order.
+// Memory for long arrays in large pages, where the system has them: such memory is fetched in a fraction of the time, and found
+// faster where it is read in no order.
 
 #include <sys/mman.h>
 
@@ -11,8 +11,8 @@
 
 namespace sunfleck {
 
-// Places arrays of at least least_bytes at the beginning of a page of 2 MiB, of which it asks the system for as many as it can give. The
-// memory of an array is rounded up to whole pages.
+// Places arrays of at least least_bytes at the beginning of a page of 2 MiB, of which it asks the system for as many as it can
+// give. The memory of an array is rounded up to whole pages.
 template <class T>
 struct LargePageAllocator {
   using value_type = T;

@@ -48,8 +48,8 @@ class ProgressLine {
 };
 
 // Returns the text of a progress line: "simulating [####....] 45 %, 12.3 M rays, direct error 0.0012 of 0.0010, 8 s left",
-// or with a stage "simulating, pilot, 0.3 M rays" and the error. The bar is left out if bar_width is 0; the time left is left out below
-// one percent and at the end; the error is left out if it is unknown.
+// or with a stage "simulating, pilot, 0.3 M rays" and the error. The bar is left out if bar_width is 0; the time left is left
+// out below one percent and at the end; the error is left out if it is unknown.
 [[nodiscard]] std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s,
                                         int bar_width);
 

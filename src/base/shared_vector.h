@@ -9,8 +9,8 @@
 
 namespace sunfleck {
 
-// Offers what callers use of std::vector. Access through a non-const object counts as a change: it first gives the object elements
-// of its own, unless it has them already. Copies may be used by different threads, like copies of a std::vector.
+// Offers what callers use of std::vector. Access through a non-const object counts as a change: it first gives the object
+// elements of its own, unless it has them already. Copies may be used by different threads, like copies of a std::vector.
 template <class T>
 class SharedVector {
  public:

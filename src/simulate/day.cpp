@@ -28,8 +28,8 @@ namespace {
 using nlohmann::ordered_json;
 
 // next_work sizes replicates so that sixteen of them just reach the bounds. With fewer packets in each replicate, a step whose
-// light is easier than the last one's has not yet made too many when its bounds are checked first. Rays cost little compared with packets,
-// and a beam that lags behind would cost all packets of more replicates.
+// light is easier than the last one's has not yet made too many when its bounds are checked first. Rays cost little compared
+// with packets, and a beam that lags behind would cost all packets of more replicates.
 constexpr double share_of_next_packets = 0.8;
 constexpr double share_of_next_rays = 1.6;
 // The sun may have moved to where much more work is needed, for example when the first beams reach the ground. If the error is
@@ -94,8 +94,9 @@ class DayRun {
     return day_.steps == block.end;
   }
 
-  // Returns the state that an earlier process left of the first block that it did not finish. If that block had begun with too little
-  // work and begun again, `settings` will not begin with it once more. A state that is damaged, or of another block, is of no use.
+  // Returns the state that an earlier process left of the first block that it did not finish. If that block had begun with too
+  // little work and begun again, `settings` will not begin with it once more. A state that is damaged, or of another block, is
+  // of no use.
   [[nodiscard]] std::optional<SolveState> find_state(const DayBlock& block, SolveSettings& settings) {
     if (std::exchange(has_looked_, true)) return std::nullopt;
     const std::optional<RunStore> any = sink_.block_store(block_settings(block, settings));
@@ -125,8 +126,8 @@ class DayRun {
     return {{"first_step", block.first}, {"begins_with_pilots", settings.begin_with.empty()}};
   }
 
-  // Returns the work that a single step takes over from the last one, and that the steps of a block take over from those at the same hours
-  // of an earlier date: the rays that a light needs vary too much in a few hours. Empty if there is none.
+  // Returns the work that a single step takes over from the last one, and that the steps of a block take over from those at the
+  // same hours of an earlier date: the rays that a light needs vary too much in a few hours. Empty if there is none.
   [[nodiscard]] std::vector<Work> work_to_begin_with(const DayBlock& block) const {
     std::vector<Work> works;
     for (std::size_t i = block.first; i < block.end; ++i) {

@@ -1,9 +1,9 @@
 #pragma once
 // Simulates the steps of one or several days, block by block with one tree. The steps of a block are simulated together.
 //
-// A block whose first step is n, from 0, has the seed RandomStream(seed, n).word(). Where it can, it begins with the work that an earlier
-// step, or the block at the same hours of an earlier date, would now choose (RadiationResult::next_work), which is stored with each step:
-// a day that was stopped anywhere and is resumed gives the same bytes as one that was not.
+// A block whose first step is n, from 0, has the seed RandomStream(seed, n).word(). Where it can, it begins with the work that
+// an earlier step, or the block at the same hours of an earlier date, would now choose (RadiationResult::next_work), which is
+// stored with each step: a day that was stopped anywhere and is resumed gives the same bytes as one that was not.
 
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"
@@ -42,12 +42,12 @@ struct SimulatedDay {
 
 // Returns the solver's settings for the steps, which estimate the light of triangles if work.triangle_light. They contain no time
 // limit: --max-seconds interrupts a day between rays instead of making replicates smaller, so that its bytes do not depend on the
-// clock. Of the memory, by default half of what is free, one half is for replicates in progress, as for a run, and the other one for
-// the sums of steps that are simulated together.
+// clock. Of the memory, by default half of what is free, one half is for replicates in progress, as for a run, and the other
+// one for the sums of steps that are simulated together.
 [[nodiscard]] SolveSettings day_solve_settings(const WorkRequest& work, const Scene& scene, int threads);
 
-// Gives the plan its blocks: of request.steps_together steps, else of as many as the memory holds, but of single steps if the number
-// of rays is limited, since the limit applies to each step.
+// Gives the plan its blocks: of request.steps_together steps, else of as many as the memory holds, but of single steps if the
+// number of rays is limited, since the limit applies to each step.
 void plan_blocks(const DayRequest& request, const SolveSettings& settings, const RadiationModel& model, DayPlan& plan);
 
 // Returns everything on which the bytes of a finished step depend.
@@ -57,9 +57,9 @@ void plan_blocks(const DayRequest& request, const SolveSettings& settings, const
 // Returns how many steps an earlier day in the folder simulated together; nothing if there is none.
 [[nodiscard]] std::optional<int> noted_steps_together(const std::filesystem::path& folder);
 
-// Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them; of the block in progress only its state
-// is kept. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps and the state.
-// Throws as Simulation::solve does, and what the sink throws.
+// Simulates the blocks of the plan in their order, until hooks.monitor.interrupted stops them; of the block in progress only
+// its state is kept. The monitor's report covers the whole day; hooks.checkpoint is not used, since the sink stores the steps
+// and the state. Throws as Simulation::solve does, and what the sink throws.
 [[nodiscard]] SimulatedDay simulate_day(Simulation& simulation, const DayPlan& plan, const SolveSettings& settings,
                                         DaySink& sink, const RunHooks& hooks);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Blocks of steps that are simulated together. The steps of a block share their packets (physics/transport/model/lights.h), so that a
-// block of many costs far less time than its steps do one by one, but takes memory for each of them.
+// Blocks of steps that are simulated together. The steps of a block share their packets (physics/transport/model/lights.h), so
+// that a block of many costs far less time than its steps do one by one, but takes memory for each of them.
 
 #include "physics/transport/model/model.h"
 #include "simulate/day_plan.h"
@@ -23,8 +23,8 @@ inline constexpr int usual_steps_together = 6;
 // Returns the same for other lights of a scene.
 [[nodiscard]] std::size_t lights_in_memory(const RadiationModel& model, bool has_sky, bool of_triangles, double memory_bytes);
 
-// Gives the plan the blocks of all daytime steps, each with at most `most` of them. The blocks between two nights or dark steps are
-// of nearly the same size.
+// Gives the plan the blocks of all daytime steps, each with at most `most` of them. The blocks between two nights or dark steps
+// are of nearly the same size.
 void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan);
 
 // Return a block as a number, by which the ranks of a job name it, and the block of a number.

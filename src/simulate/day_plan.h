@@ -12,8 +12,8 @@ namespace sunfleck {
 
 inline constexpr std::size_t most_day_steps = 60000;  // more than a year of ten-minute steps
 
-// Consecutive steps of one date that are simulated together, first ... end - 1. A block of one step may be dark; no other is, and no
-// step of a block is a night step.
+// Consecutive steps of one date that are simulated together, first ... end - 1. A block of one step may be dark; no other is,
+// and no step of a block is a night step.
 struct DayBlock {
   std::size_t first = 0, end = 0;
 

@@ -19,17 +19,18 @@ struct InMemoryDay {
   DayPlan plan;
   RunRecord record;
   std::vector<StepLight> lights;  // [step]; fewer than the plan has if stopped
-  // W m-2, [step][(band * columns + column) * elements + element], as of day_fields, and [step], as of plane_maps; empty by night,
-  // and of all steps unless work.triangle_light
+  // W m-2, [step][(band * columns + column) * elements + element], as of day_fields, and [step], as of plane_maps; empty by
+  // night, and of all steps unless work.triangle_light
   std::vector<std::vector<float>> fields, maps;
   bool triangle_light = false;
   PlaneMapSums plane_sums;  // of the finished steps
   std::string summary;      // summary.json
 };
 
-// Simulates a scene that was read for a day; the result equals that of the command `day` with these requests, bit for bit. Keeps the
-// light of every triangle and the maps of every step if work.triangle_light. `work.max_seconds` and monitor.interrupted stop the
-// day and discard the unfinished step. The monitor's report covers the whole day. Throws Error as `day` does.
+// Simulates a scene that was read for a day; the result equals that of the command `day` with these requests, bit for bit.
+// Keeps the light of every triangle and the maps of every step if work.triangle_light. `work.max_seconds` and
+// monitor.interrupted stop the day and discard the unfinished step. The monitor's report covers the whole day. Throws Error as
+// `day` does.
 [[nodiscard]] InMemoryDay simulate_in_memory(Scene scene, const DayRequest& request, const WorkRequest& work,
                                              const DeviceRequest& device, const Monitor& monitor);
 

@@ -11,16 +11,16 @@
 namespace sunfleck {
 
 // Reads the scene, whichever of these it is; `files`, if given, receives every file that is tried, even if reading fails.
-// Throws Error (input) also for a mesh without optics or light unless `request.mesh_alone`, for the options of a mesh beside a scene file, and for the day
-// of a mesh, which has no place. Scene::files includes CARIBU's files; the digest covers them by the values that the scene's
-// text takes from them.
+// Throws Error (input) also for a mesh without optics or light unless `request.mesh_alone`, for the options of a mesh beside a
+// scene file, and for the day of a mesh, which has no place. Scene::files includes CARIBU's files; the digest covers them by
+// the values that the scene's text takes from them.
 [[nodiscard]] Scene load_scene(const SceneRequest& request, ScenePurpose purpose = ScenePurpose::moment,
                                SourceFiles* files = nullptr);
 
 // Reads the scene as load_scene does, and prints its warnings.
 [[nodiscard]] Scene load_scene_with_warnings(const SceneRequest& request, ScenePurpose purpose = ScenePurpose::moment);
 
-// Removes planes and sensors, which only `run` computes and not a day or the window. Returns whether there were any.
+// Removes planes and sensors, which the window does not show. Returns whether there were any.
 bool remove_receivers(Scene& scene);
 
 // Returns the set of CARIBU files that a mesh and these options specify. Throws Error (input) where optics or light are

@@ -44,7 +44,8 @@ class Simulation {
   // Returns a simulation of a model with the same triangles, soil and plot, which shares the tree and the device.
   [[nodiscard]] Simulation with_model(RadiationModel model) const;
 
-  // Gives the scene other light, like relight of files/scene/scene_reader.h. Existing results keep the scene to which they belong.
+  // Gives the scene other light, like relight of files/scene/scene_reader.h. Existing results keep the scene to which they
+  // belong.
   void relight(const SceneText& light, const SceneAccess& access);
 
   // Returns the scene. Through the mutable reference only its light, optics and title may be changed, and only while nothing is
@@ -61,13 +62,13 @@ class Simulation {
   [[nodiscard]] RadiationResult solve(const SolveSettings& settings, const Monitor& monitor,
                                       ReplicateHelpers* helpers = nullptr);
 
-  // Simulates the scene in several lights that share packets, without sensors; see solve_lights of physics/transport/solve/solve.h.
-  // The models must be the scene's apart from their light.
+  // Simulates the scene in several lights that share packets, without sensors; see solve_lights of
+  // physics/transport/solve/solve.h. The models must be the scene's apart from their light.
   [[nodiscard]] SharedOutcome solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,
                                            ReplicateHelpers* helpers, const WantedSums& sums, const TakeLight& take);
 
-  // Measures the sensors of the model, in its light, and adds them to its result, whose `stop` tells if that was interrupted. `watch`
-  // has run since the simulation began.
+  // Measures the sensors of the model, in its light, and adds them to its result, whose `stop` tells if that was interrupted.
+  // `watch` has run since the simulation began.
   void add_sensors(const RadiationModel& model, const SolveSettings& settings, const Monitor& monitor, const Stopwatch& watch,
                    RadiationResult& result);
 

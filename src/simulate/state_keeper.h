@@ -15,8 +15,8 @@ class StateKeeper {
   // `command` is the one that is resumed, "run" or "day".
   explicit StateKeeper(const char* command);
 
-  // Makes the monitor hand over states, and writes them to the store; a disk that rejects them is reported once. Of another simulation
-  // before, it knows how long writing takes. The keeper must outlive the monitor's use.
+  // Makes the monitor hand over states, and writes them to the store; a disk that rejects them is reported once. It remembers
+  // from earlier simulations how long writing takes. The keeper must outlive the monitor's use.
   void attend(Monitor& monitor, const RunStore& store);
 
   [[nodiscard]] bool has_written() const { return written_; }

@@ -1,5 +1,5 @@
-// Tests that the CPU path, which follows beam rays in bundles, counts the same landings, word for word, as its walk for single rays
-// and as a test of every element.
+// Tests that the CPU path, which follows beam rays in bundles, counts the same landings, word for word, as its walk for single
+// rays and as a test of every element.
 
 #include "agreement/scenes.h"
 #include "shared/beam.h"

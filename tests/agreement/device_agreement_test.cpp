@@ -1,5 +1,5 @@
-// Tests that the CPU walk, the CPU test of every element, and Vulkan count and record the same landings, word for word, however the
-// work is cut.
+// Tests that the CPU walk, the CPU test of every element, and Vulkan count and record the same landings, word for word, however
+// the work is cut.
 
 #include "agreement/landings.h"
 #include "agreement/scenes.h"

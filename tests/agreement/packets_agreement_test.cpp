@@ -187,8 +187,8 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
   }
 }
 
-// Each round of packets is one submission, and so are the rays whose landings packets start from; a beam's counters come back in a
-// second one.
+// Each round of packets is one submission, and so are the rays whose landings packets start from; a beam's counters come back
+// in a second one.
 TEST_F(PacketsAgreement, TakeOneSubmissionARound) {
   const RadiationModel model = paper_model(random_leaves(100, 0.12, 5), unit_plot, beijing_sun());
   const Prepared prepared(model);

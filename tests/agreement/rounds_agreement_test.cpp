@@ -1,5 +1,5 @@
-// Tests that a device makes the rounds of indirect passes as the host does: every stage leaves the same integers and the same bits of
-// packets, however the work is divided, and whole runs give the same numbers.
+// Tests that a device makes the rounds of indirect passes as the host does: every stage leaves the same integers and the same
+// bits of packets, however the work is divided, and whole runs give the same numbers.
 
 #include "agreement/scenes.h"
 #include "agreement/stage_check.h"
@@ -162,7 +162,8 @@ class RoundsAgreement : public DeviceTest {
     EXPECT_EQ(check.sampled() > 0, model.has_beam());
   }
 
-  // Compares the numbers of a whole run, whose dispatches are cut as `choices` say. `Wrapper` counts the passes made on the device.
+  // Compares the numbers of a whole run, whose dispatches are cut as `choices` say. `Wrapper` counts the passes made on the
+  // device.
   template <class Wrapper = RoundsCounter>
   void expect_same_run(const RadiationModel& model, const SolveSettings& settings, VulkanChoices choices = {}) const {
     const Prepared prepared(model);
@@ -369,8 +370,8 @@ TEST_F(RoundsTraffic, BringsNoPlaceToTheDevice) {
   EXPECT_LE(uploaded[1], 4096U * replicates);
 }
 
-// A device that makes as many rounds as there are before the host looks takes four submissions: beam, counters, rounds, sums. Passes
-// side by side share the last two.
+// A device that makes as many rounds as there are before the host looks takes four submissions: beam, counters, rounds, sums.
+// Passes side by side share the last two.
 TEST_F(RoundsTraffic, TakesFourSubmissionsAReplicateWithRoundsTogether) {
   VulkanChoices one_lane = together(40);
   one_lane.lanes = 1;

@@ -46,8 +46,8 @@ float some_divisor(Random& random) {
   return std::bit_cast<float>(sign_and_fraction | exponent << 23U);
 }
 
-// Returns a word; one in four is next to where a quarter of the turn or the unit interval begins or ends, or in the middle, so that
-// some directions are opposite to the normal.
+// Returns a word; one in four is next to where a quarter of the turn or the unit interval begins or ends, or in the middle, so
+// that some directions are opposite to the normal.
 std::uint32_t some_word(Random& random) {
   constexpr std::array<std::uint32_t, 8> ends = {0,           0xffU,       0x100U,      0x3fffffffU,
                                                  0x40000000U, 0x80000000U, 0xe0000000U, 0xffffffffU};

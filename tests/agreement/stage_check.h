@@ -1,5 +1,6 @@
 #pragma once
-// A tracer that makes the rounds of indirect passes twice, on the host and on a device, and compares what each stage of each round leaves.
+// A tracer that makes the rounds of indirect passes twice, on the host and on a device, and compares what each stage of each
+// round leaves.
 
 #include "agreement/landings.h"
 #include "devices/tracers/round_steps.h"

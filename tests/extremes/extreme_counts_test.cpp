@@ -30,7 +30,8 @@ Mesh quarter() {
 }
 
 // Counts rays without sending them: a given number out of every 2^20 on the first element, the others on the first cell of the
-// soil. A tracer may be anything that counts every ray once (physics/transport/model/tracer.h), so a run of billions of rays takes no time.
+// soil. A tracer may be anything that counts every ray once (physics/transport/model/tracer.h), so a run of billions of rays
+// takes no time.
 class CountingTracer final : public Tracer {
  public:
   CountingTracer(const CounterLayout& layout, std::uint64_t on_element, std::uint64_t spread)

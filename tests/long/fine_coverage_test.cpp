@@ -1,5 +1,5 @@
-// Tests whether the errors of fine figures are true over four hundred seeds: triangles, organs, and the sunlit and shaded classes of
-// leaves.
+// Tests whether the errors of fine figures are true over four hundred seeds: triangles, organs, and the sunlit and shaded
+// classes of leaves.
 
 #include "physics/canopy/maize_plant.h"
 #include "physics/light/sun.h"

@@ -127,7 +127,8 @@ TEST(Packets, APlaceWithoutFluxDoesNotWait) {
   EXPECT_EQ(flux.quanta(0, {1, 1})[0], 1);
 }
 
-// Places are sorted in 240 parts by leaf order and 16 by cell of the ground; within a part they stay in the order in which they were added.
+// Places are sorted in 240 parts by leaf order and 16 by cell of the ground; within a part they stay in the order in which they
+// were added.
 TEST(Packets, PlacesWaitPartByPart) {
   for (const std::size_t columns : {1, 40}) {
     WaitingFlux flux, sorted;
@@ -154,8 +155,8 @@ TEST(Packets, PlacesWaitPartByPart) {
   EXPECT_EQ(sorted.place(1).order, 2U);
 }
 
-// If both sides of one landing were neighbours, every draw would take the same side wherever a landing's expectation is one packet
-// (rho + tau = 1).
+// If both sides of one landing were neighbours, every draw would take the same side wherever a landing's expectation is one
+// packet (rho + tau = 1).
 TEST(Packets, UpperSidesAreDrawnBeforeLowerOnes) {
   Places places(1);
   for (std::uint32_t k = 0; k < 100; ++k) places.add({2 * k + k % 2, k}, std::array<std::int64_t, 1>{1000});

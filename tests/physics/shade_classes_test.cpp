@@ -189,7 +189,8 @@ TEST(SpreadMean, IsTheDeviationOfADensityOverAnArea) {
   EXPECT_TRUE(std::isnan(SpreadMean().estimate(2.0).value));
 }
 
-// A hundred places of equal area with densities from 1 to 3, of which every replicate finds estimates that are three times as wide.
+// A hundred places of equal area with densities from 1 to 3, of which every replicate finds estimates that are three times as
+// wide.
 TEST(SpreadMean, LeavesOutTheNoiseOfEstimates) {
   constexpr std::size_t places = 100;
   constexpr int runs = 400;

@@ -115,8 +115,8 @@ void compare_with_separate_runs(const RadiationModel& model, Source source, doub
 struct SharedScene {
   const char* name;
   std::function<RadiationModel()> make;
-  // Scaling each column to its exact total is a ratio estimate, whose bias falls as 1 / packets. It is far below the error in runs to a
-  // bound, but not with a few hundred landings shared by the 24 beams of a scene whose organs lie deep in the shade.
+  // Scaling each column to its exact total is a ratio estimate, whose bias falls as 1 / packets. It is far below the error in
+  // runs to a bound, but not with a few hundred landings shared by the 24 beams of a scene whose organs lie deep in the shade.
   double packets = 2000;
 };
 
@@ -204,7 +204,8 @@ TEST(SharedLightSums, HaveErrorsThatIncludeTheirCorrelation) {
     vegetation.add(total);
     const double error = errors.at(0).bands.at(1).vegetation;
     squares += std::pow(error, 2);
-    // The totals are those of split quanta, with coefficients rounded to 2^-32; the groups' are landed quanta times the absorptance.
+    // The totals are those of split quanta, with coefficients rounded to 2^-32; the groups' are landed quanta times the
+    // absorptance.
     EXPECT_NEAR(errors.at(0).groups.at(1), error, 1e-8 * error);
   }
   const double stated = std::sqrt(squares / seeds) / t_quantile(0.95, 16);

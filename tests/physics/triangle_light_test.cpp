@@ -141,8 +141,8 @@ TEST_P(TriangleLight, ServesALightCurve) {
   EXPECT_LT(photosynthesis(leaves(to_five_percent, 1, ElementErrors::skip)) / truth, 0.85);
 }
 
-// Light is all or nothing at a point, so that half of a half-lit triangle does photosynthesis in full light. The sum is linear in the
-// share of each triangle that is lit, and noise in it adds no bias.
+// Light is all or nothing at a point, so that half of a half-lit triangle does photosynthesis in full light. The sum is linear
+// in the share of each triangle that is lit, and noise in it adds no bias.
 double photosynthesis_at_points(const RadiationModel& model, const RadiationResult& result) {
   const Surfaces surfaces(model);
   const glm::dvec3 to_sun = direction_to_sun(*model.sun);

@@ -330,8 +330,8 @@ TEST_F(Day, SimulatesStepsTogether) {
   expect_same_tables("whole", "out");
 }
 
-// The state of a block is kept while it is being simulated: a kill loses a few replicates, and Ctrl-C none. A clock that advances with
-// each reading makes states fall due every few replicates.
+// The state of a block is kept while it is being simulated: a kill loses a few replicates, and Ctrl-C none. A clock that
+// advances with each reading makes states fall due every few replicates.
 TEST_F(Day, GoesOnWithinABlock) {
   const Arguments together{"--together", "4", "--error", "0.01"};
   expect_day(together, 0, "whole");

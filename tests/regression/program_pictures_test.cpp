@@ -98,8 +98,8 @@ unsigned char srgb(double linear) {
   return static_cast<unsigned char>(std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
 }
 
-// Computes the manual's formulas (src/pictures/drawing/tone_map.h) from the table of triangles. Only upper faces are lit; each triangle is
-// more than 0.5 % of the total area, so L995 is the largest luminance.
+// Computes the manual's formulas (src/pictures/drawing/tone_map.h) from the table of triangles. Only upper faces are lit; each
+// triangle is more than 0.5 % of the total area, so L995 is the largest luminance.
 TEST_F(Pictures, OfHueMappingHaveColoursWorkedOutByHand) {
   simulate("plates.toml",
            quick_picture + Arguments{"--samples", "1", "--view", "top", "--images", "hue_direct", "--export", "csv"});

@@ -28,8 +28,8 @@ class CoveredFigure {
     half_width_.add(got.half_width);
   }
 
-  // Expects the intervals to hold the true value as often as requested. Where the unshot flux is not small compared with the sampling
-  // error, they may hold it more often, up to `most_with_unshot` times.
+  // Expects the intervals to hold the true value as often as requested. Where the unshot flux is not small compared with the
+  // sampling error, they may hold it more often, up to `most_with_unshot` times.
   void expect_covered(int most_with_unshot = most_covered) const {
     std::printf(
         "%-22s covered %d of %d times, %d by sampling; half-width %.1e on average, mean deviation %+.1e(%.0e), truth "

@@ -10,8 +10,8 @@
 namespace sunfleck::test {
 
 // Returns 3 x 2 cells of 0.5 m2 on a plot of 1 m (X) by 3 m (Z), 0.5 m high, with bands PAR (100 W m-2 direct) and NIR (200 W
-// m-2). Each cell but one has 12 rays of 1/24 m2 of level ground each. The north-east cell is in the sun, and so is half of the one
-// west of it.
+// m-2). Each cell but one has 12 rays of 1/24 m2 of level ground each. The north-east cell is in the sun, and so is half of the
+// one west of it.
 inline std::pair<RadiationModel, RadiationResult> small_plane() {
   RadiationModel model;
   model.plot = {1.0, 3.0, true};

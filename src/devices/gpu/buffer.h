@@ -32,8 +32,8 @@ struct GpuBuffer {
 // Throws Error (failure) naming `what` if memory runs out, Error (device) if the size exceeds the device's limit for this use.
 [[nodiscard]] GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what);
 
-// Creates storage buffers in one piece of memory, which is freed with the last of them: devices take a tenth of a millisecond for each
-// piece. Where a device gives no piece as large, each buffer has its own. Throws as create_buffer does.
+// Creates storage buffers in one piece of memory, which is freed with the last of them: devices take a tenth of a millisecond
+// for each piece. Where a device gives no piece as large, each buffer has its own. Throws as create_buffer does.
 [[nodiscard]] std::vector<GpuBuffer> create_storage_buffers(const GpuContext& context, std::span<const std::size_t> bytes,
                                                             const char* what);
 

@@ -85,8 +85,8 @@ void ComputePipeline::check(std::uint64_t threads, std::span<const std::byte> pu
   EXPECT(buffers.size(), ==, code_.bindings.size());
 }
 
-// Binds the buffers anew in every submission. A handle alone does not show whether a buffer is still the one that was bound, since a
-// new buffer may get the handle of a destroyed one.
+// Binds the buffers anew in every submission. A handle alone does not show whether a buffer is still the one that was bound,
+// since a new buffer may get the handle of a destroyed one.
 void ComputePipeline::bind(std::size_t binding, std::span<const GpuBuffer* const> buffers) {
   try {
     if (binding == handles_->bindings.size()) add_binding();

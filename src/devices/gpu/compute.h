@@ -50,7 +50,8 @@ class ComputePipeline {
   // Checks the arguments of a run.
   void check(std::uint64_t threads, std::span<const std::byte> push, std::span<const GpuBuffer* const> buffers) const;
   void add_binding();
-  // Binds the buffers of runs under a number, at most the number of bindings so far; none of the commands recorded so far may use it.
+  // Binds the buffers of runs under a number, at most the number of bindings so far; none of the commands recorded so far may
+  // use it.
   void bind(std::size_t binding, std::span<const GpuBuffer* const> buffers);
   // Record a dispatch of at least one thread, or of groups that a buffer holds.
   void record(std::size_t binding, std::uint64_t threads, std::span<const std::byte> push) const;

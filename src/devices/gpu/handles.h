@@ -59,8 +59,8 @@ struct ComputePipeline::Handles {
 [[nodiscard]] vk::raii::DeviceMemory allocate(const GpuContext::Handles& context, const vk::MemoryRequirements& needs,
                                               vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred);
 
-// Resets and begins the single command buffer. Writes of earlier submissions are visible to the transfers, compute shaders and numbers
-// of groups recorded in it. Throws Error (failure).
+// Resets and begins the single command buffer. Writes of earlier submissions are visible to the transfers, compute shaders and
+// numbers of groups recorded in it. Throws Error (failure).
 void begin_commands(const GpuContext& context);
 // Makes what the commands recorded so far write visible to those that follow.
 void let_later_commands_see(const GpuContext& context);

@@ -13,10 +13,10 @@
 
 namespace sunfleck {
 
-// Copies, fills and dispatches, each of which sees what those before it wrote. They are submitted together by finish(), or earlier where
-// the staging memory is full.
-// A context has at most one submission at a time. All buffers and pipelines must live until finish() returns; one that is not finished
-// is dropped.
+// Copies, fills and dispatches, each of which sees what those before it wrote. They are submitted together by finish(), or
+// earlier where the staging memory is full.
+// A context has at most one submission at a time. All buffers and pipelines must live until finish() returns; one that is not
+// finished is dropped.
 class Submission {
  public:
   // The context must outlive the submission.
@@ -25,8 +25,8 @@ class Submission {
   Submission(const Submission&) = delete;
   Submission& operator=(const Submission&) = delete;
 
-  // While it lives, commands need not wait for each other, but only for those before it: none may write what another one reads or writes.
-  // So small dispatches share a device that each of them would leave idle.
+  // While it lives, commands need not wait for each other, but only for those before it: none may write what another one reads
+  // or writes. So small dispatches share a device that each of them would leave idle.
   class SideBySide {
    public:
     explicit SideBySide(Submission& submission);
@@ -48,8 +48,8 @@ class Submission {
   void run(ComputePipeline& pipeline, std::uint64_t threads, std::span<const std::byte> push,
            std::span<const GpuBuffer* const> buffers);
 
-  // Does the same with as many groups as three words of a buffer say from an offset in bytes on, a multiple of 4: their numbers along x,
-  // y and z, as earlier commands leave them. Along x they may have max_threads() at most.
+  // Does the same with as many groups as three words of a buffer say from an offset in bytes on, a multiple of 4: their numbers
+  // along x, y and z, as earlier commands leave them. Along x they may have max_threads() at most.
   void run(ComputePipeline& pipeline, const GpuBuffer& groups, std::size_t offset, std::span<const std::byte> push,
            std::span<const GpuBuffer* const> buffers);
 

@@ -1,10 +1,10 @@
 #pragma once
 // Follows beam rays to their ends in bundles that share their visits to the tree.
 //
-// All rays of a beam have one direction, and rays with nearby numbers start near each other: sixteen of them fill a square of 4 x 4
-// cells of the grid. In an endless canopy a batch of rays is followed period by period. Rays that end in a period are counted; the
-// others keep their order, so those that cross the same border are neighbours again in the next period, in new, full bundles. Where
-// the next ray in the order is too far from the first of a bundle, a new bundle begins.
+// All rays of a beam have one direction, and rays with nearby numbers start near each other: sixteen of them fill a square of 4
+// x 4 cells of the grid. In an endless canopy a batch of rays is followed period by period. Rays that end in a period are
+// counted; the others keep their order, so those that cross the same border are neighbours again in the next period, in new,
+// full bundles. Where the next ray in the order is too far from the first of a bundle, a new bundle begins.
 
 #include "devices/tracers/landing_counter.h"
 

@@ -58,9 +58,9 @@ HWY_INLINE unsigned within_edges(const EdgeRays& rays, const BvhTriangle& triang
   return rays.exist & ~outside;
 }
 
-// The origins that rays of the bundle may have along each axis: the one furthest along the rays, from which a box is reached first,
-// and the one furthest behind. Since rounding is monotonic and each step is that for one ray, enter_children leaves out no slot that
-// one of the rays would enter by itself.
+// The origins that rays of the bundle may have along each axis: the one furthest along the rays, from which a box is reached
+// first, and the one furthest behind. Since rounding is monotonic and each step is that for one ray, enter_children leaves out
+// no slot that one of the rays would enter by itself.
 struct BoxRays {
   PointLanes foremost, hindmost;
 };
@@ -87,8 +87,8 @@ HWY_INLINE float furthest(std::span<const CpuHit> hits) {
   return result;
 }
 
-// Walks the tree below `root`; `limit` is always furthest(hits). A tree of copies calls enter_copy(node number) for each copy that
-// a ray may meet.
+// Walks the tree below `root`; `limit` is always furthest(hits). A tree of copies calls enter_copy(node number) for each copy
+// that a ray may meet.
 template <bool of_copies, class EnterCopy>
 HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const RayBundle& bundle, const Numbering& add, std::span<CpuHit> hits,
                      float& limit, const EnterCopy& enter_copy) {

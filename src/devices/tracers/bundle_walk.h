@@ -1,6 +1,6 @@
 #pragma once
-// Walks the tree for a bundle of parallel rays. Their node visits are shared: a box is tested once for all of them, by the range of
-// their origins, and a triangle of a leaf for eight rays at once.
+// Walks the tree for a bundle of parallel rays. Their node visits are shared: a box is tested once for all of them, by the
+// range of their origins, and a triangle of a leaf for eight rays at once.
 
 #include "devices/tracers/cpu_walk.h"
 

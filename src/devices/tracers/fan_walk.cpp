@@ -19,7 +19,8 @@ HWY_INLINE std::uint32_t first_of(unsigned set) {
   return static_cast<std::uint32_t>(std::countr_zero(set));
 }
 
-// Returns those rays of a set that can be tested together: those that travel into the same octant as the first and have the same axis.
+// Returns those rays of a set that can be tested together: those that travel into the same octant as the first and have the
+// same axis.
 HWY_INLINE unsigned alike(const RayFan& fan, unsigned set) {
   const auto kind = [&](std::uint32_t ray) HWY_ATTR {
     const shared::Ray& along = fan.along[ray];
@@ -166,8 +167,8 @@ HWY_INLINE float furthest(const BundleHits& hits, unsigned set) {
   return result;
 }
 
-// Walks the tree below `root` with rays that are alike. A tree of copies calls enter_copy(node number) for each copy that a ray may
-// meet.
+// Walks the tree below `root` with rays that are alike. A tree of copies calls enter_copy(node number) for each copy that a ray
+// may meet.
 template <bool of_copies, class EnterCopy>
 HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const RayFan& fan, unsigned set, Images images, const Numbering& add,
                      BundleHits& hits, const EnterCopy& enter_copy) {

@@ -1,6 +1,7 @@
 #pragma once
-// Walks the tree for a fan: rays that start near each other and travel in similar directions, such as those of neighbouring places in
-// a picture. Their node visits are shared, as in bundle_walk.h; a box is tested once for the range of their origins and directions.
+// Walks the tree for a fan: rays that start near each other and travel in similar directions, such as those of neighbouring
+// places in a picture. Their node visits are shared, as in bundle_walk.h; a box is tested once for the range of their origins
+// and directions.
 
 #include "devices/tracers/bundle_walk.h"
 

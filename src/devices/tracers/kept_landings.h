@@ -14,8 +14,8 @@ namespace sunfleck {
 
 class LandingsOnDevice;
 
-// A pool of buffers: a replicate takes one for its beam, and gives it back for a later replicate. Any thread may give one back; only the
-// thread that uses the device may call the functions.
+// A pool of buffers: a replicate takes one for its beam, and gives it back for a later replicate. Any thread may give one back;
+// only the thread that uses the device may call the functions.
 class LandingBuffers {
  public:
   // The context must outlive the pool and all that is taken from it.

@@ -1,6 +1,6 @@
 #pragma once
-// Counts where the beam rays of one replicate end on the CPU path, and records it where that is asked for. Any number of threads may
-// count in the same counters.
+// Counts where the beam rays of one replicate end on the CPU path, and records it where that is asked for. Any number of
+// threads may count in the same counters.
 
 #include "devices/tracers/cpu_walk.h"
 #include "devices/tracers/trace_domain.h"

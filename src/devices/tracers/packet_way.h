@@ -14,7 +14,8 @@ class PacketWay {
  public:
   PacketWay() = default;  // no way
 
-  // Begins where the packet is after that many crossings of periods, and sets the search in that period. `scene` must outlive the way.
+  // Begins where the packet is after that many crossings of periods, and sets the search in that period. `scene` must outlive
+  // the way.
   PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet, std::uint32_t crossings,
             Search& search);
 

@@ -46,9 +46,10 @@ class PausedWork {
   // Returns how many rays fit one dispatch at the moment.
   [[nodiscard]] std::uint32_t rays_per_dispatch() const { return budget_.rays(); }
 
-  // Traces the rays that `push` describes to their end; `buffers` are those of the shader. before(submission) brings the device what
-  // the rays need. after(submission, outbox) takes from it what they left, each time that rays paused anew; the last time counts. Those that
-  // took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next dispatch.
+  // Traces the rays that `push` describes to their end; `buffers` are those of the shader. before(submission) brings the device
+  // what the rays need. after(submission, outbox) takes from it what they left, each time that rays paused anew; the last time
+  // counts. Those that took too many steps in one period are handed to finish_on_cpu(paused); the others continue in the next
+  // dispatch.
   template <class Before, class After, class Finish>
   TraceOutcome run(Push push, const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop, const Before& before,
                    const After& after, const Finish& finish_on_cpu) {

@@ -11,7 +11,8 @@
 
 namespace sunfleck {
 
-// Divides rows of a picture into blocks of neighbouring pixels whose samples make one bundle, or more where a pixel alone has more.
+// Divides rows of a picture into blocks of neighbouring pixels whose samples make one bundle, or more where a pixel alone has
+// more.
 class PixelBlocks {
  public:
   PixelBlocks(const shared::ViewBlock& view, std::uint32_t rows)

@@ -78,8 +78,8 @@ class RoundBuffers {
  public:
   explicit RoundBuffers(const GpuContext& context) : context_(context) {}
 
-  // Has as many lanes at least, and replaces those with a buffer that is too small; these lose what they held. Returns false if the
-  // memory is short, and leaves no buffer then.
+  // Has as many lanes at least, and replaces those with a buffer that is too small; these lose what they held. Returns false if
+  // the memory is short, and leaves no buffer then.
   [[nodiscard]] bool make_room(const RoundSizes& sizes, std::size_t lanes);
 
   [[nodiscard]] const GpuBuffer& at(std::size_t lane, RoundBuffer buffer) const {

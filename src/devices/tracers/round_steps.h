@@ -18,14 +18,14 @@
 
 namespace sunfleck {
 
-// Each step is recorded in a submission and sees what earlier ones left in the buffers. The order of a round is that of the functions.
-// Several passes may be made side by side: a step is then one of all of them, with a dispatch for each lane.
+// Each step is recorded in a submission and sees what earlier ones left in the buffers. The order of a round is that of the
+// functions. Several passes may be made side by side: a step is then one of all of them, with a dispatch for each lane.
 class RoundSteps {
  public:
   static constexpr shared::RoundPush every_packet{0, shared::all_packets};
 
-  // Returns whether a device has all that the steps need: 64-bit integers that can be added to atomically, and as many buffers as a
-  // shader reads and writes.
+  // Returns whether a device has all that the steps need: 64-bit integers that can be added to atomically, and as many buffers
+  // as a shader reads and writes.
   [[nodiscard]] static bool work_on(const DeviceLimits& limits);
 
   // The context must outlive the object.
@@ -34,11 +34,11 @@ class RoundSteps {
   // Returns room for the landings of a beam, from which passes may start; see LandingBuffers::take.
   [[nodiscard]] std::shared_ptr<const LandingsOnDevice> keep_landings(std::size_t rays) { return landings_.take(rays); }
 
-  // Makes room for passes of one scene. Returns how many of them it has room for side by side; 0 if each is too large for the device or
-  // its free memory.
+  // Makes room for passes of one scene. Returns how many of them it has room for side by side; 0 if each is too large for the
+  // device or its free memory.
   [[nodiscard]] std::size_t make_room(std::span<const RoundsPass> passes);
-  // Gives the device passes for which there is room, each in a lane, with an empty outbox, and lets flux wait at the landings that
-  // the device has kept for them. Later steps are those of these lanes.
+  // Gives the device passes for which there is room, each in a lane, with an empty outbox, and lets flux wait at the landings
+  // that the device has kept for them. Later steps are those of these lanes.
   void give(Submission& submission, std::span<const RoundsPass> passes);
 
   // Ends the round before, and begins one unless no column is left (RoundState::done), or the lane's outbox is not empty

@@ -1,6 +1,6 @@
 #pragma once
-// Walks the tree with several rays side by side: what one ray waits for, memory or a test on which its way depends, comes while the
-// others go on.
+// Walks the tree with several rays side by side: what one ray waits for, memory or a test on which its way depends, comes while
+// the others go on.
 
 #include "devices/tracers/cpu_walk.h"
 
@@ -19,7 +19,8 @@ class SearchSource {
   // Sets the first search of a slot, a number below searches_at_once; returns false if there is none.
   [[nodiscard]] virtual bool begin(std::size_t slot, Search& search) = 0;
 
-  // Takes the nearest hit of a slot's search, and turns `search`, which is that one, into the next; returns false if there is none.
+  // Takes the nearest hit of a slot's search, and turns `search`, which is that one, into the next; returns false if there is
+  // none.
   [[nodiscard]] virtual bool next(std::size_t slot, const CpuHit& hit, Search& search) = 0;
 };
 

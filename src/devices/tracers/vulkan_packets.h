@@ -12,7 +12,8 @@
 
 namespace sunfleck {
 
-// Returns the shader that follows packets; its buffers are the scene, the packets, their landings, and their order after their number.
+// Returns the shader that follows packets; its buffers are the scene, the packets, their landings, and their order after their
+// number.
 [[nodiscard]] WorkShader packets_shader();
 
 class VulkanPackets {

@@ -1,7 +1,7 @@
 #pragma once
-// The part of the Vulkan tracer that makes the rounds of indirect passes on the device: packets are drawn, started, traced and booked
-// there. It is created with the first beam whose landings are kept, or the first pass. A round has too little work for a GPU, so that
-// several passes are made side by side.
+// The part of the Vulkan tracer that makes the rounds of indirect passes on the device: packets are drawn, started, traced and
+// booked there. It is created with the first beam whose landings are kept, or the first pass. A round has too little work for a
+// GPU, so that several passes are made side by side.
 
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/context.h"

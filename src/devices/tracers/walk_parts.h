@@ -76,8 +76,8 @@ inline constexpr auto along_ray = [] {
   return ordered;
 }();
 
-// The children that a ray meets in a node, as the bits of BvhNode::meta: triangles, and from first_inner_bit on the slots of inner
-// nodes.
+// The children that a ray meets in a node, as the bits of BvhNode::meta: triangles, and from first_inner_bit on the slots of
+// inner nodes.
 inline constexpr unsigned first_inner_bit = 24;
 inline constexpr std::uint32_t leaf_bits = (1U << first_inner_bit) - 1U;
 

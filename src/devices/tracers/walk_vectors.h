@@ -36,8 +36,8 @@ HWY_INLINE std::uint32_t children_in(D /*slots*/, const BvhNode& node, std::size
 }
 
 // Computes for each child slot where its box is entered, before `limit`, by the earlier of two rays that start along each axis at
-// `foremost` and `hindmost`; a single ray starts at both. Returns the triangles and inner nodes of the slots that are entered before
-// the other leaves, as the bits of BvhNode::meta.
+// `foremost` and `hindmost`; a single ray starts at both. Returns the triangles and inner nodes of the slots that are entered
+// before the other leaves, as the bits of BvhNode::meta.
 HWY_INLINE std::uint32_t enter_children(const BvhNode& node, const BoxPath& path, const PointLanes& foremost,
                                         const PointLanes& hindmost, float limit, std::array<float, 8>& enter) {
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&node);
@@ -75,8 +75,8 @@ HWY_INLINE std::uint32_t enter_children(const BvhNode& node, const BoxPath& path
   return met;
 }
 
-// Returns false only if shared::meet_triangle finds the ray outside the edges: computes the same u, v and w in parallel, each with
-// the other sign, which changes no rounding.
+// Returns false only if shared::meet_triangle finds the ray outside the edges: computes the same u, v and w in parallel, each
+// with the other sign, which changes no rounding.
 HWY_INLINE bool within_edges([[maybe_unused]] const EdgeRay& ray, [[maybe_unused]] const BvhTriangle& triangle) {
 #if HWY_TARGET == HWY_SCALAR
   return true;

@@ -1,5 +1,5 @@
 #pragma once
-// Warns about sunlight that cannot be: too strong for a beam, in another unit, from an angle in another convention.
+// Warns about impossible sunlight: too strong for a beam, in another unit, from an angle in another convention.
 
 #include "files/scene/scene_reader.h"
 #include "files/scene/toml_view.h"

@@ -143,7 +143,8 @@ BandsInput read_equal_bands(const TomlTable& root, bool has_sun, bool has_sky, c
   for (const char* key : {"from", "to", "step"}) table.require(key, fmt::format("{}, in nm", key));
   const NumberRange nm{.lo = wavelength_nm.lo, .hi = wavelength_nm.hi, .cure = "give nm, such as 400"};
   const WavelengthRange all{*table.number("from", nm), *table.number("to", nm)};
-  if (all.from_nm >= all.to_nm) table.refuse("to", fmt::format("it must be above from, {:g}", all.from_nm), "exchange the two");
+  if (all.from_nm >= all.to_nm)
+    table.refuse("to", fmt::format("it must be above `from`, {:g}", all.from_nm), "exchange the two");
   const double step_nm =
       *table.number("step", {.lo = 0.0, .hi = wavelength_nm.hi, .lo_open = true, .cure = "give the width of a band in nm"});
   const double count = (all.to_nm - all.from_nm) / step_nm;

@@ -21,7 +21,8 @@ struct BandsInput {
 };
 
 // `spectrum` is that of the light, null for equal energy at all wavelengths. It shares the light of `bands` out to the bands,
-// each named after its wavelengths, e.g. 400_410. Refuses a scene without bands, and light without the [sun], [sky] or [weather] that it needs.
+// each named after its wavelengths, e.g. 400_410. Refuses a scene without bands, and light without the [sun], [sky] or
+// [weather] that it needs.
 [[nodiscard]] BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
                                     const std::optional<SkyInput>& sky, const std::optional<WeatherInput>& weather,
                                     const Spectrum* spectrum, std::vector<std::string>& warnings);

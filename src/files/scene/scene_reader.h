@@ -1,5 +1,5 @@
 #pragma once
-// Reads the scene file (TOML). Only this reader knows its keys, degrees and the user's units and axes.
+// Reads the scene file (TOML). Within the program, lengths are metres, angles radians and axes those of the scene.
 
 #include "base/source_files.h"
 #include "physics/canopy/mesh.h"

@@ -71,7 +71,7 @@ std::vector<glm::dvec3> read_points(const TomlTable& table, const Plot& plot) {
   table.require("from", "from = [0.2, 1.2, 0.1]");
   const glm::dvec3 from_m = scene_position_m(plot, *table.triple("from", anywhere));
   if (!table.has("to")) {
-    if (table.has("points")) table.refuse("points", "points need `to`", "add to, or remove it");
+    if (table.has("points")) table.refuse("points", "points need `to`", "add `to`, or remove points");
     return {from_m};
   }
   table.require("points", "points = 80, spread from `from` to `to`");

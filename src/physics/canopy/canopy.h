@@ -25,8 +25,8 @@ struct Box {
 
 // The elements, numbered in the order of the files, copy by copy. Local frame = scene frame - origin_m. In a periodic plot
 // the corners and the periods are whole multiples of a power of two (about 1e-7 of the period), so that a shift by whole
-// periods is exact in single precision and neighbouring triangles stay sealed across the plot's border. Copies of a canopy share its large arrays, so that models with other light
-// take little memory.
+// periods is exact in single precision and neighbouring triangles stay sealed across the plot's border. Copies of a canopy
+// share its large arrays, so that models with other light take little memory.
 struct Canopy {
   glm::dvec3 origin_m{0.0};               // scene position of the local frame's origin
   glm::dvec2 period_m{0.0};               // period along X and Z on that grid; 0 for an isolated stand

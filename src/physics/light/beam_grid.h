@@ -46,10 +46,10 @@ struct WeightedBeamGrid {
   std::uint32_t weight = 1;
 };
 
-// Returns grids before a small stand on a wide plot. The first one, with weight 1, is the rectangle perpendicular to the beam that just
-// covers the shadow of the stand's box, in about `rays` cells. The others surround it without overlap and cover the shadow of the
-// scene's box, in about half as many cells. All rays together represent less than 2^31 rays of the first grid, which therefore gets
-// fewer than `rays` where the scene is very wide.
+// Returns grids before a small stand on a wide plot. The first one, with weight 1, is the rectangle perpendicular to the beam
+// that just covers the shadow of the stand's box, in about `rays` cells. The others surround it without overlap and cover the
+// shadow of the scene's box, in about half as many cells. All rays together represent less than 2^31 rays of the first grid,
+// which therefore gets fewer than `rays` where the scene is very wide.
 [[nodiscard]] std::vector<WeightedBeamGrid> aimed_beam_grids(const BeamBox& stand, const BeamBox& scene, glm::dvec3 to_sun,
                                                              double rays);
 

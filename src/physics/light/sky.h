@@ -23,7 +23,8 @@ class Sky {
   // whose weights are all zero.
   Sky(const SkyModel& model, const SunPosition& sun);
 
-  // Returns a sky whose radiance is the mean of these skies' radiances. All of them must be of cells, or all the same list (EXPECT).
+  // Returns a sky whose radiance is the mean of these skies' radiances. All of them must be of cells, or all the same list
+  // (EXPECT).
   [[nodiscard]] static Sky mean_of(std::span<const Sky> skies);
 
   // Returns the cell that holds the direction, and the radiance of a cell, sr-1. Must not be called for lights.

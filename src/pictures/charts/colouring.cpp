@@ -33,8 +33,8 @@ RankScale rank_scale(ChartKind chart, const FieldValues& values, const ScaleLimi
   return scale;
 }
 
-// Soil that is not counted has browns of its own, from dark to a pale sand: on the leaves' scale, which is of two faces, its sunflecks
-// could all lie in the lowest class.
+// Soil that is not counted has browns of its own, from dark to a pale sand: on the leaves' scale, which is of two faces, its
+// sunflecks could all lie in the lowest class.
 Colour soil_colour(double share_of_top) {
   constexpr Colour dark{0.22, 0.17, 0.13}, pale{0.87, 0.80, 0.70};  // sRGB
   Colour encoded{};

@@ -40,8 +40,8 @@ struct ScaleLimits {
   double largest_on_soil_w_m2 = std::numeric_limits<double>::infinity();
 };
 
-// Returns the colours and the legend of a field; for a rank chart, `values` are those of leaf_values. `title` is the field's, with its
-// unit.
+// Returns the colours and the legend of a field; for a rank chart, `values` are those of leaf_values. `title` is the field's,
+// with its unit.
 [[nodiscard]] Colouring colour_field(ChartKind chart, const FieldValues& values, const SurfaceColours& surfaces,
                                      const std::string& title, const ScaleLimits& limits = {});
 

@@ -14,8 +14,8 @@
 
 namespace sunfleck {
 
-// Returns the field's title with its unit, for the heading of a legend: "Direct PAR irradiance, W m⁻²", or with both faces together
-// "Direct PAR irradiance, W m⁻² (both faces)".
+// Returns the field's title with its unit, for the heading of a legend: "Direct PAR irradiance, W m⁻²", or with both faces
+// together "Direct PAR irradiance, W m⁻² (both faces)".
 [[nodiscard]] std::string field_title(LightField field, const std::string& band, bool of_both_faces = false);
 
 // Returns true if the scene has this light: a beam, a sky, or anything that scatters or emits light.
@@ -35,19 +35,18 @@ struct FieldValues {
                                        std::size_t band, LightField field);
 
 // Returns the values that rank charts divide into classes. Both sides of an element have the light of its two faces together, and
-// `area_m2` counts each element once, as its upper side, if it is vegetation; soil and structures have an area only in a scene without
-// vegetation.
+// `area_m2` counts each element once, as its upper side, if it is vegetation; soil and structures have an area only in a scene
+// without vegetation.
 [[nodiscard]] FieldValues leaf_values(const RadiationModel& model, FieldValues of_sides, LightField field);
 
-// Returns a thousandth of the light from above and from lamps, per ground area: leaves with less are unlit. Of direct light it is a
-// thousandth of the beam, of the sky's a thousandth of the sky.
+// Returns a thousandth of the light from above and from lamps, per ground area: leaves with less are unlit. Of direct light it
+// is a thousandth of the beam, of the sky's a thousandth of the sky.
 [[nodiscard]] double lit_from_w_m2(const RadiationModel& model, std::size_t band, LightField field);
 
-// Returns the largest irradiance that a side, or both faces of an element together, can have from that light; infinite where there is no
-// such limit. It is the sum of
-// - the beam on a plane that faces it;
-// - all light of the sky, as on a sphere (Sky::spherical_irradiance);
-// - light that surfaces send: a side sends at most the part a (what it reflects and what comes through from the other side) of the
+// Returns the largest irradiance that a side, or both faces of an element together, can have from that light; infinite where
+// there is no such limit. It is the sum of - the beam on a plane that faces it; - all light of the sky, as on a sphere
+// (Sky::spherical_irradiance); - light that surfaces send: a side sends at most the part a (what it reflects and what comes
+// through from the other side) of the
 //   largest irradiance, which is therefore at most 1 / (1 - a) times the other two; a / (1 - a) of them on each face is sent by
 //   surfaces. There is no limit with lamps, or if a = 1.
 [[nodiscard]] double largest_possible_w_m2(const RadiationModel& model, std::size_t band, LightField field, int faces);

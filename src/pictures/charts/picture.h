@@ -30,7 +30,8 @@ struct PictureOptions {
   ViewKind view = ViewKind::camera;
   int width = 1600, height = 1200;
   int samples = 4;  // per pixel
-  // Plots shown along X and along Z if the plot is periodic; odd, with the plot itself in the middle. None: as many as the view needs.
+  // Plots shown along X and along Z if the plot is periodic; odd, with the plot itself in the middle. None: as many as the view
+  // needs.
   std::optional<int> repeat;
   // Upper end of the scales of rank_interval, rank_log and map; none: chosen from the values.
   std::optional<double> top_w_m2;

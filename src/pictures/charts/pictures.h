@@ -39,8 +39,9 @@ struct Drawing {
 
 // Building blocks of draw_charts, for callers that redraw one scene.
 
-// Returns how many plots a picture shows along X and along Z: as many as the options say. Otherwise it is one, and in a view upwards from
-// a periodic plot as many as reach twice as far as the canopy is high, at most 9: one plot alone would stand there in an empty field.
+// Returns how many plots a picture shows along X and along Z: as many as the options say. Otherwise it is one, and in a view
+// upwards from a periodic plot as many as reach twice as far as the canopy is high, at most 9: one plot alone would stand there
+// in an empty field.
 [[nodiscard]] int plots_shown(const RadiationModel& model, const CounterLayout& layout, const PictureOptions& options);
 
 // The box around the plot and the canopy.
@@ -50,8 +51,8 @@ struct ShownBox {
 [[nodiscard]] ShownBox shown_box(const RadiationModel& model, const CounterLayout& layout);
 
 // Returns the scene's own camera or the requested view. A view fits the plot with its canopy and axes into the picture; it comes
-// closer where plants would fill less than 60 % of the picture's height and width or, in a picture too narrow for that, less than 90 % of
-// the room beside the legend.
+// closer where plants would fill less than 60 % of the picture's height and width or, in a picture too narrow for that, less
+// than 90 % of the room beside the legend.
 [[nodiscard]] Camera picture_camera(const Scene& scene, const CounterLayout& layout, const PictureOptions& options);
 
 // Returns how to look through that camera, with the size, samples and copies of the plot that the options give.

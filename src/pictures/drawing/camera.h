@@ -40,8 +40,8 @@ inline constexpr double axis_overhang = 0.08;
 // Returns the corners of a box and the tips of the user's axes, which begin in a corner of its ground and extend beyond it.
 [[nodiscard]] std::vector<glm::dvec3> box_with_axes(glm::dvec3 lo_m, glm::dvec3 hi_m, Axes axes = Axes::south_up_west);
 
-// Returns a three-quarter view from the south-west and above that just fits all points with a margin. The margin leaves room for titles
-// at the top and a legend at the right. Views need at least two different points.
+// Returns a three-quarter view from the south-west and above that just fits all points with a margin. The margin leaves room
+// for titles at the top and a legend at the right. Views need at least two different points.
 [[nodiscard]] Camera three_quarter_view(std::span<const glm::dvec3> points_m, double aspect);
 
 // Returns an orthographic view straight down that just fits all points: north is up, east is right. Margins are as above.

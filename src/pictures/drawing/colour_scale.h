@@ -43,8 +43,8 @@ inline constexpr int unlit_rank = -1;
 // nothing has weight.
 [[nodiscard]] RankScale equal_interval_ranks(std::span<const double> values, std::span<const double> weights);
 
-// Returns classes between 0 and a top as wide as those, each but the first from a bound to 10^0.4 = 2.5 times as much: the fifth class
-// ends at the top, the first holds all that is lit up to a fortieth of it.
+// Returns classes between 0 and a top as wide as those, each but the first from a bound to 10^0.4 = 2.5 times as much: the
+// fifth class ends at the top, the first holds all that is lit up to a fortieth of it.
 [[nodiscard]] RankScale logarithmic_ranks(std::span<const double> values, std::span<const double> weights);
 
 // Returns the share of the weight that each class holds, and as the last number that of unlit values; zeros without weight.

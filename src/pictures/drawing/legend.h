@@ -35,8 +35,8 @@ struct Legend {
 };
 
 // Returns the entries of a rank chart, full sun first. Labels show the bounds to three digits of the largest, or as many more
-// as are needed to distinguish them; "≥ FROM" for the last class of an open scale. Empty classes are left out. With shares, those of
-// rank_shares, each label ends with its own, and the unlit class has an entry if it holds anything.
+// as are needed to distinguish them; "≥ FROM" for the last class of an open scale. Empty classes are left out. With shares,
+// those of rank_shares, each label ends with its own, and the unlit class has an entry if it holds anything.
 [[nodiscard]] std::vector<LegendEntry> rank_legend(const RankScale& scale,
                                                    const std::optional<std::array<double, 6>>& shares = {});
 

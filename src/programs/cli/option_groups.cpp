@@ -51,7 +51,7 @@ CLI::Option_group& add_simulation(CLI::App& command, RunOptions& options, Option
   group.add_option("--max-rays", options.max_rays, "Stop before exceeding this many rays; results are kept")
       ->transform(whole_number(1, std::uint64_t{1} << 62U));
   group.add_option("--seed", options.seed, "Random seed")->transform(whole_number(0, most_seed))->capture_default_str();
-  group.add_flag("--allow-outside", options.allow_outside, "Accept mesh files outside the scene's folder");
+  group.add_flag("--allow-outside", options.allow_outside, "Accept files outside the scene's folder");
   return group;
 }
 
@@ -95,7 +95,7 @@ void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words
   group.add_option("--band", options.band, "Waveband to show (default: the scene's first)")->check(not_empty());
   group
       .add_option("--chart", words.chart,
-                  "Classes of leaf of equal area, width or ratio, hue mapping or a continuous map: " + list_of(chart_names()))
+                  "Five classes (equal leaf area, width or ratio), hue mapping or a continuous map: " + list_of(chart_names()))
       ->check(one_of(chart_names()))
       ->capture_default_str();
   group.add_option("--view", words.view, "The scene's camera, from above, from the south or upwards: " + list_of(view_names()))
@@ -173,7 +173,9 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
       "day",
       "Simulate one or more days in steps (--max-seconds applies to all of them, --max-rays to each step; also under mpirun)");
   add_version(day);
-  day.add_option("scene", options.run.scene, "Scene file (TOML) with a place and weather")->required()->check(not_empty());
+  day.add_option("scene", options.run.scene, "Scene file (TOML) with time and place, and weather or direct_normal light")
+      ->required()
+      ->check(not_empty());
   day.add_option("-o,--output", options.run.output, "Result folder (default: results/<scene>)")->check(not_empty());
   day.add_option("--from", options.from, "Start of the first step, local time HH:MM (default: sunrise)")->check(not_empty());
   day.add_option("--to", options.to, "End of the last step, which may be shorter (default: sunset)")->check(not_empty());
@@ -190,7 +192,7 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
   day.add_option("--to-date", options.to_date, "Last of several dates, all with the same hours")->check(not_empty());
   day.add_flag("--resume", options.run.resume, "Resume a stopped or killed day from its last saved replicate, or start it");
-  day.add_option("--export", options.run.exports, "nc: day.nc also for several dates, and plane_H_day.nc")
+  day.add_option("--export", options.run.exports, "nc: write plane_H_day.nc, and day.nc for several dates too")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(without_blanks())
@@ -290,7 +292,7 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
       ->capture_default_str();
   tradeoff.add_option("--max-seconds", options.run.max_seconds, "Stop after this many seconds; results are kept")
       ->check(positive());
-  tradeoff.add_flag("--allow-outside", options.run.allow_outside, "Accept mesh files outside the scene's folder");
+  tradeoff.add_flag("--allow-outside", options.run.allow_outside, "Accept files outside the scene's folder");
   tradeoff.add_flag("--json", options.run.json, "Print only the slopes and the recommendation (JSON) on standard output");
   add_stand(tradeoff, options.run.stand);
   add_device(tradeoff, options.run);
@@ -363,7 +365,7 @@ void add_info(CLI::App& app, InfoOptions& options, OptionWords& words) {
   add_bounds(group, options.run, words);
   add_fixed_work(group, options.run);
   add_memory(group, options.run);
-  info.add_flag("--allow-outside", options.run.allow_outside, "Accept mesh files outside the scene's folder");
+  info.add_flag("--allow-outside", options.run.allow_outside, "Accept files outside the scene's folder");
   info.add_flag("--json", options.run.json, "Print JSON");
 }
 

@@ -48,8 +48,8 @@ struct ValidateOptions {
 };
 
 struct TradeoffOptions {
-  // Only scene, output, device, threads, seed, grid_m (an additional grid, marked in the plot), max_seconds, allow_outside,
-  // quiet and json are used.
+  // Only scene, stand, output, device, threads, seed, grid_m (an additional grid, marked in the plot), max_seconds,
+  // allow_outside, quiet and json are used.
   RunOptions run;
   double finest_rays = 8e6;        // approximate number of rays of the finest grid; all other work is derived from it
   int seeds = 8;                   // runs per setting, with the seeds run.seed, run.seed + 1, ...

@@ -85,7 +85,7 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
       if (!pass.empty()) line += ", " + pass;
     }
     if (direct.empty() && indirect.empty() && sensors.empty() && result.direct.bound)
-      line += ", before a second check confirmed the bounds";
+      line += ", before a check confirmed the bounds";
   }
   warn(fmt::format("{}; the results are kept and marked incomplete{}", line, cure));
 }
@@ -97,10 +97,10 @@ void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector
   const auto worst = std::max_element(errors.begin(), errors.end());
   if (worst == errors.end() || !(*worst > coarse)) return;
   const std::string& band = simulated.scene->model.bands[static_cast<std::size_t>(worst - errors.begin())].name;
-  warn(
-      fmt::format("--export: {} absorbed by a triangle typically has an error of {:.0f} % (its own one stands beside it); a "
-                  "smaller --error makes it smaller",
-                  band, 100.0 * *worst));
+  warn(fmt::format(
+      "--export: {} absorbed by a triangle typically has an error of {:.0f} % (each triangle's own stands beside it); a "
+      "smaller --error makes it smaller",
+      band, 100.0 * *worst));
 }
 
 int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {

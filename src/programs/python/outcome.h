@@ -38,8 +38,8 @@ class Outcome {
   [[nodiscard]] pybind11::dict triangles(const pybind11::object& self);
   // Returns each triangle's organ, [triangle], as the row of organs.csv.
   [[nodiscard]] pybind11::array organ_rows(const pybind11::object& self) const;
-  // Returns a picture as sRGB, [row from the top, column, 3]. Releases the interpreter's lock while it draws. Throws Error (input)
-  // if the scene lacks what the picture is to show, as `render` does.
+  // Returns a picture as sRGB, [row from the top, column, 3]. Releases the interpreter's lock while it draws. Throws Error
+  // (input) if the scene lacks what the picture is to show, as `render` does.
   [[nodiscard]] pybind11::array render(const Picture& picture, const PictureOptions& options) const;
   [[nodiscard]] pybind11::array corners() const;  // [triangle, corner, axis], m, in the scene's frame
 

@@ -10,8 +10,8 @@
 
 namespace sunfleck {
 
-// Returns the place on a compass of radius 1 of a direction of that azimuth and elevation: x to the right, y up, the zenith in the
-// middle, the horizon on the rim. Ahead is up; in a view straight down or up it is what the picture has at its upper edge.
+// Returns the place on a compass of radius 1 of a direction of that azimuth and elevation: x to the right, y up, the zenith in
+// the middle, the horizon on the rim. Ahead is up; in a view straight down or up it is what the picture has at its upper edge.
 [[nodiscard]] glm::dvec2 place_on_compass(const Camera& camera, double azimuth_rad, double elevation_rad);
 
 // Where the compass lies in the window, px.

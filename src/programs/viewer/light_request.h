@@ -81,7 +81,8 @@ struct LightRequest {
 // Returns a digest of the requested light in the form of Digest::text. Equal whenever first_difference finds no difference.
 [[nodiscard]] std::string digest_of(const LightRequest& request);
 
-// Returns the local date and time of a sun that follows the clock, in UTC, to the second, as a scene file can hold it. Throws Error (input) for a date that does not exist.
+// Returns the local date and time of a sun that follows the clock, in UTC, to the second, as a scene file can hold it. Throws
+// Error (input) for a date that does not exist.
 [[nodiscard]] UtcTime time_of(const SunRequest& sun);
 
 // Returns the hour that follows when a day is played in such steps: from sunrise to sunset, over and over. Throws like time_of.
@@ -97,8 +98,8 @@ struct LightRequest {
 // share; nothing if the light is the scene's or the user's own.
 std::optional<double> grant(const LightRequest& request, const Scene& scene, RadiationModel& model);
 
-// Returns the part of the irradiance that a sky gets where nothing says how much: all of it under an overcast sky or without a sun,
-// else 0.2, a common share on a clear day.
+// Returns the part of the irradiance that a sky gets where nothing says how much: all of it under an overcast sky or without a
+// sun, else 0.2, a common share on a clear day.
 [[nodiscard]] double assumed_diffuse_share(const LightRequest& request);
 
 // Returns whether the scene's direct irradiance on level ground stays the same while the sun moves, for at least one band.

@@ -22,8 +22,8 @@ namespace {
 
 // Landings of beams are kept for reuse with other optics while they fit into this many bytes.
 constexpr std::size_t most_beam_bytes = std::size_t{512} << 20U;
-// Errors of single sides are kept, and the light of triangles is estimated when the bounds are reached, while these errors fit into this
-// many bytes: a field of ten million triangles does without.
+// Errors of single sides are kept, and the light of triangles is estimated when the bounds are reached, while these errors fit
+// into this many bytes: a field of ten million triangles does without.
 constexpr std::size_t most_side_bytes = std::size_t{256} << 20U;
 // Minimum pause between two results of one request: drawing a result takes copying and painting, which should need only a small
 // part of the time.

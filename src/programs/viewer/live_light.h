@@ -1,6 +1,6 @@
 #pragma once
-// The simulation behind a window. It restarts whenever the light changes, and publishes intermediate results. The moments of a day that is
-// played are simulated together, some ahead of being shown, for as long as they will be shown.
+// The simulation behind a window. It restarts whenever the light changes, and publishes intermediate results. The moments of a
+// day that is played are simulated together, some ahead of being shown, for as long as they will be shown.
 
 #include "files/scene/scene_reader.h"
 #include "physics/transport/model/result.h"
@@ -72,14 +72,14 @@ class LiveLight {
   LiveLight(const LiveLight&) = delete;
   LiveLight& operator=(const LiveLight&) = delete;
 
-  // Restarts with other light. Returns the number of the request. `ahead` are the moments of a day that will be asked for next, with no
-  // other difference than the sun's hour: this moment and they share packets, as far as memory allows, and have one result each, whose
-  // accuracy is what the time for which moments are shown allows.
+  // Restarts with other light. Returns the number of the request. `ahead` are the moments of a day that will be asked for next,
+  // with no other difference than the sun's hour: this moment and they share packets, as far as memory allows, and have one
+  // result each, whose accuracy is what the time for which moments are shown allows.
   std::uint64_t ask(const LightRequest& request, std::vector<LightRequest> ahead = {});
 
   // Writes the result into a folder as `run` does, complete or not, as soon as there is one; planes and sensors are left out.
-  // Beside it goes scene.toml, from which `run` makes the same result, with copies of the files that it names. `run` makes no moment of a
-  // played day: these are not saved, but what is asked for next.
+  // Beside it goes scene.toml, from which `run` makes the same result, with copies of the files that it names. `run` makes no
+  // moment of a played day: these are not saved, but what is asked for next.
   void save(const std::filesystem::path& folder);
 
   // Returns whether the scene's beam keeps its irradiance while the sun moves.
@@ -109,8 +109,8 @@ class LiveLight {
   void simulate_request(const LightRequest& request, std::uint64_t number);
   // Makes a request's light that of the scene.
   void begin_request(const LightRequest& request, std::uint64_t number);
-  // Simulates those of the moments together that are not kept, up to the first without light. Returns false if there are none, or if so
-  // little time is not enough for this scene.
+  // Simulates those of the moments together that are not kept, up to the first without light. Returns false if there are none,
+  // or if so little time is not enough for this scene.
   [[nodiscard]] bool simulate_together(const std::vector<LightRequest>& moments, double most_s);
   // Shows the moment that is asked for if its result is kept; returns whether it was.
   bool show_kept();

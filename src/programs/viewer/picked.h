@@ -49,8 +49,8 @@ struct PickedElement {
 [[nodiscard]] PickedOrgan describe_organ(const Scene& scene, const RadiationResult& result, std::uint32_t element,
                                          std::size_t band);
 
-// Draws a line around the pixels that see the picked organ or triangle, outside of it. `surface` holds what each pixel sees; both are
-// [row][column], `width` wide.
+// Draws a line around the pixels that see the picked organ or triangle, outside of it. `surface` holds what each pixel sees;
+// both are [row][column], `width` wide.
 void outline_pick(const Pick& pick, const Canopy& canopy, std::span<const std::uint32_t> surface, int width,
                   std::span<std::uint32_t> pixels);
 

@@ -26,7 +26,8 @@ struct SceneToSave {
 // scene's folder begin with saved_scene_files; other files have their whole path.
 [[nodiscard]] std::string saved_scene_text(const SceneToSave& scene);
 
-// Writes that text and copies the scene's files. Throws Error (failure), and Error (input) where it would replace the scene itself.
+// Writes that text and copies the scene's files. Throws Error (failure), and Error (input) where it would replace the scene
+// itself.
 void save_scene(const SceneToSave& scene, const std::filesystem::path& folder);
 
 }  // namespace sunfleck

@@ -43,8 +43,8 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
-// Fills values from such bytes. An array must have the length of the one that was written; a text and a list of numbers of a light may
-// have any length.
+// Fills values from such bytes. An array must have the length of the one that was written; a text and a list of numbers of a
+// light may have any length.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}

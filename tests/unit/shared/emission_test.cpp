@@ -37,8 +37,8 @@ vec3 some_normal(std::mt19937& random) {
   return exact_normal(a, b, some_corner(random, 1.0));
 }
 
-// Expects the normal to be as precise as its edges, of which rounding turns each by up to 2^-24 of its length: a sliver's normal is
-// less precise.
+// Expects the normal to be as precise as its edges, of which rounding turns each by up to 2^-24 of its length: a sliver's
+// normal is less precise.
 void expect_normal(const vec3& a, const vec3& b, const vec3& c) {
   const glm::dvec3 along_b = glm::dvec3(b) - glm::dvec3(a);
   const glm::dvec3 along_c = glm::dvec3(c) - glm::dvec3(a);

@@ -57,8 +57,8 @@ struct FrameGuess {
 //
 // Unit: metres, centimetres or millimetres, whichever makes plant and leaves most usual. The middle one of the three extents is
 // taken as log-normal about 0.8 m (a factor of 5 is one standard deviation), the usual piece, which is a leaf, about 80 cm2 (a
-// factor of 6.3). Both laws were fitted to 16 meshes of a dozen species, from seedlings of 10 cm to maize stands of 3 m. A mesh of
-// fewer than three pieces does not show its leaves, so only its extents count.
+// factor of 6.3). Both laws were fitted to 16 meshes of a dozen species, from seedlings of 10 cm to maize stands of 3 m. A mesh
+// of fewer than three pieces does not show its leaves, so only its extents count.
 [[nodiscard]] FrameGuess guess_frame(const ShapeFigures& shape, const KnownFrame& known);
 
 }  // namespace sunfleck

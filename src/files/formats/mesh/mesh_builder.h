@@ -40,9 +40,9 @@ class MeshBuilder {
 
   // Returns the number of a further object of the file, for object_organ. The name may be empty.
   [[nodiscard]] std::uint32_t add_object(std::string_view name);
-  // Returns the organ of an object: what organ_from_name reads from its name, or else the plant, the name itself and the rank; the
-  // default organ if it has no name. The second object of one name and plant gets the name `leaf 2`, and so on. Characters that a
-  // table cannot hold become `?`.
+  // Returns the organ of an object: what organ_from_name reads from its name, or else the plant, the name itself and the rank;
+  // the default organ if it has no name. The second object of one name and plant gets the name `leaf 2`, and so on. Characters
+  // that a table cannot hold become `?`.
   [[nodiscard]] std::uint32_t object_organ(std::uint32_t object, std::uint32_t optics, std::uint32_t plant = 1, int rank = 0);
 
   // Adds a polygon, cut into the triangle fan about its first corner. It needs at least three valid vertex numbers. Either all

@@ -13,8 +13,8 @@ namespace sunfleck {
 
 class XmlFile {
  public:
-  // Parses the bytes, which must be UTF-8. Entities of a document type are not expanded and nothing else is opened. Throws Error (input) if they are no
-  // well-formed XML. `source` must outlive the object.
+  // Parses the bytes, which must be UTF-8. Entities of a document type are not expanded and nothing else is opened. Throws
+  // Error (input) if they are no well-formed XML. `source` must outlive the object.
   explicit XmlFile(const MeshSource& source);
 
   // Returns the outermost element; refuses the file if it has another name.

@@ -10,8 +10,8 @@
 
 namespace sunfleck {
 
-// Adds the dimension time and its coordinates for the first `steps` steps: their starts in UTC with their bounds, the sun at their
-// middles, and the local times. Returns the number of the dimension.
+// Adds the dimension time and its coordinates for the first `steps` steps: their starts in UTC with their bounds, the sun at
+// their middles, and the local times. Returns the number of the dimension.
 int add_time_axis(NetcdfFile& file, const DayCourse& course, std::size_t steps);
 
 // Calls `write`, which writes the file `aside`, and puts that in the place of `file`, which must be on the same file system.

@@ -19,7 +19,7 @@ namespace sunfleck {
 // nc      results.nc     netCDF-4 with CF 1.8 attributes (xarray, R): the fields by triangle, the corners, the band balances
 // vtp     canopy.vtp     VTK PolyData (ParaView): the fields by cell, the record as field data
 // glb     canopy.glb     binary glTF (Blender): a node for each organ under the node `canopy`; the fields of each triangle at
-//                        its three vertices, as _TRIANGLE, _AREA_M2 and _BAND_DIRECT_UPPER ... _BAND_ERROR (-1: no interval)
+//                        its three vertices, as _TRIANGLE, _AREA_M2 and _BAND_DIRECT_UPPER ... _BAND_ABSORBED_ERROR (-1: none)
 // ply     canopy.ply     binary PLY (MeshLab, CloudCompare): the fields of each triangle at its three vertices
 // caribu  caribu.csv     CARIBU's table of polygons: band, index, label, area, Eabs, Ei, Ei_sup, Ei_inf
 enum class ExportKind { csv, nc, vtp, glb, ply, caribu };

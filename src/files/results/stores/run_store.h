@@ -1,7 +1,7 @@
 #pragma once
 // Stores the state of an unfinished simulation, from which --resume resumes: of a run in run_state.bin of the result folder, of a
-// day's block of steps in steps/block_state.bin (step_store.h). The file format is that of base/sealed_file.h; its arrays are deflated
-// (zlib).
+// day's block of steps in steps/block_state.bin (step_store.h). The file format is that of base/sealed_file.h; its arrays are
+// deflated (zlib).
 
 #include "physics/transport/solve/solve_state.h"
 
@@ -23,8 +23,8 @@ class RunStore {
   // Returns whether an earlier run left a file.
   [[nodiscard]] bool exists() const;
 
-  // Returns the state left by an earlier run, or nothing. Throws Error (input) if the settings differ, naming the first difference,
-  // or if the file is damaged.
+  // Returns the state left by an earlier run, or nothing. Throws Error (input) if the settings differ, naming the first
+  // difference, or if the file is damaged.
   [[nodiscard]] std::optional<SolveState> read(const StateShape& shape) const;
 
   // Writes the file aside and renames it. Throws Error (failure).

@@ -91,8 +91,8 @@ struct Sums {
     }
   }
 
-  // Returns the error of a term of `terms` for steps that share packets; nothing for others. That of the incident flux is bounded by
-  // the sum over its parts; in an endless canopy the flux is exact.
+  // Returns the error of a term of `terms` for steps that share packets; nothing for others. That of the incident flux is
+  // bounded by the sum over its parts; in an endless canopy the flux is exact.
   static std::optional<double> shared_term(const StepLight& light, std::size_t band, std::size_t term) {
     if (!light.shares_packets) return std::nullopt;
     const JointErrors::Band& errors = light.of_shared.bands[band];

@@ -68,9 +68,9 @@ struct StepLight {
   std::vector<SensorReading> sensors;      // [sensor * bands + band], the means over the points of each sensor
   std::vector<Estimate> plane_sunfleck;    // [plane], share that the beam reaches; value NaN without a beam
   std::vector<Estimate> plane_down;        // [plane * bands + band], W m-2 downwards
-  // Whether the step was simulated together with others of its date. Their errors are correlated, because they share packets: in the
-  // first of them `of_shared` holds the errors of the sum over all of them, J m-2 of ground or organ and J of the plant; its groups are
-  // the kinds of organs. It is 0 elsewhere.
+  // Whether the step was simulated together with others of its date. Their errors are correlated, because they share packets:
+  // in the first of them `of_shared` holds the errors of the sum over all of them, J m-2 of ground or organ and J of the plant;
+  // its groups are the kinds of organs. It is 0 elsewhere.
   bool shares_packets = false;
   JointErrors of_shared;
 
@@ -94,10 +94,10 @@ struct StepLight {
 // Returns errors of 0 for every figure of the light.
 [[nodiscard]] JointErrors no_joint_errors(const StepLight& light);
 
-// Sums over the steps of a date, J m-2. Steps that were simulated by themselves have their own random numbers, so that their random
-// errors are independent and add in quadrature. Those of steps that share packets follow from StepLight::of_shared. The unshot flux in
-// the half-widths may err in the same direction in all steps and adds linearly. The light at sensors, which is measured step by step, and
-// that through planes have no unshot part of their own.
+// Sums over the steps of a date, J m-2. Steps that were simulated by themselves have their own random numbers, so that their
+// random errors are independent and add in quadrature. Those of steps that share packets follow from StepLight::of_shared. The
+// unshot flux in the half-widths may err in the same direction in all steps and adds linearly. The light at sensors, which is
+// measured step by step, and that through planes have no unshot part of their own.
 struct DateSums {
   std::size_t steps = 0;
   std::vector<StepBand> bands;

@@ -30,8 +30,8 @@ void add_plants(Table& table, const DayStand& stand, std::size_t axis) {
   add("leaf_area_m2", "m2", "one-sided area of its leaves", [&](std::size_t p) { return plants.leaf_m2[p]; });
 }
 
-// Returns what a kind of organs absorbed on a date, as a share of what arrived. The half-width bounds that of the quotient for any
-// correlation of the two.
+// Returns what a kind of organs absorbed on a date, as a share of what arrived. The half-width bounds that of the quotient for
+// any correlation of the two.
 Estimate share_of(const Estimate& absorbed, const Estimate& incident) {
   if (!(incident.value > 0.0)) return {no_value, no_value};
   const double share = absorbed.value / incident.value;

@@ -14,8 +14,8 @@
 namespace sunfleck {
 
 // Returns the maps of all planes, one plane after the other, in single precision: the share of each cell that the beam reaches
-// (NaN without a beam, and for cells that no ray would cross), then for each band the irradiance of each cell by the beam and by all
-// light, W m-2 downwards. The cells are in the order of plane_table.
+// (NaN without a beam, and for cells that no ray would cross), then for each band the irradiance of each cell by the beam and
+// by all light, W m-2 downwards. The cells are in the order of plane_table.
 [[nodiscard]] std::vector<float> plane_maps(const RadiationModel& model, const RadiationResult& result);
 
 // Returns the number of its values for one plane and for all.

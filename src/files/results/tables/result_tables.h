@@ -1,5 +1,6 @@
 #pragma once
-// The contents of the result tables: one function per table, one line per column. A new column is added here and nowhere else.
+// The contents of the result tables: one function per table, one line per column. Tables of days and planes have files of their
+// own.
 
 #include "files/results/tables/sensor_reading.h"
 #include "files/results/tables/table.h"

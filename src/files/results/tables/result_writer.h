@@ -45,7 +45,8 @@ struct RunRecord {
 [[nodiscard]] std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 
 // Return the tables as text. Numbers have nine significant digits. A cell is empty if there is no value: intervals from too few
-// replicates or hits, and shares of a missing beam. files/results/tables/result_tables.h and files/results/tables/element_fields.h describe rows and columns.
+// replicates or hits, and shares of a missing beam. files/results/tables/result_tables.h and
+// files/results/tables/element_fields.h describe rows and columns.
 [[nodiscard]] std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
 [[nodiscard]] std::string plants_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);

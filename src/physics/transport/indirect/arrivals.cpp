@@ -6,8 +6,8 @@
 namespace sunfleck {
 namespace {
 
-// Returns true for a ray of an isolated stand that met neither an element nor the plot's ground. Its flux counts only at the receivers
-// that it passed.
+// Returns true for a ray of an isolated stand that met neither an element nor the plot's ground. Its flux counts only at the
+// receivers that it passed.
 bool fell_beside_plot(const IndirectScene& scene, const shared::Landing& landing, const shared::Packet& ray) {
   if (scene.model.plot.periodic || landing.surface != shared::left_downwards) return false;
   return !shared::falls_on_plot(shared::make_ray(ray.origin, ray.direction), scene.block.ground);

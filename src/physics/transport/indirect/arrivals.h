@@ -10,8 +10,8 @@
 
 namespace sunfleck {
 
-// Where a ray or packet came from, and where it ended. Levels are those of EmissionPoint. Zones are those among the receivers, 0 without
-// receivers.
+// Where a ray or packet came from, and where it ended. Levels are those of EmissionPoint. Zones are those among the receivers,
+// 0 without receivers.
 struct Arrival {
   // Level at which nothing waited: that of light from above.
   static constexpr std::int32_t from_above = std::numeric_limits<std::int32_t>::max();

@@ -14,8 +14,8 @@
 
 namespace sunfleck {
 
-// Traces all rays of a part of the beam. Adds their weight to the counters of what they meet, as Tracer::count_beam does for rays of
-// weight 1.
+// Traces all rays of a part of the beam. Adds their weight to the counters of what they meet, as Tracer::count_beam does for
+// rays of weight 1.
 [[nodiscard]] TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer,
                                                const BeamPart& part, std::span<std::uint32_t> counters,
                                                const StopQuestion& stop);

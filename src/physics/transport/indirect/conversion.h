@@ -33,14 +33,15 @@ struct Conversion {
   // Returns the same by zones of the receivers, as FirstLandings::scattered_by_zone; empty without receivers.
   [[nodiscard]] std::vector<std::int64_t> scattered_by_zone(const DirectSums& sums, const PlaneSums& passed) const;
 
-  // Returns the flux that the error of vegetation's light is never judged against less than, W m-2 of ground: a thousandth of what
-  // vegetation would absorb of the light from above with nothing around it, taken as at least a thousandth of the plot's area.
+  // Returns the least flux to which the error of vegetation's light is relative, W m-2 of ground: a thousandth of what
+  // vegetation would absorb of all light with nothing around it, taken as at least a thousandth of the plot's area.
   // Infinite in a band that vegetation cannot absorb. Without it, the error of a stand that stays dark could reach no bound.
   [[nodiscard]] double least_of_vegetation_w_m2(std::size_t band) const;
-  // Returns the same of its area's share of the beam.
+  // Returns that floor for the beam, as a share: a thousandth of vegetation's area per area of the plot, which is taken as
+  // 0.001 to 1.
   [[nodiscard]] double least_share_of_vegetation() const;
 
-  // Returns the flux, in quanta of each band, that the rest of the indirect pass is judged against at least: 1 % of what vegetation
+  // Returns the least flux, in quanta of each band, with which unshot flux is compared: 1 % of what vegetation
   // absorbed of the first landings, or least_of_vegetation_w_m2 if that is more.
   [[nodiscard]] std::vector<double> least_of_vegetation(const DirectSums& sums) const;
 

@@ -3,8 +3,9 @@
 
 namespace sunfleck {
 
-// Counts the calling thread among those of TBB while it exists: where k such threads are at work, TBB lends at most the others to their
-// loops, so that there are never more than it may have (tbb::global_control), and all of them where only one thread is left.
+// Counts the calling thread among those of TBB while it exists: where k such threads are at work, TBB lends at most the others
+// to their loops, so that there are never more than it may have (tbb::global_control), and all of them where only one thread is
+// left.
 class CountedThread {
  public:
   CountedThread();

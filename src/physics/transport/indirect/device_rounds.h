@@ -1,6 +1,6 @@
 #pragma once
-// The rounds of an indirect pass as a device makes them on its own: what it is given, and what it finds. Shaders do what WaitingFlux,
-// PacketDraw, PacketStarts and PacketBooks do on the host, with the same integers.
+// The rounds of an indirect pass as a device makes them on its own: what it is given, and what it finds. Shaders do what
+// WaitingFlux, PacketDraw, PacketStarts and PacketBooks do on the host, with the same integers.
 
 #include "physics/transport/indirect/indirect_scene.h"
 #include "physics/transport/indirect/scattering.h"

@@ -10,8 +10,8 @@
 
 namespace sunfleck {
 
-// A point on a side of an element, or on the ground, where light landed. What is reflected leaves from the same side, what is transmitted
-// from the other one.
+// A point on a side of an element, or on the ground, where light landed. What is reflected leaves from the same side, what is
+// transmitted from the other one.
 struct EmissionPoint {
   std::uint32_t surface = 0;  // 2 * element + side, or shared::landed_on_ground
   std::uint32_t order = 0;    // in the tree's leaf order; on the ground ground_order + cell of the soil's map

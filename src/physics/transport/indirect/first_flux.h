@@ -1,9 +1,10 @@
 #pragma once
-// What waits before the first round of an indirect pass: the flux that sky rays and beams leave where they land, and that of lamps.
+// What waits before the first round of an indirect pass: the flux that sky rays and beams leave where they land, and that of
+// lamps.
 //
-// Beam rays were traced and booked by the direct pass, so that all the flux they leave is known; packets carry it away from a sample of
-// their landings (landing_points.h). Random numbers of sky rays and of sampled points are functions of the key and of their number, in
-// round 0: sky rays come first.
+// Beam rays were traced and booked by the direct pass, so that all the flux they leave is known; packets carry it away from a
+// sample of their landings (landing_points.h). Random numbers of sky rays and of sampled points are functions of the key and of
+// their number, in round 0: sky rays come first.
 
 #include "base/random.h"
 #include "physics/transport/indirect/indirect_scene.h"
@@ -26,7 +27,7 @@ class FirstFlux {
   // All arguments must outlive it. The flux is booked in `books`, and its places are added to arrays.next.
   FirstFlux(const IndirectScene& scene, const LightFromAbove& light, glm::uvec2 key, PacketBooks& books, PassArrays& arrays);
 
-  // Sends about this number of sky rays, if there is a sky, each with its share of the skies' flux, and lets wait what they leave.
+  // Sends about this number of sky rays, if there is a sky, each with its share of the skies' flux; what they leave then waits.
   // Nothing else may wait yet. Returns false if stopped.
   [[nodiscard]] bool let_sky_in(std::size_t rays, RandomStream& random, const StopQuestion& stop);
 

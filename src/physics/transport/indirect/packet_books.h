@@ -16,8 +16,8 @@
 
 namespace sunfleck {
 
-// The sums of one pass, and the flux that waits at each level and between the receivers. What waits there and what packets take along is
-// counted apart from the landings, so that no flux is created where drawing moves it.
+// The sums of one pass, and the flux that waits at each level and between the receivers. What waits there and what packets take
+// along is counted apart from the landings, so that no flux is created where drawing moves it.
 class PacketBooks {
  public:
   // The scene must outlive the books.
@@ -27,8 +27,8 @@ class PacketBooks {
   void book_only(ColumnRange columns) { booked_ = columns; }
   [[nodiscard]] ColumnRange booked() const { return booked_; }
 
-  // Books what rays and packets carry from where it waited to their ends, and adds to `next` what then waits there. The threads of the
-  // run share the work.
+  // Books what rays and packets carry from where it waited to their ends, and adds to `next` what then waits there. The threads
+  // of the run share the work.
   void book(const ArrivalBatch& batch, WaitingFlux& next);
 
   // Adds quanta that wait at a place although they did not land there.
@@ -49,7 +49,7 @@ class PacketBooks {
   void retire(std::size_t column);
   // Takes the waiting flux off its places, before packets leave with it.
   void begin_round();
-  // Lets wait what no packet of the round took along.
+  // Leaves waiting what no packet of the round took along.
   void end_round();
 
   [[nodiscard]] const Scattering& scattering() const { return scattering_; }

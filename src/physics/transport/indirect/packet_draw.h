@@ -26,24 +26,26 @@ struct DrawArrays {
   LargeVector<std::uint32_t> weight;  // [packet * columns + column] (shared::share_of)
 };
 
-// Draws packets by systematic sampling: from all upper sides, part by part of the places, then from all lower ones. With both sides of a
-// landing next to each other, the same side would be taken every time when a landing's expectation is one packet (rho + tau = 1). A
-// packet stands for what its side sends divided by the number of packets expected from it; each column is then scaled so that all packets
-// together carry its total. (Scaling level by level would be biased, since it would be a ratio of a few packets each.)
+// Draws packets by systematic sampling: from all upper sides, part by part of the places, then from all lower ones. With both
+// sides of a landing next to each other, the same side would be taken every time when a landing's expectation is one packet
+// (rho + tau = 1). A packet stands for what its side sends divided by the number of packets expected from it; each column is
+// then scaled so that all packets together carry its total. (Scaling level by level would be biased, since it would be a ratio
+// of a few packets each.)
 //
-// The threads of the run share each step. Sums of expectations are made in blocks: within each, then over the blocks, then of both.
+// The threads of the run share each step. Sums of expectations are made in blocks: within each, then over the blocks, then of
+// both.
 class PacketDraw {
  public:
-  // A first round of all flux in `start`, [column], has about `packets` packets; each column that has any counts alike. `aim` is null if
-  // light is not aimed; it and the other objects must outlive this one.
+  // A first round of all flux in `start`, [column], has about `packets` packets; each column that has any counts alike. `aim`
+  // is null if light is not aimed; it and the other objects must outlive this one.
   PacketDraw(const Scattering& scattering, const PlaceAim* aim, double packets, const std::vector<std::int64_t>& start,
              DrawArrays& arrays);
 
   // Returns the packets of the first round for each column, in units of 2^-32; the arguments are those of the constructor.
   [[nodiscard]] static std::uint64_t packets_for_each(double packets, const std::vector<std::int64_t>& start);
 
-  // Draws the packets of a round. `totals` is what waits, [column], and only `columns` have any; `offset` is random. The places must
-  // not change as long as the draw is used.
+  // Draws the packets of a round. `totals` is what waits, [column], and only `columns` have any; `offset` is random. The places
+  // must not change as long as the draw is used.
   void draw(const WaitingFlux& places, ColumnRange columns, std::span<const std::int64_t> totals, std::uint64_t offset);
 
   [[nodiscard]] std::size_t packets() const { return arrays_.number.size(); }

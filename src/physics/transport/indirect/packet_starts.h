@@ -13,9 +13,9 @@
 
 namespace sunfleck {
 
-// Starts the packets of a round with cosine-distributed directions. All of them form one additive sequence with a random start (based
-// on the plastic number, as in canopy_view.h), which is even over the directions in space, so that neighbours in the drawing order
-// complement each other.
+// Starts the packets of a round with cosine-distributed directions. All of them form one additive sequence with a random start
+// (based on the plastic number, as in canopy_view.h), which is even over the directions in space, so that neighbours in the
+// drawing order complement each other.
 class PacketStarts {
  public:
   // All objects must outlive the starts; the words are random.

@@ -14,8 +14,9 @@
 
 namespace sunfleck {
 
-// Narrow sums keep what was added as a list while that takes at most a quarter of the memory of all sums, and all sums from then on.
-// Wide ones, of many columns, keep a row for each place that was reached, with an index of them. The sums are the same in each form.
+// Narrow sums keep what was added as a list while that takes at most a quarter of the memory of all sums, and all sums from
+// then on. Wide ones, of many columns, keep a row for each place that was reached, with an index of them. The sums are the same
+// in each form.
 class PlaceSums {
  public:
   // The least width of wide sums.
@@ -42,7 +43,7 @@ class PlaceSums {
   // Returns the memory taken, in bytes.
   [[nodiscard]] std::size_t bytes() const;
 
-  // Returns the memory that sums take which would be a list of `list_bytes`, or all of `all_bytes`.
+  // Returns the memory of sums that would take `list_bytes` as a list, or `all_bytes` if all are kept.
   [[nodiscard]] static double likely_bytes(double list_bytes, double all_bytes);
 
   // Adds `values` to the sums of the place, one for each from number `first` on. Narrow sums take all of them.
@@ -63,13 +64,14 @@ class PlaceSums {
   [[nodiscard]] std::vector<std::int64_t> all() const;
   [[nodiscard]] std::vector<std::int64_t> take_all();
 
-  // Calls take(place, values), whose values add up to the sums: of a list once or several times for a place in any order, else once in
-  // ascending order, and perhaps not at all for one whose sums are 0.
+  // Calls take(place, values), whose values add up to the sums: of a list once or several times for a place in any order, else
+  // once in ascending order, and perhaps not at all for one whose sums are 0.
   template <class Take>
   void for_each(const Take& take) const {
     for_each(take, [](std::size_t) {});
   }
-  // Does the same, and first calls come(place) for each place, in the same order but some steps ahead, so that memory can be asked for.
+  // Does the same, and first calls come(place) for each place, in the same order but some steps ahead, so that memory can be
+  // asked for.
   template <class Take, class Come>
   void for_each(const Take& take, const Come& come) const {
     take_steps(0, form_ == Form::list ? at_.size() : step_of(places_), take, come);

@@ -36,8 +36,8 @@ constexpr std::size_t places_per_block = 16384;
 
 using PartCounts = std::array<std::uint32_t, Parts::count>;
 
-// Turns the numbers of places of each block in each part into the numbers of all places before them: those of earlier parts, and of
-// earlier blocks in the same part.
+// Turns the numbers of places of each block in each part into the numbers of all places before them: those of earlier parts,
+// and of earlier blocks in the same part.
 void sum_before(std::vector<PartCounts>& blocks) {
   std::uint32_t sum = 0;
   for (std::size_t part = 0; part < Parts::count; ++part) {

@@ -21,8 +21,8 @@ class WaitingFlux {
   void reserve(std::size_t places);
   // Adds a place. One without quanta is dropped.
   void add(const EmissionPoint& place, std::span<const std::int64_t> quanta);
-  // Replaces these places by those of `other`, part by part (shared::place_part); within a part they keep the order in which they were
-  // added. `other` must be cleared before it is used again. The threads of the run share the work.
+  // Replaces these places by those of `other`, part by part (shared::place_part); within a part they keep the order in which
+  // they were added. `other` must be cleared before it is used again. The threads of the run share the work.
   void take_sorted(WaitingFlux& other);
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }

@@ -26,8 +26,8 @@ enum class ElementErrors {
   return errors != ElementErrors::skip && errors != ElementErrors::refine;
 }
 
-// Selects the groups whose light is divided between sunlit and shaded area: organs, the leaves in layers and all leaves, or all leaves
-// alone, which takes less time.
+// Selects the groups whose light is divided between sunlit and shaded area: organs, the leaves in layers and all leaves, or all
+// leaves alone, which takes less time.
 enum class ShadeGroups { all, leaves };
 
 // Relative half-widths of the confidence intervals, and the figures to which they apply.

@@ -1,6 +1,6 @@
 #pragma once
-// Arithmetic over the columns of a place or packet, such as two hundred wavebands: in vectors by Google Highway where there are many,
-// one by one where there are few. Both give the same bits on every kind of processor.
+// Arithmetic over the columns of a place or packet, such as two hundred wavebands: in vectors by Google Highway where there are
+// many, one by one where there are few. Both give the same bits on every kind of processor.
 
 #include "physics/transport/model/model.h"
 #include "shared/quanta.h"
@@ -14,8 +14,8 @@
 
 namespace sunfleck {
 
-// Landed quanta are split into parts that add up to them exactly. Each part is its exact share rounded down or up at random, so that
-// its expectation is right to 2^-33 of what landed; a part whose coefficient is 0 gets exactly 0.
+// Landed quanta are split into parts that add up to them exactly. Each part is its exact share rounded down or up at random, so
+// that its expectation is right to 2^-33 of what landed; a part whose coefficient is 0 gets exactly 0.
 struct QuantaSplit {
   std::int64_t absorbed = 0, reflected = 0, transmitted = 0;
   [[nodiscard]] std::int64_t scattered() const { return reflected + transmitted; }
@@ -175,8 +175,8 @@ inline void add_scaled(std::size_t first, double factor, std::span<const double>
 
 }  // namespace singly
 
-// Returns the sum of what a side sends of a row of quanta that landed, each column scaled. Here and below, the row's first column has the
-// number `first` in all arrays that are not rows.
+// Returns the sum of what a side sends of a row of quanta that landed, each column scaled. Here and below, the row's first
+// column has the number `first` in all arrays that are not rows.
 inline std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                                 std::size_t first) {
   if (landed.size() >= least_in_vectors) return in_vectors::sum_scaled(landed, sent, by, first);

@@ -22,10 +22,10 @@ double LightEvents::largest_w_m2(std::size_t band) const {
   return std::max(beam_w_m2[band], other_w_m2[band]);
 }
 
-// Returns the light of single events. A packet carries what a side of its place sends, divided by the number of packets expected from
-// there. That number is the packets of the first round times the mean, over the scattering bands, of the quanta that the side sends
-// divided by all quanta waiting at the start. With light in one band only, a packet carries at most that band's start times the number
-// of scattering bands, divided by the packets (see PacketDraw).
+// Returns the light of single events. A packet carries what a side of its place sends, divided by the number of packets
+// expected from there. That number is the packets of the first round times the mean, over the scattering bands, of the quanta
+// that the side sends divided by all quanta waiting at the start. With light in one band only, a packet carries at most that
+// band's start times the number of scattering bands, divided by the packets (see PacketDraw).
 LightEvents make_light_events(const RadiationModel& model, const std::vector<BandQuanta>& quanta, const Incidence& incidence) {
   LightEvents events;
   double scattering_bands = 0.0;

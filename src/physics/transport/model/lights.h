@@ -1,5 +1,6 @@
 #pragma once
-// The lights of one simulation. They share its packets: a packet's way through the canopy does not depend on the light it carries.
+// The lights of one simulation. They share its packets: a packet's way through the canopy does not depend on the light it
+// carries.
 
 #include "physics/transport/model/model.h"
 

@@ -54,8 +54,8 @@ struct BandResult {
   Estimate absorbed_structure{0.0, 0.0};  // by structures and lamps; exactly 0 without any
 };
 
-// The sunlit and the shaded part of an organ, of the leaves in a layer, or of all leaves; one-sided areas. Triangles that no light
-// can reach are in neither.
+// The sunlit and the shaded part of an organ, of the leaves in a layer, or of all leaves; one-sided areas. Triangles that no
+// light can reach are in neither.
 struct ShadeClassResult {
   Estimate sunlit_m2, shaded_m2;
   // [waveband], W m-2 of the class's own area, absorbed by both faces; NaN unless the class is known to
@@ -99,7 +99,8 @@ struct LayerResult {
   ShadeClassResult leaf_classes;  // empty in the top plane
 };
 
-// The half-widths of a sum over several lights of one simulation, without unshot flux, in the figures' units times that of the weights.
+// The half-widths of a sum over several lights of one simulation, without unshot flux, in the figures' units times that of the
+// weights.
 struct JointErrors {
   struct Band {
     double vegetation = 0.0, structure = 0.0, soil = 0.0, reflected = 0.0, transmitted = 0.0;
@@ -213,8 +214,8 @@ struct RadiationResult {
   // unless the light of triangles was estimated (refines(ElementErrors)) or without a beam. side_indirect and side_sky are then
   // estimates in the same way.
   std::vector<std::int64_t> side_direct;
-  // [band], typical relative error of what a triangle of the vegetation absorbs: the root mean square of the half-widths, weighted
-  // by area, relative to the mean. Empty unless estimated.
+  // [band], typical relative error of what a triangle of the vegetation absorbs: the root mean square of the half-widths,
+  // weighted by area, relative to the mean. Empty unless estimated.
   std::vector<double> triangle_relative_error;
   std::vector<std::int64_t> cell_indirect;  // [cell * bands + band]
   std::vector<std::int64_t> side_sky;  // the part of side_indirect that comes unscattered from the sky; empty without a sky

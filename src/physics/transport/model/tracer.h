@@ -27,7 +27,8 @@ using StopQuestion = std::function<bool()>;
 
 enum class TraceOutcome { finished, stopped };
 
-// Where the rays of a beam landed, kept where the tracer works until its last owner lets go of it. The tracer's device must outlive it.
+// Where the rays of a beam landed, kept where the tracer works until its last owner lets go of it. The tracer's device must
+// outlive it.
 class KeptLandings {
  public:
   KeptLandings() = default;
@@ -57,13 +58,13 @@ class Tracer {
   // Returns whether several threads may trace at the same time.
   [[nodiscard]] virtual bool serves_several() const { return false; }
 
-  // Traces all rays of one replicate and adds their landings to `counters` (numbered as in physics/transport/model/counters.h). If
-  // stopped, the counters hold only part of the rays and must not be used.
+  // Traces all rays of one replicate and adds their landings to `counters` (numbered as in physics/transport/model/counters.h).
+  // If stopped, the counters hold only part of the rays and must not be used.
   [[nodiscard]] virtual TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
                                                 const StopQuestion& stop) = 0;
 
-  // Does the same, and sets landings[ray] to where each ray landed: what trace() would find. Returns nothing, and does nothing, if that
-  // takes the tracer more than it would spare.
+  // Does the same, and sets landings[ray] to where each ray landed: what trace() would find. Returns nothing, and does nothing,
+  // if that takes the tracer more than it would spare.
   [[nodiscard]] virtual std::optional<TraceOutcome> record_beam(const shared::BeamBlock& /*beam*/,
                                                                 std::span<std::uint32_t> /*counters*/,
                                                                 std::span<shared::Landing> /*landings*/,
@@ -71,8 +72,8 @@ class Tracer {
     return std::nullopt;
   }
 
-  // Does what count_beam() does, and keeps where each ray landed for make_rounds(). Returns nothing, and does nothing, if the tracer makes
-  // no rounds or is short of memory.
+  // Does what count_beam() does, and keeps where each ray landed for make_rounds(). Returns nothing, and does nothing, if the
+  // tracer makes no rounds or is short of memory.
   [[nodiscard]] virtual std::optional<KeptBeam> keep_beam(const shared::BeamBlock& /*beam*/,
                                                           std::span<std::uint32_t> /*counters*/, const StopQuestion& /*stop*/) {
     return std::nullopt;
@@ -85,8 +86,8 @@ class Tracer {
   // Returns how many passes make_rounds() makes side by side, at most.
   [[nodiscard]] virtual std::size_t most_passes() const { return 1; }
 
-  // Makes all rounds of indirect passes of one scene where the tracer works, so that packets need not come to the host, and sets their
-  // sums. Returns nothing if it cannot. If it does, or is stopped, the sums must not be used.
+  // Makes all rounds of indirect passes of one scene where the tracer works, so that packets need not come to the host, and
+  // sets their sums. Returns nothing if it cannot. If it does, or is stopped, the sums must not be used.
   [[nodiscard]] virtual std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> /*passes*/,
                                                                 const StopQuestion& /*stop*/) {
     return std::nullopt;

@@ -10,8 +10,8 @@
 
 namespace sunfleck {
 
-// The planes cut space into places, numbered from the bottom: place 0 lies below the lowest plane, place k above k planes. Packets carry
-// quanta of several columns; rows of places hold all of them.
+// The planes cut space into places, numbered from the bottom: place 0 lies below the lowest plane, place k above k planes.
+// Packets carry quanta of several columns; rows of places hold all of them.
 class PlaneFlux {
  public:
   PlaneFlux(std::size_t planes, std::size_t columns)
@@ -38,13 +38,13 @@ class PlaneFlux {
   std::vector<std::int64_t> count_taken() { return count(taken_, 1); }
   // Sets what waits of a column to 0, and returns it: it stays where it is.
   std::int64_t drop_waiting(std::size_t column);
-  // Continue with rounds that a device made: it was given what waits at all places and set it to these quanta, and the others are added.
-  // All are [place * columns + column].
+  // Continue with rounds that a device made: it was given what waits at all places and set it to these quanta, and the others
+  // are added. All are [place * columns + column].
   [[nodiscard]] const std::vector<std::int64_t>& waiting_everywhere() const { return waiting_; }
   void add_rounds(std::span<const std::uint64_t> waiting, std::span<const std::uint64_t> down,
                   std::span<const std::uint64_t> up, std::span<const std::uint64_t> moved);
-  // Lets quanta that no packet took along wait at the lowest place where any of the column waited before count_waiting: that crosses no
-  // plane below which there was none, and no other planes among the receivers than among the layers.
+  // Lets quanta that no packet took along wait at the lowest place where any of the column waited before count_waiting: that
+  // crosses no plane below which there was none, and no other planes among the receivers than among the layers.
   void keep(std::size_t column, std::int64_t quanta);
 
   // Completes the flux through the planes. Sampling moves flux between places: flux that waits at one is shot from another,

@@ -23,7 +23,8 @@ class Judge {
   // Forgets what triangles of an earlier series showed.
   void begin_series();
 
-  // Estimates the errors of the triangles if they are judged. Between two calls they stay the same: estimating them takes a while.
+  // Estimates the errors of the triangles if they are judged. Between two calls they stay the same: estimating them takes a
+  // while.
   void judge_triangles(const Series& series);
 
   // Return the two errors of a light; empty for a pass without any light in the scene.
@@ -46,7 +47,7 @@ class Judge {
   // Returns which lights are judged, [light]: those that are bright enough.
   [[nodiscard]] const std::vector<bool>& judged() const { return judged_; }
 
-  // Gives the result of a light the light of its triangles.
+  // Fills in the light of triangles in one light's result.
   void refine(std::size_t light, const RunSums& sums, RadiationResult& result);
 
  private:

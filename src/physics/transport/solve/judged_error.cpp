@@ -8,8 +8,8 @@
 namespace sunfleck {
 namespace {
 
-// The soil is judged against at least this share of the incident flux, and the light that vegetation absorbs after the first landings
-// against at least this share of all light that it absorbs.
+// The soil is judged against at least this share of the incident flux, and the light that vegetation absorbs after the first
+// landings against at least this share of all light that it absorbs.
 constexpr double least_judged_share = 0.01;
 
 // Organs are judged if they receive at least this share of the mean organ's flux.

@@ -31,7 +31,7 @@ class RunTriangles {
   [[nodiscard]] const JudgedError& direct_error() const { return direct_; }
   [[nodiscard]] const JudgedError& indirect_error() const { return indirect_; }
 
-  // Gives a result with all figures and arrays the light of its triangles, and forgets what shadow points showed.
+  // Fills in the light of triangles in a result that has all figures and arrays, and forgets what shadow points showed.
   void refine(const RunSums& sums, double confidence, RadiationResult& result);
 
  private:

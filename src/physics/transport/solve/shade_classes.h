@@ -27,8 +27,9 @@ class RatioMean {
     archive(self.numerator_, self.denominator_, self.products_);
   }
 
-  // Returns the ratio of the means; NaN unless the denominator is known to be above 0. Its half-width follows from the spread of numerator - ratio *
-  // denominator (Cochran 1977, Sampling Techniques, eq. 6.13) or, if that is 0, from an `unseen` part of the numerator.
+  // Returns the ratio of the means; NaN unless the denominator is known to be above 0. Its half-width follows from the spread
+  // of numerator - ratio * denominator (Cochran 1977, Sampling Techniques, eq. 6.13) or, if that is 0, from an `unseen` part of
+  // the numerator.
   [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
 
  private:
@@ -36,9 +37,9 @@ class RatioMean {
   double products_ = 0.0;  // sum of the products of both deviations
 };
 
-// The standard deviation of a density over an area, from what every replicate finds. One part of the density is known without noise
-// wherever the area is found, such as a beam's; the other only as a noisy estimate of each triangle's, whose square would be too
-// large: its mean square comes from products of different replicates, each multiplied with the sum of all before.
+// The standard deviation of a density over an area, from what every replicate finds. One part of the density is known without
+// noise wherever the area is found, such as a beam's; the other only as a noisy estimate of each triangle's, whose square would
+// be too large: its mean square comes from products of different replicates, each multiplied with the sum of all before.
 class SpreadMean {
  public:
   // What a replicate finds: integrals over the area, except for `noisy_square`.
@@ -60,9 +61,9 @@ class SpreadMean {
 
   // Returns the square root of mean square / mean area - (mean integral / mean area)^2; NaN below two replicates or without area.
   // Its half-width follows from the first-order expansion in the means, whose covariances are those of the replicates (the delta
-  // method, e.g. Cochran 1977, Sampling Techniques, section 6.3). The mean product of different replicates counts twice there, since
-  // each replicate is a factor on either side (Hoeffding 1948, Ann. Math. Stat. 19:293, the first projection of a U-statistic).
-  // `t_quantile` is that of effective(replicates).
+  // method, e.g. Cochran 1977, Sampling Techniques, section 6.3). The mean product of different replicates counts twice there,
+  // since each replicate is a factor on either side (Hoeffding 1948, Ann. Math. Stat. 19:293, the first projection of a
+  // U-statistic). `t_quantile` is that of effective(replicates).
   [[nodiscard]] Estimate estimate(double t_quantile) const;
 
   // Returns the number of equally weighted replicates that tell as much of the covariances, (sum w)^2 / sum w^2.
@@ -104,8 +105,8 @@ class ShadeClasses {
     for (auto* groups : {&self.organs_, &self.layers_, &self.leaves_}) archive(*groups);
   }
 
-  // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are kept.
-  // `unshot_share` is [band], and `event_w` the flux that one event brings, [band].
+  // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are
+  // kept. `unshot_share` is [band], and `event_w` the flux that one event brings, [band].
   struct Errors {
     double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
     std::vector<double> unshot_share, event_w;

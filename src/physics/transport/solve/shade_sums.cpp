@@ -11,8 +11,9 @@
 namespace sunfleck {
 namespace {
 
-// A replicate is summed in parts side by side, each with sums of its own, which are then added up in their order. Their number depends
-// on the scene and on what landed, never on threads, devices or how sums are kept, so that they have the same bits on every machine.
+// A replicate is summed in parts side by side, each with sums of its own, which are then added up in their order. Their number
+// depends on the scene and on what landed, never on threads, devices or how sums are kept, so that they have the same bits on
+// every machine.
 constexpr std::size_t most_parts = 16;
 constexpr std::size_t most_bytes_of_parts = std::size_t{1} << 24U;
 constexpr std::size_t least_of_part = 2048;  // landings and sides

@@ -27,9 +27,9 @@ struct ShadeSums {
   std::vector<double> lit_m2;  // [group]
   // [group * bands + band], absorbed; the last one where the sun shines
   std::vector<double> direct_w, indirect_w, lit_indirect_w;
-  // [group * bands + band], W2 m-2, integrals over the lit area of the squared density of absorbed beam light and of twice its product
-  // with that of other light; and over all area, over the lit area, of the product of other light with the sum of all earlier
-  // replicates' other light
+  // [group * bands + band], W2 m-2, integrals over the lit area of the squared density of absorbed beam light and of twice its
+  // product with that of other light; and over all area, over the lit area, of the product of other light with the sum of all
+  // earlier replicates' other light
   std::vector<double> lit_square, indirect_square, lit_indirect_square;
 };
 
@@ -43,9 +43,9 @@ struct ShadeGroupSums {
   ShadeSums organs, layers, leaves;  // layers: their leaves; the last has one group
 };
 
-// Returns the sums of a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the beam's
-// landings on it and the packets that land there are independent, so the product has no bias if both are even over the triangle.
-// `earlier` is what landed on each side in all replicates added before.
+// Returns the sums of a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the
+// beam's landings on it and the packets that land there are independent, so the product has no bias if both are even over the
+// triangle. `earlier` is what landed on each side in all replicates added before.
 [[nodiscard]] ShadeGroupSums sum_shade(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier,
                                        bool all_groups);
 

@@ -7,8 +7,8 @@ namespace sunfleck {
 namespace {
 
 // The least variance of the sunlit share of each kind of shade. The beam's landings show the variances themselves, but the fewer
-// landings there are, the less exactly. For mixed elements the least variance is a quarter of that which remains when the share is
-// sampled by as many points of an additive sequence.
+// landings there are, the less exactly. For mixed elements the least variance is a quarter of that which remains when the share
+// is sampled by as many points of an additive sequence.
 constexpr std::array<double, shade_kinds> least_variance = {0.0, 1e-6, 1e-5, 1e-5, 1e-4, 3e-4, 3e-4, 3e-4};
 
 }  // namespace
@@ -68,7 +68,8 @@ double BeamShares::landing_spread(std::span<const ElementShade> shades) const {
   return expected > 0.0 ? squares / expected : 1.0;
 }
 
-// Returns the variance of shares from points, [kind of shade]. The noise of the landings is part of their difference from the points.
+// Returns the variance of shares from points, [kind of shade]. The noise of the landings is part of their difference from the
+// points.
 std::vector<double> BeamShares::point_variance(std::span<const ElementShade> shades, double spread) const {
   std::vector<double> squares(shade_kinds), weights(shade_kinds);
   for (std::size_t e = 0; e < shades.size(); ++e) {
@@ -83,8 +84,8 @@ std::vector<double> BeamShares::point_variance(std::span<const ElementShade> sha
   for (std::size_t k = 0; k < shade_kinds; ++k) {
     squares[k] = std::max(least_variance[k], weights[k] > 0.0 ? squares[k] / weights[k] : 0.0);
   }
-  // Elements are doubted because the beam landed on them, so that their landings say nothing about their points, which are as many as
-  // those of mixed elements.
+  // Elements are doubted because the beam landed on them, so that their landings say nothing about their points, which are as
+  // many as those of mixed elements.
   squares[static_cast<std::size_t>(ShadeKind::doubted)] = squares[static_cast<std::size_t>(ShadeKind::mixed)];
   return squares;
 }

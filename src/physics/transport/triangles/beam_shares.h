@@ -29,8 +29,8 @@ class BeamShares {
   // Returns the elements on which the beam landed although none of their points sees the sun.
   [[nodiscard]] std::vector<std::uint32_t> doubted(std::span<const ElementShade> shades) const;
 
-  // Joins the shares of both sources by their variances. That of landings follows from the difference between the halves of the run;
-  // that of points, for each kind of shade, from how far they scatter around the landings.
+  // Joins the shares of both sources by their variances. That of landings follows from the difference between the halves of the
+  // run; that of points, for each kind of shade, from how far they scatter around the landings.
   [[nodiscard]] BeamLight join(std::span<const ElementShade> shades) const;
 
  private:

@@ -43,8 +43,8 @@ struct ElementShade {
                                                                          Tracer& tracer, std::uint64_t seed,
                                                                          const StopQuestion& stop);
 
-// Asks further points of some elements, as many in all as for elements whose own disagree, and makes them `doubted`. Returns false if
-// stopped.
+// Asks further points of some elements, as many in all as for elements whose own disagree, and makes them `doubted`. Returns
+// false if stopped.
 [[nodiscard]] bool ask_doubted(const RadiationModel& model, const CounterLayout& layout,
                                std::span<const std::uint32_t> elements, Tracer& tracer, std::uint64_t seed,
                                const StopQuestion& stop, std::vector<ElementShade>& shades);

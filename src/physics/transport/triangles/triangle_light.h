@@ -73,7 +73,7 @@ class TriangleEstimator {
 // Returns the typical errors of that light, without unshot flux.
 [[nodiscard]] TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence);
 
-// Gives the result the light of its triangles with their errors: `side_direct`, `side_indirect`, `side_sky`, `element_error`,
+// Fills in the light of the result's triangles with their errors: `side_direct`, `side_indirect`, `side_sky`, `element_error`,
 // `side_error` and `triangle_relative_error`. The result needs everything but these. An error includes unshot flux in
 // proportion.
 void set_triangle_light(const TriangleScene& scene, TriangleLight light, double confidence, RadiationResult& result);

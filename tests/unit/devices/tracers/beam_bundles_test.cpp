@@ -1,4 +1,5 @@
-// Tests that beam rays followed in bundles are counted and recorded as single rays are, whatever the size of the grid and the part of it.
+// Tests that beam rays followed in bundles are counted and recorded as single rays are, whatever the size of the grid and the
+// part of it.
 #include "devices/tracers/beam_bundles.h"
 #include "devices/tracers/cpu_tracer.h"
 

@@ -1,5 +1,5 @@
-// Tests that a bundle finds for each of its rays, bit for bit, the hit that the ray finds alone in the tree and by a test of every
-// triangle.
+// Tests that a bundle finds for each of its rays, bit for bit, the hit that the ray finds alone in the tree and by a test of
+// every triangle.
 #include "devices/tracers/bundle_walk.h"
 
 #include "support/bvh_check.h"

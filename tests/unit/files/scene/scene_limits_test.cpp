@@ -64,8 +64,8 @@ TEST_F(SceneLimits, CoefficientsOfAllOpticsAndBands) {
   expect_refused(text, "give more than 4000000");
 }
 
-// Sensors' names are compared in n log n steps: eight times as many take about nine times as long, not 64 times. The test measures
-// processor time, which other programs do not lengthen.
+// Sensors' names are compared in n log n steps: eight times as many take about nine times as long, not 64 times. The test
+// measures processor time, which other programs do not lengthen.
 TEST_F(SceneLimits, ManySensorsAreNamedQuickly) {
   const auto spent_on = [this](int count) {
     std::string text = bare_scene;

@@ -94,7 +94,7 @@ TEST_F(SceneReceivers, RefusesWhatIsNoSensor) {
   expect_refused("[[sensor]]\nname = \"a\"\n", "[[sensor]]", "sensor.from", "add from");
   expect_refused("[[sensor]]\nname = \"a\"\nfrom = [0, 0]\n", "from", "sensor.from", "3 numbers");
   expect_refused("[[sensor]]\nname = \"a\"\nfrom = [0, nan, 0]\n", "from", "sensor.from, item 2", "metres");
-  expect_refused(head + "points = 3\n", "points", "sensor.points", "add to");
+  expect_refused(head + "points = 3\n", "points", "sensor.points", "add `to`");
   expect_refused(line, "[[sensor]]", "sensor.points", "add points");
   expect_refused(line + "points = 1\n", "points", "sensor.points = 1", "2..100000");
   expect_refused(line + "points = 2.0\n", "points", "sensor.points", "whole number");

@@ -93,7 +93,7 @@ TEST_F(SceneSpectra, OutsideTheirRangeAreRefused) {
                 .find("reach beyond light_spectrum"),
             std::string::npos);
   EXPECT_NE(refusal("bands = { from = 700, to = 400, step = 10, direct = 1 }\n", "")
-                .find("bands.to = 400 (it must be above from, 700)"),
+                .find("bands.to = 400 (it must be above `from`, 700)"),
             std::string::npos);
   EXPECT_NE(refusal("bands = { start = 400, to = 700, step = 10 }\n", "").find("use from"), std::string::npos);
   EXPECT_NE(refusal("bands = { from = 0.4, to = 700, step = 10 }\n", "").find("give nm, such as 400"), std::string::npos);

@@ -111,7 +111,8 @@ TEST(LiveLight, OtherOpticsKeepTheBeams) {
   EXPECT_NE(after.side_indirect, before.side_indirect);
 }
 
-// The moments of a played day share the packets of one simulation; a pause refines the moment that is shown to what `run` computes.
+// The moments of a played day share the packets of one simulation; a pause refines the moment that is shown to what `run`
+// computes.
 TEST(LiveLight, PlaysADayAsMomentsOfOneSimulation) {
   const TempFolder folder;
   test::LiveScene live(test::write_live_scene(folder));

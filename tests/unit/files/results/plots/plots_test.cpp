@@ -127,8 +127,8 @@ std::size_t blue_between(const test::Picture& picture, int left, int right) {
   return picture.count_between(blue, left, right);
 }
 
-// Returns whether the picture has a border of a panel, a dark line of most of its height, near this column. gnuplot places it up to
-// three pixels further left.
+// Returns whether the picture has a border of a panel, a dark line of most of its height, near this column. gnuplot places it
+// up to three pixels further left.
 bool has_border_at(const test::Picture& picture, int column) {
   int longest = 0;
   for (int x = column - 3; x <= column + 1; ++x) {
@@ -195,7 +195,8 @@ TEST_F(Plots, ProfilesOfAnythingASimulationGives) {
   }
 }
 
-// Draws with users' texts in every place where one may stand: titles, file names, and the names of the band and of the field data.
+// Draws with users' texts in every place where one may stand: titles, file names, and the names of the band and of the field
+// data.
 class HostileTexts : public Plots {
  protected:
   [[nodiscard]] int width_with(const std::string& text) const { return width_with(text, text, text, text); }
@@ -486,7 +487,8 @@ std::vector<int> rows_near(const test::Picture& picture, int column, const test:
   return rows;
 }
 
-// The column of the middle of a date, from 0, in a picture of that many days. Without photons the panel spans columns 150 to 1510.
+// The column of the middle of a date, from 0, in a picture of that many days. Without photons the panel spans columns 150 to
+// 1510.
 int middle_of(int date, int dates) {
   return 150 + static_cast<int>(1360.0 * (date + 0.5) / dates);
 }
