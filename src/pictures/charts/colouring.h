@@ -35,7 +35,7 @@ struct SurfaceColours {
 struct ScaleLimits {
   std::optional<double> top_w_m2;  // as in PictureOptions
   double lit_from_w_m2 = 0.0;      // less than this is unlit in a rank chart
-  // No scale ends above it, so that the noise of a sliver stretches none.
+  // No scale ends above it, so that a noisy sliver cannot stretch it.
   double largest_w_m2 = std::numeric_limits<double>::infinity();
   double largest_on_soil_w_m2 = std::numeric_limits<double>::infinity();
 };

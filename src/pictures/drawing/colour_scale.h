@@ -32,10 +32,10 @@ struct RankScale {
 inline constexpr int unlit_rank = -1;
 
 // Returns classes that hold equal shares of the weight (areas, for example) of the values above zero. Values below `lit_from` are
-// unlit. Without it, zero and negative values are added to class 0 in addition to its share. A
-// class deviates from its share by at most the weight of one group of equal values. The scale runs from the smallest value that
-// has weight to the quantile rank_top_share of the values above zero. Without any weight, or if all values are equal, the
-// bounds are those of equal_interval_ranks. values and weights are [item] and finite; weights are not negative.
+// unlit. Without it, zero and negative values are added to class 0 in addition to its share. A class deviates from its share by
+// at most the weight of one group of equal values. The scale runs from the smallest value that has weight to the quantile
+// rank_top_share of the values above zero. Without any weight, or if all values are equal, the bounds are those of
+// equal_interval_ranks. values and weights are [item] and finite; weights are not negative.
 [[nodiscard]] RankScale equal_count_ranks(std::span<const double> values, std::span<const double> weights,
                                           double lit_from = 0.0);
 

@@ -78,8 +78,8 @@ class LiveLight {
   std::uint64_t ask(const LightRequest& request, std::vector<LightRequest> ahead = {});
 
   // Writes the result into a folder as `run` does, complete or not, as soon as there is one; planes and sensors are left out.
-  // Beside it goes scene.toml, from which `run` makes the same result, with copies of the files that it names. `run` makes no
-  // moment of a played day: these are not saved, but what is asked for next.
+  // Beside it goes scene.toml, from which `run` makes the same result, with copies of the files that it names. Moments
+  // of a played day are not saved, as `run` cannot repeat them; the next other light is.
   void save(const std::filesystem::path& folder);
 
   // Returns whether the scene's beam keeps its irradiance while the sun moves.

@@ -1,5 +1,5 @@
 #pragma once
-// What the tables of a day need to know of a stand and no light changes, found once for all of them.
+// What the tables of a day need to know of a stand, whatever its light; found once for all of them.
 
 #include "files/results/tables/organ_kinds.h"
 #include "physics/transport/model/model.h"

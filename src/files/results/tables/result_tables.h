@@ -34,9 +34,8 @@ inline constexpr const char* reading_units =
     "total_umol_m2_s: the same in photons, umol m-2 s-1; _error: half-width of the confidence interval";
 
 // Adds the areas of the sunlit and the shaded class and what each absorbs per area of its own, in all bands. `of` says in the
-// meanings whose area it is. Areas are in m2 or, with a ground area, leaf area
-// indices. Rows for which `classes_of`
-// returns null, or classes without bands, have no values.
+// meanings whose area it is. Areas are in m2 or, with a ground area, leaf area indices. Rows for which `classes_of` returns
+// null, or classes without bands, have no values.
 void add_classes(Table& table, const RadiationModel& model, const char* of, std::optional<double> ground_m2, unsigned outputs,
                  const std::function<const ShadeClassResult*(std::size_t)>& classes_of);
 

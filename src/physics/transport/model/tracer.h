@@ -64,7 +64,7 @@ class Tracer {
                                                 const StopQuestion& stop) = 0;
 
   // Does the same, and sets landings[ray] to where each ray landed: what trace() would find. Returns nothing, and does nothing,
-  // if that takes the tracer more than it would spare.
+  // if recording costs the tracer more than it saves.
   [[nodiscard]] virtual std::optional<TraceOutcome> record_beam(const shared::BeamBlock& /*beam*/,
                                                                 std::span<std::uint32_t> /*counters*/,
                                                                 std::span<shared::Landing> /*landings*/,

@@ -25,7 +25,7 @@ class JointSums {
   // Returns the half-widths. Where all replicates agree, they are the sums of those of the lights, [light].
   [[nodiscard]] JointErrors errors(double t_quantile, std::span<const RadiationResult> lights) const;
 
-  // Passes everything that other sums of the same lights need to continue to `archive`.
+  // Passes to `archive` everything that other sums of the same lights need to continue.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
     archive(self.means_.bands, self.means_.organs, self.means_.plants, self.means_.groups, self.means_.planes);

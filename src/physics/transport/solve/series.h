@@ -30,7 +30,7 @@ struct Series {
   // Returns the number of rays and packets.
   [[nodiscard]] std::uint64_t traced() const { return replicates() * grid_rays + front().packets + front().sky_rays; }
 
-  // Passes everything that another series of such replicates needs to continue to `archive`. The number of values depends only on
+  // Passes to `archive` everything that another series of such replicates needs to continue. The number of values depends only on
   // the lights, the settings and the wanted sums; the first integer is the number of replicates.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {

@@ -27,9 +27,8 @@ struct ShadeSums {
   std::vector<double> lit_m2;  // [group]
   // [group * bands + band], absorbed; the last one where the sun shines
   std::vector<double> direct_w, indirect_w, lit_indirect_w;
-  // [group * bands + band], W2 m-2, integrals over the lit area of the squared density of absorbed beam light and of twice its
-  // product with that of other light; and over all area, over the lit area, of the product of other light with the sum of all
-  // earlier replicates' other light
+  // [group * bands + band], W2 m-2. With b and o the densities of absorbed light of the beam and other light: the integral of
+  // b^2 + 2 b o over the lit area, and those of o times the sum of o in all earlier replicates, over all area and the lit area.
   std::vector<double> lit_square, indirect_square, lit_indirect_square;
 };
 
