@@ -60,20 +60,24 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
     sides = 2.0 * elements * kinds * sizeof(std::int64_t);
     cells = layout.cells() * kinds * sizeof(std::int64_t);
   }
-  const double of_run = PlaceSums::likely_bytes(planned_replicates * run.place_bytes, sides + cells);
-  const double of_pilot = PlaceSums::likely_bytes(pilot_replicates * run.place_bytes, sides + cells);
+  const auto of = [&](double replicates) {
+    return PlaceBytes{PlaceSums::likely_bytes(replicates * run.place_bytes.sides, sides),
+                      PlaceSums::likely_bytes(replicates * run.place_bytes.cells, cells)};
+  };
+  const PlaceBytes of_run = of(planned_replicates), of_pilot = of(pilot_replicates);
   double spreads = 0.0;
   SumBytes bytes;
   if (refines(element_errors)) {
     bytes.refining = elements * bytes_refining_element + 3.0 * sides;
-    spreads = 2.0 * (landings + of_run);
+    spreads = 2.0 * (landings + of_run.sides);
   }
   if (keeps_spreads(element_errors)) {
     spreads += 2.0 * elements * (16.0 + 32.0 * bands);
   }
-  bytes.tracing = numbering + 2.0 * (exposure + landings) + of_run + of_pilot + spreads;
+  bytes.tracing = numbering + 2.0 * (exposure + landings) + of_run.all() + of_pilot.all() + spreads;
   bytes.ending = numbering + exposure + landings + cells + sides + spreads + bytes.refining;
-  if (of_run < sides + cells) bytes.ending += of_run;
+  if (of_run.sides < sides) bytes.ending += of_run.sides;
+  if (of_run.cells < cells) bytes.ending += of_run.cells;
   bytes.result = elements * sizeof(std::uint32_t) + landings + cells + sides + 0.5 * spreads;
   return bytes;
 }

@@ -123,8 +123,8 @@ TEST_F(Memory, OfCopiesThatShareTrianglesIsForetoldToo) {
   EXPECT_GT(own.peak_mib - shared.peak_mib, 60.0 * 400e3 / 1048576.0) << shared.peak_mib << " MiB";
 }
 
-// Light lands on a few of the four million cells of the soil's map. Only counters and the result have all of them: 36 bytes a cell, and
-// sums of all cells would take as much again for the run and for each replicate in the making.
+// Light lands on a few of the four million cells of the soil's map. Only counters and the result have all of them: 36 bytes a
+// cell, and sums of all cells would take as much again for the run and for each replicate in the making.
 TEST_F(Memory, OfAWideMapIsThatOfWhereLightLands) {
   std::string scene = content(folder_ / "stand.toml");
   scene.replace(scene.find("[2.0, 2.0]"), 10, "[100.0, 100.0]");

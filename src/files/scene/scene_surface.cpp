@@ -12,9 +12,8 @@ namespace sunfleck {
 
 namespace {
 
-// Cells of the soil's map: 512 MB per field in double precision; and without `patch`, those of 0.05 m on a hectare.
-constexpr double most_patches = 64e6;
-constexpr double default_patches = 4e6;
+constexpr double most_patches = 64e6;    // cells of the soil's map: 512 MB per field in double precision
+constexpr double default_patches = 4e6;  // without `patch`, on plots where 0.05 m would give more: above a hectare
 constexpr double sum_tolerance = 1e-12;  // rounding of reflectance + transmittance as decimal fractions
 constexpr std::size_t most_optics = 65535;
 constexpr std::size_t most_coefficients = 4'000'000;  // optics times bands; 32 bytes each
@@ -146,7 +145,8 @@ std::optional<Soil> read_soil(const TomlTable& root, std::vector<Waveband>& band
   const auto patch_m = table->number("patch", {.lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give metres"});
   soil.patch_m = patch_m.value_or(soil.patch_m);
   const double count = cells(plot, soil.patch_m);
-  if (count <= (patch_m ? most_patches : default_patches)) return soil;
+  const bool too_many = patch_m ? count > most_patches : plot.area_m2() > default_patches * soil.patch_m * soil.patch_m;
+  if (!too_many) return soil;
   if (patch_m) {
     table->refuse("patch", fmt::format("gives {:.3g} cells on this plot, but at most {:.0f} are allowed", count, most_patches),
                   "use larger patches");

@@ -38,15 +38,20 @@ void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
   if (counts.packets > 0.0) {
     // The sums of several lights are dealt to them from joint ones.
     const std::size_t copies = lights_ == 1 ? 1 : 2 * lights_;
-    std::size_t bytes = 0;
-    for (const PlaceSums* of : {&sums.side_landed, &sums.side_sky, &sums.cell_landed, &sums.cell_sky}) bytes += of->bytes();
-    place_bytes_per_packet_ = std::max(place_bytes_per_packet_, static_cast<double>(copies * bytes) / counts.packets);
+    const auto raise = [&](double& per_packet_bytes, const PlaceSums& landed, const PlaceSums& sky) {
+      const auto bytes = static_cast<double>(copies * (landed.bytes() + sky.bytes()));
+      per_packet_bytes = std::max(per_packet_bytes, bytes / counts.packets);
+    };
+    raise(per_packet_bytes_.sides, sums.side_landed, sums.side_sky);
+    raise(per_packet_bytes_.cells, sums.cell_landed, sums.cell_sky);
   }
   learned_ = true;
 }
 
-double PacketMemory::place_bytes(const RayCounts& counts, double most) const {
-  return learned_ ? PlaceSums::likely_bytes(place_bytes_per_packet_ * counts.packets, most) : most;
+PlaceBytes PacketMemory::place_bytes(const RayCounts& counts, const PlaceBytes& most) const {
+  if (!learned_) return most;
+  return {PlaceSums::likely_bytes(per_packet_bytes_.sides * counts.packets, most.sides),
+          PlaceSums::likely_bytes(per_packet_bytes_.cells * counts.packets, most.cells)};
 }
 
 // The arrays of a pass stay for the next one (PassArrays), so that all of them count, each with its peak: those of places in

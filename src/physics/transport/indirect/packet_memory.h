@@ -29,7 +29,7 @@ class PacketMemory {
 
   // Returns the memory of its sums by place, of `most` bytes if they were all kept: an upper limit until something has been
   // learned. See PlaceSums.
-  [[nodiscard]] double place_bytes(const RayCounts& counts, double most) const;
+  [[nodiscard]] PlaceBytes place_bytes(const RayCounts& counts, const PlaceBytes& most) const;
 
  private:
   std::size_t columns_, lights_;
@@ -37,7 +37,7 @@ class PacketMemory {
   bool learned_ = false;
   double per_landing_;       // places per first landing
   double per_packet_ = 1.0;  // places per packet
-  double place_bytes_per_packet_ = 0.0;
+  PlaceBytes per_packet_bytes_;
 };
 
 }  // namespace sunfleck

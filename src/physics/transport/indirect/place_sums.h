@@ -14,6 +14,13 @@
 
 namespace sunfleck {
 
+// Memory of sums by side of a triangle, and by cell of the soil's map.
+struct PlaceBytes {
+  [[nodiscard]] double all() const { return sides + cells; }
+
+  double sides = 0.0, cells = 0.0;
+};
+
 // Narrow sums keep what was added as a list while that takes at most a quarter of the memory of all sums, and all sums from
 // then on. Wide ones, of many columns, keep a row for each place that was reached, with an index of them. The sums are the same
 // in each form.
@@ -108,14 +115,7 @@ class PlaceSums {
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
     if constexpr (std::is_const_v<Self>) {
-      const Finder sums(self);
-      for (std::size_t place = 0; place < self.places_; ++place) {
-        const std::span<const std::int64_t> found = sums.at(place);
-        for (std::size_t k = 0; k < self.width_; ++k) {
-          std::int64_t value = found.empty() ? 0 : found[k];
-          archive(value);
-        }
-      }
+      self.form_ == Form::list ? write(self.merged(), archive) : write(self, archive);
     } else {
       std::vector<std::int64_t> values(self.width_);
       self = PlaceSums(self.places_, self.width_);
@@ -132,6 +132,22 @@ class PlaceSums {
 
  private:
   enum class Form { list, indexed, all };
+
+  // Passes sums to `archive` whose places for_each takes once in ascending order.
+  template <class Archive>
+  static void write(const PlaceSums& sums, Archive& archive) {
+    std::size_t passed = 0;
+    const auto pass_zeros_up_to = [&](std::size_t end) {
+      std::int64_t none = 0;
+      for (; passed < end; ++passed) archive(none);
+    };
+    sums.for_each([&](std::size_t place, std::span<const std::int64_t> values) {
+      pass_zeros_up_to(place * sums.width_);
+      for (std::int64_t value : values) archive(value);
+      passed += sums.width_;
+    });
+    pass_zeros_up_to(sums.size());
+  }
 
   // for_each takes the entries of a list or the places of the other forms in turn, each in a step.
   template <class Take, class Come>

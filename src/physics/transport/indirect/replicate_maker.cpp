@@ -175,15 +175,18 @@ double ReplicateMaker::sum_bytes() const {
   const auto lights = static_cast<double>(lights_.size());
   double bytes = lights * static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
   if (!indirect_) return bytes;
-  return bytes + most_place_bytes() + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
+  return bytes + most_place_bytes().all() + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
 }
 
-double ReplicateMaker::most_place_bytes() const {
-  if (!indirect_) return 0.0;
-  const double places = 2.0 * static_cast<double>(model_.canopy.size()) + static_cast<double>(layout_.cells());
-  // The sums of several lights are dealt to them from joint ones.
-  const auto copies = static_cast<double>(lights_.size() == 1 ? 1 : 2 * lights_.size());
-  return copies * places * static_cast<double>(model_.bands.size()) * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
+PlaceBytes ReplicateMaker::most_place_bytes() const {
+  if (!indirect_) return {};
+  // The sums of several lights are dealt to them from joint ones. Those of cells are counted once: light hardly ever reaches all of
+  // a wide map, and what is counted here is set aside before packets get their memory.
+  const auto lights = static_cast<double>(lights_.size());
+  const double copies = lights_.size() == 1 ? 1.0 : 2.0 * lights;
+  const double place_bytes = static_cast<double>(model_.bands.size()) * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
+  return {copies * 2.0 * static_cast<double>(model_.canopy.size()) * place_bytes,
+          lights * static_cast<double>(layout_.cells()) * place_bytes};
 }
 
 double ReplicateMaker::device_sum_bytes() const {

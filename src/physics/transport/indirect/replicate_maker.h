@@ -57,7 +57,7 @@ class ReplicateMaker {
 
   // Returns the part of it that sums by place, of sides and cells of the soil's map, take if light lands on many of them; see
   // PlaceSums.
-  [[nodiscard]] double most_place_bytes() const;
+  [[nodiscard]] PlaceBytes most_place_bytes() const;
 
   // Returns the memory for what a GPU that makes the rounds finds, in bytes, with hits.
   [[nodiscard]] double device_sum_bytes() const;

@@ -14,14 +14,16 @@ namespace {
 // Largest value that the integer sums of all landings together may reach.
 constexpr double most_landed = 0x1p62;
 
-// Returns the quanta that landed in a band, counted once per landing.
-double landed_quanta(const IndirectSums& indirect, std::size_t band) {
-  double landed = 0.0;
-  for (std::size_t k = band; k < indirect.surface_landed.size(); k += indirect.bands) {
-    landed += static_cast<double>(indirect.surface_landed[k]);
+// Returns the quanta that landed, counted once per landing. [band]
+std::vector<double> landed_quanta(const IndirectSums& indirect) {
+  std::vector<double> landed(indirect.bands);
+  const auto add = [&](std::size_t, std::span<const std::int64_t> quanta) {
+    for (std::size_t b = 0; b < landed.size(); ++b) landed[b] += static_cast<double>(quanta[b]);
+  };
+  for (std::size_t k = 0; k < indirect.surface_landed.size(); k += indirect.bands) {
+    add(k, std::span(indirect.surface_landed).subspan(k, indirect.bands));
   }
-  indirect.cell_landed.for_each(
-      [&](std::size_t, std::span<const std::int64_t> quanta) { landed += static_cast<double>(quanta[band]); });
+  indirect.cell_landed.for_each(add);
   return landed;
 }
 
@@ -71,8 +73,9 @@ class Addition {
 
  private:
   void count_landed() {
+    const std::vector<double> landed = landed_quanta(*indirect_);
     for (std::size_t b = 0; b < sums_.landed.size(); ++b) {
-      sums_.landed[b] += landed_quanta(*indirect_, b);
+      sums_.landed[b] += landed[b];
       if (sums_.landed[b] <= most_landed) continue;
       throw_failure(fmt::format("band {}: its light landed too often for the integer sums of {} replicates",
                                 model_.bands[b].name, sums_.replicates),

@@ -2,6 +2,7 @@
 // The whole simulation: equal, independent replicates, each with a direct pass and the rounds of an indirect pass, until the
 // requested errors are reached.
 
+#include "physics/transport/indirect/place_sums.h"
 #include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/beam_block.h"
 #include "physics/transport/model/counters.h"
@@ -88,7 +89,7 @@ struct Monitor {
 struct RunForecast {
   Work work;                     // of one replicate
   double replicate_bytes = 0.0;  // memory of one replicate while it is made
-  double place_bytes = 0.0;      // the part of it that its sums by side and by cell of the soil take
+  PlaceBytes place_bytes;        // the part of it that its sums by place take
   std::size_t at_once = 1;       // replicates made at the same time
 };
 

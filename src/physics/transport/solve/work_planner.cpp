@@ -214,11 +214,11 @@ double WorkPlanner::replicate_bytes(const Work& work) const {
   if (!maker_.has_indirect_pass()) return maker_.sum_bytes();
   const RayCounts counts = ray_counts(work);
   const double recorded = maker_.record_bytes(has_beam_ ? work.rays : 0.0, std::min(counts.packets, counts.beam_rays));
-  return maker_.sum_bytes() - maker_.most_place_bytes() + place_bytes(work) + memory_.bytes(counts) + recorded +
+  return maker_.sum_bytes() - maker_.most_place_bytes().all() + place_bytes(work).all() + memory_.bytes(counts) + recorded +
          maker_.device_sum_bytes();
 }
 
-double WorkPlanner::place_bytes(const Work& work) const {
+PlaceBytes WorkPlanner::place_bytes(const Work& work) const {
   return memory_.place_bytes(ray_counts(work), maker_.most_place_bytes());
 }
 

@@ -78,7 +78,7 @@ class WorkPlanner {
   // Returns the memory of a replicate while it is made, in bytes.
   [[nodiscard]] double replicate_bytes(const Work& work) const;
   // Returns the part of it that its sums by place take.
-  [[nodiscard]] double place_bytes(const Work& work) const;
+  [[nodiscard]] PlaceBytes place_bytes(const Work& work) const;
   // Records the memory that a replicate took.
   void learn(const Work& work, const IndirectSums& packets) { memory_.learn(ray_counts(work), packets); }
 

@@ -389,7 +389,10 @@ TEST_F(SceneReader, PlotsAboveAHectareGetCoarserDefaultPatches) {
   ASSERT_EQ(scene.warnings.size(), 1U);
   EXPECT_NE(scene.warnings[0].find("soil.patch"), std::string::npos) << scene.warnings[0];
   EXPECT_DOUBLE_EQ(with("[160, 100]", "").model.soil->patch_m, std::sqrt(16000 / 4e6));
-  EXPECT_EQ(with("[100, 99]", "").model.soil->patch_m, 0.05);
+  for (const char* size : {"[100, 99]", "[99.99, 100.01]", "[1000, 9.9]", "[1e6, 1e-6]"}) {
+    EXPECT_EQ(with(size, "").model.soil->patch_m, 0.05) << size;
+    EXPECT_TRUE(with(size, "").warnings.empty()) << size;
+  }
   EXPECT_EQ(with("[160, 100]", "patch = 0.05\n").model.soil->patch_m, 0.05) << "as the user says";
 }
 
