@@ -35,8 +35,8 @@ fi
 
 echo "== tests =="
 export SUNFLECK_REQUIRE_DEVICE=1
-# Tests wait for windows, signals and disks: while three ran at a time, two processors were idle for a third of the time.
-run_tests=(ctest --output-on-failure --no-tests=error --parallel "$((2 * $(nproc)))")
+# Some tests wait for windows and signals, so that one more than there are processors keeps these busy.
+run_tests=(ctest --output-on-failure --no-tests=error --parallel "$(($(nproc) + 1))")
 leave_out=(-LE long)
 [ "$full" = no ] || leave_out=()
 "${run_tests[@]}" --test-dir build/ci "${leave_out[@]}"
