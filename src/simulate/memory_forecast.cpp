@@ -60,11 +60,8 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
     sides = 2.0 * elements * kinds * sizeof(std::int64_t);
     cells = layout.cells() * kinds * sizeof(std::int64_t);
   }
-  const auto of = [&](double replicates) {
-    return PlaceBytes{PlaceSums::likely_bytes(replicates * run.place_bytes.sides, sides),
-                      PlaceSums::likely_bytes(replicates * run.place_bytes.cells, cells)};
-  };
-  const PlaceBytes of_run = of(planned_replicates), of_pilot = of(pilot_replicates);
+  const PlaceBytes of_run = PlaceSums::likely_bytes(run.place_bytes.times(planned_replicates), {sides, cells});
+  const PlaceBytes of_pilot = PlaceSums::likely_bytes(run.place_bytes.times(pilot_replicates), {sides, cells});
   double spreads = 0.0;
   SumBytes bytes;
   if (refines(element_errors)) {

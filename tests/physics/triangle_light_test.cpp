@@ -40,10 +40,11 @@ constexpr double to_five_percent = 0.3, to_two_percent = 0.9, to_default = 17.0,
 
 SolveSettings with_work(const RadiationModel& model, double rays_per_triangle, std::uint64_t seed) {
   const double rays = rays_per_triangle * static_cast<double>(model.canopy.size());
-  constexpr int number = 16;
+  constexpr int replicate_count = 16;
   // A packet lands some three times before it is retired, so that a third as many start.
-  SolveSettings settings =
-      fixed_scatter(model, {.rays = rays, .packets = rays / 3.0 / number, .replicates = number, .seed = seed, .bound = 0.01});
+  SolveSettings settings = fixed_scatter(
+      model,
+      {.rays = rays, .packets = rays / 3.0 / replicate_count, .replicates = replicate_count, .seed = seed, .bound = 0.01});
   settings.element_errors = ElementErrors::refine;
   return settings;
 }

@@ -156,7 +156,7 @@ BLACK = {
 
 @pytest.mark.parametrize(
     "device, calls, scene",
-    [("cpu", 600, with_arrays(BLACK)), ("cpu", 40, with_arrays()), ("lavapipe", 16, with_arrays())],
+    [("cpu", 600, with_arrays(BLACK)), ("cpu", 40, with_arrays()), ("lavapipe", 40, with_arrays())],
     ids=["beam", "all", "vulkan"],
 )
 def test_calls_leak_nothing(device, calls, scene):

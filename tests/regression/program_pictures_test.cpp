@@ -1,9 +1,9 @@
 // Tests pictures as a user gets them: `run --images`, `render` from a folder and from a scene, PNG and EXR.
 
 #include "regression/program.h"
+#include "support/picture.h"
 #include "support/table.h"
 
-#include <stb_image.h>
 #include <tinyexr.h>
 
 #include <algorithm>
@@ -11,13 +11,12 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <memory>
 
 namespace sunfleck::regression {
 namespace {
 
 using Rgb = std::array<double, 3>;
-using Pixel = std::array<unsigned char, 3>;
+using Pixel = test::Picture::Pixel;
 
 // A level plate and one that rises towards the south; they are black in the band but coloured for the eye, with nothing below
 // them.
@@ -84,12 +83,9 @@ class Pictures : public ProgramTest {
 };
 
 std::map<Pixel, int> pixels_by_colour(const std::filesystem::path& file) {
-  int width = 0, height = 0, channels = 0;
-  const std::unique_ptr<unsigned char, void (*)(void*)> bytes(stbi_load(file.c_str(), &width, &height, &channels, 3),
-                                                              stbi_image_free);
+  const test::Picture picture = test::read_picture(file);
   std::map<Pixel, int> count;
-  if (!bytes) return count;
-  for (int k = 0; k < width * height; ++k) ++count[{bytes.get()[3 * k], bytes.get()[3 * k + 1], bytes.get()[3 * k + 2]}];
+  for (const Pixel& pixel : picture.pixels) ++count[pixel];
   return count;
 }
 

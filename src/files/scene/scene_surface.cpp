@@ -145,12 +145,11 @@ std::optional<Soil> read_soil(const TomlTable& root, std::vector<Waveband>& band
   const auto patch_m = table->number("patch", {.lo = 0.0, .hi = 1e6, .lo_open = true, .cure = "give metres"});
   soil.patch_m = patch_m.value_or(soil.patch_m);
   const double count = cells(plot, soil.patch_m);
-  const bool too_many = patch_m ? count > most_patches : plot.area_m2() > default_patches * soil.patch_m * soil.patch_m;
-  if (!too_many) return soil;
-  if (patch_m) {
+  if (patch_m && count > most_patches) {
     table->refuse("patch", fmt::format("gives {:.3g} cells on this plot, but at most {:.0f} are allowed", count, most_patches),
                   "use larger patches");
   }
+  if (patch_m || plot.area_m2() <= default_patches * soil.patch_m * soil.patch_m) return soil;
   soil.patch_m = std::sqrt(plot.area_m2() / default_patches);
   warnings.push_back(fmt::format("{}.patch is {:.3g} m, because there would be {:.3g} patches of 0.05 m on this plot",
                                  table->place(), soil.patch_m, count));

@@ -39,6 +39,11 @@ std::uint32_t FirstFlux::random_bits(std::size_t number) const {
   return shared::random_words(key_, static_cast<std::uint32_t>(number), 0).x;
 }
 
+std::int64_t FirstFlux::least_of_vegetation(std::size_t column) const {
+  const double quanta = first(column).least_of_vegetation[band(column)];
+  return quanta < 0x1p62 ? static_cast<std::int64_t>(quanta) : std::int64_t{1} << 62U;
+}
+
 bool FirstFlux::let_sky_in(std::size_t number, RandomStream& random, const StopQuestion& stop) {
   if (light_.sky == nullptr) return true;
   const std::vector<shared::Packet> rays = light_.sky->draw(number, random);

@@ -42,6 +42,8 @@ class FirstFlux {
 
   // Returns the flux that met something, lamps included. [column]
   [[nodiscard]] const std::vector<std::int64_t>& incident() const { return incident_; }
+  // Returns FirstLandings::least_of_vegetation of a column, cut off far above all that a replicate has.
+  [[nodiscard]] std::int64_t least_of_vegetation(std::size_t column) const;
 
  private:
   [[nodiscard]] std::size_t band(std::size_t column) const { return column / lights_; }

@@ -36,11 +36,6 @@ std::uint64_t coefficient_above(double part) {
   return static_cast<std::uint64_t>(std::ceil(std::min(part, 1.0) * 0x1p32));
 }
 
-// Returns a number of quanta that may be infinite.
-std::int64_t whole_quanta(double quanta) {
-  return quanta < 0x1p62 ? static_cast<std::int64_t>(quanta) : std::int64_t{1} << 62U;
-}
-
 // The pass of one replicate, with the flux that is still on its way. Random numbers of rounds and packets are functions of the
 // key, the round and the packet (shaders/shared/random.h); the first landings are round 0.
 class IndirectPass {
@@ -52,8 +47,7 @@ class IndirectPass {
         light_(light),
         stop_(stop),
         lights_(scene.lights.size()),
-        bands_(scene.model.bands.size()),
-        columns_(lights_ * bands_),
+        columns_(lights_ * scene.model.bands.size()),
         random_(order.seed, indirect_stream + order.number),
         key_(key_of(random_.word())),
         books_(scene, order.counts_hits),
@@ -148,16 +142,12 @@ class IndirectPass {
     for (std::size_t c = 0; c < columns_; ++c) {
       all[c].start = static_cast<std::uint64_t>(waiting[c]);
       all[c].incident = static_cast<std::uint64_t>(first_flux_.incident()[c]);
-      all[c].least_of_vegetation = static_cast<std::uint64_t>(whole_quanta(first(c).least_of_vegetation[band(c)]));
+      all[c].least_of_vegetation = static_cast<std::uint64_t>(first_flux_.least_of_vegetation(c));
       all[c].is_active = 1;
       if (!from_beam.empty()) all[c].from_beam = static_cast<std::uint64_t>(from_beam[c]);
     }
     return all;
   }
-
-  [[nodiscard]] std::size_t band(std::size_t column) const { return column / lights_; }
-  // Returns what the direct pass found in the light of a column.
-  [[nodiscard]] const FirstLandings& first(std::size_t column) const { return light_.first[column % lights_]; }
 
   [[nodiscard]] glm::uvec4 words_of(std::size_t number) const {
     return shared::random_words(key_, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(books_.sums().rounds));
@@ -231,8 +221,7 @@ class IndirectPass {
     std::size_t begin = columns_, end = 0;
     for (std::size_t c = 0; c < columns_; ++c) {
       if (!active_[c]) continue;
-      const std::int64_t vegetation =
-          std::max(whole_quanta(first(c).least_of_vegetation[band(c)]), books_.scattering().vegetation()[c]);
+      const std::int64_t vegetation = std::max(first_flux_.least_of_vegetation(c), books_.scattering().vegetation()[c]);
       const std::int64_t least = part_of(first_flux_.incident()[c], least_judged(), 0);
       const std::int64_t judged = std::min(vegetation, std::max(least, books_.scattering().soil()[c]));
       if (waiting[c] == 0 || waiting[c] < part_of(judged, part, 0)) {
@@ -250,7 +239,7 @@ class IndirectPass {
   const ReplicateOrder& order_;
   const LightFromAbove& light_;
   const StopQuestion& stop_;
-  std::size_t lights_, bands_, columns_;
+  std::size_t lights_, columns_;
   RandomStream random_;  // for sky rays and the sample of beam rays
   glm::uvec2 key_;
   PacketBooks books_;

@@ -49,9 +49,7 @@ void PacketMemory::learn(const RayCounts& counts, const IndirectSums& sums) {
 }
 
 PlaceBytes PacketMemory::place_bytes(const RayCounts& counts, const PlaceBytes& most) const {
-  if (!learned_) return most;
-  return {PlaceSums::likely_bytes(per_packet_bytes_.sides * counts.packets, most.sides),
-          PlaceSums::likely_bytes(per_packet_bytes_.cells * counts.packets, most.cells)};
+  return learned_ ? PlaceSums::likely_bytes(per_packet_bytes_.times(counts.packets), most) : most;
 }
 
 // The arrays of a pass stay for the next one (PassArrays), so that all of them count, each with its peak: those of places in

@@ -32,8 +32,9 @@ std::size_t PlaceSums::bytes() const {
          (rows_.capacity() + all_.capacity()) * sizeof(std::int64_t);
 }
 
-double PlaceSums::likely_bytes(double list_bytes, double all_bytes) {
-  return list_bytes > all_bytes / list_part ? all_bytes : list_bytes;
+PlaceBytes PlaceSums::likely_bytes(const PlaceBytes& list_bytes, const PlaceBytes& all_bytes) {
+  const auto likely = [](double list, double all) { return list > all / list_part ? all : list; };
+  return {likely(list_bytes.sides, all_bytes.sides), likely(list_bytes.cells, all_bytes.cells)};
 }
 
 void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values, std::size_t first) {

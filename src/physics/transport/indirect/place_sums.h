@@ -17,6 +17,7 @@ namespace sunfleck {
 // Memory of sums by side of a triangle, and by cell of the soil's map.
 struct PlaceBytes {
   [[nodiscard]] double all() const { return sides + cells; }
+  [[nodiscard]] PlaceBytes times(double factor) const { return {factor * sides, factor * cells}; }
 
   double sides = 0.0, cells = 0.0;
 };
@@ -51,7 +52,7 @@ class PlaceSums {
   [[nodiscard]] std::size_t bytes() const;
 
   // Returns the memory of sums that would take `list_bytes` as a list, or `all_bytes` if all are kept.
-  [[nodiscard]] static double likely_bytes(double list_bytes, double all_bytes);
+  [[nodiscard]] static PlaceBytes likely_bytes(const PlaceBytes& list_bytes, const PlaceBytes& all_bytes);
 
   // Adds `values` to the sums of the place, one for each from number `first` on. Narrow sums take all of them.
   void add(std::size_t place, std::span<const std::int64_t> values, std::size_t first = 0);

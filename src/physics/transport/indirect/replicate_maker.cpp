@@ -180,8 +180,8 @@ double ReplicateMaker::sum_bytes() const {
 
 PlaceBytes ReplicateMaker::most_place_bytes() const {
   if (!indirect_) return {};
-  // The sums of several lights are dealt to them from joint ones. Those of cells are counted once: light hardly ever reaches all of
-  // a wide map, and what is counted here is set aside before packets get their memory.
+  // The sums of several lights are dealt to them from joint ones. Those of cells are counted once: light hardly ever reaches all
+  // of a wide map, and what is counted here is set aside before packets get their memory.
   const auto lights = static_cast<double>(lights_.size());
   const double copies = lights_.size() == 1 ? 1.0 : 2.0 * lights;
   const double place_bytes = static_cast<double>(model_.bands.size()) * sizeof(std::int64_t) * (sky_ ? 2.0 : 1.0);
