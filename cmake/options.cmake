@@ -56,7 +56,7 @@ function(sunfleck_folder)
   add_library(${target} STATIC ${ARG_SOURCES})
   target_link_libraries(${target} PUBLIC ${used} PRIVATE sunfleck_options)
   # Hardly any time is spent in these folders, and their libraries take long to compile.
-  if(folder MATCHES "^(programs/|simulate|files/results)")
+  if(folder MATCHES "^(programs/|simulate|files/)")
     target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
   endif()
   if(folder MATCHES "^(programs/|simulate|files/)" AND NOT folder STREQUAL files/formats/mesh)

@@ -11,7 +11,7 @@ namespace sunfleck::bench {
 namespace {
 
 constexpr double beam_rays = 1U << 20U;
-constexpr double packets = 1U << 18U;
+constexpr double packets_of_pass = 1U << 18U;
 
 void finish(benchmark::State& state, const Stand& stand, std::size_t rays) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays));
@@ -20,7 +20,7 @@ void finish(benchmark::State& state, const Stand& stand, std::size_t rays) {
 
 std::vector<shared::Packet> rays_of(const Stand& stand, Rays rays) {
   if (rays == Rays::beam) return as_packets(beam_of(stand, beam_rays));
-  return packets_of(stand, packets, rays == Rays::leaf ? Order::leaf : Order::random);
+  return packets_of(stand, packets_of_pass, rays == Rays::leaf ? Order::leaf : Order::random);
 }
 
 void measure_peer(benchmark::State& state, Rays rays, const Stand& stand, Who who) {
