@@ -162,9 +162,11 @@ TEST_F(AxesOfScenes, MapsRunFromTheSouthWestCorner) {
   EXPECT_NE(file("plane_0.250.csv", "east").find("9 x 6 cells\n"), std::string::npos);
   std::map<std::string, int> shares;
   for (std::size_t row = 0; row < 54; ++row) {
-    EXPECT_NEAR(east.number(row, "x_m"), 0.25 * static_cast<double>(row % 9) + 0.125, 1e-8);
-    EXPECT_NEAR(east.number(row, "y_m"), 0.25 * static_cast<double>(row / 9) + 0.125, 1e-8);
-    const std::size_t same = (8 - row % 9) * 6 + (5 - row / 9);
+    const std::size_t eastward = row % 9;
+    const std::size_t northward = row / 9;
+    EXPECT_NEAR(east.number(row, "x_m"), 0.25 * static_cast<double>(eastward) + 0.125, 1e-8);
+    EXPECT_NEAR(east.number(row, "y_m"), 0.25 * static_cast<double>(northward) + 0.125, 1e-8);
+    const std::size_t same = (8 - eastward) * 6 + (5 - northward);
     for (const char* column : {"sunfleck", "PAR_direct", "PAR_total"}) {
       EXPECT_EQ(east.cell(row, column), south.cell(same, column)) << row;
     }

@@ -1,6 +1,7 @@
 #include "programs/cli/process.h"
 
 #include "base/error.h"
+#include "physics/transport/model/tracer.h"
 #include "simulate/cluster/launch.h"
 
 #include <fcntl.h>
@@ -67,8 +68,9 @@ void keep_freed_memory() {
   keep_freed(4 << 20);
 }
 
-void keep_freed_memory_for_gpu() {
-  keep_freed(32 << 20);  // the most that glibc allows
+void keep_freed_memory_for(const TracerDevice& device) {
+  constexpr int most_of_glibc = 32 << 20;
+  if (!device.software) keep_freed(most_of_glibc);
 }
 
 int finish_output(int status) {

@@ -3,6 +3,8 @@
 
 namespace sunfleck {
 
+struct TracerDevice;
+
 // Call at the very start. Turns a pipe whose reader has gone and a file size limit into errors of the calls concerned, instead
 // of the end of the program; keeps files from being opened in place of a closed standard stream; makes freed memory return to
 // the system.
@@ -10,8 +12,8 @@ void prepare_process();
 
 // Keeps freed memory for later use, up to a quarter of a gigabyte, where the same large arrays come back again and again.
 void keep_freed_memory();
-// Does the same with arrays of up to 32 MiB, where a GPU would wait for their pages.
-void keep_freed_memory_for_gpu();
+// Does the same with arrays of up to 32 MiB if the device is a GPU, which would wait for their pages.
+void keep_freed_memory_for(const TracerDevice& device);
 
 // Call at the very end. Flushes standard output; if that fails the run failed, unless the reader merely stopped reading.
 // Returns the exit status.

@@ -46,7 +46,7 @@ Monitor terminal_monitor(ProgressLine& line) {
 
 SimulatedScene simulate_at_terminal(Simulation& simulation, const SolveSettings& settings, Checkpoint* checkpoint,
                                     Ranks* ranks) {
-  if (!simulation.device().software) keep_freed_memory_for_gpu();
+  keep_freed_memory_for(simulation.device());
   ProgressLine line("simulating");
   return simulation.run(settings, {terminal_monitor(line), checkpoint, ranks});
 }

@@ -267,13 +267,13 @@ bool LiveLight::simulate_together(const std::vector<LightRequest>& moments, doub
   try {
     static_cast<void>(simulation_.solve_lights(lights, settings, monitor, nullptr, {}, keep));
   } catch (const std::bad_alloc&) {
-    in_time = false;  // one moment at a time may fit into the memory
+    in_time = false;  // fewer moments may fit into the memory
   }
   {
     const std::lock_guard lock(news_mutex_);
     together_.clear();
   }
-  if (!in_time) most_together_ = 1;
+  if (!in_time) most_together_ /= 2;
   show_kept();
   return in_time;
 }

@@ -136,7 +136,7 @@ class LiveLight {
   double played_s_;
   bool has_receivers_;         // planes or sensors, which the window does not show
   bool is_played_ = false;     // the result is that of a moment of a played day
-  std::size_t most_together_;  // moments that are simulated together; 1 if there is no time or memory for more
+  std::size_t most_together_;  // moments that are simulated together; halved when time or memory was too short for them
 
   std::atomic<bool> quitting_ = false;
   std::atomic<std::uint64_t> asked_ = 0;  // number of the last request

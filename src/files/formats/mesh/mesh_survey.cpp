@@ -44,8 +44,6 @@ struct EdgeUse {
   Edge edge;
   std::uint32_t triangle = 0;
   bool is_rising = false;  // the triangle runs from the lower to the higher place
-
-  friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
 };
 
 class Surveyor {
@@ -245,7 +243,7 @@ class Surveyor {
         uses.push_back({std::minmax(a, b), t, a < b});
       }
     }
-    std::sort(uses.begin(), uses.end());
+    std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) { return a.edge < b.edge; });
     return uses;
   }
 

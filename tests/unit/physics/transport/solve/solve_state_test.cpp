@@ -117,7 +117,7 @@ TEST_F(SolveStateTest, GoesOnWithSeveralLights) {
   const auto solve_all = [&](const SolveState* from, const Monitor& monitor = {}) {
     settings_.resume_from = from;
     std::vector<std::uint64_t> numbers;
-    const auto take = [&](std::size_t, RadiationResult result, const SharedOutcome& outcome) {
+    const auto take = [&](std::size_t, const RadiationResult& result, const SharedOutcome& outcome) {
       for (const std::uint64_t number : test::all_numbers(result)) numbers.push_back(number);
       for (const double error : outcome.sum_errors.front().organs) numbers.push_back(std::bit_cast<std::uint64_t>(error));
     };

@@ -91,7 +91,8 @@ class Pooling : public testing::Test {
 };
 
 double waves(std::size_t e) {
-  return 8.0 + 4.0 * std::sin(0.15 * static_cast<double>(e % columns)) * std::cos(0.1 * static_cast<double>(e / columns));
+  const std::size_t row = e / columns;
+  return 8.0 + 4.0 * std::sin(0.15 * static_cast<double>(e % columns)) * std::cos(0.1 * static_cast<double>(row));
 }
 
 TEST_F(Pooling, RemovesNoiseFromEvenLight) {
