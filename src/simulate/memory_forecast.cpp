@@ -81,9 +81,8 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
 
 // Returns the memory for drawing the pictures that a run draws unless others are asked for, together.
 double picture_bytes(const RadiationModel& model, const CounterLayout& layout) {
-  const std::vector<Picture> usual = usual_pictures();
-  const auto drawn = std::count_if(usual.begin(), usual.end(), [&](const Picture& p) { return has_field(model, p.field); });
-  return drawing_bytes(layout, model, PictureOptions{}, static_cast<std::size_t>(drawn));
+  const std::vector<Picture> usual = usual_pictures(model.has_beam(), has_field(model, LightField::indirect));
+  return drawing_bytes(layout, model, PictureOptions{}, usual.size());
 }
 
 }  // namespace

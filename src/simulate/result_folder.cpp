@@ -58,15 +58,13 @@ std::vector<Picture> named_pictures(const ResultRequest& request) {
   return named;
 }
 
-// Returns the pictures requested by name. If `all` is requested, adds the usual pictures that have something to show: those of
-// direct light if the scene has a beam, and the others if some light is not direct.
+// Returns the pictures requested by name, and the usual pictures if `all` is requested.
 std::vector<Picture> wanted_pictures(const ResultRequest& request, const RadiationModel& model, const RadiationResult& result) {
   std::vector<Picture> wanted = named_pictures(request);
   if (!asks_for(request, "all")) return wanted;
   const bool indirect = result.indirect.packets + result.indirect.sky_rays > 0;
-  for (const Picture& picture : usual_pictures()) {
-    const bool there = picture.field == LightField::direct ? model.has_beam() : indirect;
-    if (there && std::find(wanted.begin(), wanted.end(), picture) == wanted.end()) wanted.push_back(picture);
+  for (const Picture& picture : usual_pictures(model.has_beam(), indirect)) {
+    if (std::find(wanted.begin(), wanted.end(), picture) == wanted.end()) wanted.push_back(picture);
   }
   return wanted;
 }

@@ -99,7 +99,7 @@ class Timed final : public Tracer {
   template <class Trace>
   std::invoke_result_t<Trace> timed(const Trace& trace) {
     const Clock::time_point start = Clock::now();
-    const std::invoke_result_t<Trace> outcome = trace();
+    std::invoke_result_t<Trace> outcome = trace();
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
     return outcome;
   }

@@ -42,7 +42,8 @@ RadiationModel maize_copies(Copies copies) {
   test::Random random(1);
   for (int k = 0; k < per_side * per_side; ++k) {
     Placement placement;
-    placement.position_m = {spacing_m * (k / per_side), 0.0, spacing_m * (k % per_side)};
+    const int row = k / per_side;
+    placement.position_m = {spacing_m * row, 0.0, spacing_m * (k % per_side)};
     placement.heading_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
     part.placements.push_back(placement);
   }

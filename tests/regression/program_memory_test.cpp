@@ -100,6 +100,16 @@ TEST_F(Memory, IsForetoldByInfo) {
   }
 }
 
+// Where nothing is scattered, two of the six usual pictures are drawn.
+TEST_F(Memory, OfABlackSceneIsForetoldWithItsPictures) {
+  const Arguments work{"--device", "cpu", "--threads", "2"};
+  const Outcome info = run(Arguments{"info", scene_file("two_squares.toml"), "--json"} + work);
+  ASSERT_EQ(info.status, 0) << info.err;
+  const double forecast_mib = json::parse(info.out)["memory_bytes"].get<double>() / 1048576.0;
+  const Outcome ran = simulate(scene_file("two_squares.toml"), work);
+  EXPECT_NEAR(forecast_mib / ran.peak_mib, 1.0, 0.2) << forecast_mib << " MiB forecast";
+}
+
 // 400 copies of the stand, which share its triangles. Of what 400,000 triangles take by themselves, corners and tree are saved:
 // about 90 bytes each.
 TEST_F(Memory, OfCopiesThatShareTrianglesIsForetoldToo) {

@@ -30,11 +30,11 @@ std::vector<Picture> all_pictures() {
   return pictures;
 }
 
-std::vector<Picture> usual_pictures() {
+std::vector<Picture> usual_pictures(bool any_direct, bool any_indirect) {
   std::vector<Picture> pictures;
   for (const ChartKind chart : {ChartKind::rank, ChartKind::hue}) {
     for (const LightField field : {LightField::direct, LightField::indirect, LightField::total}) {
-      pictures.push_back({chart, field});
+      if (field == LightField::direct ? any_direct : any_indirect) pictures.push_back({chart, field});
     }
   }
   return pictures;

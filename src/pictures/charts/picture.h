@@ -55,9 +55,10 @@ struct PictureOptions {
 // Returns the stem of the picture's file: chart_field, e.g. "rank_direct".
 [[nodiscard]] std::string stem_of(const Picture& picture);
 
-// Return every possible picture, ordered by stem, and the pictures `all` stands for: rank and hue of direct, indirect and
-// total.
+// Returns every possible picture, ordered by stem.
 [[nodiscard]] std::vector<Picture> all_pictures();
-[[nodiscard]] std::vector<Picture> usual_pictures();
+// Returns the pictures for which `all` stands: rank and hue of direct light if there is any, and of indirect and total light if
+// some light is indirect.
+[[nodiscard]] std::vector<Picture> usual_pictures(bool any_direct, bool any_indirect);
 
 }  // namespace sunfleck

@@ -35,8 +35,8 @@ IndexedSurface welded(const Canopy& canopy, const std::vector<std::size_t>& elem
 }
 
 std::vector<unsigned> simplified(const IndexedSurface& surface, double share) {
-  const auto triangles = static_cast<double>(surface.indices.size() / 3);
-  const std::size_t wanted = 3 * static_cast<std::size_t>(std::max(1.0, std::round(share * triangles)));
+  const std::size_t triangles = surface.indices.size() / 3;
+  const std::size_t wanted = 3 * static_cast<std::size_t>(std::max(1.0, std::round(share * static_cast<double>(triangles))));
   std::vector<unsigned> indices(surface.indices.size());
   const std::size_t count =
       meshopt_simplify(indices.data(), surface.indices.data(), surface.indices.size(), &surface.vertices[0].x,

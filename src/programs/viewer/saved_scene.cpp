@@ -25,7 +25,7 @@ fs::path name_in_scene_folder(const Scene& scene, const fs::path& file) {
     const fs::path name = whole.lexically_relative(base);
     return name.empty() || *name.begin() == ".." ? fs::path() : name;
   };
-  const fs::path name = below(folder, fs::absolute(file, ignored).lexically_normal());
+  fs::path name = below(folder, fs::absolute(file, ignored).lexically_normal());
   if (!name.empty()) return name;
   return below(fs::weakly_canonical(folder, ignored), fs::weakly_canonical(file, ignored));
 }

@@ -137,9 +137,7 @@ class OpfReader {
     if (!matrix) xml_.refuse_at(geometry, "a <geometry> without <mat>", "an organ needs its position");
     const std::vector<double> m = xml_.numbers(matrix, 12);
     OpfPlacement placement;
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column)
-        placement.to_plant[column][row] = m[static_cast<std::size_t>(4 * row + column)];
+    for (std::size_t k = 0; k < m.size(); ++k) placement.to_plant[static_cast<int>(k % 4)][static_cast<int>(k / 4)] = m[k];
     if (const pugi::xml_node lower = geometry.child("dDwn")) placement.lower = xml_.numbers(lower, 1).front();
     if (const pugi::xml_node upper = geometry.child("dUp")) placement.upper = xml_.numbers(upper, 1).front();
     return placement;

@@ -277,15 +277,15 @@ std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, st
     light.quanta.push_back(&conversions[k].quanta);
   }
   const double direct_s = seconds_since(start);
-  std::optional<IndirectSums> packets;
+  double indirect_s = 0.0;
   if (indirect_ && order.packets > 0.0) {
-    packets = run_indirect_pass(*indirect_, order, light, arrays, stop);
+    std::optional<IndirectSums> packets = run_indirect_pass(*indirect_, order, light, arrays, stop);
     if (!packets) return std::nullopt;
     std::vector<IndirectSums> by_light = sums_by_light(*std::move(packets), lights_.size());
     for (std::size_t k = 0; k < lights_.size(); ++k) replicates[k].packets = std::move(by_light[k]);
+    indirect_s = seconds_since(start) - direct_s;
   }
   const auto lights = static_cast<double>(lights_.size());
-  const double indirect_s = packets ? seconds_since(start) - direct_s : 0.0;
   for (Replicate& replicate : replicates) {
     replicate.direct_s = direct_s / lights;
     replicate.indirect_s = indirect_s / lights;

@@ -3,6 +3,7 @@
 #include "base/random.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
@@ -40,7 +41,7 @@ class TreeMaker {
     const glm::vec3 extent = (hi - lo) * glm::vec3(stretch(), stretch(), stretch());
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const double share = (1.0 + random_.unit()) / 3.0;
-    const auto offset = static_cast<std::uint32_t>(share * range.size() + 0.5);
+    const auto offset = static_cast<std::uint32_t>(std::lround(share * range.size()));
     const std::uint32_t middle = range.begin + std::clamp(offset, 1U, range.size() - 1);
     const auto place = [&](std::uint32_t k) { return order.begin() + k; };
     std::nth_element(place(range.begin), place(middle), place(range.end), [&](std::uint32_t a, std::uint32_t b) {

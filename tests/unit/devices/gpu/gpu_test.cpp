@@ -59,7 +59,7 @@ std::vector<std::uint32_t> noise(std::size_t count) {
 
 // Expects `call` to throw an error with this one line and kind.
 std::string device_error(const std::function<void()>& call) {
-  const std::string line = refusal_of(call, ErrorKind::device);
+  std::string line = refusal_of(call, ErrorKind::device);
   EXPECT_EQ(line.find('\n'), std::string::npos);
   return line;
 }

@@ -59,7 +59,8 @@ std::size_t expect_hits_of_single_rays(const Bvh& bvh, const RayBundle& bundle) 
 std::vector<glm::vec3> square_of(Random& random, const glm::vec3& corner, double cell, std::uint32_t rays) {
   std::vector<glm::vec3> origins;
   for (std::uint32_t k = 0; k < rays; ++k) {
-    const double x = cell * (k / 4 + uniform(random));
+    const std::uint32_t row = k / 4;
+    const double x = cell * (row + uniform(random));
     const double z = cell * (k % 4 + uniform(random));
     origins.push_back(corner + glm::vec3(x, 0.0, z));
   }
@@ -145,7 +146,8 @@ TEST(BundleWalk, AtEdgesCornersAndDuplicatesFindsTheHitsOfSingleRays) {
     for (const float step : {0.125F, 0.0625F}) {
       std::vector<glm::vec3> origins;
       for (int k = 0; k < 16; ++k) {
-        origins.push_back(glm::vec3(0.25F + step * static_cast<float>(k / 4), 1.0F, 0.25F + step * static_cast<float>(k % 4)) -
+        const int row = k / 4;
+        origins.push_back(glm::vec3(0.25F + step * static_cast<float>(row), 1.0F, 0.25F + step * static_cast<float>(k % 4)) -
                           0.5F * direction);
       }
       EXPECT_EQ(expect_hits_of_single_rays(bvh, bundle_of(direction, origins)), 16U);

@@ -63,7 +63,8 @@ std::vector<shared::Ray> rays_through(Random& random, const glm::vec3& eye, cons
   std::vector<shared::Ray> result;
   for (std::uint32_t k = 0; k < rays; ++k) {
     const auto across = static_cast<float>(cell * (k % 4 - 2.0 + uniform(random)));
-    const auto upwards = static_cast<float>(cell * (k / 4 - 2.0 + uniform(random)));
+    const std::uint32_t row = k / 4;
+    const auto upwards = static_cast<float>(cell * (row - 2.0 + uniform(random)));
     result.push_back(shared::make_ray(eye, forward + across * right + upwards * up));
   }
   return result;
@@ -150,7 +151,8 @@ TEST(FanWalk, AtEdgesCornersAndDuplicatesFindsTheHitsOfSingleRays) {
     for (const float step : {0.125F, 0.0625F}) {
       std::vector<shared::Ray> rays;
       for (int k = 0; k < 16; ++k) {
-        const glm::vec3 aim(step * static_cast<float>(k / 4 - 2), 0.0F, step * static_cast<float>(k % 4 - 2));
+        const int row = k / 4;
+        const glm::vec3 aim(step * static_cast<float>(row - 2), 0.0F, step * static_cast<float>(k % 4 - 2));
         rays.push_back(shared::make_ray(eye, aim - eye));
       }
       EXPECT_EQ(expect_hits_of_single_rays(bvh, fan_of(rays)), 16U);

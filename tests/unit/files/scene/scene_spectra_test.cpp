@@ -23,7 +23,7 @@ class SceneSpectra : public SceneFolder {
     return read(head + "[plot]\nsize = [1, 1]\n[sun]\nelevation = 90\nazimuth = 0\n" + rest);
   }
   [[nodiscard]] std::string refusal(const std::string& head, const std::string& rest) const {
-    const std::string message = refusal_of([&] { static_cast<void>(with(head, rest)); });
+    std::string message = refusal_of([&] { static_cast<void>(with(head, rest)); });
     expect_three_parts(message);
     return message;
   }

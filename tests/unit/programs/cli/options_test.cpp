@@ -159,10 +159,15 @@ TEST(Pictures, HaveNamesOfTheirOwn) {
   std::set<std::string> stems;
   for (const Picture& picture : all_pictures()) stems.insert(stem_of(picture));
   EXPECT_EQ(stems.size(), 30U);
-  std::vector<std::string> usual;
-  for (const Picture& picture : usual_pictures()) usual.push_back(stem_of(picture));
-  EXPECT_EQ(usual, (std::vector<std::string>{"rank_direct", "rank_indirect", "rank_total", "hue_direct", "hue_indirect",
-                                             "hue_total"}));
+  const auto usual = [](bool any_direct, bool any_indirect) {
+    std::vector<std::string> names;
+    for (const Picture& picture : usual_pictures(any_direct, any_indirect)) names.push_back(stem_of(picture));
+    return names;
+  };
+  EXPECT_EQ(usual(true, true), (std::vector<std::string>{"rank_direct", "rank_indirect", "rank_total", "hue_direct",
+                                                         "hue_indirect", "hue_total"}));
+  EXPECT_EQ(usual(true, false), (std::vector<std::string>{"rank_direct", "hue_direct"}));
+  EXPECT_EQ(usual(false, true), (std::vector<std::string>{"rank_indirect", "rank_total", "hue_indirect", "hue_total"}));
 }
 
 TEST(Options, OfTheStand) {

@@ -423,7 +423,7 @@ TEST_F(Plots, MapsOfAnythingASimulationGives) {
 }
 
 DayStep step_at(int day, double hour) {
-  const UtcTime first{2002, 8, 8, static_cast<int>(hour), static_cast<int>(60.0 * (hour - std::floor(hour)) + 0.5), 0.0};
+  const UtcTime first{2002, 8, 8, static_cast<int>(hour), static_cast<int>(std::lround(60.0 * (hour - std::floor(hour)))), 0.0};
   const UtcTime start = plus_seconds(first, 86400.0 * day);
   return {start, start, 600.0, 0, {std::sin((hour - 6.0) / 12.0 * 3.14), 1.0}};
 }
