@@ -55,9 +55,13 @@ function(sunfleck_folder)
   sunfleck_targets(used ${ARG_USES})
   add_library(${target} STATIC ${ARG_SOURCES})
   target_link_libraries(${target} PUBLIC ${used} PRIVATE sunfleck_options)
-  # Hardly any time is spent in these folders, and their libraries take long to compile.
+  # Hardly any time is spent in these folders, and their libraries take long to compile: with sanitizers, longer than the tests that
+  # use them take to run.
   if(folder MATCHES "^(programs/|simulate|files/)")
-    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0> $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    if(SUNFLECK_SANITIZE OR SUNFLECK_THREAD_SANITIZE)
+      target_compile_options(${target} PRIVATE -O0)
+    endif()
   endif()
   sunfleck_unity(${target} 40)
 endfunction()

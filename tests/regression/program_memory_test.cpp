@@ -107,7 +107,7 @@ TEST_F(Memory, OfABlackSceneIsForetoldWithItsPictures) {
   ASSERT_EQ(info.status, 0) << info.err;
   const double forecast_mib = json::parse(info.out)["memory_bytes"].get<double>() / 1048576.0;
   const Outcome ran = simulate(scene_file("two_squares.toml"), work);
-  EXPECT_NEAR(forecast_mib / ran.peak_mib, 1.0, 0.2) << forecast_mib << " MiB forecast";
+  EXPECT_NEAR(forecast_mib / ran.peak_mib, 1.0, 0.15) << forecast_mib << " MiB forecast";
 }
 
 // 400 copies of the stand, which share its triangles. Of what 400,000 triangles take by themselves, corners and tree are saved:

@@ -69,8 +69,8 @@ void keep_freed_memory() {
 }
 
 void keep_freed_memory_for(const TracerDevice& device) {
-  constexpr int most_of_glibc = 32 << 20;
-  if (!device.software) keep_freed(most_of_glibc);
+  constexpr int large_bytes = 32 << 20;  // the most that glibc allows
+  if (!device.software) keep_freed(large_bytes);
 }
 
 int finish_output(int status) {

@@ -70,7 +70,8 @@ LiveLight::LiveLight(Simulation& simulation, const RunOptions& options, std::fun
       played_s_(played_s),
       has_receivers_(remove_receivers(simulation.scene())),
       // The results of the last ones are kept meanwhile.
-      most_together_(lights_in_memory(simulation.model(), true, false, 0.5 * settings_.memory_bytes.value())),
+      most_in_memory_(lights_in_memory(simulation.model(), true, false, 0.5 * settings_.memory_bytes.value())),
+      most_together_(most_in_memory_),
       request_(request_of(original_)) {
   simulation.remember_beams(most_beam_bytes);
   asked_ = 1;
@@ -273,7 +274,7 @@ bool LiveLight::simulate_together(const std::vector<LightRequest>& moments, doub
     const std::lock_guard lock(news_mutex_);
     together_.clear();
   }
-  if (!in_time) most_together_ /= 2;
+  most_together_ = in_time ? std::min(2 * most_together_, most_in_memory_) : most_together_ / 2;
   show_kept();
   return in_time;
 }
