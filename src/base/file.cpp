@@ -151,7 +151,7 @@ std::uintmax_t available_memory_bytes() {
   return available;
 }
 
-std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
+void expect_file(const fs::path& file) {
   std::error_code code;
   const fs::file_status status = fs::status(file, code);
   if (status.type() == fs::file_type::not_found) {
@@ -161,9 +161,13 @@ std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
   if (code) refuse_read(file, code.message(), "check the path and its permissions");
   if (fs::is_directory(status)) refuse_read(file, "it is a directory", "name a file");
   if (!fs::is_regular_file(status)) refuse_read(file, "it is not a regular file", "name a file on disk");
+}
 
+std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
+  expect_file(file);
   const Handle handle = open(file, "rb");
   if (!handle) refuse_read(file, std::strerror(errno), "check its permissions");
+  std::error_code code;
   const std::uintmax_t size = fs::file_size(file, code);
   if (code) refuse_read(file, code.message(), "check the path and its permissions");
   if (const std::uintmax_t most = std::min(most_bytes, physical_memory_bytes()); size > most)

@@ -27,6 +27,7 @@ void refuse_stand(const fs::path& scene, const StandFiles& stand) {
 
 CaribuSet caribu_set(const fs::path& mesh, const StandFiles& stand, bool allow_outside) {
   if (stand.optics.empty() || stand.light.empty()) {
+    expect_file(mesh);
     throw_input(
         printable(mesh.string()), "a mesh alone has neither optics nor light",
         fmt::format("write a scene for it: sunfleck new {} -o stand.toml; or give --optics FILE.opt and --light FILE.light",

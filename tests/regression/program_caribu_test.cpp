@@ -192,6 +192,7 @@ TEST_F(CaribuProgram, MistakesAreOneLine) {
   };
   const std::string scene = scene_file("two_squares.toml").string();
   refused({}, "stand.can (a mesh alone has neither");
+  refused({}, "absent.can: cannot be read (there is no such file)", "absent.can");
   refused({"--optics", "par.opt"}, "--light FILE.light");
   refused({"--light", "sun.light"}, "--optics FILE.opt");
   refused({"--optics", "par.opt"}, "--optics (", scene);

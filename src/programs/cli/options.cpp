@@ -163,7 +163,10 @@ std::string nearest_option(const std::string& unknown, const CLI::App& command, 
 [[noreturn]] void throw_usage(const CLI::ParseError& error, const CLI::App& app, int argc, const char* const* argv) {
   const std::string first = argc > 1 ? printable(argv[1]) : "";
   const auto chosen = app.get_subcommands();
-  if (chosen.empty() && (first.empty() || first[0] != '-')) {
+  if (chosen.empty() && !first.empty() && first[0] == '-') {
+    throw_input("command line: " + first, "unknown option", nearest_option(first, app, "see sunfleck --help"));
+  }
+  if (chosen.empty()) {
     std::vector<std::string> commands;
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
       commands.push_back(command->get_name());
@@ -177,7 +180,10 @@ std::string nearest_option(const std::string& unknown, const CLI::App& command, 
   const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
   const std::vector<std::string> unknown = app.remaining(true);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !unknown.empty()) {
-    throw_input("command line: " + printable(unknown.front()), "unknown option or argument",
+    const std::string word = printable(unknown.front());
+    if (word == first && first[0] == '-')
+      throw_input("command line: " + word, "an option before the command", "put it behind the command");
+    throw_input("command line: " + word, "unknown option or argument",
                 nearest_option(unknown.front(), chosen.empty() ? app : *chosen.front(), cure));
   }
   const std::string what = printable(error.what());

@@ -127,6 +127,7 @@ class Solver {
     judge_.judge_triangles(*series_);
     share_rays();
     SeriesOutcome pilots = outcome();
+    pilots.rays_each = static_cast<double>(series_->traced()) / static_cast<double>(pilots.replicates);
     pilots.seconds_each = (seconds() - before) / static_cast<double>(pilots.replicates);
     if (settings_.max_seconds) pilots.seconds_left = std::max(0.0, *settings_.max_seconds - seconds());
     keep_fallback();

@@ -108,6 +108,7 @@ std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
       const double fits = std::min(most, most_packets({rays.chosen, 0.0}));
       packets = forecast(pilot.packets, packet_growth(*pilots, asked_replicates()), affordable_growth(*pilots), fits);
     }
+    fit_to_rays(pilot, pilots->rays_each, rays, packets);
     const Work larger{chooses_rays ? ray_forecast.next_pilot(pilot.rays, rays.chosen) : pilot.rays,
                       packet_forecast.next_pilot(pilot.packets, packets.chosen)};
     if (fitted_to_time_ || (larger.rays == pilot.rays && larger.packets == pilot.packets)) return balanced(rays, packets);
@@ -122,6 +123,18 @@ WorkPlanner::Part WorkPlanner::forecast(double pilot, double growth, double affo
   const double affordable = pilot * affordable_growth;
   if (affordable < possible) fitted_to_time_ = true;
   return {wanted, std::max(1.0, std::min(possible, affordable))};
+}
+
+// Lessens both parts alike if least_replicates of them would spend more than half of a limit on rays. Packets of the first round bring
+// those of later rounds along, and the sky's rays.
+void WorkPlanner::fit_to_rays(const Work& pilot, double rays_of_pilot, Part& rays, Part& packets) const {
+  if (!settings_.max_rays || settings_.grid_m) return;
+  const double per_packet = pilot.packets > 0.0 ? std::max(1.0, (rays_of_pilot - pilot.rays) / pilot.packets) : 0.0;
+  const double most = static_cast<double>(*settings_.max_rays) / (2.0 * least_replicates);
+  const double share = std::min(1.0, most / (rays.chosen + per_packet * packets.chosen));
+  for (Part* part : {&rays, &packets}) {
+    if (part->chosen > 0.0) part->chosen = std::max(1.0, share * part->chosen);
+  }
 }
 
 // More replicates make up for packets that do not fit the memory, and each of them then needs fewer rays.

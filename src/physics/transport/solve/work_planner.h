@@ -32,6 +32,7 @@ struct SeriesOutcome {
   double direct_error = 0.0, indirect_error = 0.0;  // compared with the bounds; 0 without such light
   double seconds_each = 0.0;
   double seconds_left = 0.0;  // of max_seconds
+  double rays_each = 0.0;     // rays of a replicate: those of the beam and the sky, and the packets of all rounds
 };
 
 class WorkPlanner {
@@ -95,6 +96,7 @@ class WorkPlanner {
 
   [[nodiscard]] std::optional<Work> choose_by_pilots(const RunPilots& run_pilots);
   [[nodiscard]] Part forecast(double pilot, double growth, double affordable_growth, double most);
+  void fit_to_rays(const Work& pilot, double rays_of_pilot, Part& rays, Part& packets) const;
   [[nodiscard]] Work balanced(const Part& rays, const Part& packets) const;
   [[nodiscard]] double ray_growth(const SeriesOutcome& series, int replicates) const;
   [[nodiscard]] double packet_growth(const SeriesOutcome& series, int replicates) const;

@@ -277,6 +277,10 @@ TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}),
             "command line: --bogus (unknown option or argument); see sunfleck run --help");
   EXPECT_EQ(refusal({"ran"}), "ran (unknown command); did you mean run?");
+  EXPECT_EQ(refusal({"--quiet", "run", "a.toml"}),
+            "command line: --quiet (an option before the command); put it behind the command");
+  EXPECT_EQ(refusal({"--verison"}), "command line: --verison (unknown option); did you mean --version?");
+  EXPECT_EQ(refusal({"--bogus"}), "command line: --bogus (unknown option); see sunfleck --help");
   EXPECT_EQ(refusal({"simulate"}),
             "simulate (unknown command); use run, day, render, view, validate, tradeoff, maize, convert, new or info; see "
             "sunfleck --help");

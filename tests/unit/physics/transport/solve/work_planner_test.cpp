@@ -19,8 +19,12 @@ class WorkPlannerTest : public ::testing::Test {
   [[nodiscard]] SeriesOutcome outcome(const Work& work, std::size_t replicates) const {
     const double half_width =
         t_quantile(settings_.accuracy.confidence, replicates) / std::sqrt(static_cast<double>(replicates));
-    return {replicates, direct_of_one_ray_ * half_width * std::pow(work.rays, -0.7),
-            indirect_of_one_packet_ * half_width / std::sqrt(work.packets)};
+    return {replicates,
+            direct_of_one_ray_ * half_width * std::pow(work.rays, -0.7),
+            indirect_of_one_packet_ * half_width / std::sqrt(work.packets),
+            0.0,
+            0.0,
+            work.rays + rays_per_packet_ * work.packets};
   }
 
   // Returns the chosen work, and records the pilots.
@@ -46,6 +50,7 @@ class WorkPlannerTest : public ::testing::Test {
   ReplicateMaker maker_{model_, prepared_.layout, tracer_};
   SolveSettings settings_;
   double direct_of_one_ray_ = 1.0, indirect_of_one_packet_ = 0.5;
+  double rays_per_packet_ = 4.5;  // the packet's own, those of later rounds, and the sky's
   std::vector<Pilots> pilots_;
 };
 
@@ -85,6 +90,21 @@ TEST_F(WorkPlannerTest, KeepsThePilotsWorkWhereTheBoundsAreWide) {
   EXPECT_EQ(pilots_.size(), 1U);
   EXPECT_EQ(work->rays, first_pilot.rays);
   EXPECT_EQ(work->packets, first_pilot.packets);
+}
+
+// Eight replicates take half of the rays, however many rays each packet brings along.
+TEST_F(WorkPlannerTest, LeavesEnoughReplicatesForALimitOfRays) {
+  settings_.accuracy.direct = 1e-5;
+  settings_.accuracy.indirect = 1e-4;
+  const std::optional<Work> free = choose();
+  ASSERT_TRUE(free);
+  settings_.max_rays = 4'000'000;
+  const std::optional<Work> limited = choose();
+  ASSERT_TRUE(limited);
+  const double rays_each = limited->rays + rays_per_packet_ * limited->packets;
+  EXPECT_NEAR(rays_each, 4e6 / 16.0, 2.0);
+  EXPECT_LT(limited->rays, free->rays);
+  EXPECT_LT(limited->packets, free->packets);
 }
 
 TEST_F(WorkPlannerTest, LeavesTheGridAsItIs) {
