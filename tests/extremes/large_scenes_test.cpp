@@ -1,5 +1,5 @@
-// Tests ten million triangles: the run needs the memory that the program forecasts, within a fifth, the numbers are right, and
-// messages name the limits.
+// Tests ten million triangles: the run needs as much memory as the program forecasts, the numbers are right, and messages
+// name the limits.
 #include "regression/program.h"
 
 #include <fmt/format.h>
@@ -59,7 +59,8 @@ TEST_F(LargeScenes, TenMillionTriangles) {
     EXPECT_EQ(summary()["lost_rays"], 0);
     const double said_mib = told["memory_without_pictures_bytes"].get<double>() / 1048576.0;
     std::printf("%s: %.0f MiB, %.0f MiB said\n", device, ran.peak_mib, said_mib);
-    EXPECT_NEAR(said_mib / ran.peak_mib, 1.0, 0.2) << device;
+    EXPECT_LT(ran.peak_mib, 1.15 * said_mib) << device;
+    EXPECT_GT(ran.peak_mib, 0.7 * said_mib) << device;
   }
 }
 

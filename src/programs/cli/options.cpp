@@ -177,14 +177,14 @@ std::string nearest_option(const std::string& unknown, const CLI::App& command, 
     throw_input(first.empty() ? "command line" : first, first.empty() ? "no command" : "unknown command",
                 "use run, day, render, view, validate, tradeoff, maize, convert, new or info; see sunfleck --help");
   }
-  const std::string cure = fmt::format("see sunfleck {}--help", chosen.empty() ? "" : chosen.front()->get_name() + " ");
+  const CLI::App& command = *chosen.front();
+  const std::string cure = fmt::format("see sunfleck {} --help", command.get_name());
   const std::vector<std::string> unknown = app.remaining(true);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !unknown.empty()) {
     const std::string word = printable(unknown.front());
     if (word == first && first[0] == '-')
       throw_input("command line: " + word, "an option before the command", "put it behind the command");
-    throw_input("command line: " + word, "unknown option or argument",
-                nearest_option(unknown.front(), chosen.empty() ? app : *chosen.front(), cure));
+    throw_input("command line: " + word, "unknown option or argument", nearest_option(unknown.front(), command, cure));
   }
   const std::string what = printable(error.what());
   const std::size_t colon = what.find(": ");

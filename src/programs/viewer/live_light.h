@@ -137,8 +137,8 @@ class LiveLight {
   bool has_receivers_;          // planes or sensors, which the window does not show
   bool is_played_ = false;      // the result is that of a moment of a played day
   std::size_t most_in_memory_;  // moments for which there is memory
-  // Moments that are simulated together: half as many after a time that was too short for them, twice as many after one that was
-  // long enough, and never more again once a single one is left.
+  // Moments that are simulated together: half as many after a time that was too short for them, twice as many after one that
+  // was long enough, and never more again once a single one is left.
   std::size_t most_together_;
 
   std::atomic<bool> quitting_ = false;

@@ -86,8 +86,7 @@ std::optional<Work> WorkPlanner::choose(const RunPilots& run_pilots) {
 // tells how many rays and how many packets the run needs, and larger ones follow until both forecasts can be trusted. Returns
 // nothing if stopped.
 std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
-  double most_rays = static_cast<double>(max_grid_rays);
-  if (settings_.max_rays) most_rays = std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * least_replicates));
+  const double most_rays = std::min(static_cast<double>(max_grid_rays), rays_within_limit());
   // On a fixed grid there is at most one packet per ray, and at least as many packets as in the first pilot.
   const double grid_rays = settings_.grid_m ? grid_rays_asked() : 0.0;
   double most = most_rays;
@@ -125,13 +124,18 @@ WorkPlanner::Part WorkPlanner::forecast(double pilot, double growth, double affo
   return {wanted, std::max(1.0, std::min(possible, affordable))};
 }
 
-// Lessens both parts alike if least_replicates of them would spend more than half of a limit on rays. Packets of the first round bring
-// those of later rounds along, and the sky's rays.
+// Returns as many rays as a replicate may have if half of a limit on rays is to be enough for least_replicates.
+double WorkPlanner::rays_within_limit() const {
+  if (!settings_.max_rays) return std::numeric_limits<double>::infinity();
+  return std::max(1.0, static_cast<double>(*settings_.max_rays) / (2.0 * least_replicates));
+}
+
+// Lessens both parts alike if they exceed a limit on rays. Packets of the first round bring along those of later rounds, and
+// the sky's rays.
 void WorkPlanner::fit_to_rays(const Work& pilot, double rays_of_pilot, Part& rays, Part& packets) const {
   if (!settings_.max_rays || settings_.grid_m) return;
   const double per_packet = pilot.packets > 0.0 ? std::max(1.0, (rays_of_pilot - pilot.rays) / pilot.packets) : 0.0;
-  const double most = static_cast<double>(*settings_.max_rays) / (2.0 * least_replicates);
-  const double share = std::min(1.0, most / (rays.chosen + per_packet * packets.chosen));
+  const double share = std::min(1.0, rays_within_limit() / (rays.chosen + per_packet * packets.chosen));
   for (Part* part : {&rays, &packets}) {
     if (part->chosen > 0.0) part->chosen = std::max(1.0, share * part->chosen);
   }

@@ -96,6 +96,7 @@ class WorkPlanner {
 
   [[nodiscard]] std::optional<Work> choose_by_pilots(const RunPilots& run_pilots);
   [[nodiscard]] Part forecast(double pilot, double growth, double affordable_growth, double most);
+  [[nodiscard]] double rays_within_limit() const;
   void fit_to_rays(const Work& pilot, double rays_of_pilot, Part& rays, Part& packets) const;
   [[nodiscard]] Work balanced(const Part& rays, const Part& packets) const;
   [[nodiscard]] double ray_growth(const SeriesOutcome& series, int replicates) const;
