@@ -1,6 +1,7 @@
 #include "base/packed_array.h"
 
 #include <libdeflate.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -49,15 +50,25 @@ std::size_t packed_bytes(const json& value) {
   return bytes;
 }
 
-std::vector<std::uint8_t> deflated_stream(std::span<const std::byte> bytes) {
-  constexpr int fastest = 1;
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  std::vector<std::uint8_t> packed(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
-  packed.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
-  return packed;
-}
+// What a thread needs to deflate streams one after the other.
+class StreamDeflater {
+ public:
+  StreamDeflater() : compressor_(libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor) {
+    if (!compressor_) throw std::bad_alloc();
+    space_.resize(libdeflate_zlib_compress_bound(compressor_.get(), stream_bytes));
+  }
+
+  std::vector<std::uint8_t> operator()(std::span<const std::byte> bytes) {
+    const std::size_t packed =
+        libdeflate_zlib_compress(compressor_.get(), bytes.data(), bytes.size(), space_.data(), space_.size());
+    return {space_.begin(), space_.begin() + static_cast<std::ptrdiff_t>(packed)};
+  }
+
+ private:
+  static constexpr int fastest = 1;
+  std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor_;
+  std::vector<std::uint8_t> space_;
+};
 
 class Deflater {
  public:
@@ -74,23 +85,31 @@ class Deflater {
 
   json::binary_t finish() {
     deflate_waiting();
-    packed_.shrink_to_fit();
-    return std::move(packed_);
+    std::size_t bytes = 0;
+    for (const auto& stream : streams_) bytes += stream.size();
+    json::binary_t packed{std::vector<std::uint8_t>{}};
+    packed.reserve(bytes);
+    for (auto& stream : streams_) {
+      packed.insert(packed.end(), stream.begin(), stream.end());
+      stream = {};
+    }
+    return packed;
   }
 
  private:
   void deflate_waiting() {
-    std::vector<std::vector<std::uint8_t>> streams((waiting_.size() + stream_bytes - 1) / stream_bytes);
-    tbb::parallel_for(std::size_t{0}, streams.size(), [&](std::size_t k) {
-      const auto rest = std::span<const std::byte>(waiting_).subspan(k * stream_bytes);
-      streams[k] = deflated_stream(rest.first(std::min(rest.size(), stream_bytes)));
+    const std::size_t first = streams_.size();
+    streams_.resize(first + (waiting_.size() + stream_bytes - 1) / stream_bytes);
+    tbb::parallel_for(first, streams_.size(), [&](std::size_t k) {
+      const auto rest = std::span<const std::byte>(waiting_).subspan((k - first) * stream_bytes);
+      streams_[k] = deflaters_.local()(rest.first(std::min(rest.size(), stream_bytes)));
     });
-    for (const auto& stream : streams) packed_.insert(packed_.end(), stream.begin(), stream.end());
     waiting_.clear();
   }
 
   std::vector<std::byte> waiting_;
-  json::binary_t packed_{std::vector<std::uint8_t>{}};
+  tbb::enumerable_thread_specific<StreamDeflater> deflaters_;
+  std::vector<std::vector<std::uint8_t>> streams_;
 };
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace sunfleck {
 namespace {
 
 constexpr double unit = 0x1p32;  // of expectations
-// Sides and packets that a thread takes at a time.
-constexpr std::size_t sides_per_block = 4096;
+// Places and packets that a thread takes at a time.
+constexpr std::size_t places_per_draw_block = 2048;
 constexpr std::size_t packets_per_block = 4096;
 // StandAim::packets_per_flux is at least 2^-aim_bits.
 constexpr unsigned aim_bits = StandAim::least_bits;
@@ -66,33 +66,37 @@ void PacketDraw::set_scales(std::span<const std::int64_t> totals) {
   }
 }
 
-std::uint64_t PacketDraw::expectation(const EmissionPoint& place, std::span<const std::int64_t> quanta,
-                                      std::size_t side) const {
-  const SentPart sent = scattering_.sent(place, side);
-  const std::uint64_t sum = columns::sum_scaled(quanta, sent, scales_, columns_.first);
-  if (!any_least_) return sum;
-  // The largest and not the sum, because a packet serves all columns.
-  return std::max(sum, columns::largest_scaled(quanta, sent, least_, columns_.first));
+// Returns the expectations of the two sides of a place.
+std::array<std::uint64_t, 2> PacketDraw::expectations(const EmissionPoint& place, std::span<const std::int64_t> quanta) const {
+  const ScatteredParts parts = scattering_.scattered(place);
+  OfBothParts expected = columns::sum_scaled(quanta, parts, scales_, columns_.first);
+  if (any_least_) {
+    // The largest and not the sum, because a packet serves all columns.
+    const OfBothParts least = columns::largest_scaled(quanta, parts, least_, columns_.first);
+    expected = {std::max(expected.reflected, least.reflected), std::max(expected.transmitted, least.transmitted)};
+  }
+  if (place.surface % 2 == 0) return {expected.reflected, expected.transmitted};
+  return {expected.transmitted, expected.reflected};
 }
 
 // Sums the expectations within each block, and those of all blocks before it.
 void PacketDraw::expect(const WaitingFlux& places) {
   arrays_.up_to.resize(2 * places.size());
-  before_.assign(block_count(arrays_.up_to.size(), sides_per_block) + 1, {});
-  in_blocks(arrays_.up_to.size(), sides_per_block, [&](std::size_t block, std::size_t first, std::size_t end) {
-    BlockSums sums;
-    for (std::size_t number = first; number < end; ++number) {
-      const std::size_t side = number < places.size() ? 0 : 1;
-      const std::size_t k = number - side * places.size();
+  const std::size_t blocks = block_count(places.size(), places_per_draw_block);
+  before_.assign(2 * blocks + 1, {});
+  in_blocks(places.size(), places_per_draw_block, [&](std::size_t block, std::size_t first, std::size_t end) {
+    std::array<BlockSums, 2> sums;
+    for (std::size_t k = first; k < end; ++k) {
       const EmissionPoint& place = places.place(k);
-      if (scattering_.sends(place, side)) {
-        const std::uint64_t expected = expectation(place, places.quanta(k, columns_), side);
-        sums.unaimed += expected;
-        sums.aimed += aim_ == nullptr ? expected : shared::part_of(expected, aim_of(place), 0);
+      const std::array<std::uint64_t, 2> expected = expectations(place, places.quanta(k, columns_));
+      const std::uint64_t aim = aim_ != nullptr ? aim_of(place) : std::uint64_t{1} << 32U;
+      for (std::size_t side = 0; side < 2; ++side) {
+        sums[side].unaimed += expected[side];
+        sums[side].aimed += shared::part_of(expected[side], aim, 0);
+        arrays_.up_to[side * places.size() + k] = sums[side].aimed;
       }
-      arrays_.up_to[number] = sums.aimed;
     }
-    before_[block] = sums;
+    for (std::size_t side = 0; side < 2; ++side) before_[side * blocks + block] = sums[side];
   });
   BlockSums sums;
   for (BlockSums& block : before_) {
@@ -109,8 +113,12 @@ void PacketDraw::take(std::uint64_t offset) {
   first_round_ = false;
   const std::uint64_t gain = std::max(pace_, shared::long_quotient(least_packets, 0, sum) + 1);
   arrays_.number.resize(shared::drawn_up_to(sum, gain, offset));
-  in_blocks(arrays_.up_to.size(), sides_per_block, [&](std::size_t block, std::size_t first, std::size_t end) {
-    take_block(before_[block].aimed, gain, offset, first, end);
+  const std::size_t places = arrays_.up_to.size() / 2;
+  const std::size_t blocks = before_.size() / 2;
+  in_blocks(places, places_per_draw_block, [&](std::size_t block, std::size_t first, std::size_t end) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      take_block(before_[side * blocks + block].aimed, gain, offset, side * places + first, side * places + end);
+    }
   });
 }
 

@@ -6,6 +6,7 @@
 #include "physics/transport/indirect/scattering.h"
 #include "physics/transport/indirect/waiting_flux.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -74,8 +75,8 @@ class PacketDraw {
   void take_block(std::uint64_t before, std::uint64_t gain, std::uint64_t offset, std::size_t first, std::size_t end);
   void weigh(const WaitingFlux& places, std::span<const std::int64_t> totals);
   void weigh_block(const WaitingFlux& places, std::size_t first, std::size_t end, std::vector<std::uint64_t>& weights);
-  [[nodiscard]] std::uint64_t expectation(const EmissionPoint& place, std::span<const std::int64_t> quanta,
-                                          std::size_t side) const;
+  [[nodiscard]] std::array<std::uint64_t, 2> expectations(const EmissionPoint& place,
+                                                          std::span<const std::int64_t> quanta) const;
   [[nodiscard]] std::uint64_t aim_of(const EmissionPoint& place) const;
 
   const Scattering& scattering_;
@@ -88,7 +89,7 @@ class PacketDraw {
   bool any_least_ = false;
   FactorColumns loads_;
   std::vector<std::uint64_t> weights_;  // [column], sums over all packets
-  std::vector<BlockSums> before_;       // [block], of all earlier blocks; the last element is of all blocks
+  std::vector<BlockSums> before_;       // [side * blocks + block], of all before it; the last element is of all blocks
   // Packets drawn for each one expected, in units of 2^-32. Aiming takes packets from the first round, which this makes up for.
   std::uint64_t pace_ = std::uint64_t{1} << 32U;
   bool first_round_ = true;

@@ -6,7 +6,11 @@ namespace sunfleck {
 
 std::unique_ptr<PassArrays> SparePassArrays::take() {
   const std::lock_guard lock(mutex_);
-  if (spare_.empty()) return std::make_unique<PassArrays>();
+  if (spare_.empty()) {
+    auto arrays = std::make_unique<PassArrays>();
+    arrays->blocks = blocks_;
+    return arrays;
+  }
   std::unique_ptr<PassArrays> arrays = std::move(spare_.back());
   spare_.pop_back();
   return arrays;
@@ -20,6 +24,8 @@ void SparePassArrays::give_back(std::unique_ptr<PassArrays> arrays) {
 void SparePassArrays::free() {
   const std::lock_guard lock(mutex_);
   spare_.clear();
+  blocks_->close();
+  blocks_ = std::make_shared<SpareBlocks>();
 }
 
 }  // namespace sunfleck

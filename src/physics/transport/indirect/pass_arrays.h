@@ -41,6 +41,7 @@ struct PassArrays {
   std::vector<std::int64_t> carried;
   RoundsSums found;                              // by a device that makes the rounds
   PlaceSums::Extent sides_landed, cells_landed;  // of the last pass
+  std::shared_ptr<SpareBlocks> blocks;           // for the rows of sums
 };
 
 // Lends arrays to passes that run at the same time.
@@ -54,6 +55,7 @@ class SparePassArrays {
  private:
   std::mutex mutex_;
   std::vector<std::unique_ptr<PassArrays>> spare_;
+  std::shared_ptr<SpareBlocks> blocks_ = std::make_shared<SpareBlocks>();
 };
 
 }  // namespace sunfleck

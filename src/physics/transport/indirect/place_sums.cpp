@@ -17,19 +17,24 @@ constexpr std::size_t list_part = 4;
 
 }  // namespace
 
-PlaceSums::PlaceSums(std::size_t places, std::size_t width, const Extent& like) : PlaceSums(places, width) {
+PlaceSums::PlaceSums(std::size_t places, std::size_t width, const Extent& like, std::shared_ptr<SpareBlocks> spare)
+    : PlaceSums(places, width) {
   if (form_ == Form::indexed) {
-    at_.reserve(like.entries);
-    rows_.reserve(like.entries * width_);
+    rows_ = RowBlocks(width, places, std::move(spare));
   } else if (like.all || like.entries > most_entries_of_list()) {
     form_ = Form::all;
     all_.resize(size());
   }
 }
 
+PlaceSums::PlaceSums(std::size_t places, std::size_t width)
+    : places_(places), width_(width), form_(width < least_indexed_width ? Form::list : Form::indexed) {
+  if (form_ == Form::indexed) rows_ = RowBlocks(width, places, nullptr);
+}
+
 std::size_t PlaceSums::bytes() const {
-  return (at_.capacity() + entry_at_.capacity()) * sizeof(std::uint32_t) +
-         (rows_.capacity() + all_.capacity()) * sizeof(std::int64_t);
+  return (at_.capacity() + row_at_.capacity()) * sizeof(std::uint32_t) + rows_.bytes() +
+         (entries_.capacity() + all_.capacity()) * sizeof(std::int64_t);
 }
 
 PlaceBytes PlaceSums::likely_bytes(const PlaceBytes& list_bytes, const PlaceBytes& all_bytes) {
@@ -46,32 +51,22 @@ void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values, std
       append(place, values);
       return keep_list_within_limit();
     case Form::indexed: {
-      if (entry_at_.empty()) entry_at_.resize(places_);
-      std::uint32_t& entry = entry_at_[place];
-      if (entry == 0) {
-        append_row(place);
-        entry = static_cast<std::uint32_t>(at_.size());
+      if (row_at_.empty()) row_at_.resize(places_);
+      std::uint32_t& row = row_at_[place];
+      if (row == 0) {
+        rows_.append();
+        row = static_cast<std::uint32_t>(rows_.size());
       }
-      return columns::add(values, &rows_[(entry - 1) * width_ + first]);
+      return columns::add(values, &rows_[row - 1][first]);
     }
     case Form::all:
       return columns::add(values, &all_[place * width_]);
   }
 }
 
-// Appends a row of zeros. Grows as vectors do, but never beyond what all places need.
-void PlaceSums::append_row(std::size_t place) {
-  if (rows_.size() == rows_.capacity()) {
-    constexpr std::size_t first_entries = 64;
-    rows_.reserve(std::min(size(), std::max(2 * rows_.size(), first_entries * width_)));
-  }
-  at_.push_back(static_cast<std::uint32_t>(place));
-  rows_.resize(rows_.size() + width_);
-}
-
 void PlaceSums::append(std::size_t place, std::span<const std::int64_t> values) {
   at_.push_back(static_cast<std::uint32_t>(place));
-  rows_.insert(rows_.end(), values.begin(), values.end());
+  entries_.insert(entries_.end(), values.begin(), values.end());
 }
 
 void PlaceSums::add(const PlaceSums& other) {
@@ -106,7 +101,7 @@ void PlaceSums::add_all(std::span<const std::int64_t> sums) {
 std::vector<std::int64_t> PlaceSums::all() const {
   if (form_ == Form::all) return all_;
   std::vector<std::int64_t> sums(size());
-  for (std::size_t k = 0; k < at_.size(); ++k) columns::add(row(rows_, k), &sums[at_[k] * width_]);
+  for_each([&](std::size_t place, std::span<const std::int64_t> values) { columns::add(values, &sums[place * width_]); });
   return sums;
 }
 
@@ -121,7 +116,7 @@ void PlaceSums::put_in_order() {
 
 std::size_t PlaceSums::step_of(std::size_t place) const {
   if (form_ == Form::list) return static_cast<std::size_t>(std::lower_bound(at_.begin(), at_.end(), place) - at_.begin());
-  return form_ == Form::indexed && at_.empty() ? 0 : place;
+  return form_ == Form::indexed && row_at_.empty() ? 0 : place;
 }
 
 PlaceSums PlaceSums::merged() const {
@@ -132,9 +127,9 @@ PlaceSums PlaceSums::merged() const {
   for (const std::uint32_t entry : order) {
     if (list.at_.empty() || list.at_.back() != at_[entry]) {
       list.at_.push_back(at_[entry]);
-      list.rows_.resize(list.rows_.size() + width_);
+      list.entries_.resize(list.entries_.size() + width_);
     }
-    columns::add(row(rows_, entry), &list.rows_[list.rows_.size() - width_]);
+    columns::add(part(entries_, entry), &list.entries_[list.entries_.size() - width_]);
   }
   return list;
 }
@@ -155,7 +150,7 @@ void PlaceSums::keep_list_within_limit() {
   }
   all_ = list.all();
   at_ = std::vector<std::uint32_t>();
-  rows_ = LargeVector<std::int64_t>();
+  entries_ = LargeVector<std::int64_t>();
   form_ = Form::all;
 }
 
@@ -163,18 +158,17 @@ PlaceSums::Finder::Finder(const PlaceSums& sums) : sums_(sums) {
   if (sums.form_ != Form::list) return;
   PlaceSums ordered = sums.merged();
   at_ = std::move(ordered.at_);
-  rows_ = std::move(ordered.rows_);
+  entries_ = std::move(ordered.entries_);
 }
 
 std::span<const std::int64_t> PlaceSums::Finder::at(std::size_t place) const {
-  if (sums_.form_ == Form::all) return sums_.row(sums_.all_, place);
-  if (sums_.form_ == Form::indexed) {
-    if (sums_.entry_at_.empty() || sums_.entry_at_[place] == 0) return {};
-    return sums_.row(sums_.rows_, sums_.entry_at_[place] - 1);
+  if (sums_.form_ == Form::list) {
+    const auto found = std::lower_bound(at_.begin(), at_.end(), place);
+    if (found == at_.end() || *found != place) return {};
+    return sums_.part(entries_, static_cast<std::size_t>(found - at_.begin()));
   }
-  const auto found = std::lower_bound(at_.begin(), at_.end(), place);
-  if (found == at_.end() || *found != place) return {};
-  return sums_.row(rows_, static_cast<std::size_t>(found - at_.begin()));
+  if (sums_.form_ == Form::indexed && (sums_.row_at_.empty() || !sums_.has(place))) return {};
+  return sums_.values_at(place);
 }
 
 }  // namespace sunfleck

@@ -4,10 +4,12 @@
 
 #include "base/large_pages.h"
 #include "base/prefetch.h"
+#include "base/row_blocks.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -33,16 +35,16 @@ class PlaceSums {
   PlaceSums() = default;  // no place
 
   // Holds `width` sums, all 0, for each of `places` places. There are fewer than 2^32 places.
-  PlaceSums(std::size_t places, std::size_t width)
-      : places_(places), width_(width), form_(width < least_indexed_width ? Form::list : Form::indexed) {}
+  PlaceSums(std::size_t places, std::size_t width);
 
-  // How much sums hold: all of them, or rows or entries in another form.
+  // How much sums hold: all of them, or entries of a list.
   struct Extent {
     bool all = false;
     std::size_t entries = 0;
   };
-  // Does the same, ready for as much as other sums of the same width held in the end.
-  PlaceSums(std::size_t places, std::size_t width, const Extent& like);
+  // Does the same, ready for as much as other sums of the same width held in the end. Rows come from `spare` and return there;
+  // it may be null.
+  PlaceSums(std::size_t places, std::size_t width, const Extent& like, std::shared_ptr<SpareBlocks> spare = nullptr);
   [[nodiscard]] Extent extent() const { return {form_ == Form::all, at_.size()}; }
 
   // Returns the number of sums, places times width.
@@ -109,7 +111,7 @@ class PlaceSums {
    private:
     const PlaceSums& sums_;
     std::vector<std::uint32_t> at_;  // a list's places in ascending order, and their sums
-    LargeVector<std::int64_t> rows_;
+    LargeVector<std::int64_t> entries_;
   };
 
   // Passes all sums to `archive` in their order, one by one; those of a const object are written, others are filled.
@@ -156,37 +158,40 @@ class PlaceSums {
     for (std::size_t step = first; step < end; ++step) {
       if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < end && has(ahead)) {
         come(place_of(ahead));
-        sunfleck::prefetch(rows_[entry_of(ahead) * width_]);
+        sunfleck::prefetch(values_at(ahead).front());
       }
       if (!has(step)) continue;
-      const std::span<const std::int64_t> values = form_ == Form::all ? row(all_, step) : row(rows_, entry_of(step));
+      const std::span<const std::int64_t> values = values_at(step);
       if (std::all_of(values.begin(), values.end(), [](std::int64_t value) { return value == 0; })) continue;
       take(place_of(step), values);
     }
   }
   // Returns the first step of the places from a number on.
   [[nodiscard]] std::size_t step_of(std::size_t place) const;
-  // Return whether there is anything at a step, its place, and where its values are.
-  [[nodiscard]] bool has(std::size_t step) const { return form_ != Form::indexed || entry_at_[step] != 0; }
+  // Return whether there is anything at a step, its place, and its values.
+  [[nodiscard]] bool has(std::size_t step) const { return form_ != Form::indexed || row_at_[step] != 0; }
   [[nodiscard]] std::size_t place_of(std::size_t step) const { return form_ == Form::list ? at_[step] : step; }
-  [[nodiscard]] std::size_t entry_of(std::size_t step) const { return form_ == Form::indexed ? entry_at_[step] - 1 : step; }
-  template <class Rows>
-  [[nodiscard]] std::span<const std::int64_t> row(const Rows& rows, std::size_t number) const {
-    return std::span(rows).subspan(number * width_, width_);
+  [[nodiscard]] std::span<const std::int64_t> values_at(std::size_t step) const {
+    if (form_ == Form::indexed) return rows_[row_at_[step] - 1];
+    return form_ == Form::list ? part(entries_, step) : part(all_, step);
+  }
+  template <class Values>
+  [[nodiscard]] std::span<const std::int64_t> part(const Values& values, std::size_t number) const {
+    return std::span(values).subspan(number * width_, width_);
   }
 
   void append(std::size_t place, std::span<const std::int64_t> values);
-  void append_row(std::size_t place);
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
   void keep_list_within_limit();
   [[nodiscard]] std::size_t most_entries_of_list() const;
 
   std::size_t places_ = 0, width_ = 0;
   Form form_ = Form::list;
-  std::vector<std::uint32_t> at_;        // [entry], place; empty in the form of all sums
-  LargeVector<std::int64_t> rows_;       // [entry * width + k]
-  std::vector<std::uint32_t> entry_at_;  // [place], number of its entry from 1, or 0; of the indexed form once it has an entry
-  std::vector<std::int64_t> all_;        // [place * width + k], in the form of all sums
+  std::vector<std::uint32_t> at_;      // [entry of the list], place
+  LargeVector<std::int64_t> entries_;  // [entry * width + k]
+  RowBlocks rows_;                     // [row][k], in the indexed form
+  std::vector<std::uint32_t> row_at_;  // [place], number of its row from 1, or 0; empty before the first row
+  std::vector<std::int64_t> all_;      // [place * width + k], in the form of all sums
 };
 
 }  // namespace sunfleck

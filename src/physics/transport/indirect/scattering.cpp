@@ -3,7 +3,7 @@
 namespace sunfleck {
 
 Scattering::Scattering(const RadiationModel& model, std::size_t lights)
-    : none_(model.bands.size() * lights), vegetation_(none_.size()), structure_(none_.size()), soil_(none_.size()) {
+    : vegetation_(model.bands.size() * lights), structure_(vegetation_.size()), soil_(vegetation_.size()) {
   for (const SurfaceOptics& optics : model.optics) {
     faces_.emplace_back(optics.upper, lights);
     faces_.emplace_back(optics.lower, lights);

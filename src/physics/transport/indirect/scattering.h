@@ -33,14 +33,15 @@ class Scattering {
   [[nodiscard]] const FaceColumns& face(std::uint32_t number) const { return faces_[number]; }
   [[nodiscard]] const std::vector<FaceColumns>& faces() const { return faces_; }
 
-  // Returns whether what landed at a place leaves from a side, 0 or 1.
-  [[nodiscard]] bool sends(const EmissionPoint& place, std::size_t side) const {
-    return place.surface % 2 == side || faces_[place.face].transmits;
+  // Returns what a place sends out from its two sides: the one on which the light landed reflects.
+  [[nodiscard]] ScatteredParts scattered(const EmissionPoint& place) const {
+    const FaceColumns& face = faces_[place.face];
+    return {face.reflected.data(), face.transmits ? face.scattered.data() : nullptr, place.u};
   }
-  // Returns what a place sends out from a side.
+  // Returns what it sends out from a side, 0 or 1.
   [[nodiscard]] SentPart sent(const EmissionPoint& place, std::size_t side) const {
     const FaceColumns& face = faces_[place.face];
-    if (place.surface % 2 == side) return {none_.data(), face.reflected.data(), place.u};
+    if (place.surface % 2 == side) return {nullptr, face.reflected.data(), place.u};
     return {face.reflected.data(), face.scattered.data(), place.u};
   }
 
@@ -53,7 +54,6 @@ class Scattering {
 
  private:
   std::vector<FaceColumns> faces_;                           // [2 * optics + side], then the soil plane and lamps
-  std::vector<std::uint64_t> none_;                          // [column], 0
   std::vector<std::int64_t> vegetation_, structure_, soil_;  // [column], absorbed
 };
 

@@ -58,34 +58,54 @@ HWY_INLINE Words parts(Words quanta, Words coefficients, Words u) {
   return hn::IfThenElse(hn::Eq(coefficients, hn::Set(words, std::uint64_t{1} << 32U)), quanta, part);
 }
 
-// Returns shared::scaled for what a side sends.
-HWY_INLINE Words scaled_parts(Words landed, const SentPart& sent, Words u, const FactorColumns& by, std::size_t column) {
-  const Words quanta = hn::Sub(parts(landed, load(sent.to + column), u), parts(landed, load(sent.from + column), u));
+// Returns shared::scaled for each column.
+HWY_INLINE Words scaled(Words quanta, const FactorColumns& by, std::size_t column) {
   const Words mantissa = load(&by.value[column]);
   const Words shift = load(&by.shift[column]);
   const Words high = hn::Shl(times(hn::ShiftRight<32>(quanta), mantissa), hn::Sub(hn::Set(words, 32), shift));
   return hn::Add(high, hn::Shr(times(quanta, mantissa), shift));
 }
 
-std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                         std::size_t first) {
-  const Words u = hn::Set(words, sent.u);
-  Words sums = hn::Zero(words);
-  const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
-    sums = hn::Add(sums, scaled_parts(load(&landed[k]), sent, u, by, first + k));
+// Calls take(reflected, transmitted) for the scaled parts of whole vectors of columns; returns the number of the first column
+// that is left.
+template <class Take>
+HWY_INLINE std::size_t for_both_parts(std::span<const std::int64_t> landed, const ScatteredParts& of, const FactorColumns& by,
+                                      std::size_t first, const Take& take) {
+  const Words u = hn::Set(words, of.u);
+  const Words none = hn::Zero(words);
+  return for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
+    const Words quanta = load(&landed[k]);
+    const Words reflected = parts(quanta, load(of.reflected + first + k), u);
+    if (of.scattered == nullptr) return take(scaled(reflected, by, first + k), none);
+    const Words scattered = parts(quanta, load(of.scattered + first + k), u);
+    take(scaled(reflected, by, first + k), scaled(hn::Sub(scattered, reflected), by, first + k));
   });
-  return hn::GetLane(hn::SumOfLanes(words, sums)) + singly::sum_scaled(rest, landed, sent, by, first);
 }
 
-std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                             std::size_t first) {
-  const Words u = hn::Set(words, sent.u);
-  Words most = hn::Zero(words);
-  const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
-    most = hn::Max(most, scaled_parts(load(&landed[k]), sent, u, by, first + k));
+OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& of, const FactorColumns& by,
+                       std::size_t first) {
+  Words all_reflected = hn::Zero(words);
+  Words all_transmitted = hn::Zero(words);
+  const std::size_t rest = for_both_parts(landed, of, by, first, [&](Words reflected, Words transmitted) HWY_ATTR {
+    all_reflected = hn::Add(all_reflected, reflected);
+    all_transmitted = hn::Add(all_transmitted, transmitted);
   });
-  return std::max<std::uint64_t>(hn::GetLane(hn::MaxOfLanes(words, most)),
-                                 singly::largest_scaled(rest, landed, sent, by, first));
+  const OfBothParts others = singly::sum_scaled(rest, landed, of, by, first);
+  return {hn::GetLane(hn::SumOfLanes(words, all_reflected)) + others.reflected,
+          hn::GetLane(hn::SumOfLanes(words, all_transmitted)) + others.transmitted};
+}
+
+OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& of, const FactorColumns& by,
+                           std::size_t first) {
+  Words most_reflected = hn::Zero(words);
+  Words most_transmitted = hn::Zero(words);
+  const std::size_t rest = for_both_parts(landed, of, by, first, [&](Words reflected, Words transmitted) HWY_ATTR {
+    most_reflected = hn::Max(most_reflected, reflected);
+    most_transmitted = hn::Max(most_transmitted, transmitted);
+  });
+  return singly::largest_of(
+      singly::largest_scaled(rest, landed, of, by, first),
+      {hn::GetLane(hn::MaxOfLanes(words, most_reflected)), hn::GetLane(hn::MaxOfLanes(words, most_transmitted))});
 }
 
 void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
@@ -98,7 +118,10 @@ void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const Fac
   const Words right = hn::Set(words, static_cast<std::uint64_t>(std::max(0, sharing.shift_right)));
   const Words left = hn::Set(words, static_cast<std::uint64_t>(std::max(0, -sharing.shift_right)));
   const std::size_t rest = for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
-    const Words expected = scaled_parts(load(&landed[k]), sent, u, by, first + k);
+    const Words quanta = load(&landed[k]);
+    const Words up_to = parts(quanta, load(sent.to + first + k), u);
+    const Words before = sent.from != nullptr ? parts(quanta, load(sent.from + first + k), u) : hn::Zero(words);
+    const Words expected = scaled(hn::Sub(up_to, before), by, first + k);
     const Words bits = hn::Min(hn::Shl(hn::Shr(hn::Add(expected, half_bit), right), left), all_bits);
     const Words weight = hn::ShiftRight<32>(hn::Add(times(bits, inverse), half_weight));
     hn::StoreU(hn::TruncateTo(halves, weight), halves, weights + k);
@@ -154,13 +177,17 @@ void scale(std::span<const std::int64_t> quanta, std::span<const double> a, doub
   singly::scale(rest, quanta, a, b, c, products);
 }
 
-void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
+void add_share(double share, std::span<const double> a, std::span<const double* const> by, std::span<double* const> sums) {
   const std::size_t rest = for_each_vector(a.size(), [&](std::size_t c) HWY_ATTR {
-    // Not MulAdd, which rounds once.
-    const auto product = hn::Mul(hn::LoadU(reals, &a[c]), hn::LoadU(reals, &b[c]));
-    hn::StoreU(hn::Add(hn::LoadU(reals, &sums[c]), product), reals, &sums[c]);
+    const auto part = hn::Mul(hn::Set(reals, share), hn::LoadU(reals, &a[c]));
+    hn::StoreU(hn::Add(hn::LoadU(reals, sums[0] + c), part), reals, sums[0] + c);
+    for (std::size_t k = 0; k < by.size(); ++k) {
+      // Not MulAdd, which rounds once.
+      const auto product = hn::Mul(hn::LoadU(reals, by[k] + c), part);
+      hn::StoreU(hn::Add(hn::LoadU(reals, sums[k + 1] + c), product), reals, sums[k + 1] + c);
+    }
   });
-  singly::add_products(rest, a, b, sums);
+  singly::add_share(rest, share, a, by, sums);
 }
 
 void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {
@@ -187,17 +214,17 @@ HWY_EXPORT(split);
 HWY_EXPORT(add);
 HWY_EXPORT(subtract);
 HWY_EXPORT(scale);
-HWY_EXPORT(add_products);
+HWY_EXPORT(add_share);
 HWY_EXPORT(add_scaled);
 
-std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                         std::size_t first) {
-  return HWY_DYNAMIC_DISPATCH(sum_scaled)(landed, sent, by, first);
+OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                       std::size_t first) {
+  return HWY_DYNAMIC_DISPATCH(sum_scaled)(landed, parts, by, first);
 }
 
-std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                             std::size_t first) {
-  return HWY_DYNAMIC_DISPATCH(largest_scaled)(landed, sent, by, first);
+OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                           std::size_t first) {
+  return HWY_DYNAMIC_DISPATCH(largest_scaled)(landed, parts, by, first);
 }
 
 void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
@@ -227,8 +254,8 @@ void scale(std::span<const std::int64_t> quanta, std::span<const double> a, doub
   HWY_DYNAMIC_DISPATCH(scale)(quanta, a, b, c, products);
 }
 
-void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
-  HWY_DYNAMIC_DISPATCH(add_products)(a, b, sums);
+void add_share(double share, std::span<const double> a, std::span<const double* const> by, std::span<double* const> sums) {
+  HWY_DYNAMIC_DISPATCH(add_share)(share, a, by, sums);
 }
 
 void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {

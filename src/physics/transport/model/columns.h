@@ -55,11 +55,24 @@ struct FaceColumns {
   bool transmits = false;  // in any column
 };
 
-// What one side of a place sends out of what landed there: the parts between two coefficients. [column]
+// What one side of a place sends out of what landed there: the parts between two coefficients, or below one. [column]
 struct SentPart {
-  const std::uint64_t* from = nullptr;
+  const std::uint64_t* from = nullptr;  // null: from 0
   const std::uint64_t* to = nullptr;
   std::uint32_t u = 0;  // as in part_of
+};
+
+// What both sides of a place send: the parts below one coefficient are reflected, those from there to another transmitted.
+// [column]
+struct ScatteredParts {
+  const std::uint64_t* reflected = nullptr;
+  const std::uint64_t* scattered = nullptr;  // null where nothing is transmitted
+  std::uint32_t u = 0;                       // as in part_of
+};
+
+// A number for each of the two.
+struct OfBothParts {
+  std::uint64_t reflected = 0, transmitted = 0;
 };
 
 // A factor for each column, value / 2^shift: a shared::Scale or a shared::Load.
@@ -87,10 +100,10 @@ inline constexpr std::size_t least_in_vectors = 6;
 
 namespace in_vectors {
 
-std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                         std::size_t first);
-std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                             std::size_t first);
+OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                       std::size_t first);
+OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                           std::size_t first);
 void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
            const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums);
 void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta);
@@ -100,7 +113,7 @@ void add(std::span<const std::int64_t> quanta, std::int64_t* sums);
 void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums);
 void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
            std::span<double> products);
-void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums);
+void add_share(double share, std::span<const double> a, std::span<const double* const> by, std::span<double* const> sums);
 void add_scaled(double factor, std::span<const double> a, std::span<double> sums);
 
 }  // namespace in_vectors
@@ -108,30 +121,52 @@ void add_scaled(double factor, std::span<const double> a, std::span<double> sums
 // The columns of a row from the k-th on, one by one. `first` is the number of the row's first column among all columns.
 namespace singly {
 
-inline std::uint64_t scaled_part(std::int64_t landed, const SentPart& sent, const FactorColumns& by, std::size_t column) {
-  const std::int64_t quanta = part_of(landed, sent.to[column], sent.u) - part_of(landed, sent.from[column], sent.u);
+inline std::uint64_t scaled(std::int64_t quanta, const FactorColumns& by, std::size_t column) {
   return shared::scaled(static_cast<std::uint64_t>(quanta),
                         {static_cast<std::uint32_t>(by.value[column]), static_cast<std::uint32_t>(by.shift[column])});
 }
 
-inline std::uint64_t sum_scaled(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent,
-                                const FactorColumns& by, std::size_t first) {
-  std::uint64_t sum = 0;
-  for (; k < landed.size(); ++k) sum += scaled_part(landed[k], sent, by, first + k);
-  return sum;
+// Calls take(reflected, transmitted) for the scaled parts of each column.
+template <class Take>
+void for_both_parts(std::size_t k, std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                    std::size_t first, const Take& take) {
+  for (; k < landed.size(); ++k) {
+    const std::size_t c = first + k;
+    const std::int64_t reflected = part_of(landed[k], parts.reflected[c], parts.u);
+    const std::int64_t scattered = parts.scattered != nullptr ? part_of(landed[k], parts.scattered[c], parts.u) : reflected;
+    take(scaled(reflected, by, c), scaled(scattered - reflected, by, c));
+  }
 }
 
-inline std::uint64_t largest_scaled(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent,
-                                    const FactorColumns& by, std::size_t first) {
-  std::uint64_t largest = 0;
-  for (; k < landed.size(); ++k) largest = std::max(largest, scaled_part(landed[k], sent, by, first + k));
+inline OfBothParts sum_scaled(std::size_t k, std::span<const std::int64_t> landed, const ScatteredParts& parts,
+                              const FactorColumns& by, std::size_t first) {
+  OfBothParts sums;
+  for_both_parts(k, landed, parts, by, first, [&](std::uint64_t reflected, std::uint64_t transmitted) {
+    sums.reflected += reflected;
+    sums.transmitted += transmitted;
+  });
+  return sums;
+}
+
+inline OfBothParts largest_of(const OfBothParts& a, const OfBothParts& b) {
+  return {std::max(a.reflected, b.reflected), std::max(a.transmitted, b.transmitted)};
+}
+
+inline OfBothParts largest_scaled(std::size_t k, std::span<const std::int64_t> landed, const ScatteredParts& parts,
+                                  const FactorColumns& by, std::size_t first) {
+  OfBothParts largest;
+  for_both_parts(k, landed, parts, by, first, [&](std::uint64_t reflected, std::uint64_t transmitted) {
+    largest = largest_of(largest, {reflected, transmitted});
+  });
   return largest;
 }
 
 inline void weigh(std::size_t k, std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
                   std::size_t first, const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
   for (; k < landed.size(); ++k) {
-    weights[k] = shared::share_of(scaled_part(landed[k], sent, by, first + k), sharing);
+    const std::int64_t before = sent.from != nullptr ? part_of(landed[k], sent.from[first + k], sent.u) : 0;
+    const std::int64_t quanta = part_of(landed[k], sent.to[first + k], sent.u) - before;
+    weights[k] = shared::share_of(scaled(quanta, by, first + k), sharing);
     sums[first + k] += weights[k];
   }
 }
@@ -165,8 +200,13 @@ inline void scale(std::size_t first, std::span<const std::int64_t> quanta, std::
   for (std::size_t k = first; k < quanta.size(); ++k) products[k] = static_cast<double>(quanta[k]) * a[k] * b * c[k];
 }
 
-inline void add_products(std::size_t first, std::span<const double> a, std::span<const double> b, std::span<double> sums) {
-  for (std::size_t c = first; c < a.size(); ++c) sums[c] += a[c] * b[c];
+inline void add_share(std::size_t first, double share, std::span<const double> a, std::span<const double* const> by,
+                      std::span<double* const> sums) {
+  for (std::size_t c = first; c < a.size(); ++c) {
+    const double part = share * a[c];
+    sums[0][c] += part;
+    for (std::size_t k = 0; k < by.size(); ++k) sums[k + 1][c] += by[k][c] * part;
+  }
 }
 
 inline void add_scaled(std::size_t first, double factor, std::span<const double> a, std::span<double> sums) {
@@ -175,19 +215,19 @@ inline void add_scaled(std::size_t first, double factor, std::span<const double>
 
 }  // namespace singly
 
-// Returns the sum of what a side sends of a row of quanta that landed, each column scaled. Here and below, the row's first
-// column has the number `first` in all arrays that are not rows.
-inline std::uint64_t sum_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                                std::size_t first) {
-  if (landed.size() >= least_in_vectors) return in_vectors::sum_scaled(landed, sent, by, first);
-  return singly::sum_scaled(0, landed, sent, by, first);
+// Returns the sums of both parts of a row of quanta that landed, each column scaled. Here and below, the row's first column has
+// the number `first` in all arrays that are not rows.
+inline OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                              std::size_t first) {
+  if (landed.size() >= least_in_vectors) return in_vectors::sum_scaled(landed, parts, by, first);
+  return singly::sum_scaled(0, landed, parts, by, first);
 }
 
 // Returns the largest of them.
-inline std::uint64_t largest_scaled(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by,
-                                    std::size_t first) {
-  if (landed.size() >= least_in_vectors) return in_vectors::largest_scaled(landed, sent, by, first);
-  return singly::largest_scaled(0, landed, sent, by, first);
+inline OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                                  std::size_t first) {
+  if (landed.size() >= least_in_vectors) return in_vectors::largest_scaled(landed, parts, by, first);
+  return singly::largest_scaled(0, landed, parts, by, first);
 }
 
 // Sets the row `weights` to the weight of each column in a packet, and adds it to `sums`.
@@ -229,10 +269,11 @@ inline void scale(std::span<const std::int64_t> quanta, std::span<const double> 
   singly::scale(0, quanta, a, b, c, products);
 }
 
-// Adds a * b to the sums.
-inline void add_products(std::span<const double> a, std::span<const double> b, std::span<double> sums) {
-  if (a.size() >= least_in_vectors) return in_vectors::add_products(a, b, sums);
-  singly::add_products(0, a, b, sums);
+// Adds share * a to the first row of sums, and its product with each row of `by` to the row of sums after it.
+inline void add_share(double share, std::span<const double> a, std::span<const double* const> by,
+                      std::span<double* const> sums) {
+  if (a.size() >= least_in_vectors) return in_vectors::add_share(share, a, by, sums);
+  singly::add_share(0, share, a, by, sums);
 }
 
 // Adds factor * a to the sums.

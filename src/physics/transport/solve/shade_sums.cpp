@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
 namespace sunfleck {
 namespace {
@@ -30,25 +31,38 @@ std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t count) {
 // What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. [band]
 struct SideLight {
   explicit SideLight(std::size_t bands)
-      : absorbed_w(bands), part_w(bands), earlier_w_m2(bands), lit_earlier_w_m2(bands), twice_beam_w_m2(bands), space(bands) {}
+      : absorbed_w(bands), earlier_w_m2(bands), lit(bands), twice_beam_w_m2(bands), lit_earlier_w_m2(bands), space(bands) {}
 
   // Adds the share of it that belongs to a group.
-  void add_to(ShadeSums& sums, std::size_t group, double share) {
-    for (std::size_t b = 0; b < part_w.size(); ++b) part_w[b] = share * absorbed_w[b];
-    columns::add_scaled(1.0, part_w, sums.of(group, sums.indirect_w));
-    columns::add_products(earlier_w_m2, part_w, sums.of(group, sums.indirect_square));
-    if (!any_lit) return;
-    columns::add_scaled(lit, part_w, sums.of(group, sums.lit_indirect_w));
-    columns::add_products(twice_beam_w_m2, part_w, sums.of(group, sums.lit_square));
-    columns::add_products(lit_earlier_w_m2, part_w, sums.of(group, sums.lit_indirect_square));
+  void add_to(ShadeSums& sums, std::size_t group, double share) const {
+    const std::array by{earlier_w_m2.data(), lit.data(), twice_beam_w_m2.data(), lit_earlier_w_m2.data()};
+    const std::array to{sums.of(group, sums.indirect_w).data(), sums.of(group, sums.indirect_square).data(),
+                        sums.of(group, sums.lit_indirect_w).data(), sums.of(group, sums.lit_square).data(),
+                        sums.of(group, sums.lit_indirect_square).data()};
+    columns::add_share(share, absorbed_w, std::span(by).first(any_lit ? by.size() : 1), to);
   }
 
-  double lit = 0.0;  // part of the area
-  bool any_lit = false;
-  std::vector<double> absorbed_w, part_w;
-  std::vector<double> earlier_w_m2, lit_earlier_w_m2;  // of both sides in all earlier replicates together
-  std::vector<double> twice_beam_w_m2;
+  std::vector<double> absorbed_w;
+  std::vector<double> earlier_w_m2;  // of both sides in all earlier replicates together
+  bool any_lit = false;              // whether the next three are set
+  std::vector<double> lit;           // part of the area
+  std::vector<double> twice_beam_w_m2, lit_earlier_w_m2;
   std::vector<double> space;
+};
+
+// What the beam brings to the part of an element in a layer.
+struct BinLight {
+  explicit BinLight(std::size_t bands) : direct_w(bands), square(bands) {}
+
+  void add_to(ShadeSums& sums, std::size_t group) const {
+    sums.lit_m2[group] += lit_m2;
+    columns::add_scaled(1.0, direct_w, sums.of(group, sums.direct_w));
+    if (any_lit) columns::add_scaled(1.0, square, sums.of(group, sums.lit_square));
+  }
+
+  double lit_m2 = 0.0;
+  bool any_lit = false;
+  std::vector<double> direct_w, square;  // [band], W and, if any_lit, W2 m-2
 };
 
 class ShadeAddition {
@@ -61,7 +75,10 @@ class ShadeAddition {
         bands_(conversion.quanta.size()),
         earlier_(earlier),
         hit_(canopy_.size()) {
-    for (const BandQuanta& quanta : conversion.quanta) w_m2_per_quantum_.push_back(quanta.w_m2_per_quantum);
+    for (std::size_t b = 0; b < bands_; ++b) {
+      w_m2_per_quantum_.push_back(conversion.quanta[b].w_m2_per_quantum);
+      beam_w_per_landing_.push_back(conversion.ground_per_ray_m2 * conversion.beam_w_m2(b));
+    }
     for (const std::uint32_t e : replicate.direct.hit) hit_[e] = true;
   }
 
@@ -89,6 +106,7 @@ class ShadeAddition {
   }
 
   void add_beam(std::size_t first_hit, std::size_t end_hit, ShadeGroupSums& groups) const {
+    BinLight light(bands_);
     for (std::size_t hit = first_hit; hit < end_hit; ++hit) {
       const std::uint32_t e = replicate_.direct.hit[hit];
       const bool foliage = conversion_.areas.foliage[e];
@@ -99,26 +117,28 @@ class ShadeAddition {
         const double upper = replicate_.counters[word];
         const double lower = replicate_.counters[word + 1];
         if (upper + lower == 0.0) continue;
-        if (foliage) add_beam_to(groups.leaves, 0, e, upper, lower);
+        set_beam(e, upper, lower, light);
+        if (foliage) light.add_to(groups.leaves, 0);
         if (!all_groups_) continue;
-        add_beam_to(groups.organs, canopy_.organ_of[e], e, upper, lower);
-        if (foliage) add_beam_to(groups.layers, k, e, upper, lower);
+        light.add_to(groups.organs, canopy_.organ_of[e]);
+        if (foliage) light.add_to(groups.layers, k);
       }
     }
   }
 
-  // Adds landings on the two sides of an element to a group.
-  void add_beam_to(ShadeSums& sums, std::size_t group, std::size_t e, double upper, double lower) const {
+  // Sets what one landing of the beam brings to the two sides of an element, and divides it by the area that is lit.
+  void set_beam(std::size_t e, double upper, double lower, BinLight& light) const {
     const double lit_m2_per_landing = conversion_.exposure.lit_m2_per_landing(e);
-    sums.lit_m2[group] += (upper + lower) * lit_m2_per_landing;
+    light.lit_m2 = (upper + lower) * lit_m2_per_landing;
+    light.any_lit = lit_m2_per_landing > 0.0;
+    const std::span<const double> upper_part = conversion_.absorptances(canopy_.optics_of[e], 0);
+    const std::span<const double> lower_part = conversion_.absorptances(canopy_.optics_of[e], 1);
     for (std::size_t b = 0; b < bands_; ++b) {
-      const double per_landing_w = conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
-      const double upper_w = per_landing_w * conversion_.absorptance(canopy_.optics_of[e], 0, b);
-      const double lower_w = per_landing_w * conversion_.absorptance(canopy_.optics_of[e], 1, b);
-      sums.direct_w[group * bands_ + b] += upper * upper_w + lower * lower_w;
-      if (lit_m2_per_landing > 0.0) {
-        sums.lit_square[group * bands_ + b] += (upper * upper_w * upper_w + lower * lower_w * lower_w) / lit_m2_per_landing;
-      }
+      const double upper_w = beam_w_per_landing_[b] * upper_part[b];
+      const double lower_w = beam_w_per_landing_[b] * lower_part[b];
+      light.direct_w[b] = upper * upper_w + lower * lower_w;
+      if (!light.any_lit) continue;
+      light.square[b] = (upper * upper_w * upper_w + lower * lower_w * lower_w) / lit_m2_per_landing;
     }
   }
 
@@ -150,29 +170,31 @@ class ShadeAddition {
     const std::size_t e = side / 2;
     const double element_m2 = area_m2(canopy_.corners[e]);
     const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
-    const BeamLandings landings = hit_[e] ? conversion_.element_landings(replicate_.counters, e) : BeamLandings();
-    light.lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
     set_absorbed_w(side, quanta, light.absorbed_w);
     std::fill(light.earlier_w_m2.begin(), light.earlier_w_m2.end(), 0.0);
     for (const std::size_t of : {2 * e, 2 * e + 1}) {
       const auto landed = earlier_.at(of);
       if (landed.empty()) continue;
       set_absorbed_w(of, landed, light.space);
-      for (std::size_t b = 0; b < bands_; ++b) light.earlier_w_m2[b] += light.space[b] * per_m2;
+      columns::add_scaled(per_m2, light.space, light.earlier_w_m2);
     }
     light.any_lit = hit_[e];
-    for (std::size_t b = 0; light.any_lit && b < bands_; ++b) {
-      light.twice_beam_w_m2[b] = 2.0 * (absorbed_beam_w(e, landings, b) * per_m2);
-      light.lit_earlier_w_m2[b] = light.lit * light.earlier_w_m2[b];
-    }
+    if (light.any_lit) set_lit(e, per_m2, light);
   }
 
-  // Returns what an element absorbs of the beam, W.
-  [[nodiscard]] double absorbed_beam_w(std::size_t element, const BeamLandings& landings, std::size_t band) const {
-    const std::size_t optics = canopy_.optics_of[element];
-    return conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(band) *
-           (static_cast<double>(landings.upper) * conversion_.absorptance(optics, 0, band) +
-            static_cast<double>(landings.lower) * conversion_.absorptance(optics, 1, band));
+  void set_lit(std::size_t e, double per_m2, SideLight& light) const {
+    const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
+    const double lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
+    const auto upper = static_cast<double>(landings.upper);
+    const auto lower = static_cast<double>(landings.lower);
+    const std::span<const double> upper_part = conversion_.absorptances(canopy_.optics_of[e], 0);
+    const std::span<const double> lower_part = conversion_.absorptances(canopy_.optics_of[e], 1);
+    for (std::size_t b = 0; b < bands_; ++b) {
+      const double beam_w = beam_w_per_landing_[b] * (upper * upper_part[b] + lower * lower_part[b]);
+      light.lit[b] = lit;
+      light.twice_beam_w_m2[b] = 2.0 * (beam_w * per_m2);
+      light.lit_earlier_w_m2[b] = lit * light.earlier_w_m2[b];
+    }
   }
 
   // Sets what a side absorbs of other light, [band].
@@ -187,8 +209,8 @@ class ShadeAddition {
   bool all_groups_;
   std::size_t bands_;
   PlaceSums::Finder earlier_;
-  std::vector<bool> hit_;                 // [element]
-  std::vector<double> w_m2_per_quantum_;  // [band]
+  std::vector<bool> hit_;                                      // [element]
+  std::vector<double> w_m2_per_quantum_, beam_w_per_landing_;  // [band]
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -83,7 +84,7 @@ TEST(Columns, AreWeighedAndCarriedAsOneByOne) {
   for_each_width([](std::size_t count, RandomStream& random) {
     const FaceColumns face(some_faces(first + count, random), 1);
     const std::vector<std::int64_t> landed = some_quanta(count, random);
-    const SentPart sent{face.reflected.data(), face.scattered.data(), static_cast<std::uint32_t>(random.word())};
+    const auto u = static_cast<std::uint32_t>(random.word());
     FactorColumns scales(first + count);
     FactorColumns loads(first + count);
     for (std::size_t c = 0; c < first + count; ++c) {
@@ -91,12 +92,23 @@ TEST(Columns, AreWeighedAndCarriedAsOneByOne) {
       scales.set(c, shared::scale_of(random.word() >> 24U, total + (std::uint64_t{1} << 47U)));
       loads.set(c, shared::load_of(total, random.word() >> 20U));
     }
-    const std::uint64_t sum = columns::sum_scaled(landed, sent, scales, first);
-    ASSERT_EQ(sum, columns::singly::sum_scaled(0, landed, sent, scales, first));
-    ASSERT_EQ(columns::largest_scaled(landed, sent, scales, first),
-              columns::singly::largest_scaled(0, landed, sent, scales, first));
+    for (const std::uint64_t* scattered : {face.scattered.data(), static_cast<const std::uint64_t*>(nullptr)}) {
+      const ScatteredParts parts{face.reflected.data(), scattered, u};
+      const OfBothParts sum = columns::sum_scaled(landed, parts, scales, first);
+      const OfBothParts sum_singly = columns::singly::sum_scaled(0, landed, parts, scales, first);
+      ASSERT_EQ(sum.reflected, sum_singly.reflected);
+      ASSERT_EQ(sum.transmitted, sum_singly.transmitted);
+      const OfBothParts largest = columns::largest_scaled(landed, parts, scales, first);
+      const OfBothParts largest_singly = columns::singly::largest_scaled(0, landed, parts, scales, first);
+      ASSERT_EQ(largest.reflected, largest_singly.reflected);
+      ASSERT_EQ(largest.transmitted, largest_singly.transmitted);
+    }
+    const OfBothParts all = columns::sum_scaled(landed, {face.reflected.data(), face.scattered.data(), u}, scales, first);
     for (const unsigned spare_bits : {0U, 10U}) {
-      const shared::Sharing sharing = shared::sharing_of(sum + 1, spare_bits);
+      const bool reflects = spare_bits == 0;
+      const SentPart sent =
+          reflects ? SentPart{nullptr, face.reflected.data(), u} : SentPart{face.reflected.data(), face.scattered.data(), u};
+      const shared::Sharing sharing = shared::sharing_of((reflects ? all.reflected : all.transmitted) + 1, spare_bits);
       std::vector<std::uint32_t> weights(count), weights_singly(count);
       std::vector<std::uint64_t> sums(first + count, 5), sums_singly(first + count, 5);
       columns::weigh(landed, sent, scales, first, sharing, weights.data(), sums.data());
@@ -130,13 +142,17 @@ TEST(Columns, OfRealNumbersAreScaledAndAdded) {
     const std::vector<std::int64_t> quanta = some_quanta(count, random);
     const std::vector<double> a = some_numbers(count, random);
     const std::vector<double> b = some_numbers(count, random);
-    std::vector<double> products(count), sums(count, 0.1), scaled(count, 0.1);
+    const std::vector<double> other = some_numbers(count, random);
+    std::vector<double> products(count), scaled(count, 0.1);
+    std::vector<double> shares(count, 0.1), by_b(count, 0.2), by_other(count, 0.3);
     columns::scale(quanta, a, 0.7, b, products);
-    columns::add_products(a, b, sums);
     columns::add_scaled(0.3, a, scaled);
+    columns::add_share(0.9, a, std::array{b.data(), other.data()}, std::array{shares.data(), by_b.data(), by_other.data()});
     for (std::size_t c = 0; c < count; ++c) {
       ASSERT_EQ(products[c], static_cast<double>(quanta[c]) * a[c] * 0.7 * b[c]);
-      ASSERT_EQ(sums[c], 0.1 + a[c] * b[c]);
+      ASSERT_EQ(shares[c], 0.1 + 0.9 * a[c]);
+      ASSERT_EQ(by_b[c], 0.2 + b[c] * (0.9 * a[c]));
+      ASSERT_EQ(by_other[c], 0.3 + other[c] * (0.9 * a[c]));
       ASSERT_EQ(scaled[c], 0.1 + 0.3 * a[c]);
     }
   });

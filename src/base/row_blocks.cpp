@@ -1,0 +1,90 @@
+#include "base/row_blocks.h"
+
+#include "base/large_pages.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+#include <utility>
+
+namespace sunfleck {
+namespace {
+
+constexpr std::size_t page_bytes = LargePageAllocator<std::int64_t>::page_bytes;
+constexpr std::size_t least_block_bytes = std::size_t{1} << 14U;
+constexpr std::size_t blocks_of_all = 16;
+
+void* fetch(std::size_t bytes) {
+  void* const block = bytes < page_bytes ? std::malloc(bytes) : std::aligned_alloc(page_bytes, bytes);
+  if (block == nullptr) throw std::bad_alloc();
+  if (bytes >= page_bytes) madvise(block, bytes, MADV_HUGEPAGE);  // as in LargePageAllocator
+  return block;
+}
+
+std::size_t bytes_of_block(std::size_t row_bytes, std::size_t most_rows) {
+  const std::size_t wanted = std::clamp(row_bytes * most_rows / blocks_of_all, least_block_bytes, page_bytes);
+  if (wanted >= row_bytes) return wanted;
+  return row_bytes <= page_bytes ? row_bytes : (row_bytes + page_bytes - 1) / page_bytes * page_bytes;
+}
+
+}  // namespace
+
+void* SpareBlocks::take(std::size_t bytes) {
+  const std::unique_lock lock(mutex_);
+  for (Spare** at = &first_; *at != nullptr; at = &(*at)->next) {
+    if ((*at)->bytes == bytes) return std::exchange(*at, (*at)->next);
+  }
+  return nullptr;
+}
+
+void SpareBlocks::give_back(void* block, std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return std::free(block);
+  first_ = new (block) Spare{first_, bytes};
+}
+
+void SpareBlocks::close() {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  while (first_ != nullptr) std::free(std::exchange(first_, first_->next));
+}
+
+RowBlocks::RowBlocks(std::size_t width, std::size_t most, std::shared_ptr<SpareBlocks> spare)
+    : width_(width), block_bytes_(bytes_of_block(width * sizeof(std::int64_t), most)), spare_(std::move(spare)) {
+  rows_each_ = static_cast<std::uint32_t>(block_bytes_ / (width * sizeof(std::int64_t)));
+}
+
+RowBlocks::RowBlocks(const RowBlocks& other)
+    : width_(other.width_), block_bytes_(other.block_bytes_), rows_each_(other.rows_each_), spare_(other.spare_) {
+  for (std::size_t row = 0; row < other.size(); ++row) {
+    const std::span<const std::int64_t> values = other[row];
+    std::copy(values.begin(), values.end(), append_any().begin());
+  }
+}
+
+RowBlocks& RowBlocks::operator=(const RowBlocks& other) {
+  RowBlocks copy(other);
+  return *this = std::move(copy);
+}
+
+std::span<std::int64_t> RowBlocks::append() {
+  const std::span<std::int64_t> row = append_any();
+  std::fill(row.begin(), row.end(), 0);
+  return row;
+}
+
+// Appends a row with any content.
+std::span<std::int64_t> RowBlocks::append_any() {
+  if (size_ == blocks_.size() * rows_each_) {
+    void* const spare = spare_ != nullptr ? spare_->take(block_bytes_) : nullptr;
+    Block block(static_cast<std::int64_t*>(spare != nullptr ? spare : fetch(block_bytes_)), {spare_, block_bytes_});
+    blocks_.push_back(std::move(block));
+  }
+  return (*this)[size_++];
+}
+
+void RowBlocks::GiveBack::operator()(std::int64_t* block) const {
+  spare != nullptr ? spare->give_back(block, bytes) : std::free(block);
+}
+
+}  // namespace sunfleck
