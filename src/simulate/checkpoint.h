@@ -30,8 +30,8 @@ class Checkpoint {
   // Returns a line for the user that says from where the run resumes.
   [[nodiscard]] std::string resume_line() const;
 
-  // Has the state written while the monitor watches the run.
-  void attend(Monitor& monitor) { keeper_.attend(monitor, store_); }
+  // Has the state written while the monitor watches the run of the model.
+  void attend(Monitor& monitor, const RadiationModel& model) { keeper_.attend(monitor, store_, {&model, 1}); }
 
   // Returns whether a state of this run is in the folder.
   [[nodiscard]] bool holds_state() const { return found_.has_value() || keeper_.has_written(); }

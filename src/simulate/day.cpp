@@ -148,8 +148,9 @@ class DayRun {
     std::atomic<bool> too_little = false;  // the solver's threads read it
     std::size_t replicates = settings.resume_from != nullptr ? settings.resume_from->replicates() : 0;
     Monitor monitor;
+    const std::vector<RadiationModel> lights = lights_of(simulation_.model(), plan_, block);
     if (const std::optional<RunStore> store = sink_.block_store(block_settings(block, settings))) {
-      keeper_.attend(monitor, *store);
+      keeper_.attend(monitor, *store, lights);
       // The state of a block that begins again would hide that it does.
       monitor.receive_state = [&, keep = monitor.receive_state](const SolveStateView& state) {
         if (!too_little) keep(state);
@@ -162,7 +163,6 @@ class DayRun {
       if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
       report(block, state);
     };
-    const std::vector<RadiationModel> lights = lights_of(simulation_.model(), plan_, block);
     const WantedSums sums = wanted_sums(block);
     Stopwatch watch;
     double shared_s = 0.0;  // each step's part of the time that all of them took

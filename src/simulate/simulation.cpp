@@ -165,7 +165,7 @@ SimulatedScene Simulation::run(const SolveSettings& settings, const RunHooks& ho
       return (hooks.monitor.interrupted && hooks.monitor.interrupted()) || hooks.ranks->interrupted();
     };
   }
-  if (hooks.checkpoint != nullptr) hooks.checkpoint->attend(monitor);
+  if (hooks.checkpoint != nullptr) hooks.checkpoint->attend(monitor, model());
   SimulatedScene done =
       simulated(settings, solve(settings, monitor, hooks.ranks != nullptr ? hooks.ranks->helpers() : nullptr));
   if (hooks.ranks != nullptr) {

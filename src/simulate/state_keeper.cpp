@@ -13,11 +13,24 @@ namespace {
 constexpr int pauses_per_write = 50;  // limits writing the state to 1/50 of the time
 constexpr std::chrono::milliseconds shortest_pause{500};
 
+// Returns how long writing a state takes at least, before any was written: nearly all of its numbers are sums by side of a
+// triangle.
+std::chrono::duration<double> foretold(Lights lights) {
+  constexpr double numbers_per_s = 1e8;
+  const RadiationModel& model = lights.front();
+  return std::chrono::duration<double>(2.0 * static_cast<double>(model.canopy.size() * model.bands.size() * lights.size()) /
+                                       numbers_per_s);
+}
+
 }  // namespace
 
 StateKeeper::StateKeeper(const char* command) : command_(command), pause_(shortest_pause) {}
 
-void StateKeeper::attend(Monitor& monitor, const RunStore& store) {
+void StateKeeper::attend(Monitor& monitor, const RunStore& store, Lights lights) {
+  if (!written_) {
+    pause_ =
+        std::max<Clock::duration>(pause_, std::chrono::duration_cast<Clock::duration>(pauses_per_write * foretold(lights)));
+  }
   begin_ = last_ = Clock::now();
   monitor.wants_state = [this] { return is_due(); };
   monitor.receive_state = [this, store](const SolveStateView& state) { keep(store, state); };

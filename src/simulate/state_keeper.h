@@ -8,16 +8,17 @@
 
 namespace sunfleck {
 
-// Writes the state after a finished replicate, once fifty times the duration of the last write has passed and at least half a
-// second: this costs at most 2 % of the time. Writes it once more at the end of a stopped simulation.
+// Writes the state after a finished replicate, once fifty times the duration of the last write has passed, or of the first one as
+// far as it can be foretold, and at least half a second: this costs about 2 % of the time. Writes it once more at the end of a
+// stopped simulation.
 class StateKeeper {
  public:
   // `command` is the one that is resumed, "run" or "day".
   explicit StateKeeper(const char* command);
 
-  // Makes the monitor hand over states, and writes them to the store; a disk that rejects them is reported once. It remembers
-  // from earlier simulations how long writing takes. The keeper must outlive the monitor's use.
-  void attend(Monitor& monitor, const RunStore& store);
+  // Makes the monitor hand over states of a simulation in these lights, and writes them to the store; a disk that rejects them is
+  // reported once. It remembers from earlier simulations how long writing takes. The keeper must outlive the monitor's use.
+  void attend(Monitor& monitor, const RunStore& store, Lights lights);
 
   [[nodiscard]] bool has_written() const { return written_; }
 

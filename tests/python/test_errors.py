@@ -132,7 +132,7 @@ def test_options(name):
     for value in OPTIONS[name]:
         with pytest.raises(ValueError) as error:
             sunfleck.run(with_arrays(), **{"device": "cpu", name: value})
-        one_line(error, name)
+        assert re.search(rf"\b{name}\b", one_line(error, name))
 
 
 def test_scenes_that_are_no_scenes(tmp_path):

@@ -170,7 +170,9 @@ std::string cure_of_undefined(const std::string& name, const OpticsByName& defin
 }
 
 [[noreturn]] void refuse_undefined(const GeometryPart& part, const std::string& name, const OpticsByName& defined) {
-  part.table.refuse(part.source_key(), fmt::format("it uses optics \"{}\", which is not defined", printable(name)),
+  const bool named = part.table.is_text("optics") && part.table.text("optics") == name;
+  part.table.refuse(named ? std::string_view("optics") : part.source_key(),
+                    fmt::format("it uses optics \"{}\", which is not defined", printable(name)),
                     cure_of_undefined(name, defined));
 }
 

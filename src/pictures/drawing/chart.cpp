@@ -51,6 +51,8 @@ void resolve(Image& image, const SurfaceImage& seen, std::span<const Colour> col
   for (int row = seen.first_row; row < seen.first_row + seen.height; ++row) {
     const Colour background = background_of(row, image.height);
     const std::array<std::uint8_t, 3> empty = to_srgb(background);
+    Colour last = background;  // often that of the next pixel, too
+    std::array<std::uint8_t, 3> encoded = empty;
     for (int column = 0; column < seen.width; ++column) {
       auto& pixel = image.pixels[static_cast<std::size_t>(row) * seen.width + column];
       bool any = false;
@@ -65,7 +67,8 @@ void resolve(Image& image, const SurfaceImage& seen, std::span<const Colour> col
         for (std::size_t i = 0; i < 3; ++i) sum[i] += dimmed ? 0.5 * (colour[i] + background[i]) : colour[i];
       }
       for (double& channel : sum) channel /= seen.samples;
-      pixel = any ? to_srgb(sum) : empty;
+      if (any && sum != last) encoded = to_srgb(last = sum);
+      pixel = any ? encoded : empty;
     }
   }
 }

@@ -26,8 +26,8 @@ struct RowBand {
 };
 
 // The rows of a picture are drawn in bands of at most this many samples, or of one row if that has more, so that the samples
-// of a large picture never need to be in memory together.
-inline constexpr std::int64_t samples_in_band = std::int64_t{1} << 20U;
+// of a large picture never need to be in memory together, and those of a band stay in a processor's own cache.
+inline constexpr std::int64_t samples_in_band = std::int64_t{1} << 16U;
 
 // Divides the rows of a picture into such bands, from top to bottom.
 [[nodiscard]] std::vector<RowBand> row_bands(int width, int height, int samples);

@@ -1,5 +1,7 @@
 #include "programs/cli/option_checks.h"
 
+#include "files/scene/toml_view.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -61,6 +63,32 @@ CLI::Validator whole_number(std::uint64_t lo, std::uint64_t hi) {
           range};
 }
 
+CLI::Validator number(double lo, double hi) {
+  const std::string range = fmt::format("{}..{}", lo, hi);
+  return {[=](const std::string& text) {
+            double value = 0.0;
+            const bool good = CLI::detail::lexical_cast(text, value) && value >= lo && value <= hi;
+            return good ? std::string() : fmt::format("{} (must be a number in {})", text, range);
+          },
+          range};
+}
+
+CLI::Validator memory_size(std::uint64_t lo, std::uint64_t hi) {
+  return {[=](std::string& text) {
+            const std::string given = text;
+            bool good = true;
+            try {
+              CLI::AsSizeValue(true)(text);
+              const std::optional<std::uint64_t> bytes = whole_number_of(text);
+              good = bytes && *bytes >= lo && *bytes <= hi;
+            } catch (const CLI::ValidationError&) {  // an unknown unit, or far too much
+              good = false;
+            }
+            return good ? std::string() : fmt::format("{} (must be a size from 1MB to 1PB, such as 500MB or 2GB)", given);
+          },
+          "SIZE"};
+}
+
 CLI::Validator without_blanks() {
   return {[](std::string& text) {
             CLI::detail::trim(text);
@@ -82,8 +110,10 @@ CLI::Validator device_kind() {
 CLI::Validator one_of(const std::vector<std::string>& words) {
   const std::string list = fmt::format("{}", fmt::join(words, ", "));
   return {[=](const std::string& text) {
-            const bool known = std::find(words.begin(), words.end(), text) != words.end();
-            return known ? std::string() : fmt::format("{} (must be one of: {})", text, list);
+            if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+            if (const auto nearest = nearest_word(text, words))
+              return fmt::format("{} (unknown); did you mean {}?", text, *nearest);
+            return fmt::format("{} (must be one of: {})", text, list);
           },
           ""};
 }

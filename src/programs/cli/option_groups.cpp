@@ -16,7 +16,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::uint64_t least_memory_bytes = 1'000'000;
-constexpr std::uint64_t most_memory_bytes = std::uint64_t{1} << 50U;
+constexpr std::uint64_t most_memory_bytes = 1'000'000'000'000'000;
 constexpr std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -38,8 +38,7 @@ void add_fixed_work(CLI::Option_group& group, RunOptions& options) {
 void add_memory(CLI::Option_group& group, RunOptions& options,
                 const char* use = "replicates in progress, e.g. 500MB or 2GB (default: a quarter of the free memory)") {
   group.add_option("--memory", options.memory_bytes, fmt::format("Memory for {}", use))
-      ->transform(CLI::AsSizeValue(true))
-      ->check(CLI::Range(least_memory_bytes, most_memory_bytes));
+      ->transform(memory_size(least_memory_bytes, most_memory_bytes));
 }
 
 // Adds the options that only a simulation needs.
@@ -275,7 +274,7 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
       ->transform(whole_number(4, most_seeds))
       ->capture_default_str();
   tradeoff.add_option("--rays", options.finest_rays, "Rays of the finest grid; packets and the reference scale with it")
-      ->check(CLI::Range(1e3, 1e9))
+      ->check(number(1e3, 1e9))
       ->capture_default_str();
   tradeoff
       .add_option("--grid", options.run.grid_m, "A grid spacing of your own, m: it is measured too, and marked in the plot")

@@ -159,7 +159,7 @@ std::string nearest_option(const std::string& unknown, const CLI::App& command, 
 }
 
 // Rethrows CLI11's message in three parts. Messages of its own checks read `OPTION: what is wrong`, those of ours `OPTION:
-// VALUE (why)`.
+// VALUE (why)` with or without what would be right.
 [[noreturn]] void throw_usage(const CLI::ParseError& error, const CLI::App& app, int argc, const char* const* argv) {
   const std::string first = argc > 1 ? printable(argv[1]) : "";
   const auto chosen = app.get_subcommands();
@@ -191,6 +191,12 @@ std::string nearest_option(const std::string& unknown, const CLI::App& command, 
   if (colon == std::string::npos) throw_input("command line", what, cure);
   const std::string option = what.substr(0, colon);
   const std::string rest = what.substr(colon + 2);
+  if (rest.find("); ") != std::string::npos) throw Error(ErrorKind::input, fmt::format("command line: {} {}", option, rest));
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    const bool again = rest.find("At Most") != std::string::npos;
+    throw_input("command line: " + option, again ? "given more than once" : "its value is missing",
+                again ? "give it once" : cure);
+  }
   if (rest.back() == ')') throw Error(ErrorKind::input, fmt::format("command line: {} {}; {}", option, rest, cure));
   throw_input("command line: " + option, rest, cure);
 }

@@ -100,8 +100,19 @@ void PlaceSums::add_all(std::span<const std::int64_t> sums) {
 
 std::vector<std::int64_t> PlaceSums::all() const {
   if (form_ == Form::all) return all_;
-  std::vector<std::int64_t> sums(size());
-  for_each([&](std::size_t place, std::span<const std::int64_t> values) { columns::add(values, &sums[place * width_]); });
+  std::vector<std::int64_t> sums;
+  if (form_ == Form::list) {
+    sums.resize(size());
+    for_each([&](std::size_t place, std::span<const std::int64_t> values) { columns::add(values, &sums[place * width_]); });
+    return sums;
+  }
+  // Each number of a wide array is written once.
+  sums.reserve(size());
+  for_each([&](std::size_t place, std::span<const std::int64_t> values) {
+    sums.resize(place * width_);
+    sums.insert(sums.end(), values.begin(), values.end());
+  });
+  sums.resize(size());
   return sums;
 }
 

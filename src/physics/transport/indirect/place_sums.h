@@ -37,7 +37,7 @@ class PlaceSums {
   // Holds `width` sums, all 0, for each of `places` places. There are fewer than 2^32 places.
   PlaceSums(std::size_t places, std::size_t width);
 
-  // How much sums hold: all of them, or entries of a list.
+  // How much sums hold: all of them, or rows or entries in another form.
   struct Extent {
     bool all = false;
     std::size_t entries = 0;
@@ -45,7 +45,7 @@ class PlaceSums {
   // Does the same, ready for as much as other sums of the same width held in the end. Rows come from `spare` and return there;
   // it may be null.
   PlaceSums(std::size_t places, std::size_t width, const Extent& like, std::shared_ptr<SpareBlocks> spare = nullptr);
-  [[nodiscard]] Extent extent() const { return {form_ == Form::all, at_.size()}; }
+  [[nodiscard]] Extent extent() const { return {form_ == Form::all, form_ == Form::list ? at_.size() : rows_.size()}; }
 
   // Returns the number of sums, places times width.
   [[nodiscard]] std::size_t size() const { return places_ * width_; }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Mapping
-from typing import Any, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 
@@ -52,10 +52,9 @@ def bound(value: Any, name: str) -> float:
 
 def work_options(work: Mapping[str, Any]) -> Any:
     """Checks the keyword arguments of run() that limit its work, and returns them in the form the compiled part takes."""
-    both = work["error"]
     checked = {
-        "direct_error": bound(value, "direct_error") if (value := _first(work["direct_error"], both)) is not None else None,
-        "indirect_error": bound(value, "indirect_error") if (value := _first(work["indirect_error"], both)) is not None else None,
+        "direct_error": _bound_of(work, "direct_error"),
+        "indirect_error": _bound_of(work, "indirect_error"),
         "grid": above_zero(work["grid"], "grid") if work["grid"] is not None else None,
         "passes": whole(work["passes"], "passes", 8, 65536) if work["passes"] is not None else None,
         "max_seconds": above_zero(work["max_seconds"], "max_seconds") if work["max_seconds"] is not None else None,
@@ -67,5 +66,7 @@ def work_options(work: Mapping[str, Any]) -> Any:
     return _core.WorkRequest(**checked)
 
 
-def _first(one: Any, other: Any) -> Any:
-    return one if one is not None else other
+def _bound_of(work: Mapping[str, Any], name: str) -> Optional[float]:
+    """Returns the bound of that name, or else the one of both passes; an error names the argument that was given."""
+    given = next((key for key in (name, "error") if work[key] is not None), None)
+    return bound(work[given], given) if given is not None else None

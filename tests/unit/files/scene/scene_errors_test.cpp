@@ -165,6 +165,8 @@ const std::vector<Breakage> breakages = {
     {"OpticsKeyTypo", "rgb           = [0.05", "rbg = [0.05", "rbg", "optics.leaf.rbg", "did you mean rgb?"},
     {"OpticsUndefined", "[optics.leaf]", "[optics.Leaf]", "optics  =", "geometry.optics.leaf", "did you mean Leaf?"},
     {"OpticsOfTableUndefined", "\"bark\"", "\"wood\"", "optics  =", "geometry.optics.*", "add [optics.wood]"},
+    {"OpticsOfAllUndefined", "{ leaf = \"leaf\", \"*\" = \"bark\" }", "\"leef\"", "optics  =", "geometry.optics = \"leef\"",
+     "did you mean leaf?"},
     {"GeometryEmpty", "file    = \"plates.obj\"\n", "", "[[geometry]]", "geometry.file", "add file"},
     {"GeometryBoth", "optics  = { leaf = \"leaf\", \"*\" = \"bark\" }", "generator = \"maize\"", "plates.obj", "geometry.file",
      "keep one"},

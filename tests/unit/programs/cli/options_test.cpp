@@ -4,6 +4,7 @@
 #include "base/version.h"
 #include "support/error_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -66,6 +67,18 @@ TEST(Options, OfARunAreRead) {
   EXPECT_EQ(options.images, std::vector<std::string>{"none"});
   EXPECT_EQ(options.pictures.band, "NIR");
   EXPECT_TRUE(options.allow_outside && options.quiet && options.json);
+}
+
+TEST(Options, TakeSizesOfMemory) {
+  EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "500MB"}).memory_bytes, 500'000'000U);
+  EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "2GiB"}).memory_bytes, std::uint64_t{2} << 30U);
+  EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "1000000"}).memory_bytes, 1'000'000U);
+  for (const char* size : {"1kB", "abc", "1Q", "-1MB", "2PB", "99999999999999999999G"}) {
+    EXPECT_EQ(
+        refusal({"run", "a.toml", "--memory", size}),
+        fmt::format("command line: --memory {} (must be a size from 1MB to 1PB, such as 500MB or 2GB); see sunfleck run --help",
+                    size));
+  }
 }
 
 TEST(Options, ErrorSetsTheBoundsThatNothingElseSets) {
@@ -274,6 +287,13 @@ TEST(Options, MistakesAreNamed) {
         "command line: --error " + text +
             " (must be a number between 0 and 1, with a decimal point: give 0.02 for 2 percent); see sunfleck run --help");
   }
+  EXPECT_EQ(refusal({"run", "a.toml", "--seed"}), "command line: --seed (its value is missing); see sunfleck run --help");
+  EXPECT_EQ(refusal({"run", "a.toml", "--seed", "1", "--seed", "2"}),
+            "command line: --seed (given more than once); give it once");
+  EXPECT_EQ(refusal({"run", "a.toml", "--images", "rank_totl"}),
+            "command line: --images rank_totl (unknown); did you mean rank_total?");
+  EXPECT_EQ(refusal({"tradeoff", "a.toml", "--rays", "1"}),
+            "command line: --rays 1 (must be a number in 1000..1000000000); see sunfleck tradeoff --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--bogus"}),
             "command line: --bogus (unknown option or argument); see sunfleck run --help");
   EXPECT_EQ(refusal({"ran"}), "ran (unknown command); did you mean run?");
