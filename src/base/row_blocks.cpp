@@ -2,6 +2,8 @@
 
 #include "base/large_pages.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <new>
@@ -13,6 +15,8 @@ namespace {
 constexpr std::size_t page_bytes = LargePageAllocator<std::int64_t>::page_bytes;
 constexpr std::size_t least_block_bytes = std::size_t{1} << 14U;
 constexpr std::size_t blocks_of_all = 16;
+// A block takes two mappings of the process, of which systems allow some 65,000.
+constexpr std::size_t most_block_bytes = 4 * page_bytes;
 
 void* fetch(std::size_t bytes) {
   void* const block = bytes < page_bytes ? std::malloc(bytes) : std::aligned_alloc(page_bytes, bytes);
@@ -22,15 +26,15 @@ void* fetch(std::size_t bytes) {
 }
 
 std::size_t bytes_of_block(std::size_t row_bytes, std::size_t most_rows) {
-  const std::size_t wanted = std::clamp(row_bytes * most_rows / blocks_of_all, least_block_bytes, page_bytes);
-  if (wanted >= row_bytes) return wanted;
-  return row_bytes <= page_bytes ? row_bytes : (row_bytes + page_bytes - 1) / page_bytes * page_bytes;
+  const std::size_t wanted = std::clamp(row_bytes * most_rows / blocks_of_all, least_block_bytes, most_block_bytes);
+  const std::size_t bytes = std::max(wanted, row_bytes);
+  return bytes < page_bytes ? bytes : (bytes + page_bytes - 1) / page_bytes * page_bytes;
 }
 
 }  // namespace
 
 void* SpareBlocks::take(std::size_t bytes) {
-  const std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   for (Spare** at = &first_; *at != nullptr; at = &(*at)->next) {
     if ((*at)->bytes == bytes) return std::exchange(*at, (*at)->next);
   }
@@ -62,9 +66,22 @@ RowBlocks::RowBlocks(const RowBlocks& other)
   }
 }
 
-RowBlocks& RowBlocks::operator=(const RowBlocks& other) {
-  RowBlocks copy(other);
-  return *this = std::move(copy);
+RowBlocks::RowBlocks(RowBlocks&& other) noexcept
+    : width_(other.width_),
+      size_(std::exchange(other.size_, 0)),
+      block_bytes_(other.block_bytes_),
+      rows_each_(other.rows_each_),
+      spare_(other.spare_),
+      blocks_(std::exchange(other.blocks_, {})) {}
+
+RowBlocks& RowBlocks::operator=(RowBlocks other) noexcept {
+  std::swap(width_, other.width_);
+  std::swap(size_, other.size_);
+  std::swap(block_bytes_, other.block_bytes_);
+  std::swap(rows_each_, other.rows_each_);
+  std::swap(spare_, other.spare_);
+  std::swap(blocks_, other.blocks_);
+  return *this;
 }
 
 std::span<std::int64_t> RowBlocks::append() {

@@ -21,6 +21,8 @@ class SpareBlocks {
 
   // Returns a block with any content that was given back with as many bytes, or null.
   [[nodiscard]] void* take(std::size_t bytes);
+
+  // Keeps a block of malloc or aligned_alloc, of 16 bytes at least.
   void give_back(void* block, std::size_t bytes);
 
   // Returns the blocks to the system, and from now on those that are given back as well.
@@ -42,13 +44,12 @@ class RowBlocks {
  public:
   RowBlocks() = default;  // no rows
 
-  // Will hold at most `most` rows, in blocks of a sixteenth of their memory or of one large page. `spare` may be null.
+  // Will hold at most `most` rows, in blocks of a sixteenth of their memory or of a few large pages. `spare` may be null.
   RowBlocks(std::size_t width, std::size_t most, std::shared_ptr<SpareBlocks> spare);
 
   RowBlocks(const RowBlocks& other);
-  RowBlocks(RowBlocks&&) = default;
-  RowBlocks& operator=(const RowBlocks& other);
-  RowBlocks& operator=(RowBlocks&&) = default;
+  RowBlocks(RowBlocks&& other) noexcept;  // leaves no rows behind
+  RowBlocks& operator=(RowBlocks other) noexcept;
   ~RowBlocks() = default;
 
   // Appends a row of zeros and returns it.

@@ -80,9 +80,9 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
 }
 
 // Returns the memory for drawing the pictures that a run draws unless others are asked for, together.
-double picture_bytes(const RadiationModel& model, const CounterLayout& layout) {
+double picture_bytes(const RadiationModel& model, const CounterLayout& layout, const TracerDevice& device) {
   const std::vector<Picture> usual = usual_pictures(model.has_beam(), has_field(model, LightField::indirect));
-  return drawing_bytes(layout, model, PictureOptions{}, usual.size());
+  return drawing_bytes(layout, model, PictureOptions{}, usual.size(), device);
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   };
   const SumBytes drawn = sum_bytes(model, tree.layout, settings.element_errors, *run);
   const SumBytes plain = sum_bytes(model, tree.layout, without_pictures, *run);
-  const double drawing = drawn.result + picture_bytes(model, tree.layout);
+  const double drawing = drawn.result + picture_bytes(model, tree.layout, engine.device());
   return MemoryForecast{static_cast<std::uint64_t>(throughout + std::max(computing(drawn), drawing)),
                         static_cast<std::uint64_t>(throughout + computing(plain)), *run};
 }

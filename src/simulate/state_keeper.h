@@ -8,9 +8,8 @@
 
 namespace sunfleck {
 
-// Writes the state after a finished replicate, once fifty times the duration of the last write has passed, or of the first one as
-// far as it can be foretold, and at least half a second: this costs about 2 % of the time. Writes it once more at the end of a
-// stopped simulation.
+// Writes the state after a finished replicate, once fifty times the duration of the last write has passed (at first that of an
+// estimate) and at least half a second: this costs about 2 % of the time. Writes it once more at the end of a stopped simulation.
 class StateKeeper {
  public:
   // `command` is the one that is resumed, "run" or "day".

@@ -1,6 +1,7 @@
 #include "devices/tracers/canopy_view.h"
 
 #include "base/check.h"
+#include "base/threads.h"
 #include "devices/gpu/compute.h"
 #include "devices/tracers/fan_walk.h"
 #include "devices/tracers/pixel_blocks.h"
@@ -242,7 +243,7 @@ class CpuViewer final : public LookingViewer {
     for (std::uint32_t first = 0; first < blocks.count();) {
       if (stop && stop()) return {};
       const std::uint32_t end = first + std::min(blocks_per_slice, blocks.count() - first);
-      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first, end, 256), [&](const auto& range) {
+      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first, end, 32), [&](const auto& range) {
         for (std::uint32_t block = range.begin(); block < range.end(); ++block) {
           blocks.for_bundles(block,
                              [&](std::span<const std::uint32_t> numbers) { see_samples(bvh(), views(), grid, numbers, seen); });
@@ -360,6 +361,15 @@ std::unique_ptr<CanopyViewer> view_with_gpu(const GpuContext& context, const Gpu
 
 std::unique_ptr<CanopyViewer> view_with_cpu(const Bvh& bvh, CanopyLook look) {
   return std::make_unique<CpuViewer>(bvh, std::move(look));
+}
+
+std::uint32_t samples_at_once(const TracerDevice& device) {
+  constexpr std::uint32_t on_gpu = 1U << 20U;
+  constexpr std::uint32_t in_cache = 1U << 16U;
+  constexpr std::uint32_t for_a_thread = 1U << 14U;
+  if (!device.software) return on_gpu;
+  const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(64, threads_allowed()));
+  return std::max(in_cache, threads * for_a_thread);
 }
 
 std::vector<shared::SeenSurface> see_with_gpu(const GpuContext& context, const GpuTree& tree, const Bvh& bvh,

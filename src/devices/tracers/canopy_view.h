@@ -48,6 +48,10 @@ class CanopyViewer {
                                                              const StopQuestion& stop) = 0;
 };
 
+// Returns how many samples are best seen together: on a GPU enough to keep it busy; otherwise enough for all threads, and few
+// enough that what they see stays in a processor's cache.
+[[nodiscard]] std::uint32_t samples_at_once(const TracerDevice& device);
+
 // Create a viewer; the arguments except the look must outlive it. Samples that take the device too many steps are resolved with
 // `bvh`, of which `tree` is the copy on the device.
 [[nodiscard]] std::unique_ptr<CanopyViewer> view_with_gpu(const GpuContext& context, const GpuTree& tree, const Bvh& bvh,

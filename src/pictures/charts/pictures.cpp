@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/threads.h"
 #include "base/units.h"
 #include "devices/tracers/canopy_view.h"
 #include "physics/transport/model/surfaces.h"
@@ -59,12 +60,14 @@ std::string footer_line(LightField field, const RadiationResult& result, std::si
 class Look {
  public:
   Look(const Drawing& drawing, const PictureOptions& options, const Camera& camera)
-      : options_(options), viewer_(drawing.engine.viewer(picture_look(drawing.scene.model, drawing.layout, options, camera))) {}
+      : options_(options),
+        samples_at_once_(samples_at_once(drawing.engine.device())),
+        viewer_(drawing.engine.viewer(picture_look(drawing.scene.model, drawing.layout, options, camera))) {}
 
   // Passes on every band of rows, from top to bottom. Returns false if stopped.
   template <class Receive>
   [[nodiscard]] bool each_band(const StopQuestion& stop, const Receive& receive) const {
-    for (const RowBand& rows : row_bands(options_.width, options_.height, options_.samples)) {
+    for (const RowBand& rows : row_bands(options_.width, options_.height, options_.samples, samples_at_once_)) {
       const auto samples = viewer_->see(static_cast<std::uint32_t>(rows.first), static_cast<std::uint32_t>(rows.count), stop);
       if (samples.empty()) return false;
       receive(surface_image(samples, rows, options_));
@@ -74,6 +77,7 @@ class Look {
 
  private:
   const PictureOptions& options_;
+  std::uint32_t samples_at_once_;
   std::unique_ptr<CanopyViewer> viewer_;
 };
 
@@ -281,16 +285,19 @@ ChartContent chart_content(const ChartSource& source, const PictureOptions& opti
 }
 
 double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
-                     std::size_t pictures) {
+                     std::size_t pictures, const TracerDevice& device) {
   const auto surfaces = 2.0 * static_cast<double>(model.canopy.size()) + layout.cells();
   const auto count = static_cast<double>(std::min(pictures, charts_at_once(layout, model)));
   const double colours = surfaces * (count + 1.0) * sizeof(Colour);  // and once without light
   const double values = surfaces * 3.0 * sizeof(double);             // values, areas, luminances
-  const double pixels = count * options.width * options.height * sizeof(decltype(Image::pixels)::value_type);
-  const double samples = static_cast<double>(samples_in_band) *
+  const double picture = static_cast<double>(options.width) * options.height * sizeof(decltype(Image::pixels)::value_type);
+  const double samples = std::max<double>(samples_at_once(device), options.width * options.samples) *
                          (sizeof(shared::SeenSurface) + sizeof(decltype(SurfaceImage::surface)::value_type) +
                           sizeof(decltype(SurfaceImage::depth_m)::value_type));
-  return colours + values + pixels + samples;
+  // A picture is filtered as a whole before it is compressed, after the samples were seen.
+  constexpr double encoded = 1.15;
+  const double encoding = encoded * picture * std::min(count, static_cast<double>(threads_allowed()));
+  return colours + values + count * picture + std::max(samples, encoding);
 }
 
 bool draw_charts(const Drawing& drawing, const PictureOptions& options, std::span<const Picture> pictures,

@@ -77,10 +77,10 @@ struct ChartSource {
 [[nodiscard]] ChartContent chart_content(const ChartSource& source, const PictureOptions& options, const Picture& picture,
                                          const SurfaceColours& surfaces);
 
-// Returns the bytes that draw_charts needs to draw `pictures` charts of the size in `options`, in addition to the result and
-// the tree.
+// Returns the bytes that draw_charts needs on a device to draw `pictures` charts of the size in `options`, in addition to the
+// result and the tree.
 [[nodiscard]] double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
-                                   std::size_t pictures);
+                                   std::size_t pictures, const TracerDevice& device);
 
 // Draws charts of one view: the scene is looked at once for all of them or, in a scene of millions of triangles, for as many as
 // have their colours in half a gibibyte. Passes each on as soon as it is finished, with its index in `pictures`; several

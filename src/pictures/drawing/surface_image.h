@@ -25,11 +25,8 @@ struct RowBand {
   int count = 0;
 };
 
-// The rows of a picture are drawn in bands of at most this many samples, or of one row if that has more, so that the samples
-// of a large picture never need to be in memory together, and those of a band stay in a processor's own cache.
-inline constexpr std::int64_t samples_in_band = std::int64_t{1} << 16U;
-
-// Divides the rows of a picture into such bands, from top to bottom.
-[[nodiscard]] std::vector<RowBand> row_bands(int width, int height, int samples);
+// Divides the rows of a picture into bands of at most `most_samples` samples, or of one row if that has more, from top to bottom:
+// the samples of a large picture never need to be in memory together.
+[[nodiscard]] std::vector<RowBand> row_bands(int width, int height, int samples, std::int64_t most_samples);
 
 }  // namespace sunfleck

@@ -73,18 +73,23 @@ CLI::Validator number(double lo, double hi) {
           range};
 }
 
-CLI::Validator memory_size(std::uint64_t lo, std::uint64_t hi) {
-  return {[=](std::string& text) {
+CLI::Validator memory_size() {
+  constexpr std::uint64_t least_bytes = 1'000'000;
+  constexpr std::uint64_t most_bytes = 1'000'000'000'000'000;
+  return {[](std::string& text) {
             const std::string given = text;
-            bool good = true;
+            text.erase(0, std::min(text.find_first_not_of('0'), text.size()));  // CLI11 would take it for octal
+            std::optional<std::uint64_t> bytes;
             try {
               CLI::AsSizeValue(true)(text);
-              const std::optional<std::uint64_t> bytes = whole_number_of(text);
-              good = bytes && *bytes >= lo && *bytes <= hi;
+              bytes = whole_number_of(text);
             } catch (const CLI::ValidationError&) {  // an unknown unit, or far too much
-              good = false;
             }
-            return good ? std::string() : fmt::format("{} (must be a size from 1MB to 1PB, such as 500MB or 2GB)", given);
+            if (bytes && *bytes >= least_bytes && *bytes <= most_bytes) {
+              text = std::to_string(*bytes);
+              return std::string();
+            }
+            return fmt::format("{} (must be a whole number with a unit, 1MB to 1000TB, such as 500MB or 2GB)", given);
           },
           "SIZE"};
 }

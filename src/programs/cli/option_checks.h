@@ -18,9 +18,8 @@ namespace sunfleck {
 // Accepts 1e6 too.
 [[nodiscard]] CLI::Validator whole_number(std::uint64_t lo, std::uint64_t hi);
 
-// Use with transform(): turns a size such as 500MB into bytes; kB, MB and GB are powers of 1000, KiB, MiB and GiB of 1024. The
-// limits are in bytes.
-[[nodiscard]] CLI::Validator memory_size(std::uint64_t lo, std::uint64_t hi);
+// Use with transform(): turns a size such as 500MB into bytes; kB, MB and GB are powers of 1000, KiB, MiB and GiB of 1024.
+[[nodiscard]] CLI::Validator memory_size();
 
 // Use with transform() for the items of a list: trims the blanks around each item.
 [[nodiscard]] CLI::Validator without_blanks();

@@ -15,8 +15,6 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uint64_t least_memory_bytes = 1'000'000;
-constexpr std::uint64_t most_memory_bytes = 1'000'000'000'000'000;
 constexpr std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -37,8 +35,7 @@ void add_fixed_work(CLI::Option_group& group, RunOptions& options) {
 
 void add_memory(CLI::Option_group& group, RunOptions& options,
                 const char* use = "replicates in progress, e.g. 500MB or 2GB (default: a quarter of the free memory)") {
-  group.add_option("--memory", options.memory_bytes, fmt::format("Memory for {}", use))
-      ->transform(memory_size(least_memory_bytes, most_memory_bytes));
+  group.add_option("--memory", options.memory_bytes, fmt::format("Memory for {}", use))->transform(memory_size());
 }
 
 // Adds the options that only a simulation needs.

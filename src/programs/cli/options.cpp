@@ -191,13 +191,10 @@ std::string nearest_option(const std::string& unknown, const CLI::App& command, 
   if (colon == std::string::npos) throw_input("command line", what, cure);
   const std::string option = what.substr(0, colon);
   const std::string rest = what.substr(colon + 2);
-  if (rest.find("); ") != std::string::npos) throw Error(ErrorKind::input, fmt::format("command line: {} {}", option, rest));
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
-    const bool again = rest.find("At Most") != std::string::npos;
-    throw_input("command line: " + option, again ? "given more than once" : "its value is missing",
-                again ? "give it once" : cure);
-  }
+  if (rest.starts_with("1 required ")) throw_input("command line: " + option, "its value is missing", cure);
+  if (rest.starts_with("At Most 1 ")) throw_input("command line: " + option, "given more than once", "give it once");
   if (rest.back() == ')') throw Error(ErrorKind::input, fmt::format("command line: {} {}; {}", option, rest, cure));
+  if (rest.find("); ") != std::string::npos) throw Error(ErrorKind::input, fmt::format("command line: {} {}", option, rest));
   throw_input("command line: " + option, rest, cure);
 }
 

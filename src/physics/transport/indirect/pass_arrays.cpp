@@ -6,13 +6,14 @@ namespace sunfleck {
 
 std::unique_ptr<PassArrays> SparePassArrays::take() {
   const std::lock_guard lock(mutex_);
+  std::unique_ptr<PassArrays> arrays;
   if (spare_.empty()) {
-    auto arrays = std::make_unique<PassArrays>();
-    arrays->blocks = blocks_;
-    return arrays;
+    arrays = std::make_unique<PassArrays>();
+  } else {
+    arrays = std::move(spare_.back());
+    spare_.pop_back();
   }
-  std::unique_ptr<PassArrays> arrays = std::move(spare_.back());
-  spare_.pop_back();
+  arrays->blocks = blocks_;
   return arrays;
 }
 

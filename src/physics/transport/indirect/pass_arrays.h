@@ -49,7 +49,7 @@ class SparePassArrays {
  public:
   [[nodiscard]] std::unique_ptr<PassArrays> take();
   void give_back(std::unique_ptr<PassArrays> arrays);
-  // Frees the arrays that no pass uses.
+  // Frees the arrays and blocks that nothing uses; blocks that are in use go to the system afterwards.
   void free();
 
  private:

@@ -126,7 +126,7 @@ class ShadeAddition {
     }
   }
 
-  // Sets what one landing of the beam brings to the two sides of an element, and divides it by the area that is lit.
+  // Sets what these landings of the beam on the two sides of an element bring to one layer.
   void set_beam(std::size_t e, double upper, double lower, BinLight& light) const {
     const double lit_m2_per_landing = conversion_.exposure.lit_m2_per_landing(e);
     light.lit_m2 = (upper + lower) * lit_m2_per_landing;
@@ -165,7 +165,6 @@ class ShadeAddition {
     replicate_.packets->side_landed.for_each(first_side, end_side, add_side, come);
   }
 
-  // Most elements have no landing in a replicate.
   void set_light(std::size_t side, std::span<const std::int64_t> quanta, SideLight& light) const {
     const std::size_t e = side / 2;
     const double element_m2 = area_m2(canopy_.corners[e]);
@@ -182,6 +181,7 @@ class ShadeAddition {
     if (light.any_lit) set_lit(e, per_m2, light);
   }
 
+  // Sets what depends on the sunlit part of an element. Most elements have no landing of the beam in a replicate.
   void set_lit(std::size_t e, double per_m2, SideLight& light) const {
     const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
     const double lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;

@@ -154,13 +154,16 @@ TEST(ChartCanvas, RefusesRowsOutsideThePicture) {
 }
 
 TEST(RowBands, CoverThePictureInBoundedPieces) {
-  for (const auto& [width, height, samples] : {std::array{8192, 8192, 64}, std::array{1600, 1200, 16}, std::array{3, 5, 1}}) {
+  constexpr std::int64_t most = 1 << 16;
+  for (const auto& [width, height, samples] : {std::array{8192, 8192, 64}, std::array{1600, 1200, 16},
+                                               std::array{1600, 1200, 4}, std::array{5000, 37, 4}, std::array{3, 5, 1}}) {
     int next = 0;
-    for (const RowBand& band : row_bands(width, height, samples)) {
+    for (const RowBand& band : row_bands(width, height, samples, most)) {
       EXPECT_EQ(band.first, next);
       EXPECT_GT(band.count, 0);
-      EXPECT_LE(static_cast<std::int64_t>(band.count) * width * samples, 1 << 22);
+      EXPECT_TRUE(band.count == 1 || static_cast<std::int64_t>(band.count) * width * samples <= most);
       next += band.count;
+      EXPECT_TRUE(next == height || band.count == 1 || band.count == 2 || band.count % 4 == 0) << band.count;
     }
     EXPECT_EQ(next, height);
   }

@@ -73,11 +73,13 @@ TEST(Options, TakeSizesOfMemory) {
   EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "500MB"}).memory_bytes, 500'000'000U);
   EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "2GiB"}).memory_bytes, std::uint64_t{2} << 30U);
   EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "1000000"}).memory_bytes, 1'000'000U);
-  for (const char* size : {"1kB", "abc", "1Q", "-1MB", "2PB", "99999999999999999999G"}) {
-    EXPECT_EQ(
-        refusal({"run", "a.toml", "--memory", size}),
-        fmt::format("command line: --memory {} (must be a size from 1MB to 1PB, such as 500MB or 2GB); see sunfleck run --help",
-                    size));
+  EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "0500MB"}).memory_bytes, 500'000'000U);
+  EXPECT_EQ(parse_run({"run", "a.toml", "--memory", "0100000000"}).memory_bytes, 100'000'000U);
+  for (const char* size : {"1kB", "abc", "1Q", "-1MB", "1.5GB", "0", "", "2PB", "99999999999999999999G"}) {
+    EXPECT_EQ(refusal({"run", "a.toml", "--memory", size}),
+              fmt::format("command line: --memory {} (must be a whole number with a unit, 1MB to 1000TB, such as 500MB or "
+                          "2GB); see sunfleck run --help",
+                          size));
   }
 }
 
@@ -290,6 +292,9 @@ TEST(Options, MistakesAreNamed) {
   EXPECT_EQ(refusal({"run", "a.toml", "--seed"}), "command line: --seed (its value is missing); see sunfleck run --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--seed", "1", "--seed", "2"}),
             "command line: --seed (given more than once); give it once");
+  EXPECT_NE(refusal({"maize", "--spacing", "0.6"}).find("2 required"), std::string::npos);
+  EXPECT_EQ(refusal({"run", "a.toml", "--passes", "a); b"}),
+            "command line: --passes a); b (must be a whole number in 8..65536); see sunfleck run --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--images", "rank_totl"}),
             "command line: --images rank_totl (unknown); did you mean rank_total?");
   EXPECT_EQ(refusal({"tradeoff", "a.toml", "--rays", "1"}),

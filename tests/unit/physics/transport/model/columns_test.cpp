@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace sunfleck::test {
@@ -104,8 +105,7 @@ TEST(Columns, AreWeighedAndCarriedAsOneByOne) {
       ASSERT_EQ(largest.transmitted, largest_singly.transmitted);
     }
     const OfBothParts all = columns::sum_scaled(landed, {face.reflected.data(), face.scattered.data(), u}, scales, first);
-    for (const unsigned spare_bits : {0U, 10U}) {
-      const bool reflects = spare_bits == 0;
+    for (const auto& [spare_bits, reflects] : {std::pair{0U, true}, {0U, false}, {10U, true}, {10U, false}}) {
       const SentPart sent =
           reflects ? SentPart{nullptr, face.reflected.data(), u} : SentPart{face.reflected.data(), face.scattered.data(), u};
       const shared::Sharing sharing = shared::sharing_of((reflects ? all.reflected : all.transmitted) + 1, spare_bits);
