@@ -57,8 +57,8 @@ class IndirectPass {
         first_flux_(scene, light, key_, books_, arrays),
         active_(columns_, true) {
     IndirectSums& sums = books_.sums();
-    sums.side_landed = PlaceSums(2 * scene.model.canopy.size(), columns_, arrays.sides_landed, arrays.blocks);
-    sums.cell_landed = PlaceSums(scene.layout.cells(), columns_, arrays.cells_landed, arrays.blocks);
+    sums.side_landed = PlaceSums(2 * scene.model.canopy.size(), columns_, arrays.sides_landed, arrays.memory);
+    sums.cell_landed = PlaceSums(scene.layout.cells(), columns_, arrays.cells_landed, arrays.memory);
     next_.clear(books_.booked());
   }
 

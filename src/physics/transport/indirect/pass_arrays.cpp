@@ -13,7 +13,7 @@ std::unique_ptr<PassArrays> SparePassArrays::take() {
     arrays = std::move(spare_.back());
     spare_.pop_back();
   }
-  arrays->blocks = blocks_;
+  arrays->memory = {blocks_, &sums_};
   return arrays;
 }
 
@@ -25,6 +25,7 @@ void SparePassArrays::give_back(std::unique_ptr<PassArrays> arrays) {
 void SparePassArrays::free() {
   const std::lock_guard lock(mutex_);
   spare_.clear();
+  sums_.free();
   blocks_->close();
   blocks_ = std::make_shared<SpareBlocks>();
 }

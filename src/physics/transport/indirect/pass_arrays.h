@@ -41,7 +41,7 @@ struct PassArrays {
   std::vector<std::int64_t> carried;
   RoundsSums found;                              // by a device that makes the rounds
   PlaceSums::Extent sides_landed, cells_landed;  // of the last pass
-  std::shared_ptr<SpareBlocks> blocks;           // for the rows of sums
+  PlaceMemory memory;                            // for sums
 };
 
 // Lends arrays to passes that run at the same time.
@@ -49,6 +49,8 @@ class SparePassArrays {
  public:
   [[nodiscard]] std::unique_ptr<PassArrays> take();
   void give_back(std::unique_ptr<PassArrays> arrays);
+  // Keeps the memory of sums for other passes.
+  void give_back(PlaceSums& sums) { sums.give_back(sums_); }
   // Frees the arrays and blocks that nothing uses; blocks that are in use go to the system afterwards.
   void free();
 
@@ -56,6 +58,7 @@ class SparePassArrays {
   std::mutex mutex_;
   std::vector<std::unique_ptr<PassArrays>> spare_;
   std::shared_ptr<SpareBlocks> blocks_ = std::make_shared<SpareBlocks>();
+  SpareVectors<std::int64_t> sums_;
 };
 
 }  // namespace sunfleck

@@ -17,13 +17,17 @@ constexpr std::size_t list_part = 4;
 
 }  // namespace
 
-PlaceSums::PlaceSums(std::size_t places, std::size_t width, const Extent& like, std::shared_ptr<SpareBlocks> spare)
+PlaceSums::PlaceSums(std::size_t places, std::size_t width, const Extent& like, const PlaceMemory& memory)
     : PlaceSums(places, width) {
   if (form_ == Form::indexed) {
-    rows_ = RowBlocks(width, places, std::move(spare));
+    rows_ = RowBlocks(width, places, memory.rows);
   } else if (like.all || like.entries > most_entries_of_list()) {
     form_ = Form::all;
-    all_.resize(size());
+    if (memory.all != nullptr) {
+      all_ = memory.all->zeros(size());
+    } else {
+      all_.resize(size());
+    }
   }
 }
 
@@ -87,6 +91,11 @@ void PlaceSums::add(const PlaceSums& other) {
   } else {
     columns::add(other.all_, all_.data());
   }
+}
+
+void PlaceSums::give_back(SpareVectors<std::int64_t>& spare) {
+  PlaceSums taken = std::exchange(*this, PlaceSums());
+  if (taken.form_ == Form::all) spare.give_back(std::move(taken.all_));
 }
 
 void PlaceSums::add_all(std::span<const std::int64_t> sums) {

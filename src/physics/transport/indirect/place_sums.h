@@ -5,6 +5,7 @@
 #include "base/large_pages.h"
 #include "base/prefetch.h"
 #include "base/row_blocks.h"
+#include "base/spare_vectors.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,6 +23,12 @@ struct PlaceBytes {
   [[nodiscard]] PlaceBytes times(double factor) const { return {factor * sides, factor * cells}; }
 
   double sides = 0.0, cells = 0.0;
+};
+
+// Where sums get memory that others have given back; both may be null.
+struct PlaceMemory {
+  std::shared_ptr<SpareBlocks> rows;
+  SpareVectors<std::int64_t>* all = nullptr;
 };
 
 // Narrow sums keep what was added as a list while that takes at most a quarter of the memory of all sums, and all sums from
@@ -42,9 +49,8 @@ class PlaceSums {
     bool all = false;
     std::size_t entries = 0;
   };
-  // Does the same, ready for as much as other sums of the same width held in the end. Rows come from `spare` and return there;
-  // it may be null.
-  PlaceSums(std::size_t places, std::size_t width, const Extent& like, std::shared_ptr<SpareBlocks> spare = nullptr);
+  // Does the same, ready for as much as other sums of the same width held in the end. Rows return to where they come from.
+  PlaceSums(std::size_t places, std::size_t width, const Extent& like, const PlaceMemory& memory);
   [[nodiscard]] Extent extent() const { return {form_ == Form::all, form_ == Form::list ? at_.size() : rows_.size()}; }
 
   // Returns the number of sums, places times width.
@@ -66,6 +72,9 @@ class PlaceSums {
 
   // Adds the sums of `other`, which has as many, or none.
   void add(const PlaceSums& other);
+
+  // Gives the memory of all sums back, if there is any, and leaves no place behind.
+  void give_back(SpareVectors<std::int64_t>& spare);
 
   // Adds all sums of a device, [place * width + k].
   void add_all(std::span<const std::int64_t> sums);

@@ -65,7 +65,7 @@ IndirectSums::IndirectSums(const RadiationModel& model, const CounterLayout& lay
       up(down.size()),
       ledger(bands) {}
 
-std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights) {
+std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights, const PlaceMemory& memory) {
   std::vector<IndirectSums> dealt;
   if (lights == 1) {
     dealt.push_back(std::move(joint));
@@ -78,7 +78,7 @@ std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights) 
     IndirectSums& own = dealt[k];
     for (const auto sums : by_place) {
       const PlaceSums& of_all = all.*sums;
-      if (of_all.size() > 0) own.*sums = PlaceSums(of_all.places(), own.bands, of_all.extent());
+      if (of_all.size() > 0) own.*sums = PlaceSums(of_all.places(), own.bands, of_all.extent(), memory);
     }
     own.surface_landed = of_light(all.surface_landed, k, lights);
     own.layer_landed = of_light(all.layer_landed, k, lights);

@@ -57,7 +57,7 @@ struct IndirectSums {
 };
 
 // Returns the sums of each light out of those of all. Numbers of rays, packets and hits are the same for each. [light]
-[[nodiscard]] std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights);
+[[nodiscard]] std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights, const PlaceMemory& memory);
 
 // The sums that one replicate contributes to a run in one light.
 struct Replicate {

@@ -239,7 +239,7 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
 bool ReplicateMaker::make_direct(const ReplicateOrder& order, std::size_t light, const Conversion& conversion,
                                  Replicate& replicate, FirstLandings& first, std::vector<shared::Landing>& recorded,
                                  const StopQuestion& stop) {
-  replicate.counters.resize(layout_.words());
+  replicate.counters = spare_counters_.zeros(layout_.words());
   if (receivers_) replicate.passed = PlaneSums(*receivers_, model_);
   if (lights_[light].has_beam()) {
     // The rays of different lights are independent of each other.
@@ -255,6 +255,19 @@ bool ReplicateMaker::make_direct(const ReplicateOrder& order, std::size_t light,
   first.scattered_by_zone = conversion.scattered_by_zone(replicate.direct, replicate.passed);
   first.least_of_vegetation = conversion.least_of_vegetation(replicate.direct);
   return true;
+}
+
+void ReplicateMaker::take_back(ReplicateSet replicates) {
+  for (Replicate& replicate : replicates) {
+    spare_counters_.give_back(std::move(replicate.counters));
+    if (!replicate.packets) continue;
+    for (const auto sums : {&IndirectSums::side_landed, &IndirectSums::cell_landed}) spare_.give_back((*replicate.packets).*sums);
+  }
+}
+
+void ReplicateMaker::free_spare_memory() {
+  spare_.free();
+  spare_counters_.free();
 }
 
 std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, std::span<const Conversion> conversions,
@@ -281,7 +294,7 @@ std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, st
   if (indirect_ && order.packets > 0.0) {
     std::optional<IndirectSums> packets = run_indirect_pass(*indirect_, order, light, arrays, stop);
     if (!packets) return std::nullopt;
-    std::vector<IndirectSums> by_light = sums_by_light(*std::move(packets), lights_.size());
+    std::vector<IndirectSums> by_light = sums_by_light(*std::move(packets), lights_.size(), arrays.memory);
     for (std::size_t k = 0; k < lights_.size(); ++k) replicates[k].packets = std::move(by_light[k]);
     indirect_s = seconds_since(start) - direct_s;
   }

@@ -70,8 +70,11 @@ class ReplicateMaker {
   [[nodiscard]] std::optional<ReplicateSet> make(const ReplicateOrder& order, std::span<const Conversion> conversions,
                                                  const StopQuestion& stop);
 
+  // Keeps the memory of a replicate that is no longer needed for the next ones.
+  void take_back(ReplicateSet replicates);
+
   // Frees memory that is kept for the next replicate.
-  void free_spare_memory() { spare_.free(); }
+  void free_spare_memory();
 
  private:
   // A tracer for several threads; they take turns where the one below serves one thread at a time.
@@ -144,6 +147,7 @@ class ReplicateMaker {
   std::optional<SkyRays> sky_, aimed_sky_;
   ForAllThreads tracer_;
   SparePassArrays spare_;
+  SpareVectors<std::uint32_t> spare_counters_;
   std::optional<IndirectScene> indirect_;  // empty without a sky if no light is scattered after its first landing
 };
 

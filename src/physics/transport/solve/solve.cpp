@@ -173,7 +173,7 @@ class Solver {
   // Adds one replicate, and starts others: among the first `certain` ones or, where workers would be idle, among the first
   // `possible` ones. Returns false if the run has to end before the replicate is complete.
   bool add_replicate(std::size_t certain, std::size_t possible) {
-    const std::optional<ReplicateSet> made = queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
+    std::optional<ReplicateSet> made = queue_.next(std::max(certain, begun_with_) - begun_with_, possible - begun_with_);
     if (!made) return false;
     series_->add(*made);
     release_fallback();
@@ -186,6 +186,7 @@ class Solver {
       direct_s_ += replicate.direct_s;
       indirect_s_ += replicate.indirect_s;
     }
+    maker_.take_back(*std::move(made));
     hand_over();
     return true;
   }
