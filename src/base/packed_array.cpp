@@ -1,7 +1,6 @@
 #include "base/packed_array.h"
 
 #include <libdeflate.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -50,7 +49,7 @@ std::size_t packed_bytes(const json& value) {
   return bytes;
 }
 
-// What a thread needs to deflate streams one after the other.
+// Deflates streams one after the other.
 class StreamDeflater {
  public:
   StreamDeflater() : compressor_(libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor) {
@@ -99,16 +98,18 @@ class Deflater {
  private:
   void deflate_waiting() {
     const std::size_t first = streams_.size();
-    streams_.resize(first + (waiting_.size() + stream_bytes - 1) / stream_bytes);
-    tbb::parallel_for(first, streams_.size(), [&](std::size_t k) {
-      const auto rest = std::span<const std::byte>(waiting_).subspan((k - first) * stream_bytes);
-      streams_[k] = deflaters_.local()(rest.first(std::min(rest.size(), stream_bytes)));
+    const std::size_t count = (waiting_.size() + stream_bytes - 1) / stream_bytes;
+    streams_.resize(first + count);
+    deflaters_.resize(std::max(deflaters_.size(), count));
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+      const auto rest = std::span<const std::byte>(waiting_).subspan(k * stream_bytes);
+      streams_[first + k] = deflaters_[k](rest.first(std::min(rest.size(), stream_bytes)));
     });
     waiting_.clear();
   }
 
   std::vector<std::byte> waiting_;
-  tbb::enumerable_thread_specific<StreamDeflater> deflaters_;
+  std::vector<StreamDeflater> deflaters_;  // [stream of those that are deflated side by side]
   std::vector<std::vector<std::uint8_t>> streams_;
 };
 
