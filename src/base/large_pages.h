@@ -11,13 +11,25 @@
 
 namespace sunfleck {
 
+inline constexpr std::size_t large_page_bytes = std::size_t{1} << 21U;
+
+// Returns memory in as many large pages as the system can give, which std::free() returns to it; the bytes are rounded up to
+// whole pages. Throws std::bad_alloc.
+[[nodiscard]] inline void* fetch_large_pages(std::size_t bytes) {
+  const std::size_t rounded = (bytes + large_page_bytes - 1) / large_page_bytes * large_page_bytes;
+  void* const memory = std::aligned_alloc(large_page_bytes, rounded);
+  if (memory == nullptr) throw std::bad_alloc();
+  madvise(memory, rounded, MADV_HUGEPAGE);  // a system without large pages refuses, which does no harm
+  return memory;
+}
+
 // Places arrays of at least least_bytes at the beginning of a page of 2 MiB, of which it asks the system for as many as it can
 // give. The memory of an array is rounded up to whole pages.
 template <class T>
 struct LargePageAllocator {
   using value_type = T;
 
-  static constexpr std::size_t page_bytes = std::size_t{1} << 21U;
+  static constexpr std::size_t page_bytes = large_page_bytes;
   static constexpr std::size_t least_bytes = 16 * page_bytes;  // shorter arrays would be rounded up by too much
 
   LargePageAllocator() = default;
@@ -27,11 +39,7 @@ struct LargePageAllocator {
   [[nodiscard]] T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
     if (bytes < least_bytes) return static_cast<T*>(::operator new(bytes));
-    const std::size_t rounded = (bytes + page_bytes - 1) / page_bytes * page_bytes;
-    void* const memory = std::aligned_alloc(page_bytes, rounded);
-    if (memory == nullptr) throw std::bad_alloc();
-    madvise(memory, rounded, MADV_HUGEPAGE);  // a system without large pages refuses, which does no harm
-    return static_cast<T*>(memory);
+    return static_cast<T*>(fetch_large_pages(bytes));
   }
 
   void deallocate(T* memory, std::size_t count) {

@@ -109,7 +109,7 @@ class Deflater {
   }
 
   std::vector<std::byte> waiting_;
-  std::vector<StreamDeflater> deflaters_;  // [stream of those that are deflated side by side]
+  std::vector<StreamDeflater> deflaters_;  // one for each stream that is deflated at the same time
   std::vector<std::vector<std::uint8_t>> streams_;
 };
 

@@ -2,8 +2,6 @@
 
 #include "base/large_pages.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <new>
@@ -12,16 +10,16 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::size_t page_bytes = LargePageAllocator<std::int64_t>::page_bytes;
+constexpr std::size_t page_bytes = large_page_bytes;
 constexpr std::size_t least_block_bytes = std::size_t{1} << 14U;
 constexpr std::size_t blocks_of_all = 16;
 // A block takes two mappings of the process, of which systems allow some 65,000.
 constexpr std::size_t most_block_bytes = 4 * page_bytes;
 
 void* fetch(std::size_t bytes) {
-  void* const block = bytes < page_bytes ? std::malloc(bytes) : std::aligned_alloc(page_bytes, bytes);
+  if (bytes >= page_bytes) return fetch_large_pages(bytes);
+  void* const block = std::malloc(bytes);
   if (block == nullptr) throw std::bad_alloc();
-  if (bytes >= page_bytes) madvise(block, bytes, MADV_HUGEPAGE);  // as in LargePageAllocator
   return block;
 }
 
@@ -55,6 +53,7 @@ void SpareBlocks::close() {
 
 RowBlocks::RowBlocks(std::size_t width, std::size_t most, std::shared_ptr<SpareBlocks> spare)
     : width_(width), block_bytes_(bytes_of_block(width * sizeof(std::int64_t), most)), spare_(std::move(spare)) {
+  if (spare_ == nullptr) spare_ = std::make_shared<SpareBlocks>();
   rows_each_ = static_cast<std::uint32_t>(block_bytes_ / (width * sizeof(std::int64_t)));
 }
 
@@ -93,7 +92,7 @@ std::span<std::int64_t> RowBlocks::append() {
 // Appends a row with any content.
 std::span<std::int64_t> RowBlocks::append_any() {
   if (size_ == blocks_.size() * rows_each_) {
-    void* const spare = spare_ != nullptr ? spare_->take(block_bytes_) : nullptr;
+    void* const spare = spare_->take(block_bytes_);
     Block block(static_cast<std::int64_t*>(spare != nullptr ? spare : fetch(block_bytes_)), {spare_, block_bytes_});
     blocks_.push_back(std::move(block));
   }
@@ -101,7 +100,7 @@ std::span<std::int64_t> RowBlocks::append_any() {
 }
 
 void RowBlocks::GiveBack::operator()(std::int64_t* block) const {
-  spare != nullptr ? spare->give_back(block, bytes) : std::free(block);
+  spare->give_back(block, bytes);
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,7 @@
 #include "physics/transport/indirect/counted_thread.h"
 
+#include "base/threads.h"
+
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
@@ -17,7 +19,7 @@ class Counted {
  public:
   void begin() {
     const std::lock_guard lock(mutex_);
-    if (count_ == 0) allowed_ = Control::active_value(Control::max_allowed_parallelism);
+    if (count_ == 0) allowed_ = threads_allowed();
     ++count_;
     limit();
   }

@@ -72,8 +72,7 @@ std::array<std::uint64_t, 2> PacketDraw::expectations(const EmissionPoint& place
   OfBothParts expected = columns::sum_scaled(quanta, parts, scales_, columns_.first);
   if (any_least_) {
     // The largest and not the sum, because a packet serves all columns.
-    const OfBothParts least = columns::largest_scaled(quanta, parts, least_, columns_.first);
-    expected = {std::max(expected.reflected, least.reflected), std::max(expected.transmitted, least.transmitted)};
+    expected = columns::singly::largest_of(expected, columns::largest_scaled(quanta, parts, least_, columns_.first));
   }
   if (place.surface % 2 == 0) return {expected.reflected, expected.transmitted};
   return {expected.transmitted, expected.reflected};

@@ -17,23 +17,16 @@ constexpr std::size_t list_part = 4;
 
 }  // namespace
 
+PlaceSums::PlaceSums(std::size_t places, std::size_t width) : PlaceSums(places, width, Extent(), PlaceMemory()) {}
+
 PlaceSums::PlaceSums(std::size_t places, std::size_t width, const Extent& like, const PlaceMemory& memory)
-    : PlaceSums(places, width) {
+    : places_(places), width_(width), form_(width < least_indexed_width ? Form::list : Form::indexed) {
   if (form_ == Form::indexed) {
     rows_ = RowBlocks(width, places, memory.rows);
   } else if (like.all || like.entries > most_entries_of_list()) {
     form_ = Form::all;
-    if (memory.all != nullptr) {
-      all_ = memory.all->zeros(size());
-    } else {
-      all_.resize(size());
-    }
+    all_ = memory.all != nullptr ? memory.all->zeros(size()) : std::vector<std::int64_t>(size());
   }
-}
-
-PlaceSums::PlaceSums(std::size_t places, std::size_t width)
-    : places_(places), width_(width), form_(width < least_indexed_width ? Form::list : Form::indexed) {
-  if (form_ == Form::indexed) rows_ = RowBlocks(width, places, nullptr);
 }
 
 std::size_t PlaceSums::bytes() const {

@@ -66,46 +66,41 @@ HWY_INLINE Words scaled(Words quanta, const FactorColumns& by, std::size_t colum
   return hn::Add(high, hn::Shr(times(quanta, mantissa), shift));
 }
 
-// Calls take(reflected, transmitted) for the scaled parts of whole vectors of columns; returns the number of the first column
-// that is left.
-template <class Take>
-HWY_INLINE std::size_t for_both_parts(std::span<const std::int64_t> landed, const ScatteredParts& of, const FactorColumns& by,
-                                      std::size_t first, const Take& take) {
+// Joins the scaled parts of whole vectors of columns to `reflected` and `transmitted`, lane by lane; returns the number of the
+// first column that is left.
+template <class Join>
+HWY_INLINE std::size_t join_parts(std::span<const std::int64_t> landed, const ScatteredParts& of, const FactorColumns& by,
+                                  std::size_t first, const Join& join, Words& reflected, Words& transmitted) {
   const Words u = hn::Set(words, of.u);
-  const Words none = hn::Zero(words);
   return for_each_vector(landed.size(), [&](std::size_t k) HWY_ATTR {
     const Words quanta = load(&landed[k]);
-    const Words reflected = parts(quanta, load(of.reflected + first + k), u);
-    if (of.scattered == nullptr) return take(scaled(reflected, by, first + k), none);
-    const Words scattered = parts(quanta, load(of.scattered + first + k), u);
-    take(scaled(reflected, by, first + k), scaled(hn::Sub(scattered, reflected), by, first + k));
+    const Words low = parts(quanta, load(of.reflected + first + k), u);
+    reflected = join(reflected, scaled(low, by, first + k));
+    if (of.scattered == nullptr) return;
+    const Words high = parts(quanta, load(of.scattered + first + k), u);
+    transmitted = join(transmitted, scaled(hn::Sub(high, low), by, first + k));
   });
 }
 
 OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& of, const FactorColumns& by,
                        std::size_t first) {
-  Words all_reflected = hn::Zero(words);
-  Words all_transmitted = hn::Zero(words);
-  const std::size_t rest = for_both_parts(landed, of, by, first, [&](Words reflected, Words transmitted) HWY_ATTR {
-    all_reflected = hn::Add(all_reflected, reflected);
-    all_transmitted = hn::Add(all_transmitted, transmitted);
-  });
+  Words reflected = hn::Zero(words);
+  Words transmitted = hn::Zero(words);
+  const auto join = [](Words a, Words b) HWY_ATTR { return hn::Add(a, b); };
+  const std::size_t rest = join_parts(landed, of, by, first, join, reflected, transmitted);
   const OfBothParts others = singly::sum_scaled(rest, landed, of, by, first);
-  return {hn::GetLane(hn::SumOfLanes(words, all_reflected)) + others.reflected,
-          hn::GetLane(hn::SumOfLanes(words, all_transmitted)) + others.transmitted};
+  return {hn::GetLane(hn::SumOfLanes(words, reflected)) + others.reflected,
+          hn::GetLane(hn::SumOfLanes(words, transmitted)) + others.transmitted};
 }
 
 OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& of, const FactorColumns& by,
                            std::size_t first) {
-  Words most_reflected = hn::Zero(words);
-  Words most_transmitted = hn::Zero(words);
-  const std::size_t rest = for_both_parts(landed, of, by, first, [&](Words reflected, Words transmitted) HWY_ATTR {
-    most_reflected = hn::Max(most_reflected, reflected);
-    most_transmitted = hn::Max(most_transmitted, transmitted);
-  });
-  return singly::largest_of(
-      singly::largest_scaled(rest, landed, of, by, first),
-      {hn::GetLane(hn::MaxOfLanes(words, most_reflected)), hn::GetLane(hn::MaxOfLanes(words, most_transmitted))});
+  Words reflected = hn::Zero(words);
+  Words transmitted = hn::Zero(words);
+  const auto join = [](Words a, Words b) HWY_ATTR { return hn::Max(a, b); };
+  const std::size_t rest = join_parts(landed, of, by, first, join, reflected, transmitted);
+  return singly::largest_of(singly::largest_scaled(rest, landed, of, by, first),
+                            {hn::GetLane(hn::MaxOfLanes(words, reflected)), hn::GetLane(hn::MaxOfLanes(words, transmitted))});
 }
 
 void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
