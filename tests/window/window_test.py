@@ -381,13 +381,13 @@ class WindowTest(unittest.TestCase):
         window = self.open()
         window.heard_or_awaited("converged", wish=1)
         window.heard_or_awaited("picture", wish=1)
-        for _ in range(3):  # the first click after a window opens is sometimes lost
-            window.wait_until_input_is_taken()
-            self.click(window.place("own_size", 0.1))
-            self.click(window.place("save_picture"))
-            saved = read_png(os.path.join(self.folder, window.wait_for("saved")["file"]))
-            if saved.shape == (1200, 1600, 3):
-                break
+        def saved_picture():
+            return read_png(os.path.join(self.folder, window.heard_or_awaited("saved")["file"]))
+        # Input that has been taken ends with a saved picture.
+        self.click_until(window, "own_size", lambda: saved_picture().shape == (1200, 1600, 3), share=0.1, patience_s=0.0)
+        self.click(window.place("save_picture"))
+        window.wait_for("saved")
+        saved = saved_picture()
         self.assertEqual(saved.shape, (1200, 1600, 3))
         self.run_program("render", "leaves.toml", "--device", "lavapipe", "-o", "rendered.png", "--quiet")
         rendered = read_png(os.path.join(self.folder, "rendered.png"))
@@ -400,16 +400,19 @@ class WindowTest(unittest.TestCase):
         self.screen.do("mousemove", *map(int, place))
         time.sleep(0.2)  # lets a frame see the pointer before the button
         self.screen.do("click", 1)
+        time.sleep(0.2)  # and another one see the button up again before the pointer leaves
 
-    def click_until(self, window, control, is_taken):
-        """Clicks until that has an effect: the first click after a window opens is sometimes lost."""
-        for _ in range(4):
-            self.click(window.place(control))
+    def click_until(self, window, control, is_taken, share=0.5, patience_s=20.0):
+        """Clicks until that has an effect: on a busy machine frames may take so long that a click is lost."""
+        for _ in range(8):
+            self.click(window.place(control, share))
             window.wait_until_input_is_taken()
-            end = time.monotonic() + 20.0
-            while time.monotonic() < end:
+            end = time.monotonic() + patience_s
+            while True:
                 if is_taken():
                     return
+                if time.monotonic() > end:
+                    break
                 window.take_waiting()
         self.fail(f"clicks on {control} have no effect")
 

@@ -183,7 +183,11 @@ void Window::close() {
   glfwSetWindowShouldClose(screen_->window(), GLFW_TRUE);
 }
 
+// The backend of Dear ImGui notices in the frame after a press that the button is up again, and takes the pointer's place in that
+// frame for the place of the click, which therefore has to come soon.
 bool Window::begin_frame(double most_wait_s) {
+  constexpr double longest_wait_pressed_s = 0.005;
+  if (ImGui::IsAnyMouseDown()) most_wait_s = std::min(most_wait_s, longest_wait_pressed_s);
   if (most_wait_s > 0.0) {
     glfwWaitEventsTimeout(most_wait_s);
   } else {
