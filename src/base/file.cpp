@@ -9,13 +9,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <ostream>
+#include <streambuf>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -49,7 +53,7 @@ int protection(const fs::path& file) {
 }
 
 // Waits until a file or folder is on the disk. Returns 0 or errno; a file system without fsync counts as success.
-int sync(int number) {
+int wait_for_disk(int number) {
   int code = 0;
   do {
     code = ::fsync(number) == 0 ? 0 : errno;
@@ -60,7 +64,7 @@ int sync(int number) {
 int sync_file(const fs::path& file) {
   const int number = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (number < 0) return errno;
-  const int code = sync(number);
+  const int code = wait_for_disk(number);
   ::close(number);
   return code;
 }
@@ -70,7 +74,7 @@ int sync_file(const fs::path& file) {
 int sync_folder(const fs::path& folder) {
   const int number = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (number < 0) return errno == EACCES ? 0 : errno;
-  const int code = sync(number);
+  const int code = wait_for_disk(number);
   ::close(number);
   return code;
 }
@@ -85,17 +89,79 @@ int put_in_place(const fs::path& file, const fs::path& aside) {
 // Says whether writing waits until the bytes are on the disk.
 enum class Wait { no, for_disk };
 
-// Writes all bytes and closes the file. Returns 0 or errno.
-int fill(int number, std::string_view bytes, Wait wait) {
-  int code = 0;
-  while (!bytes.empty() && code == 0) {
-    const ssize_t written = ::write(number, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) code = errno;
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+// A new or open file to which a stream may write.
+class OpenFile : public std::streambuf {
+ public:
+  explicit OpenFile(int number) : number_(number) { setp(space_.data(), space_.data() + space_.size()); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() override {
+    if (number_ >= 0) ::close(number_);
   }
-  if (code == 0 && wait == Wait::for_disk) code = sync(number);
-  if (::close(number) != 0 && code == 0) code = errno;  // a full network disk may be reported only now
-  return code;
+
+  // Writes all bytes, unless an earlier call has failed.
+  void put(std::string_view bytes) {
+    while (!bytes.empty() && code_ == 0) {
+      const ssize_t written = ::write(number_, bytes.data(), bytes.size());
+      if (written < 0 && errno != EINTR) code_ = errno;
+      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  // Closes the file. Returns 0 or the first errno.
+  int close(Wait wait) {
+    put_space();
+    if (code_ == 0 && wait == Wait::for_disk) code_ = wait_for_disk(number_);
+    if (::close(std::exchange(number_, -1)) != 0 && code_ == 0) code_ = errno;  // a full network disk may be reported only now
+    return code_;
+  }
+
+ protected:
+  int_type overflow(int_type byte) override {
+    put_space();
+    if (!traits_type::eq_int_type(byte, traits_type::eof())) sputc(traits_type::to_char_type(byte));
+    return traits_type::not_eof(byte);
+  }
+
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    if (count < epptr() - pptr()) return std::streambuf::xsputn(bytes, count);
+    put_space();
+    put({bytes, static_cast<std::size_t>(count)});
+    return count;
+  }
+
+ private:
+  void put_space() {
+    put({pbase(), static_cast<std::size_t>(pptr() - pbase())});
+    setp(space_.data(), space_.data() + space_.size());
+  }
+
+  int number_;
+  int code_ = 0;
+  std::array<char, std::size_t{1} << 16U> space_;
+};
+
+// Writes a file with write(OpenFile&).
+template <class Write>
+void write_with(const fs::path& file, const Write& write) {
+  check_writable(file);
+  const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
+  ::unlink(aside.c_str());
+  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, new_file_mode);
+  if (number < 0) refuse_write(file, errno);
+  int code = 0;
+  try {
+    OpenFile open_file(number);
+    write(open_file);
+    code = open_file.close(Wait::for_disk);
+  } catch (...) {
+    ::unlink(aside.c_str());
+    throw;
+  }
+  if (code == 0) code = put_in_place(file, aside);
+  if (code == 0) return;
+  ::unlink(aside.c_str());
+  refuse_write(file, code);
 }
 
 }  // namespace
@@ -199,16 +265,15 @@ std::string_view write_cure(int code) {
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  check_writable(file);
-  const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
-  ::unlink(aside.c_str());
-  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, new_file_mode);
-  if (number < 0) refuse_write(file, errno);
-  int code = fill(number, bytes, Wait::for_disk);
-  if (code == 0) code = put_in_place(file, aside);
-  if (code == 0) return;
-  ::unlink(aside.c_str());
-  refuse_write(file, code);
+  write_with(file, [&](OpenFile& open_file) { open_file.put(bytes); });
+}
+
+void write_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
+  write_with(file, [&](OpenFile& open_file) {
+    std::ostream stream(&open_file);
+    stream.exceptions(std::ios::badbit);  // such as std::bad_alloc; the file keeps what the system refuses
+    write(stream);
+  });
 }
 
 void check_writable(const fs::path& file) {
@@ -226,7 +291,9 @@ void replace_file(const fs::path& file, const fs::path& aside) {
 void append_aside(const fs::path& file, const fs::path& aside, std::string_view bytes) {
   const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, new_file_mode);
   if (number < 0) refuse_write(file, errno);
-  const int code = fill(number, bytes, Wait::no);
+  OpenFile open_file(number);
+  open_file.put(bytes);
+  const int code = open_file.close(Wait::no);
   if (code == 0) return;
   ::unlink(aside.c_str());
   refuse_write(file, code);

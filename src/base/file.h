@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -29,6 +31,9 @@ void expect_file(const std::filesystem::path& file);
 // returning; where the file system does not support fsync, it does not wait. The folder must exist; a write-protected file is
 // not replaced. Throws Error (failure); if only the fsync of the folder failed, the new file is in place nevertheless.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+// Does the same with what `write` writes to a stream, of which no copy is kept.
+void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
 // Replaces `file` by the finished `aside`, on the same file system, and waits for the disk as write_file does. Throws Error
 // (failure) and removes `aside`.

@@ -39,16 +39,6 @@ class DepthCheck : public nlohmann::json_sax<json> {
 constexpr std::size_t stream_bytes = std::size_t{1} << 18U;
 constexpr std::size_t bytes_at_once = 16 * stream_bytes;
 
-// Returns the bytes of all packed arrays in the value, which is nested no deeper than a file.
-std::size_t packed_bytes(const json& value) {
-  if (value.is_binary()) return value.get_binary().size();
-  std::size_t bytes = 0;
-  if (value.is_structured()) {
-    for (const json& part : value) bytes += packed_bytes(part);
-  }
-  return bytes;
-}
-
 // Deflates streams one after the other.
 class StreamDeflater {
  public:
@@ -119,12 +109,6 @@ json read_cbor(std::string_view bytes, std::size_t deepest) {
   DepthCheck check(deepest);
   if (!json::sax_parse(bytes, &check, json::input_format_t::cbor)) throw std::runtime_error("it is truncated or damaged");
   return json::from_cbor(bytes);
-}
-
-void append_cbor(const json& value, std::string& bytes) {
-  constexpr std::size_t other_values = std::size_t{1} << 16U;
-  bytes.reserve(bytes.size() + packed_bytes(value) + other_values);
-  json::to_cbor(value, bytes);
 }
 
 json::binary_t deflated(const NumberPieces<std::byte>& pieces) {

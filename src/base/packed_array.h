@@ -26,9 +26,6 @@ static_assert(std::endian::native == std::endian::little);
 // library's parser recurses once per level of the file.
 [[nodiscard]] nlohmann::json read_cbor(std::string_view bytes, std::size_t deepest);
 
-// Appends the value in CBOR, without reserving much more memory than its packed arrays take.
-void append_cbor(const nlohmann::json& value, std::string& bytes);
-
 // Returns the value as a T. Throws std::runtime_error unless it is a whole number in the range of T.
 template <class T>
 [[nodiscard]] T whole(const nlohmann::json& value) {

@@ -59,6 +59,18 @@ class RowBlocks {
   [[nodiscard]] std::span<std::int64_t> operator[](std::size_t row) { return {at(row), width_}; }
   [[nodiscard]] std::span<const std::int64_t> operator[](std::size_t row) const { return {at(row), width_}; }
 
+  // Calls take(row, values) for each row in their order, and gives each block back as soon as its rows were taken. Leaves no rows
+  // behind.
+  template <class Take>
+  void drain(const Take& take) {
+    for (std::size_t row = 0; row < size_; ++row) {
+      take(row, std::span<const std::int64_t>((*this)[row]));
+      if ((row + 1) % rows_each_ == 0) blocks_[row / rows_each_].reset();
+    }
+    size_ = 0;
+    blocks_.clear();
+  }
+
   // Returns the memory of the rows; their last block may take a little more.
   [[nodiscard]] std::size_t bytes() const { return size_ * width_ * sizeof(std::int64_t); }
 

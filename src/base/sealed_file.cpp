@@ -9,7 +9,9 @@
 
 #include <cstdint>
 #include <cstring>
+#include <ostream>
 #include <stdexcept>
+#include <streambuf>
 
 namespace sunfleck {
 namespace {
@@ -21,9 +23,26 @@ constexpr std::size_t deepest = 2;  // nesting depth of lists and maps
 constexpr std::size_t mark_bytes = 8;
 constexpr std::size_t head_bytes = mark_bytes + sizeof(std::uint32_t);
 
-std::uint32_t check_sum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
+// Takes the checksum of what a stream writes, and keeps nothing of it.
+class CheckSum : public std::streambuf {
+ public:
+  [[nodiscard]] std::uint32_t value() const { return static_cast<std::uint32_t>(sum_); }
+
+ protected:
+  int_type overflow(int_type byte) override {
+    const char letter = traits_type::to_char_type(byte);
+    xsputn(&letter, 1);
+    return traits_type::not_eof(byte);
+  }
+
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    sum_ = crc32_z(sum_, reinterpret_cast<const Bytef*>(bytes), static_cast<std::size_t>(count));
+    return count;
+  }
+
+ private:
+  unsigned long sum_ = 0;
+};
 
 std::string value_text(const ordered_json& settings, const std::string& key) {
   return settings.contains(key) ? printable(settings[key].dump()) : "not given";
@@ -31,13 +50,14 @@ std::string value_text(const ordered_json& settings, const std::string& key) {
 
 }  // namespace
 
-std::string sealed(std::string_view mark, const json& content) {
-  std::string bytes(head_bytes, '\0');
-  append_cbor(content, bytes);
-  const std::uint32_t sum = check_sum(std::string_view(bytes).substr(head_bytes));
-  bytes.replace(0, mark_bytes, mark);
-  std::memcpy(bytes.data() + mark_bytes, &sum, sizeof sum);
-  return bytes;
+void seal(std::ostream& out, std::string_view mark, const json& content) {
+  CheckSum check_sum;
+  std::ostream counted(&check_sum);
+  json::to_cbor(content, counted);
+  const std::uint32_t sum = check_sum.value();
+  out.write(mark.data(), mark_bytes);
+  out.write(reinterpret_cast<const char*>(&sum), sizeof sum);
+  json::to_cbor(content, out);
 }
 
 std::optional<json> unsealed(std::string_view mark, std::string_view bytes) {
@@ -45,7 +65,9 @@ std::optional<json> unsealed(std::string_view mark, std::string_view bytes) {
   const std::string_view content = bytes.substr(head_bytes);
   std::uint32_t sum = 0;
   std::memcpy(&sum, bytes.data() + mark_bytes, sizeof sum);
-  if (sum != check_sum(content)) return std::nullopt;
+  CheckSum check_sum;
+  check_sum.sputn(content.data(), static_cast<std::streamsize>(content.size()));
+  if (sum != check_sum.value()) return std::nullopt;
   try {
     return read_cbor(content, deepest);
   } catch (const json::exception&) {

@@ -3,6 +3,7 @@
 // a CBOR map (RFC 8949) and its checksum (CRC-32, little-endian). Also compares the settings stored in them.
 
 #include <filesystem>
+#include <iosfwd>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace sunfleck {
 
-// Returns the bytes of a file that begins with the eight letters of `mark`.
-[[nodiscard]] std::string sealed(std::string_view mark, const nlohmann::json& content);
+// Writes a file that begins with the eight letters of `mark`.
+void seal(std::ostream& out, std::string_view mark, const nlohmann::json& content);
 
 // Returns the map; nothing if it is another kind of file, its checksum is wrong, or maps and lists are nested more than two
 // deep.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ostream>
 
 namespace sunfleck {
 namespace {
@@ -230,9 +231,7 @@ void write_result_store(const std::filesystem::path& file, const RunRecord& reco
                         const RadiationResult& result) {
   json store = {{"format", store_format}, {"version", store_version}, {"sunfleck", record.version}};
   visit_store(StoreWriter(store), scene, result, record);
-  std::string bytes;
-  append_cbor(store, bytes);
-  write_file(file, bytes);
+  write_file(file, [&](std::ostream& out) { json::to_cbor(store, out); });
 }
 
 StoredResult read_result_store(const std::filesystem::path& file) {

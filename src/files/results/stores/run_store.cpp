@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/sealed_file.h"
 
+#include <ostream>
 #include <stdexcept>
 
 namespace sunfleck {
@@ -77,7 +78,7 @@ std::optional<SolveState> RunStore::read(const StateShape& shape) const {
 void RunStore::write(const SolveStateView& state) const {
   json content = {{"settings", settings_}};
   visit(StoreWriter(content), state, StateShape());
-  write_file(file_, sealed(state_mark, content));
+  write_file(file_, [&](std::ostream& out) { seal(out, state_mark, content); });
 }
 
 void RunStore::remove() const {

@@ -10,6 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <ostream>
+#include <utility>
+
 namespace sunfleck {
 namespace {
 
@@ -136,8 +139,9 @@ std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& sto
   json content = {{"settings", settings_}, {"step", step}};
   visit(StoreWriter(content), stored, StepSizes{});
   // If no thread can be started, the file is written when the result of the future is requested.
-  return std::async(std::launch::async | std::launch::deferred,
-                    [file = file_of(step), bytes = sealed(step_mark, content)] { write_file(file, bytes); });
+  return std::async(std::launch::async | std::launch::deferred, [file = file_of(step), content = std::move(content)] {
+    write_file(file, [&](std::ostream& out) { seal(out, step_mark, content); });
+  });
 }
 
 std::optional<StoredStep> StepStore::read(std::size_t step, StepFields fields) const {

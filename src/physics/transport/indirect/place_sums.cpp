@@ -1,6 +1,7 @@
 #include "physics/transport/indirect/place_sums.h"
 
 #include "base/check.h"
+#include "base/large_pages.h"
 #include "physics/transport/model/columns.h"
 
 #include <oneapi/tbb/parallel_sort.h>
@@ -120,7 +121,9 @@ std::vector<std::int64_t> PlaceSums::all() const {
 
 std::vector<std::int64_t> PlaceSums::take_all() {
   PlaceSums taken = std::exchange(*this, PlaceSums());
-  return taken.form_ == Form::all ? std::move(taken.all_) : taken.all();
+  if (taken.form_ == Form::list) return taken.all();
+  taken.keep_all();
+  return std::move(taken.all_);
 }
 
 void PlaceSums::put_in_order() {
@@ -164,6 +167,23 @@ void PlaceSums::keep_list_within_limit() {
   all_ = list.all();
   at_ = std::vector<std::uint32_t>();
   entries_ = LargeVector<std::int64_t>();
+  form_ = Form::all;
+}
+
+// Each block of rows is given back when its rows are copied, so that hardly more memory is taken than for all sums.
+void PlaceSums::keep_all() {
+  if (form_ != Form::indexed) return;
+  std::vector<std::uint32_t> place_of(rows_.size());
+  for (std::size_t place = 0; place < row_at_.size(); ++place) {
+    if (has(place)) place_of[row_at_[place] - 1] = static_cast<std::uint32_t>(place);
+  }
+  row_at_ = std::vector<std::uint32_t>();
+  all_.reserve(size());
+  prefer_large_pages(all_.data(), size() * sizeof(std::int64_t));
+  all_.resize(size());
+  rows_.drain([&](std::size_t row, std::span<const std::int64_t> values) {
+    std::copy(values.begin(), values.end(), &all_[place_of[row] * width_]);
+  });
   form_ = Form::all;
 }
 

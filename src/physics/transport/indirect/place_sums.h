@@ -192,6 +192,7 @@ class PlaceSums {
   void append(std::size_t place, std::span<const std::int64_t> values);
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
   void keep_list_within_limit();
+  void keep_all();
   [[nodiscard]] std::size_t most_entries_of_list() const;
 
   std::size_t places_ = 0, width_ = 0;

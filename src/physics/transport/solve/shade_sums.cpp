@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -28,7 +30,8 @@ std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t count) {
   return part * count / parts;
 }
 
-// What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. [band]
+// What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. All but the first is
+// the same for both sides of an element. [band]
 struct SideLight {
   explicit SideLight(std::size_t bands)
       : absorbed_w(bands), earlier_w_m2(bands), lit(bands), twice_beam_w_m2(bands), lit_earlier_w_m2(bands), space(bands) {}
@@ -43,9 +46,10 @@ struct SideLight {
   }
 
   std::vector<double> absorbed_w;
-  std::vector<double> earlier_w_m2;  // of both sides in all earlier replicates together
-  bool any_lit = false;              // whether the next three are set
-  std::vector<double> lit;           // part of the area
+  std::optional<std::size_t> element;  // of which the rest is set
+  std::vector<double> earlier_w_m2;    // of both sides in all earlier replicates together
+  bool any_lit = false;                // whether the next three are set
+  std::vector<double> lit;             // part of the area
   std::vector<double> twice_beam_w_m2, lit_earlier_w_m2;
   std::vector<double> space;
 };
@@ -166,10 +170,11 @@ class ShadeAddition {
   }
 
   void set_light(std::size_t side, std::span<const std::int64_t> quanta, SideLight& light) const {
+    set_absorbed_w(side, quanta, light.absorbed_w);
     const std::size_t e = side / 2;
+    if (std::exchange(light.element, e) == e) return;
     const double element_m2 = area_m2(canopy_.corners[e]);
     const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
-    set_absorbed_w(side, quanta, light.absorbed_w);
     std::fill(light.earlier_w_m2.begin(), light.earlier_w_m2.end(), 0.0);
     for (const std::size_t of : {2 * e, 2 * e + 1}) {
       const auto landed = earlier_.at(of);

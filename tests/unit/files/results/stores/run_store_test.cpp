@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace sunfleck {
 namespace {
@@ -99,7 +100,9 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   store_.write(state_);
   const json good = *unsealed("SUNRUNS7", bytes());
   const auto expect_refused = [&](const json& content) {
-    folder_.write(run_state_file, sealed("SUNRUNS7", content));
+    std::ostringstream bytes;
+    seal(bytes, "SUNRUNS7", content);
+    folder_.write(run_state_file, bytes.str());
     EXPECT_NE(refusal().find("it is damaged"), std::string::npos)
         << content.dump(-1, ' ', true, json::error_handler_t::replace);
   };
