@@ -16,9 +16,6 @@ std::vector<std::int64_t> of_light(const std::vector<std::int64_t>& joint, std::
   return own;
 }
 
-constexpr PlaceSums IndirectSums::*by_place[] = {&IndirectSums::side_landed, &IndirectSums::side_sky,
-                                                 &IndirectSums::cell_landed, &IndirectSums::cell_sky};
-
 // Deals sums by place to the lights. Places without quanta of a light are left out of its list.
 template <class Member>
 void deal(const PlaceSums& joint, Member member, std::vector<IndirectSums>& dealt) {
@@ -76,7 +73,7 @@ std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights, 
   dealt.assign(lights, joint);
   for (std::size_t k = 0; k < lights; ++k) {
     IndirectSums& own = dealt[k];
-    for (const auto sums : by_place) {
+    for (const auto sums : IndirectSums::by_place) {
       const PlaceSums& of_all = all.*sums;
       if (of_all.size() > 0) own.*sums = PlaceSums(of_all.places(), own.bands, of_all.extent(), memory);
     }
@@ -89,7 +86,7 @@ std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights, 
     own.receivers.through_up = of_light(all.receivers.through_up, k, lights);
     for (std::size_t b = 0; b < own.bands; ++b) own.ledger.push_back(all.ledger[column_of(b, k, lights)]);
   }
-  for (const auto sums : by_place) deal(all.*sums, sums, dealt);
+  for (const auto sums : IndirectSums::by_place) deal(all.*sums, sums, dealt);
   return dealt;
 }
 

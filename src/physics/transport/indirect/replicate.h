@@ -54,6 +54,9 @@ struct IndirectSums {
   std::uint64_t sky_rays = 0, packets = 0, rounds = 0, lost = 0;
   // Number of places with waiting flux before the first round, and the largest number after a round.
   std::uint64_t first_places = 0, most_places = 0;
+
+  static constexpr PlaceSums IndirectSums::*by_place[] = {&IndirectSums::side_landed, &IndirectSums::side_sky,
+                                                          &IndirectSums::cell_landed, &IndirectSums::cell_sky};
 };
 
 // Returns the sums of each light out of those of all. Numbers of rays, packets and hits are the same for each. [light]

@@ -261,8 +261,7 @@ void ReplicateMaker::take_back(ReplicateSet replicates) {
   for (Replicate& replicate : replicates) {
     spare_counters_.give_back(std::move(replicate.counters));
     if (!replicate.packets) continue;
-    for (const auto sums : {&IndirectSums::side_landed, &IndirectSums::cell_landed})
-      spare_.give_back((*replicate.packets).*sums);
+    for (const auto sums : IndirectSums::by_place) spare_.give_back((*replicate.packets).*sums);
   }
 }
 
