@@ -12,9 +12,18 @@
 #include <utility>
 
 namespace sunfleck {
+namespace {
+
+// Returns 7, not 7.0, wherever the library's integers reach.
+tinygltf::Value whole_number(std::uint32_t number) {
+  if (std::in_range<int>(number)) return tinygltf::Value(static_cast<int>(number));
+  return tinygltf::Value(static_cast<double>(number));
+}
+
+}  // namespace
 
 tinygltf::Value organ_extras(const Organ& organ) {
-  return tinygltf::Value(tinygltf::Value::Object{{"plant", tinygltf::Value(static_cast<double>(organ.plant))},
+  return tinygltf::Value(tinygltf::Value::Object{{"plant", whole_number(organ.plant)},
                                                  {"organ", tinygltf::Value(organ.name)},
                                                  {"rank", tinygltf::Value(organ.rank)}});
 }

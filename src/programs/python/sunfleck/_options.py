@@ -59,7 +59,7 @@ def work_options(work: Mapping[str, Any]) -> Any:
         "passes": whole(work["passes"], "passes", 8, 65536) if work["passes"] is not None else None,
         "max_seconds": above_zero(work["max_seconds"], "max_seconds") if work["max_seconds"] is not None else None,
         "max_rays": whole(work["max_rays"], "max_rays", 1, 2**63 - 1) if work["max_rays"] is not None else None,
-        "memory": whole(work["memory"], "memory", 10**6, 2**50) if work["memory"] is not None else None,
+        "memory": whole(work["memory"], "memory", 10**6, 10**15) if work["memory"] is not None else None,
         "seed": whole(work["seed"], "seed", 0, 2**64 - 1),
         "triangle_errors": bool(work["triangle_errors"]),
     }
