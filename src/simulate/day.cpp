@@ -160,7 +160,7 @@ class DayRun {
     monitor.report = [&](const Progress& state) {
       ++replicates;
       const bool judged = !settings.begin_with.empty() && replicates == judged_replicates;
-      if (judged && state.relative_error.value_or(0.0) > most_bounds * state.bound) too_little = true;
+      if (judged && state.bound && state.relative_error.value_or(0.0) > most_bounds * *state.bound) too_little = true;
       report(block, state);
     };
     const WantedSums sums = wanted_sums(block);

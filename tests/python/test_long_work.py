@@ -24,6 +24,14 @@ def test_progress_is_told():
     for measure in ("rays", "fraction"):
         assert [state[measure] for state in told] == sorted(state[measure] for state in told)
     assert told[-1]["stage"] == "run" and told[-1]["fraction"] == 1.0
+    assert told[-1]["bound"] == 0.02
+
+
+def test_progress_of_fixed_work_has_no_bound():
+    told = []
+    sunfleck.run(with_arrays(), device="cpu", grid=0.05, passes=8, progress=told.append)
+    assert told and all(state["bound"] is None for state in told)
+    assert told[-1]["relative_error"] > 0.0
 
 
 class Enough(Exception):

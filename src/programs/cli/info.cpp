@@ -52,8 +52,8 @@ LocalDate local_date(const SunMoment& moment) {
 
 ordered_json sun_json(const Scene& scene) {
   if (!scene.model.sun) return nullptr;
-  ordered_json sun = {{"elevation_deg", scene.model.sun->elevation_rad / degree},
-                      {"azimuth_deg", scene.model.sun->azimuth_rad / degree},
+  ordered_json sun = {{"elevation_deg", in_degrees(scene.model.sun->elevation_rad)},
+                      {"azimuth_deg", in_degrees(scene.model.sun->azimuth_rad)},
                       {"sunrise", nullptr},
                       {"transit", nullptr},
                       {"sunset", nullptr}};

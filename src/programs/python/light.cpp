@@ -23,7 +23,7 @@ namespace py = pybind11;
 std::pair<double, double> sun_position_deg(double unix_s, double latitude_deg, double longitude_deg, double altitude_m) {
   const UtcTime time = plus_seconds({.year = 1970}, unix_s);
   const SunPosition sun = sun_position(time, {latitude_deg * degree, longitude_deg * degree, altitude_m});
-  return {sun.elevation_rad / degree, sun.azimuth_rad / degree};
+  return {in_degrees(sun.elevation_rad), in_degrees(sun.azimuth_rad)};
 }
 
 // Returns the sky of a scene's text at its own moment, with horizontal irradiance 1.

@@ -33,10 +33,11 @@ py::dict as_dict(const Progress& progress) {
   dict["stage"] = pilot ? "pilot" : sensors ? "sensors" : "run";
   dict["rays"] = progress.rays;
   dict["fraction"] = progress.fraction;
-  dict["seconds_left"] = progress.seconds_left ? py::object(py::float_(*progress.seconds_left)) : py::object(py::none());
+  const auto or_none = [](const std::optional<double>& value) { return value ? py::object(py::float_(*value)) : py::none(); };
+  dict["seconds_left"] = or_none(progress.seconds_left);
   dict["pass"] = pass_name(progress.pass);
-  dict["relative_error"] = progress.relative_error ? py::object(py::float_(*progress.relative_error)) : py::object(py::none());
-  dict["bound"] = progress.bound;
+  dict["relative_error"] = or_none(progress.relative_error);
+  dict["bound"] = or_none(progress.bound);
   return dict;
 }
 

@@ -70,7 +70,7 @@ class PythonSimulation {
   [[nodiscard]] py::object sun() const {
     const auto& sun = simulation_->scene().model.sun;
     if (!sun) return py::none();
-    return py::make_tuple(sun->elevation_rad / degree, sun->azimuth_rad / degree);
+    return py::make_tuple(in_degrees(sun->elevation_rad), in_degrees(sun->azimuth_rad));
   }
 
  private:

@@ -21,8 +21,8 @@ SunRequest sun_request(const Scene& scene) {
   SunRequest request;
   if (scene.model.sun) {
     request.shines = true;
-    request.elevation_deg = scene.model.sun->elevation_rad / degree;
-    request.azimuth_deg = scene.model.sun->azimuth_rad / degree;
+    request.elevation_deg = in_degrees(scene.model.sun->elevation_rad);
+    request.azimuth_deg = in_degrees(scene.model.sun->azimuth_rad);
   }
   if (!scene.moment) return request;
   const SunMoment& moment = *scene.moment;

@@ -214,7 +214,7 @@ class Solver {
     const bool direct_lags = direct / settings_.accuracy.direct >= indirect / settings_.accuracy.indirect;
     Progress progress{.rays = traced_};
     progress.pass = direct_lags ? Progress::Pass::direct : Progress::Pass::indirect;
-    progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
+    if (!planner_.fixed()) progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
     if (!std::isnan(direct + indirect)) progress.relative_error = direct_lags ? direct : indirect;
     const auto done = static_cast<double>(series_->replicates());
     const double each_s = (seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
