@@ -59,8 +59,8 @@ class StoreWriter {
     to_ = pack(values);
   }
   template <class T>
-  void packed(const NumberPieces<T>& values, std::size_t /*count*/) const {
-    to_ = pack(values);
+  void packed(const NumberPieces<T>& values, std::size_t count) const {
+    to_ = pack(values, count);
   }
 
   // Writes a list, each part by `visit(archive, part)`.

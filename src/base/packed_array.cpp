@@ -1,5 +1,7 @@
 #include "base/packed_array.h"
 
+#include "base/in_blocks.h"
+
 #include <libdeflate.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -47,21 +49,30 @@ class StreamDeflater {
     space_.resize(libdeflate_zlib_compress_bound(compressor_.get(), stream_bytes));
   }
 
-  std::vector<std::uint8_t> operator()(std::span<const std::byte> bytes) {
-    const std::size_t packed =
-        libdeflate_zlib_compress(compressor_.get(), bytes.data(), bytes.size(), space_.data(), space_.size());
-    return {space_.begin(), space_.begin() + static_cast<std::ptrdiff_t>(packed)};
+  void deflate(std::span<const std::byte> bytes) {
+    packed_ = libdeflate_zlib_compress(compressor_.get(), bytes.data(), bytes.size(), space_.data(), space_.size());
   }
+
+  // Returns what the last stream became.
+  [[nodiscard]] std::span<const std::uint8_t> packed() const { return std::span(space_).first(packed_); }
 
  private:
   static constexpr int fastest = 1;
   std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor_;
   std::vector<std::uint8_t> space_;
+  std::size_t packed_ = 0;
 };
 
 class Deflater {
  public:
-  Deflater() { waiting_.reserve(bytes_at_once); }
+  // Expects about as many bytes, and leaves room for those of the streams themselves. Memory that is reserved and not needed is
+  // never touched.
+  explicit Deflater(std::size_t expected_bytes) {
+    constexpr std::size_t least_bytes = 64;
+    constexpr std::size_t part = 256;
+    waiting_.reserve(std::min(bytes_at_once, expected_bytes));
+    packed_.reserve(least_bytes + expected_bytes + expected_bytes / part);
+  }
 
   void add(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
@@ -74,33 +85,27 @@ class Deflater {
 
   json::binary_t finish() {
     deflate_waiting();
-    std::size_t bytes = 0;
-    for (const auto& stream : streams_) bytes += stream.size();
-    json::binary_t packed{std::vector<std::uint8_t>{}};
-    packed.reserve(bytes);
-    for (auto& stream : streams_) {
-      packed.insert(packed.end(), stream.begin(), stream.end());
-      stream = {};
-    }
-    return packed;
+    return std::move(packed_);
   }
 
  private:
   void deflate_waiting() {
-    const std::size_t first = streams_.size();
-    const std::size_t count = (waiting_.size() + stream_bytes - 1) / stream_bytes;
-    streams_.resize(first + count);
+    const std::size_t count = block_count(waiting_.size(), stream_bytes);
     deflaters_.resize(std::max(deflaters_.size(), count));
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
       const auto rest = std::span<const std::byte>(waiting_).subspan(k * stream_bytes);
-      streams_[first + k] = deflaters_[k](rest.first(std::min(rest.size(), stream_bytes)));
+      deflaters_[k].deflate(rest.first(std::min(rest.size(), stream_bytes)));
     });
+    for (const StreamDeflater& deflater : std::span(deflaters_).first(count)) {
+      const std::span<const std::uint8_t> stream = deflater.packed();
+      packed_.insert(packed_.end(), stream.begin(), stream.end());
+    }
     waiting_.clear();
   }
 
   std::vector<std::byte> waiting_;
   std::vector<StreamDeflater> deflaters_;  // one for each stream that is deflated at the same time
-  std::vector<std::vector<std::uint8_t>> streams_;
+  json::binary_t packed_{std::vector<std::uint8_t>{}};
 };
 
 }  // namespace
@@ -111,8 +116,8 @@ json read_cbor(std::string_view bytes, std::size_t deepest) {
   return json::from_cbor(bytes);
 }
 
-json::binary_t deflated(const NumberPieces<std::byte>& pieces) {
-  Deflater deflater;
+json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t expected_bytes) {
+  Deflater deflater(expected_bytes);
   pieces([&](std::span<const std::byte> piece) { deflater.add(piece); });
   return deflater.finish();
 }

@@ -38,8 +38,8 @@ template <class T>
   throw std::runtime_error("what should be a whole number is none");
 }
 
-// Returns the deflated bytes of all pieces together.
-[[nodiscard]] nlohmann::json::binary_t deflated(const NumberPieces<std::byte>& pieces);
+// Returns the deflated bytes of all pieces together, which are about `expected_bytes` long before.
+[[nodiscard]] nlohmann::json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t expected_bytes);
 
 // Fills `bytes`. Returns false if the packed bytes are damaged or hold a different number of bytes.
 [[nodiscard]] bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes);
@@ -51,13 +51,14 @@ template <class T>
 template <class T>
 [[nodiscard]] nlohmann::json pack(const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
-  return nlohmann::json::binary(deflated([&](const auto& take) { take(std::as_bytes(std::span(values))); }));
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
+  return nlohmann::json::binary(deflated([&](const auto& take) { take(bytes); }, bytes.size()));
 }
 
 template <class T>
-[[nodiscard]] nlohmann::json pack(const NumberPieces<T>& pieces) {
-  return nlohmann::json::binary(
-      deflated([&](const auto& take) { pieces([&](std::span<const T> piece) { take(std::as_bytes(piece)); }); }));
+[[nodiscard]] nlohmann::json pack(const NumberPieces<T>& pieces, std::size_t count) {
+  return nlohmann::json::binary(deflated(
+      [&](const auto& take) { pieces([&](std::span<const T> piece) { take(std::as_bytes(piece)); }); }, count * sizeof(T)));
 }
 
 // Returns `count` values. Throws std::runtime_error if a different number was packed.

@@ -40,7 +40,8 @@ TEST_P(PackedArray, DoesNotDependOnItsPieces) {
       take(std::span(bytes).subspan(first, std::min(at_once, bytes.size() - first)));
     }
   };
-  EXPECT_EQ(pack(pieces), pack(bytes));
+  EXPECT_EQ(pack(pieces, bytes.size()), pack(bytes));
+  EXPECT_EQ(pack(pieces, 1), pack(bytes));
 }
 
 TEST_P(PackedArray, OfAnotherLengthIsRefused) {
