@@ -89,7 +89,7 @@ int put_in_place(const fs::path& file, const fs::path& aside) {
 // Says whether writing waits until the bytes are on the disk.
 enum class Wait { no, for_disk };
 
-// A new or open file to which a stream may write.
+// An open file that a stream can write to. The first error of the system is kept until close().
 class OpenFile : public std::streambuf {
  public:
   explicit OpenFile(int number) : number_(number) { setp(space_.data(), space_.data() + space_.size()); }
@@ -271,7 +271,7 @@ void write_file(const fs::path& file, std::string_view bytes) {
 void write_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
   write_with(file, [&](OpenFile& open_file) {
     std::ostream stream(&open_file);
-    stream.exceptions(std::ios::badbit);  // such as std::bad_alloc; the file keeps what the system refuses
+    stream.exceptions(std::ios::badbit);  // or formatted output would swallow std::bad_alloc
     write(stream);
   });
 }

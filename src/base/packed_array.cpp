@@ -1,9 +1,9 @@
 #include "base/packed_array.h"
 
 #include "base/in_blocks.h"
+#include "base/large_pages.h"
 
 #include <libdeflate.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <memory>
@@ -65,20 +65,25 @@ class StreamDeflater {
 
 class Deflater {
  public:
-  // Expects about as many bytes, and leaves room for those of the streams themselves. Memory that is reserved and not needed is
-  // never touched.
+  // Expects about as many bytes, and leaves room for those of the streams themselves. What is reserved and not needed is hardly
+  // ever touched.
   explicit Deflater(std::size_t expected_bytes) {
     constexpr std::size_t least_bytes = 64;
     constexpr std::size_t part = 256;
     waiting_.reserve(std::min(bytes_at_once, expected_bytes));
     packed_.reserve(least_bytes + expected_bytes + expected_bytes / part);
+    prefer_large_pages(packed_.data(), packed_.capacity());
   }
 
   void add(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       const auto taken = bytes.first(std::min(bytes.size(), bytes_at_once - waiting_.size()));
-      waiting_.insert(waiting_.end(), taken.begin(), taken.end());
       bytes = bytes.subspan(taken.size());
+      if (taken.size() == bytes_at_once) {
+        deflate(taken);
+        continue;
+      }
+      waiting_.insert(waiting_.end(), taken.begin(), taken.end());
       if (waiting_.size() == bytes_at_once) deflate_waiting();
     }
   }
@@ -90,17 +95,20 @@ class Deflater {
 
  private:
   void deflate_waiting() {
-    const std::size_t count = block_count(waiting_.size(), stream_bytes);
+    deflate(waiting_);
+    waiting_.clear();
+  }
+
+  void deflate(std::span<const std::byte> bytes) {
+    const std::size_t count = block_count(bytes.size(), stream_bytes);
     deflaters_.resize(std::max(deflaters_.size(), count));
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-      const auto rest = std::span<const std::byte>(waiting_).subspan(k * stream_bytes);
-      deflaters_[k].deflate(rest.first(std::min(rest.size(), stream_bytes)));
+    in_blocks(bytes.size(), stream_bytes, [&](std::size_t k, std::size_t first, std::size_t end) {
+      deflaters_[k].deflate(bytes.subspan(first, end - first));
     });
     for (const StreamDeflater& deflater : std::span(deflaters_).first(count)) {
       const std::span<const std::uint8_t> stream = deflater.packed();
       packed_.insert(packed_.end(), stream.begin(), stream.end());
     }
-    waiting_.clear();
   }
 
   std::vector<std::byte> waiting_;

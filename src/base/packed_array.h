@@ -38,7 +38,8 @@ template <class T>
   throw std::runtime_error("what should be a whole number is none");
 }
 
-// Returns the deflated bytes of all pieces together, which are about `expected_bytes` long before.
+// Returns the deflated bytes of all pieces together, of which there are about `expected_bytes`, or 0 if nobody
+// knows.
 [[nodiscard]] nlohmann::json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t expected_bytes);
 
 // Fills `bytes`. Returns false if the packed bytes are damaged or hold a different number of bytes.
@@ -55,6 +56,7 @@ template <class T>
   return nlohmann::json::binary(deflated([&](const auto& take) { take(bytes); }, bytes.size()));
 }
 
+// `count` is their number, or 0 if nobody knows it.
 template <class T>
 [[nodiscard]] nlohmann::json pack(const NumberPieces<T>& pieces, std::size_t count) {
   return nlohmann::json::binary(deflated(

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -59,13 +60,13 @@ class RowBlocks {
   [[nodiscard]] std::span<std::int64_t> operator[](std::size_t row) { return {at(row), width_}; }
   [[nodiscard]] std::span<const std::int64_t> operator[](std::size_t row) const { return {at(row), width_}; }
 
-  // Calls take(row, values) for each row in their order, and gives each block back as soon as its rows were taken. Leaves no rows
-  // behind.
+  // Calls take(row, values) for each row in their order, and returns each block to the system as soon as its rows were taken.
+  // Leaves no rows behind.
   template <class Take>
   void drain(const Take& take) {
     for (std::size_t row = 0; row < size_; ++row) {
       take(row, std::span<const std::int64_t>((*this)[row]));
-      if ((row + 1) % rows_each_ == 0) blocks_[row / rows_each_].reset();
+      if ((row + 1) % rows_each_ == 0) std::free(blocks_[row / rows_each_].release());
     }
     size_ = 0;
     blocks_.clear();

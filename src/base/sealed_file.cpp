@@ -1,5 +1,6 @@
 #include "base/sealed_file.h"
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/packed_array.h"
@@ -52,6 +53,7 @@ std::string value_text(const ordered_json& settings, const std::string& key) {
 }  // namespace
 
 void seal(std::ostream& out, std::string_view mark, const json& content) {
+  EXPECT(mark.size(), ==, mark_bytes);
   CheckSum check_sum;
   std::ostream counted(&check_sum);
   json::to_cbor(content, counted);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -21,11 +22,12 @@ class SpareVectors {
     return values;
   }
 
-  // Keeps a vector for those who ask for as many values, but no more vectors than were lent.
+  // Keeps a vector for those who ask for as many values, but no more vectors of that size than were lent.
   void give_back(std::vector<T> values) {
     const std::lock_guard lock(mutex_);
-    if (lent_ == 0) return;
-    --lent_;
+    std::size_t& lent = lent_[values.size()];
+    if (lent == 0) return;
+    --lent;
     spare_.push_back(std::move(values));
   }
 
@@ -45,7 +47,7 @@ class SpareVectors {
  private:
   [[nodiscard]] std::vector<T> take(std::size_t count) {
     const std::lock_guard lock(mutex_);
-    ++lent_;
+    ++lent_[count];
     const auto found = std::find_if(spare_.begin(), spare_.end(), [&](const auto& values) { return values.size() == count; });
     if (found == spare_.end()) return {};
     std::swap(*found, spare_.back());
@@ -55,7 +57,7 @@ class SpareVectors {
   }
 
   std::mutex mutex_;
-  std::size_t lent_ = 0;
+  std::map<std::size_t, std::size_t> lent_;  // [size]
   std::vector<std::vector<T>> spare_;
 };
 

@@ -92,6 +92,20 @@ class Window::Screen {
     return size;
   }
 
+  // Returns false if there is nothing to draw on (minimised).
+  [[nodiscard]] bool has_room() const {
+    const glm::ivec2 size = size_px();
+    return size.x > 0 && size.y > 0 && glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != GLFW_TRUE;
+  }
+
+  // Returns whether the last frame took a button for pressed that was up again by then. Dear ImGui's backend notices that in the
+  // next frame, and takes the pointer's place in that frame for the place of the click, so that it has to come at once.
+  [[nodiscard]] bool owes_a_release() const {
+    for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE})
+      if (ImGui::IsMouseDown(button) && glfwGetMouseButton(window_, button) == GLFW_RELEASE) return true;
+    return false;
+  }
+
  private:
   void open(const WindowSettings& settings) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -183,18 +197,14 @@ void Window::close() {
   glfwSetWindowShouldClose(screen_->window(), GLFW_TRUE);
 }
 
-// The backend of Dear ImGui notices in the frame after a press that the button is up again, and takes the pointer's place in that
-// frame for the place of the click, which therefore has to come soon.
 bool Window::begin_frame(double most_wait_s) {
-  constexpr double longest_wait_pressed_s = 0.005;
-  if (ImGui::IsAnyMouseDown()) most_wait_s = std::min(most_wait_s, longest_wait_pressed_s);
+  if (screen_->has_room() && screen_->owes_a_release()) most_wait_s = 0.0;
   if (most_wait_s > 0.0) {
     glfwWaitEventsTimeout(most_wait_s);
   } else {
     glfwPollEvents();
   }
-  const glm::ivec2 size = size_px();
-  if (size.x <= 0 || size.y <= 0 || glfwGetWindowAttrib(screen_->window(), GLFW_ICONIFIED) == GLFW_TRUE) return false;
+  if (!screen_->has_room()) return false;
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();

@@ -51,8 +51,8 @@ class Window {
   [[nodiscard]] bool is_open() const;
   void close();
 
-  // Waits for input, at most `most_wait_s` and only for a moment while a mouse button is pressed, and begins a frame. Returns
-  // false without beginning one if there is nothing to draw on (minimised).
+  // Waits for input, at most `most_wait_s`, and begins a frame. Returns false without beginning one if there is nothing to draw
+  // on (minimised).
   [[nodiscard]] bool begin_frame(double most_wait_s);
   // Draws the picture and the panels over it. Pixels that the picture does not cover are `background`, 0x00RRGGBB. `changed`
   // says whether the picture differs from the last frame's; an unchanged one is not copied again.

@@ -33,6 +33,10 @@ TEST(SpareVectors, KeepNoMoreThanWereLent) {
   spare.give_back(std::move(lent));
   spare.give_back(Values(1000));
   EXPECT_EQ(spare.bytes(), 1000 * sizeof(std::int64_t));
+  Values shorter = spare.zeros(10);
+  spare.give_back(Values(1000));  // none of that size is lent
+  spare.give_back(std::move(shorter));
+  EXPECT_EQ(spare.bytes(), 1010 * sizeof(std::int64_t));
   spare.free();
   EXPECT_EQ(spare.bytes(), 0U);
 }

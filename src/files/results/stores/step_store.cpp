@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <ostream>
 #include <utility>
 
@@ -138,10 +139,12 @@ void StepStore::write(std::size_t step, const StoredStep& stored) const {
 std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& stored) const {
   json content = {{"settings", settings_}, {"step", step}};
   visit(StoreWriter(content), stored, StepSizes{});
-  // If no thread can be started, the file is written when the result of the future is requested.
-  return std::async(std::launch::async | std::launch::deferred, [file = file_of(step), content = std::move(content)] {
-    write_file(file, [&](std::ostream& out) { seal(out, step_mark, content); });
-  });
+  // If no thread can be started, the file is written when the result of the future is requested: with a copy of `write`, since
+  // std::async has moved what it was given by then.
+  const auto write = [file = file_of(step), content = std::make_shared<const json>(std::move(content))] {
+    write_file(file, [&](std::ostream& out) { seal(out, step_mark, *content); });
+  };
+  return std::async(std::launch::async | std::launch::deferred, write);
 }
 
 std::optional<StoredStep> StepStore::read(std::size_t step, StepFields fields) const {

@@ -170,19 +170,19 @@ void PlaceSums::keep_list_within_limit() {
   form_ = Form::all;
 }
 
-// Each block of rows is given back when its rows are copied, so that hardly more memory is taken than for all sums.
+// Each block of rows is freed when its rows are copied, so that hardly more memory is taken than for all sums.
 void PlaceSums::keep_all() {
   if (form_ != Form::indexed) return;
-  std::vector<std::uint32_t> place_of(rows_.size());
+  std::vector<std::uint32_t> place_of_row(rows_.size());
   for (std::size_t place = 0; place < row_at_.size(); ++place) {
-    if (has(place)) place_of[row_at_[place] - 1] = static_cast<std::uint32_t>(place);
+    if (has(place)) place_of_row[row_at_[place] - 1] = static_cast<std::uint32_t>(place);
   }
   row_at_ = std::vector<std::uint32_t>();
   all_.reserve(size());
   prefer_large_pages(all_.data(), size() * sizeof(std::int64_t));
   all_.resize(size());
   rows_.drain([&](std::size_t row, std::span<const std::int64_t> values) {
-    std::copy(values.begin(), values.end(), &all_[place_of[row] * width_]);
+    std::copy(values.begin(), values.end(), &all_[place_of_row[row] * width_]);
   });
   form_ = Form::all;
 }

@@ -46,7 +46,7 @@ struct SideLight {
   }
 
   std::vector<double> absorbed_w;
-  std::optional<std::size_t> element;  // of which the rest is set
+  std::optional<std::size_t> element;  // the one that the rest was set for
   std::vector<double> earlier_w_m2;    // of both sides in all earlier replicates together
   bool any_lit = false;                // whether the next three are set
   std::vector<double> lit;             // part of the area

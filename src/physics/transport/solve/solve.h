@@ -59,7 +59,7 @@ struct Progress {
   std::optional<double> seconds_left;    // estimate; empty while there is none
   Pass pass = Pass::direct;              // the one that is further from its bound
   std::optional<double> relative_error;  // of that pass
-  std::optional<double> bound;           // of that pass; empty where the work is fixed
+  std::optional<double> bound;           // of that pass; empty for pilots and for fixed work
 };
 
 // Returns "direct", "indirect" or "sensors".
