@@ -23,9 +23,8 @@ tinygltf::Value whole_number(std::uint32_t number) {
 }  // namespace
 
 tinygltf::Value organ_extras(const Organ& organ) {
-  return tinygltf::Value(tinygltf::Value::Object{{"plant", whole_number(organ.plant)},
-                                                 {"organ", tinygltf::Value(organ.name)},
-                                                 {"rank", tinygltf::Value(organ.rank)}});
+  return tinygltf::Value(tinygltf::Value::Object{
+      {"plant", whole_number(organ.plant)}, {"organ", tinygltf::Value(organ.name)}, {"rank", tinygltf::Value(organ.rank)}});
 }
 
 int add_positions(tinygltf::Model& model, std::span<const std::array<float, 3>> positions) {
