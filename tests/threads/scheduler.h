@@ -4,11 +4,11 @@
 // orders their work, so that every access that only oneTBB's scheduling would have made safe is reported.
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -28,21 +28,35 @@ class blocked_range {
   std::size_t grain_;
 };
 
+// The least of all limits holds; they may end in any order.
 class global_control {
  public:
   enum parameter { max_allowed_parallelism };
-  global_control(parameter, std::size_t threads) : before_(most().exchange(threads)) {}
-  ~global_control() { most() = before_; }
+  global_control(parameter, std::size_t threads) {
+    const std::lock_guard lock(all().mutex);
+    own_ = all().limits.insert(threads);
+  }
+  ~global_control() {
+    const std::lock_guard lock(all().mutex);
+    all().limits.erase(own_);
+  }
   global_control(const global_control&) = delete;
   global_control& operator=(const global_control&) = delete;
-  static std::size_t active_value(parameter) { return most(); }
+  static std::size_t active_value(parameter) {
+    const std::lock_guard lock(all().mutex);
+    return all().limits.empty() ? std::numeric_limits<std::size_t>::max() : *all().limits.begin();
+  }
 
  private:
-  static std::atomic<std::size_t>& most() {
-    static std::atomic<std::size_t> threads{std::numeric_limits<std::size_t>::max()};
-    return threads;
+  struct All {
+    std::mutex mutex;
+    std::multiset<std::size_t> limits;
+  };
+  static All& all() {
+    static All of_process;
+    return of_process;
   }
-  std::size_t before_;
+  std::multiset<std::size_t>::iterator own_;
 };
 
 namespace info {
