@@ -141,24 +141,8 @@ class OpenFile : public std::streambuf {
   std::array<char, std::size_t{1} << 16U> space_;
 };
 
-// Writes a file with write(OpenFile&).
-template <class Write>
-void write_with(const fs::path& file, const Write& write) {
-  check_writable(file);
-  const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
-  ::unlink(aside.c_str());
-  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, new_file_mode);
-  if (number < 0) refuse_write(file, errno);
-  int code = 0;
-  try {
-    OpenFile open_file(number);
-    write(open_file);
-    code = open_file.close(Wait::for_disk);
-  } catch (...) {
-    ::unlink(aside.c_str());
-    throw;
-  }
-  if (code == 0) code = put_in_place(file, aside);
+// Removes what was written aside, and throws, unless `code` is 0.
+void expect_written(const fs::path& file, const fs::path& aside, int code) {
   if (code == 0) return;
   ::unlink(aside.c_str());
   refuse_write(file, code);
@@ -265,15 +249,28 @@ std::string_view write_cure(int code) {
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  write_with(file, [&](OpenFile& open_file) { open_file.put(bytes); });
+  write_file(file, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
 }
 
 void write_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
-  write_with(file, [&](OpenFile& open_file) {
+  check_writable(file);
+  const fs::path aside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
+  ::unlink(aside.c_str());
+  const int number = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, new_file_mode);
+  if (number < 0) refuse_write(file, errno);
+  int code = 0;
+  try {
+    OpenFile open_file(number);
     std::ostream stream(&open_file);
     stream.exceptions(std::ios::badbit);  // or formatted output would swallow std::bad_alloc
     write(stream);
-  });
+    code = open_file.close(Wait::for_disk);
+  } catch (...) {
+    ::unlink(aside.c_str());
+    throw;
+  }
+  if (code == 0) code = put_in_place(file, aside);
+  expect_written(file, aside, code);
 }
 
 void check_writable(const fs::path& file) {
@@ -283,9 +280,7 @@ void check_writable(const fs::path& file) {
 void replace_file(const fs::path& file, const fs::path& aside) {
   int code = sync_file(aside);
   if (code == 0) code = put_in_place(file, aside);
-  if (code == 0) return;
-  ::unlink(aside.c_str());
-  refuse_write(file, code);
+  expect_written(file, aside, code);
 }
 
 void append_aside(const fs::path& file, const fs::path& aside, std::string_view bytes) {
@@ -293,10 +288,7 @@ void append_aside(const fs::path& file, const fs::path& aside, std::string_view 
   if (number < 0) refuse_write(file, errno);
   OpenFile open_file(number);
   open_file.put(bytes);
-  const int code = open_file.close(Wait::no);
-  if (code == 0) return;
-  ::unlink(aside.c_str());
-  refuse_write(file, code);
+  expect_written(file, aside, open_file.close(Wait::no));
 }
 
 void make_folder(const fs::path& folder) {

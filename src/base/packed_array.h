@@ -38,8 +38,7 @@ template <class T>
   throw std::runtime_error("what should be a whole number is none");
 }
 
-// Returns the deflated bytes of all pieces together, of which there are about `expected_bytes`, or 0 if nobody
-// knows.
+// Returns the deflated bytes of all pieces together, of which there are about `expected_bytes`, or 0 if nobody knows.
 [[nodiscard]] nlohmann::json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t expected_bytes);
 
 // Fills `bytes`. Returns false if the packed bytes are damaged or hold a different number of bytes.

@@ -141,8 +141,8 @@ void draw_sun(ViewerState& state) {
   if (ImGui::RadioButton("angles", &by_clock, 0)) {
     // Start from the sun's current position.
     if (sun.by_clock && state.news.sun) {
-      sun.elevation_deg = state.news.sun->elevation_rad / degree;
-      sun.azimuth_deg = state.news.sun->azimuth_rad / degree;
+      sun.elevation_deg = in_degrees(state.news.sun->elevation_rad);
+      sun.azimuth_deg = in_degrees(state.news.sun->azimuth_rad);
     }
     sun.by_clock = false;
     state.playing = false;

@@ -121,7 +121,6 @@ std::vector<std::int64_t> PlaceSums::all() const {
 
 std::vector<std::int64_t> PlaceSums::take_all() {
   PlaceSums taken = std::exchange(*this, PlaceSums());
-  if (taken.form_ == Form::list) return taken.all();
   taken.keep_all();
   return std::move(taken.all_);
 }
@@ -159,20 +158,24 @@ std::size_t PlaceSums::most_entries_of_list() const {
 void PlaceSums::keep_list_within_limit() {
   const std::size_t most = most_entries_of_list();
   if (at_.size() <= most) return;
-  PlaceSums list = merged();
-  if (list.at_.size() <= most / 2) {
-    *this = std::move(list);
-    return;
+  *this = merged();
+  if (at_.size() > most / 2) keep_all();
+}
+
+void PlaceSums::keep_all() {
+  if (form_ == Form::list) {
+    all_ = all();
+    at_ = std::vector<std::uint32_t>();
+    entries_ = LargeVector<std::int64_t>();
+  } else if (form_ == Form::indexed) {
+    spread_rows();
   }
-  all_ = list.all();
-  at_ = std::vector<std::uint32_t>();
-  entries_ = LargeVector<std::int64_t>();
   form_ = Form::all;
 }
 
-// Each block of rows is freed when its rows are copied, so that hardly more memory is taken than for all sums.
-void PlaceSums::keep_all() {
-  if (form_ != Form::indexed) return;
+// Copies rows to where all sums stand. Each block of rows is freed when its rows are copied, so that hardly more memory is taken
+// than for all sums.
+void PlaceSums::spread_rows() {
   std::vector<std::uint32_t> place_of_row(rows_.size());
   for (std::size_t place = 0; place < row_at_.size(); ++place) {
     if (has(place)) place_of_row[row_at_[place] - 1] = static_cast<std::uint32_t>(place);
@@ -184,7 +187,6 @@ void PlaceSums::keep_all() {
   rows_.drain([&](std::size_t row, std::span<const std::int64_t> values) {
     std::copy(values.begin(), values.end(), &all_[place_of_row[row] * width_]);
   });
-  form_ = Form::all;
 }
 
 PlaceSums::Finder::Finder(const PlaceSums& sums) : sums_(sums) {

@@ -193,6 +193,7 @@ class PlaceSums {
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
   void keep_list_within_limit();
   void keep_all();
+  void spread_rows();
   [[nodiscard]] std::size_t most_entries_of_list() const;
 
   std::size_t places_ = 0, width_ = 0;
