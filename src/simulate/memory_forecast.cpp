@@ -21,7 +21,7 @@ constexpr double at_their_peak_on_device = 0.7;
 
 // Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
 double program_bytes(const TracerDevice& device) {
-  return (device.kind == "cpu" ? 24.0 : 118.0) * mib;
+  return (device.kind == "cpu" ? 31.0 : 125.0) * mib;
 }
 
 double canopy_bytes(const RadiationModel& model) {
@@ -104,7 +104,7 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const double at_their_peak = on_cpu ? 1.0 : at_their_peak_on_device;
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
   const double on_device = on_cpu ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
-  const double throughout = program_bytes(engine.device()) + canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
+  const double throughout = canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
   const auto computing = [&](const SumBytes& sums) {
     return std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
                      sums.tracing + in_the_making * run->replicate_bytes, sums.ending, elements * stored});
@@ -112,8 +112,10 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const SumBytes drawn = sum_bytes(model, tree.layout, settings.element_errors, *run);
   const SumBytes plain = sum_bytes(model, tree.layout, without_pictures, *run);
   const double drawing = drawn.result + picture_bytes(model, tree.layout, engine.device());
-  return MemoryForecast{static_cast<std::uint64_t>(throughout + std::max(computing(drawn), drawing)),
-                        static_cast<std::uint64_t>(throughout + computing(plain)), *run};
+  const auto whole = [&](double at_most) {
+    return static_cast<std::uint64_t>(program_bytes(engine.device()) + memory_per_byte * (throughout + at_most));
+  };
+  return MemoryForecast{whole(std::max(computing(drawn), drawing)), whole(computing(plain)), *run};
 }
 
 }  // namespace sunfleck

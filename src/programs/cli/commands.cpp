@@ -2,7 +2,6 @@
 
 #include "files/formats/mesh/mesh_writer.h"
 #include "physics/canopy/maize.h"
-#include "programs/cli/process.h"
 #include "programs/cli/terminal.h"
 #include "simulate/checkpoint.h"
 #include "simulate/cluster/launch.h"
@@ -23,7 +22,6 @@ namespace {
 int help_with_run(const RunOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
     Simulation simulation(load_scene(options), options);
-    keep_freed_memory_for(simulation.device());
     const SolveSettings settings = solve_settings(options, simulation.scene(), options.threads);
     make_replicates({simulation, settings, {}});
   });

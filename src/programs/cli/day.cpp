@@ -171,7 +171,6 @@ int help_with_day(const DayOptions& options, Ranks& ranks) {
     Scene scene = load_scene_with_warnings(options.run, ScenePurpose::day);
     const DayPlan plan = plan_day(options, scene);
     Simulation simulation(std::move(scene), options.run);
-    keep_freed_memory_for(simulation.device());
     const SolveSettings settings = settings_of(options, simulation.scene(), plan);
     make_replicates(
         {simulation, settings, [&](std::uint64_t block) { return lights_of(simulation.model(), plan, block_of(block)); }});
@@ -218,7 +217,6 @@ int run_day(const DayOptions& asked) {
   const double load_s = watch.lap();
 
   Simulation simulation(std::move(scene), run);
-  keep_freed_memory_for(simulation.device());
   ranks.gather(simulation, settings);
   watch_for_interrupts();
   open_day_folder(folder, lock, store, found == StepStore::Found::begun);

@@ -1,15 +1,14 @@
 #include "programs/cli/process.h"
 
 #include "base/error.h"
-#include "physics/transport/model/tracer.h"
 #include "simulate/cluster/launch.h"
 
 #include <fcntl.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -18,6 +17,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+
+extern "C" [[gnu::weak]] int mallctl(const char* name, void* old, std::size_t* old_bytes, void* value, std::size_t bytes);
 
 namespace sunfleck {
 namespace {
@@ -37,25 +38,9 @@ int output_lost(int code) {
                        .c_str());
 }
 
-void keep_freed(int large_bytes) {
-  constexpr int kept_bytes = 256 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, large_bytes);
-  ::mallopt(M_TRIM_THRESHOLD, kept_bytes);
-}
-
 }  // namespace
 
 void prepare_process() {
-  // Large arrays go back to the system when they are freed. By default glibc keeps ever larger ones for later use, which took a
-  // seventh more memory and four times as much system time on a stand of a million triangles.
-  constexpr int large_bytes = 1 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, large_bytes);
-  // Smaller ones come back in every replicate. Setting the threshold above fixes how much free memory is kept for them at 128
-  // KiB, so that pages were given back and fetched again all the time: a run of maize_sparse.toml took 6 % longer. One arena
-  // for all threads keeps the free memory in one place; the threads hardly wait for one another.
-  constexpr int kept_bytes = 16 << 20;
-  ::mallopt(M_TRIM_THRESHOLD, kept_bytes);
-  ::mallopt(M_ARENA_MAX, 1);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
@@ -65,12 +50,8 @@ void prepare_process() {
 }
 
 void keep_freed_memory() {
-  keep_freed(4 << 20);
-}
-
-void keep_freed_memory_for(const TracerDevice& device) {
-  constexpr int large_bytes = 32 << 20;  // the most that glibc allows
-  if (!device.software) keep_freed(large_bytes);
+  ::ssize_t decay_ms = -1;  // never
+  if (::mallctl != nullptr) static_cast<void>(::mallctl("arena.0.dirty_decay_ms", nullptr, nullptr, &decay_ms, sizeof decay_ms));
 }
 
 int finish_output(int status) {

@@ -3,17 +3,13 @@
 
 namespace sunfleck {
 
-struct TracerDevice;
-
 // Call at the very start. Turns a pipe whose reader has gone and a file size limit into errors of the calls concerned, instead
-// of the end of the program; keeps files from being opened in place of a closed standard stream; makes freed memory return to
-// the system.
+// of the end of the program, and keeps files from being opened in place of a closed standard stream.
 void prepare_process();
 
-// Keeps freed memory for later use, up to a quarter of a gigabyte, where the same large arrays come back again and again.
+// Keeps all freed memory for later use, for commands in which the same large arrays come back again and again for minutes:
+// otherwise it goes back to the system within ten seconds. Does nothing without jemalloc (programs/allocator.cpp).
 void keep_freed_memory();
-// Does the same with arrays of up to 32 MiB if the device is a GPU, which would wait for their pages.
-void keep_freed_memory_for(const TracerDevice& device);
 
 // Call at the very end. Flushes standard output; if that fails the run failed, unless the reader merely stopped reading.
 // Returns the exit status.

@@ -2,7 +2,6 @@
 
 #include "base/file.h"
 #include "files/results/tables/judged_figure.h"
-#include "programs/cli/process.h"
 #include "programs/cli/report.h"
 #include "simulate/interrupt.h"
 #include "simulate/result_folder.h"
@@ -46,7 +45,6 @@ Monitor terminal_monitor(ProgressLine& line) {
 
 SimulatedScene simulate_at_terminal(Simulation& simulation, const SolveSettings& settings, Checkpoint* checkpoint,
                                     Ranks* ranks) {
-  keep_freed_memory_for(simulation.device());
   ProgressLine line("simulating");
   return simulation.run(settings, {terminal_monitor(line), checkpoint, ranks});
 }

@@ -6,7 +6,6 @@
 #include "base/log.h"
 #include "files/results/plots/plots.h"
 #include "files/results/tables/tradeoff_table.h"
-#include "programs/cli/process.h"
 #include "programs/cli/terminal.h"
 #include "programs/tradeoff/tradeoff_fit.h"
 #include "programs/tradeoff/tradeoff_measure.h"
@@ -112,7 +111,6 @@ int tradeoff(const TradeoffOptions& options) {
   SolveSettings settings = solve_settings(run, scene, run.threads);
 
   Simulation simulation(std::move(scene), options.run);
-  keep_freed_memory_for(simulation.device());
   TradeoffReport report;
   report.record = simulation.record(settings);
   report.record.complete = false;
