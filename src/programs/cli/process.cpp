@@ -50,9 +50,9 @@ void prepare_process() {
 }
 
 void keep_freed_memory() {
+  if (::mallctl == nullptr) return;
   ::ssize_t decay_ms = -1;  // never
-  if (::mallctl != nullptr)
-    static_cast<void>(::mallctl("arena.0.dirty_decay_ms", nullptr, nullptr, &decay_ms, sizeof decay_ms));
+  static_cast<void>(::mallctl("arena.0.dirty_decay_ms", nullptr, nullptr, &decay_ms, sizeof decay_ms));
 }
 
 int finish_output(int status) {
