@@ -6,6 +6,7 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <new>
 
@@ -37,37 +38,74 @@ class DepthCheck : public nlohmann::json_sax<json> {
   std::size_t deepest_, depth_ = 0;
 };
 
-// Number of bytes in a stream. Streams are deflated side by side; longer ones would hardly be smaller.
-constexpr std::size_t stream_bytes = std::size_t{1} << 18U;
-constexpr std::size_t bytes_at_once = 16 * stream_bytes;
+// Number of bytes in a block, whatever their words. Blocks are deflated side by side; longer ones would hardly be smaller.
+constexpr std::size_t block_bytes = std::size_t{1} << 18U;
+constexpr std::size_t bytes_at_once = 16 * block_bytes;
 
-// Deflates streams one after the other.
-class StreamDeflater {
+using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
+
+using Decompressor = std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>;
+
+Compressor make_compressor(int level) {
+  Compressor compressor(libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  return compressor;
+}
+
+Decompressor make_decompressor() {
+  Decompressor decompressor(libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (!decompressor) throw std::bad_alloc();
+  return decompressor;
+}
+
+// Returns whether deflate would hardly make the bytes fewer: among some of them, fewer than 1.5 times as many pairs are equal as
+// among random bytes.
+bool look_random(std::span<const std::byte> bytes) {
+  constexpr std::size_t step = 8;
+  constexpr std::size_t least_bytes = std::size_t{1} << 12U;
+  if (bytes.size() < least_bytes) return false;
+  std::array<std::uint64_t, 256> counts{};
+  for (std::size_t k = 0; k < bytes.size(); k += step) ++counts[std::to_integer<std::size_t>(bytes[k])];
+  std::uint64_t equal_pairs = 0;
+  for (const std::uint64_t count : counts) equal_pairs += count * (count - 1);
+  const std::uint64_t sampled = block_count(bytes.size(), step);
+  return 2 * counts.size() * equal_pairs < 3 * sampled * (sampled - 1);
+}
+
+// Deflates blocks one after the other.
+class BlockDeflater {
  public:
-  StreamDeflater() : compressor_(libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor) {
-    if (!compressor_) throw std::bad_alloc();
-    space_.resize(libdeflate_zlib_compress_bound(compressor_.get(), stream_bytes));
+  void deflate(std::span<const std::byte> block, std::size_t word) {
+    const std::size_t words = block.size() / word;
+    plane_.resize(words);
+    packed_.clear();
+    for (std::size_t k = 0; k < word; ++k) {
+      for (std::size_t i = 0; i < words; ++i) plane_[i] = block[i * word + k];
+      append(look_random(plane_) ? storing_.get() : deflating_.get());
+    }
   }
 
-  void deflate(std::span<const std::byte> bytes) {
-    packed_ = libdeflate_zlib_compress(compressor_.get(), bytes.data(), bytes.size(), space_.data(), space_.size());
-  }
-
-  // Returns what the last stream became.
-  [[nodiscard]] std::span<const std::uint8_t> packed() const { return std::span(space_).first(packed_); }
+  // Returns what the last block became.
+  [[nodiscard]] std::span<const std::uint8_t> packed() const { return packed_; }
 
  private:
-  static constexpr int fastest = 1;
-  std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor_;
-  std::vector<std::uint8_t> space_;
-  std::size_t packed_ = 0;
+  void append(libdeflate_compressor* by) {
+    const std::size_t before = packed_.size();
+    packed_.resize(before + libdeflate_zlib_compress_bound(by, plane_.size()));
+    packed_.resize(before +
+                   libdeflate_zlib_compress(by, plane_.data(), plane_.size(), &packed_[before], packed_.size() - before));
+  }
+
+  Compressor storing_ = make_compressor(0), deflating_ = make_compressor(1);
+  std::vector<std::byte> plane_;
+  std::vector<std::uint8_t> packed_;
 };
 
 class Deflater {
  public:
   // Expects about as many bytes, and leaves room for those of the streams themselves. What is reserved and not needed is hardly
   // ever touched.
-  explicit Deflater(std::size_t expected_bytes) {
+  Deflater(std::size_t word, std::size_t expected_bytes) : word_(word) {
     constexpr std::size_t least_bytes = 64;
     constexpr std::size_t part = 256;
     waiting_.reserve(std::min(bytes_at_once, expected_bytes));
@@ -100,20 +138,42 @@ class Deflater {
   }
 
   void deflate(std::span<const std::byte> bytes) {
-    const std::size_t count = block_count(bytes.size(), stream_bytes);
+    const std::size_t count = block_count(bytes.size(), block_bytes);
     deflaters_.resize(std::max(deflaters_.size(), count));
-    in_blocks(bytes.size(), stream_bytes, [&](std::size_t k, std::size_t first, std::size_t end) {
-      deflaters_[k].deflate(bytes.subspan(first, end - first));
+    in_blocks(bytes.size(), block_bytes, [&](std::size_t k, std::size_t first, std::size_t end) {
+      deflaters_[k].deflate(bytes.subspan(first, end - first), word_);
     });
-    for (const StreamDeflater& deflater : std::span(deflaters_).first(count)) {
-      const std::span<const std::uint8_t> stream = deflater.packed();
-      packed_.insert(packed_.end(), stream.begin(), stream.end());
+    for (const BlockDeflater& deflater : std::span(deflaters_).first(count)) {
+      const std::span<const std::uint8_t> block = deflater.packed();
+      packed_.insert(packed_.end(), block.begin(), block.end());
     }
   }
 
+  std::size_t word_;
   std::vector<std::byte> waiting_;
-  std::vector<StreamDeflater> deflaters_;  // one for each stream that is deflated at the same time
+  std::vector<BlockDeflater> deflaters_;  // one for each block that is deflated at the same time
   json::binary_t packed_{std::vector<std::uint8_t>{}};
+};
+
+// Inflates streams one after the other.
+class Inflater {
+ public:
+  explicit Inflater(std::span<const std::uint8_t> packed) : rest_(packed) {}
+
+  // Returns false if the next stream is damaged or does not have as many bytes.
+  bool fill(std::span<std::byte> bytes) {
+    std::size_t taken = 0;
+    const libdeflate_result result = libdeflate_zlib_decompress_ex(decompressor_.get(), rest_.data(), rest_.size(),
+                                                                   bytes.data(), bytes.size(), &taken, nullptr);
+    rest_ = rest_.subspan(result == LIBDEFLATE_SUCCESS ? taken : 0);
+    return result == LIBDEFLATE_SUCCESS;
+  }
+
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+  Decompressor decompressor_ = make_decompressor();
 };
 
 }  // namespace
@@ -124,27 +184,24 @@ json read_cbor(std::string_view bytes, std::size_t deepest) {
   return json::from_cbor(bytes);
 }
 
-json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t expected_bytes) {
-  Deflater deflater(expected_bytes);
+json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t word, std::size_t expected_bytes) {
+  Deflater deflater(word, expected_bytes);
   pieces([&](std::span<const std::byte> piece) { deflater.add(piece); });
   return deflater.finish();
 }
 
-bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes) {
-  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
-      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
-  if (!decompressor) throw std::bad_alloc();
-  std::span<const std::uint8_t> rest = packed;
-  while (!rest.empty()) {
-    std::size_t taken = 0;
-    std::size_t got = 0;
-    const libdeflate_result result =
-        libdeflate_zlib_decompress_ex(decompressor.get(), rest.data(), rest.size(), bytes.data(), bytes.size(), &taken, &got);
-    if (result != LIBDEFLATE_SUCCESS) return false;
-    rest = rest.subspan(taken);
-    bytes = bytes.subspan(got);
+bool inflate_into(const json::binary_t& packed, std::size_t word, std::span<std::byte> bytes) {
+  Inflater inflater(packed);
+  std::vector<std::byte> plane;
+  for (std::size_t first = 0; first < bytes.size(); first += block_bytes) {
+    const std::span<std::byte> block = bytes.subspan(first, std::min(block_bytes, bytes.size() - first));
+    plane.resize(block.size() / word);
+    for (std::size_t k = 0; k < word; ++k) {
+      if (!inflater.fill(plane)) return false;
+      for (std::size_t i = 0; i < plane.size(); ++i) block[i * word + k] = plane[i];
+    }
   }
-  return bytes.empty();
+  return inflater.at_end();
 }
 
 bool may_hold(const nlohmann::json::binary_t& packed, std::size_t count, std::size_t size) {

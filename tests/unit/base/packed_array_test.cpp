@@ -66,6 +66,58 @@ TEST_P(PackedArray, ThatIsCutOrChangedIsRefused) {
   }
 }
 
+// Returns numbers of which the lower half is random, and the upper half always the same.
+std::vector<std::uint64_t> some_numbers(std::size_t bytes) {
+  RandomStream random(3, 4);
+  std::vector<std::uint64_t> numbers(bytes / sizeof(std::uint64_t));
+  for (std::uint64_t& number : numbers) number = 0x0123456700000000U + (random.word() >> 32U);
+  return numbers;
+}
+
+TEST_P(PackedArray, OfWordsIsReadAsItWasWritten) {
+  const std::vector<std::uint64_t> numbers = some_numbers(GetParam());
+  const nlohmann::json packed = pack(numbers);
+  EXPECT_LE(packed.at("planes").get_binary().size(), numbers.size() * 9 / 2 + 128) << "half of the bytes, and a little";
+  EXPECT_EQ(unpack<std::uint64_t>(packed, numbers.size()), numbers);
+  EXPECT_THROW(static_cast<void>(unpack<std::uint64_t>(packed, numbers.size() + 1)), std::runtime_error);
+}
+
+// Deflate leaves some bits without a meaning; a change of such a bit changes no number.
+TEST_P(PackedArray, OfWordsThatIsCutOrChangedIsRefused) {
+  const std::vector<std::uint64_t> numbers = some_numbers(GetParam());
+  const nlohmann::json::binary_t packed = pack(numbers).at("planes").get_binary();
+  const auto is_refused = [&](const nlohmann::json::binary_t& planes) {
+    nlohmann::json damaged;
+    damaged["planes"] = nlohmann::json::binary(planes);
+    try {
+      EXPECT_EQ(unpack<std::uint64_t>(damaged, numbers.size()), numbers);
+    } catch (const std::runtime_error&) {
+      return true;
+    }
+    return false;
+  };
+  int refused = 0;
+  int changed = 0;
+  for (std::size_t cut = 1; cut < packed.size(); cut = 3 * cut + 1) {
+    nlohmann::json::binary_t damaged = packed;
+    damaged[packed.size() - cut] ^= 0x10U;
+    ++changed;
+    if (is_refused(damaged)) ++refused;
+    damaged = packed;
+    damaged.resize(packed.size() - cut);
+    EXPECT_TRUE(is_refused(damaged)) << cut;
+  }
+  EXPECT_GE(refused, changed - 1);
+}
+
+// Earlier builds did not take words apart.
+TEST_P(PackedArray, OfAnEarlierBuildIsRead) {
+  const std::vector<std::uint64_t> numbers = some_numbers(GetParam());
+  const auto bytes = std::as_bytes(std::span(numbers));
+  const nlohmann::json earlier = nlohmann::json::binary(deflated([&](const auto& take) { take(bytes); }, 1, bytes.size()));
+  EXPECT_EQ(unpack<std::uint64_t>(earlier, numbers.size()), numbers);
+}
+
 INSTANTIATE_TEST_SUITE_P(Lengths, PackedArray, ::testing::Values(0, 1, 1000, stream - 1, stream, stream + 1, 40 * stream + 5));
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* store_format = "sunfleck pictures";
-constexpr int store_version = 2;
+constexpr int oldest_version = 2, store_version = 3;  // version 2 had no planes of bytes
 
 // Largest coordinate of a scene, such as a mesh of up to 1e7 m, turned and placed as far from zero.
 constexpr double farthest_stored_m = 1e8;
@@ -206,8 +206,9 @@ StoredResult read_checked(const std::string& bytes) {
   const json file = read_cbor(bytes, deepest);
   if (file.at("format") != store_format) refuse("it is a different kind of file");
   const int version = whole<int>(file.at("version"));
-  if (version != store_version)
+  if (version < oldest_version || version > store_version) {
     refuse(fmt::format("it has version {}, but this program reads version {}", version, store_version));
+  }
   StoredResult stored;
   visit_store(StoreReader(file), stored.scene, stored.result, stored);
   RadiationModel& model = stored.scene.model;

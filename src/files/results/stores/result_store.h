@@ -2,8 +2,8 @@
 // Stores a finished run in one file, pictures.cbor of the result folder. It holds everything needed to draw pictures, so that
 // `render` needs neither the scene's files nor a simulation.
 //
-// The file is CBOR (RFC 8949): a map of named numbers, texts and lists, with long arrays as byte strings, little-endian and
-// deflated (zlib). `format` and `version` identify it; the reader refuses other versions.
+// The file is CBOR (RFC 8949): a map of named numbers, texts and lists, with long arrays as base/packed_array.h describes.
+// `format` and `version` identify it; the reader refuses versions that it does not know.
 
 #include "files/results/tables/result_writer.h"
 #include "files/scene/scene_reader.h"
