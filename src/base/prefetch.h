@@ -2,6 +2,7 @@
 // Hides the wait for memory that is read in no order.
 
 #include <cstddef>
+#include <span>
 
 namespace sunfleck {
 
@@ -14,6 +15,14 @@ void prefetch(const T& value) {
   const char* const bytes = reinterpret_cast<const char*>(&value);
   __builtin_prefetch(bytes);
   __builtin_prefetch(bytes + sizeof(T) - 1);
+}
+
+// Asks for the memory of a whole row of values.
+template <class T>
+void prefetch_row(std::span<const T> values) {
+  constexpr std::size_t line_bytes = 64;
+  const auto bytes = std::as_bytes(values);
+  for (std::size_t k = 0; k < bytes.size(); k += line_bytes) __builtin_prefetch(&bytes[k]);
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #include "physics/transport/indirect/packet_draw.h"
 
 #include "base/in_blocks.h"
+#include "base/prefetch.h"
 
 #include <algorithm>
 #include <mutex>
@@ -86,6 +87,7 @@ void PacketDraw::expect(const WaitingFlux& places) {
   in_blocks(places.size(), places_per_draw_block, [&](std::size_t block, std::size_t first, std::size_t end) {
     std::array<BlockSums, 2> sums;
     for (std::size_t k = first; k < end; ++k) {
+      if (k + prefetch_ahead < end) prefetch_row(places.quanta(k + prefetch_ahead, columns_));
       const EmissionPoint& place = places.place(k);
       const std::array<std::uint64_t, 2> expected = expectations(place, places.quanta(k, columns_));
       const std::uint64_t aim = aim_ != nullptr ? aim_of(place) : std::uint64_t{1} << 32U;
@@ -152,6 +154,7 @@ void PacketDraw::weigh_block(const WaitingFlux& places, std::size_t first, std::
                              std::vector<std::uint64_t>& weights) {
   shared::Sharing sharing{};
   for (std::size_t p = first; p < end; ++p) {
+    if (p + prefetch_ahead < end) prefetch_row(places.quanta(source(p + prefetch_ahead).place, columns_));
     const std::uint32_t number = arrays_.number[p];
     if (p == first || number != arrays_.number[p - 1]) {
       const std::uint64_t before = number > 0 ? arrays_.up_to[number - 1] : 0;

@@ -48,17 +48,24 @@ void PlaceSums::add(std::size_t place, std::span<const std::int64_t> values, std
     case Form::list:
       append(place, values);
       return keep_list_within_limit();
-    case Form::indexed: {
+    case Form::indexed:
       if (row_at_.empty()) row_at_.resize(places_);
-      std::uint32_t& row = row_at_[place];
-      if (row == 0) {
-        rows_.append();
-        row = static_cast<std::uint32_t>(rows_.size());
-      }
-      return columns::add(values, &rows_[row - 1][first]);
-    }
+      if (!has(place)) append_row(place);
+      return columns::add(values, &rows_[row_at_[place] - 1][first]);
     case Form::all:
       return columns::add(values, &all_[place * width_]);
+  }
+}
+
+void PlaceSums::append_row(std::size_t place) {
+  rows_.append();
+  row_at_[place] = static_cast<std::uint32_t>(rows_.size());
+}
+
+void PlaceSums::append_rows_of(const PlaceSums& other) {
+  EXPECT(other.row_at_.size(), ==, row_at_.size());
+  for (std::size_t place = 0; place < places_; ++place) {
+    if (other.has(place) && !has(place)) append_row(place);
   }
 }
 

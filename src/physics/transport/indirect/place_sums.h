@@ -67,11 +67,20 @@ class PlaceSums {
 
   // Asks for the memory of the sums of a place.
   void prefetch(std::size_t place) const {
-    if (form_ == Form::all) sunfleck::prefetch(all_[place * width_]);
+    if (form_ == Form::all) {
+      sunfleck::prefetch(all_[place * width_]);
+    } else if (form_ == Form::indexed && !row_at_.empty() && has(place)) {
+      prefetch_row(values_at(place));
+    }
   }
 
   // Adds the sums of `other`, which has as many, or none.
   void add(const PlaceSums& other);
+
+  // Returns whether sums have rows. Several threads may then add to different places at a time, if these have rows.
+  [[nodiscard]] bool has_rows() const { return form_ == Form::indexed && !row_at_.empty(); }
+  // Gives a row to each place that has one in `other`, which has as many sums. Both have rows.
+  void append_rows_of(const PlaceSums& other);
 
   // Gives the memory of all sums back, if there is any, and leaves no place behind.
   void give_back(SpareVectors<std::int64_t>& spare);
@@ -167,7 +176,7 @@ class PlaceSums {
     for (std::size_t step = first; step < end; ++step) {
       if (const std::size_t ahead = step + prefetch_ahead; form_ != Form::all && ahead < end && has(ahead)) {
         come(place_of(ahead));
-        sunfleck::prefetch(values_at(ahead).front());
+        prefetch_row(values_at(ahead));
       }
       if (!has(step)) continue;
       const std::span<const std::int64_t> values = values_at(step);
@@ -190,6 +199,7 @@ class PlaceSums {
   }
 
   void append(std::size_t place, std::span<const std::int64_t> values);
+  void append_row(std::size_t place);
   [[nodiscard]] PlaceSums merged() const;  // a list of ascending places
   void keep_list_within_limit();
   void keep_all();

@@ -64,7 +64,7 @@ class Addition {
     add_to_organ_means();
     add_to_plant_means();
     add_to_layer_means();
-    sums_.classes.add(replicate_, sums_.side_landed);
+    sums_.classes.add(replicate_, sums_.side_landed);  // adds to both
     if (sums_.planes) add_to_planes();
     add_arrays();
     add_landings();
@@ -279,7 +279,6 @@ class Addition {
   void add_arrays() {
     add_up(std::span(replicate_.counters).subspan(shared::counter_first_cell, sums_.soil_cells.size()), sums_.soil_cells);
     if (indirect_ == nullptr) return;
-    sums_.side_landed.add(indirect_->side_landed);
     sums_.cell_landed.add(indirect_->cell_landed);
     sums_.side_sky.add(indirect_->side_sky);
     if (in_half()) {

@@ -100,8 +100,8 @@ ShadeClasses::ShadeClasses(const Conversion& conversion, ShadeGroups groups)
   leaves_.assign(1, means);
 }
 
-void ShadeClasses::add(const Replicate& replicate, const PlaceSums& earlier) {
-  const ShadeGroupSums groups = sum_shade(conversion_, replicate, earlier, all_groups_);
+void ShadeClasses::add(const Replicate& replicate, PlaceSums& landed) {
+  const ShadeGroupSums groups = sum_shade_and_add(conversion_, replicate, all_groups_, landed);
   const CanopyAreas& areas = conversion_.areas;
   add_to(organs_, groups.organs, areas.organ_open_m2);
   add_to(layers_, groups.layers, areas.layer_open_foliage_m2);

@@ -97,8 +97,8 @@ class ShadeClasses {
   // The conversion must outlive the object.
   explicit ShadeClasses(const Conversion& conversion, ShadeGroups groups = ShadeGroups::all);
 
-  // Adds a replicate. `earlier` is what landed on each side in all replicates added before.
-  void add(const Replicate& replicate, const PlaceSums& earlier);
+  // Adds a replicate, and its landings to `landed`, what landed on each side in all replicates added before.
+  void add(const Replicate& replicate, PlaceSums& landed);
 
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {

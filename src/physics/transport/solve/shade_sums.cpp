@@ -71,13 +71,15 @@ struct BinLight {
 
 class ShadeAddition {
  public:
-  ShadeAddition(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier, bool all_groups)
+  ShadeAddition(const Conversion& conversion, const Replicate& replicate, PlaceSums& landed, bool all_groups)
       : conversion_(conversion),
         canopy_(conversion.model.canopy),
         replicate_(replicate),
         all_groups_(all_groups),
         bands_(conversion.quanta.size()),
-        earlier_(earlier),
+        landed_(landed),
+        adds_on_the_way_(replicate.packets && replicate.packets->side_landed.has_rows() && landed.has_rows()),
+        earlier_(landed),
         hit_(canopy_.size()) {
     for (std::size_t b = 0; b < bands_; ++b) {
       w_m2_per_quantum_.push_back(conversion.quanta[b].w_m2_per_quantum);
@@ -86,8 +88,10 @@ class ShadeAddition {
     for (const std::uint32_t e : replicate.direct.hit) hit_[e] = true;
   }
 
+  // Sums the replicate, and adds its landings to those of all replicates before.
   ShadeGroupSums sum() const {
     ShadeGroupSums sums(conversion_, all_groups_);
+    if (adds_on_the_way_) landed_.append_rows_of(replicate_.packets->side_landed);
     const std::size_t parts = number_of_parts(sums);
     std::vector<ShadeGroupSums> others(parts - 1, sums);
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
@@ -96,6 +100,11 @@ class ShadeAddition {
       if (replicate_.packets) add_other_light(begin_of(part, parts, sides()), begin_of(part + 1, parts, sides()), own);
     });
     for (const ShadeGroupSums& other : others) sums.add(other);
+    if (adds_on_the_way_) {
+      for (std::size_t part = 1; part < parts; ++part) add_cut_element(begin_of(part, parts, sides()));
+    } else if (replicate_.packets) {
+      landed_.add(replicate_.packets->side_landed);
+    }
     return sums;
   }
 
@@ -152,7 +161,8 @@ class ShadeAddition {
     const std::span<const Triangle> own =
         canopy_.corners.copies().empty() ? canopy_.corners.own() : std::span<const Triangle>();
     const auto come = [&](std::size_t side) {
-      earlier_.prefetch(side & ~std::size_t{1});
+      earlier_.prefetch(side);
+      earlier_.prefetch(side ^ std::size_t{1});
       if (!own.empty()) prefetch(own[side / 2]);
     };
     const auto add_side = [&](std::size_t side, std::span<const std::int64_t> quanta) {
@@ -166,7 +176,21 @@ class ShadeAddition {
       if (!foliage) return;
       shares.visit(e, canopy_.corners[e], [&](std::size_t k, double share) { light.add_to(groups.layers, k, share); });
     };
-    replicate_.packets->side_landed.for_each(first_side, end_side, add_side, come);
+    // An element whose sides are in two parts gets its landings when both are done.
+    const std::size_t first_whole = first_side + first_side % 2;
+    const std::size_t end_whole = end_side - end_side % 2;
+    const auto take_side = [&](std::size_t side, std::span<const std::int64_t> quanta) {
+      add_side(side, quanta);
+      if (adds_on_the_way_ && side >= first_whole && side < end_whole) landed_.add(side, quanta);
+    };
+    replicate_.packets->side_landed.for_each(first_side, end_side, take_side, come);
+  }
+
+  // Adds the landings on both sides of an element if a part begins with the second.
+  void add_cut_element(std::size_t begin) const {
+    if (begin % 2 == 0) return;
+    const auto add = [&](std::size_t side, std::span<const std::int64_t> quanta) { landed_.add(side, quanta); };
+    replicate_.packets->side_landed.for_each(begin - 1, begin + 1, add, [](std::size_t) {});
   }
 
   void set_light(std::size_t side, std::span<const std::int64_t> quanta, SideLight& light) const {
@@ -213,8 +237,10 @@ class ShadeAddition {
   const Replicate& replicate_;
   bool all_groups_;
   std::size_t bands_;
-  PlaceSums::Finder earlier_;
-  std::vector<bool> hit_;                                      // [element]
+  PlaceSums& landed_;
+  bool adds_on_the_way_;
+  PlaceSums::Finder earlier_;  // in landed_; an element's rows are read before any of its sides is added
+  std::vector<bool> hit_;      // [element]
   std::vector<double> w_m2_per_quantum_, beam_w_per_landing_;  // [band]
 };
 
@@ -240,8 +266,8 @@ void ShadeGroupSums::add(const ShadeGroupSums& other) {
   leaves.add(other.leaves);
 }
 
-ShadeGroupSums sum_shade(const Conversion& conversion, const Replicate& replicate, const PlaceSums& earlier, bool all_groups) {
-  return ShadeAddition(conversion, replicate, earlier, all_groups).sum();
+ShadeGroupSums sum_shade_and_add(const Conversion& conversion, const Replicate& replicate, bool all_groups, PlaceSums& landed) {
+  return ShadeAddition(conversion, replicate, landed, all_groups).sum();
 }
 
 }  // namespace sunfleck

@@ -176,6 +176,22 @@ TEST(PlaceSums, OfManyColumnsTakeRowsOfThePlacesReached) {
   EXPECT_LE(many.bytes(), all_bytes + 3 * index_bytes);
 }
 
+TEST(PlaceSums, OfManyColumnsGetTheRowsOfOthers) {
+  constexpr std::size_t places = 1000;
+  std::vector<std::int64_t> plain(places * wide), other_plain(places * wide);
+  PlaceSums sums(places, wide), other(places, wide);
+  EXPECT_FALSE(sums.has_rows());
+  land<wide>(sums, plain, 50, places, 1);
+  land<wide>(other, other_plain, 50, places, 2);
+  EXPECT_TRUE(sums.has_rows() && other.has_rows());
+  sums.append_rows_of(other);
+  EXPECT_EQ(sums.all(), plain);
+  const std::size_t bytes = sums.bytes();
+  EXPECT_GT(bytes, other.bytes());
+  sums.add(other);
+  EXPECT_EQ(sums.bytes(), bytes) << "each place had a row";
+}
+
 TEST(PlaceSums, WithoutPlacesTakeTheSizeOfOthers) {
   PlaceSums sums;
   sums.add(PlaceSums());
