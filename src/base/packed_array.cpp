@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <new>
+#include <optional>
 
 namespace sunfleck {
 namespace {
@@ -38,7 +39,8 @@ class DepthCheck : public nlohmann::json_sax<json> {
   std::size_t deepest_, depth_ = 0;
 };
 
-// Number of bytes in a block, whatever their words. Blocks are deflated side by side; longer ones would hardly be smaller.
+// A block has this many bytes, whatever the size of its words. Blocks are deflated side by side; longer ones would hardly be
+// smaller.
 constexpr std::size_t block_bytes = std::size_t{1} << 18U;
 constexpr std::size_t bytes_at_once = 16 * block_bytes;
 
@@ -58,18 +60,23 @@ Decompressor make_decompressor() {
   return decompressor;
 }
 
-// Returns whether deflate would hardly make the bytes fewer: among some of them, fewer than 1.5 times as many pairs are equal as
-// among random bytes.
+// Returns whether deflate would hardly shrink the bytes: among some of them, and among these and their neighbours, fewer than
+// 1.5 times as many pairs are equal as among random bytes.
 bool look_random(std::span<const std::byte> bytes) {
   constexpr std::size_t step = 8;
   constexpr std::size_t least_bytes = std::size_t{1} << 12U;
   if (bytes.size() < least_bytes) return false;
   std::array<std::uint64_t, 256> counts{};
-  for (std::size_t k = 0; k < bytes.size(); k += step) ++counts[std::to_integer<std::size_t>(bytes[k])];
+  std::uint64_t sampled = 0;
+  std::uint64_t equal_neighbours = 0;
+  for (std::size_t k = 0; k + 1 < bytes.size(); k += step, ++sampled) {
+    ++counts[std::to_integer<std::size_t>(bytes[k])];
+    if (bytes[k] == bytes[k + 1]) ++equal_neighbours;
+  }
   std::uint64_t equal_pairs = 0;
   for (const std::uint64_t count : counts) equal_pairs += count * (count - 1);
-  const std::uint64_t sampled = block_count(bytes.size(), step);
-  return 2 * counts.size() * equal_pairs < 3 * sampled * (sampled - 1);
+  const auto few = [&](std::uint64_t equal, std::uint64_t pairs) { return 2 * counts.size() * equal < 3 * pairs; };
+  return few(equal_pairs, sampled * (sampled - 1)) && few(equal_neighbours, sampled);
 }
 
 // Deflates blocks one after the other.
@@ -160,13 +167,15 @@ class Inflater {
  public:
   explicit Inflater(std::span<const std::uint8_t> packed) : rest_(packed) {}
 
-  // Returns false if the next stream is damaged or does not have as many bytes.
-  bool fill(std::span<std::byte> bytes) {
+  // Writes the next stream to the beginning of `bytes`. Returns its length, or nothing if it is damaged or longer.
+  std::optional<std::size_t> next(std::span<std::byte> bytes) {
     std::size_t taken = 0;
+    std::size_t got = 0;
     const libdeflate_result result = libdeflate_zlib_decompress_ex(decompressor_.get(), rest_.data(), rest_.size(),
-                                                                   bytes.data(), bytes.size(), &taken, nullptr);
-    rest_ = rest_.subspan(result == LIBDEFLATE_SUCCESS ? taken : 0);
-    return result == LIBDEFLATE_SUCCESS;
+                                                                   bytes.data(), bytes.size(), &taken, &got);
+    if (result != LIBDEFLATE_SUCCESS) return std::nullopt;
+    rest_ = rest_.subspan(taken);
+    return got;
   }
 
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
@@ -190,14 +199,24 @@ json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t word,
   return deflater.finish();
 }
 
-bool inflate_into(const json::binary_t& packed, std::size_t word, std::span<std::byte> bytes) {
+bool inflate_into(const json::binary_t& packed, std::span<std::byte> bytes) {
+  Inflater inflater(packed);
+  while (!inflater.at_end()) {
+    const std::optional<std::size_t> got = inflater.next(bytes);
+    if (!got) return false;
+    bytes = bytes.subspan(*got);
+  }
+  return bytes.empty();
+}
+
+bool inflate_planes_into(const json::binary_t& packed, std::size_t word, std::span<std::byte> bytes) {
   Inflater inflater(packed);
   std::vector<std::byte> plane;
   for (std::size_t first = 0; first < bytes.size(); first += block_bytes) {
     const std::span<std::byte> block = bytes.subspan(first, std::min(block_bytes, bytes.size() - first));
     plane.resize(block.size() / word);
     for (std::size_t k = 0; k < word; ++k) {
-      if (!inflater.fill(plane)) return false;
+      if (inflater.next(plane) != plane.size()) return false;
       for (std::size_t i = 0; i < plane.size(); ++i) block[i * word + k] = plane[i];
     }
   }

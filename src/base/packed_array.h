@@ -1,11 +1,11 @@
 #pragma once
 // Stores long arrays of numbers as CBOR, and reads CBOR from untrusted files.
 //
-// An array is cut into blocks of 256 KiB, and a block into planes: the lowest bytes of all its words, then the next bytes, and so
-// on. High bytes are much the same from word to word and become few, low bytes are often as good as random and are kept as they
-// are. Each plane is a zlib stream; all streams stand one after the other in a byte string, under the key "planes" of a map. An
-// array of bytes is such a byte string itself, and so is any array in a file from an earlier build, whose words were not taken
-// apart.
+// An array is cut into blocks of 256 KiB, and each block becomes a zlib stream; all streams stand one after the other in a byte
+// string. A block of whole numbers of 64 bits, or of doubles, is first taken apart into planes: the lowest bytes of all its words,
+// then the next bytes, and so on. High bytes hardly differ from word to word and shrink to little; low bytes are often as good as
+// random and are stored as they are. Each plane is a stream, and the byte string stands under the key "planes" of a map. Files
+// from earlier builds have no planes, and streams of any length.
 
 #include "base/error.h"
 #include "base/number_pieces.h"
@@ -43,21 +43,23 @@ template <class T>
   throw std::runtime_error("what should be a whole number is none");
 }
 
-// Returns the deflated bytes of all pieces together, of which there are about `expected_bytes`, or 0 if nobody knows: whole
-// words of `word` bytes, 1, 2, 4 or 8.
+// Returns the deflated bytes of all pieces together, of which there are about `expected_bytes`, or 0 if nobody knows. They are
+// taken apart into as many planes as a word has bytes, 1 or 8, and are whole words.
 [[nodiscard]] nlohmann::json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t word,
                                                 std::size_t expected_bytes);
 
 // Fills `bytes`. Returns false if the packed bytes are damaged or hold a different number of bytes.
-[[nodiscard]] bool inflate_into(const nlohmann::json::binary_t& packed, std::size_t word, std::span<std::byte> bytes);
+[[nodiscard]] bool inflate_into(const nlohmann::json::binary_t& packed, std::span<std::byte> bytes);
+// Does the same with bytes that were taken apart into planes.
+[[nodiscard]] bool inflate_planes_into(const nlohmann::json::binary_t& packed, std::size_t word, std::span<std::byte> bytes);
 
 // Returns false if the packed bytes are too few for `count` values: deflate expands at most 1032 times (zlib's technical
 // details).
 [[nodiscard]] bool may_hold(const nlohmann::json::binary_t& packed, std::size_t count, std::size_t size);
 
-// Words are as large as the numbers that a T consists of.
+// Returns the number of planes. Parts of structures repeat as a whole, which planes would hide from deflate.
 template <class T>
-inline constexpr std::size_t word_bytes = alignof(T);
+inline constexpr std::size_t planes_of = std::is_arithmetic_v<T> && sizeof(T) == 8 ? 8 : 1;
 
 // `count` is the number of values, or 0 if nobody knows it.
 template <class T>
@@ -66,8 +68,8 @@ template <class T>
   const NumberPieces<std::byte> bytes = [&](const auto& take) {
     pieces([&](std::span<const T> piece) { take(std::as_bytes(piece)); });
   };
-  nlohmann::json packed = nlohmann::json::binary(deflated(bytes, word_bytes<T>, count * sizeof(T)));
-  if constexpr (word_bytes<T> == 1) return packed;
+  nlohmann::json packed = nlohmann::json::binary(deflated(bytes, planes_of<T>, count * sizeof(T)));
+  if constexpr (planes_of<T> == 1) return packed;
   nlohmann::json planes;
   planes["planes"] = std::move(packed);
   return planes;
@@ -81,14 +83,13 @@ template <class T>
 // Returns `count` values. Throws std::runtime_error if a different number was packed.
 template <class T>
 [[nodiscard]] std::vector<T> unpack(const nlohmann::json& json, std::size_t count) {
-  const bool whole_words = json.is_binary();
-  const nlohmann::json::binary_t& packed = (whole_words ? json : json.at("planes")).get_binary();
+  const bool in_planes = planes_of<T> > 1 && json.is_object();
+  const nlohmann::json::binary_t& packed = (in_planes ? json.at("planes") : json).get_binary();
   if (!may_hold(packed, count, sizeof(T))) throw std::runtime_error("an array is too short");
   std::vector<T> values(count);
-  const std::size_t word = whole_words ? 1 : word_bytes<T>;
-  if (!inflate_into(packed, word, std::as_writable_bytes(std::span(values)))) {
-    throw std::runtime_error("an array is damaged");
-  }
+  const std::span<std::byte> bytes = std::as_writable_bytes(std::span(values));
+  const bool good = in_planes ? inflate_planes_into(packed, planes_of<T>, bytes) : inflate_into(packed, bytes);
+  if (!good) throw std::runtime_error("an array is damaged");
   return values;
 }
 

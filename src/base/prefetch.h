@@ -23,6 +23,7 @@ void prefetch_row(std::span<const T> values) {
   constexpr std::size_t line_bytes = 64;
   const auto bytes = std::as_bytes(values);
   for (std::size_t k = 0; k < bytes.size(); k += line_bytes) __builtin_prefetch(&bytes[k]);
+  if (!bytes.empty()) __builtin_prefetch(&bytes.back());
 }
 
 }  // namespace sunfleck

@@ -110,12 +110,28 @@ TEST_P(PackedArray, OfWordsThatIsCutOrChangedIsRefused) {
   EXPECT_GE(refused, changed - 1);
 }
 
-// Earlier builds did not take words apart.
+// Earlier builds did not take words apart, and wrote streams of other lengths, even empty ones.
 TEST_P(PackedArray, OfAnEarlierBuildIsRead) {
+  constexpr std::size_t at_once = 99991;
   const std::vector<std::uint64_t> numbers = some_numbers(GetParam());
   const auto bytes = std::as_bytes(std::span(numbers));
-  const nlohmann::json earlier = nlohmann::json::binary(deflated([&](const auto& take) { take(bytes); }, 1, bytes.size()));
-  EXPECT_EQ(unpack<std::uint64_t>(earlier, numbers.size()), numbers);
+  nlohmann::json::binary_t streams(std::vector<std::uint8_t>{0x78, 0x01, 0x03, 0x00, 0x00, 0x00, 0x00, 0x01});
+  for (std::size_t first = 0; first < bytes.size(); first += at_once) {
+    const auto piece = bytes.subspan(first, std::min(at_once, bytes.size() - first));
+    const nlohmann::json::binary_t one = deflated([&](const auto& take) { take(piece); }, 1, piece.size());
+    streams.insert(streams.end(), one.begin(), one.end());
+  }
+  EXPECT_EQ(unpack<std::uint64_t>(nlohmann::json::binary(streams), numbers.size()), numbers);
+}
+
+// Each byte is as frequent as any other, but stands in a run.
+TEST(PackedArrays, OfRunsBecomeFew) {
+  constexpr std::size_t run = 20;
+  std::vector<std::uint64_t> numbers(200000);
+  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = k / run * 0x9e3779b97f4a7c15U;
+  const nlohmann::json packed = pack(numbers);
+  EXPECT_LT(packed.at("planes").get_binary().size(), numbers.size() * sizeof(std::uint64_t) / 4);
+  EXPECT_EQ(unpack<std::uint64_t>(packed, numbers.size()), numbers);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lengths, PackedArray, ::testing::Values(0, 1, 1000, stream - 1, stream, stream + 1, 40 * stream + 5));

@@ -207,7 +207,7 @@ StoredResult read_checked(const std::string& bytes) {
   if (file.at("format") != store_format) refuse("it is a different kind of file");
   const int version = whole<int>(file.at("version"));
   if (version < oldest_version || version > store_version) {
-    refuse(fmt::format("it has version {}, but this program reads version {}", version, store_version));
+    refuse(fmt::format("it has version {}, but this program reads versions {} to {}", version, oldest_version, store_version));
   }
   StoredResult stored;
   visit_store(StoreReader(file), stored.scene, stored.result, stored);

@@ -1,7 +1,7 @@
 #pragma once
 // Stores the state of an unfinished simulation, from which --resume resumes: of a run in run_state.bin of the result folder, of a
-// day's block of steps in steps/block_state.bin (step_store.h). The file format is that of base/sealed_file.h; its arrays are
-// deflated (zlib).
+// day's block of steps in steps/block_state.bin (step_store.h). The file format is that of base/sealed_file.h, with long
+// arrays as base/packed_array.h describes.
 
 #include "physics/transport/solve/solve_state.h"
 

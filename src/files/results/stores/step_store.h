@@ -5,8 +5,8 @@
 // While a block of steps is being simulated, its state is kept too, so that no more than a few replicates are lost.
 //
 // settings.json holds the settings of the steps, the format and whether the day is finished; the steps of a finished day are
-// removed. step_00007.bin is step 7, counted from 0, in the format of base/sealed_file.h; long arrays are byte strings,
-// little-endian and deflated (zlib).
+// removed. step_00007.bin is step 7, counted from 0, in the format of base/sealed_file.h, with long arrays as
+// base/packed_array.h describes.
 
 #include "files/results/stores/run_store.h"
 #include "files/results/tables/day_course.h"

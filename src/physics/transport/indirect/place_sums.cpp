@@ -64,6 +64,7 @@ void PlaceSums::append_row(std::size_t place) {
 
 void PlaceSums::append_rows_of(const PlaceSums& other) {
   EXPECT(other.row_at_.size(), ==, row_at_.size());
+  EXPECT(other.width_, ==, width_);
   for (std::size_t place = 0; place < places_; ++place) {
     if (other.has(place) && !has(place)) append_row(place);
   }

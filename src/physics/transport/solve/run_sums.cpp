@@ -64,7 +64,7 @@ class Addition {
     add_to_organ_means();
     add_to_plant_means();
     add_to_layer_means();
-    sums_.classes.add(replicate_, sums_.side_landed);  // adds to both
+    sums_.classes.add(replicate_, sums_.side_landed);  // also adds what landed to side_landed
     if (sums_.planes) add_to_planes();
     add_arrays();
     add_landings();

@@ -192,8 +192,9 @@ TEST_F(ResultStore, WithAnyByteChangedIsReadOrRefused) {
 
 TEST_F(ResultStore, OfAnotherKindOrVersionIsNamed) {
   EXPECT_NE(refusal(changed([](json& s) { s["format"] = "other"; }))->find("a different kind"), std::string::npos);
-  EXPECT_NE(refusal(changed([](json& s) { s["version"] = 1; }))->find("it has version 1, but this program reads version 3"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(changed([](json& s) { s["version"] = 1; }))->find("it has version 1, but this program reads versions 2 to 3"),
+      std::string::npos);
   EXPECT_NE(refusal("no CBOR at all")->find("damaged"), std::string::npos);
   EXPECT_TRUE(refusal(std::string(1 << 20, '\x81'))) << "a million lists within each other";
 }
@@ -242,28 +243,14 @@ TEST_F(ResultStore, WithNumbersThatCannotBeDrawnIsRefused) {
   }
 }
 
-// Makes an array of bytes of a packed array's words, as earlier builds wrote it.
-template <class T>
-void take_planes_from(json& packed, std::size_t count) {
-  const std::vector<T> values = unpack<T>(packed, count);
-  const auto bytes = std::as_bytes(std::span(values));
-  packed = json::binary(deflated([&](const auto& take) { take(bytes); }, 1, bytes.size()));
-}
-
 TEST_F(ResultStore, OfAnEarlierVersionIsRead) {
-  const Scene scene = small_scene();
-  const RadiationResult result = small_result();
-  const StoredResult got =
-      parse_result_store(changed([&](json& s) {
-                           s["version"] = 2;
-                           take_planes_from<Triangle>(s["model"]["corners_m"], scene.model.canopy.size());
-                           take_planes_from<BeamLandings>(s["result"]["landings"], result.elements.size());
-                           take_planes_from<std::int64_t>(s["result"]["side_indirect"], result.side_indirect.size());
-                         }),
-                         file_);
-  EXPECT_EQ(got.scene.model.canopy.corners, scene.model.canopy.corners);
-  EXPECT_EQ(got.result.elements.back().upper, result.elements.back().upper);
-  EXPECT_EQ(got.result.side_indirect, result.side_indirect);
+  const std::vector<std::int64_t> quanta = small_result().side_indirect;
+  const std::string earlier = changed([&](json& s) {
+    s["version"] = 2;
+    const auto bytes = std::as_bytes(std::span(quanta));
+    s["result"]["side_indirect"] = json::binary(deflated([&](const auto& take) { take(bytes); }, 1, bytes.size()));
+  });
+  EXPECT_EQ(parse_result_store(earlier, file_).result.side_indirect, quanta);
 }
 
 }  // namespace
