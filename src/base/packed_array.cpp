@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <memory>
 #include <new>
 #include <optional>
@@ -42,7 +43,9 @@ class DepthCheck : public nlohmann::json_sax<json> {
 // A block has this many bytes, whatever the size of its words. Blocks are deflated side by side; longer ones would hardly be
 // smaller.
 constexpr std::size_t block_bytes = std::size_t{1} << 18U;
-constexpr std::size_t bytes_at_once = 16 * block_bytes;
+constexpr std::size_t bytes_at_once = 8 * block_bytes;
+constexpr std::size_t most_planes = 8;
+static_assert(block_bytes / most_planes < (1U << 16U), "a plane is stored in one block of deflate");
 
 using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
 
@@ -79,16 +82,17 @@ bool look_random(std::span<const std::byte> bytes) {
   return few(equal_pairs, sampled * (sampled - 1)) && few(equal_neighbours, sampled);
 }
 
-// Deflates blocks one after the other.
+// Packs blocks one after the other.
 class BlockDeflater {
  public:
-  void deflate(std::span<const std::byte> block, std::size_t word) {
+  void pack(std::span<const std::byte> block, std::size_t word) {
     const std::size_t words = block.size() / word;
     plane_.resize(words);
     packed_.clear();
+    packed_.reserve(word * libdeflate_zlib_compress_bound(compressor_.get(), words));
     for (std::size_t k = 0; k < word; ++k) {
       for (std::size_t i = 0; i < words; ++i) plane_[i] = block[i * word + k];
-      append(look_random(plane_) ? storing_.get() : deflating_.get());
+      word > 1 && look_random(plane_) ? store() : deflate();
     }
   }
 
@@ -96,14 +100,29 @@ class BlockDeflater {
   [[nodiscard]] std::span<const std::uint8_t> packed() const { return packed_; }
 
  private:
-  void append(libdeflate_compressor* by) {
+  void deflate() {
     const std::size_t before = packed_.size();
-    packed_.resize(before + libdeflate_zlib_compress_bound(by, plane_.size()));
-    packed_.resize(before +
-                   libdeflate_zlib_compress(by, plane_.data(), plane_.size(), &packed_[before], packed_.size() - before));
+    packed_.resize(before + libdeflate_zlib_compress_bound(compressor_.get(), plane_.size()));
+    packed_.resize(before + libdeflate_zlib_compress(compressor_.get(), plane_.data(), plane_.size(), &packed_[before],
+                                                     packed_.size() - before));
   }
 
-  Compressor storing_ = make_compressor(0), deflating_ = make_compressor(1);
+  // Appends a zlib stream of one stored block (RFC 1950, 1951). A compressor that only stores would take as much memory as one
+  // that deflates.
+  void store() {
+    const std::size_t size = plane_.size();
+    const std::uint32_t checksum = libdeflate_adler32(1, plane_.data(), size);
+    const auto append = [&](std::initializer_list<std::size_t> bytes) {
+      for (const std::size_t byte : bytes) packed_.push_back(static_cast<std::uint8_t>(byte));
+    };
+    append({0x78, 0x01, 0x01, size, size >> 8U, ~size, ~size >> 8U});
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(plane_.data());
+    packed_.insert(packed_.end(), first, first + size);
+    append({checksum >> 24U, checksum >> 16U, checksum >> 8U, checksum});
+  }
+
+  static constexpr int fastest = 1;
+  Compressor compressor_ = make_compressor(fastest);
   std::vector<std::byte> plane_;
   std::vector<std::uint8_t> packed_;
 };
@@ -148,7 +167,7 @@ class Deflater {
     const std::size_t count = block_count(bytes.size(), block_bytes);
     deflaters_.resize(std::max(deflaters_.size(), count));
     in_blocks(bytes.size(), block_bytes, [&](std::size_t k, std::size_t first, std::size_t end) {
-      deflaters_[k].deflate(bytes.subspan(first, end - first), word_);
+      deflaters_[k].pack(bytes.subspan(first, end - first), word_);
     });
     for (const BlockDeflater& deflater : std::span(deflaters_).first(count)) {
       const std::span<const std::uint8_t> block = deflater.packed();

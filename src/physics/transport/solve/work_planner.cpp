@@ -224,7 +224,7 @@ std::size_t WorkPlanner::at_once(const Work& work) const {
   const auto asked = static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
   const std::size_t most = std::min(asked, maker_.most_at_once());
   if (!settings_.memory_bytes) return most;
-  const double fit = *settings_.memory_bytes / (memory_per_byte * replicate_bytes(work));
+  const double fit = *settings_.memory_bytes / (most_memory_per_byte * replicate_bytes(work));
   return static_cast<std::size_t>(std::clamp(fit, 1.0, static_cast<double>(most)));
 }
 
@@ -249,7 +249,7 @@ double WorkPlanner::grid_rays_asked() const {
 double WorkPlanner::most_packets(Work work) const {
   if (!settings_.memory_bytes) return most_first_packets;
   const double comfortable = for_organs() ? comfortable_bytes_for_organs : comfortable_bytes;
-  const double most_bytes = std::min(comfortable, *settings_.memory_bytes / memory_per_byte - maker_.sum_bytes());
+  const double most_bytes = std::min(comfortable, *settings_.memory_bytes / most_memory_per_byte - maker_.sum_bytes());
   double fits = first_pilot.packets;
   double exceeds = most_first_packets;
   while (exceeds - fits > 1.0) {
