@@ -48,11 +48,11 @@ constexpr std::size_t most_planes = 8;
 static_assert(block_bytes / most_planes < (1U << 16U), "a plane is stored in one block of deflate");
 
 using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
-
 using Decompressor = std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>;
 
-Compressor make_compressor(int level) {
-  Compressor compressor(libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
+Compressor make_compressor() {
+  constexpr int fastest = 1;
+  Compressor compressor(libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor);
   if (!compressor) throw std::bad_alloc();
   return compressor;
 }
@@ -121,8 +121,7 @@ class BlockDeflater {
     append({checksum >> 24U, checksum >> 16U, checksum >> 8U, checksum});
   }
 
-  static constexpr int fastest = 1;
-  Compressor compressor_ = make_compressor(fastest);
+  Compressor compressor_ = make_compressor();
   std::vector<std::byte> plane_;
   std::vector<std::uint8_t> packed_;
 };

@@ -18,6 +18,8 @@ constexpr double mib = 1048576.0;
 // Replicates that take turns at a device seldom reach their peaks at the same time; those of the CPU path, which begin
 // together, do.
 constexpr double at_their_peak_on_device = 0.7;
+// What the program takes from the system for a byte of its arrays: an allocator rounds up, and keeps some of what is freed.
+constexpr double memory_per_byte = 1.2;
 
 // Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
 double program_bytes(const TracerDevice& device) {

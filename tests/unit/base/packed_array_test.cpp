@@ -124,6 +124,18 @@ TEST_P(PackedArray, OfAnEarlierBuildIsRead) {
   EXPECT_EQ(unpack<std::uint64_t>(nlohmann::json::binary(streams), numbers.size()), numbers);
 }
 
+TEST(PackedArrays, HoldWhatWasPacked) {
+  for (const std::size_t count : {0U, 1U, 1000U, 1000000U}) {
+    std::vector<std::uint64_t> values(count);
+    for (std::size_t k = 0; k < count; ++k) values[k] = k * k;
+    const nlohmann::json packed = pack(values);
+    EXPECT_EQ(unpack<std::uint64_t>(packed, count), values);
+    EXPECT_THROW(static_cast<void>(unpack<std::uint64_t>(packed, count + 1)), std::runtime_error);
+    const std::size_t other = count > 0 ? count - 1 : 7;
+    EXPECT_THROW(static_cast<void>(unpack<std::uint64_t>(packed, other)), std::runtime_error);
+  }
+}
+
 // Each byte is as frequent as any other, but stands in a run.
 TEST(PackedArrays, OfRunsBecomeFew) {
   constexpr std::size_t run = 20;

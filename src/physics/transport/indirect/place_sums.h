@@ -69,7 +69,7 @@ class PlaceSums {
   void prefetch(std::size_t place) const {
     if (form_ == Form::all) {
       sunfleck::prefetch(all_[place * width_]);
-    } else if (form_ == Form::indexed && !row_at_.empty() && has(place)) {
+    } else if (has_rows() && has(place)) {
       prefetch_row(values_at(place));
     }
   }

@@ -38,6 +38,9 @@ constexpr int least_replicates = 8;
 // other in maize. The error of packets falls with packets^-1/2.
 constexpr double ray_slope = 0.70;
 constexpr double packet_slope = 0.5;
+// What the program takes from the system at most for a byte of its arrays, where large pages serve arrays of a few megabytes: a
+// stated limit is kept with it.
+constexpr double most_memory_per_byte = 1.35;
 // Sky rays per packet of the first round when the work is not fixed, and the largest number of sky rays in one replicate.
 constexpr double sky_rays_per_packet = 2.0;
 // Light that reaches a small stand by way of a wide floor needs more packets, not more sky rays.

@@ -25,10 +25,6 @@ inline constexpr int pilot_replicates = 16;
 // The smallest work of pilots, and the number of them that may show that they are far too small.
 inline constexpr Work first_pilot{4096, 2048};
 inline constexpr int glanced_pilots = 8;
-// What the program takes from the system for a byte of its arrays: an allocator rounds up, and keeps some of what is freed.
-inline constexpr double memory_per_byte = 1.2;
-// What it takes at most, where large pages serve arrays of a few megabytes: a stated limit is kept with it.
-inline constexpr double most_memory_per_byte = 1.35;
 
 // What a series of replicates showed.
 struct SeriesOutcome {
