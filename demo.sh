@@ -11,7 +11,7 @@ seal=results/maize_sparse.sha256 # checksums of the program, the scene and every
 
 scripts/install_packages.sh run
 [ -f build/release/build.ninja ] || cmake --preset release
-cmake --build --preset release
+cmake --build --preset release --parallel "$(nproc)" # more at a time would compete for the processors' caches
 
 if [ -d "$results" ] && sha256sum --check --status "$seal" 2> /dev/null; then
   echo "The results are there and belong to this program and scene; delete $results to compute them again."

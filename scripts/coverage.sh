@@ -11,7 +11,7 @@ folders=(unit agreement regression extremes faults)
 
 [ -f build/coverage/build.ninja ] || cmake --preset coverage
 read -r -a targets <<< "${SUNFLECK_COVERAGE_TARGETS:-${folders[*]/%/_tests}}"
-cmake --build --preset coverage --target "${targets[@]}"
+cmake --build --preset coverage --parallel "$(nproc)" --target "${targets[@]}"
 find build/coverage -name '*.gcda' -delete
 if [ $# -eq 0 ]; then set -- -L "^($(IFS='|'; echo "${folders[*]}"))\$" -LE long; fi
 ctest --test-dir build/coverage --output-on-failure --no-tests=error --parallel "$(nproc)" "$@"

@@ -64,8 +64,8 @@ void bind(GpuBuffer& buffer, const std::shared_ptr<vk::raii::DeviceMemory>& memo
 
 }  // namespace
 
-void GpuBuffer::Destroy::operator()(Handles* handles) const noexcept {
-  delete handles;
+void GpuBuffer::Destroy::operator()(Handles* destroyed) const noexcept {
+  delete destroyed;
 }
 
 GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t bytes, const char* what) {

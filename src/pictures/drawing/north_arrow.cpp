@@ -60,13 +60,13 @@ void draw_end_on(Image& image, const NorthArrowPlace& place, bool is_ahead) {
 }  // namespace
 
 glm::dvec2 apparent_north(const Camera& camera, glm::dvec3 at_m) {
-  const glm::dvec2 north(glm::dot(to_north, camera.right), glm::dot(to_north, camera.up));
+  const glm::dvec2 level(glm::dot(to_north, camera.right), glm::dot(to_north, camera.up));
   const std::optional<Appearance> seen = project(camera, at_m);
-  if (camera.kind != Projection::perspective || !seen) return north;
+  if (camera.kind != Projection::perspective || !seen) return level;
   // The derivative of the projection along the line, times the depth.
   const glm::dvec2 at = glm::clamp(seen->at, 0.0, 1.0);
   const glm::dvec2 slope = camera.tan_half_fov * glm::dvec2((2.0 * at.x - 1.0) * camera.aspect, 1.0 - 2.0 * at.y);
-  return north - glm::dot(to_north, camera.forward) * slope;
+  return level - glm::dot(to_north, camera.forward) * slope;
 }
 
 void draw_north_arrow(Image& image, const Typeface& face, const Camera& camera, glm::dvec3 at_m, const NorthArrowPlace& place) {

@@ -36,7 +36,7 @@ struct OpfPlacement {
 
 class OpfReader {
  public:
-  explicit OpfReader(const MeshSource& source) : source_(source), xml_(source), builder_(source) {}
+  explicit OpfReader(const MeshSource& source) : xml_(source), builder_(source) {}
 
   Mesh read() {
     const pugi::xml_node root = xml_.root("opf");
@@ -163,7 +163,6 @@ class OpfReader {
     return {1, std::string(name), id.empty() ? 0 : static_cast<int>(rank)};
   }
 
-  const MeshSource& source_;
   XmlFile xml_;
   MeshBuilder builder_;
   std::unordered_map<std::int64_t, OpfMesh> meshes_;
