@@ -128,12 +128,11 @@ class TreePooling {
         differences[i] = splits_[numbers[i]].difference;
         noise[i] = noise_of(splits_[numbers[i]]);
       }
-      const Shrinkage shrinkage(differences, noise);
+      Shrinkage(differences, noise).shrink(differences, noise);
       for (std::size_t i = 0; i < numbers.size(); ++i) {
         Split& split = splits_[numbers[i]];
-        const Posterior posterior = shrinkage.of(differences[i], noise[i]);
-        split.correction = posterior.mean * split.spread;
-        split.variance = posterior.variance * split.spread * split.spread;
+        split.correction = differences[i] * split.spread;
+        split.variance = noise[i] * split.spread * split.spread;
       }
     }
   }

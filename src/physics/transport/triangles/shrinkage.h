@@ -1,6 +1,6 @@
 #pragma once
 // Adaptive shrinkage: from many noisy differences it learns how large true differences are, and then says of each what it
-// most likely is (Stephens 2017, Biostatistics 18:275).
+// most likely is (Stephens 2017, Biostatistics 18:275). Its vectors give the same bits on every kind of processor.
 
 #include <array>
 #include <cstddef>
@@ -8,31 +8,21 @@
 
 namespace sunfleck {
 
-struct Posterior {
-  double mean = 0.0, variance = 0.0;
-};
-
 class Shrinkage {
  public:
-  // Learns from differences, each with the variance of its noise, that true ones come from a mixture of normal distributions
-  // around 0 with fixed variances from 4^-7 to 1, and of exact zeros. The shares of the mixture are the most likely ones
-  // under a weak preference for equal shares. A sample of a few thousand is used.
+  // True differences come from a mixture of normal distributions around 0 with these variances.
+  static constexpr std::array<double, 9> variances = {0.0, 0x1p-14, 0x1p-12, 0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1.0};
+  using Values = std::array<double, variances.size()>;
+
+  // Learns the shares of the mixture from differences, each with the variance of its noise. They are the most likely ones under
+  // a weak preference for equal shares. A sample of a few thousand differences with finite noise is used.
   Shrinkage(std::span<const double> differences, std::span<const double> noise);
 
-  // Returns the mean and variance of a true difference; infinite noise gives those of the mixture.
-  [[nodiscard]] Posterior of(double difference, double noise) const;
+  // Replaces differences by the means of the true ones, and the variances of their noise by those of the true ones; infinite
+  // noise by the mean and variance of the mixture.
+  void shrink(std::span<double> differences, std::span<double> noise) const;
 
  private:
-  static constexpr std::size_t components = 9;
-  using Values = std::array<double, components>;
-
-  // Variances of the true differences in each component.
-  static constexpr Values variances = {0.0, 0x1p-14, 0x1p-12, 0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1.0};
-
-  static Values inverse_variances(double noise);
-  static Values likelihoods(double difference, const Values& inverse_variance);
-  [[nodiscard]] Values posterior_shares(Values likely) const;
-
   Values shares_;
 };
 
