@@ -59,25 +59,29 @@ class TreePooling {
   // Returns flux and variance by place in the order of the tree.
   PooledLight run() {
     compare();
-    learn_noise();
-    shrink();
+    for (Scale& scale : scales_) shrink(scale);
     return divide();
   }
 
  private:
   struct Split {
     double expected = 0.5;  // share of the first part, by weight
-    double total = 0.0;     // flux of both halves
-    double difference = 0.0;
-    double correction = 0.0, variance = 0.0;  // of the first part's share
-    std::size_t scale = 0;
-    double spread = 0.5;  // scales differences of shares to a noise that is the same for all splits of one flux
+    double spread = 0.5;    // scales differences of shares to a noise that is the same for all splits of one flux
   };
 
-  // Sums over comparisons of the halves: squared differences of the mean, times the flux.
+  // Sums over comparisons of the halves: squared differences of the mean, times the flux. Their mean is the variance of a split's
+  // difference times its flux.
   struct Noise {
     double squares = 0.0, count = 0.0;
     [[nodiscard]] double mean() const { return count > 0.0 ? squares / count : 0.0; }
+  };
+
+  // The splits of one scale, in the order of the cuts.
+  struct Scale {
+    std::vector<double> differences;  // between the first part's share and that expected
+    std::vector<double> fluxes;       // of both halves
+    std::vector<double> variances;    // of true differences
+    Noise noise;
   };
 
   [[nodiscard]] static double in(const std::vector<double>& sums, const TreeRange& range) {
@@ -89,52 +93,29 @@ class TreePooling {
       const TreeCut& cut = tree_.cuts[k];
       const TreeRange first{cut.whole.begin, cut.middle};
       Split& split = splits_[k];
-      split.scale = scale_of(cut);
       split.expected = in(weights_, first) / in(weights_, cut.whole);
       split.spread = std::sqrt(split.expected * (1.0 - split.expected));
       const double flux_a = in(a_, cut.whole);
       const double flux_b = in(b_, cut.whole);
-      split.total = flux_a + flux_b;
-      if (!(split.total > 0.0)) continue;
-      split.difference = ((in(a_, first) + in(b_, first)) / split.total - split.expected) / split.spread;
+      const double flux = flux_a + flux_b;
+      Scale& scale = scales_[scale_of(cut)];
+      scale.fluxes.push_back(flux);
+      scale.differences.push_back(flux > 0.0 ? ((in(a_, first) + in(b_, first)) / flux - split.expected) / split.spread : 0.0);
       if (!(flux_a > 0.0 && flux_b > 0.0)) continue;
       const double between = (in(a_, first) / flux_a - in(b_, first) / flux_b) / split.spread;
-      for (Noise* noise : {&noise_[split.scale], &noise_of_all_}) {
-        noise->squares += 0.25 * between * between * split.total;
+      for (Noise* noise : {&scale.noise, &noise_of_all_}) {
+        noise->squares += 0.25 * between * between * flux;
         noise->count += 1.0;
       }
     }
   }
 
-  void learn_noise() {
-    for (std::size_t scale = 0; scale < scales; ++scale) {
-      const Noise& noise = noise_[scale];
-      noise_flux_[scale] = noise.count < least_comparisons ? noise_of_all_.mean() : noise.mean();
-    }
-  }
-
-  [[nodiscard]] double noise_of(const Split& split) const {
-    return split.total > 0.0 ? noise_flux_[split.scale] / split.total : infinite;
-  }
-
-  void shrink() {
-    std::array<std::vector<std::uint32_t>, scales> of_scale;
-    for (std::uint32_t k = 0; k < splits_.size(); ++k) of_scale[splits_[k].scale].push_back(k);
-    std::vector<double> differences, noise;
-    for (const std::vector<std::uint32_t>& numbers : of_scale) {
-      differences.resize(numbers.size());
-      noise.resize(numbers.size());
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        differences[i] = splits_[numbers[i]].difference;
-        noise[i] = noise_of(splits_[numbers[i]]);
-      }
-      Shrinkage(differences, noise).shrink(differences, noise);
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        Split& split = splits_[numbers[i]];
-        split.correction = differences[i] * split.spread;
-        split.variance = noise[i] * split.spread * split.spread;
-      }
-    }
+  // Replaces the differences of a scale by true ones.
+  void shrink(Scale& scale) const {
+    const double noise_flux = (scale.noise.count < least_comparisons ? noise_of_all_ : scale.noise).mean();
+    scale.variances.reserve(scale.fluxes.size());
+    for (const double flux : scale.fluxes) scale.variances.push_back(flux > 0.0 ? noise_flux / flux : infinite);
+    Shrinkage(scale.differences, scale.variances).shrink(scale.differences, scale.variances);
   }
 
   // Passes the flux of each surface down to its elements.
@@ -150,14 +131,18 @@ class TreePooling {
       }
     }
     // The ranges nest, so multiplying place by place costs as much as the depth of the tree.
+    std::array<std::size_t, scales> next{};  // [scale], number of its next split
     for (std::size_t k = 0; k < splits_.size(); ++k) {
       const Split& split = splits_[k];
       const TreeCut& cut = tree_.cuts[k];
-      const double share = std::clamp(split.expected + split.correction, least_share * split.expected,
+      const Scale& scale = scales_[scale_of(cut)];
+      const std::size_t in_scale = next[scale_of(cut)]++;
+      const double share = std::clamp(split.expected + scale.differences[in_scale] * split.spread, least_share * split.expected,
                                       1.0 - least_share * (1.0 - split.expected));
+      const double variance_of_share = scale.variances[in_scale] * split.spread * split.spread;
       const auto multiply = [&](std::uint32_t begin, std::uint32_t end, double part, double expected) {
         const double factor = part / expected;
-        const double variance = split.variance / (part * part);
+        const double variance = variance_of_share / (part * part);
         for (std::uint32_t place = begin; place < end; ++place) {
           density[place] *= factor;
           relative[place] += variance;
@@ -186,9 +171,8 @@ class TreePooling {
   const SurfaceTree& tree_;
   std::vector<double> weights_, a_, b_;  // [place + 1], running sums
   std::vector<Split> splits_;            // [cut]
-  std::array<Noise, scales> noise_;
+  std::array<Scale, scales> scales_;
   Noise noise_of_all_;
-  std::array<double, scales> noise_flux_{};  // variance of a split's difference times its flux
 };
 
 }  // namespace
