@@ -17,27 +17,60 @@ namespace {
 
 using nlohmann::json;
 
-// Checks only the nesting depth.
-class DepthCheck : public nlohmann::json_sax<json> {
+// Builds the value that is read, unless it is too deep: each level takes room on the stack when the value is copied or destroyed.
+class ShallowValue : public nlohmann::json_sax<json> {
  public:
-  explicit DepthCheck(std::size_t deepest) : deepest_(deepest) {}
+  explicit ShallowValue(std::size_t deepest) : deepest_(deepest) {}
 
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool key(string_t&) override { return true; }
-  bool start_object(std::size_t) override { return ++depth_ <= deepest_; }
-  bool start_array(std::size_t) override { return ++depth_ <= deepest_; }
-  bool end_object() override { return depth_-- > 0; }
-  bool end_array() override { return depth_-- > 0; }
+  [[nodiscard]] json finish() { return std::move(root_); }
+
+  bool null() override { return take(nullptr); }
+  bool boolean(bool value) override { return take(value); }
+  bool number_integer(number_integer_t value) override { return take(value); }
+  bool number_unsigned(number_unsigned_t value) override { return take(value); }
+  bool number_float(number_float_t value, const string_t&) override { return take(value); }
+  bool string(string_t& value) override { return take(std::move(value)); }
+  bool binary(binary_t& value) override { return take(json::binary(std::move(value))); }
+  bool key(string_t& value) override {
+    key_ = std::move(value);
+    return true;
+  }
+  bool start_object(std::size_t) override { return open(json::object()); }
+  bool start_array(std::size_t) override { return open(json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
   bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
 
  private:
-  std::size_t deepest_, depth_ = 0;
+  // Puts a value where it belongs.
+  json& place(json value) {
+    if (open_.empty()) return root_ = std::move(value);
+    json& whole = *open_.back();
+    if (whole.is_object()) return whole[key_] = std::move(value);
+    whole.push_back(std::move(value));
+    return whole.back();
+  }
+
+  bool take(json value) {
+    place(std::move(value));
+    return true;
+  }
+
+  bool open(json whole) {
+    if (open_.size() == deepest_) return false;
+    open_.push_back(&place(std::move(whole)));
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  std::size_t deepest_;
+  json root_;
+  std::string key_;          // of the next value of an object
+  std::vector<json*> open_;  // the lists and maps that are being read
 };
 
 // A block has this many bytes, whatever the size of its words. Blocks are deflated side by side; longer ones would hardly be
@@ -206,9 +239,9 @@ class Inflater {
 }  // namespace
 
 json read_cbor(std::string_view bytes, std::size_t deepest) {
-  DepthCheck check(deepest);
-  if (!json::sax_parse(bytes, &check, json::input_format_t::cbor)) throw std::runtime_error("it is truncated or damaged");
-  return json::from_cbor(bytes);
+  ShallowValue value(deepest);
+  if (!json::sax_parse(bytes, &value, json::input_format_t::cbor)) throw std::runtime_error("it is truncated or damaged");
+  return value.finish();
 }
 
 json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t word, std::size_t expected_bytes) {
