@@ -67,6 +67,15 @@ TEST(ScatterIdentities, LedgerClosesInIntegers) {
   }
 }
 
+// 1 - 0.7 - 0.3 is not 0 in floating point.
+TEST(ScatterIdentities, AbsorptanceIsNothingWhereEverythingIsScattered) {
+  for (int hundredths = 0; hundredths <= 100; ++hundredths) {
+    EXPECT_EQ((FaceOptics{hundredths / 100.0, (100 - hundredths) / 100.0}.absorptance()), 0.0) << hundredths;
+  }
+  EXPECT_EQ((FaceOptics{0.12, 0.06}.absorptance()), 1.0 - 0.12 - 0.06);
+  EXPECT_GT((FaceOptics{0.7, 0.3 - 0x1p-32}.absorptance()), 0.0);
+}
+
 // B14 (ii).
 TEST(ScatterIdentities, SoilAbsorbsItsShareOfWhatLandsOnIt) {
   const RadiationModel model = leafy_model();

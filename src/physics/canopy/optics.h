@@ -25,7 +25,12 @@ struct FaceOptics {
   double reflectance = 0.0;
   double transmittance = 0.0;
 
-  [[nodiscard]] double absorptance() const { return 1.0 - reflectance - transmittance; }
+  // Returns the share that is absorbed: 0 where reflectance and transmittance add up to 1 but for their rounding, since quanta
+  // are split to 2^-32 (shaders/shared/quanta.h).
+  [[nodiscard]] double absorptance() const {
+    const double rest = 1.0 - reflectance - transmittance;
+    return rest > 0x1p-33 ? rest : 0.0;
+  }
 };
 
 // The coefficients of both faces. For objects from a scene file, reflectance + transmittance <= 1.
