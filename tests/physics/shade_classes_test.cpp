@@ -43,6 +43,31 @@ TEST(ShadeClasses, AddUpToWhatOrgansLayersAndLeavesAbsorb) {
   }
 }
 
+// In a short run the flux of a small class is mostly noise. It stays between nothing and what its organ absorbs.
+TEST(ShadeClasses, ArePossible) {
+  RadiationModel model = light_mix();
+  model.plot.periodic = false;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    SolveSettings settings = fixed_scatter(model, {.rays = 2e4, .packets = 500});
+    settings.seed = seed;
+    for (const OrganResult& organ : simulate(model, settings).organs) {
+      const ShadeClassResult& classes = organ.classes;
+      for (std::size_t b = 0; b < model.bands.size(); ++b) {
+        const double organ_w = organ.absorbed[b].value * organ.area_m2 * (1.0 + 1e-12);
+        for (const auto& [area, absorbed] : {std::pair(classes.sunlit_m2, classes.absorbed_sunlit[b]),
+                                             std::pair(classes.shaded_m2, classes.absorbed_shaded[b])}) {
+          if (std::isnan(absorbed.value)) continue;
+          EXPECT_GE(absorbed.value, 0.0);
+          EXPECT_LE(absorbed.value * area.value, organ_w);
+        }
+        if (classes.shaded_m2.value == 0.0 && !std::isnan(classes.absorbed_sunlit[b].value)) {
+          EXPECT_NEAR(classes.absorbed_sunlit[b].value, organ.absorbed[b].value, 1e-9 * organ.absorbed[b].value);
+        }
+      }
+    }
+  }
+}
+
 // A level black leaf with another of half its size right above: half of the lower one is sunlit.
 TEST(ShadeClasses, OfALeafInHalfShade) {
   MeshMaker maker;

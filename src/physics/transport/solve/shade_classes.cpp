@@ -115,14 +115,20 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, c
   result.sunlit_m2.value = std::clamp(result.sunlit_m2.value, 0.0, open_m2);
   result.shaded_m2 = {open_m2 - result.sunlit_m2.value, result.sunlit_m2.half_width};
   for (std::size_t b = 0; b < means.sunlit.size(); ++b) {
-    const auto add_class = [&](const RatioMean& ratio, const SpreadMean& spread, auto& absorbed, auto& spreads) {
+    const double absorbed_w = means.sunlit[b].numerator() + means.shaded[b].numerator();
+    const auto add_class = [&](const RatioMean& ratio, const SpreadMean& spread, const Estimate& class_m2, auto& absorbed,
+                               auto& spreads) {
       Estimate flux = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]);
+      // So may this estimate, where its class is small. The truth lies between nothing and all that the group absorbs: moving the
+      // value there brings it no further away.
+      const double most = std::max(0.0, absorbed_w) / class_m2.value;
+      if (!std::isnan(flux.value)) flux.value = std::clamp(flux.value, class_m2.value == open_m2 ? most : 0.0, most);
       flux.half_width += flux.value * errors.unshot_share[b];
       absorbed.push_back(flux);
       spreads.push_back(std::isnan(flux.value) ? Estimate{no_value, no_value} : spread.estimate(errors.spread_quantile));
     };
-    add_class(means.sunlit[b], means.sunlit_spread[b], result.absorbed_sunlit, result.sunlit_sd);
-    add_class(means.shaded[b], means.shaded_spread[b], result.absorbed_shaded, result.shaded_sd);
+    add_class(means.sunlit[b], means.sunlit_spread[b], result.sunlit_m2, result.absorbed_sunlit, result.sunlit_sd);
+    add_class(means.shaded[b], means.shaded_spread[b], result.shaded_m2, result.absorbed_shaded, result.shaded_sd);
   }
   return result;
 }

@@ -32,6 +32,9 @@ class RatioMean {
   // the numerator.
   [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
 
+  // Returns the mean numerator.
+  [[nodiscard]] double numerator() const { return numerator_.mean(); }
+
  private:
   ReplicateMean numerator_, denominator_;
   double products_ = 0.0;  // sum of the products of both deviations
