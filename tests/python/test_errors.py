@@ -171,3 +171,14 @@ def test_light_that_does_not_fit_leaves_all_as_it_was():
 def test_doubts_are_warnings():
     with pytest.warns(UserWarning, match="the sun is not above the horizon"):
         sunfleck.run({**with_arrays(), "sun": {"elevation": -3.0, "azimuth": 0.0}}, **WORK)
+
+
+def test_optics_that_nothing_has_are_warned_of():
+    with pytest.warns(UserWarning, match="optics.laef is not used by any geometry"):
+        sunfleck.Simulation(with_arrays(), device="cpu").run(grid=0.02, passes=8, optics={"laef": {"reflectance": 0.9}})
+
+
+def test_a_scene_without_sensors_has_no_table_of_them():
+    result = sunfleck.run({key: value for key, value in with_arrays().items() if key != "sensor"}, **WORK)
+    with pytest.raises(sunfleck.InputError, match=r"to_dataframe\('sensor_means'\).*the scene has none"):
+        result.to_dataframe("sensor_means")

@@ -132,6 +132,9 @@ TEST_F(Resume, TakesAFinishedRunForWhatItIs) {
   expect_one_error(run(again + Arguments{"--seed", "2"}), 2, "that finished run has other settings: seed was 1, now 2");
   expect_one_error(run(again + Arguments{"--export", "csv,nc"}), 2,
                    "--export nc (the run in out is finished, and has no results.nc)");
+  Arguments with_picture = again;
+  *std::find(with_picture.begin(), with_picture.end(), "none") = "rank_total";
+  expect_one_error(run(with_picture), 2, "--images rank_total (the run in out is finished, and has no rank_total.png)");
   const Outcome printed = run(again + Arguments{"--json"});
   EXPECT_EQ(printed.status, 0);
   EXPECT_EQ(printed.out, file("summary.json"));

@@ -306,6 +306,7 @@ void relight(Scene& scene, const SceneText& source, const SceneAccess& access) {
   std::erase_if(other.files, is_read_again);  // a scene often gets new light from the same files
   other.files.insert(other.files.end(), read.begin(), read.end());
   other.model.canopy = std::move(scene.model.canopy);
+  warn_of_unused(optics, other, other.warnings);
   scene = std::move(other);
 }
 

@@ -253,7 +253,7 @@ double TomlTable::checked(std::string_view key, const toml::node& item, std::opt
   const double value = item.is_integer() ? static_cast<double>(item.as_integer()->get()) : item.as_floating_point()->get();
   if (!allows(range, value)) {
     const std::string cure = range.is_share && value > 1.0 && value <= 100.0
-                                 ? fmt::format("give {} if percent was meant", value / 100.0)
+                                 ? fmt::format("give {:.6g} if percent was meant", value / 100.0)
                                  : std::string(range.cure);
     refuse_item(key, item, index, rule_of(range), cure);
   }

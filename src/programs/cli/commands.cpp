@@ -67,7 +67,7 @@ int run(const RunOptions& asked) {
   simulation.check_validation();
 
   const std::string cure = checkpoint.holds_state() ? "; --resume continues the run" : "";
-  warn_if_short(simulated, settings, cure);
+  warn_if_short(simulated, settings, "the results are kept and marked incomplete" + cure);
   warn_of_coarse_triangles(simulated, options.exports);
   print_result(folder, options, simulated);
   if (simulated.record.complete && unwritten.names().empty()) checkpoint.finish();

@@ -108,7 +108,8 @@ int render(const RenderOptions& options) {
   } else {
     say(device_line(simulation.device()));
     simulated = simulate_at_terminal(simulation, settings);
-    warn_if_short(simulated, settings);
+    const bool interrupted = simulated.result.stop == StopReason::interrupted;
+    warn_if_short(simulated, settings, interrupted ? "no picture is drawn" : "the picture shows the light so far");
     status = exit_status(simulated.result.stop);
   }
   const CpuThreads threads(options.run.threads);

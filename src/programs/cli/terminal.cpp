@@ -60,7 +60,7 @@ std::string shortfall(const char* pass, const std::optional<double>& error, cons
   return fmt::format("{} error {:.2g} of {:.2g} ({})", pass, *error, *bound, figure_name(*judged, model));
 }
 
-void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view cure) {
+void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view outcome) {
   const RadiationResult& result = simulated.result;
   const RadiationModel& model = simulated.scene->model;
   if (is_done(result.stop)) return;
@@ -85,7 +85,7 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
     if (direct.empty() && indirect.empty() && sensors.empty() && result.direct.bound)
       line += ", before a check confirmed the bounds";
   }
-  warn(fmt::format("{}; the results are kept and marked incomplete{}", line, cure));
+  warn(fmt::format("{}; {}", line, outcome));
 }
 
 void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector<std::string>& exports) {
@@ -101,7 +101,26 @@ void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector
       band, 100.0 * *worst));
 }
 
+namespace {
+
+void expect_pictures(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
+  const auto refuse = [&](const std::string& option, const std::string& lacking) {
+    throw_input(option, fmt::format("the {} in {} is finished, and has no {}", work, printable(folder.string()), lacking),
+                "leave --resume out to compute it again");
+  };
+  for (const std::string& name : options.images) {
+    if (name == "all" || name == "none" || name == "planes") continue;
+    std::error_code error;
+    if (!std::filesystem::exists(folder / (name + ".png"), error)) refuse("--images " + name, name + ".png");
+  }
+  if (!options.measured.empty()) refuse("--measured", "plot of these data yet");
+  if (!options.compare.empty()) refuse("--compare", "plot of these results yet");
+}
+
+}  // namespace
+
 int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
+  expect_pictures(folder, options, work);
   const std::string summary = read_file(folder / summary_file);
   const nlohmann::json finished = nlohmann::json::parse(summary, nullptr, false);
   const bool complete = finished.is_object() && finished.contains("complete") && finished["complete"] == true;

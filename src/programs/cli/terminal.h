@@ -39,9 +39,9 @@ void start_at_terminal(const RunOptions& options);
 
 [[nodiscard]] int exit_status(StopReason stop);
 
-// Reports in one line why a run ended early and which figures of which pass fell short of their bounds, followed by `cure`;
-// prints nothing if a run did all its work.
-void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view cure = "");
+// Reports in one line why a run ended early and which figures of which pass fell short of their bounds, and then `outcome`: what
+// becomes of the results. Prints nothing if a run did all its work.
+void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view outcome);
 
 // Returns the part of that line about a pass: "direct error 0.0037 of 0.001 (beam on vegetation)". Empty for a pass that
 // reached its bound, has none, or has no light.
@@ -52,7 +52,7 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
 void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector<std::string>& exports);
 
 // Reports that the `work` in the folder, a run or a day, is finished, or prints its summary if --json requests it. Returns the
-// exit status.
+// exit status. Throws Error (input) if pictures or overlays are requested by name that the folder lacks.
 [[nodiscard]] int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work);
 
 // Prints the balance of a result and its folder, or its summary if --json requests it.
