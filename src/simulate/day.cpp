@@ -45,13 +45,13 @@ class DayRun {
     const auto& steps = plan.course.steps;
     for (std::size_t date = 0; date < plan.course.dates.size(); ++date)
       of_hour_.resize(std::max(of_hour_.size(), steps_of(plan.course, date).size()));
-    lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.night(); }));
+    lit_steps_ = static_cast<double>(std::count_if(steps.begin(), steps.end(), [](const DayStep& s) { return !s.unlit(); }));
   }
 
   SimulatedDay run() {
     for (const DayBlock& block : plan_.blocks) {
       if (stopped()) break;
-      day_.steps = block.first;  // the nights before it
+      day_.steps = block.first;  // the unlit ones before it
       if (!find(block) && !simulate(block)) return day_;
     }
     if (!stopped()) day_.steps = plan_.course.steps.size();

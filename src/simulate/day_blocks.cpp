@@ -43,14 +43,14 @@ void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {
   std::size_t first = 0;
   RadiationModel light = model;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (!steps[i].night()) set_light(light, plan.lights[i]);
-    const bool alone = steps[i].night() || is_dark(light);
+    if (!steps[i].unlit()) set_light(light, plan.lights[i]);
+    const bool alone = steps[i].unlit() || is_dark(light);
     if (alone || steps[i].date != steps[first].date) {
       cut(first, i);
       first = i;
     }
     if (!alone) continue;
-    if (!steps[i].night()) plan.blocks.push_back({i, i + 1});
+    if (!steps[i].unlit()) plan.blocks.push_back({i, i + 1});
     first = i + 1;
   }
   cut(first, steps.size());

@@ -23,7 +23,7 @@ inline constexpr int usual_steps_together = 6;
 // Returns the same for other lights of a scene.
 [[nodiscard]] std::size_t lights_in_memory(const RadiationModel& model, bool has_sky, bool of_triangles, double memory_bytes);
 
-// Gives the plan the blocks of all daytime steps, each with at most `most` of them. The blocks between two nights or dark steps
+// Gives the plan the blocks of all lit steps, each with at most `most` of them. The blocks between two unlit or dark steps
 // are of nearly the same size.
 void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan);
 

@@ -130,7 +130,7 @@ class DayFolder {
     const StepRange range = steps_of(day_.course, date);
     std::vector<StepLight> lights;
     for (std::size_t i = range.first; i < std::min(range.end, day_.steps); ++i) {
-      if (day_.course.steps[i].night()) {
+      if (day_.course.steps[i].unlit()) {
         lights.push_back(dark_);
         plane_sums_.add_night();
         continue;

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "physics/light/sun_events.h"
 #include "physics/light/years.h"
+#include "physics/transport/solve/darkness.h"
 
 #include <fmt/format.h>
 
@@ -133,7 +134,25 @@ void set_hours(DayPlan& plan, const DayRequest& request, const std::vector<sys_d
   }
 }
 
-void add_steps(DayPlan& plan, const LocalDate& date, int step_min, const Place& place) {
+// Returns at least how many steps a date has, from some of the dates: finding the sunrises of centuries takes minutes.
+std::size_t least_steps_a_date(const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
+  if (!request.from.empty() || !request.to.empty()) return 1;
+  constexpr std::size_t most = 64;
+  std::vector<sys_days> some;
+  for (std::size_t i = 0; i < dates.size(); i += dates.size() / most + 1) some.push_back(dates[i]);
+  const Daylight light = daylight(some, moment);
+  return static_cast<std::size_t>(std::max(1, (light.to_min - light.from_min) / request.step_min));
+}
+
+void refuse_too_many(const DayRequest& request, std::size_t steps_a_date, std::size_t dates) {
+  if (steps_a_date * dates <= most_day_steps) return;
+  throw_input(
+      fmt::format("--step {}", request.step_min),
+      fmt::format("more than {} steps on {} dates", most_day_steps, dates > most_day_steps ? "these" : fmt::to_string(dates)),
+      "give longer steps or fewer dates");
+}
+
+void add_steps(DayPlan& plan, const LocalDate& date, int step_min, const Place& place, bool lamps) {
   for (int begin = plan.from_min; begin < plan.to_min; begin += step_min) {
     const int end = std::min(begin + step_min, plan.to_min);
     DayStep step;
@@ -142,6 +161,7 @@ void add_steps(DayPlan& plan, const LocalDate& date, int step_min, const Place& 
     step.length_s = (end - begin) * seconds_per_minute;
     step.date = plan.course.dates.size();
     step.sun = sun_position(step.middle, place);
+    step.lamps = lamps;
     plan.course.steps.push_back(step);
   }
   plan.course.dates.push_back(fmt::format("{:04}-{:02}-{:02}", date.year, date.month, date.day));
@@ -158,19 +178,19 @@ DayPlan plan_day(const DayRequest& request, const Scene& scene) {
   DayPlan plan;
   plan.course.offset_minutes = scene.moment->offset_minutes;
   const std::vector<sys_days> dates = dates_of(request, *scene.moment);
+  refuse_too_many(request, least_steps_a_date(request, dates, *scene.moment), dates.size());
   set_hours(plan, request, dates, *scene.moment);
   const auto steps_a_date = static_cast<std::size_t>((plan.to_min - plan.from_min + request.step_min - 1) / request.step_min);
-  if (steps_a_date * dates.size() > most_day_steps) {
-    throw_input(fmt::format("--step {}", request.step_min),
-                fmt::format("more than {} steps on {} dates", most_day_steps,
-                            dates.size() > most_day_steps ? "these" : fmt::to_string(dates.size())),
-                "give longer steps or fewer dates");
-  }
+  refuse_too_many(request, steps_a_date, dates.size());
+  const bool lamps = has_lamps(scene.model);
   for (const sys_days date : dates) {
-    add_steps(plan, local_date(date, plan.course.offset_minutes), request.step_min, scene.moment->place);
+    add_steps(plan, local_date(date, plan.course.offset_minutes), request.step_min, scene.moment->place, lamps);
   }
   for (const DayStep& step : plan.course.steps) {
-    plan.lights.push_back(step.night() ? MomentLight{} : light_at(scene, step.middle));
+    const bool night = !(step.sun.elevation_rad > 0.0);
+    plan.lights.push_back(step.unlit() ? MomentLight{}
+                          : night      ? light_at_night(scene, step.middle)
+                                       : light_at(scene, step.middle));
   }
   return plan;
 }

@@ -13,7 +13,7 @@ namespace sunfleck {
 inline constexpr std::size_t most_day_steps = 60000;  // more than a year of ten-minute steps
 
 // Consecutive steps of one date that are simulated together, first ... end - 1. A block of one step may be dark; no other is,
-// and no step of a block is a night step.
+// and no step of a block is unlit.
 struct DayBlock {
   std::size_t first = 0, end = 0;
 
@@ -22,9 +22,9 @@ struct DayBlock {
 
 struct DayPlan {
   DayCourse course;
-  std::vector<MomentLight> lights;  // [step], at its middle; night steps have no bands
+  std::vector<MomentLight> lights;  // [step], at its middle; unlit steps have no bands
   int from_min = 0, to_min = 0;     // local clock, minutes since midnight
-  std::vector<DayBlock> blocks;     // of all daytime steps; empty before plan_blocks (simulate/day_blocks.h)
+  std::vector<DayBlock> blocks;     // of all lit steps; empty before plan_blocks (simulate/day_blocks.h)
 };
 
 // Plans the steps. Options that are not given default to the scene's own date, and to sunrise and sunset of all dates, rounded

@@ -238,6 +238,33 @@ TEST_F(Day, StepIsTheRunOfItsMiddle) {
   }
 }
 
+TEST_F(Day, LampsShineAtNight) {
+  std::string text = scene_text +
+                     "[optics.lamp]\nrole = \"lamp\"\nreflectance = 0.1\nemission = { PAR = 200.0, NIR = 50.0 }\n"
+                     "[[geometry]]\nfile = \"leaves.obj\"\noptics = \"lamp\"\nat = [[0.1, 0.1, 1.0]]\n";
+  folder_.write("scene.toml", text);
+  expect_day({"--from", "00:00", "--to", "08:00", "--step", "120"});
+  text.replace(text.find("T10:10"), 6, "T03:00");
+  folder_.write("scene.toml", text);
+  simulate(scene_, {"--device", "cpu", "--images", "none", "--seed", "7"}, 0, "single");
+  const Table day(file("day.csv"));
+  const json single = summary("single");
+  ASSERT_EQ(day.size(), 4U);
+  ASSERT_LT(day.number(1, "elevation_deg"), 0.0);
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const json& band = single["bands"][b];
+    EXPECT_GT(band["incident"].get<double>(), 1.0);
+    for (const char* term : terms) {
+      const double error = std::hypot(day.number(1, column(bands[b], term) + "_error"), band["error"].value(term, 0.0));
+      EXPECT_NEAR(day.number(1, column(bands[b], term)), band[term].get<double>(), 2.0 * error + 1e-6)
+          << bands[b] << ' ' << term;
+    }
+    EXPECT_EQ(day.number(0, column(bands[b], "incident")), day.number(1, column(bands[b], "incident")));
+    EXPECT_GT(day.number(3, column(bands[b], "incident")), day.number(1, column(bands[b], "incident")) + 1.0);
+  }
+  EXPECT_EQ(summary()["steps"]["night"].get<int>(), 0);
+}
+
 TEST_F(Day, IntegralsAreSumsOverTheStepsOfEachDate) {
   expect_day({"--from", "10:30", "--to", "13:00", "--date", "2003-06-30", "--to-date", "2003-07-01"});
   const Table day(file("day.csv"));

@@ -29,14 +29,7 @@ Waveband lit_band(const Waveband& band, const BandLight& light, const Broadband&
   return lit;
 }
 
-}  // namespace
-
-MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& sun, const std::optional<UtcTime>& time) {
-  Broadband broadband;
-  if (scene.light.weather) {
-    EXPECT(sun.has_value(), ==, true);
-    broadband = weather_at(*scene.light.weather, time, *sun);
-  }
+MomentLight light_of_weather(const Scene& scene, const std::optional<SunPosition>& sun, const Broadband& broadband) {
   MomentLight light;
   light.sun = sun.value_or(SunPosition{});
   for (std::size_t b = 0; b < scene.light.bands.size(); ++b) {
@@ -50,9 +43,24 @@ MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& su
   return light;
 }
 
+}  // namespace
+
+MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& sun, const std::optional<UtcTime>& time) {
+  if (!scene.light.weather) return light_of_weather(scene, sun, {});
+  EXPECT(sun.has_value(), ==, true);
+  return light_of_weather(scene, sun, weather_at(*scene.light.weather, time, *sun));
+}
+
 MomentLight light_at(const Scene& scene, const UtcTime& time) {
   EXPECT(scene.moment.has_value(), ==, true);
   return light_under(scene, sun_position(time, scene.moment->place), time);
+}
+
+MomentLight light_at_night(const Scene& scene, const UtcTime& time) {
+  EXPECT(scene.moment.has_value(), ==, true);
+  MomentLight light = light_of_weather(scene, sun_position(time, scene.moment->place), {});
+  for (Waveband& band : light.bands) band.direct_w_m2 = band.diffuse_w_m2 = 0.0;
+  return light;
 }
 
 MomentLight light_of(const Scene& scene) {

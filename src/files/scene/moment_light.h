@@ -24,6 +24,9 @@ struct MomentLight {
 // the weather has no data for it.
 [[nodiscard]] MomentLight light_at(const Scene& scene, const UtcTime& time);
 
+// Returns the light at a time as if none came from sun and sky; the scene must have a time and place (EXPECT).
+[[nodiscard]] MomentLight light_at_night(const Scene& scene, const UtcTime& time);
+
 // Returns the light at the scene's own time, or for its own sun angles.
 [[nodiscard]] MomentLight light_of(const Scene& scene);
 

@@ -79,7 +79,7 @@ class FolderSink final : public DaySink {
     seconds_ += step.seconds;
     const std::size_t date = course_.steps[i].date;
     std::size_t next = i + 1;
-    while (next < course_.steps.size() && course_.steps[next].night()) ++next;
+    while (next < course_.steps.size() && course_.steps[next].unlit()) ++next;
     if (next < course_.steps.size() && course_.steps[next].date == date) return;
     say(fmt::format("date {} of {}: {}, {} steps simulated, {:.2f} s", date + 1, course_.dates.size(), course_.dates[date],
                     std::exchange(steps_, 0), std::exchange(seconds_, 0.0)));

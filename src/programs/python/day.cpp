@@ -73,7 +73,7 @@ class Day {
 
   [[nodiscard]] bool has_triangles() const { return day_.triangle_light; }
 
-  // Returns the variables of day.nc, [step, triangle], in single precision; those of a night are zero.
+  // Returns the variables of day.nc, [step, triangle], in single precision; those of an unlit one are zero.
   [[nodiscard]] py::dict triangles() const {
     const RadiationModel& model = day_.scene.model;
     const std::vector<LightColumn> kinds = day_columns(model);
@@ -89,7 +89,7 @@ class Day {
     return columns;
   }
 
-  // Returns the variables of plane_H_day.nc for each plane, [step, row, cell], likewise; shares of a night are NaN.
+  // Returns the variables of plane_H_day.nc for each plane, [step, row, cell], likewise; shares of an unlit step are NaN.
   [[nodiscard]] py::list plane_steps() const {
     const RadiationModel& model = day_.scene.model;
     py::list planes;
@@ -99,9 +99,9 @@ class Day {
       const std::size_t cells = std::size_t{map.first.cells} * map.second.cells;
       py::dict columns;
       columns["height_m"] = plane.height_m;
-      const auto add = [&](const std::string& name, float at_night) {
+      const auto add = [&](const std::string& name, float unlit) {
         columns[name.c_str()] =
-            array_of(of_steps(day_.maps, begin, cells, at_night),
+            array_of(of_steps(day_.maps, begin, cells, unlit),
                      {signed_size(day_.maps.size()), signed_size(map.second.cells), signed_size(map.first.cells)});
         begin += cells;
       };
@@ -132,8 +132,8 @@ class Day {
 
   // Returns `count` values of each step, from number `begin` on.
   [[nodiscard]] static std::vector<float> of_steps(const std::vector<std::vector<float>>& steps, std::size_t begin,
-                                                   std::size_t count, float at_night) {
-    std::vector<float> values(steps.size() * count, at_night);
+                                                   std::size_t count, float unlit) {
+    std::vector<float> values(steps.size() * count, unlit);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       if (steps[i].empty()) continue;
       const auto from = steps[i].begin() + signed_size(begin);

@@ -36,8 +36,8 @@ TEST_F(DayPlanTest, LastStepEndsWithTheDay) {
   EXPECT_EQ(steps[0].length_s, 3600.0);
   EXPECT_EQ(local_time_text(steps[14].middle, 210), "2003-12-31T23:45:00+03:30");
   EXPECT_EQ(steps[14].length_s, 1800.0);
-  EXPECT_TRUE(steps[14].night());
-  EXPECT_FALSE(steps[2].night());
+  EXPECT_TRUE(steps[14].unlit());
+  EXPECT_FALSE(steps[2].unlit());
   EXPECT_EQ(plan.lights.size(), steps.size());
   EXPECT_TRUE(plan.lights[14].bands.empty());
   EXPECT_GT(plan.lights[2].bands.at(0).direct_w_m2, 0.0);
@@ -91,13 +91,13 @@ TEST_F(DayPlanTest, DaylightPastMidnightTakesTheWholeDate) {
 TEST_F(DayPlanTest, PolarDaysAndNights) {
   const DayPlan plan = plan_day(hours("", "", 60), scene_at("2002-06-21T10:10:00+01:00", "80"));
   EXPECT_EQ(plan.course.steps.size(), 24U);
-  for (const DayStep& step : plan.course.steps) EXPECT_FALSE(step.night());
+  for (const DayStep& step : plan.course.steps) EXPECT_FALSE(step.unlit());
   const Scene winter = scene_at("2002-12-21T10:10:00+01:00", "80");
   const auto message = message_of([&] { static_cast<void>(plan_day(hours("", "", 60), winter)); });
   ASSERT_TRUE(message);
   expect_three_parts(*message);
   const DayPlan night = plan_day(hours("10:00", "14:00", 60), winter);
-  for (const DayStep& step : night.course.steps) EXPECT_TRUE(step.night());
+  for (const DayStep& step : night.course.steps) EXPECT_TRUE(step.unlit());
 }
 
 TEST_F(DayPlanTest, RefusalsAreOneLine) {

@@ -28,7 +28,7 @@ class DayWriter {
     const std::size_t elements = day_.model.canopy.size();
     const std::vector<float> dark(light_.size() * elements);
     for (std::size_t step = 0; step < day_.steps; ++step) {
-      const std::vector<float> fields = day_.course.steps[step].night() ? dark : day_.fields(step);
+      const std::vector<float> fields = day_.course.steps[step].unlit() ? dark : day_.fields(step);
       EXPECT(fields.size(), ==, dark.size());
       for (std::size_t i = 0; i < light_.size(); ++i) {
         file_.put_rows(light_[i], step, 1, std::span(fields).subspan(i * elements, elements));

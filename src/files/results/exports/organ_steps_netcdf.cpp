@@ -74,7 +74,7 @@ class OrganWriter {
     const std::size_t organs = of_.stand.model.canopy.organs.size(), bands = of_.stand.model.bands.size();
     std::vector<std::vector<float>> values(light_.size(), std::vector<float>(range.size() * organs));  // [variable]
     for (std::size_t step = range.first; step < range.end; ++step) {
-      if (of_.course.steps[step].night()) continue;
+      if (of_.course.steps[step].unlit()) continue;
       const StepLight light = of_.light(step);
       EXPECT(light.organ_absorbed.size(), ==, organs * bands);
       const std::size_t row = (step - range.first) * organs;

@@ -16,12 +16,12 @@ struct OrganSteps {
   const DayStand& stand;
   const DayCourse& course;
   std::size_t steps = 0;  // number of steps to write, from the first, > 0
-  // Returns the light of a step that is not a night.
+  // Returns the light of a step that is not unlit.
   std::function<StepLight(std::size_t step)> light;
 };
 
 // Writes the dimensions time and organ, with plant, rank, name, role and area of each organ as coordinates, and for each band
-// what both faces absorb per one-sided area with the half-width of its interval, in single precision, zero at night. Holds the
+// what both faces absorb per one-sided area with the half-width of its interval, in single precision, zero in unlit steps. Holds the
 // values of one date in memory at a time. Writes to `aside`, which must be on the same file system, and renames it. Throws
 // Error (failure).
 void write_organ_steps(const std::filesystem::path& file, const std::filesystem::path& aside, const OrganSteps& organs);

@@ -59,7 +59,7 @@ class PlaneWriter {
   }
 
   [[nodiscard]] std::vector<float> maps_of(std::size_t step) const {
-    if (!of_.course.steps[step].night()) {
+    if (!of_.course.steps[step].unlit()) {
       std::vector<float> maps = of_.maps(step);
       EXPECT(maps.size(), ==, plane_map_values(of_.model));
       return maps;

@@ -20,9 +20,10 @@ struct DayStep {
   double length_s = 0.0;
   std::size_t date = 0;  // index of the date, from 0
   SunPosition sun;       // at the middle of the step
+  bool lamps = false;    // whether the scene has lamps, which are always lit
 
-  // Returns whether the sun is at or below the horizon; nothing is simulated then and every figure is zero.
-  [[nodiscard]] bool night() const { return !(sun.elevation_rad > 0.0); }
+  // Returns whether the sun is at or below the horizon, and there are no lamps; nothing is simulated then and every figure is zero.
+  [[nodiscard]] bool unlit() const { return !(sun.elevation_rad > 0.0 || lamps); }
 };
 
 // The steps of all dates; each date covers the same local hours.

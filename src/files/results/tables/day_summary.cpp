@@ -93,7 +93,7 @@ std::string day_summary_json(const DaySummary& day) {
   for (std::size_t d = 0; d < day.sums.size(); ++d) {
     if (day.sums[d].steps > 0) dates.push_back(date_json(day, day.course.dates[d], day.sums[d]));
   }
-  const auto night = [](const DayStep& step) { return step.night(); };
+  const auto unlit = [](const DayStep& step) { return step.unlit(); };
   ordered_json settings = day.settings;
   settings["scene_file"] = record.scene_file;
   settings["max_seconds"] = value_or_null(record.max_seconds);
@@ -120,7 +120,7 @@ std::string day_summary_json(const DaySummary& day) {
       {"steps",
        {{"asked", day.course.steps.size()},
         {"done", day.steps_done},
-        {"night", std::count_if(day.course.steps.begin(), day.course.steps.end(), night)},
+        {"night", std::count_if(day.course.steps.begin(), day.course.steps.end(), unlit)},
         {"short_of_bound", totals.short_of_bound}}},
       {"dates", dates},
       {"lost_rays", totals.lost_rays},

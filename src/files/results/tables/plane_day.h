@@ -27,7 +27,7 @@ class PlaneMapSums {
  public:
   explicit PlaneMapSums(const RadiationModel& model);
 
-  // Adds the maps of a step that is not a night, and counts a night.
+  // Adds the maps of a step, and counts one that is unlit.
   void add(const DayStep& step, std::span<const float> maps);
   void add_night() { ++steps_; }
 

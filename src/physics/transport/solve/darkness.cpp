@@ -16,12 +16,12 @@ namespace {
 // A confidence interval needs several replicates.
 constexpr int darkness_replicates = 8;
 
+}  // namespace
+
 bool has_lamps(const RadiationModel& model) {
   const std::vector<BandQuanta> quanta = make_band_quanta(model, {});
   return std::any_of(quanta.begin(), quanta.end(), [](const BandQuanta& band) { return band.lamps > 0; });
 }
-
-}  // namespace
 
 bool is_dark(const RadiationModel& model) {
   return !model.has_beam() && !model.has_sky() && !has_lamps(model);

@@ -8,6 +8,9 @@
 
 namespace sunfleck {
 
+// Returns true if a surface emits light.
+[[nodiscard]] bool has_lamps(const RadiationModel& model);
+
 // Returns true if no light comes from sun or sky and no surface emits any.
 [[nodiscard]] bool is_dark(const RadiationModel& model);
 
