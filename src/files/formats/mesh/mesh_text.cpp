@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <string_view>
 
 namespace sunfleck {
@@ -34,6 +35,13 @@ void check_arrays(const Mesh& mesh) {
 Organ organ_of_label(const Mesh& mesh, std::size_t triangle) {
   const Organ& organ = mesh.organs[mesh.organ_of[triangle]];
   return {organ.plant, mesh.optics_names[mesh.optics_of[triangle]], organ.rank};
+}
+
+// Returns the label of a triangle, which has this number in its organ.
+std::string label_of(const Mesh& mesh, std::size_t triangle, std::size_t number_in_organ) {
+  const std::uint64_t label = mesh.labels.empty() ? no_label : mesh.labels[triangle];
+  return label == no_label ? caribu_label(organ_of_label(mesh, triangle), number_in_organ)
+                           : caribu_label_as_read(mesh.organs[mesh.organ_of[triangle]], label);
 }
 
 // Returns whether reading the label back yields optics of this name.
@@ -100,12 +108,7 @@ std::string can_text(const Mesh& mesh) {
   std::string text = "# sunfleck: x east, y north, z up; m\n";
   std::vector<std::size_t> next_number(mesh.organs.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t number = mesh.organ_of[t];
-    const std::uint64_t label = mesh.labels.empty() ? no_label : mesh.labels[t];
-    text += "p 1 ";
-    text += label == no_label ? caribu_label(organ_of_label(mesh, t), next_number[number]++)
-                              : caribu_label_as_read(mesh.organs[number], label);
-    text += " 3";
+    text += "p 1 " + label_of(mesh, t, next_number[mesh.organ_of[t]]++) + " 3";
     for (int corner = 0; corner < 3; ++corner) {
       const glm::dvec3& v = mesh.vertices[mesh.triangles[t][corner]];
       fmt::format_to(std::back_inserter(text), " {} {} {}", 0.0 - v.z, 0.0 - v.x, v.y);  // no -0
@@ -113,6 +116,13 @@ std::string can_text(const Mesh& mesh) {
     text += '\n';
   }
   return text;
+}
+
+std::size_t organs_in_can(const Mesh& mesh) {
+  constexpr std::size_t up_to_leaf = 9;  // species, plant and leaf
+  std::set<std::string> labels;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) labels.insert(label_of(mesh, t, 0).substr(0, up_to_leaf));
+  return labels.size();
 }
 
 std::vector<std::string> optics_lost_in_can(const Mesh& mesh) {

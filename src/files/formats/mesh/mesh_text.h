@@ -18,4 +18,7 @@ namespace sunfleck {
 // Returns the optics names that a .can file cannot hold: it supports soil, and the leaves and stems of nine species.
 [[nodiscard]] std::vector<std::string> optics_lost_in_can(const Mesh& mesh);
 
+// Returns how many organs the labels of a .can file tell apart.
+[[nodiscard]] std::size_t organs_in_can(const Mesh& mesh);
+
 }  // namespace sunfleck
