@@ -465,6 +465,16 @@ TEST_F(Day, ResumesWithTheSameSettingsOnly) {
   EXPECT_EQ(Table(file("day.csv")).size(), 1U);
 }
 
+TEST_F(Day, TakesAFinishedDayForWhatItIs) {
+  folder_.write("scene.toml", scene_text + "[[plane]]\nheight = 0.3\ncells = [2, 2]\n");
+  const Arguments morning{"--from", "10:00", "--to", "11:00"};
+  expect_day(morning);
+  const Arguments again = morning + Arguments{"--resume"};
+  expect_day(again);
+  expect_one_error(day(again + Arguments{"--export", "nc"}), 2, "the day in out is finished, and has no plane_0.300_day.nc");
+  expect_one_error(day(again + Arguments{"--images", "day"}), 2, "the day in out is finished, and has no day.png");
+}
+
 TEST_F(Day, LimitsLeaveItIncomplete) {
   expect_day(evening_, 0, "whole");
   expect_day(evening_ + Arguments{"--max-seconds", "1e-9"}, 1);

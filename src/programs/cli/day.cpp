@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"
+#include "files/results/tables/plane_day.h"
 #include "programs/cli/process.h"
 #include "programs/cli/terminal.h"
 #include "simulate/day.h"
@@ -93,6 +94,18 @@ class FolderSink final : public DaySink {
   std::size_t steps_ = 0;
   double seconds_ = 0.0;
 };
+
+// Throws Error (input) if the maps of planes are requested that the folder of a finished day lacks.
+void expect_plane_maps(const fs::path& folder, const RunOptions& run, const RadiationModel& model) {
+  if (std::find(run.exports.begin(), run.exports.end(), "nc") == run.exports.end()) return;
+  for (const PlaneReceiver& plane : model.planes) {
+    std::error_code error;
+    const std::string name = plane_day_stem(plane) + ".nc";
+    if (fs::exists(folder / name, error)) continue;
+    throw_input("--export nc", fmt::format("the day in {} is finished, and has no {}", printable(folder.string()), name),
+                "leave --resume out to compute it again");
+  }
+}
 
 // A day and the folder for its results.
 struct DayJob {
@@ -213,7 +226,10 @@ int run_day(const DayOptions& asked) {
   const ordered_json kept_settings = day_settings(options, scene, settings, plan, wanted_fields(run, plan.course));
   StepStore store(folder, scene.model, kept_settings, wanted_fields(run, plan.course));
   const StepStore::Found found = run.resume ? store.find() : StepStore::Found::nothing;
-  if (found == StepStore::Found::finished) return report_finished(folder, run, "day");
+  if (found == StepStore::Found::finished) {
+    expect_plane_maps(folder, run, scene.model);
+    return report_finished(folder, run, "day");
+  }
   const double load_s = watch.lap();
 
   Simulation simulation(std::move(scene), run);
