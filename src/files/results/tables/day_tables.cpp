@@ -65,7 +65,8 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
   const std::span<const StepLight> lights = part.lights;
   Table table{"The course of the day; a step has the light of its middle, at night that of lamps alone",
               "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected: "
-              "W m-2 of ground; sunlit_leaf_fraction: share; _error: half-width of the confidence interval",
+              "W m-2 of ground; _sunlit, _shaded: W m-2 of that leaf area; sunlit_leaf_fraction: share; _error: half-width of "
+              "the confidence interval",
               {},
               {lights.size()},
               {}};

@@ -131,13 +131,13 @@ void add_readings(Table& table, const std::vector<Waveband>& bands, unsigned out
 Table organs_table(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<Organ>& organs = model.canopy.organs;
   const std::vector<OrganResult>& light = result.organs;
-  Table table{
-      "Organs, those of soil elements included; the ground of [soil] has no row",
-      "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided area; absorbed_umol_m2_s: "
-      "the same in photons, umol m-2 s-1; _error: half-width of the confidence interval",
-      {},
-      {organs.size()},
-      {}};
+  Table table{"Organs, those of soil elements included; the ground of [soil] has no row",
+              "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided area; umol_m2_s: the "
+              "same in photons; _sunlit, _shaded: mean over that part of the area; _sd: standard deviation over it; _error: "
+              "half-width of the confidence interval",
+              {},
+              {organs.size()},
+              {}};
   add_organ_names(table, organs, 0);
   table.add({"area_m2", "m2", "one-sided area"}, [&](std::size_t o) { return light[o].area_m2; });
   table.add({"sunlit_fraction", "1", "share of the area in direct sun"},
@@ -196,12 +196,14 @@ Table plants_table(const RadiationModel& model, const RadiationResult& result) {
 Table layers_table(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<LayerResult>& layers = result.layers;
   const auto is_top_plane = [&](std::size_t i) { return layers[i].absorbed.empty(); };
-  Table table{"Layers from the ground up, each with the horizontal plane at its lower edge; the last row is the top plane",
-              "height_m: m; down, up: W m-2 through the plane; absorbed: W m-2 of ground in the layer; others: shares; _error: "
-              "half-width of the confidence interval",
-              {},
-              {layers.size()},
-              {}};
+  Table table{
+      "Layers from the ground up, each with the horizontal plane at its lower edge; the last row is the top plane",
+      "height_m: m; down, up: W m-2 through the plane; absorbed: W m-2 of ground in the layer; _sunlit, _shaded: W m-2 "
+      "of that leaf area; _sd: standard deviation over it; umol_m2_s: in photons; leaf_area_index: m2 of leaves on a m2 of "
+      "ground; others: shares; _error: half-width of the confidence interval",
+      {},
+      {layers.size()},
+      {}};
   table.add({"height_m", "m", "height of the horizontal plane", everywhere_but_meshes},
             [&](std::size_t i) { return layers[i].height_m; });
   table.add({"leaf_area_index", "1", "one-sided leaf area in the layer per ground area"},
