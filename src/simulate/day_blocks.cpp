@@ -44,7 +44,7 @@ void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {
   RadiationModel light = model;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!steps[i].unlit()) set_light(light, plan.lights[i]);
-    const bool alone = steps[i].unlit() || is_dark(light);
+    const bool alone = steps[i].unlit() || (!steps[i].lamps && is_dark(light));
     if (alone || steps[i].date != steps[first].date) {
       cut(first, i);
       first = i;

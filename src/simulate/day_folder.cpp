@@ -89,12 +89,7 @@ class TableFile {
 class DayFolder {
  public:
   DayFolder(const fs::path& folder, const ResultRequest& request, const FinishedSteps& day)
-      : folder_(folder),
-        request_(request),
-        day_(day),
-        stand_(day.model),
-        dark_(night_light(day.model)),
-        plane_sums_(day.model) {}
+      : folder_(folder), request_(request), day_(day), stand_(day.model), dark_(no_light(day.model)), plane_sums_(day.model) {}
 
   WrittenDay write() {
     write_tables();
@@ -132,7 +127,7 @@ class DayFolder {
     for (std::size_t i = range.first; i < std::min(range.end, day_.steps); ++i) {
       if (day_.course.steps[i].unlit()) {
         lights.push_back(dark_);
-        plane_sums_.add_night();
+        plane_sums_.add_unlit();
         continue;
       }
       StoredStep step = stored_step(day_, i, StepFields::none);

@@ -136,12 +136,17 @@ void set_hours(DayPlan& plan, const DayRequest& request, const std::vector<sys_d
 
 // Returns at least how many steps a date has, from some of the dates: finding the sunrises of centuries takes minutes.
 std::size_t least_steps_a_date(const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
-  if (!request.from.empty() || !request.to.empty()) return 1;
   constexpr std::size_t most = 64;
-  std::vector<sys_days> some;
-  for (std::size_t i = 0; i < dates.size(); i += dates.size() / most + 1) some.push_back(dates[i]);
-  const Daylight light = daylight(some, moment);
-  return static_cast<std::size_t>(std::max(1, (light.to_min - light.from_min) / request.step_min));
+  Daylight light{0, minutes_per_day};
+  if (request.from.empty() || request.to.empty()) {
+    std::vector<sys_days> some;
+    for (std::size_t i = 0; i < dates.size(); i += dates.size() / most + 1) some.push_back(dates[i]);
+    light = daylight(some, moment);
+  }
+  if (!request.from.empty()) light.from_min = read_clock("--from", request.from);
+  if (!request.to.empty()) light.to_min = read_clock("--to", request.to);
+  const int minutes = std::min(minutes_per_day, light.to_min - light.from_min);
+  return static_cast<std::size_t>(std::max(1, minutes / request.step_min));
 }
 
 void refuse_too_many(const DayRequest& request, std::size_t steps_a_date, std::size_t dates) {

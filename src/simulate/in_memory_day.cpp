@@ -16,7 +16,7 @@ namespace {
 class MemorySink final : public DaySink {
  public:
   MemorySink(const RadiationModel& model, const DayPlan& plan, StepFields keep)
-      : lights(plan.course.steps.size(), night_light(model)),
+      : lights(plan.course.steps.size(), no_light(model)),
         fields_of(plan.course.steps.size()),
         maps_of(plan.course.steps.size()),
         plane_sums(model),
@@ -28,7 +28,7 @@ class MemorySink final : public DaySink {
   [[nodiscard]] std::optional<RunStore> block_store(const nlohmann::ordered_json&) override { return std::nullopt; }
   void take(std::size_t step, StoredStep& simulated) override {
     lights[step] = std::move(simulated.light);
-    for (; counted_ < step; ++counted_) plane_sums.add_night();
+    for (; counted_ < step; ++counted_) plane_sums.add_unlit();
     plane_sums.add(course_.steps[step], simulated.maps);
     ++counted_;
     if (keep_ == StepFields::none) return;
@@ -37,7 +37,7 @@ class MemorySink final : public DaySink {
   }
   // Leaves the first `steps` steps, which are finished.
   void end_after(std::size_t steps) {
-    for (; counted_ < steps; ++counted_) plane_sums.add_night();
+    for (; counted_ < steps; ++counted_) plane_sums.add_unlit();
     lights.resize(steps);
     fields_of.resize(steps);
     maps_of.resize(steps);

@@ -19,8 +19,8 @@ struct InMemoryDay {
   DayPlan plan;
   RunRecord record;
   std::vector<StepLight> lights;  // [step]; fewer than the plan has if stopped
-  // W m-2, [step][(band * columns + column) * elements + element], as of day_fields, and [step], as of plane_maps; empty by
-  // night, and of all steps unless work.triangle_light
+  // W m-2, [step][(band * columns + column) * elements + element], as of day_fields, and [step], as of plane_maps; empty in
+  // unlit steps, and in all of them unless work.triangle_light
   std::vector<std::vector<float>> fields, maps;
   bool triangle_light = false;
   PlaneMapSums plane_sums;  // of the finished steps

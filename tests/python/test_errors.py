@@ -180,5 +180,5 @@ def test_optics_that_nothing_has_are_warned_of():
 
 def test_a_scene_without_sensors_has_no_table_of_them():
     result = sunfleck.run({key: value for key, value in with_arrays().items() if key != "sensor"}, **WORK)
-    with pytest.raises(sunfleck.InputError, match=r"to_dataframe\('sensor_means'\).*the scene has none"):
+    with pytest.raises(sunfleck.InputError, match=r"to_dataframe\('sensor_means'\).*the scene has no sensors"):
         result.to_dataframe("sensor_means")

@@ -266,7 +266,7 @@ TEST_F(Convert, TheWholeCanopyOfAScene) {
   folder_.write("twins.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl leaf\no plant1_leaf2\nf 1 2 3\no plant1_petiole2\nf 1 3 2\n");
   const Outcome merged = run({"convert", "twins.obj", "twins.can"});
   EXPECT_EQ(merged.status, 0) << merged.err;
-  EXPECT_NE(merged.err.find("2 organs become 1"), std::string::npos) << merged.err;
+  EXPECT_NE(merged.err.find("2 of 2 organs are merged"), std::string::npos) << merged.err;
 }
 
 TEST_F(Convert, MistakesAreOneLine) {

@@ -123,12 +123,12 @@ int write_as_mesh(const ConvertOptions& options) {
     if (!lost.empty())
       warn(printable(fmt::format("{}: optics {} become stems: a .can only has soil, leaf, stem, leaf2, stem2, ...",
                                  options.output.string(), fmt::join(lost, ", "))));
-    const std::size_t organs = organs_in_can(mesh);
-    if (organs < mesh.organs.size())
+    const std::size_t merged = organs_merged_in_can(mesh);
+    if (merged > 0)
       warn(
-          fmt::format("{}: {} organs become {}: labels of a .can hold species, plant and leaf number alone; another format "
-                      "keeps them apart",
-                      printable(options.output.string()), mesh.organs.size(), organs));
+          fmt::format("{}: {} of {} organs are merged: labels of a .can hold species, plant and leaf number alone; another "
+                      "format keeps them apart",
+                      printable(options.output.string()), merged, mesh.organs.size()));
   }
   write_mesh(mesh, options.output, axes);
   fmt::print("{}: {} triangles, {} organs, optics {}\n", options.output.string(), mesh.triangles.size(), mesh.organs.size(),

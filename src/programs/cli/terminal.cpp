@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "files/results/tables/judged_figure.h"
+#include "pictures/charts/picture.h"
 #include "programs/cli/report.h"
 #include "simulate/interrupt.h"
 #include "simulate/result_folder.h"
@@ -103,24 +104,25 @@ void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector
 
 namespace {
 
-void expect_pictures(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
-  const auto refuse = [&](const std::string& option, const std::string& lacking) {
-    throw_input(option, fmt::format("the {} in {} is finished, and has no {}", work, printable(folder.string()), lacking),
-                "leave --resume out to compute it again");
-  };
+void warn_of_missing_pictures(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
+  std::vector<std::string> names;
   for (const std::string& name : options.images) {
-    if (name == "all" || name == "none" || name == "planes") continue;
-    std::error_code error;
-    if (!std::filesystem::exists(folder / (name + ".png"), error)) refuse("--images " + name, name + ".png");
+    // The season's plot is drawn of several dates only, and planes have names of their own.
+    if (name != "all" && name != "none" && name != "planes" && name != "season") names.push_back(name);
   }
-  if (!options.measured.empty()) refuse("--measured", "plot of these data yet");
-  if (!options.compare.empty()) refuse("--compare", "plot of these results yet");
+  if (options.extra_picture) names.push_back(stem_of(*options.extra_picture));
+  for (const std::string& name : names) {
+    std::error_code error;
+    if (std::filesystem::exists(folder / (name + ".png"), error)) continue;
+    warn(fmt::format("the {} in {} is finished, and has no {}.png; leave --resume out to compute it again", work,
+                     printable(folder.string()), name));
+  }
 }
 
 }  // namespace
 
 int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
-  expect_pictures(folder, options, work);
+  warn_of_missing_pictures(folder, options, work);
   const std::string summary = read_file(folder / summary_file);
   const nlohmann::json finished = nlohmann::json::parse(summary, nullptr, false);
   const bool complete = finished.is_object() && finished.contains("complete") && finished["complete"] == true;

@@ -52,7 +52,7 @@ void warn_if_short(const SimulatedScene& simulated, const SolveSettings& setting
 void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector<std::string>& exports);
 
 // Reports that the `work` in the folder, a run or a day, is finished, or prints its summary if --json requests it. Returns the
-// exit status. Throws Error (input) if pictures or overlays are requested by name that the folder lacks.
+// exit status. Warns of pictures that are requested by name and that the folder lacks.
 [[nodiscard]] int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work);
 
 // Prints the balance of a result and its folder, or its summary if --json requests it.

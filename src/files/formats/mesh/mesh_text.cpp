@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -118,11 +119,19 @@ std::string can_text(const Mesh& mesh) {
   return text;
 }
 
-std::size_t organs_in_can(const Mesh& mesh) {
-  constexpr std::size_t up_to_leaf = 9;  // species, plant and leaf
-  std::set<std::string> labels;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) labels.insert(label_of(mesh, t, 0).substr(0, up_to_leaf));
-  return labels.size();
+std::size_t organs_merged_in_can(const Mesh& mesh) {
+  constexpr std::size_t number_digits = 3;  // of the triangle in its organ
+  std::map<std::string, std::set<std::uint32_t>> organs_of;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::string label = label_of(mesh, t, 0);
+    label.resize(label.size() - number_digits);
+    organs_of[label].insert(mesh.organ_of[t]);
+  }
+  std::set<std::uint32_t> merged;
+  for (const auto& [label, organs] : organs_of) {
+    if (organs.size() > 1) merged.insert(organs.begin(), organs.end());
+  }
+  return merged.size();
 }
 
 std::vector<std::string> optics_lost_in_can(const Mesh& mesh) {

@@ -18,7 +18,7 @@ namespace sunfleck {
 // Returns the optics names that a .can file cannot hold: it supports soil, and the leaves and stems of nine species.
 [[nodiscard]] std::vector<std::string> optics_lost_in_can(const Mesh& mesh);
 
-// Returns how many organs the labels of a .can file tell apart.
-[[nodiscard]] std::size_t organs_in_can(const Mesh& mesh);
+// Returns how many organs would share a label with another in a .can file.
+[[nodiscard]] std::size_t organs_merged_in_can(const Mesh& mesh);
 
 }  // namespace sunfleck

@@ -97,7 +97,7 @@ StepStore::StepStore(const fs::path& result_folder, const RadiationModel& model,
                      StepFields fields)
     : folder_(result_folder / steps_folder),
       settings_(settings.dump(-1, ' ', false, ordered_json::error_handler_t::replace)),
-      dark_(night_light(model)),
+      dark_(no_light(model)),
       fields_(fields),
       field_values_(model.bands.size() * day_columns(model).size() * model.canopy.size()),
       map_values_(plane_map_values(model)) {}

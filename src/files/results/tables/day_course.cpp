@@ -201,7 +201,7 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
   return light;
 }
 
-StepLight night_light(const RadiationModel& model) {
+StepLight no_light(const RadiationModel& model) {
   const std::size_t bands = model.bands.size();
   const std::vector<Estimate> dark(bands, zero);
   SensorReading no_reading;

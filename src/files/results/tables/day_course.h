@@ -90,7 +90,7 @@ struct StepLight {
 // Returns the light of a step from its result. The incident flux of a periodic plot is exact. That of an isolated plot is
 // counted by rays: its half-width is the sum of the half-widths of its parts, which bounds it for any correlation between them.
 [[nodiscard]] StepLight step_light(const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] StepLight night_light(const RadiationModel& model);
+[[nodiscard]] StepLight no_light(const RadiationModel& model);
 
 // Returns errors of 0 for every figure of the light.
 [[nodiscard]] JointErrors no_joint_errors(const StepLight& light);

@@ -27,9 +27,10 @@ class PlaneMapSums {
  public:
   explicit PlaneMapSums(const RadiationModel& model);
 
-  // Adds the maps of a step, and counts one that is unlit.
+  // Adds the maps of a lit step.
   void add(const DayStep& step, std::span<const float> maps);
-  void add_night() { ++steps_; }
+  // Counts an unlit step.
+  void add_unlit() { ++steps_; }
 
   // Returns the table of plane_H_day.csv: one row per cell, in the order of plane_table.
   [[nodiscard]] Table table(const DayCourse& course, std::size_t plane) const;

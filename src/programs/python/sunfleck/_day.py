@@ -151,7 +151,8 @@ class DayResult:
     def triangles(self) -> dict[str, np.ndarray]:
         """The fields of day.nc in single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
         BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed,
-        BAND_absorbed_error. They are 0 in steps at night, unless lamps are lit. Several dates have them only with `day(..., triangles=True)`."""
+        BAND_absorbed_error. They are 0 in steps at night, unless lamps are lit. Several dates have them only with
+        `day(..., triangles=True)`."""
         self._expect_triangles("triangles")
         return self._core.triangles()
 

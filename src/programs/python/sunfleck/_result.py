@@ -217,7 +217,7 @@ class Result:
             return data_frame(self._outcome.balance(), named("band", self.bands), units)
         columns = self.profile if table == "layers" else getattr(self, table)
         if not columns:
-            refuse(f"to_dataframe({table!r})", "the scene has none", "add a [[sensor]]")
+            refuse(f"to_dataframe({table!r})", "the scene has no sensors", "add a [[sensor]]")
         index = {"organs": "organ_index", "triangles": "triangle", "plants": "plant_index", "layers": "layer", "sensor_means": "sensor_index"}[table]
         return data_frame(columns, numbered(index, len(next(iter(columns.values())))), units)
 

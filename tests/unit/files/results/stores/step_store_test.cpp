@@ -36,7 +36,7 @@ RadiationModel two_bands() {
 
 StoredStep some_step(const RadiationModel& model) {
   StoredStep step;
-  step.light = night_light(model);
+  step.light = no_light(model);
   step.light.bands[1].reflected = {1.0 / 3.0, no_value};
   step.light.bands[1].unshot = 1e-300;
   step.light.organ_absorbed[3] = {0.1, std::numeric_limits<double>::denorm_min()};

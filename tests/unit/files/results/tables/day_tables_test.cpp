@@ -121,7 +121,7 @@ TEST(DayTables, ErrorsOfStepsThatSharePacketsAreThoseOfTheirSum) {
 
 TEST(DayTables, DayIsWrittenStepByStep) {
   const RadiationModel model = two_organs();
-  const std::vector<StepLight> lights{light(100.0, 3.0, 1.0), night_light(model), light(10.0, no_value, 0.0)};
+  const std::vector<StepLight> lights{light(100.0, 3.0, 1.0), no_light(model), light(10.0, no_value, 0.0)};
   const regression::Table table(text_of(steps_table, model, lights));
   ASSERT_EQ(table.size(), 3U);
   EXPECT_EQ(table.comments().size(), 4U);
@@ -138,7 +138,7 @@ TEST(DayTables, DayIsWrittenStepByStep) {
 
 TEST(DayTables, DatesHaveSums) {
   const RadiationModel model = two_organs();
-  const std::vector<StepLight> lights{light(100.0, 4.0, 1.0), night_light(model), light(10.0, 5.0, 0.0)};
+  const std::vector<StepLight> lights{light(100.0, 4.0, 1.0), no_light(model), light(10.0, 5.0, 0.0)};
   const regression::Table table(text_of(day_sums_table, model, lights));
   std::string header = "date,steps";
   for (const char* name : {"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected"}) {
@@ -161,7 +161,7 @@ TEST(DayTables, DatesHaveSums) {
 
 TEST(DayTables, OrgansHaveSumsOfEachDate) {
   const RadiationModel model = two_organs();
-  const std::vector<StepLight> lights{light(100.0, 3.0, 0.0), night_light(model), light(10.0, 5.0, 0.0)};
+  const std::vector<StepLight> lights{light(100.0, 3.0, 0.0), no_light(model), light(10.0, 5.0, 0.0)};
   const regression::Table table(text_of(organs_day_table, model, lights));
   EXPECT_EQ(table.header(),
             "date,plant,organ,rank,area_m2,A_absorbed_mj_m2,A_absorbed_mj_m2_error,A_absorbed_mol_m2,A_absorbed_mol_m2_error,"
@@ -187,7 +187,7 @@ TEST(DayTables, PlantsHaveSumsOfEachDate) {
     step.plant_absorbed_w = {{w, half_width}, {2.0 * w, half_width}, {0.0, 0.0}, {3.0 * w, no_value}};
     return step;
   };
-  const std::vector<StepLight> lights{of_plants(100.0, 3.0), night_light(model), of_plants(10.0, 5.0)};
+  const std::vector<StepLight> lights{of_plants(100.0, 3.0), no_light(model), of_plants(10.0, 5.0)};
   EXPECT_EQ(lights[1].plant_absorbed_w.size(), 4U);
   const regression::Table table(text_of(plants_day_table, model, lights));
   EXPECT_EQ(table.header(),
@@ -274,7 +274,7 @@ TEST(OrganKinds, ErrorsAddInQuadratureAndAreRaisedWhereTheWholeErrsMore) {
 
 TEST(DayTables, KindsOfOrgansHaveARowOnEachDate) {
   const RadiationModel model = four_organs();
-  StepLight first = night_light(model), last = first;
+  StepLight first = no_light(model), last = first;
   EXPECT_EQ(first.kind_absorbed.size(), 4U);
   first.bands[0].incident = {100.0, 0.0};
   first.kind_absorbed[0] = {{20.0, 1.0}};
@@ -302,13 +302,13 @@ TEST(DayTables, SensorsAndPlanesHaveStepsAndSums) {
   RadiationModel model = two_organs();
   model.sensors = {{"a", {{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}}}, {"b", {{0.7, 0.8, 0.9}}}};
   model.planes = {{0.25, 1, 1}, {0.5, 2, 1}};
-  StepLight step = night_light(model);
+  StepLight step = no_light(model);
   ASSERT_EQ(step.points.size(), 6U);
   step.points[2].direct = {7.0, 0.0};
   step.sensors[0].total = {10.0, 3.0};
   step.plane_sunfleck[1] = {0.75, 0.125};
   step.plane_down[2] = {50.0, 4.0};
-  const std::vector<StepLight> lights{step, step, night_light(model)};
+  const std::vector<StepLight> lights{step, step, no_light(model)};
   const regression::Table points(text_of(sensors_day_table, model, lights));
   ASSERT_EQ(points.size(), 9U);
   EXPECT_EQ(points.cell(1, "time"), "2002-12-31T22:30:00-03:30");
@@ -342,7 +342,7 @@ TEST(DayTables, GrowDateByDate) {
   const RadiationModel model = two_organs();
   const DayStand stand(model);
   const DayCourse course = three_steps();
-  const std::vector<StepLight> lights{night_light(model), night_light(model), night_light(model)};
+  const std::vector<StepLight> lights{no_light(model), no_light(model), no_light(model)};
   const DayCourse second = course_of(course, 1);
   EXPECT_EQ(steps_of(course, 0).size(), 2U);
   EXPECT_EQ(second.dates, std::vector<std::string>{"2003-01-01"});
@@ -363,7 +363,7 @@ TEST(PlaneDay, SumsMapsOverTime) {
   PlaneMapSums sums(model);
   const float none = std::numeric_limits<float>::quiet_NaN();
   sums.add(course.steps[0], std::vector<float>{0.5F, none, 100.0F, 0.0F, 150.0F, 50.0F, 0.0F, 0.0F, 1.0F, 1.0F});
-  sums.add_night();
+  sums.add_unlit();
   sums.add(course.steps[2], std::vector<float>{0.25F, 1.0F, 60.0F, 120.0F, 90.0F, 150.0F, 0.0F, 0.0F, 1.0F, 1.0F});
   const regression::Table table(csv_text({}, sums.table(course, 0)));
   EXPECT_EQ(table.header(),
