@@ -22,12 +22,14 @@ find src shaders tests \( -name '*.h' -o -name '*.cpp' \) -not -path 'tests/data
 
 echo "== build =="
 # Ninja would compile two sources more than there are processors, which then compete for their caches: that takes a sixth longer.
+CMAKE_BUILD_PARALLEL_LEVEL="$(nproc)"
+export CMAKE_BUILD_PARALLEL_LEVEL
 if [ "$full" = yes ]; then
   cmake --preset ci -DSUNFLECK_UNIT_TESTS=ON -DSUNFLECK_LONG_TESTS=ON -DSUNFLECK_UNITY=OFF # clang-tidy reads each source by itself
 elif [ ! -f build/ci/build.ninja ]; then
   cmake --preset ci -DSUNFLECK_UNIT_TESTS=OFF -DSUNFLECK_LONG_TESTS=OFF
 fi
-cmake --build --preset ci --parallel "$(nproc)"
+cmake --build --preset ci
 
 if [ "$full" = yes ]; then
   echo "== clang-tidy =="
@@ -52,13 +54,13 @@ echo "== ${built//_/ } under the address and undefined-behaviour sanitizers =="
 [ -f build/asan/build.ninja ] || cmake --preset asan
 # In large pages from jemalloc, clang takes a sixth less time.
 # shellcheck disable=SC2086 # a list of targets
-LD_PRELOAD=libjemalloc.so.2 MALLOC_CONF=thp:always,narenas:1 cmake --build --preset asan --parallel "$(nproc)" --target $built
+LD_PRELOAD=libjemalloc.so.2 MALLOC_CONF=thp:always,narenas:1 cmake --build --preset asan --target $built
 "${run_tests[@]}" --test-dir build/asan -L "$checked" -LE long
 [ "$full" = yes ] || exit 0
 
 echo "== unit and physics tests under the thread sanitizer =="
 [ -f build/tsan/build.ninja ] || cmake --preset tsan
-cmake --build --preset tsan --parallel "$(nproc)"
+cmake --build --preset tsan
 # Runs without Vulkan, because the sanitizer does not see what a driver's threads do. The file lists the reports that it ignores.
 VK_ICD_FILENAMES=/none SUNFLECK_REQUIRE_DEVICE=0 TSAN_OPTIONS="suppressions=$PWD/tests/threads/suppressions.txt" \
   "${run_tests[@]}" --test-dir build/tsan -L '^(unit|physics)$' -LE long

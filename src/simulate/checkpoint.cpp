@@ -64,10 +64,8 @@ bool Checkpoint::is_finished() const {
   expect_same_settings(settings_, noted, "that finished run", folder_);
   for (const ExportKind kind : export_kinds) {
     const bool asked = std::find(exports_.begin(), exports_.end(), export_name(kind)) != exports_.end();
-    if (!asked || fs::exists(folder_ / export_file(kind), error)) continue;
-    throw_input(fmt::format("--export {}", export_name(kind)),
-                fmt::format("the run in {} is finished, and has no {}", printable(folder_.string()), export_file(kind)),
-                "leave --resume out to compute it again");
+    const auto lack = asked ? lack_of(folder_, "run", export_file(kind)) : std::nullopt;
+    if (lack) throw_input(fmt::format("--export {}", export_name(kind)), *lack, cure_of_lack);
   }
   return true;
 }

@@ -10,7 +10,6 @@
 #include "files/results/tables/organ_kinds.h"
 #include "files/results/tables/plane_day.h"
 #include "files/results/tables/work_settings.h"
-#include "physics/transport/solve/darkness.h"
 #include "simulate/day_blocks.h"
 #include "simulate/ranks.h"
 #include "simulate/state_keeper.h"
@@ -308,7 +307,7 @@ ordered_json day_settings(const DayRequest& request, const Scene& scene, const S
                         {"triangles", fields == StepFields::kept},
                         {"seed", settings.seed}};
   // Earlier versions simulated no step at night, and did not note this.
-  if (has_lamps(scene.model)) noted["lamps"] = true;
+  if (plan.course.steps.front().lamps) noted["lamps"] = true;
   add_work_settings(noted, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
   return noted;
 }

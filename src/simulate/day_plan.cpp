@@ -115,38 +115,30 @@ Daylight daylight(const std::vector<sys_days>& dates, const SunMoment& moment) {
   return light;
 }
 
-void set_hours(DayPlan& plan, const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
+// Local hours of a date, minutes since midnight.
+struct Hours {
+  int from_min = 0, to_min = 0;
+
+  [[nodiscard]] std::size_t steps(int step_min) const {
+    return static_cast<std::size_t>(std::max(0, to_min - from_min + step_min - 1) / step_min);
+  }
+};
+
+// Returns the requested hours; where they are not given, those of daylight, rounded outwards to whole steps. Returns nothing if
+// the sun does not rise then.
+std::optional<Hours> hours_of(const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
+  Hours hours;
   if (request.from.empty() || request.to.empty()) {
     const Daylight light = daylight(dates, moment);
-    if (light.from_min >= light.to_min) {
-      throw_input("--from", "the sun does not rise on these dates", "give --from and --to");
-    }
+    if (light.from_min >= light.to_min) return std::nullopt;
     const int step = request.step_min;
     const bool past_midnight = light.from_min < 0 || light.to_min > minutes_per_day;
-    plan.from_min = past_midnight ? 0 : light.from_min / step * step;
-    plan.to_min = past_midnight ? minutes_per_day : std::min(minutes_per_day, (light.to_min + step - 1) / step * step);
+    hours.from_min = past_midnight ? 0 : light.from_min / step * step;
+    hours.to_min = past_midnight ? minutes_per_day : std::min(minutes_per_day, (light.to_min + step - 1) / step * step);
   }
-  if (!request.from.empty()) plan.from_min = read_clock("--from", request.from);
-  if (!request.to.empty()) plan.to_min = read_clock("--to", request.to);
-  if (plan.to_min <= plan.from_min) {
-    throw_input(fmt::format("--to {}", clock_text(plan.to_min)), fmt::format("it is not after {}", clock_text(plan.from_min)),
-                "give the earlier time as --from");
-  }
-}
-
-// Returns at least how many steps a date has, from some of the dates: finding the sunrises of centuries takes minutes.
-std::size_t least_steps_a_date(const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
-  constexpr std::size_t most = 64;
-  Daylight light{0, minutes_per_day};
-  if (request.from.empty() || request.to.empty()) {
-    std::vector<sys_days> some;
-    for (std::size_t i = 0; i < dates.size(); i += dates.size() / most + 1) some.push_back(dates[i]);
-    light = daylight(some, moment);
-  }
-  if (!request.from.empty()) light.from_min = read_clock("--from", request.from);
-  if (!request.to.empty()) light.to_min = read_clock("--to", request.to);
-  const int minutes = std::min(minutes_per_day, light.to_min - light.from_min);
-  return static_cast<std::size_t>(std::max(1, minutes / request.step_min));
+  if (!request.from.empty()) hours.from_min = read_clock("--from", request.from);
+  if (!request.to.empty()) hours.to_min = read_clock("--to", request.to);
+  return hours;
 }
 
 void refuse_too_many(const DayRequest& request, std::size_t steps_a_date, std::size_t dates) {
@@ -155,6 +147,26 @@ void refuse_too_many(const DayRequest& request, std::size_t steps_a_date, std::s
       fmt::format("--step {}", request.step_min),
       fmt::format("more than {} steps on {} dates", most_day_steps, dates > most_day_steps ? "these" : fmt::to_string(dates)),
       "give longer steps or fewer dates");
+}
+
+// Returns the hours of all dates. Finding the sunrises of centuries takes minutes, so that some of many dates tell first whether
+// there are too many: their hours lie within those of all.
+Hours checked_hours(const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
+  constexpr std::size_t some = 64;
+  if (dates.size() > some) {
+    std::vector<sys_days> spread;
+    for (std::size_t i = 0; i < dates.size(); i += dates.size() / some + 1) spread.push_back(dates[i]);
+    const Hours least = hours_of(request, spread, moment).value_or(Hours{});
+    refuse_too_many(request, std::max<std::size_t>(1, least.steps(request.step_min)), dates.size());
+  }
+  const std::optional<Hours> hours = hours_of(request, dates, moment);
+  if (!hours) throw_input("--from", "the sun does not rise on these dates", "give --from and --to");
+  if (hours->to_min <= hours->from_min) {
+    throw_input(fmt::format("--to {}", clock_text(hours->to_min)),
+                fmt::format("it is not after {}", clock_text(hours->from_min)), "give the earlier time as --from");
+  }
+  refuse_too_many(request, hours->steps(request.step_min), dates.size());
+  return *hours;
 }
 
 void add_steps(DayPlan& plan, const LocalDate& date, int step_min, const Place& place, bool lamps) {
@@ -183,19 +195,17 @@ DayPlan plan_day(const DayRequest& request, const Scene& scene) {
   DayPlan plan;
   plan.course.offset_minutes = scene.moment->offset_minutes;
   const std::vector<sys_days> dates = dates_of(request, *scene.moment);
-  refuse_too_many(request, least_steps_a_date(request, dates, *scene.moment), dates.size());
-  set_hours(plan, request, dates, *scene.moment);
-  const auto steps_a_date = static_cast<std::size_t>((plan.to_min - plan.from_min + request.step_min - 1) / request.step_min);
-  refuse_too_many(request, steps_a_date, dates.size());
+  const Hours hours = checked_hours(request, dates, *scene.moment);
+  plan.from_min = hours.from_min;
+  plan.to_min = hours.to_min;
   const bool lamps = has_lamps(scene.model);
   for (const sys_days date : dates) {
     add_steps(plan, local_date(date, plan.course.offset_minutes), request.step_min, scene.moment->place, lamps);
   }
   for (const DayStep& step : plan.course.steps) {
-    const bool night = !(step.sun.elevation_rad > 0.0);
-    plan.lights.push_back(step.unlit() ? MomentLight{}
-                          : night      ? light_at_night(scene, step.middle)
-                                       : light_at(scene, step.middle));
+    plan.lights.push_back(step.unlit()   ? MomentLight{}
+                          : step.night() ? light_at_night(scene, step.middle)
+                                         : light_at(scene, step.middle));
   }
   return plan;
 }

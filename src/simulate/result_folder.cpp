@@ -233,6 +233,12 @@ void check_inputs(const std::filesystem::path& folder, const Scene& scene) {
   }
 }
 
+std::optional<std::string> lack_of(const std::filesystem::path& folder, std::string_view work, const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::exists(folder / file, error)) return std::nullopt;
+  return fmt::format("the {} in {} is finished, and has no {}", work, printable(folder.string()), file);
+}
+
 void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, OldResults old) {
   lock.make_folder();
   std::error_code error;

@@ -10,6 +10,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace sunfleck {
@@ -24,6 +26,11 @@ enum class OldResults { remove_all, keep_checkpoint };
 
 // Refuses a folder in which a result would replace a file that the scene was read from. Throws Error (input).
 void check_inputs(const std::filesystem::path& folder, const Scene& scene);
+
+// Says that a finished run or day (`work`) lacks a file; returns nothing if its folder has it.
+[[nodiscard]] std::optional<std::string> lack_of(const std::filesystem::path& folder, std::string_view work,
+                                                 const std::string& file);
+inline constexpr const char* cure_of_lack = "leave --resume out to compute it again";
 
 // Creates, locks and test-writes the folder before any ray is traced, so that no result is lost at the end. Throws Error
 // (failure).

@@ -184,6 +184,8 @@ constexpr Cure cures_by_description[] = {
 };
 
 struct CureByLine {
+  CureByLine(const char* pattern, const char* advice) : sign(pattern), cure(advice) {}
+
   std::regex sign;
   const char* cure;
 };
@@ -191,22 +193,21 @@ struct CureByLine {
 // Returns the cures by patterns in the line. Patterns take long to compile, so they are compiled once, when a file has an error.
 const std::vector<CureByLine>& cures_by_line() {
   static const std::vector<CureByLine> cures = {
-      {std::regex(R"(^\s*[A-Za-z_]+\s*:)"), "write = between the key and its value"},
-      {std::regex(R"([0-9]{1,2}[/.][0-9]{1,2}[/.][0-9]{2,4})"), "write the time as 2002-08-08T10:10:00+08:00"},
-      {std::regex(R"(=\s*\()"), "write the list in square brackets"},
-      {std::regex(R"(\[\s*[-+]?[0-9.]+\s+[-+]?[0-9.])"), "put commas between the numbers"},
-      {std::regex(R"(=\s*(True|TRUE|False|FALSE)\b)"), "write true or false"},
-      {std::regex(R"(=\s*(yes|no|on|off|Yes|No|On|Off|YES|NO|ON|OFF)\b)"), "write true or false"},
-      {std::regex(R"([=\[,]\s*[-+]?\.[0-9])"), "write a digit before the point, 0.1 for .1"},
-      {std::regex(R"([0-9]\.\s*($|[,\]}]))"), "write a digit after the point, 1.0 for 1."},
-      {std::regex(R"((latitude|longitude)\s*=\s*[-+]?[0-9.]+\s*[NSEW]\b)"),
+      {R"(^\s*[A-Za-z_]+\s*:)", "write = between the key and its value"},
+      {R"([0-9]{1,2}[/.][0-9]{1,2}[/.][0-9]{2,4})", "write the time as 2002-08-08T10:10:00+08:00"},
+      {R"(=\s*\()", "write the list in square brackets"},
+      {R"(\[\s*[-+]?[0-9.]+\s+[-+]?[0-9.])", "put commas between the numbers"},
+      {R"(=\s*(True|TRUE|False|FALSE)\b)", "write true or false"},
+      {R"(=\s*(yes|no|on|off|Yes|No|On|Off|YES|NO|ON|OFF)\b)", "write true or false"},
+      {R"([=\[,]\s*[-+]?\.[0-9])", "write a digit before the point, 0.1 for .1"},
+      {R"([0-9]\.\s*($|[,\]}]))", "write a digit after the point, 1.0 for 1."},
+      {R"((latitude|longitude)\s*=\s*[-+]?[0-9.]+\s*[NSEW]\b)",
        "write the number of degrees alone, negative for south and west"},
-      {std::regex(R"([{,]\s*[A-Za-z_.]*[*?][^"]*=)"), "put the pattern in quotes, \"leaf*\""},
-      {std::regex(R"([=\[,]\s*[-+]?[0-9.]+\s*(mm|cm|m|deg|degrees|nm|W)\b)"),
-       "write the number without its unit: metres, degrees, W m-2"},
-      {std::regex(R"([0-9]\s*%)"), "write the share without a percent sign, 0.1 for 10 %"},
-      {std::regex(R"(=\s*[-+]?[0-9]+,[0-9])"), "write the number with a point, not a comma"},
-      {std::regex(R"(=\s*(?!(true|false|inf|nan)\b)([A-Za-z]|\.{0,2}[/\\]))"), "put the text in quotes"},
+      {R"([{,]\s*[A-Za-z_.]*[*?][^"]*=)", "put the pattern in quotes, \"leaf*\""},
+      {R"([=\[,]\s*[-+]?[0-9.]+\s*(mm|cm|m|deg|degrees|nm|W)\b)", "write the number without its unit: metres, degrees, W m-2"},
+      {R"([0-9]\s*%)", "write the share without a percent sign, 0.1 for 10 %"},
+      {R"(=\s*[-+]?[0-9]+,[0-9])", "write the number with a point, not a comma"},
+      {R"(=\s*(?!(true|false|inf|nan)\b)([A-Za-z]|\.{0,2}[/\\]))", "put the text in quotes"},
   };
   return cures;
 }

@@ -99,11 +99,8 @@ class FolderSink final : public DaySink {
 void expect_plane_maps(const fs::path& folder, const RunOptions& run, const RadiationModel& model) {
   if (std::find(run.exports.begin(), run.exports.end(), "nc") == run.exports.end()) return;
   for (const PlaneReceiver& plane : model.planes) {
-    std::error_code error;
-    const std::string name = plane_day_stem(plane) + ".nc";
-    if (fs::exists(folder / name, error)) continue;
-    throw_input("--export nc", fmt::format("the day in {} is finished, and has no {}", printable(folder.string()), name),
-                "leave --resume out to compute it again");
+    if (const auto lack = lack_of(folder, "day", plane_day_stem(plane) + ".nc"))
+      throw_input("--export nc", *lack, cure_of_lack);
   }
 }
 

@@ -15,6 +15,22 @@
 
 namespace sunfleck {
 
+namespace {
+
+void warn_of_missing_pictures(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
+  std::vector<std::string> names;
+  for (const std::string& name : options.images) {
+    // The season's plot is drawn of several dates only, and planes have names of their own.
+    if (name != "all" && name != "none" && name != "planes" && name != "season") names.push_back(name);
+  }
+  if (options.extra_picture) names.push_back(stem_of(*options.extra_picture));
+  for (const std::string& name : names) {
+    if (const auto lack = lack_of(folder, work, name + ".png")) warn(fmt::format("{}; {}", *lack, cure_of_lack));
+  }
+}
+
+}  // namespace
+
 void start_at_terminal(const RunOptions& options) {
   start_log(options.quiet || options.json ? Verbosity::quiet : Verbosity::normal);
   exit_on_interrupts();
@@ -101,25 +117,6 @@ void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector
       "smaller --error makes it smaller",
       band, 100.0 * *worst));
 }
-
-namespace {
-
-void warn_of_missing_pictures(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
-  std::vector<std::string> names;
-  for (const std::string& name : options.images) {
-    // The season's plot is drawn of several dates only, and planes have names of their own.
-    if (name != "all" && name != "none" && name != "planes" && name != "season") names.push_back(name);
-  }
-  if (options.extra_picture) names.push_back(stem_of(*options.extra_picture));
-  for (const std::string& name : names) {
-    std::error_code error;
-    if (std::filesystem::exists(folder / (name + ".png"), error)) continue;
-    warn(fmt::format("the {} in {} is finished, and has no {}.png; leave --resume out to compute it again", work,
-                     printable(folder.string()), name));
-  }
-}
-
-}  // namespace
 
 int report_finished(const std::filesystem::path& folder, const RunOptions& options, std::string_view work) {
   warn_of_missing_pictures(folder, options, work);

@@ -21,8 +21,8 @@ struct OrganSteps {
 };
 
 // Writes the dimensions time and organ, with plant, rank, name, role and area of each organ as coordinates, and for each band
-// what both faces absorb per one-sided area with the half-width of its interval, in single precision, zero in unlit steps. Holds the
-// values of one date in memory at a time. Writes to `aside`, which must be on the same file system, and renames it. Throws
+// what both faces absorb per one-sided area with the half-width of its interval, in single precision, zero in unlit steps. Holds
+// the values of one date in memory at a time. Writes to `aside`, which must be on the same file system, and renames it. Throws
 // Error (failure).
 void write_organ_steps(const std::filesystem::path& file, const std::filesystem::path& aside, const OrganSteps& organs);
 

@@ -22,9 +22,9 @@ struct PlaneSteps {
 };
 
 // Writes the dimension time and two for the cells, with their centres as coordinates: the sunlit share of each cell and, for each
-// band, the irradiance by the beam and by all light, in single precision. In an unlit step irradiances are zero, shares are missing.
-// Holds one step in memory at a time. Writes to `aside`, which must be on the same file system, and renames it. Throws Error
-// (failure).
+// band, the irradiance by the beam and by all light, in single precision. In an unlit step irradiances are zero, shares are
+// missing. Holds one step in memory at a time. Writes to `aside`, which must be on the same file system, and renames it. Throws
+// Error (failure).
 void write_plane_steps(const std::filesystem::path& file, const std::filesystem::path& aside, const PlaneSteps& plane);
 
 }  // namespace sunfleck

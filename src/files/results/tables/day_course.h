@@ -22,8 +22,10 @@ struct DayStep {
   SunPosition sun;       // at the middle of the step
   bool lamps = false;    // whether the scene has lamps, which are always lit
 
-  // Returns whether the sun is at or below the horizon, and there are no lamps; nothing is simulated then and every figure is zero.
-  [[nodiscard]] bool unlit() const { return !(sun.elevation_rad > 0.0 || lamps); }
+  // Returns whether the sun is at or below the horizon.
+  [[nodiscard]] bool night() const { return !(sun.elevation_rad > 0.0); }
+  // Returns whether nothing shines; nothing is simulated then and every figure is zero.
+  [[nodiscard]] bool unlit() const { return night() && !lamps; }
 };
 
 // The steps of all dates; each date covers the same local hours.
@@ -90,6 +92,7 @@ struct StepLight {
 // Returns the light of a step from its result. The incident flux of a periodic plot is exact. That of an isolated plot is
 // counted by rays: its half-width is the sum of the half-widths of its parts, which bounds it for any correlation between them.
 [[nodiscard]] StepLight step_light(const RadiationModel& model, const RadiationResult& result);
+// Returns the light of an unlit step.
 [[nodiscard]] StepLight no_light(const RadiationModel& model);
 
 // Returns errors of 0 for every figure of the light.
