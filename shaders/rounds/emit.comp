@@ -4,6 +4,8 @@
 
 #include "pass.glsl"
 
+#include "corners.glsl"
+
 #include "shared/emission.h"
 
 void main() {
@@ -19,12 +21,10 @@ void main() {
   vec3 normal = vec3(0.0, 1.0, 0.0);
   if (place.surface != landed_on_ground) {
     packet.element = place.surface >> 1u;
-    vec3 a = corners[3u * packet.element];
-    vec3 b = corners[3u * packet.element + 1u];
-    vec3 c = corners[3u * packet.element + 2u];
+    Corners corners = corners_of(packet.element);
     vec2 at = place.a == anywhere ? weights_on_lamp(number, words) : vec2(place.a, place.b);
-    packet.origin = point_on_triangle(a, b, c, at.x, at.y);
-    normal = normal_of_side(a, b, c, side);
+    packet.origin = point_on_triangle(corners.a, corners.b, corners.c, at.x, at.y);
+    normal = normal_of_side(corners.a, corners.b, corners.c, side);
   }
   packet.origin = in_front_of(packet.origin, normal, pass.offset);
   if (pass.period.x > 0.0) {

@@ -1,6 +1,8 @@
 // Places where rays and packets landed.
 #include "pass.glsl"
 
+#include "corners.glsl"
+
 #include "shared/beam.h"
 
 WaitingPlace place_of(Landing landing) {
@@ -10,8 +12,8 @@ WaitingPlace place_of(Landing landing) {
     RoundElement of = elements[element];
     place.face = (of.optics_and_role >> 2u) * 2u + (landing.surface & 1u);
     if ((of.optics_and_role & 3u) == role_soil) return place;
-    float y = landing_y(corners[3u * element].y, corners[3u * element + 1u].y, corners[3u * element + 2u].y, landing.place_a,
-                        landing.place_b);
+    Corners corners = corners_of(element);
+    float y = landing_y(corners.a.y, corners.b.y, corners.c.y, landing.place_a, landing.place_b);
     place.level = int(layer_of(y, pass.layer_base_y, pass.layers_per_metre, pass.layers));
   } else if (landing.surface == landed_on_ground) {
     place.order = ground_order + soil_cell(pass.ground, vec2(landing.place_a, landing.place_b));

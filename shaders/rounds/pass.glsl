@@ -5,6 +5,10 @@
 
 #include "shared/rounds.h"
 
+struct Corners {
+  vec3 a, b, c;
+};
+
 layout(local_size_x = round_group_size) in;
 layout(push_constant, scalar) uniform Push { RoundPush push; };
 layout(set = 0, binding = 0, scalar) readonly buffer Pass { PassBlock pass; };
@@ -14,7 +18,7 @@ layout(set = 0, binding = 3, scalar) buffer Totals { uint64_t totals[]; };  // s
 layout(set = 0, binding = 4, scalar) buffer Copies { uint64_t copies[]; };  // of the small sums
 layout(set = 0, binding = 5, scalar) readonly buffer Faces { uint64_t faces[]; };  // what they reflect, then what they scatter
 layout(set = 0, binding = 6, scalar) readonly buffer Elements { RoundElement elements[]; };
-layout(set = 0, binding = 7, scalar) readonly buffer Corners { vec3 corners[]; };
+layout(set = 0, binding = 7, scalar) readonly buffer KeptCorners { Corners kept_corners[]; };  // of elements, then of meshes
 layout(set = 0, binding = 8, scalar) buffer NextPlaces { WaitingPlace next_places[]; };
 layout(set = 0, binding = 9, scalar) buffer NextQuanta { uint64_t next_quanta[]; };
 layout(set = 0, binding = 10, scalar) buffer Places { WaitingPlace places[]; };
@@ -32,6 +36,7 @@ layout(set = 0, binding = 21, scalar) buffer CellLanded { uint64_t cell_landed[]
 layout(set = 0, binding = 22, scalar) buffer SurfaceLanded { uint64_t surface_landed[]; };
 layout(set = 0, binding = 23, scalar) buffer Groups { uint groups[]; };  // [kind * 3]
 layout(set = 0, binding = 24, scalar) buffer Outbox { uint paused_packets; };
+layout(set = 0, binding = 25, scalar) readonly buffer Runs { ElementRun runs[]; };  // in the order of their elements
 
 // Returns whether there is nothing to do: all columns are retired, or the host has to finish the last round first.
 bool is_at_rest() { return state.done != 0u || state.has_to_wait != 0u; }

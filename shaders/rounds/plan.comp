@@ -8,9 +8,11 @@ void main() {
   if (gl_GlobalInvocationID.x != 0u || is_at_rest()) return;
   uint64_t sum = block_sums[parts_of(side_count(), numbers_per_block)];
   if (sum < least_sum) return;
-  uint64_t pace = uint64_t(1u) << 32u;
+  if (pass.stand.radius > 0.0 && state.rounds == 1u) {
+    state.pace = long_quotient(state.unaimed >> 32u, state.unaimed << 32u, sum);
+  }
   uint64_t least = long_quotient(least_packets, uint64_t(0u), sum) + uint64_t(1u);
-  state.gain = pace > least ? pace : least;
+  state.gain = state.pace > least ? state.pace : least;
   uint64_t all_drawn = drawn_up_to(sum, state.gain, state.offset);
   uint drawn = all_drawn < uint64_t(low_word) ? uint(all_drawn) : low_word;
   state.most_drawn = max(state.most_drawn, drawn);

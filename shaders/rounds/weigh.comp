@@ -31,7 +31,7 @@ void main() {
   Side side = side_of(number);
   numbers[packet] = side.place * 2u + side.side;
   Sent sent = sent_from(side);
-  Sharing sharing = sharing_of(sums[number] - sum_before(number), 0u);
+  Sharing sharing = sharing_of(sums[number] - sum_before(number), pass.stand.radius > 0.0 ? least_aim_bits : 0u);
   uint copy = own_copy();
   for (uint c = 0u; c < pass.columns; ++c) {
     uint64_t landed = quanta[side.place * pass.columns + c];

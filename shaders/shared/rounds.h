@@ -2,8 +2,10 @@
 #ifndef SUNFLECK_SHARED_ROUNDS_H
 #define SUNFLECK_SHARED_ROUNDS_H
 
+#include "shared/aim.h"
 #include "shared/layout.h"
 #include "shared/quanta.h"
+#include "shared/turn.h"
 
 SHARED_BEGIN
 
@@ -20,6 +22,12 @@ const uint64_t least_sum = uint64_t(1u) << 20u;
 
 // Value of a place's weight of corner b that stands for a point chosen uniformly on the element: packets of lamps start there.
 const float anywhere = -1.0f;
+
+// Returns the weights of corners b and c of a place, and those of the element's middle for `anywhere`.
+INLINE vec2 middle_of(float a, float b) {
+  const float third = 0.333333343f;
+  return a == anywhere ? vec2(third, third) : vec2(a, b);
+}
 
 // Order of the first cell of the ground.
 const uint ground_order = 0x80000000u;
@@ -70,6 +78,8 @@ struct PassBlock {
   BeamSample sampled;  // of landings that the device has kept; their places follow those that the host has sent
   uint sample_word;    // number of the random words of the sample's first ray
   uint counts_hits;    // 1: landings of packets are counted by element
+  uint runs;           // of elements; 0: all elements have corners of their own
+  StandSphere stand;   // at which packets are aimed
   RoundChoices choices;
 };
 
@@ -78,6 +88,8 @@ struct RoundState {
   uint64_t all_packets;  // of all rounds so far
   uint64_t offset;       // of drawing
   uint64_t gain;
+  uint64_t pace;               // packets drawn for each one expected, in units of 2^-32; more than one where packets are aimed
+  uint64_t unaimed;            // sum of the expectations of the first round before places were aimed at, where packets are
   uint64_t parts_of_elements;  // shared::place_part
   uint64_t parts_of_ground;
   uint rounds;
@@ -119,6 +131,14 @@ struct RoundElement {
 const uint role_vegetation = 0u;
 const uint role_structure = 1u;
 const uint role_soil = 2u;
+
+// Consecutive elements of a canopy with copies of meshes, whose corners are kept once for each mesh.
+struct ElementRun {
+  uint first_element;
+  uint first_corners;  // number of its corners among those that are kept
+  uint is_copy;        // 1: the corners are those of the mesh, which `turn` places; 0: those of the elements
+  CopyTurn turn;
+};
 
 // A place where flux waits; see EmissionPoint in physics/transport/indirect/emission.h.
 struct WaitingPlace {

@@ -4,6 +4,7 @@
 #include "agreement/scenes.h"
 #include "agreement/stage_check.h"
 #include "devices/tracers/vulkan_tracer.h"
+#include "support/copies.h"
 #include "support/device.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"
@@ -29,6 +30,14 @@ VulkanChoices together(std::uint32_t rounds) {
   return choices;
 }
 
+// Returns bounds that short runs meet.
+SolveSettings coarse() {
+  SolveSettings settings;
+  settings.accuracy.direct = 0.2;
+  settings.accuracy.indirect = 0.3;
+  return settings;
+}
+
 RadiationModel leaves_on(const Plot& plot) {
   return paper_model(random_leaves(100, 0.12, 5), plot, beijing_sun());
 }
@@ -52,6 +61,22 @@ RadiationModel lit_by_lamps() {
     for (std::size_t b = 0; b < 2; ++b) optics.upper[b].reflectance = optics.lower[b].reflectance = 0.4;
   }
   return model;
+}
+
+// A few leaves on a plot far wider than they are, on a plane of soil or above elements of soil.
+RadiationModel lonely_leaves(bool above_elements) {
+  Mesh mesh = random_leaves(20, 0.02, 5);
+  if (above_elements) {
+    MeshMaker maker;
+    maker.organ("leaf");
+    maker.level(0.1, 0.2, 0.1, 0.2, 0.1);
+    maker.organ("soil");
+    for (int k = 0; k < 4; ++k) maker.level(2.0 * k, 2.0 * k + 2.0, 0.0, 8.0, -0.01);
+    mesh = maker.mesh();
+  }
+  RadiationModel model = paper_model(mesh, {9.0, 8.0, false}, beijing_sun());
+  shine_from_sky(model, {});
+  return above_elements ? without_soil(model) : model;
 }
 
 RadiationModel with_bands(std::size_t count) {
@@ -148,18 +173,24 @@ class RoundsAgreement : public DeviceTest {
     if (!RoundSteps::work_on(context().limits())) GTEST_SKIP() << "this device leaves the rounds to the host";
   }
 
-  // Compares every stage of every round of `replicates` replicates.
+  // Compares every stage of every round of two replicates.
   void expect_same_stages(const RadiationModel& model, double packets, const shared::RoundChoices& choices = usual,
                           std::uint32_t at_a_time = 1U << 17U) const {
+    SolveSettings settings = fixed_scatter(model, {.rays = 4e3, .packets = packets, .replicates = 2, .bound = 0.01});
+    if (packets > 1000) settings.element_errors = ElementErrors::keep;  // which counts hits
+    EXPECT_EQ(compare_stages(model, settings, choices, at_a_time) > 0, model.has_beam());
+  }
+
+  // Does the same for a whole run. Returns from how many landings that the device kept packets started.
+  std::uint64_t compare_stages(const RadiationModel& model, const SolveSettings& settings,
+                               const shared::RoundChoices& choices = usual, std::uint32_t at_a_time = 1U << 17U) const {
     const Prepared prepared(model);
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
     StageCheck check(context(), cpu, choices, at_a_time);
-    SolveSettings settings = fixed_scatter(model, {.rays = 4e3, .packets = packets, .replicates = 2, .bound = 0.01});
-    if (packets > 1000) settings.element_errors = ElementErrors::keep;  // which counts hits
     const auto theirs = all_numbers(solve(model, prepared.layout, check, settings, {}));
     EXPECT_TRUE(theirs == all_numbers(solve(model, prepared.layout, cpu, settings, {})));
     EXPECT_GE(check.rounds(), 4U);
-    EXPECT_EQ(check.sampled() > 0, model.has_beam());
+    return check.sampled();
   }
 
   // Compares the numbers of a whole run, whose dispatches are cut as `choices` say. `Wrapper` counts the passes made on the
@@ -197,6 +228,21 @@ TEST_F(RoundsAgreement, OfEveryStageAmongLeavesPolesAndPots) {
   const RadiationModel model = with_every_role();
   expect_same_stages(model, 2000);
   expect_same_stages(without_soil(model), 2000);
+}
+
+// Copies of two plants share their meshes' corners; one mesh has its own.
+TEST_F(RoundsAgreement, OfEveryStageOnCopiesThatShareATree) {
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    const RadiationModel model = stand_of_copies({plot, 10, true, 4}, true);
+    ASSERT_FALSE(model.canopy.corners.copies().empty());
+    ASSERT_FALSE(model.canopy.corners.own().empty());
+    expect_same_stages(model, 3000);
+  }
+}
+
+// Beams of several parts are not kept. The ground is a plane, or elements.
+TEST_F(RoundsAgreement, OfEveryStageWithLightAimedAtAStand) {
+  for (const bool above_elements : {false, true}) EXPECT_EQ(compare_stages(lonely_leaves(above_elements), coarse()), 0U);
 }
 
 // Thousands of packets leave each of few lamps, so many that a thread adds up several blocks of running sums.
@@ -263,6 +309,19 @@ TEST_F(RoundsAgreement, OfPassesSideBySide) {
   expect_same_run<SideBySide>(without_soil(model), fixed, together(2));
   expect_same_run<SideBySide>(model, fixed, together(1));  // one after the other
   expect_same_run<SideBySide>(lit_by_lamps(), fixed_scatter(model, {.packets = 2000, .replicates = 4}), together(8));
+}
+
+TEST_F(RoundsAgreement, OfWholeRunsOnCopiesThatShareATree) {
+  RadiationModel model = stand_of_copies({unit_plot, 10, true, 4}, true);
+  shine_from_sky(model, {});
+  const SolveSettings fixed = fixed_scatter(model, {.rays = 4e3, .packets = 2000, .replicates = 4, .bound = 0.01});
+  expect_same_run(model, fixed);
+  expect_same_run(model, fixed, together(8));
+}
+
+TEST_F(RoundsAgreement, OfWholeRunsWithLightAimedAtAStand) {
+  expect_same_run(lonely_leaves(false), coarse());
+  expect_same_run(lonely_leaves(true), coarse(), together(8));
 }
 
 // The columns of packets are then two bands in three lights.

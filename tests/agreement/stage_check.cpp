@@ -17,6 +17,11 @@ std::vector<std::int64_t> starts_of(const RoundsOrder& order) {
   return start;
 }
 
+std::optional<PlaceAim> aim_of(const RoundsOrder& order) {
+  if (order.block.stand.radius == 0.0F) return std::nullopt;
+  return std::make_optional<PlaceAim>(order.scene, order.block.stand);
+}
+
 template <class T>
 bool same_bytes(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
@@ -28,7 +33,8 @@ StageCheck::Host::Host(const RoundsOrder& of)
     : order(of),
       columns{0, of.columns.size()},
       scattering(of.scene.model, of.scene.lights.size()),
-      draw(scattering, nullptr, of.packets, starts_of(of), arrays),
+      aim(aim_of(of)),
+      draw(scattering, aim ? &*aim : nullptr, of.packets, starts_of(of), arrays),
       side_landed(2 * of.scene.model.canopy.size() * columns.count),
       cell_landed(of.scene.layout.cells() * columns.count),
       element_hits(of.block.counts_hits != 0 ? of.scene.model.canopy.size() : 0) {

@@ -8,11 +8,13 @@
 #include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/indirect/packet_draw.h"
 #include "physics/transport/indirect/packet_starts.h"
+#include "physics/transport/indirect/place_aim.h"
 #include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sunfleck::test {
@@ -41,6 +43,7 @@ class StageCheck final : public WrappedTracer {
     const RoundsOrder& order;
     ColumnRange columns;
     Scattering scattering;
+    std::optional<PlaceAim> aim;
     DrawArrays arrays;
     PacketDraw draw;
     WaitingFlux waiting, next;

@@ -9,14 +9,15 @@ namespace sunfleck {
 namespace {
 
 // The shaders read these structs in scalar block layout.
-static_assert(offsetof(shared::PassBlock, choices) == 148);
+static_assert(offsetof(shared::PassBlock, choices) == 168);
 static_assert(offsetof(shared::PassBlock, ground) == 48);
-static_assert(sizeof(shared::RoundState) == 88);
+static_assert(sizeof(shared::RoundState) == 104);
 static_assert(sizeof(shared::RoundColumn) == 104);
 static_assert(offsetof(shared::RoundColumn, load_shift) == 56);
 static_assert(offsetof(shared::RoundColumn, lowest) == 80);
 static_assert(offsetof(shared::RoundColumn, from_beam) == 88);
 static_assert(sizeof(shared::RoundElement) == 8);
+static_assert(sizeof(shared::ElementRun) == 48);
 static_assert(sizeof(shared::WaitingPlace) == sizeof(EmissionPoint));
 static_assert(offsetof(shared::WaitingPlace, level) == offsetof(EmissionPoint, level));
 static_assert(offsetof(shared::WaitingPlace, u) == offsetof(EmissionPoint, u));
@@ -39,6 +40,9 @@ RoundSizes::RoundSizes(std::span<const RoundsPass> passes, std::size_t at_a_time
     : choices(of_choices) {
   const RoundsOrder& any = *passes.front().order;
   elements = any.scene.model.canopy.size();
+  for (const std::span<const Triangle> kept : sunfleck::kept_corners(any.scene.model.canopy.corners))
+    kept_corners += kept.size();
+  element_runs = any.block.runs;
   surfaces = any.scene.surfaces.of.size();
   cells = any.scene.layout.cells();
   columns = any.block.columns;
@@ -74,7 +78,7 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
     case RoundBuffer::elements:
       return elements * sizeof(shared::RoundElement);
     case RoundBuffer::corners:
-      return elements * sizeof(Triangle);
+      return kept_corners * sizeof(Triangle);
     case RoundBuffer::next_places:
     case RoundBuffer::places:
       return places * sizeof(shared::WaitingPlace);
@@ -107,6 +111,8 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
       return shared::kinds_of_groups * group_words * word;
     case RoundBuffer::outbox:
       return word + packets_at_a_time * sizeof(shared::PausedPacket);
+    case RoundBuffer::runs:
+      return element_runs * sizeof(shared::ElementRun);
   }
   return 0;
 }

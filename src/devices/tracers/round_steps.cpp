@@ -97,6 +97,7 @@ void RoundSteps::give(Submission& submission, std::size_t lane, const RoundsOrde
   block.most_packets = static_cast<std::uint32_t>(sizes_.packets);
   shared::RoundState state{};
   state.places = static_cast<std::uint32_t>(order.first_places());
+  state.pace = std::uint64_t{1} << 32U;
   state.end_of_elements = order.places.end_of_elements();
   state.end_of_cells = order.places.end_of_cells();
   upload(submission, lane, RoundBuffer::pass, std::span<const shared::PassBlock>(&block, 1));
@@ -117,7 +118,13 @@ void RoundSteps::give(Submission& submission, std::size_t lane, const RoundsOrde
 void RoundSteps::give_scene(Submission& submission, const IndirectScene& scene) {
   if (scene.number == scene_number_) return;
   upload(submission, 0, RoundBuffer::elements, std::span<const shared::RoundElement>(round_elements(scene)));
-  upload(submission, 0, RoundBuffer::corners, scene.model.canopy.corners.own());
+  const ElementCorners& corners = scene.model.canopy.corners;
+  std::size_t offset = 0;
+  for (const std::span<const Triangle> kept : kept_corners(corners)) {
+    submission.upload(buffer(RoundBuffer::corners), std::as_bytes(kept), offset);
+    offset += kept.size_bytes();
+  }
+  upload(submission, 0, RoundBuffer::runs, std::span<const shared::ElementRun>(element_runs(corners)));
   scene_number_ = scene.number;
 }
 

@@ -1,6 +1,5 @@
 #include "devices/tracers/vulkan_rounds.h"
 
-#include "base/check.h"
 #include "devices/gpu/submission.h"
 #include "devices/tracers/vulkan_packets.h"
 
@@ -55,8 +54,8 @@ std::optional<TraceOutcome> VulkanRounds::make(std::span<const RoundsPass> passe
     if (lanes == 0) return std::nullopt;
     const std::span<const RoundsPass> next = passes.first(lanes);
     const bool together = rounds_at_once(lanes) > 1;
-    const TraceOutcome outcome = together ? make_together(next, stop) : make_in_parts(next.front(), stop);
-    if (outcome == TraceOutcome::stopped) return outcome;
+    const std::optional<TraceOutcome> outcome = together ? make_together(next, stop) : make_in_parts(next.front(), stop);
+    if (outcome != TraceOutcome::finished) return outcome;
     steps_.fetch(next);
     passes = passes.subspan(lanes);
   }
@@ -88,7 +87,7 @@ std::vector<const GpuBuffer*> VulkanRounds::traced(std::size_t lane) const {
           &steps_.buffer(RoundBuffer::order, lane)};
 }
 
-TraceOutcome VulkanRounds::make_together(std::span<const RoundsPass> passes, const StopQuestion& stop) {
+std::optional<TraceOutcome> VulkanRounds::make_together(std::span<const RoundsPass> passes, const StopQuestion& stop) {
   const std::uint32_t rounds = rounds_at_once(passes.size());
   std::vector<shared::RoundState> states(passes.size());
   const auto is_done = [](const shared::RoundState& state) { return state.done != 0; };
@@ -106,7 +105,7 @@ TraceOutcome VulkanRounds::make_together(std::span<const RoundsPass> passes, con
     steps_.fetch(submission, states);
     submission.finish();
     for (std::size_t lane = 0; lane < passes.size(); ++lane) {
-      ENSURE(states[lane].most_drawn, <=, steps_.sizes().packets);
+      if (lacks_room(states[lane])) return std::nullopt;
       if (states[lane].has_to_wait == 0) continue;
       const shared::PacketBlock& scene = passes[lane].order->scene.block;
       if (finish_round(scene, lane, states[lane].packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
@@ -157,12 +156,12 @@ TraceOutcome VulkanRounds::finish_round(const shared::PacketBlock& scene, std::s
   return bring_to_ends(scene, lane, {0, packets}, trace);
 }
 
-TraceOutcome VulkanRounds::make_in_parts(const RoundsPass& pass, const StopQuestion& stop) {
+std::optional<TraceOutcome> VulkanRounds::make_in_parts(const RoundsPass& pass, const StopQuestion& stop) {
   Submission first(context_);
   give(first, std::span(&pass, 1));
   shared::RoundState state = draw(first);
   while (state.done == 0) {
-    ENSURE(state.most_drawn, <=, steps_.sizes().packets);
+    if (lacks_room(state)) return std::nullopt;
     if (send(pass.order->scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
     if (stop && stop()) return TraceOutcome::stopped;
     Submission next(context_);

@@ -36,7 +36,7 @@ class VulkanRounds {
   // Returns room for the landings of a beam; see RoundSteps.
   [[nodiscard]] std::shared_ptr<const LandingsOnDevice> keep_landings(std::size_t rays) { return steps_.keep_landings(rays); }
 
-  // Does what Tracer::make_rounds does. Returns nothing if a pass is too large for the device.
+  // Does what Tracer::make_rounds does. Returns nothing if a pass is too large for the device, or turns out to be.
   [[nodiscard]] std::optional<TraceOutcome> make(std::span<const RoundsPass> passes, const StopQuestion& stop);
 
  private:
@@ -45,11 +45,14 @@ class VulkanRounds {
 
   // Makes room for some of the passes, and returns how many are to be made together; 0 if none has room.
   [[nodiscard]] std::size_t make_room(std::span<const RoundsPass> passes);
+  // Returns whether a round has drawn more packets than there is room for, as may happen where packets are aimed at a stand: the
+  // flux of places that keep all of their expected packets may grow from round to round.
+  [[nodiscard]] bool lacks_room(const shared::RoundState& state) const { return state.most_drawn > steps_.sizes().packets; }
   // Returns how many rounds of as many lanes a submission may hold.
   [[nodiscard]] std::uint32_t rounds_at_once(std::size_t lanes) const;
 
   // Makes several rounds at a time without the host, which then finishes packets that paused.
-  [[nodiscard]] TraceOutcome make_together(std::span<const RoundsPass> passes, const StopQuestion& stop);
+  [[nodiscard]] std::optional<TraceOutcome> make_together(std::span<const RoundsPass> passes, const StopQuestion& stop);
   // Records a round that has begun, and the beginning of the next one.
   void record_round(Submission& submission, std::size_t lanes);
   // Brings the packets that paused in the last round of a lane to their ends, and books it.
@@ -57,7 +60,7 @@ class VulkanRounds {
                                           const StopQuestion& stop);
 
   // Makes one round of the only lane after the other, in dispatches that are short enough.
-  [[nodiscard]] TraceOutcome make_in_parts(const RoundsPass& pass, const StopQuestion& stop);
+  [[nodiscard]] std::optional<TraceOutcome> make_in_parts(const RoundsPass& pass, const StopQuestion& stop);
   // Draws the packets of the next round.
   [[nodiscard]] shared::RoundState draw(Submission& submission);
   [[nodiscard]] TraceOutcome send(const shared::PacketBlock& scene, std::uint32_t packets, const StopQuestion& stop);

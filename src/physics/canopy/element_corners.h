@@ -88,21 +88,23 @@ class ElementCorners {
   [[nodiscard]] std::span<const Triangle> own() const { return own_.get(); }
   [[nodiscard]] std::vector<std::uint32_t> own_elements() const;
 
+  static constexpr std::uint32_t no_copy = 0xffffffffU;
+  // Consecutive elements that belong to one copy, or that have their own corners from own()[first_own] on.
+  struct Run {
+    std::uint32_t first_element = 0;
+    std::uint32_t copy = no_copy;
+    std::uint32_t first_own = 0;
+  };
+  // Returns the runs of all elements, in their order; none without copies.
+  [[nodiscard]] std::span<const Run> runs() const { return runs_.get(); }
+
   // Returns all corners as one array.
   [[nodiscard]] std::vector<Triangle> all() const { return {begin(), end()}; }
 
   friend bool operator==(const ElementCorners& a, const ElementCorners& b);
 
  private:
-  static constexpr std::uint32_t no_copy = 0xffffffffU;
   static constexpr unsigned index_shift = 8;
-
-  // Consecutive elements that belong to one copy, or that have their own corners from own_[first_own] on.
-  struct Run {
-    std::uint32_t first_element = 0;
-    std::uint32_t copy = no_copy;
-    std::uint32_t first_own = 0;
-  };
 
   [[nodiscard]] Triangle in_run(std::size_t element) const;
   void add_run(const Run& run, std::size_t elements);

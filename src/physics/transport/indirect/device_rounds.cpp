@@ -14,7 +14,8 @@ std::uint32_t role_number(Role role) {
 }  // namespace
 
 std::uint64_t RoundsOrder::most_packets() const {
-  const std::uint64_t for_columns = (shared::least_of_column >> 32U) * columns.size();
+  const unsigned aim_bits = block.stand.radius > 0.0F ? shared::least_aim_bits : 0;
+  const std::uint64_t for_columns = ((shared::least_of_column >> 32U) * columns.size()) << aim_bits;
   return static_cast<std::uint64_t>(std::ceil(packets)) + for_columns + shared::least_packets + 1;
 }
 
@@ -24,7 +25,7 @@ std::span<const std::uint64_t> RoundsSums::at_places(const shared::PassBlock& bl
 }
 
 bool suits_device(const IndirectScene& scene) {
-  return scene.receivers == nullptr && scene.model.canopy.corners.copies().empty();
+  return scene.receivers == nullptr;
 }
 
 shared::PassBlock block_of(const IndirectScene& scene) {
@@ -44,6 +45,7 @@ shared::PassBlock block_of(const IndirectScene& scene) {
   block.optics = static_cast<std::uint32_t>(scene.model.optics.size());
   block.faces = lamp_face(scene.model) + 1;
   block.soil_face = soil_face(scene.model);
+  block.runs = static_cast<std::uint32_t>(scene.model.canopy.corners.runs().size());
   return block;
 }
 
@@ -64,6 +66,31 @@ std::vector<shared::RoundElement> round_elements(const IndirectScene& scene) {
     elements[e] = {scene.surfaces.number_of[e], optics * 4 + role_number(scene.surfaces.at(e).role)};
   }
   return elements;
+}
+
+std::vector<shared::ElementRun> element_runs(const ElementCorners& corners) {
+  std::vector<std::uint32_t> first_of_mesh;
+  std::size_t kept = corners.own().size();
+  for (const SharedMesh& mesh : corners.meshes()) {
+    first_of_mesh.push_back(static_cast<std::uint32_t>(kept));
+    kept += mesh.corners.size();
+  }
+  std::vector<shared::ElementRun> runs;
+  for (const ElementCorners::Run& run : corners.runs()) {
+    if (run.copy == ElementCorners::no_copy) {
+      runs.push_back({run.first_element, run.first_own, 0, {}});
+    } else {
+      const MeshCopy& copy = corners.copies()[run.copy];
+      runs.push_back({run.first_element, first_of_mesh[copy.mesh], 1, copy.turn});
+    }
+  }
+  return runs;
+}
+
+std::vector<std::span<const Triangle>> kept_corners(const ElementCorners& corners) {
+  std::vector<std::span<const Triangle>> kept{corners.own()};
+  for (const SharedMesh& mesh : corners.meshes()) kept.emplace_back(mesh.corners);
+  return kept;
 }
 
 }  // namespace sunfleck

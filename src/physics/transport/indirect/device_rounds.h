@@ -27,7 +27,8 @@ struct RoundsOrder {
   std::vector<std::uint64_t>
       totals;  // the small sums (shared/rounds.h), then what moved, [place among the layers * columns + column]
 
-  // Returns the largest number of packets in a round: each column may need a least number of its own.
+  // Returns the largest number of packets in a round: each column may need a least number of its own, each of them many times where
+  // aiming has taken packets from the first round.
   [[nodiscard]] std::uint64_t most_packets() const;
   // Returns the number of places, those of landings that met nothing included.
   [[nodiscard]] std::size_t first_places() const { return places.size() + block.sampled.count; }
@@ -46,7 +47,7 @@ struct RoundsSums {
   [[nodiscard]] std::span<const std::uint64_t> at_places(const shared::PassBlock& block, std::uint32_t kind) const;
 };
 
-// Returns whether a device can make the rounds of a scene: one without receivers, whose elements have corners of their own.
+// Returns whether a device can make the rounds of a scene: one without receivers.
 [[nodiscard]] bool suits_device(const IndirectScene& scene);
 
 // Returns what a pass of any replicate needs of a scene; the rest is 0.
@@ -55,5 +56,11 @@ struct RoundsSums {
 [[nodiscard]] std::vector<std::uint64_t> coefficients_of(const Scattering& scattering);
 // Returns what a device must know of the elements besides their corners. [element]
 [[nodiscard]] std::vector<shared::RoundElement> round_elements(const IndirectScene& scene);
+
+// Returns where the corners of elements are among the arrays of kept_corners(), one after the other; nothing without copies of
+// meshes.
+[[nodiscard]] std::vector<shared::ElementRun> element_runs(const ElementCorners& corners);
+// Returns the corners that elements have of their own, then those of each mesh.
+[[nodiscard]] std::vector<std::span<const Triangle>> kept_corners(const ElementCorners& corners);
 
 }  // namespace sunfleck

@@ -85,7 +85,8 @@ class IndirectPass {
  private:
   // Makes all rounds on the host.
   [[nodiscard]] TraceOutcome make_rounds() {
-    const std::optional<PlaceAim> aim = light_.aim != nullptr ? std::optional<PlaceAim>({scene_, *light_.aim}) : std::nullopt;
+    std::optional<PlaceAim> aim;
+    if (light_.aim != nullptr) aim.emplace(scene_, light_.aim->sphere());
     PacketDraw draw(books_.scattering(), aim ? &*aim : nullptr, order_.packets, books_.waiting(), arrays_.draw);
     while (retire_faint_columns() && books_.sums().rounds < most_rounds) {
       if (!shoot(draw)) return TraceOutcome::stopped;
@@ -107,7 +108,7 @@ class IndirectPass {
   // kept landings, which scatter `scattered` in all, [column]; both are empty if none are kept.
   [[nodiscard]] std::optional<TraceOutcome> make_rounds_on_device(const shared::BeamSample& sample,
                                                                   std::span<const std::int64_t> scattered) {
-    if (light_.aim != nullptr || !suits_device(scene_)) return std::nullopt;
+    if (!suits_device(scene_)) return std::nullopt;
     shared::PassBlock block = pass_block();
     block.sampled = sample;
     const RoundsOrder order{scene_,
@@ -133,6 +134,7 @@ class IndirectPass {
     block.counts_hits = order_.counts_hits ? 1 : 0;
     block.sample_word = static_cast<std::uint32_t>(books_.sums().sky_rays);
     block.most_rounds = static_cast<std::uint32_t>(most_rounds);
+    if (light_.aim != nullptr) block.stand = light_.aim->sphere();
     return block;
   }
 

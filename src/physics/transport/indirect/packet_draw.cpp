@@ -14,8 +14,6 @@ constexpr double unit = 0x1p32;  // of expectations
 // Places and packets that a thread takes at a time.
 constexpr std::size_t places_per_draw_block = 2048;
 constexpr std::size_t packets_per_block = 4096;
-// StandAim::packets_per_flux is at least 2^-aim_bits.
-constexpr unsigned aim_bits = StandAim::least_bits;
 
 using shared::least_of_column;
 using shared::least_packets;
@@ -90,7 +88,7 @@ void PacketDraw::expect(const WaitingFlux& places) {
       if (k + prefetch_ahead < end) prefetch_row(places.quanta(k + prefetch_ahead, columns_));
       const EmissionPoint& place = places.place(k);
       const std::array<std::uint64_t, 2> expected = expectations(place, places.quanta(k, columns_));
-      const std::uint64_t aim = aim_ != nullptr ? aim_of(place) : std::uint64_t{1} << 32U;
+      const std::uint64_t aim = aim_ != nullptr ? aim_->part(place) : std::uint64_t{1} << 32U;
       for (std::size_t side = 0; side < 2; ++side) {
         sums[side].unaimed += expected[side];
         sums[side].aimed += shared::part_of(expected[side], aim, 0);
@@ -158,17 +156,12 @@ void PacketDraw::weigh_block(const WaitingFlux& places, std::size_t first, std::
     const std::uint32_t number = arrays_.number[p];
     if (p == first || number != arrays_.number[p - 1]) {
       const std::uint64_t before = number > 0 ? arrays_.up_to[number - 1] : 0;
-      sharing = shared::sharing_of(arrays_.up_to[number] - before, aim_ == nullptr ? 0 : aim_bits);
+      sharing = shared::sharing_of(arrays_.up_to[number] - before, aim_ == nullptr ? 0 : shared::least_aim_bits);
     }
     const PacketSource from = source(p);
     columns::weigh(places.quanta(from.place, columns_), scattering_.sent(places.place(from.place), from.side), scales_,
                    columns_.first, sharing, &arrays_.weight[p * columns_.count], weights.data());
   }
-}
-
-// Returns the part of 2^32 that aiming leaves of a place's expectation.
-std::uint64_t PacketDraw::aim_of(const EmissionPoint& place) const {
-  return static_cast<std::uint64_t>(aim_->packets_per_flux(place) * unit);
 }
 
 }  // namespace sunfleck

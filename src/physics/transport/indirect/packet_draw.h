@@ -77,7 +77,6 @@ class PacketDraw {
   void weigh_block(const WaitingFlux& places, std::size_t first, std::size_t end, std::vector<std::uint64_t>& weights);
   [[nodiscard]] std::array<std::uint64_t, 2> expectations(const EmissionPoint& place,
                                                           std::span<const std::int64_t> quanta) const;
-  [[nodiscard]] std::uint64_t aim_of(const EmissionPoint& place) const;
 
   const Scattering& scattering_;
   const PlaceAim* aim_;

@@ -7,15 +7,15 @@ namespace sunfleck {
 
 class PlaceAim {
  public:
-  // Both must outlive the object.
-  PlaceAim(const IndirectScene& scene, const StandAim& aim) : scene_(scene), aim_(aim) {}
+  // The scene must outlive the object.
+  PlaceAim(const IndirectScene& scene, const shared::StandSphere& stand) : scene_(scene), stand_(stand) {}
 
-  // Returns StandAim::packets_per_flux of a place; 1 on all elements but soil.
-  [[nodiscard]] double packets_per_flux(const EmissionPoint& place) const;
+  // Returns shared::aimed_part of a place; all of 2^32 on all elements but soil.
+  [[nodiscard]] std::uint64_t part(const EmissionPoint& place) const;
 
  private:
   const IndirectScene& scene_;
-  const StandAim& aim_;
+  shared::StandSphere stand_;
 };
 
 }  // namespace sunfleck

@@ -12,15 +12,8 @@ namespace {
 
 // A stand is aimed at if the sphere around the scene is wider than its own by at least this factor.
 constexpr double least_reach = 3.0;
-constexpr double least_packets_per_flux = 1.0 / (1U << StandAim::least_bits);
 
 }  // namespace
-
-double StandAim::packets_per_flux(const glm::dvec3& point_m) const {
-  const double distance_m = glm::distance(point_m, centre_m);
-  if (distance_m <= radius_m) return 1.0;
-  return std::max(least_packets_per_flux, std::pow(radius_m / distance_m, 1.5));
-}
 
 std::optional<StandAim> make_stand_aim(const RadiationModel& model, const CounterLayout& layout) {
   if (model.plot.periodic || !model.planes.empty()) return std::nullopt;

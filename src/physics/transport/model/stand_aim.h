@@ -4,6 +4,7 @@
 
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/model.h"
+#include "shared/aim.h"
 
 #include <glm/vec3.hpp>
 #include <optional>
@@ -11,18 +12,13 @@
 namespace sunfleck {
 
 struct StandAim {
-  static constexpr unsigned least_bits = 10;
-
   glm::dvec3 lo_m{0.0}, hi_m{0.0};  // the box of all elements but soil, in the canopy's local frame
   glm::dvec3 centre_m{0.0};
   double radius_m = 0.0;  // of the sphere around that box
   double reach_m = 0.0;   // of the sphere about the same centre that holds the whole scene
 
-  // Returns how many packets a unit of flux that leaves this point is divided into, relative to flux that leaves the stand. The
-  // spread of the stand's light is least if that number grows with the standard deviation of a packet's contribution (Neyman
-  // 1934, J. R. Stat. Soc. 97:558): here with the square root of its chance to meet the stand, which falls with the cube of the
-  // distance for packets from level ground. 1 within the sphere, at least 2^-least_bits.
-  [[nodiscard]] double packets_per_flux(const glm::dvec3& point_m) const;
+  // Returns the sphere around the box as packets are aimed at it (shared::aimed_part).
+  [[nodiscard]] shared::StandSphere sphere() const { return {glm::vec3(centre_m), static_cast<float>(radius_m)}; }
 };
 
 // Returns nothing for an endless canopy, for a stand that fills much of its plot, and for a scene with [[plane]] receivers, whose
