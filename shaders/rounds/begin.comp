@@ -10,25 +10,41 @@
 shared uint any_active;
 shared uint any_least;
 
-// Counts what packets took along, and lets wait what they did not.
-void end_round(uint column) {
+// Counts what packets took along from a stack.
+uint64_t count_taken(PlaneStack stack, uint column) {
   uint64_t taken = uint64_t(0u);
-  for (uint place = 0u; place < layer_places(pass); ++place) {
-    uint word = word_of_place(place_taken, place, column);
+  for (uint place = 0u; place < stack.places; ++place) {
+    uint word = word_of_place(stack, place_taken, place, column);
     taken += totals[word];
-    totals[moved_word(place, column)] += totals[word];
+    totals[moved_word(stack, place, column)] += totals[word];
     totals[word] = uint64_t(0u);
   }
-  uint64_t kept = columns[column].waited - taken;
-  uint lowest = columns[column].lowest;
-  totals[word_of_place(place_waiting, lowest, column)] += kept;
-  totals[moved_word(lowest, column)] += kept;
+  return taken;
+}
+
+// Lets what packets did not take along wait at a place.
+void keep(PlaneStack stack, uint column, uint place, uint64_t kept) {
+  totals[word_of_place(stack, place_waiting, place, column)] += kept;
+  totals[moved_word(stack, place, column)] += kept;
+}
+
+void end_round(uint column) {
+  uint64_t kept = columns[column].waited - count_taken(stack_of_layers(pass), column);
+  keep(stack_of_layers(pass), column, columns[column].lowest, kept);
+  if (pass.planes == 0u) return;
+  count_taken(stack_of_receivers(pass), column);
+  keep(stack_of_receivers(pass), column, columns[column].lowest_zone, kept);
 }
 
 uint64_t waiting_of(uint column) {
+  PlaneStack layers = stack_of_layers(pass);
   uint64_t sum = uint64_t(0u);
-  for (uint place = 0u; place < layer_places(pass); ++place) sum += totals[word_of_place(place_waiting, place, column)];
+  for (uint place = 0u; place < layers.places; ++place) sum += totals[word_of_place(layers, place_waiting, place, column)];
   return sum;
+}
+
+void drop_waiting(PlaneStack stack, uint column) {
+  for (uint place = 0u; place < stack.places; ++place) totals[word_of_place(stack, place_waiting, place, column)] = uint64_t(0u);
 }
 
 uint64_t larger_of(uint64_t a, uint64_t b) { return a > b ? a : b; }
@@ -57,7 +73,8 @@ void begin_column(uint column) {
   if (columns[column].is_active != 0u && is_faint(column, waiting)) {
     columns[column].is_active = 0u;
     columns[column].unshot += waiting;
-    for (uint place = 0u; place < layer_places(pass); ++place) totals[word_of_place(place_waiting, place, column)] = uint64_t(0u);
+    drop_waiting(stack_of_layers(pass), column);
+    drop_waiting(stack_of_receivers(pass), column);
     waiting = uint64_t(0u);
   }
   columns[column].total = waiting;

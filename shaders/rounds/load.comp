@@ -5,6 +5,19 @@
 
 #include "pass.glsl"
 
+// Takes what waits off the places of a stack; of a retired column it stays where it is. Returns the lowest place where any waited.
+uint take_off(PlaneStack stack, uint column, bool retired) {
+  uint lowest = 0u;
+  for (uint k = stack.places; k > 0u; --k) {
+    uint word = word_of_place(stack, place_waiting, k - 1u, column);
+    uint64_t waiting = retired ? uint64_t(0u) : totals[word];
+    if (waiting > uint64_t(0u)) lowest = k - 1u;
+    totals[moved_word(stack, k - 1u, column)] -= waiting;
+    totals[word] = uint64_t(0u);
+  }
+  return lowest;
+}
+
 void load_column(uint column) {
   uint weight_word = sum_weights * pass.columns + column;
   Load load = load_of(columns[column].total, totals[weight_word]);
@@ -18,14 +31,8 @@ void load_column(uint column) {
     columns[column].total = uint64_t(0u);
   }
   columns[column].waited = columns[column].total;
-  columns[column].lowest = 0u;
-  for (uint k = layer_places(pass); k > 0u; --k) {
-    uint word = word_of_place(place_waiting, k - 1u, column);
-    uint64_t waiting = retired ? uint64_t(0u) : totals[word];
-    if (waiting > uint64_t(0u)) columns[column].lowest = k - 1u;
-    totals[moved_word(k - 1u, column)] -= waiting;
-    totals[word] = uint64_t(0u);
-  }
+  columns[column].lowest = take_off(stack_of_layers(pass), column, retired);
+  columns[column].lowest_zone = take_off(stack_of_receivers(pass), column, retired);
 }
 
 void main() {

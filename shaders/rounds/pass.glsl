@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push { RoundPush push; };
 layout(set = 0, binding = 0, scalar) readonly buffer Pass { PassBlock pass; };
 layout(set = 0, binding = 1, scalar) buffer State { RoundState state; };
 layout(set = 0, binding = 2, scalar) buffer Columns { RoundColumn columns[]; };
-layout(set = 0, binding = 3, scalar) buffer Totals { uint64_t totals[]; };  // small sums, then what moved from places among the layers
+layout(set = 0, binding = 3, scalar) buffer Totals { uint64_t totals[]; };  // small sums, then what moved from places
 layout(set = 0, binding = 4, scalar) buffer Copies { uint64_t copies[]; };  // of the small sums
 layout(set = 0, binding = 5, scalar) readonly buffer Faces { uint64_t faces[]; };  // what they reflect, then what they scatter
 layout(set = 0, binding = 6, scalar) readonly buffer Elements { RoundElement elements[]; };
@@ -37,6 +37,8 @@ layout(set = 0, binding = 22, scalar) buffer SurfaceLanded { uint64_t surface_la
 layout(set = 0, binding = 23, scalar) buffer Groups { uint groups[]; };  // [kind * 3]
 layout(set = 0, binding = 24, scalar) buffer Outbox { uint paused_packets; };
 layout(set = 0, binding = 25, scalar) readonly buffer Runs { ElementRun runs[]; };  // in the order of their elements
+layout(set = 0, binding = 26, scalar) readonly buffer Planes { ReceiverPlane planes[]; };
+layout(set = 0, binding = 27, scalar) buffer PlaneCells { uint64_t plane_cells[]; };  // what came down through them
 
 // Returns whether there is nothing to do: all columns are retired, or the host has to finish the last round first.
 bool is_at_rest() { return state.done != 0u || state.has_to_wait != 0u; }
@@ -89,9 +91,13 @@ uint64_t sum_before(uint k) { return k > 0u ? sums[k - 1u] : uint64_t(0u); }
 
 uint64_t drawn_before(uint side) { return drawn_up_to(sum_before(side), state.gain, state.offset); }
 
-// Return where the totals have a kind of sum at a place among the layers, and what moved from there.
-uint word_of_place(uint kind, uint place, uint column) { return place_row(pass, kind, place) * pass.columns + column; }
-uint moved_word(uint place, uint column) { return small_words(pass) + place * pass.columns + column; }
+// Return where the totals have a kind of sum at a place of a stack, and what moved from there.
+uint word_of_place(PlaneStack stack, uint kind, uint place, uint column) {
+  return place_row(stack, kind, place) * pass.columns + column;
+}
+uint moved_word(PlaneStack stack, uint place, uint column) {
+  return small_words(pass) + (stack.first_moved + place) * pass.columns + column;
+}
 
 // Returns where this group's copy of the small sums begins.
 uint own_copy() { return (gl_WorkGroupID.x % pass.choices.copies) * small_words(pass); }

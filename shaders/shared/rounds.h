@@ -4,6 +4,7 @@
 
 #include "shared/aim.h"
 #include "shared/layout.h"
+#include "shared/planes.h"
 #include "shared/quanta.h"
 #include "shared/turn.h"
 
@@ -79,7 +80,10 @@ struct PassBlock {
   uint sample_word;    // number of the random words of the sample's first ray
   uint counts_hits;    // 1: landings of packets are counted by element
   uint runs;           // of elements; 0: all elements have corners of their own
-  StandSphere stand;   // at which packets are aimed
+  uint planes;         // horizontal receivers
+  uint zone_of_lamps;  // PlaneReceivers::zone_of_lamps
+  ReceiverPlot plot;
+  StandSphere stand;  // at which packets are aimed
   RoundChoices choices;
 };
 
@@ -119,6 +123,7 @@ struct RoundColumn {
   Scale wanted;        // packets for a quantum
   Scale least;         // the same for a faint column
   uint lowest;         // lowest place among the layers at which any waited when this round's packets left
+  uint lowest_zone;    // the same among the receivers
   uint64_t from_beam;  // what the beam's first landings leave to be shot, if they are on the device
   uint64_t at_point;   // what landed at each point of the sample
 };
@@ -171,8 +176,7 @@ const uint groups_of_packets = 4u;
 const uint groups_of_traces = 5u;  // of `trace_group_size` threads
 const uint kinds_of_groups = 6u;
 
-// The small sums, each with `columns` words but for the last. Among the layers there are layers + 2 places: the soil, the
-// layers, and above.
+// The small sums, each with `columns` words but for the last.
 const uint sum_weights = 0u;
 const uint sum_vegetation = 1u;  // absorbed; in the order of the roles
 const uint sum_structure = 2u;
@@ -180,13 +184,21 @@ const uint sum_soil = 3u;
 const uint sum_reflected = 4u;
 const uint sum_transmitted = 5u;
 const uint sum_lost = 6u;
-const uint sums_of_places =
-    7u;  // then for each place among the layers what waits, what was taken along, and what passed down and up
+const uint sums_of_places = 7u;  // of the places of stacks, then of layers
+
+// Two stacks of horizontal planes cut space into places, numbered from the bottom: those of the layers, into the soil, the layers,
+// and above; and the receivers, into their zones (PlaneFlux). For each place of a stack there are sums of what waits, what was
+// taken along, and what passed down and up.
 const uint place_waiting = 0u;
 const uint place_taken = 1u;
 const uint place_down = 2u;
 const uint place_up = 3u;
 const uint kinds_of_places = 4u;
+struct PlaneStack {
+  uint places;       // 0 without receivers
+  uint first_row;    // of the small sums
+  uint first_moved;  // of the rows after the small sums, which have what moved from each place
+};
 
 // Returns the k-th ray of a sample.
 INLINE uint sampled_ray(BeamSample sample_of_beam, uint k) {
@@ -199,18 +211,31 @@ INLINE uint parts_of(uint count, uint each) {
   return (count + each - 1u) / each;
 }
 
-INLINE uint layer_places(PassBlock block) {
-  return block.layers + 2u;
+// Return the stacks.
+INLINE PlaneStack stack_of_layers(PassBlock block) {
+  PlaneStack stack;
+  stack.places = block.layers + 2u;
+  stack.first_row = sums_of_places;
+  stack.first_moved = 0u;
+  return stack;
+}
+INLINE PlaneStack stack_of_receivers(PassBlock block) {
+  const PlaneStack layers = stack_of_layers(block);
+  PlaneStack stack;
+  stack.places = block.planes > 0u ? block.planes + 1u : 0u;
+  stack.first_row = layers.first_row + kinds_of_places * layers.places;
+  stack.first_moved = layers.places;
+  return stack;
 }
 
-// Returns the row of a kind of sum at a place among the layers.
-INLINE uint place_row(PassBlock block, uint kind, uint place) {
-  return sums_of_places + kind * layer_places(block) + place;
+// Returns the row of a kind of sum at a place of a stack.
+INLINE uint place_row(PlaneStack stack, uint kind, uint place) {
+  return stack.first_row + kind * stack.places + place;
 }
 
 // Returns the row of what landed in a layer on a side of a kind of optics.
 INLINE uint layer_row(PassBlock block, uint layer, uint kind, uint side) {
-  return place_row(block, kinds_of_places, 0u) + (layer * block.optics + kind) * 2u + side;
+  return place_row(stack_of_receivers(block), kinds_of_places, 0u) + (layer * block.optics + kind) * 2u + side;
 }
 
 // Returns the number of rows, and of words: two for the places kept and the packets lost follow the rows.
@@ -219,6 +244,12 @@ INLINE uint small_rows(PassBlock block) {
 }
 INLINE uint small_words(PassBlock block) {
   return small_rows(block) * block.columns + 2u;
+}
+
+// Returns the number of all words: the small sums, and what moved from the places of the stacks.
+INLINE uint all_words(PassBlock block) {
+  const PlaneStack receivers = stack_of_receivers(block);
+  return small_words(block) + (receivers.first_moved + receivers.places) * block.columns;
 }
 
 // Returns the load of a column. (A Load inside the column would be laid out differently in C++ and in GLSL.)

@@ -1,7 +1,8 @@
-// Calls every function of shaders/shared/quanta.h, and is shared text itself. A 64-bit number is two words, the low one first.
+// Calls every function of shaders/shared/quanta.h and aim.h, and is shared text itself. A 64-bit number is two words, the low one first.
 #ifndef SUNFLECK_TESTS_QUANTA_TEXT_H
 #define SUNFLECK_TESTS_QUANTA_TEXT_H
 
+#include "shared/aim.h"
 #include "shared/layout.h"
 #include "shared/quanta.h"
 
@@ -24,6 +25,8 @@ struct QuantaInput {
   uint spare_bits;
   uint number;
   uint word;
+  StandSphere stand;
+  vec3 point;
 };
 
 struct QuantaOutput {
@@ -40,6 +43,7 @@ struct QuantaOutput {
   uvec2 load_factor;
   uint load_shift;
   uvec2 carried_quanta;
+  uvec2 aimed;
 };
 
 struct QuantaPush {
@@ -72,6 +76,7 @@ INLINE QuantaOutput all_of_the_quanta(QuantaInput given) {
   result.load_factor = apart(load.factor);
   result.load_shift = load.shift;
   result.carried_quanta = apart(carried(given.word, load));
+  result.aimed = apart(aimed_part(given.stand, given.point));
   return result;
 }
 

@@ -24,8 +24,8 @@ using test::some_number_up_to;
 using test::Wide;
 
 // All members are 32-bit words or vectors of them.
-static_assert(sizeof(shared::QuantaInput) == 29 * 4);
-static_assert(sizeof(shared::QuantaOutput) == 23 * 4);
+static_assert(sizeof(shared::QuantaInput) == 36 * 4);
+static_assert(sizeof(shared::QuantaOutput) == 25 * 4);
 
 constexpr std::uint32_t quanta_batch = 1U << 17U;
 constexpr int quanta_batches = 8;
@@ -61,6 +61,11 @@ shared::QuantaInput some_quanta_input(std::mt19937_64& random) {
   given.expected = apart(some_number_up_to(random, static_cast<std::uint64_t>(largest)));
   given.weights = apart(some_number_up_to(random, test::two_to_63));
   given.word = test::some_word(random);
+  // Points within the sphere, near it, and so far away that least_aim_bits decide.
+  std::uniform_real_distribution<float> part(-1.0F, 1.0F);
+  given.stand = {{part(random), part(random), part(random)},
+                 std::ldexp(1.0F + part(random) / 2.0F, static_cast<int>(random() % 16U) - 12)};
+  given.point = {part(random), part(random), part(random)};
   return given;
 }
 
@@ -79,6 +84,7 @@ TEST_F(QuantaText, GivesTheSameWordsOnTheDevice) {
       create_buffer(context(), BufferUse::storage, quanta_batch * sizeof(shared::QuantaOutput), "outputs");
   WordComparison words;
   std::size_t loaded = 0;
+  std::size_t least_aimed = 0, aimed = 0;
   std::set<std::uint32_t> scale_shifts, load_shifts;
   for (int k = 0; k < quanta_batches; ++k) {
     for (shared::QuantaInput& input : inputs) input = some_quanta_input(random);
@@ -92,6 +98,8 @@ TEST_F(QuantaText, GivesTheSameWordsOnTheDevice) {
       loaded += shared::joined(expected.carried_quanta) != 0 ? 1 : 0;
       scale_shifts.insert(expected.scale.shift);
       load_shifts.insert(expected.load_shift);
+      least_aimed += shared::joined(expected.aimed) == test::two_to_32 >> shared::least_aim_bits ? 1 : 0;
+      aimed += shared::joined(expected.aimed) < test::two_to_32 ? 1 : 0;
       words.add(expected, outputs[i], k, i);
     }
   }
@@ -100,6 +108,9 @@ TEST_F(QuantaText, GivesTheSameWordsOnTheDevice) {
   EXPECT_GT(loaded, std::size_t{quanta_batch} * quanta_batches / 5);
   EXPECT_EQ(scale_shifts.size(), 33U);
   EXPECT_EQ(load_shifts.size(), 16U);
+  EXPECT_GT(least_aimed, 0U);
+  EXPECT_GT(aimed, 2 * least_aimed);
+  EXPECT_LT(aimed, std::size_t{quanta_batch} * quanta_batches);
 }
 
 }  // namespace

@@ -79,6 +79,12 @@ RadiationModel lonely_leaves(bool above_elements) {
   return above_elements ? without_soil(model) : model;
 }
 
+// Adds planes, some of them at the edges of layers, with cells of several sizes.
+RadiationModel with_receivers(RadiationModel model) {
+  model.planes = {{0.0, 3, 2}, {0.25, 7, 9}, {0.5, 1, 1}, {0.61803, 20, 30}, {1.0, 4, 4}, {1.5, 2, 2}};
+  return model;
+}
+
 RadiationModel with_bands(std::size_t count) {
   std::vector<LeafBand> bands;
   for (std::size_t b = 0; b < count; ++b) {
@@ -178,7 +184,8 @@ class RoundsAgreement : public DeviceTest {
                           std::uint32_t at_a_time = 1U << 17U) const {
     SolveSettings settings = fixed_scatter(model, {.rays = 4e3, .packets = packets, .replicates = 2, .bound = 0.01});
     if (packets > 1000) settings.element_errors = ElementErrors::keep;  // which counts hits
-    EXPECT_EQ(compare_stages(model, settings, choices, at_a_time) > 0, model.has_beam());
+    const bool kept = compare_stages(model, settings, choices, at_a_time) > 0;
+    EXPECT_EQ(kept, model.has_beam() && model.planes.empty());
   }
 
   // Does the same for a whole run. Returns from how many landings that the device kept packets started.
@@ -243,6 +250,16 @@ TEST_F(RoundsAgreement, OfEveryStageOnCopiesThatShareATree) {
 // Beams of several parts are not kept. The ground is a plane, or elements.
 TEST_F(RoundsAgreement, OfEveryStageWithLightAimedAtAStand) {
   for (const bool above_elements : {false, true}) EXPECT_EQ(compare_stages(lonely_leaves(above_elements), coarse()), 0U);
+}
+
+// Receivers at the ground, between leaves and above them all, in scenes with and without soil and with lamps.
+TEST_F(RoundsAgreement, OfEveryStageWithReceivers) {
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    expect_same_stages(with_receivers(leaves_on(plot)), 3000);
+    expect_same_stages(with_receivers(without_soil(leaves_on(plot))), 3000);
+  }
+  expect_same_stages(with_receivers(with_every_role()), 2000);
+  expect_same_stages(with_receivers(lit_by_lamps()), 3000);
 }
 
 // Thousands of packets leave each of few lamps, so many that a thread adds up several blocks of running sums.
@@ -322,6 +339,15 @@ TEST_F(RoundsAgreement, OfWholeRunsOnCopiesThatShareATree) {
 TEST_F(RoundsAgreement, OfWholeRunsWithLightAimedAtAStand) {
   expect_same_run(lonely_leaves(false), coarse());
   expect_same_run(lonely_leaves(true), coarse(), together(8));
+}
+
+// What the host counts as passing each plane and as waiting in each zone, and what lamps send through them.
+TEST_F(RoundsAgreement, OfWholeRunsWithReceivers) {
+  RadiationModel model = with_receivers(stand_of_copies({unit_plot, 10, true, 4}, true));
+  shine_from_sky(model, {});
+  const SolveSettings fixed = fixed_scatter(model, {.rays = 4e3, .packets = 2000, .replicates = 4, .bound = 0.01});
+  expect_same_run(model, fixed, together(8));
+  expect_same_run(with_receivers(lit_by_lamps()), fixed_scatter(model, {.packets = 2000, .replicates = 2}));
 }
 
 // The columns of packets are then two bands in three lights.

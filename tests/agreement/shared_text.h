@@ -4,6 +4,8 @@
 
 #include "shared/beam.h"
 #include "shared/emission.h"
+#include "shared/planes.h"
+#include "shared/turn.h"
 #include "shared/view.h"
 
 SHARED_BEGIN
@@ -69,7 +71,37 @@ struct TextOutput {
   vec3 front;
   Wrapped near_x;
   Wrapped far_z;
+  vec3 placed;
+  vec3 turned;
+  uint cell_of_plot;
+  uint cell_of_period;
 };
+
+INLINE CopyTurn turn_of_text(TextInput given) {
+  CopyTurn turn;
+  turn.shift = given.c;
+  turn.cos_out = given.a.x;
+  turn.sin_out = given.a.y;
+  turn.scale = given.a.z;
+  turn.cos_back = given.b.x;
+  turn.sin_back = given.b.y;
+  turn.per_scale = given.b.z;
+  return turn;
+}
+
+INLINE uint crossed_cell(TextInput given, uint is_endless) {
+  ReceiverPlane plane;
+  plane.y = given.a.y;
+  plane.threshold_y = given.a.y;
+  plane.first_cell = 5u;
+  plane.cells_x = 1u + given.number % 1000u;
+  plane.cells_z = 1u + given.number % 7u;
+  ReceiverPlot plot;
+  plot.lo = vec2(given.b.x, given.b.z);
+  plot.per_size = vec2(exact_reciprocal(given.period.x), exact_reciprocal(given.period.y));
+  plot.is_endless = is_endless;
+  return cell_at(plane, plot, given.origin, given.direction);
+}
 
 INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput given) {
   TextOutput result;
@@ -129,6 +161,10 @@ INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput give
   result.front = in_front_of(result.point, result.normal, given.offset.x);
   result.near_x = wrapped_into(result.front.x, given.period.x, exact_reciprocal(given.period.x));
   result.far_z = wrapped_into(given.far, given.period.y, exact_reciprocal(given.period.y));
+  result.placed = placed_point(turn_of_text(given), given.origin);
+  result.turned = turned_ray(turn_of_text(given), ray).origin;
+  result.cell_of_plot = crossed_cell(given, 0u);
+  result.cell_of_period = crossed_cell(given, 1u);
   return result;
 }
 

@@ -24,7 +24,7 @@ using testing_bvh::uniform;
 
 // All members are 32-bit words or vectors of them.
 static_assert(sizeof(shared::TextInput) == 27 * 4);
-static_assert(sizeof(shared::TextOutput) == 75 * 4);
+static_assert(sizeof(shared::TextOutput) == 83 * 4);
 static_assert(sizeof(shared::TextPush) == 16);
 
 constexpr std::uint32_t batch = 1U << 17U;

@@ -37,6 +37,7 @@ StageCheck::Host::Host(const RoundsOrder& of)
       draw(scattering, aim ? &*aim : nullptr, of.packets, starts_of(of), arrays),
       side_landed(2 * of.scene.model.canopy.size() * columns.count),
       cell_landed(of.scene.layout.cells() * columns.count),
+      plane_cells((of.scene.receivers != nullptr ? of.scene.receivers->cells() : 0) * columns.count),
       element_hits(of.block.counts_hits != 0 ? of.scene.model.canopy.size() : 0) {
   next.clear(columns);
   for (std::size_t k = 0; k < of.places.size(); ++k) next.add(of.places.place(k), of.places.quanta(k, columns));
@@ -130,6 +131,7 @@ TraceOutcome StageCheck::make_rounds(const RoundsPass& pass) {
   EXPECT_EQ(sums.first_places, first_places);
   EXPECT_TRUE(sums.side_landed == host.side_landed);
   EXPECT_TRUE(sums.cell_landed == host.cell_landed);
+  EXPECT_TRUE(sums.plane_cells == host.plane_cells);
   EXPECT_TRUE(sums.element_hits == host.element_hits);
   return TraceOutcome::finished;
 }
@@ -222,8 +224,13 @@ void StageCheck::book(Host& host, const shared::RoundState& state, shared::Round
     const std::uint32_t packet = part.first + k;
     const EmissionPoint& source = host.waiting.place(host.draw.source(packet).place);
     const std::uint32_t u = shared::random_words(host.order.block.key, packet, state.rounds).x;
-    const EmissionPoint place = arrival_from(host.order.scene, source, packets_[k], landings_[k], u).place;
+    const Arrival arrival = arrival_from(host.order.scene, source, packets_[k], landings_[k], u);
+    const EmissionPoint& place = arrival.place;
     host.draw.carry(packet, carried);
+    for (std::uint32_t plane = arrival.to_zone; plane < arrival.from_zone; ++plane) {
+      const std::uint32_t cell = host.order.scene.receivers->cell_at(plane, packets_[k].origin, packets_[k].direction);
+      if (cell != shared::no_cell && place.surface != shared::lost_on_its_way) add(host.plane_cells, cell);
+    }
     if (place.surface > shared::landed_on_ground) continue;
     if (place.surface == shared::landed_on_ground) {
       add(host.cell_landed, place.order - ground_order);

@@ -47,7 +47,7 @@ class StageCheck final : public WrappedTracer {
     DrawArrays arrays;
     PacketDraw draw;
     WaitingFlux waiting, next;
-    std::vector<std::int64_t> side_landed, cell_landed;
+    std::vector<std::int64_t> side_landed, cell_landed, plane_cells;
     std::vector<std::uint32_t> element_hits;
   };
 

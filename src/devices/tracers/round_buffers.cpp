@@ -9,7 +9,7 @@ namespace sunfleck {
 namespace {
 
 // The shaders read these structs in scalar block layout.
-static_assert(offsetof(shared::PassBlock, choices) == 168);
+static_assert(offsetof(shared::PassBlock, choices) == 196);
 static_assert(offsetof(shared::PassBlock, ground) == 48);
 static_assert(sizeof(shared::RoundState) == 104);
 static_assert(sizeof(shared::RoundColumn) == 104);
@@ -18,6 +18,7 @@ static_assert(offsetof(shared::RoundColumn, lowest) == 80);
 static_assert(offsetof(shared::RoundColumn, from_beam) == 88);
 static_assert(sizeof(shared::RoundElement) == 8);
 static_assert(sizeof(shared::ElementRun) == 48);
+static_assert(sizeof(shared::ReceiverPlane) == 20);
 static_assert(sizeof(shared::WaitingPlace) == sizeof(EmissionPoint));
 static_assert(offsetof(shared::WaitingPlace, level) == offsetof(EmissionPoint, level));
 static_assert(offsetof(shared::WaitingPlace, u) == offsetof(EmissionPoint, u));
@@ -45,10 +46,12 @@ RoundSizes::RoundSizes(std::span<const RoundsPass> passes, std::size_t at_a_time
   element_runs = any.block.runs;
   surfaces = any.scene.surfaces.of.size();
   cells = any.scene.layout.cells();
+  planes = any.block.planes;
+  if (any.scene.receivers != nullptr) plane_cells = any.scene.receivers->cells();
   columns = any.block.columns;
   faces = any.block.faces;
   small_words = shared::small_words(any.block);
-  layer_places = shared::layer_places(any.block);
+  all_words = shared::all_words(any.block);
   for (const RoundsPass& pass : passes) {
     packets = std::max<std::size_t>(packets, pass.order->most_packets());
     places = std::max({places, pass.order->first_places(), packets});
@@ -70,7 +73,7 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
     case RoundBuffer::columns:
       return columns * sizeof(shared::RoundColumn);
     case RoundBuffer::totals:
-      return (small_words + layer_places * columns) * quantum;
+      return all_words * quantum;
     case RoundBuffer::copies:
       return choices.copies * small_words * quantum;
     case RoundBuffer::faces:
@@ -113,6 +116,10 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
       return word + packets_at_a_time * sizeof(shared::PausedPacket);
     case RoundBuffer::runs:
       return element_runs * sizeof(shared::ElementRun);
+    case RoundBuffer::planes:
+      return planes * sizeof(shared::ReceiverPlane);
+    case RoundBuffer::plane_cells:
+      return plane_cells * columns * quantum;
   }
   return 0;
 }

@@ -41,12 +41,15 @@ enum class RoundBuffer : std::uint8_t {
   groups,
   outbox,  // packets that are still on their way, after their number
   runs,
+  planes,
+  plane_cells,
 };
-inline constexpr std::size_t round_buffer_count = 26;
+inline constexpr std::size_t round_buffer_count = 28;
 
 // Returns whether all passes of a scene share a buffer; each has the others for itself.
 [[nodiscard]] constexpr bool is_of_scene(RoundBuffer buffer) {
-  return buffer == RoundBuffer::elements || buffer == RoundBuffer::corners || buffer == RoundBuffer::runs;
+  return buffer == RoundBuffer::elements || buffer == RoundBuffer::corners || buffer == RoundBuffer::runs ||
+         buffer == RoundBuffer::planes;
 }
 
 // The sizes that decide how large the buffers of passes are.
@@ -55,8 +58,8 @@ struct RoundSizes {
   // Those of the largest of several passes of one scene.
   RoundSizes(std::span<const RoundsPass> passes, std::size_t packets_at_a_time, const shared::RoundChoices& choices);
 
-  std::size_t elements = 0, kept_corners = 0, element_runs = 0, surfaces = 0, cells = 0;
-  std::size_t columns = 0, faces = 0, small_words = 0, layer_places = 0;
+  std::size_t elements = 0, kept_corners = 0, element_runs = 0, surfaces = 0, cells = 0, planes = 0, plane_cells = 0;
+  std::size_t columns = 0, faces = 0, small_words = 0, all_words = 0;
   std::size_t places = 0, packets = 0;  // at most
   std::size_t packets_at_a_time = 0;
   bool counts_hits = false;

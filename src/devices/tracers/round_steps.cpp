@@ -110,7 +110,7 @@ void RoundSteps::give(Submission& submission, std::size_t lane, const RoundsOrde
   constexpr std::uint32_t none = 0;
   upload(submission, lane, RoundBuffer::outbox, std::span(&none, 1));
   for (const RoundBuffer sums : {RoundBuffer::copies, RoundBuffer::side_landed, RoundBuffer::element_hits,
-                                 RoundBuffer::cell_landed, RoundBuffer::surface_landed}) {
+                                 RoundBuffer::cell_landed, RoundBuffer::surface_landed, RoundBuffer::plane_cells}) {
     submission.fill(buffer(sums, lane), 0);
   }
 }
@@ -124,6 +124,7 @@ void RoundSteps::give_scene(Submission& submission, const IndirectScene& scene) 
     submission.upload(buffer(RoundBuffer::corners), std::as_bytes(kept), offset);
     offset += kept.size_bytes();
   }
+  if (scene.receivers != nullptr) upload(submission, 0, RoundBuffer::planes, scene.receivers->planes());
   upload(submission, 0, RoundBuffer::runs, std::span<const shared::ElementRun>(element_runs(corners)));
   scene_number_ = scene.number;
 }
@@ -236,6 +237,7 @@ void RoundSteps::fetch(std::span<const RoundsPass> passes) const {
     take(RoundBuffer::element_hits, sums.element_hits);
     take(RoundBuffer::cell_landed, sums.cell_landed);
     take(RoundBuffer::surface_landed, sums.surface_landed);
+    take(RoundBuffer::plane_cells, sums.plane_cells);
   };
   each_at_once(passes.size(), [&](std::size_t lane) {
     each_sum(*passes[lane].sums,

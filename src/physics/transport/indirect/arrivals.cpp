@@ -54,11 +54,7 @@ Arrival arrival_from(const IndirectScene& scene, const EmissionPoint& source, co
 }
 
 std::size_t zone_of(const IndirectScene& scene, const EmissionPoint& place) {
-  if (lies_on_lamp(place)) {  // counted in the lowest zone, as it is in the lowest layer
-    std::size_t zone = 0;
-    while (zone < scene.receivers->size() && scene.receivers->at_ground(zone)) ++zone;
-    return zone;
-  }
+  if (lies_on_lamp(place)) return scene.receivers->zone_of_lamps();  // as it is counted in the lowest layer
   return scene.receivers->zone_of({place.surface, place.order, place.a, place.b});
 }
 

@@ -83,8 +83,8 @@ TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayou
                         ++(landing.surface % 2 == 0 ? in_zone.upper : in_zone.lower);
                       }
                       for (std::size_t p = 0; p < planes.size(); ++p) {
-                        const std::size_t cell = planes.cell_at(p, ray.origin, ray.direction);
-                        if (cell == PlaneReceivers::no_cell) continue;
+                        const std::uint32_t cell = planes.cell_at(p, ray.origin, ray.direction);
+                        if (cell == shared::no_cell) continue;
                         ++sums.crossing[cell];
                         if (p >= zone) ++sums.reached[cell];
                       }

@@ -19,13 +19,15 @@ std::uint64_t RoundsOrder::most_packets() const {
   return static_cast<std::uint64_t>(std::ceil(packets)) + for_columns + shared::least_packets + 1;
 }
 
-std::span<const std::uint64_t> RoundsSums::at_places(const shared::PassBlock& block, std::uint32_t kind) const {
-  const std::size_t first = shared::place_row(block, kind, 0) * block.columns;
-  return std::span(totals).subspan(first, shared::layer_places(block) * block.columns);
+std::span<const std::uint64_t> RoundsSums::at_places(const shared::PassBlock& block, const shared::PlaneStack& stack,
+                                                     std::uint32_t kind) const {
+  const std::size_t first = std::size_t{shared::place_row(stack, kind, 0)} * block.columns;
+  return std::span(totals).subspan(first, std::size_t{stack.places} * block.columns);
 }
 
-bool suits_device(const IndirectScene& scene) {
-  return scene.receivers == nullptr;
+std::span<const std::uint64_t> RoundsSums::moved(const shared::PassBlock& block, const shared::PlaneStack& stack) const {
+  const std::size_t first = shared::small_words(block) + std::size_t{stack.first_moved} * block.columns;
+  return std::span(totals).subspan(first, std::size_t{stack.places} * block.columns);
 }
 
 shared::PassBlock block_of(const IndirectScene& scene) {
@@ -46,6 +48,10 @@ shared::PassBlock block_of(const IndirectScene& scene) {
   block.faces = lamp_face(scene.model) + 1;
   block.soil_face = soil_face(scene.model);
   block.runs = static_cast<std::uint32_t>(scene.model.canopy.corners.runs().size());
+  if (scene.receivers == nullptr) return block;
+  block.planes = static_cast<std::uint32_t>(scene.receivers->size());
+  block.zone_of_lamps = static_cast<std::uint32_t>(scene.receivers->zone_of_lamps());
+  block.plot = scene.receivers->plot();
   return block;
 }
 

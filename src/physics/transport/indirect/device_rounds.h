@@ -25,7 +25,7 @@ struct RoundsOrder {
   std::vector<std::uint64_t> faces;  // coefficients: what each reflects, then what each scatters, [face * columns + column]
   std::vector<shared::RoundColumn> columns;  // [column]
   std::vector<std::uint64_t>
-      totals;  // the small sums (shared/rounds.h), then what moved, [place among the layers * columns + column]
+      totals;  // the small sums (shared/rounds.h), then what moved, [place of the stacks * columns + column]
 
   // Returns the largest number of packets in a round: each column may need a least number of its own, each of them many times where
   // aiming has taken packets from the first round.
@@ -40,15 +40,15 @@ struct RoundsSums {
   std::vector<std::uint64_t> totals;
   std::vector<std::int64_t> side_landed;  // as in IndirectSums, of the packets
   std::vector<std::int64_t> cell_landed, surface_landed;
+  std::vector<std::int64_t> plane_cells;  // as PlaneSums::down
   std::vector<std::uint32_t> element_hits;
   std::uint64_t packets = 0, rounds = 0, first_places = 0, most_places = 0;  // places with flux
 
-  // Returns the rows of one kind of small sums, [place among the layers * columns + column].
-  [[nodiscard]] std::span<const std::uint64_t> at_places(const shared::PassBlock& block, std::uint32_t kind) const;
+  // Return the rows of one kind of small sums at the places of a stack, and of what moved from there. [place * columns + column]
+  [[nodiscard]] std::span<const std::uint64_t> at_places(const shared::PassBlock& block, const shared::PlaneStack& stack,
+                                                         std::uint32_t kind) const;
+  [[nodiscard]] std::span<const std::uint64_t> moved(const shared::PassBlock& block, const shared::PlaneStack& stack) const;
 };
-
-// Returns whether a device can make the rounds of a scene: one without receivers.
-[[nodiscard]] bool suits_device(const IndirectScene& scene);
 
 // Returns what a pass of any replicate needs of a scene; the rest is 0.
 [[nodiscard]] shared::PassBlock block_of(const IndirectScene& scene);

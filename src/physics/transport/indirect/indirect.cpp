@@ -108,7 +108,6 @@ class IndirectPass {
   // kept landings, which scatter `scattered` in all, [column]; both are empty if none are kept.
   [[nodiscard]] std::optional<TraceOutcome> make_rounds_on_device(const shared::BeamSample& sample,
                                                                   std::span<const std::int64_t> scattered) {
-    if (!suits_device(scene_)) return std::nullopt;
     shared::PassBlock block = pass_block();
     block.sampled = sample;
     const RoundsOrder order{scene_,

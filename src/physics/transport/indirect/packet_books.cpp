@@ -108,8 +108,8 @@ void PacketBooks::book_receivers(const ArrivalBatch& batch) {
     if (arrival.place.surface == shared::lost_on_its_way) continue;
     receivers_.pass(arrival.from_zone, arrival.to_zone, quanta, booked_.first);
     for (std::size_t p = arrival.to_zone; p < arrival.from_zone; ++p) {
-      const std::size_t cell = scene_.receivers->cell_at(p, batch.packets[k].origin, batch.packets[k].direction);
-      if (cell != PlaneReceivers::no_cell) add_to(sums_.receivers.down, cell, quanta);
+      const std::uint32_t cell = scene_.receivers->cell_at(p, batch.packets[k].origin, batch.packets[k].direction);
+      if (cell != shared::no_cell) add_to(sums_.receivers.down, cell, quanta);
     }
   }
 }
@@ -137,20 +137,29 @@ void PacketBooks::add_to(std::vector<std::int64_t>& sums, std::size_t place, std
 }
 
 std::vector<std::uint64_t> PacketBooks::for_rounds(const shared::PassBlock& block) const {
-  std::vector<std::uint64_t> totals(shared::small_words(block) + shared::layer_places(block) * columns_);
+  std::vector<std::uint64_t> totals(shared::all_words(block));
   const auto put = [&](std::uint32_t row, const std::vector<std::int64_t>& values) {
     std::copy(values.begin(), values.end(), totals.begin() + static_cast<std::ptrdiff_t>(row * columns_));
   };
   put(shared::sum_vegetation, scattering_.vegetation());
   put(shared::sum_soil, scattering_.soil());
-  put(shared::place_row(block, shared::place_waiting, 0), layers_.waiting_everywhere());
+  put(shared::place_row(shared::stack_of_layers(block), shared::place_waiting, 0), layers_.waiting_everywhere());
+  if (scene_.receivers == nullptr) return totals;
+  put(shared::place_row(shared::stack_of_receivers(block), shared::place_waiting, 0), receivers_.waiting_everywhere());
   return totals;
 }
 
 void PacketBooks::add_rounds(const shared::PassBlock& block, const RoundsSums& found) {
   const auto row = [&](std::uint32_t number) { return std::span(found.totals).subspan(number * columns_, columns_); };
-  layers_.add_rounds(found.at_places(block, shared::place_waiting), found.at_places(block, shared::place_down),
-                     found.at_places(block, shared::place_up), std::span(found.totals).subspan(shared::small_words(block)));
+  const auto add_planes = [&](PlaneFlux& planes, const shared::PlaneStack& stack) {
+    planes.add_rounds(found.at_places(block, stack, shared::place_waiting), found.at_places(block, stack, shared::place_down),
+                      found.at_places(block, stack, shared::place_up), found.moved(block, stack));
+  };
+  add_planes(layers_, shared::stack_of_layers(block));
+  if (scene_.receivers != nullptr) {
+    add_planes(receivers_, shared::stack_of_receivers(block));
+    columns::add(found.plane_cells, sums_.receivers.down.data());
+  }
   for (std::size_t c = 0; c < columns_; ++c) {
     scattering_.absorbed(Role::leaf)[c] = static_cast<std::int64_t>(row(shared::sum_vegetation)[c]);
     scattering_.absorbed(Role::structure)[c] += static_cast<std::int64_t>(row(shared::sum_structure)[c]);

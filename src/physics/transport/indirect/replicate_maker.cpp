@@ -190,9 +190,10 @@ PlaceBytes ReplicateMaker::most_place_bytes() const {
 }
 
 double ReplicateMaker::device_sum_bytes() const {
-  if (!indirect_ || !tracer_.takes_turns() || tracer_.device().software || !suits_device(*indirect_)) return 0.0;
+  if (!indirect_ || !tracer_.takes_turns() || tracer_.device().software) return 0.0;
   const double columns = static_cast<double>(model_.bands.size()) * static_cast<double>(lights_.size());
-  const double places = 2.0 * static_cast<double>(model_.canopy.size()) + static_cast<double>(layout_.cells());
+  double places = 2.0 * static_cast<double>(model_.canopy.size()) + static_cast<double>(layout_.cells());
+  if (receivers_) places += static_cast<double>(receivers_->cells());
   return places * columns * sizeof(std::int64_t) + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
 }
 
@@ -204,7 +205,7 @@ double ReplicateMaker::record_bytes(double beam_rays, double landings) const {
 }
 
 bool ReplicateMaker::keeps_landings(const ReplicateOrder& order) const {
-  return indirect_ && order.packets > 0.0 && lights_.size() == 1 && aim(order.aimed) == nullptr && suits_device(*indirect_);
+  return indirect_ && order.packets > 0.0 && lights_.size() == 1 && aim(order.aimed) == nullptr && !receivers_;
 }
 
 // Light is not aimed in a scene with receivers.

@@ -26,30 +26,36 @@ float threshold(const Layers& layers, double ground_y_m, double height_m) {
   const double edge = height_m * double{layers.per_metre};
   const double nearest = std::round(edge);
   const bool is_edge = layers.per_metre > 0.0F && std::abs(edge - nearest) < same_edge;
-  if (height_m <= 0.0 || (is_edge && nearest == 0.0)) return -std::numeric_limits<float>::infinity();
-  if (is_edge && nearest == layers.count) return std::numeric_limits<float>::infinity();
+  if (height_m <= 0.0 || (is_edge && nearest == 0.0)) return shared::below_everything;
+  if (is_edge && nearest == layers.count) return shared::above_everything;
   if (is_edge && nearest < layers.count) return lowest_of_layer(layers, static_cast<std::uint32_t>(nearest));
   return static_cast<float>(layers.base_y_m + height_m);
-}
-
-std::size_t cell_along(double share, std::uint32_t cells) {
-  return std::min<std::size_t>(cells - 1, static_cast<std::size_t>(std::max(0.0, share * cells)));
 }
 
 }  // namespace
 
 PlaneReceivers::PlaneReceivers(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces)
-    : model_(model), layout_(layout), surfaces_(surfaces), first_cell_{0} {
+    : model_(model), layout_(layout), surfaces_(surfaces) {
+  const glm::dvec2 size_m = glm::dvec2(layout.plot_hi_m) - glm::dvec2(layout.plot_lo_m);
+  plot_ = {layout.plot_lo_m, glm::vec2(1.0 / size_m), model.plot.periodic ? 1U : 0U};
   for (const PlaneReceiver& plane : model.planes) {
-    planes_.push_back(
-        {layout.layers.base_y_m + plane.height_m, threshold(layout.layers, layout.box.ground_y_m, plane.height_m)});
-    first_cell_.push_back(first_cell_.back() + static_cast<std::size_t>(plane.cells_x) * plane.cells_z);
+    const auto cells_x = static_cast<std::uint32_t>(plane.cells_x);
+    const auto cells_z = static_cast<std::uint32_t>(plane.cells_z);
+    planes_.push_back({static_cast<float>(y_m(planes_.size())), threshold(layout.layers, layout.box.ground_y_m, plane.height_m),
+                       static_cast<std::uint32_t>(cells_), cells_x, cells_z});
+    cells_ += std::size_t{cells_x} * cells_z;
   }
 }
 
 std::size_t PlaneReceivers::zone_at(float y_m) const {
   std::size_t zone = 0;
-  for (const Plane& plane : planes_) zone += y_m >= plane.threshold_y_m ? 1 : 0;
+  for (const shared::ReceiverPlane& plane : planes_) zone += y_m >= plane.threshold_y ? 1 : 0;
+  return zone;
+}
+
+std::size_t PlaneReceivers::zone_of_lamps() const {
+  std::size_t zone = 0;
+  while (zone < size() && at_ground(zone)) ++zone;
   return zone;
 }
 
@@ -59,24 +65,6 @@ std::size_t PlaneReceivers::zone_of(const shared::Landing& landing) const {
   if (surfaces_.at(landing.surface / 2).soil()) return 0;
   const Triangle& corners = model_.canopy.corners[landing.surface / 2];
   return zone_at(shared::landing_y(corners[0].y, corners[1].y, corners[2].y, landing.place_a, landing.place_b));
-}
-
-std::size_t PlaneReceivers::cell_at(std::size_t plane, const glm::vec3& point_m, const glm::vec3& direction) const {
-  const PlaneReceiver& receiver = model_.planes[plane];
-  const double t = (planes_[plane].y_m - double{point_m.y}) / double{direction.y};
-  const glm::dvec2 lo(layout_.plot_lo_m);
-  const glm::dvec2 size = glm::dvec2(layout_.plot_hi_m) - lo;
-  glm::dvec2 at((double{point_m.x} + t * double{direction.x} - lo.x) / size.x,
-                (double{point_m.z} + t * double{direction.z} - lo.y) / size.y);
-  if (model_.plot.periodic) {
-    at.x -= std::floor(at.x);
-    at.y -= std::floor(at.y);
-  } else if (!(at.x >= 0.0 && at.x < 1.0 && at.y >= 0.0 && at.y < 1.0)) {
-    return no_cell;
-  }
-  const auto cells_x = static_cast<std::uint32_t>(receiver.cells_x);
-  const auto cells_z = static_cast<std::uint32_t>(receiver.cells_z);
-  return first_cell_[plane] + cell_along(at.x, cells_x) + cell_along(at.y, cells_z) * cells_x;
 }
 
 PlaneSums::PlaneSums(const PlaneReceivers& planes, const RadiationModel& model)

@@ -6,10 +6,10 @@
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
 #include "physics/transport/model/surfaces.h"
+#include "shared/planes.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,14 +18,13 @@ namespace sunfleck {
 // The planes cut space into zones: zone 0 lies below the lowest plane and includes the soil, zone k lies above k planes.
 class PlaneReceivers {
  public:
-  static constexpr std::size_t no_cell = std::numeric_limits<std::size_t>::max();
-
   // All arguments must outlive the receivers.
   PlaneReceivers(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
 
   [[nodiscard]] std::size_t size() const { return planes_.size(); }
-  [[nodiscard]] std::size_t cells() const { return first_cell_.back(); }  // of all planes together
-  [[nodiscard]] std::size_t first_cell(std::size_t plane) const { return first_cell_[plane]; }
+  [[nodiscard]] std::size_t cells() const { return cells_; }  // of all planes together
+  // Returns the number of a plane's first cell; that of the last plane's end for size().
+  [[nodiscard]] std::size_t first_cell(std::size_t plane) const { return plane < size() ? planes_[plane].first_cell : cells_; }
 
   // Returns the zone of a place that is not on soil (local frame). Where a plane is the edge of a layer, landings are
   // assigned to zones exactly as they are to layers.
@@ -34,27 +33,32 @@ class PlaneReceivers {
   [[nodiscard]] std::size_t zone_of(const shared::Landing& landing) const;
 
   // Returns true if no element reaches above the plane, so that light comes down through it unhindered.
-  [[nodiscard]] bool above_all(std::size_t plane) const { return planes_[plane].y_m >= layout_.box.hi_m.y; }
+  [[nodiscard]] bool above_all(std::size_t plane) const { return y_m(plane) >= layout_.box.hi_m.y; }
 
   // Returns true for a plane at the ground, which lies below everything but soil.
-  [[nodiscard]] bool at_ground(std::size_t plane) const { return planes_[plane].threshold_y_m == lowest; }
+  [[nodiscard]] bool at_ground(std::size_t plane) const { return planes_[plane].threshold_y == shared::below_everything; }
 
-  // Returns the cell, numbered over all planes, where the line through a point crosses a plane; no_cell beside an isolated
-  // plot.
-  [[nodiscard]] std::size_t cell_at(std::size_t plane, const glm::vec3& point_m, const glm::vec3& direction) const;
+  // Returns the lowest zone that does not end at the ground: what leaves lamps waits there.
+  [[nodiscard]] std::size_t zone_of_lamps() const;
+
+  // Returns the cell where the line through a point crosses a plane (shared::cell_at).
+  [[nodiscard]] std::uint32_t cell_at(std::size_t plane, const glm::vec3& point_m, const glm::vec3& direction) const {
+    return shared::cell_at(planes_[plane], plot_, point_m, direction);
+  }
+
+  // Return the planes and their plot in the form that devices take.
+  [[nodiscard]] std::span<const shared::ReceiverPlane> planes() const { return planes_; }
+  [[nodiscard]] const shared::ReceiverPlot& plot() const { return plot_; }
 
  private:
-  static constexpr float lowest = -std::numeric_limits<float>::infinity();
-  struct Plane {
-    double y_m = 0.0;            // local frame
-    float threshold_y_m = 0.0F;  // places at or above this height lie above the plane
-  };
+  [[nodiscard]] double y_m(std::size_t plane) const { return layout_.layers.base_y_m + model_.planes[plane].height_m; }
 
   const RadiationModel& model_;
   const CounterLayout& layout_;
   const Surfaces& surfaces_;
-  std::vector<Plane> planes_;
-  std::vector<std::size_t> first_cell_;  // [plane + 1]
+  std::vector<shared::ReceiverPlane> planes_;
+  shared::ReceiverPlot plot_;
+  std::size_t cells_ = 0;
 };
 
 // Sums over everything that passed the planes in one replicate.
