@@ -1,9 +1,14 @@
 #include "physics/transport/indirect/beam_landings.h"
 
+#include "base/in_blocks.h"
+#include "base/prefetch.h"
 #include "shared/beam.h"
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
+#include <optional>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -31,6 +36,82 @@ bool fell_through_plot(const shared::BeamBlock& beam, const shared::Packet& ray)
 }
 
 using TakeLanding = std::function<void(const shared::Packet& ray, const shared::Landing& landing)>;
+
+// Counts which receivers some rays pass. Several threads may count into the same sums: neighbouring rays often pass the same cell,
+// so that each thread adds up those that follow each other first.
+class CrossingCounter {
+ public:
+  // All arguments must outlive the object, which adds the last rays when it is destroyed.
+  CrossingCounter(const RadiationModel& model, const PlaneReceivers& planes, PlaneSums& sums)
+      : model_(model),
+        planes_(planes),
+        sums_(sums),
+        in_cell_(planes.size()),
+        zone_landings_((planes.size() + 1) * model.optics.size()) {}
+  CrossingCounter(const CrossingCounter&) = delete;
+  CrossingCounter& operator=(const CrossingCounter&) = delete;
+  ~CrossingCounter() {
+    for (const InCell& rays : in_cell_) add(rays);
+    for (std::size_t k = 0; k < zone_landings_.size(); ++k) {
+      add(sums_.zone_landings[k].upper, zone_landings_[k].upper);
+      add(sums_.zone_landings[k].lower, zone_landings_[k].lower);
+    }
+  }
+
+  void add(const shared::Packet& ray, const shared::Landing& landing) {
+    const std::size_t zone = planes_.zone_of(landing);
+    if (landing.surface < shared::landed_on_ground) {
+      BeamLandings& in_zone = zone_landings_[zone * model_.optics.size() + model_.canopy.optics_of[landing.surface / 2]];
+      ++(landing.surface % 2 == 0 ? in_zone.upper : in_zone.lower);
+    }
+    for (std::size_t p = 0; p < planes_.size(); ++p) {
+      const std::uint32_t cell = planes_.cell_at(p, ray.origin, ray.direction);
+      InCell& rays = in_cell_[p];
+      if (cell != rays.cell) add(std::exchange(rays, {cell, 0, 0}));
+      ++rays.crossing;
+      rays.reached += p >= zone ? 1 : 0;
+    }
+  }
+
+ private:
+  // Rays that pass a cell one after the other.
+  struct InCell {
+    std::uint32_t cell = shared::no_cell;
+    std::uint32_t crossing = 0, reached = 0;
+  };
+
+  template <class Count>
+  static void add(Count& sum, Count count) {
+    if (count > 0) std::atomic_ref(sum).fetch_add(count, std::memory_order_relaxed);
+  }
+  void add(const InCell& rays) {
+    if (rays.cell == shared::no_cell) return;
+    add(sums_.crossing[rays.cell], rays.crossing);
+    add(sums_.reached[rays.cell], rays.reached);
+  }
+
+  const RadiationModel& model_;
+  const PlaneReceivers& planes_;
+  PlaneSums& sums_;
+  std::vector<InCell> in_cell_;              // [plane]
+  std::vector<BeamLandings> zone_landings_;  // as in PlaneSums
+};
+
+// Adds the crossings of all rays of a beam. The threads of the run share them.
+void add_crossings(const RadiationModel& model, const PlaneReceivers& planes, const shared::BeamBlock& beam,
+                   std::span<const shared::Landing> landings, PlaneSums& sums) {
+  constexpr std::size_t block_size = 1U << 14U;
+  in_blocks(landings.size(), block_size, [&](std::size_t, std::size_t first, std::size_t end) {
+    CrossingCounter counter(model, planes, sums);
+    for (std::size_t ray = first; ray < end; ++ray) {
+      if (ray + prefetch_ahead < end && landings[ray + prefetch_ahead].surface < shared::landed_on_ground) {
+        model.canopy.corners.prefetch(landings[ray + prefetch_ahead].surface / 2);
+      }
+      if (landings[ray].surface == shared::lost_on_its_way) continue;
+      counter.add(beam_packet(beam, static_cast<std::uint32_t>(ray)), landings[ray]);
+    }
+  });
+}
 
 // Traces all rays of a part, counts them, and hands those over that were not lost.
 TraceOutcome trace_part(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const BeamPart& part,
@@ -72,23 +153,19 @@ TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayou
 }
 
 TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout, const PlaneReceivers& planes,
-                                 Tracer& tracer, const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                 PlaneSums& sums, const StopQuestion& stop) {
+                                 Tracer& tracer, const shared::BeamBlock& beam, bool records, std::span<std::uint32_t> counters,
+                                 std::vector<shared::Landing>& recorded, PlaneSums& sums, const StopQuestion& stop) {
+  recorded.resize(records ? std::size_t{beam.columns} * beam.rows : 0);
+  if (records) {
+    if (const std::optional<TraceOutcome> outcome = tracer.record_beam(beam, counters, recorded, stop)) {
+      if (outcome == TraceOutcome::finished) add_crossings(model, planes, beam, recorded, sums);
+      return *outcome;
+    }
+    recorded.clear();
+  }
+  CrossingCounter counter(model, planes, sums);
   return trace_part(model, layout, tracer, {beam, 1}, counters, stop,
-                    [&](const shared::Packet& ray, const shared::Landing& landing) {
-                      const std::size_t zone = planes.zone_of(landing);
-                      if (landing.surface < shared::landed_on_ground) {
-                        const std::size_t optics = model.canopy.optics_of[landing.surface / 2];
-                        BeamLandings& in_zone = sums.zone_landings[zone * model.optics.size() + optics];
-                        ++(landing.surface % 2 == 0 ? in_zone.upper : in_zone.lower);
-                      }
-                      for (std::size_t p = 0; p < planes.size(); ++p) {
-                        const std::uint32_t cell = planes.cell_at(p, ray.origin, ray.direction);
-                        if (cell == shared::no_cell) continue;
-                        ++sums.crossing[cell];
-                        if (p >= zone) ++sums.reached[cell];
-                      }
-                    });
+                    [&](const shared::Packet& ray, const shared::Landing& landing) { counter.add(ray, landing); });
 }
 
 }  // namespace sunfleck

@@ -197,10 +197,13 @@ double ReplicateMaker::device_sum_bytes() const {
   return places * columns * sizeof(std::int64_t) + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
 }
 
-// Several lights take a few landings of each. A ray that is recorded takes a small part of the time of one that is traced again.
+// Several lights take a few landings of each. A ray that is recorded takes a small part of the time of one that is traced again;
+// where there are receivers, all would have to be traced one by one.
 double ReplicateMaker::record_bytes(double beam_rays, double landings) const {
   constexpr double most_rays_per_landing = 2.0;
-  if (!indirect_ || receivers_ || lights_.size() > 1 || beam_rays > most_rays_per_landing * landings) return 0.0;
+  constexpr double most_through_receivers = 1U << 22U;
+  if (receivers_) return beam_rays > most_through_receivers ? 0.0 : beam_rays * sizeof(shared::Landing);
+  if (!indirect_ || lights_.size() > 1 || beam_rays > most_rays_per_landing * landings) return 0.0;
   return beam_rays * sizeof(shared::Landing);
 }
 
@@ -212,10 +215,14 @@ bool ReplicateMaker::keeps_landings(const ReplicateOrder& order) const {
 TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& replicate, FirstLandings& first,
                                         std::vector<shared::Landing>& recorded, const StopQuestion& stop) {
   const shared::BeamBlock& block = first.beam.front().block;
-  if (receivers_) {
-    return count_beam_landings(model_, layout_, *receivers_, tracer_, block, replicate.counters, replicate.passed, stop);
-  }
   const std::uint64_t rays = first.beam.front().rays();
+  const bool records = record_bytes(static_cast<double>(rays), std::min(order.packets, order.sampled_rays)) > 0.0;
+  if (receivers_) {
+    const TraceOutcome outcome = count_beam_landings(model_, layout_, *receivers_, tracer_, block, records, replicate.counters,
+                                                     recorded, replicate.passed, stop);
+    if (lights_.size() == 1) first.recorded = recorded;
+    return outcome;
+  }
   const bool alone = first.beam.size() == 1;  // rays of other parts have other weights
   if (keeps_landings(order)) {
     if (const std::optional<KeptBeam> kept = tracer_.keep_beam(block, replicate.counters, stop)) {
@@ -223,7 +230,7 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
       return kept->outcome;
     }
   }
-  if (alone && record_bytes(static_cast<double>(rays), std::min(order.packets, order.sampled_rays)) > 0.0) {
+  if (alone && records) {
     recorded.resize(rays);
     const std::optional<TraceOutcome> outcome = tracer_.record_beam(block, replicate.counters, recorded, stop);
     if (outcome) first.recorded = recorded;

@@ -62,7 +62,8 @@ class ReplicateMaker {
   // Returns the memory for what a GPU that makes the rounds finds, in bytes, with hits.
   [[nodiscard]] double device_sum_bytes() const;
 
-  // Returns the memory for where beam rays landed, in bytes. It is kept if packets start from at least half of the rays.
+  // Returns the memory for where beam rays landed, in bytes. It is kept if packets start from at least half of the rays, or if not
+  // too many pass receivers.
   [[nodiscard]] double record_bytes(double beam_rays, double landings) const;
 
   // Makes a replicate of the conversions' incidence, [light]; returns nothing if stopped. Several threads may call this at the

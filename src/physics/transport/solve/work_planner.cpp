@@ -232,9 +232,9 @@ std::size_t WorkPlanner::at_once(const Work& work) const {
 }
 
 double WorkPlanner::replicate_bytes(const Work& work) const {
-  if (!maker_.has_indirect_pass()) return maker_.sum_bytes();
   const RayCounts counts = ray_counts(work);
   const double recorded = maker_.record_bytes(has_beam_ ? work.rays : 0.0, std::min(counts.packets, counts.beam_rays));
+  if (!maker_.has_indirect_pass()) return maker_.sum_bytes() + recorded;
   return maker_.sum_bytes() - maker_.most_place_bytes().all() + place_bytes(work).all() + memory_.bytes(counts) + recorded +
          maker_.device_sum_bytes();
 }
