@@ -81,7 +81,8 @@ class DayRun {
     if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(number_of(block));
     SolveSettings settings = settings_;
     settings.seed = RandomStream(settings_.seed, block.first).word();
-    if (!settings.grid_m && !settings.passes) settings.begin_with = work_to_begin_with(block);
+    // A limit of rays may be too low for the work of an earlier step, but not for pilots.
+    if (!settings.grid_m && !settings.passes && !settings.max_rays) settings.begin_with = work_to_begin_with(block);
     const std::optional<SolveState> left = find_state(block, settings);
     settings.resume_from = left ? &*left : nullptr;
     if (left) say(fmt::format("resuming step{} after {} replicates", steps_text(block), left->replicates()));

@@ -218,6 +218,13 @@ void remove_files(const std::filesystem::path& folder, const std::vector<std::st
 
 }  // namespace
 
+std::vector<std::string> image_words() {
+  std::vector<std::string> words;
+  for (const Picture& picture : all_pictures()) words.push_back(stem_of(picture));
+  words.insert(words.end(), {"profile", "planes", "all", "none"});
+  return words;
+}
+
 std::filesystem::path result_folder(const ResultRequest& request, const std::filesystem::path& scene) {
   return request.output.empty() ? std::filesystem::path("results") / scene_stem(scene) : request.output;
 }

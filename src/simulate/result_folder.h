@@ -18,6 +18,9 @@ namespace sunfleck {
 
 inline constexpr const char* summary_file = "summary.json";
 
+// Returns the words that ResultRequest::images may hold: file stems, profile, planes, all and none.
+[[nodiscard]] std::vector<std::string> image_words();
+
 // Returns the folder for the results of a scene.
 [[nodiscard]] std::filesystem::path result_folder(const ResultRequest& request, const std::filesystem::path& scene);
 

@@ -89,6 +89,33 @@ TEST(ShadeClasses, OfALeafInHalfShade) {
   }
 }
 
+// A leaf of two triangles rises through all layers, and its lower half lies in the shade of a leaf right above it. Light of the sky is
+// taken to be even over each triangle, so that each layer's sunlit and shaded leaf area absorb about the same of it.
+TEST(ShadeClasses, OfALeafInTheShadeOfSomeLayers) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.triangle({0.2, 0.0, 0.3}, {0.8, 1.0, 0.3}, {0.8, 1.0, 0.7});
+  maker.triangle({0.2, 0.0, 0.3}, {0.8, 1.0, 0.7}, {0.2, 0.0, 0.7});
+  maker.organ("leaf", 1, 2);
+  maker.level(0.2, 0.5, 0.3, 0.7, 1.02);
+  RadiationModel model = black_model(maker.mesh(), unit_plot, sun_at(90.0, 180.0));
+  model.layers = 8;
+  model.sky = SkyModel{};
+  model.bands[0].diffuse_w_m2 = model.bands[0].direct_w_m2;
+  const RadiationResult result = simulate(model, fixed_scatter(model, {.rays = 1e6, .packets = 1e5}));
+  const OrganResult& leaf = result.organs.front();
+  const double sky_w_m2 = leaf.classes.absorbed_shaded[0].value;
+  const double both_w_m2 = leaf.classes.absorbed_sunlit[0].value;
+  for (std::size_t k = 0; k + 1 < 8; ++k) {
+    const ShadeClassResult& classes = result.layers[k].leaf_classes;
+    if (k < 4) {
+      EXPECT_NEAR(classes.absorbed_shaded[0].value, sky_w_m2, 0.1 * sky_w_m2) << k;
+    } else if (k > 4) {
+      EXPECT_NEAR(classes.absorbed_sunlit[0].value, both_w_m2, 0.1 * sky_w_m2) << k;
+    }
+  }
+}
+
 // One leaf with a level half and a half inclined by 60 degrees, which absorbs half as much per area.
 TEST(ShadeClasses, KnowHowUnequalTheSunlitAreaIs) {
   MeshMaker maker;

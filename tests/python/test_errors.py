@@ -28,6 +28,7 @@ MESHES = {
     "objects": ({"vertices": FLAT.astype(object), "triangles": NUMBERS}, "vertices: dtype object"),
     "NaN": ({"vertices": spoilt((1, 2, 0), NAN)}, "NaN or infinity at vertex 5"),
     "infinity": ({"vertices": spoilt((2, 0, 1), np.inf)}, "NaN or infinity at vertex 6"),
+    "a masked corner": ({"vertices": np.ma.masked_equal(LEAVES, LEAVES.flat[0])}, "a masked array"),
     "far away": ({"vertices": spoilt((2, 0, 1), 1e39)}, "must be finite"),
     "no triangles": ({"vertices": FLAT}, "triangles (is missing)"),
     "an empty mesh": ({"vertices": np.zeros((0, 3, 3))}, "a mesh needs at least one"),

@@ -83,8 +83,9 @@ def test_every_column_is_described(result):
         assert all(meaning for _, meaning in described.values())
     assert result.describe("organs.csv")["area_m2"] == ("m2", "one-sided area")
     assert result.describe("profile.csv")["PAR_down_error"] == ("W m-2", "half-width of the confidence interval of PAR_down")
-    with pytest.raises(ValueError, match="not a table"):
-        result.describe("canopy.csv")
+    for ask in (result.describe, result.table):
+        with pytest.raises(sunfleck.InputError, match="not a table"):
+            ask("canopy.csv")
 
 
 def test_axes_of_the_scene():
@@ -122,6 +123,9 @@ def test_folders_are_replaced(result, tmp_path):
     assert "triangles.csv" not in files_of(tmp_path / "out")
     with pytest.raises(ValueError, match="no such format"):
         result.save(tmp_path / "out", export=["doc"])
+    with pytest.raises(sunfleck.InputError, match="images = 'rank_all'"):
+        result.save(tmp_path / "out", images=["rank_total", "rank_all"])
+    assert "rank_total.png" not in files_of(tmp_path / "out")
 
 
 def test_folders_that_cannot_be_written_are_told(result, tmp_path):

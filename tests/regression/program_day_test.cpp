@@ -491,6 +491,18 @@ TEST_F(Day, LimitsLeaveItIncomplete) {
   expect_day(few_rays + Arguments{"--resume"}, 1);
 }
 
+// So few rays that no step could begin with the work of the one before: each makes its least number of replicates.
+TEST_F(Day, EveryStepHasLightHoweverFewRaysItMayHave) {
+  expect_day(Arguments{"--max-rays", "1000", "--error", "0.0005"} + evening_, 1);
+  const Table table(file("day.csv"));
+  ASSERT_EQ(table.size(), 6U);
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    const bool light = table.number(row, "elevation_deg") > 0.0;
+    EXPECT_EQ(table.number(row, "PAR_incident") > 0.0, light) << row;
+    EXPECT_EQ(table.number(row, "PAR_absorbed_vegetation") > 0.0, light) << row;
+  }
+}
+
 TEST_F(Day, FixedWorkHasNoBound) {
   expect_day(Arguments{"--grid", "0.01"} + evening_);
   EXPECT_TRUE(summary()["direct"]["bound"].is_null());

@@ -58,6 +58,16 @@ std::optional<glm::dvec3> first_outside(const Sensor& sensor, const Plot& plot) 
   return *found;
 }
 
+// A sensor below the soil plane counts as on it.
+void warn_of_buried_sensor(const TomlTable& table, const Sensor& sensor, const Plot& plot, std::vector<std::string>& warnings) {
+  const auto lower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
+  const auto lowest = std::min_element(sensor.points_m.begin(), sensor.points_m.end(), lower);
+  if (lowest == sensor.points_m.end() || lowest->y >= 0.0) return;
+  warnings.push_back(
+      fmt::format("{}: {} = {:.6g} m lies below the ground, so the sensor reads the light on the ground; give 0 or more",
+                  table.place("from"), axis_letter(plot.axes, up_axis(plot.axes)), lowest->y));
+}
+
 void warn_of_sensors(const TomlTable& root, const RadiationModel& model, std::vector<std::string>& warnings) {
   const std::vector<TomlTable> tables = root.tables("sensor");
   const Plot& plot = model.plot;
@@ -65,6 +75,7 @@ void warn_of_sensors(const TomlTable& root, const RadiationModel& model, std::ve
   const std::array letters = {axis_letter(plot.axes, first), axis_letter(plot.axes, second)};
   const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
   for (std::size_t s = 0; s < std::min(tables.size(), model.sensors.size()); ++s) {
+    if (model.soil) warn_of_buried_sensor(tables[s], model.sensors[s], plot, warnings);
     const auto at_m = first_outside(model.sensors[s], plot);
     if (!at_m) continue;
     const glm::dvec3 user_m = user_position_m(plot, *at_m);

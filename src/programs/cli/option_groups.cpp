@@ -6,6 +6,7 @@
 #include "files/results/exports/exports.h"
 #include "programs/cli/option_checks.h"
 #include "simulate/day_blocks.h"
+#include "simulate/result_folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,7 +45,9 @@ CLI::Option_group& add_simulation(CLI::App& command, RunOptions& options, Option
   add_bounds(group, options, words);
   add_fixed_work(group, options);
   group.add_option("--max-seconds", options.max_seconds, "Stop after this many seconds; results are kept")->check(positive());
-  group.add_option("--max-rays", options.max_rays, "Stop before exceeding this many rays; results are kept")
+  group
+      .add_option("--max-rays", options.max_rays,
+                  "Stop before exceeding this many rays and packets, after eight small replicates at least; results are kept")
       ->transform(whole_number(1, std::uint64_t{1} << 62U));
   group.add_option("--seed", options.seed, "Random seed")->transform(whole_number(0, most_seed))->capture_default_str();
   group.add_flag("--allow-outside", options.allow_outside, "Accept files outside the scene's folder");
@@ -107,13 +110,6 @@ void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words
       .add_option("--repeat", options.repeat,
                   "Show N x N copies of a periodic plot, N odd (default: 1; enough for a horizon in a view upwards)")
       ->transform(whole_number(1, most_repeat));
-}
-
-std::vector<std::string> image_words() {
-  std::vector<std::string> words;
-  for (const Picture& picture : all_pictures()) words.push_back(stem_of(picture));
-  words.insert(words.end(), {"profile", "planes", "all", "none"});
-  return words;
 }
 
 std::vector<std::string> export_words() {

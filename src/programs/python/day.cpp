@@ -119,7 +119,7 @@ class Day {
   [[nodiscard]] const DayTable& table_of(const std::string& name) const {
     const auto found = std::find_if(tables_.begin(), tables_.end(), [&](const DayTable& table) { return table.file == name; });
     if (found != tables_.end()) return *found;
-    throw py::value_error(fmt::format("{} (not a table of this day); use {}", name, fmt::join(tables(), ", ")));
+    throw_input(name, "not a table of this day", fmt::format("use {}", fmt::join(tables(), ", ")));
   }
 
   [[nodiscard]] std::optional<std::size_t> plane_of(const std::string& name) const {

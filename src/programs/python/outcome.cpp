@@ -23,12 +23,16 @@ namespace {
 
 namespace py = pybind11;
 
-// Returns the choice of that name. Throws Error (input) if there is none.
+// Returns the number of a choice. Throws Error (input) if there is no such choice.
+std::size_t check_choice(const char* option, const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw_input(fmt::format("{} = '{}'", option, name), "no such choice", fmt::format("use {}", fmt::join(names, ", ")));
+}
+
 template <class Choice>
 Choice choice_of(const char* option, const std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<Choice>(found - names.begin());
-  throw_input(fmt::format("{} = '{}'", option, name), "no such choice", fmt::format("use {}", fmt::join(names, ", ")));
+  return static_cast<Choice>(check_choice(option, names, name));
 }
 
 Picture picture_of(const std::string& chart, const std::string& field) {
@@ -69,9 +73,9 @@ std::string Outcome::table(const std::string& name) const {
     return sensors_csv(simulated_.record, model, simulated_.result);
   if (name == "sensor_means.csv" && !simulated_.result.sensors.empty())
     return sensor_means_csv(simulated_.record, model, simulated_.result);
-  throw py::value_error(
-      name + " (not a table of this result); use profile.csv, organs.csv, plants.csv, triangles.csv or, if the scene " +
-      "has sensors, sensors.csv or sensor_means.csv");
+  throw_input(
+      name, "not a table of this result",
+      "use profile.csv, organs.csv, plants.csv, triangles.csv or, if the scene has sensors, sensors.csv or sensor_means.csv");
 }
 
 py::dict Outcome::describe(const std::string& name) {
@@ -84,9 +88,8 @@ py::dict Outcome::describe(const std::string& name) {
   if (name == "sensors.csv") return descriptions_of(sensors_table(model, result));
   if (name == "sensor_means.csv") return descriptions_of(sensor_means_table(model, result));
   if (name == "balance") return descriptions_of(balance_table(result));
-  throw py::value_error(
-      name + " (not a table of this result); use profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv or " +
-      "sensor_means.csv");
+  throw_input(name, "not a table of this result",
+              "use profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv or sensor_means.csv");
 }
 
 py::dict Outcome::profile() const {
@@ -203,6 +206,7 @@ void bind_outcome(py::module_& module) {
         ResultRequest request;
         request.output = folder;
         request.exports = std::move(exports);
+        for (const std::string& image : images) check_choice("images", image_words(), image);
         request.images = std::move(images);
         const py::gil_scoped_release release;
         outcome.write(request);

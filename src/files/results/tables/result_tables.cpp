@@ -208,7 +208,9 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
             [&](std::size_t i) { return layers[i].height_m; });
   table.add({"leaf_area_index", "1", "one-sided leaf area in the layer per ground area"},
             [&](std::size_t i) { return is_top_plane(i) ? no_value : layers[i].leaf_area_index; });
-  table.add({"sunfleck_ratio", "1", "share of the plane that the direct beam reaches", everywhere_but_meshes},
+  table.add({"sunfleck_ratio", "1",
+             "share of the plane that the direct beam reaches; for an isolated stand, of the beam that meets stand or plot",
+             everywhere_but_meshes},
             [&](std::size_t i) { return layers[i].sunfleck_ratio; });
   table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in the layer in direct sun"},
             [&](std::size_t i) { return as_share(layers[i].sunlit_leaf_fraction); });

@@ -91,7 +91,8 @@ struct PlantResult {
 struct LayerResult {
   double height_m = 0.0;  // of the lower edge; in the last entry, of the top plane
   double leaf_area_index = 0.0;
-  Estimate sunfleck_ratio;         // share of the plane that the direct beam reaches
+  // Share of the plane that the direct beam reaches; for an isolated stand, of the beam that meets the stand or its plot.
+  Estimate sunfleck_ratio;
   Estimate sunlit_leaf_fraction;   // NaN without leaf area in the layer
   std::vector<Estimate> down, up;  // [waveband], W m-2 through the plane
   // [waveband], W m-2 of ground, by the vegetation and by the structures and lamps in the layer

@@ -182,11 +182,10 @@ class ResultMaker {
         const double absorptance = areas_.organ_absorptance[o * sums_.bands.size() + b];
         const double beam = areas_.organ_facing_m2[o] > 0.0 ? events_.beam_w_m2[b] : 0.0;
         const double other = absorptance > 0.0 ? events_.other_w_m2[b] : 0.0;
-        const auto one = [&](double event_w_m2) { return unseen(event_w_m2 * per_area); };
-        result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, one(beam)));
-        result.indirect.push_back(sums_.organs[o].indirect[b].estimate(quantile_, one(other)));
+        result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, unseen(beam * per_area)));
+        result.indirect.push_back(with_unshot(sums_.organs[o].indirect[b], other * per_area, b));
         const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
-        result.absorbed.push_back(absorbed_estimate(sums_.organs[o].absorbed[b], event_w_m2, b));
+        result.absorbed.push_back(with_unshot(sums_.organs[o].absorbed[b], event_w_m2, b));
       }
       result.classes = sums_.classes.organ(o, errors);
       results.push_back(std::move(result));
@@ -221,8 +220,8 @@ class ResultMaker {
         const double absorptance = plants.largest_absorptance[p * sums_.bands.size() + b];
         const double beam = plants.beam_meets[p] ? events_.beam_w_m2[b] : 0.0;
         const double event_w = model_.plot.area_m2() * std::max(beam, events_.other_w_m2[b]);
-        result.incident_w.push_back(absorbed_estimate(sums_.plants[p].incident[b], event_w, b));
-        result.absorbed_w.push_back(absorbed_estimate(sums_.plants[p].absorbed[b], event_w * absorptance, b));
+        result.incident_w.push_back(with_unshot(sums_.plants[p].incident[b], event_w, b));
+        result.absorbed_w.push_back(with_unshot(sums_.plants[p].absorbed[b], event_w * absorptance, b));
       }
       results.push_back(std::move(result));
     }
@@ -230,10 +229,10 @@ class ResultMaker {
   }
 
   // Returns the mean with its interval, which includes unshot flux in proportion; one event changes it by `event_w_m2`.
-  [[nodiscard]] Estimate absorbed_estimate(const ReplicateMean& mean, double event_w_m2, std::size_t band) const {
-    Estimate absorbed = mean.estimate(quantile_, unseen(event_w_m2));
-    absorbed.half_width += absorbed.value * sums_.ledgers[band].unshot_share();
-    return absorbed;
+  [[nodiscard]] Estimate with_unshot(const ReplicateMean& mean, double event_w_m2, std::size_t band) const {
+    Estimate estimate = mean.estimate(quantile_, unseen(event_w_m2));
+    estimate.half_width += estimate.value * sums_.ledgers[band].unshot_share();
+    return estimate;
   }
 
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
@@ -263,8 +262,8 @@ class ResultMaker {
         if (!below_top) continue;
         const double by_plants = areas_.layer_holds_vegetation[k] ? any * areas_.vegetation_absorptance[b] : 0.0;
         const double by_structures = areas_.layer_holds_structure[k] ? any * areas_.structure_absorptance[b] : 0.0;
-        result.absorbed.push_back(absorbed_estimate(means.absorbed[b], by_plants, b));
-        result.absorbed_structure.push_back(absorbed_estimate(means.absorbed_structure[b], by_structures, b));
+        result.absorbed.push_back(with_unshot(means.absorbed[b], by_plants, b));
+        result.absorbed_structure.push_back(with_unshot(means.absorbed_structure[b], by_structures, b));
       }
       results.push_back(std::move(result));
     }

@@ -30,27 +30,36 @@ std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t count) {
   return part * count / parts;
 }
 
-// What a side absorbs of other light than the beam in one replicate, and what of it falls on the sunlit part. All but the first is
-// the same for both sides of an element. [band]
-struct SideLight {
-  explicit SideLight(std::size_t bands)
-      : absorbed_w(bands), earlier_w_m2(bands), lit(bands), twice_beam_w_m2(bands), lit_earlier_w_m2(bands), space(bands) {}
+// How much of an element, or of its part in a layer, the sun shines on in one replicate. [band]
+struct LitPart {
+  explicit LitPart(std::size_t bands) : part(bands), twice_beam_w_m2(bands), earlier_w_m2(bands) {}
 
-  // Adds the share of it that belongs to a group.
-  void add_to(ShadeSums& sums, std::size_t group, double share) const {
-    const std::array by{earlier_w_m2.data(), lit.data(), twice_beam_w_m2.data(), lit_earlier_w_m2.data()};
+  bool any = false;          // whether the rest is set
+  std::vector<double> part;  // of the area
+  std::vector<double> twice_beam_w_m2;
+  std::vector<double> earlier_w_m2;  // SideLight::earlier_w_m2 times the part
+};
+
+// What a side absorbs of other light than the beam in one replicate. All but the first is the same for both sides of an element.
+// [band]
+struct SideLight {
+  explicit SideLight(std::size_t bands) : absorbed_w(bands), earlier_w_m2(bands), lit(bands), space(bands) {}
+
+  // Adds the share of it that belongs to a group, where the sun shines on `lit_part`.
+  void add_to(ShadeSums& sums, std::size_t group, double share, const LitPart& lit_part) const {
+    const std::array by{earlier_w_m2.data(), lit_part.part.data(), lit_part.twice_beam_w_m2.data(),
+                        lit_part.earlier_w_m2.data()};
     const std::array to{sums.of(group, sums.indirect_w).data(), sums.of(group, sums.indirect_square).data(),
                         sums.of(group, sums.lit_indirect_w).data(), sums.of(group, sums.lit_square).data(),
                         sums.of(group, sums.lit_indirect_square).data()};
-    columns::add_share(share, absorbed_w, std::span(by).first(any_lit ? by.size() : 1), to);
+    columns::add_share(share, absorbed_w, std::span(by).first(lit_part.any ? by.size() : 1), to);
   }
 
   std::vector<double> absorbed_w;
   std::optional<std::size_t> element;  // the one that the rest was set for
+  double per_m2 = 0.0;                 // 1 / its area
   std::vector<double> earlier_w_m2;    // of both sides in all earlier replicates together
-  bool any_lit = false;                // whether the next three are set
-  std::vector<double> lit;             // part of the area
-  std::vector<double> twice_beam_w_m2, lit_earlier_w_m2;
+  LitPart lit;                         // of the whole element
   std::vector<double> space;
 };
 
@@ -158,6 +167,7 @@ class ShadeAddition {
   void add_other_light(std::size_t first_side, std::size_t end_side, ShadeGroupSums& groups) const {
     LayerShares shares(conversion_.layout);
     SideLight light(bands_);
+    LitPart lit_in_layer(bands_);
     const std::span<const Triangle> own =
         canopy_.corners.copies().empty() ? canopy_.corners.own() : std::span<const Triangle>();
     const auto come = [&](std::size_t side) {
@@ -170,11 +180,10 @@ class ShadeAddition {
       const bool foliage = conversion_.areas.foliage[e];
       if (!all_groups_ && !foliage) return;
       set_light(side, quanta, light);
-      if (foliage) light.add_to(groups.leaves, 0, 1.0);
+      if (foliage) light.add_to(groups.leaves, 0, 1.0, light.lit);
       if (!all_groups_) return;
-      light.add_to(groups.organs, canopy_.organ_of[e], 1.0);
-      if (!foliage) return;
-      shares.visit(e, canopy_.corners[e], [&](std::size_t k, double share) { light.add_to(groups.layers, k, share); });
+      light.add_to(groups.organs, canopy_.organ_of[e], 1.0, light.lit);
+      if (foliage) add_to_layers(e, light, shares, lit_in_layer, groups.layers);
     };
     // An element whose sides are in two parts gets its landings when both are done.
     const std::size_t first_whole = first_side + first_side % 2;
@@ -198,32 +207,49 @@ class ShadeAddition {
     const std::size_t e = side / 2;
     if (std::exchange(light.element, e) == e) return;
     const double element_m2 = area_m2(canopy_.corners[e]);
-    const double per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
+    light.per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
     std::fill(light.earlier_w_m2.begin(), light.earlier_w_m2.end(), 0.0);
     for (const std::size_t of : {2 * e, 2 * e + 1}) {
       const auto landed = earlier_.at(of);
       if (landed.empty()) continue;
       set_absorbed_w(of, landed, light.space);
-      columns::add_scaled(per_m2, light.space, light.earlier_w_m2);
+      columns::add_scaled(light.per_m2, light.space, light.earlier_w_m2);
     }
-    light.any_lit = hit_[e];
-    if (light.any_lit) set_lit(e, per_m2, light);
+    light.lit.any = hit_[e];  // most elements have no landing of the beam in a replicate
+    if (light.lit.any) set_lit(e, conversion_.element_landings(replicate_.counters, e), light.per_m2, light, light.lit);
   }
 
-  // Sets what depends on the sunlit part of an element. Most elements have no landing of the beam in a replicate.
-  void set_lit(std::size_t e, double per_m2, SideLight& light) const {
-    const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
-    const double lit = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
+  // Sets what depends on the sunlit part of an element, or of its part in a layer with an area of 1 / per_m2, from the beam's
+  // landings there.
+  void set_lit(std::size_t e, const BeamLandings& landings, double per_m2, const SideLight& light, LitPart& lit) const {
+    const double part = static_cast<double>(landings.both()) * conversion_.exposure.lit_m2_per_landing(e) * per_m2;
     const auto upper = static_cast<double>(landings.upper);
     const auto lower = static_cast<double>(landings.lower);
     const std::span<const double> upper_part = conversion_.absorptances(canopy_.optics_of[e], 0);
     const std::span<const double> lower_part = conversion_.absorptances(canopy_.optics_of[e], 1);
     for (std::size_t b = 0; b < bands_; ++b) {
       const double beam_w = beam_w_per_landing_[b] * (upper * upper_part[b] + lower * lower_part[b]);
-      light.lit[b] = lit;
-      light.twice_beam_w_m2[b] = 2.0 * (beam_w * per_m2);
-      light.lit_earlier_w_m2[b] = lit * light.earlier_w_m2[b];
+      lit.part[b] = part;
+      lit.twice_beam_w_m2[b] = 2.0 * (beam_w * per_m2);
+      lit.earlier_w_m2[b] = part * light.earlier_w_m2[b];
     }
+  }
+
+  // Adds the light on a side to the layers into which its element reaches: the light that is not the beam's is taken to be even
+  // over the element, but the sun may shine on all of its part in one layer and on none in another.
+  void add_to_layers(std::size_t e, const SideLight& light, LayerShares& shares, LitPart& lit_in_layer,
+                     ShadeSums& layers) const {
+    const Triangle corners = canopy_.corners[e];
+    const std::size_t first = first_layer(conversion_.layout, corners);
+    const std::size_t first_word = conversion_.layout.first_bin_word + 2 * std::size_t{conversion_.layout.first_bin[e]};
+    shares.visit(e, corners, [&](std::size_t k, double share) {
+      if (share == 1.0 || !light.lit.any) return light.add_to(layers, k, share, light.lit);
+      const std::size_t word = first_word + 2 * (k - first);
+      const BeamLandings landings{replicate_.counters[word], replicate_.counters[word + 1]};
+      lit_in_layer.any = share > 0.0 && landings.both() > 0;
+      if (lit_in_layer.any) set_lit(e, landings, light.per_m2 / share, light, lit_in_layer);
+      light.add_to(layers, k, share, lit_in_layer);
+    });
   }
 
   // Sets what a side absorbs of other light, [band].

@@ -122,6 +122,8 @@ def _moment(value: Any, place: str) -> Any:
 
 
 def _array(value: Any, name: str, kinds: str, wanted: str) -> np.ndarray:
+    if np.ma.is_masked(value):
+        refuse(f"{name}: a masked array", "every value is used", "leave the masked rows out")
     array = np.asarray(value)
     if array.dtype.kind not in kinds:
         refuse(f"{name}: dtype {array.dtype}", f"must be {wanted}", f"convert it, e.g. with numpy.asarray({name.split('.')[-1]}, ...)")

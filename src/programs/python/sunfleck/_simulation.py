@@ -132,9 +132,11 @@ class Simulation:
         sun ... optics: as in `relight`; they stay until they are changed again.
         error, direct_error, indirect_error: relative error bounds that replace the scene's [accuracy].
         grid (m), passes: fixed work instead of a bound. max_seconds, max_rays: limits; a result that they cut short has
-            `complete` False.
+            `complete` False. Eight small replicates at least are made before max_rays stops them.
         memory: bytes for replicates in progress, by default a quarter of the free memory.
-        triangle_errors: whether the errors of single triangles are kept, at 32 bytes per triangle and band.
+        triangle_errors: whether the light of single triangles is estimated with the help of their neighbours, and its errors. False saves
+            time and memory where only organs, layers and totals matter: values of triangles are then what landed on each, which
+            is several times noisier. Sums over organs are the same.
         progress: True shows a bar, that of tqdm if it is installed, else a line on stderr. A function is called about ten
             times a second with {"stage", "rays", "fraction", "seconds_left", "pass", "relative_error", "bound"}. An exception
             from it ends the simulation and is raised here, as is KeyboardInterrupt after Ctrl-C.

@@ -119,7 +119,12 @@ TEST_F(LightPlausibility, ReceiversBelongToTheStand) {
   expect_silent(lit + "[[plane]]\nheight = 1.5\n");
   const std::string sensor = "[[sensor]]\nname = \"s\"\nfrom = [2.5, 0.5, 1]\n";
   expect_warned(lit + sensor, "sensor.from", "give X in 0..2 and Z in 0..3");
-  expect_silent(lit + replaced(sensor, "2.5, 0.5", "1.5, 0.5"));
+  const std::string inside = replaced(sensor, "2.5, 0.5", "1.5, 0.5");
+  expect_silent(lit + inside);
+  const std::string on_soil = lit + "[soil]\nreflectance = 0.1\n";
+  expect_silent(on_soil + replaced(inside, "1.5, 0.5", "1.5, 0"));
+  expect_warned(on_soil + replaced(inside, "1.5, 0.5", "1.5, -0.5"), "sensor.from", "Y = -0.5 m lies below the ground");
+  expect_silent(lit + replaced(inside, "1.5, 0.5", "1.5, -0.5"));
   const std::string repeated = replaced(lit, "periodic = false", "periodic = true");
   expect_silent(repeated + sensor);
   expect_warned(repeated + replaced(sensor, "2.5, 0.5", "4.5, 0.5"), "sensor.from", "the periods next to it");

@@ -36,6 +36,14 @@ TEST(Table, WritesEveryKindOfValue) {
             "b\",0.333333333,4000000002,\"\"\"\"\"\"\n");
 }
 
+// A reader that skips comments would end the row there.
+TEST(Table, QuotesWhatLooksLikeAComment) {
+  Table table = empty_table({1});
+  table.add({"organ", "", ""}, [](std::size_t) { return std::string("leaf#1"); });
+  table.add({"rank", "1", ""}, [](std::size_t) { return 2.0; });
+  EXPECT_EQ(below_head(csv_text({}, table)), "organ,rank\n\"leaf#1\",2\n");
+}
+
 TEST(Table, HeadAndNotesComeFirst) {
   Table table = empty_table({0});
   table.notes = {"a note", "another"};
