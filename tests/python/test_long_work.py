@@ -49,7 +49,8 @@ def test_exceptions_of_progress_end_the_work():
 
 
 def test_limits_are_kept():
-    result = sunfleck.run(with_arrays(), **ENDLESS, max_seconds=1e-9)
+    with pytest.warns(UserWarning, match="no light yet"):
+        result = sunfleck.run(with_arrays(), **ENDLESS, max_seconds=1e-9)
     assert not result.complete and result.summary["stopped"] == "time spent"
 
 

@@ -150,7 +150,10 @@ class Simulation:
         )  # fmt: skip
         self.relight(sun=sun, sky=sky, band=band, weather=weather, soil=soil, optics=optics)
         with reporting(progress) as report:
-            return Result(self._core.run(options, report))
+            result = Result(self._core.run(options, report))
+        if not result.complete and not any(band["incident"] for band in result.bands.values()):
+            warnings.warn("the run ended before the first rays were counted: the result contains no light yet", stacklevel=2)
+        return result
 
     @property
     def device(self) -> dict[str, str]:
