@@ -1,7 +1,8 @@
 // Measures where the rounds of indirect passes are made: fixed work, eight replicates of 131,072 first packets.
-//   rounds/BAND/WHERE   WHERE is `device` or `host`, while the device traces in both, one replicate at a time; `lanes`: on the device, all
-//                       eight at once, as far as there are threads; counters of one replicate: submissions, bytes to and from the
-//                       device, and packets
+//   rounds/STAND/WHERE  STAND is PAR or NIR in the sparse maize, or with PAR, `planes`, the same with two receivers, or `copies`, a stand
+//                       whose plants share triangles. WHERE is `device` or `host`, while the device traces in both, one replicate at a
+//                       time; `lanes`: on the device, all eight at once, as far as there are threads; counters of one replicate:
+//                       submissions, bytes to and from the device, and packets
 
 #include "bench/benches.h"
 #include "bench/measure.h"
@@ -13,13 +14,34 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace sunfleck::bench {
 namespace {
 
-void make_rounds(benchmark::State& state, const GpuContext* context, const LeafBand& band, RoundsAt where, int at_once) {
-  Stand stand(paper_plants);
-  set_leaf_bands(stand.model, std::array{band});
+using MakeModel = std::function<RadiationModel()>;
+
+RadiationModel maize(const LeafBand& band) {
+  RadiationModel model = stand_of(paper_plants).model;
+  set_leaf_bands(model, std::array{band});
+  return model;
+}
+
+RadiationModel planes() {
+  RadiationModel model = maize(par_band);
+  model.planes = {{0.5, 180, 240}, {1.5, 1, 1}};
+  return model;
+}
+
+RadiationModel copies() {
+  RadiationModel model = stand_of_copies(Copies::shared).model;
+  set_leaf_bands(model, std::array{par_band});
+  return model;
+}
+
+void make_rounds(benchmark::State& state, const GpuContext* context, const MakeModel& make, RoundsAt where, int at_once) {
+  const Stand stand(make());
   OurChoices choices;
   choices.cut.rounds_at = where;
   Ours ours(stand, context, choices);
@@ -43,10 +65,14 @@ void make_rounds(benchmark::State& state, const GpuContext* context, const LeafB
 
 void register_rounds(const GpuContext* context) {
   if (context == nullptr) return;
-  for (const LeafBand& band : {par_band, nir_band}) {
-    add_benchmark(fmt::format("rounds/{}/device", band.name), make_rounds, context, band, RoundsAt::device, 1);
-    add_benchmark(fmt::format("rounds/{}/lanes", band.name), make_rounds, context, band, RoundsAt::device, 8);
-    add_benchmark(fmt::format("rounds/{}/host", band.name), make_rounds, context, band, RoundsAt::host, 1);
+  const std::array<std::pair<const char*, MakeModel>, 4> stands{{{"PAR", [] { return maize(par_band); }},
+                                                                 {"NIR", [] { return maize(nir_band); }},
+                                                                 {"planes", planes},
+                                                                 {"copies", copies}}};
+  for (const auto& [name, make] : stands) {
+    add_benchmark(fmt::format("rounds/{}/device", name), make_rounds, context, make, RoundsAt::device, 1);
+    add_benchmark(fmt::format("rounds/{}/lanes", name), make_rounds, context, make, RoundsAt::device, 8);
+    add_benchmark(fmt::format("rounds/{}/host", name), make_rounds, context, make, RoundsAt::host, 1);
   }
 }
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Checks the program on a real GPU and measures which choices are best there, in one go:
 #   tests/bench/gpu_check.sh [--device NAME] [FILE.md]
-# Builds, runs the agreement tests and `validate` on that device, compares ten million hits and the tables of nine scenes with the CPU
-# path, measures rays per second with each choice (tree fetch, workgroup size), rounds of packets on the device and on the host, the
-# host's part, the time to a picture and runs on 1, 2, 4 ... cores; writes Markdown tables. Without --device it takes the first device that is not software; `--device lavapipe` tries the
-# script itself. Exits with status 3 if there is no such device.
+# Builds, runs the agreement tests and `validate` on that device, compares ten million hits and the tables of eleven scenes with the
+# CPU path, measures rays per second with each choice (tree fetch, workgroup size), rounds of packets on the device and on the host in
+# four stands, the host's part, the time to a picture and runs on 1, 2, 4 ... cores; writes Markdown tables. Without --device it takes
+# the first device that is not software; `--device lavapipe` tries the script itself. Exits with status 3 if there is no such device.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

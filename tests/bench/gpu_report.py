@@ -6,6 +6,7 @@ import datetime
 import filecmp
 import os
 import pathlib
+import shutil
 import statistics
 import subprocess
 import sys
@@ -17,6 +18,39 @@ from report import medians, million_rays, table
 SCENE = "scenes/maize_sparse.toml"
 COMPARED = ["maize_sparse", "maize_dense", "maize_overcast", "two_squares", "single_leaf", "chamber", "panels", "furnace_box",
             "checkerboard"]
+
+# Scenes in which packets start on copies that share triangles and pass a receiver, or are aimed at a small stand.
+POTTED_PLANT = """
+[sun]
+elevation = 50.0
+azimuth   = 120.0
+[sky]
+model = "cie-overcast"
+[[band]]
+name    = "PAR"
+direct  = 300.0
+diffuse = 100.0
+[soil]
+reflectance = 0.15
+[optics.leaf]
+reflectance   = 0.12
+transmittance = 0.06
+[optics.stem]
+reflectance = 0.12
+[optics.clay]
+reflectance = 0.3
+role        = "structure"
+[optics.peat]
+reflectance = 0.1
+role        = "soil"
+[[geometry]]
+file = "potted_plant.obj"
+"""
+MADE = {
+    "copies": "[plot]\nsize = [2.0, 2.0]\n[[plane]]\nheight = 0.2\ncells = [20, 20]\n" + POTTED_PLANT + "instances = true\nat = ["
+    + ", ".join(f"[{x / 4}, 0.0, {z / 4}]" for x in range(8) for z in range(8)) + "]\n",
+    "lone_plant": "[plot]\nsize = [9.0, 9.0]\nperiodic = false\n" + POTTED_PLANT + "at = [[4.5, 0.0, 4.5]]\n",
+}
 
 
 def agreement(measured):
@@ -61,12 +95,16 @@ def whole(program, device, solve, folder):
 
 def whole_tables(program, device, folder):
     """Compares the tables of whole runs on the CPU path and the device, byte by byte."""
+    shutil.copy("scenes/potted_plant.obj", folder)
+    for scene, text in MADE.items():
+        (folder / f"{scene}.toml").write_text(text)
+    scenes = [pathlib.Path(f"scenes/{scene}.toml") for scene in COMPARED] + [folder / f"{scene}.toml" for scene in MADE]
     rows = []
-    for scene in COMPARED:
-        folders = {}
+    for path in scenes:
+        folders, scene = {}, path.stem
         for name in ("cpu", device):
             folders[name] = folder / f"{scene}_{len(folders)}"
-            subprocess.run([program, "run", f"scenes/{scene}.toml", "-o", str(folders[name]), "--device", name, "--images", "none",
+            subprocess.run([program, "run", str(path), "-o", str(folders[name]), "--device", name, "--images", "none",
                             "--export", "csv", "--quiet"], check=True, capture_output=True)
         names = [path.name for path in folders["cpu"].glob("*.csv")]
         _, differ, missing = filecmp.cmpfiles(folders["cpu"], folders[device], names, shallow=False)
