@@ -15,9 +15,9 @@ ElementRun run_of(uint element) {
 }
 
 Corners corners_of(uint element) {
-  if (pass.runs == 0u) return kept_corners[element];
+  if (pass.runs == 0u) return all_corners[element];
   ElementRun run = run_of(element);
-  Corners kept = kept_corners[run.first_corners + (element - run.first_element)];
-  if (run.is_copy == 0u) return kept;
-  return Corners(placed_point(run.turn, kept.a), placed_point(run.turn, kept.b), placed_point(run.turn, kept.c));
+  Corners own = all_corners[run.first_corners + (element - run.first_element)];
+  if (run.is_copy == 0u) return own;
+  return Corners(placed_point(run.turn, own.a), placed_point(run.turn, own.b), placed_point(run.turn, own.c));
 }

@@ -18,7 +18,7 @@ layout(set = 0, binding = 3, scalar) buffer Totals { uint64_t totals[]; };  // s
 layout(set = 0, binding = 4, scalar) buffer Copies { uint64_t copies[]; };  // of the small sums
 layout(set = 0, binding = 5, scalar) readonly buffer Faces { uint64_t faces[]; };  // what they reflect, then what they scatter
 layout(set = 0, binding = 6, scalar) readonly buffer Elements { RoundElement elements[]; };
-layout(set = 0, binding = 7, scalar) readonly buffer KeptCorners { Corners kept_corners[]; };  // of elements, then of meshes
+layout(set = 0, binding = 7, scalar) readonly buffer AllCorners { Corners all_corners[]; };  // of elements, then of meshes
 layout(set = 0, binding = 8, scalar) buffer NextPlaces { WaitingPlace next_places[]; };
 layout(set = 0, binding = 9, scalar) buffer NextQuanta { uint64_t next_quanta[]; };
 layout(set = 0, binding = 10, scalar) buffer Places { WaitingPlace places[]; };

@@ -17,8 +17,8 @@ const uint least_aim_bits = 10u;
 
 // Returns which part of 2^32 of its expected packets a place keeps. The spread of the stand's light is least if the packets for a
 // unit of flux grow with the standard deviation of a packet's contribution (Neyman 1934, J. R. Stat. Soc. 97:558): here with the
-// square root of its chance to meet the stand, which falls with the cube of the distance for packets from level ground. All of
-// them within the sphere.
+// square root of its chance to meet the stand, which falls with the cube of the distance for packets from level ground. Within
+// the sphere it keeps all of them.
 INLINE uint64_t aimed_part(StandSphere stand, vec3 point) {
   const uint64_t all = uint64_t(1u) << 32u;
   EXACT float x = point.x - stand.centre.x;

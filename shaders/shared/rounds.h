@@ -140,7 +140,7 @@ const uint role_soil = 2u;
 // Consecutive elements of a canopy with copies of meshes, whose corners are kept once for each mesh.
 struct ElementRun {
   uint first_element;
-  uint first_corners;  // number of its corners among those that are kept
+  uint first_corners;  // number of its corners in the buffer of all corners
   uint is_copy;        // 1: the corners are those of the mesh, which `turn` places; 0: those of the elements
   CopyTurn turn;
 };

@@ -81,7 +81,7 @@ class DayRun {
     if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(number_of(block));
     SolveSettings settings = settings_;
     settings.seed = RandomStream(settings_.seed, block.first).word();
-    // A limit of rays may be too low for the work of an earlier step, but not for pilots.
+    // A limit of rays may be too low for the work of an earlier step, but never is for pilots.
     if (!settings.grid_m && !settings.passes && !settings.max_rays) settings.begin_with = work_to_begin_with(block);
     const std::optional<SolveState> left = find_state(block, settings);
     settings.resume_from = left ? &*left : nullptr;

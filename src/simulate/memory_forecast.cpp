@@ -49,6 +49,14 @@ struct SumBytes {
 // Of the trees of surfaces and of pooling over all of them at the same time.
 constexpr double bytes_refining_element = 400.0;
 
+// Returns the memory of one set of sums over all cells of the receivers.
+double plane_bytes(const RadiationModel& model) {
+  double cells = 0.0;
+  for (const PlaneReceiver& plane : model.planes)
+    cells += static_cast<double>(plane.cells_x) * static_cast<double>(plane.cells_z);
+  return cells * static_cast<double>((2 + model.bands.size()) * sizeof(std::int64_t));
+}
+
 SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, ElementErrors element_errors,
                    const RunForecast& run) {
   const auto elements = static_cast<double>(model.canopy.size());
@@ -73,11 +81,12 @@ SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, Ele
   if (keeps_spreads(element_errors)) {
     spreads += 2.0 * elements * (16.0 + 32.0 * bands);
   }
-  bytes.tracing = numbering + 2.0 * (exposure + landings) + of_run.all() + of_pilot.all() + spreads;
-  bytes.ending = numbering + exposure + landings + cells + sides + spreads + bytes.refining;
+  const double planes = plane_bytes(model);
+  bytes.tracing = numbering + 2.0 * (exposure + landings + planes) + of_run.all() + of_pilot.all() + spreads;
+  bytes.ending = numbering + exposure + landings + cells + sides + 2.0 * planes + spreads + bytes.refining;
   if (of_run.sides < sides) bytes.ending += of_run.sides;
   if (of_run.cells < cells) bytes.ending += of_run.cells;
-  bytes.result = elements * sizeof(std::uint32_t) + landings + cells + sides + 0.5 * spreads;
+  bytes.result = elements * sizeof(std::uint32_t) + landings + cells + sides + planes + 0.5 * spreads;
   return bytes;
 }
 

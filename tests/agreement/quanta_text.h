@@ -1,4 +1,5 @@
-// Calls every function of shaders/shared/quanta.h and aim.h, and is shared text itself. A 64-bit number is two words, the low one first.
+// Calls every function of shaders/shared/quanta.h and aim.h, and is shared text itself. A 64-bit number is two words, the low one
+// first.
 #ifndef SUNFLECK_TESTS_QUANTA_TEXT_H
 #define SUNFLECK_TESTS_QUANTA_TEXT_H
 

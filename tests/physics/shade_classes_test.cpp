@@ -89,8 +89,8 @@ TEST(ShadeClasses, OfALeafInHalfShade) {
   }
 }
 
-// A leaf of two triangles rises through all layers, and its lower half lies in the shade of a leaf right above it. Light of the sky is
-// taken to be even over each triangle, so that each layer's sunlit and shaded leaf area absorb about the same of it.
+// A leaf of two triangles rises through all layers, and its lower half lies in the shade of a leaf right above it. Light of the sky
+// is taken to be even over each triangle, so that each layer's sunlit and shaded leaf area absorb about the same of it.
 TEST(ShadeClasses, OfALeafInTheShadeOfSomeLayers) {
   MeshMaker maker;
   maker.organ("leaf", 1, 1);

@@ -41,8 +41,7 @@ RoundSizes::RoundSizes(std::span<const RoundsPass> passes, std::size_t at_a_time
     : choices(of_choices) {
   const RoundsOrder& any = *passes.front().order;
   elements = any.scene.model.canopy.size();
-  for (const std::span<const Triangle> kept : sunfleck::kept_corners(any.scene.model.canopy.corners))
-    kept_corners += kept.size();
+  for (const std::span<const Triangle> array : corner_arrays(any.scene.model.canopy.corners)) corners += array.size();
   element_runs = any.block.runs;
   surfaces = any.scene.surfaces.of.size();
   cells = any.scene.layout.cells();
@@ -81,7 +80,7 @@ std::size_t RoundSizes::bytes(RoundBuffer buffer) const {
     case RoundBuffer::elements:
       return elements * sizeof(shared::RoundElement);
     case RoundBuffer::corners:
-      return kept_corners * sizeof(Triangle);
+      return corners * sizeof(Triangle);
     case RoundBuffer::next_places:
     case RoundBuffer::places:
       return places * sizeof(shared::WaitingPlace);

@@ -58,7 +58,7 @@ struct RoundSizes {
   // Those of the largest of several passes of one scene.
   RoundSizes(std::span<const RoundsPass> passes, std::size_t packets_at_a_time, const shared::RoundChoices& choices);
 
-  std::size_t elements = 0, kept_corners = 0, element_runs = 0, surfaces = 0, cells = 0, planes = 0, plane_cells = 0;
+  std::size_t elements = 0, corners = 0, element_runs = 0, surfaces = 0, cells = 0, planes = 0, plane_cells = 0;
   std::size_t columns = 0, faces = 0, small_words = 0, all_words = 0;
   std::size_t places = 0, packets = 0;  // at most
   std::size_t packets_at_a_time = 0;

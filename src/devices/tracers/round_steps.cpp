@@ -120,9 +120,9 @@ void RoundSteps::give_scene(Submission& submission, const IndirectScene& scene) 
   upload(submission, 0, RoundBuffer::elements, std::span<const shared::RoundElement>(round_elements(scene)));
   const ElementCorners& corners = scene.model.canopy.corners;
   std::size_t offset = 0;
-  for (const std::span<const Triangle> kept : kept_corners(corners)) {
-    submission.upload(buffer(RoundBuffer::corners), std::as_bytes(kept), offset);
-    offset += kept.size_bytes();
+  for (const std::span<const Triangle> array : corner_arrays(corners)) {
+    submission.upload(buffer(RoundBuffer::corners), std::as_bytes(array), offset);
+    offset += array.size_bytes();
   }
   if (scene.receivers != nullptr) upload(submission, 0, RoundBuffer::planes, scene.receivers->planes());
   upload(submission, 0, RoundBuffer::runs, std::span<const shared::ElementRun>(element_runs(corners)));

@@ -1,5 +1,6 @@
 #include "devices/tracers/vulkan_rounds.h"
 
+#include "base/check.h"
 #include "devices/gpu/submission.h"
 #include "devices/tracers/vulkan_packets.h"
 
@@ -77,6 +78,12 @@ std::uint32_t VulkanRounds::rounds_at_once(std::size_t lanes) const {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(rounds_at_once_, most));
 }
 
+bool VulkanRounds::lacks_room(const RoundsPass& pass, const shared::RoundState& state) const {
+  if (state.most_drawn <= steps_.sizes().packets) return false;
+  ENSURE(pass.order->block.stand.radius, >, 0.0F);
+  return true;
+}
+
 void VulkanRounds::give(Submission& submission, std::span<const RoundsPass> passes) {
   steps_.give(submission, passes);
   submission.upload(scene_, std::as_bytes(std::span(&passes.front().order->scene.block, 1)));
@@ -105,7 +112,7 @@ std::optional<TraceOutcome> VulkanRounds::make_together(std::span<const RoundsPa
     steps_.fetch(submission, states);
     submission.finish();
     for (std::size_t lane = 0; lane < passes.size(); ++lane) {
-      if (lacks_room(states[lane])) return std::nullopt;
+      if (lacks_room(passes[lane], states[lane])) return std::nullopt;
       if (states[lane].has_to_wait == 0) continue;
       const shared::PacketBlock& scene = passes[lane].order->scene.block;
       if (finish_round(scene, lane, states[lane].packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
@@ -161,7 +168,7 @@ std::optional<TraceOutcome> VulkanRounds::make_in_parts(const RoundsPass& pass, 
   give(first, std::span(&pass, 1));
   shared::RoundState state = draw(first);
   while (state.done == 0) {
-    if (lacks_room(state)) return std::nullopt;
+    if (lacks_room(pass, state)) return std::nullopt;
     if (send(pass.order->scene.block, state.packets, stop) == TraceOutcome::stopped) return TraceOutcome::stopped;
     if (stop && stop()) return TraceOutcome::stopped;
     Submission next(context_);

@@ -45,9 +45,9 @@ class VulkanRounds {
 
   // Makes room for some of the passes, and returns how many are to be made together; 0 if none has room.
   [[nodiscard]] std::size_t make_room(std::span<const RoundsPass> passes);
-  // Returns whether a round has drawn more packets than there is room for, as may happen where packets are aimed at a stand: the
-  // flux of places that keep all of their expected packets may grow from round to round.
-  [[nodiscard]] bool lacks_room(const shared::RoundState& state) const { return state.most_drawn > steps_.sizes().packets; }
+  // Returns whether a round has drawn more packets than there is room for. That may happen where packets are aimed at a stand, since
+  // the flux of places that keep all of their expected packets may grow from round to round.
+  [[nodiscard]] bool lacks_room(const RoundsPass& pass, const shared::RoundState& state) const;
   // Returns how many rounds of as many lanes a submission may hold.
   [[nodiscard]] std::uint32_t rounds_at_once(std::size_t lanes) const;
 

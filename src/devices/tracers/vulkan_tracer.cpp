@@ -154,7 +154,8 @@ TraceOutcome VulkanTracer::trace(const shared::PacketBlock& scene, std::span<con
 std::optional<TraceOutcome> VulkanTracer::make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) {
   if (!create_rounds()) return std::nullopt;
   const std::optional<TraceOutcome> outcome = rounds_->make(passes, stop);
-  if (!outcome && passes.size() == 1) refuses_passes_ = true;
+  const bool may_keep_landings = passes.front().order->landings != nullptr;
+  if (!outcome && passes.size() == 1 && may_keep_landings) refuses_passes_ = true;
   return outcome;
 }
 

@@ -58,14 +58,15 @@ std::optional<glm::dvec3> first_outside(const Sensor& sensor, const Plot& plot) 
   return *found;
 }
 
-// A sensor below the soil plane counts as on it.
+// A point below the soil plane counts as on it. The lowest point of a line is one of its ends.
 void warn_of_buried_sensor(const TomlTable& table, const Sensor& sensor, const Plot& plot, std::vector<std::string>& warnings) {
-  const auto lower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
-  const auto lowest = std::min_element(sensor.points_m.begin(), sensor.points_m.end(), lower);
-  if (lowest == sensor.points_m.end() || lowest->y >= 0.0) return;
+  if (sensor.points_m.empty()) return;
+  const bool is_end = sensor.points_m.back().y < sensor.points_m.front().y;
+  const double y_m = (is_end ? sensor.points_m.back() : sensor.points_m.front()).y;
+  if (y_m >= 0.0) return;
   warnings.push_back(
-      fmt::format("{}: {} = {:.6g} m lies below the ground, so the sensor reads the light on the ground; give 0 or more",
-                  table.place("from"), axis_letter(plot.axes, up_axis(plot.axes)), lowest->y));
+      fmt::format("{}: {} = {:.6g} m lies below the ground, where a sensor reads the light on the ground; give 0 or more",
+                  table.place(is_end ? "to" : "from"), axis_letter(plot.axes, up_axis(plot.axes)), y_m));
 }
 
 void warn_of_sensors(const TomlTable& root, const RadiationModel& model, std::vector<std::string>& warnings) {

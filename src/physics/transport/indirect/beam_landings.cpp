@@ -37,8 +37,8 @@ bool fell_through_plot(const shared::BeamBlock& beam, const shared::Packet& ray)
 
 using TakeLanding = std::function<void(const shared::Packet& ray, const shared::Landing& landing)>;
 
-// Counts which receivers some rays pass. Several threads may count into the same sums: neighbouring rays often pass the same cell,
-// so that each thread adds up those that follow each other first.
+// Counts which receivers some rays pass. Several threads may count into the same sums. Neighbouring rays often pass the same cell, so
+// that a thread first adds up those that follow each other; otherwise threads would compete for one counter.
 class CrossingCounter {
  public:
   // All arguments must outlive the object, which adds the last rays when it is destroyed.

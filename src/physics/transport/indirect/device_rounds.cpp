@@ -1,5 +1,6 @@
 #include "physics/transport/indirect/device_rounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -14,9 +15,14 @@ std::uint32_t role_number(Role role) {
 }  // namespace
 
 std::uint64_t RoundsOrder::most_packets() const {
-  const unsigned aim_bits = block.stand.radius > 0.0F ? shared::least_aim_bits : 0;
-  const std::uint64_t for_columns = ((shared::least_of_column >> 32U) * columns.size()) << aim_bits;
-  return static_cast<std::uint64_t>(std::ceil(packets)) + for_columns + shared::least_packets + 1;
+  const auto first = static_cast<std::uint64_t>(std::ceil(packets));
+  std::uint64_t for_columns = (shared::least_of_column >> 32U) * columns.size();
+  if (block.stand.radius >
+      0.0F) {  // up to 2^least_aim_bits packets are drawn for each one expected, but hardly ever for many columns
+    constexpr std::uint64_t enough = 1U << 16U;
+    for_columns = std::min(for_columns << shared::least_aim_bits, std::max(first, enough));
+  }
+  return first + for_columns + shared::least_packets + 1;
 }
 
 std::span<const std::uint64_t> RoundsSums::at_places(const shared::PassBlock& block, const shared::PlaneStack& stack,
@@ -93,7 +99,7 @@ std::vector<shared::ElementRun> element_runs(const ElementCorners& corners) {
   return runs;
 }
 
-std::vector<std::span<const Triangle>> kept_corners(const ElementCorners& corners) {
+std::vector<std::span<const Triangle>> corner_arrays(const ElementCorners& corners) {
   std::vector<std::span<const Triangle>> kept{corners.own()};
   for (const SharedMesh& mesh : corners.meshes()) kept.emplace_back(mesh.corners);
   return kept;

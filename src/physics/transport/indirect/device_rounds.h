@@ -21,14 +21,14 @@ struct RoundsOrder {
   std::shared_ptr<const KeptLandings>
       landings;                      // kept by the tracer; packets also start from block.sampled of them; null: none
   shared::PassBlock block;           // `choices` are the device's own
-  double packets = 0.0;              // of the first round, approximately; no round has many more
+  double packets = 0.0;              // of the first round, approximately; no round has many more unless packets are aimed
   std::vector<std::uint64_t> faces;  // coefficients: what each reflects, then what each scatters, [face * columns + column]
   std::vector<shared::RoundColumn> columns;  // [column]
   std::vector<std::uint64_t>
       totals;  // the small sums (shared/rounds.h), then what moved, [place of the stacks * columns + column]
 
-  // Returns the largest number of packets in a round: each column may need a least number of its own, each of them many times where
-  // aiming has taken packets from the first round.
+  // Returns for how many packets a round has room: each column may need a least number of its own. Only where packets are aimed may a
+  // round draw more.
   [[nodiscard]] std::uint64_t most_packets() const;
   // Returns the number of places, those of landings that met nothing included.
   [[nodiscard]] std::size_t first_places() const { return places.size() + block.sampled.count; }
@@ -57,10 +57,9 @@ struct RoundsSums {
 // Returns what a device must know of the elements besides their corners. [element]
 [[nodiscard]] std::vector<shared::RoundElement> round_elements(const IndirectScene& scene);
 
-// Returns where the corners of elements are among the arrays of kept_corners(), one after the other; nothing without copies of
-// meshes.
+// Returns where the corners of elements are in the arrays of corner_arrays(), one after the other; nothing without copies of meshes.
 [[nodiscard]] std::vector<shared::ElementRun> element_runs(const ElementCorners& corners);
 // Returns the corners that elements have of their own, then those of each mesh.
-[[nodiscard]] std::vector<std::span<const Triangle>> kept_corners(const ElementCorners& corners);
+[[nodiscard]] std::vector<std::span<const Triangle>> corner_arrays(const ElementCorners& corners);
 
 }  // namespace sunfleck

@@ -173,9 +173,18 @@ std::size_t ReplicateMaker::most_at_once() const {
 
 double ReplicateMaker::sum_bytes() const {
   const auto lights = static_cast<double>(lights_.size());
-  double bytes = lights * static_cast<double>(layout_.words()) * sizeof(std::uint32_t);
+  double bytes = lights * static_cast<double>(layout_.words()) * sizeof(std::uint32_t) + plane_bytes();
   if (!indirect_) return bytes;
   return bytes + most_place_bytes().all() + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
+}
+
+// Returns the memory for what passes the receivers: PlaneSums of each light for the beam and for packets, which are dealt to several
+// lights from joint ones.
+double ReplicateMaker::plane_bytes() const {
+  if (!receivers_) return 0.0;
+  const double of_packets = !indirect_ ? 0.0 : lights_.size() == 1 ? 1.0 : 2.0;
+  const double cell_bytes = 2.0 * sizeof(std::uint32_t) + static_cast<double>(model_.bands.size()) * sizeof(std::int64_t);
+  return static_cast<double>(receivers_->cells() * lights_.size()) * (1.0 + of_packets) * cell_bytes;
 }
 
 PlaceBytes ReplicateMaker::most_place_bytes() const {
@@ -197,14 +206,20 @@ double ReplicateMaker::device_sum_bytes() const {
   return places * columns * sizeof(std::int64_t) + static_cast<double>(model_.canopy.size()) * sizeof(std::uint32_t);
 }
 
-// Several lights take a few landings of each. A ray that is recorded takes a small part of the time of one that is traced again;
-// where there are receivers, all would have to be traced one by one.
+// A ray that is recorded takes a small part of the time of one that is traced again. Where there are receivers, all would have to be
+// traced one by one.
+double ReplicateMaker::most_recorded(double landings) const {
+  constexpr double rays_per_landing = 2.0;
+  constexpr double through_receivers_per_landing = 16.0;
+  constexpr double least_through_receivers = 1U << 20U;
+  if (receivers_) return std::max(least_through_receivers, through_receivers_per_landing * landings);
+  return indirect_ && lights_.size() == 1 ? rays_per_landing * landings : 0.0;  // several lights take a few landings of each
+}
+
 double ReplicateMaker::record_bytes(double beam_rays, double landings) const {
-  constexpr double most_rays_per_landing = 2.0;
-  constexpr double most_through_receivers = 1U << 22U;
-  if (receivers_) return beam_rays > most_through_receivers ? 0.0 : beam_rays * sizeof(shared::Landing);
-  if (!indirect_ || lights_.size() > 1 || beam_rays > most_rays_per_landing * landings) return 0.0;
-  return beam_rays * sizeof(shared::Landing);
+  const double most = most_recorded(landings);
+  const double recorded = receivers_ ? std::min(beam_rays, most) : beam_rays <= most ? beam_rays : 0.0;
+  return recorded * sizeof(shared::Landing);
 }
 
 bool ReplicateMaker::keeps_landings(const ReplicateOrder& order) const {
@@ -216,7 +231,7 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
                                         std::vector<shared::Landing>& recorded, const StopQuestion& stop) {
   const shared::BeamBlock& block = first.beam.front().block;
   const std::uint64_t rays = first.beam.front().rays();
-  const bool records = record_bytes(static_cast<double>(rays), std::min(order.packets, order.sampled_rays)) > 0.0;
+  const bool records = static_cast<double>(rays) <= most_recorded(std::min(order.packets, order.sampled_rays));
   if (receivers_) {
     const TraceOutcome outcome = count_beam_landings(model_, layout_, *receivers_, tracer_, block, records, replicate.counters,
                                                      recorded, replicate.passed, stop);

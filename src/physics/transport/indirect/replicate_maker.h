@@ -62,8 +62,8 @@ class ReplicateMaker {
   // Returns the memory for what a GPU that makes the rounds finds, in bytes, with hits.
   [[nodiscard]] double device_sum_bytes() const;
 
-  // Returns the memory for where beam rays landed, in bytes. It is kept if packets start from at least half of the rays, or if not
-  // too many pass receivers.
+  // Returns the memory for where the rays of a beam landed, in bytes, if packets start from so many landings. It is kept if these are
+  // at least half of the rays, or if not too many rays pass receivers; then as much as a beam of fewer rays may take is counted.
   [[nodiscard]] double record_bytes(double beam_rays, double landings) const;
 
   // Makes a replicate of the conversions' incidence, [light]; returns nothing if stopped. Several threads may call this at the
@@ -120,6 +120,9 @@ class ReplicateMaker {
     std::vector<WaitingPass*> waiting_;
   };
 
+  // Returns how many rays a beam may have at most whose landings are recorded.
+  [[nodiscard]] double most_recorded(double landings) const;
+  [[nodiscard]] double plane_bytes() const;
   // Returns whether the rounds may start from landings that the tracer keeps: those of one light in one part, without receivers.
   [[nodiscard]] bool keeps_landings(const ReplicateOrder& order) const;
   // Traces the beam of first.beam, and has its landings kept by the tracer, or records them in `recorded` if record_bytes says

@@ -2,8 +2,6 @@
 
 #include "physics/transport/model/surfaces.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -42,10 +42,11 @@ struct ShadeGroupSums {
   ShadeSums organs, layers, leaves;  // layers: their leaves; the last has one group
 };
 
-// Returns the sums of a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share: the
-// beam's landings on it and the packets that land there are independent, so the product has no bias if both are even over the
-// triangle. `landed` is what landed on each side in all replicates added before; the landings of this one are added to it. Rows
-// of wide sums are added as soon as the shade sums have read them, while they are in the processor's caches.
+// Returns the sums of a replicate. What a triangle absorbs of light other than the beam is divided by its sunlit share, and what its
+// part in a layer absorbs by that part's: the beam's landings and the packets that land are independent, so the product has no bias
+// if the other light is even over the triangle. `landed` is what landed on each side in all replicates added before; the landings of
+// this one are added to it. Rows of wide sums are added as soon as the shade sums have read them, while they are in the processor's
+// caches.
 [[nodiscard]] ShadeGroupSums sum_shade_and_add(const Conversion& conversion, const Replicate& replicate, bool all_groups,
                                                PlaceSums& landed);
 

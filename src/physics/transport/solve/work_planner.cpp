@@ -221,7 +221,7 @@ double WorkPlanner::sampled_rays(const Work& work) const {
   return std::min(work.packets, std::max(least_sampled_rays, sampled_rays_per_packet_for_organs * work.packets));
 }
 
-// Without an indirect pass the host has almost nothing to do meanwhile, and saving memory is better.
+// Without an indirect pass the host has little to do meanwhile, and saving memory is better.
 std::size_t WorkPlanner::at_once(const Work& work) const {
   if (settings_.max_rays || !maker_.has_indirect_pass()) return 1;
   const auto asked = static_cast<std::size_t>(std::max(1, settings_.replicates_at_once));
@@ -232,11 +232,14 @@ std::size_t WorkPlanner::at_once(const Work& work) const {
 }
 
 double WorkPlanner::replicate_bytes(const Work& work) const {
+  if (!maker_.has_indirect_pass()) return maker_.sum_bytes() + record_bytes(work);
+  return maker_.sum_bytes() - maker_.most_place_bytes().all() + place_bytes(work).all() + memory_.bytes(ray_counts(work)) +
+         record_bytes(work) + maker_.device_sum_bytes();
+}
+
+double WorkPlanner::record_bytes(const Work& work) const {
   const RayCounts counts = ray_counts(work);
-  const double recorded = maker_.record_bytes(has_beam_ ? work.rays : 0.0, std::min(counts.packets, counts.beam_rays));
-  if (!maker_.has_indirect_pass()) return maker_.sum_bytes() + recorded;
-  return maker_.sum_bytes() - maker_.most_place_bytes().all() + place_bytes(work).all() + memory_.bytes(counts) + recorded +
-         maker_.device_sum_bytes();
+  return maker_.record_bytes(has_beam_ ? work.rays : 0.0, std::min(counts.packets, counts.beam_rays));
 }
 
 PlaceBytes WorkPlanner::place_bytes(const Work& work) const {
@@ -257,7 +260,8 @@ double WorkPlanner::most_packets(Work work) const {
   double exceeds = most_first_packets;
   while (exceeds - fits > 1.0) {
     work.packets = std::floor(0.5 * (fits + exceeds));
-    (memory_.bytes(ray_counts(work)) <= most_bytes ? fits : exceeds) = work.packets;
+    const double recorded = model_.planes.empty() ? 0.0 : record_bytes(work);  // elsewhere little for each packet
+    (memory_.bytes(ray_counts(work)) + recorded <= most_bytes ? fits : exceeds) = work.packets;
   }
   return fits;
 }

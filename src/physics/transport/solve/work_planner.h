@@ -78,8 +78,9 @@ class WorkPlanner {
   [[nodiscard]] std::size_t at_once(const Work& work) const;
   // Returns the memory of a replicate while it is made, in bytes.
   [[nodiscard]] double replicate_bytes(const Work& work) const;
-  // Returns the part of it that its sums by place take.
+  // Return the parts of it that its sums by place take, and where its beam rays landed.
   [[nodiscard]] PlaceBytes place_bytes(const Work& work) const;
+  [[nodiscard]] double record_bytes(const Work& work) const;
   // Records the memory that a replicate took.
   void learn(const Work& work, const IndirectSums& packets) { memory_.learn(ray_counts(work), packets); }
 

@@ -134,9 +134,9 @@ class Simulation:
         grid (m), passes: fixed work instead of a bound. max_seconds, max_rays: limits; a result that they cut short has
             `complete` False. Eight small replicates at least are made before max_rays stops them.
         memory: bytes for replicates in progress, by default a quarter of the free memory.
-        triangle_errors: whether the light of single triangles is estimated with the help of their neighbours, and its errors. False saves
-            time and memory where only organs, layers and totals matter: values of triangles are then what landed on each, which
-            is several times noisier. Sums over organs are the same.
+        triangle_errors: whether the light of single triangles is estimated with the help of their neighbours, with its errors.
+            False saves time and memory where only organs, layers and totals matter: values of triangles are then what landed on
+            each, which is several times noisier. Sums over organs are the same.
         progress: True shows a bar, that of tqdm if it is installed, else a line on stderr. A function is called about ten
             times a second with {"stage", "rays", "fraction", "seconds_left", "pass", "relative_error", "bound"}. An exception
             from it ends the simulation and is raised here, as is KeyboardInterrupt after Ctrl-C.

@@ -124,6 +124,7 @@ TEST_F(LightPlausibility, ReceiversBelongToTheStand) {
   const std::string on_soil = lit + "[soil]\nreflectance = 0.1\n";
   expect_silent(on_soil + replaced(inside, "1.5, 0.5", "1.5, 0"));
   expect_warned(on_soil + replaced(inside, "1.5, 0.5", "1.5, -0.5"), "sensor.from", "Y = -0.5 m lies below the ground");
+  expect_warned(on_soil + inside + "to = [1.5, -0.25, 1]\npoints = 3\n", "sensor.to", "Y = -0.25 m lies below the ground");
   expect_silent(lit + replaced(inside, "1.5, 0.5", "1.5, -0.5"));
   const std::string repeated = replaced(lit, "periodic = false", "periodic = true");
   expect_silent(repeated + sensor);
