@@ -199,16 +199,13 @@ TEST(Receivers, RaysCountedOneByOneFillTheSameCounters) {
       const Surfaces surfaces(model);
       const PlaneReceivers planes(model, prepared.layout, surfaces);
       PlaneSums sums(planes, model), recorded_sums(planes, model);
-      std::vector<shared::Landing> recorded;
-      const auto count = [&](bool records, std::vector<std::uint32_t>& counters, PlaneSums& into) {
-        return count_beam_landings(model, prepared.layout, planes, tracer, beam, records, counters, recorded, into, {});
-      };
-      ASSERT_EQ(count(false, one_by_one, sums), TraceOutcome::finished);
-      EXPECT_TRUE(recorded.empty());
+      ASSERT_EQ(count_beam_landings(model, prepared.layout, planes, tracer, beam, one_by_one, sums, {}),
+                TraceOutcome::finished);
       EXPECT_EQ(at_once, one_by_one) << periodic << has_soil;
       std::vector<std::uint32_t> in_bundles(at_once.size());
-      ASSERT_EQ(count(true, in_bundles, recorded_sums), TraceOutcome::finished);
-      EXPECT_EQ(recorded.size(), std::size_t{beam.columns} * beam.rows);
+      std::vector<shared::Landing> recorded(std::size_t{beam.columns} * beam.rows);
+      ASSERT_EQ(tracer.record_beam(beam, in_bundles, recorded, {}), TraceOutcome::finished);
+      add_crossings(model, planes, beam, recorded, recorded_sums);
       EXPECT_EQ(at_once, in_bundles);
       EXPECT_EQ(sums.crossing, recorded_sums.crossing);
       EXPECT_EQ(sums.reached, recorded_sums.reached);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
-#include <optional>
 #include <utility>
 
 namespace sunfleck {
@@ -97,22 +96,6 @@ class CrossingCounter {
   std::vector<BeamLandings> zone_landings_;  // as in PlaneSums
 };
 
-// Adds the crossings of all rays of a beam. The threads of the run share them.
-void add_crossings(const RadiationModel& model, const PlaneReceivers& planes, const shared::BeamBlock& beam,
-                   std::span<const shared::Landing> landings, PlaneSums& sums) {
-  constexpr std::size_t block_size = 1U << 14U;
-  in_blocks(landings.size(), block_size, [&](std::size_t, std::size_t first, std::size_t end) {
-    CrossingCounter counter(model, planes, sums);
-    for (std::size_t ray = first; ray < end; ++ray) {
-      if (ray + prefetch_ahead < end && landings[ray + prefetch_ahead].surface < shared::landed_on_ground) {
-        model.canopy.corners.prefetch(landings[ray + prefetch_ahead].surface / 2);
-      }
-      if (landings[ray].surface == shared::lost_on_its_way) continue;
-      counter.add(beam_packet(beam, static_cast<std::uint32_t>(ray)), landings[ray]);
-    }
-  });
-}
-
 // Traces all rays of a part, counts them, and hands those over that were not lost.
 TraceOutcome trace_part(const RadiationModel& model, const CounterLayout& layout, Tracer& tracer, const BeamPart& part,
                         std::span<std::uint32_t> counters, const StopQuestion& stop, const TakeLanding& take) {
@@ -153,19 +136,26 @@ TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayou
 }
 
 TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout, const PlaneReceivers& planes,
-                                 Tracer& tracer, const shared::BeamBlock& beam, bool records, std::span<std::uint32_t> counters,
-                                 std::vector<shared::Landing>& recorded, PlaneSums& sums, const StopQuestion& stop) {
-  recorded.resize(records ? std::size_t{beam.columns} * beam.rows : 0);
-  if (records) {
-    if (const std::optional<TraceOutcome> outcome = tracer.record_beam(beam, counters, recorded, stop)) {
-      if (outcome == TraceOutcome::finished) add_crossings(model, planes, beam, recorded, sums);
-      return *outcome;
-    }
-    recorded.clear();
-  }
+                                 Tracer& tracer, const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                 PlaneSums& sums, const StopQuestion& stop) {
   CrossingCounter counter(model, planes, sums);
   return trace_part(model, layout, tracer, {beam, 1}, counters, stop,
                     [&](const shared::Packet& ray, const shared::Landing& landing) { counter.add(ray, landing); });
+}
+
+void add_crossings(const RadiationModel& model, const PlaneReceivers& planes, const shared::BeamBlock& beam,
+                   std::span<const shared::Landing> landings, PlaneSums& sums) {
+  constexpr std::size_t block_size = 1U << 14U;
+  in_blocks(landings.size(), block_size, [&](std::size_t, std::size_t first, std::size_t end) {
+    CrossingCounter counter(model, planes, sums);
+    for (std::size_t ray = first; ray < end; ++ray) {
+      if (ray + prefetch_ahead < end && landings[ray + prefetch_ahead].surface < shared::landed_on_ground) {
+        model.canopy.corners.prefetch(landings[ray + prefetch_ahead].surface / 2);
+      }
+      if (landings[ray].surface == shared::lost_on_its_way) continue;
+      counter.add(beam_packet(beam, static_cast<std::uint32_t>(ray)), landings[ray]);
+    }
+  });
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,6 @@
 #pragma once
-// The direct pass of scenes whose receivers need to know where each ray passed, and of rays of other weights, which are traced one
-// by one. That is slower than Tracer::count_beam and gives the same counts.
+// The direct pass ray by ray, for scenes whose receivers need to know where each ray passed, and for rays of other weights. It is
+// slower than Tracer::count_beam and gives the same counts. Where rays are recorded, their crossings are counted afterwards.
 
 #include "physics/transport/model/beam_block.h"
 #include "physics/transport/model/counters.h"
@@ -20,12 +20,13 @@ namespace sunfleck {
                                                const BeamPart& part, std::span<std::uint32_t> counters,
                                                const StopQuestion& stop);
 
-// Does what Tracer::count_beam does, and adds the crossings of the receivers to `sums`. Where each ray landed is recorded in
-// `recorded` if the tracer can do that, and `records` says that there is memory; else nothing is left there.
+// Does the same, and adds the crossings of the receivers to `sums`; the part must have weight 1.
 [[nodiscard]] TraceOutcome count_beam_landings(const RadiationModel& model, const CounterLayout& layout,
                                                const PlaneReceivers& planes, Tracer& tracer, const shared::BeamBlock& beam,
-                                               bool records, std::span<std::uint32_t> counters,
-                                               std::vector<shared::Landing>& recorded, PlaneSums& sums,
-                                               const StopQuestion& stop);
+                                               std::span<std::uint32_t> counters, PlaneSums& sums, const StopQuestion& stop);
+
+// Adds the crossings of all rays of a beam that landed there (Tracer::record_beam), [ray]. The threads of the run share them.
+void add_crossings(const RadiationModel& model, const PlaneReceivers& planes, const shared::BeamBlock& beam,
+                   std::span<const shared::Landing> landings, PlaneSums& sums);
 
 }  // namespace sunfleck

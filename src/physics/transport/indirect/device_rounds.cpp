@@ -17,8 +17,8 @@ std::uint32_t role_number(Role role) {
 std::uint64_t RoundsOrder::most_packets() const {
   const auto first = static_cast<std::uint64_t>(std::ceil(packets));
   std::uint64_t for_columns = (shared::least_of_column >> 32U) * columns.size();
-  if (block.stand.radius >
-      0.0F) {  // up to 2^least_aim_bits packets are drawn for each one expected, but hardly ever for many columns
+  // Aimed rounds draw up to 2^least_aim_bits packets for each one expected, but hardly ever for many columns.
+  if (block.stand.radius > 0.0F) {
     constexpr std::uint64_t enough = 1U << 16U;
     for_columns = std::min(for_columns << shared::least_aim_bits, std::max(first, enough));
   }
@@ -82,10 +82,10 @@ std::vector<shared::RoundElement> round_elements(const IndirectScene& scene) {
 
 std::vector<shared::ElementRun> element_runs(const ElementCorners& corners) {
   std::vector<std::uint32_t> first_of_mesh;
-  std::size_t kept = corners.own().size();
+  std::size_t before = corners.own().size();
   for (const SharedMesh& mesh : corners.meshes()) {
-    first_of_mesh.push_back(static_cast<std::uint32_t>(kept));
-    kept += mesh.corners.size();
+    first_of_mesh.push_back(static_cast<std::uint32_t>(before));
+    before += mesh.corners.size();
   }
   std::vector<shared::ElementRun> runs;
   for (const ElementCorners::Run& run : corners.runs()) {
@@ -100,9 +100,9 @@ std::vector<shared::ElementRun> element_runs(const ElementCorners& corners) {
 }
 
 std::vector<std::span<const Triangle>> corner_arrays(const ElementCorners& corners) {
-  std::vector<std::span<const Triangle>> kept{corners.own()};
-  for (const SharedMesh& mesh : corners.meshes()) kept.emplace_back(mesh.corners);
-  return kept;
+  std::vector<std::span<const Triangle>> arrays{corners.own()};
+  for (const SharedMesh& mesh : corners.meshes()) arrays.emplace_back(mesh.corners);
+  return arrays;
 }
 
 }  // namespace sunfleck

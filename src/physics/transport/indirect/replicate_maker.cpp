@@ -232,12 +232,6 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
   const shared::BeamBlock& block = first.beam.front().block;
   const std::uint64_t rays = first.beam.front().rays();
   const bool records = static_cast<double>(rays) <= most_recorded(std::min(order.packets, order.sampled_rays));
-  if (receivers_) {
-    const TraceOutcome outcome = count_beam_landings(model_, layout_, *receivers_, tracer_, block, records, replicate.counters,
-                                                     recorded, replicate.passed, stop);
-    if (lights_.size() == 1) first.recorded = recorded;
-    return outcome;
-  }
   const bool alone = first.beam.size() == 1;  // rays of other parts have other weights
   if (keeps_landings(order)) {
     if (const std::optional<KeptBeam> kept = tracer_.keep_beam(block, replicate.counters, stop)) {
@@ -248,8 +242,12 @@ TraceOutcome ReplicateMaker::count_beam(const ReplicateOrder& order, Replicate& 
   if (alone && records) {
     recorded.resize(rays);
     const std::optional<TraceOutcome> outcome = tracer_.record_beam(block, replicate.counters, recorded, stop);
-    if (outcome) first.recorded = recorded;
+    if (outcome == TraceOutcome::finished && receivers_) add_crossings(model_, *receivers_, block, recorded, replicate.passed);
+    if (outcome && lights_.size() == 1) first.recorded = recorded;
     if (outcome) return *outcome;
+  }
+  if (receivers_) {
+    return count_beam_landings(model_, layout_, *receivers_, tracer_, block, replicate.counters, replicate.passed, stop);
   }
   TraceOutcome outcome = tracer_.count_beam(block, replicate.counters, stop);
   for (const BeamPart& part : std::span(first.beam).subspan(1)) {

@@ -62,8 +62,9 @@ class ReplicateMaker {
   // Returns the memory for what a GPU that makes the rounds finds, in bytes, with hits.
   [[nodiscard]] double device_sum_bytes() const;
 
-  // Returns the memory for where the rays of a beam landed, in bytes, if packets start from so many landings. It is kept if these are
-  // at least half of the rays, or if not too many rays pass receivers; then as much as a beam of fewer rays may take is counted.
+  // Returns the memory for where the rays of a beam landed, in bytes, if packets start from this many landings. Rays are recorded if
+  // the landings are at least half of them, or if they pass receivers and are not too many. With receivers, the most that a beam of
+  // fewer rays may take is counted.
   [[nodiscard]] double record_bytes(double beam_rays, double landings) const;
 
   // Makes a replicate of the conversions' incidence, [light]; returns nothing if stopped. Several threads may call this at the
