@@ -51,10 +51,9 @@ constexpr double bytes_refining_element = 400.0;
 
 // Returns the memory of one set of sums over all cells of the receivers.
 double plane_bytes(const RadiationModel& model) {
-  double cells = 0.0;
-  for (const PlaneReceiver& plane : model.planes)
-    cells += static_cast<double>(plane.cells_x) * static_cast<double>(plane.cells_z);
-  return cells * static_cast<double>((2 + model.bands.size()) * sizeof(std::int64_t));
+  std::size_t cells = 0;
+  for (const PlaneReceiver& plane : model.planes) cells += plane.cells();
+  return static_cast<double>(cells * (2 + model.bands.size()) * sizeof(std::int64_t));
 }
 
 SumBytes sum_bytes(const RadiationModel& model, const CounterLayout& layout, ElementErrors element_errors,

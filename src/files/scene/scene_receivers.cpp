@@ -123,7 +123,7 @@ std::vector<PlaneReceiver> read_planes(const TomlTable& root, const Plot& plot) 
                    "give every plane a different height, in whole millimetres");
     }
     planes.push_back(plane);
-    cells += static_cast<double>(plane.cells_x) * plane.cells_z;
+    cells += static_cast<double>(plane.cells());
     if (cells > most_cells) {
       table.refuse(table.has("cells") ? "cells" : "height",
                    fmt::format("the planes have {:.3g} cells so far, but at most {:.3g} are allowed", cells, most_cells),

@@ -66,7 +66,7 @@ class PlaneWriter {
     }
     std::vector<float> maps;
     for (const PlaneReceiver& plane : of_.model.planes) {
-      const auto cells = static_cast<std::size_t>(plane.cells_x) * static_cast<std::size_t>(plane.cells_z);
+      const std::size_t cells = plane.cells();
       maps.insert(maps.end(), cells, std::numeric_limits<float>::quiet_NaN());
       maps.insert(maps.end(), 2 * of_.model.bands.size() * cells, 0.0F);
     }

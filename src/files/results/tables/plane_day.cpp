@@ -16,10 +16,6 @@ namespace {
 
 constexpr double seconds_per_hour = 3600.0;
 
-std::size_t cells_of(const PlaneReceiver& plane) {
-  return static_cast<std::size_t>(plane.cells_x) * static_cast<std::size_t>(plane.cells_z);
-}
-
 }  // namespace
 
 std::vector<float> plane_maps(const RadiationModel& model, const RadiationResult& result) {
@@ -42,7 +38,7 @@ std::vector<float> plane_maps(const RadiationModel& model, const RadiationResult
 }
 
 std::size_t plane_map_values(const RadiationModel& model, std::size_t plane) {
-  return cells_of(model.planes[plane]) * (1 + 2 * model.bands.size());
+  return model.planes[plane].cells() * (1 + 2 * model.bands.size());
 }
 
 std::size_t plane_map_values(const RadiationModel& model) {
@@ -53,7 +49,7 @@ std::size_t plane_map_values(const RadiationModel& model) {
 
 PlaneMapSums::PlaneMapSums(const RadiationModel& model) : plot_(model.plot), bands_(model.bands), planes_(model.planes) {
   for (const PlaneReceiver& plane : model.planes) {
-    const std::size_t cells = cells_of(plane);
+    const std::size_t cells = plane.cells();
     const std::vector<double> dark(model.bands.size() * cells);
     sums_.push_back({std::vector<Cell>(cells), dark, dark});
   }

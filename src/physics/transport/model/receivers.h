@@ -1,6 +1,7 @@
 #pragma once
 // Virtual instruments that a user adds to a scene. They do not stop any ray.
 
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@ struct PlaneReceiver {
   double height_m = 0.0;  // scene axes
   int cells_x = 1;        // along X, south
   int cells_z = 1;        // along Z, west
+
+  [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(cells_x) * static_cast<std::size_t>(cells_z); }
 };
 
 // Returns the name of a plane after its height in whole millimetres, e.g. "plane_0.500": the stem of its files.

@@ -40,11 +40,10 @@ PlaneReceivers::PlaneReceivers(const RadiationModel& model, const CounterLayout&
   const glm::dvec2 size_m = glm::dvec2(layout.plot_hi_m) - glm::dvec2(layout.plot_lo_m);
   plot_ = {layout.plot_lo_m, glm::vec2(1.0 / size_m), model.plot.periodic ? 1U : 0U};
   for (const PlaneReceiver& plane : model.planes) {
-    const auto cells_x = static_cast<std::uint32_t>(plane.cells_x);
-    const auto cells_z = static_cast<std::uint32_t>(plane.cells_z);
     planes_.push_back({static_cast<float>(y_m(planes_.size())), threshold(layout.layers, layout.box.ground_y_m, plane.height_m),
-                       static_cast<std::uint32_t>(cells_), cells_x, cells_z});
-    cells_ += std::size_t{cells_x} * cells_z;
+                       static_cast<std::uint32_t>(cells_), static_cast<std::uint32_t>(plane.cells_x),
+                       static_cast<std::uint32_t>(plane.cells_z)});
+    cells_ += plane.cells();
   }
 }
 
