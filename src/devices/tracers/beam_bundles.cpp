@@ -25,12 +25,6 @@ using Starts = std::vector<Start>;
 // Bundles of neighbours with gaps between them are wider; limits of 8 to 20 cells take equally long.
 constexpr float widest_cells = 12.0F;
 
-// Returns the square of the distance between two parallel rays, of which one starts at `apart` from the other.
-float distance_squared(const glm::vec3& apart, const glm::vec3& direction) {
-  const glm::vec3 across = glm::cross(apart, direction);
-  return glm::dot(across, across);
-}
-
 float widest_squared(const shared::BeamBlock& beam) {
   const float cell = std::max(distance_squared(beam.edge_u * beam.per_column, beam.direction),
                               distance_squared(beam.edge_v * beam.per_row, beam.direction));

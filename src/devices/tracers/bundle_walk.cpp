@@ -113,7 +113,7 @@ HWY_INLINE void walk(const Bvh& bvh, std::uint32_t root, const RayBundle& bundle
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(within));
         shared::Ray ray = bundle.along;
         ray.origin = bundle.origins[lane];
-        meet(bvh, triangle, ray, bundle.limits[lane], {}, add, hits[lane]);
+        meet(bvh, triangle, ray, bundle.limits[lane], bundle.own[lane], add, hits[lane]);
       }
       limit = furthest(hits);
     });

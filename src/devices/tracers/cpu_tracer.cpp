@@ -1,6 +1,7 @@
 #include "devices/tracers/cpu_tracer.h"
 
 #include "devices/tracers/beam_bundles.h"
+#include "devices/tracers/packet_bundles.h"
 #include "devices/tracers/packet_way.h"
 #include "devices/tracers/side_by_side.h"
 #include "shared/beam.h"
@@ -54,7 +55,12 @@ class PacketSearches final : public SearchSource {
 }  // namespace
 
 CpuTracer::CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk)
-    : bvh_(bvh), domain_(domain), walk_(walk), beam_budget_(rays_per_slice, 0.0), packet_budget_(packets_per_slice, 0.0) {}
+    : bvh_(bvh),
+      domain_(domain),
+      walk_(walk),
+      triangle_size_squared_(triangle_size_squared(bvh)),
+      beam_budget_(rays_per_slice, 0.0),
+      packet_budget_(packets_per_slice, 0.0) {}
 
 void CpuTracer::check_stop_every(double seconds) {
   beam_budget_.aim_at(seconds);
@@ -155,19 +161,26 @@ shared::Landing CpuTracer::finish_packet(const shared::PacketBlock& scene, share
   return follow_packet(scene, packet, paused.crossings);
 }
 
+void CpuTracer::trace_part(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                           std::span<shared::Landing> landings) const {
+  if (walk_ == CpuWalk::every_element) {
+    for (std::size_t k = 0; k < packets.size(); ++k) landings[k] = follow_packet(scene, packets[k], 0);
+  } else if (!trace_in_bundles(bvh_, scene, domain_, triangle_size_squared_, packets, landings)) {
+    PacketSearches searches(scene, domain_, packets, landings);
+    search_side_by_side(bvh_, searches);
+  }
+}
+
 TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                               std::span<shared::Landing> landings, const StopQuestion& stop) {
   for (std::size_t first = 0; first < packets.size();) {
     if (stop && stop()) return TraceOutcome::stopped;
     const DispatchClock clock;
     const std::size_t end = std::min(packets.size(), first + packet_budget_.rays());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, 256), [&](const auto& range) {
-      if (walk_ == CpuWalk::tree) {
-        PacketSearches searches(scene, domain_, packets.subspan(range.begin(), range.size()),
-                                landings.subspan(range.begin(), range.size()));
-        return search_side_by_side(bvh_, searches);
-      }
-      for (std::size_t k = range.begin(); k < range.end(); ++k) landings[k] = follow_packet(scene, packets[k], 0);
+    const std::size_t least =
+        have_one_direction(packets.subspan(first, std::min<std::size_t>(2, end - first))) ? rays_per_batch : 256;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, least), [&](const auto& range) {
+      trace_part(scene, packets.subspan(range.begin(), range.size()), landings.subspan(range.begin(), range.size()));
     });
     packet_budget_.record_duration(static_cast<std::uint32_t>(end - first), clock.seconds());
     first = end;

@@ -1,6 +1,6 @@
 #pragma once
-// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, beam rays in bundles and
-// packets side by side; or tests every element, ray by ray, when the tree itself is in doubt.
+// The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, beam rays and other
+// parallel rays in bundles and packets side by side; or tests every element, ray by ray, when the tree itself is in doubt.
 
 #include "devices/tracers/cpu_walk.h"
 #include "devices/tracers/dispatch_budget.h"
@@ -46,6 +46,8 @@ class CpuTracer final : public Tracer {
                   std::span<shared::Landing> landing) const;
 
  private:
+  void trace_part(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                  std::span<shared::Landing> landings) const;
   TraceOutcome count_landings(const shared::BeamBlock& beam, const LandingCounter& landings, const StopQuestion& stop);
   void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, const LandingCounter& landings) const;
   [[nodiscard]] CpuHit nearest(const shared::Ray& ray, float limit, OwnElement own = {}) const;
@@ -57,6 +59,7 @@ class CpuTracer final : public Tracer {
   const Bvh& bvh_;
   TraceDomain domain_;
   CpuWalk walk_;
+  float triangle_size_squared_;
   DispatchBudget beam_budget_, packet_budget_;  // rays between two checks whether to stop
 };
 

@@ -22,6 +22,9 @@ class PacketWay {
   // Takes the hit of the search; returns false if the packet has landed, else turns the search into that in the next period.
   [[nodiscard]] bool goes_on(const CpuHit& hit, Search& search);
 
+  // Returns whether the next border that the packet reaches is x = constant.
+  [[nodiscard]] bool crosses_along_x() const { return crossing_.along_x; }
+
   [[nodiscard]] const shared::Landing& landing() const { return landing_; }
 
  private:
