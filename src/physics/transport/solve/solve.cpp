@@ -83,7 +83,9 @@ class Solver {
   }
 
   std::optional<Work> choose_work() {
-    return planner_.choose([this](const Work& pilot) { return run_pilots(pilot); });
+    std::optional<Work> work = planner_.choose([this](const Work& pilot) { return run_pilots(pilot); });
+    if (work && !ray_needs_.empty()) ray_shares_ = planner_.spare_rays(ray_needs_, *work);
+    return work;
   }
 
   // Returns the work to begin with, and sets the lights' shares of its rays.
@@ -109,7 +111,8 @@ class Solver {
       rays.push_back(made.rays_of(k));
       outcomes.push_back({series_->replicates(), judge_.direct_error(*series_, k), 0.0});
     }
-    ray_shares_ = planner_.ray_shares(rays, outcomes, judge_.judged());
+    ray_needs_ = planner_.ray_needs(rays, outcomes, judge_.judged());
+    ray_shares_ = planner_.ray_shares(ray_needs_);
   }
 
   // Makes pilots, which become the fallback, even if stopped.
@@ -378,7 +381,7 @@ class Solver {
   const Monitor& monitor_;
   const WantedSums& wanted_sums_;
   TakeLight take_;
-  std::vector<double> ray_shares_;  // [light]; empty for a single one, and until pilots have shown them
+  std::vector<double> ray_needs_, ray_shares_;  // [light]; empty for a single one, and until pilots have shown them
   ReplicateMaker maker_;
   Judge judge_;
   WorkPlanner planner_;

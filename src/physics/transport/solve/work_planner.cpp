@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <limits>
+#include <numeric>
 
 namespace sunfleck {
 namespace {
@@ -25,10 +26,15 @@ struct Forecast {
 // that another series costs more than what a less certain forecast of the rays wastes. The slope of packets is known.
 constexpr Forecast ray_forecast{64, 20};
 constexpr Forecast packet_forecast{128, 64};
-// Lights of one simulation, and replicates that hold fewer packets than asked, get this multiple of the rays that their own
-// errors ask for: errors from pilots are uncertain, and a beam that lags behind costs more replicates with all of their
+// Lights that need fewer rays than another one, and replicates that hold fewer packets than asked, get this multiple of the rays
+// that their own errors ask for: errors from pilots are uncertain, and a beam that lags behind costs more replicates with all of their
 // packets.
-constexpr double spare_rays = 1.5;
+constexpr double spare_of_rays = 1.5;
+// All lights of a simulation get up to this multiple, as far as they then have at most so many rays together for each packet, and
+// each light gets a least number of rays for each packet: a packet of six lights takes the time of twenty rays.
+constexpr double most_spare_of_rays = 2.0;
+constexpr double cheap_rays_per_packet = 4.0;
+constexpr double least_rays_per_packet = 0.25;
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
 // Half of a limit on rays or time is enough for this many replicates.
@@ -150,7 +156,7 @@ Work WorkPlanner::balanced(const Part& rays, const Part& packets) const {
   const bool held_back = !fixed() && packets.chosen > 0.0 && packets.chosen == most_packets(work);
   if (!held_back || !has_beam_) return work;
   const double fewer = std::pow(packets.wanted / packets.chosen, -packet_slope / ray_slope);
-  work.rays = std::max(first_pilot.rays, std::min(1.0, spare_rays * fewer) * work.rays);
+  work.rays = std::max(first_pilot.rays, std::min(1.0, spare_of_rays * fewer) * work.rays);
   if (for_organs()) work.rays = std::max(work.rays, std::min(rays.chosen, rays_per_packet_for_organs * work.packets));
   return work;
 }
@@ -181,8 +187,8 @@ Work WorkPlanner::begin_with(Work earlier) const {
   return earlier;
 }
 
-std::vector<double> WorkPlanner::ray_shares(std::span<const double> rays, std::span<const SeriesOutcome> lights,
-                                            const std::vector<bool>& judged) const {
+std::vector<double> WorkPlanner::ray_needs(std::span<const double> rays, std::span<const SeriesOutcome> lights,
+                                           const std::vector<bool>& judged) const {
   std::vector<double> needed;
   double most = 0.0;
   for (std::size_t k = 0; k < lights.size(); ++k) {
@@ -190,10 +196,26 @@ std::vector<double> WorkPlanner::ray_shares(std::span<const double> rays, std::s
     needed.push_back(std::isnan(growth) ? std::numeric_limits<double>::infinity() : growth * rays[k]);
     if (judged[k]) most = std::max(most, needed.back());
   }
+  const bool known = std::isfinite(most) && most > 0.0;
+  for (double& own : needed) own = known && std::isfinite(own) ? std::min(1.0, own / most) : 1.0;
+  return needed;
+}
+
+std::vector<double> WorkPlanner::ray_shares(std::span<const double> needs) const {
   std::vector<double> shares;
-  for (const double own : needed) {
-    shares.push_back(std::isfinite(own) && std::isfinite(most) && most > 0.0 ? std::min(1.0, spare_rays * own / most) : 1.0);
-  }
+  for (const double need : needs) shares.push_back(std::min(1.0, spare_of_rays * need));
+  return shares;
+}
+
+std::vector<double> WorkPlanner::spare_rays(std::span<const double> needs, Work& work) const {
+  std::vector<double> shares = ray_shares(needs);
+  const double rays = work.rays * std::accumulate(shares.begin(), shares.end(), 0.0);
+  if (fixed() || settings_.max_rays || fitted_to_time_ || shares.size() < 2 || !(rays > 0.0)) return shares;
+  const double spare = std::clamp(cheap_rays_per_packet * work.packets / rays, 1.0, most_spare_of_rays);
+  work.rays = std::min(spare * work.rays, static_cast<double>(max_grid_rays));
+  const double least = least_rays_per_packet * work.packets / work.rays;
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    shares[k] = std::min(1.0, std::max(needs[k] * std::max(1.0, spare_of_rays / spare), least));
   return shares;
 }
 

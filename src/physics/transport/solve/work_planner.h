@@ -62,11 +62,16 @@ class WorkPlanner {
   // lacked starts as small as in pilots.
   [[nodiscard]] Work begin_with(Work earlier) const;
 
-  // Returns the share of the rays that each light gets, [light], if lights with these rays had these errors: what its own error
-  // needs, and a half more, since errors are uncertain, compared with the light that needs most. Lights that are not judged do
-  // not count as such.
-  [[nodiscard]] std::vector<double> ray_shares(std::span<const double> rays, std::span<const SeriesOutcome> lights,
-                                               const std::vector<bool>& judged) const;
+  // Returns the part of the work's rays that each light needs, [light], if lights with these rays had these errors: 1 for the light
+  // that needs most. Lights that are not judged do not count as such, and need no more than it.
+  [[nodiscard]] std::vector<double> ray_needs(std::span<const double> rays, std::span<const SeriesOutcome> lights,
+                                              const std::vector<bool>& judged) const;
+
+  // Returns the shares of the rays that lights with these needs get in pilots, [light].
+  [[nodiscard]] std::vector<double> ray_shares(std::span<const double> needs) const;
+  // Returns their shares in the run. Adds rays to the work where they cost little beside the packets that all lights share: what
+  // pilots forecast of a beam is uncertain, and one that lags behind costs replicates with all of their packets.
+  [[nodiscard]] std::vector<double> spare_rays(std::span<const double> needs, Work& work) const;
 
   // Returns the work with which planned_replicates would just have reached the bounds, as far as this run shows.
   [[nodiscard]] Work next(const Work& work, const SeriesOutcome& run) const;

@@ -139,15 +139,41 @@ TEST_F(WorkPlannerTest, GivesEachLightTheRaysThatItsErrorNeeds) {
   const std::vector<double> rays{8000.0, 8000.0, 4000.0, 8000.0, 8000.0};
   std::vector<SeriesOutcome> lights;
   for (const double error : {0.02, 0.01, 0.02, 0.015, 0.5}) lights.push_back({pilot_replicates, error, 0.0});
-  const std::vector<double> shares = planner.ray_shares(rays, lights, {true, true, true, true, false});
-  ASSERT_EQ(shares.size(), 5U);
-  EXPECT_EQ(shares[0], 1.0);
-  EXPECT_NEAR(shares[1], 1.5 * std::pow(0.5, 1.0 / 0.7), 1e-12);
-  EXPECT_NEAR(shares[2], 0.75, 1e-12);
-  EXPECT_NEAR(shares[3], std::min(1.0, 1.5 * std::pow(0.75, 1.0 / 0.7)), 1e-12);
-  EXPECT_EQ(shares[4], 1.0) << "a faint light gets no more than the others";
+  const std::vector<double> needs = planner.ray_needs(rays, lights, {true, true, true, true, false});
+  ASSERT_EQ(needs.size(), 5U);
+  EXPECT_EQ(needs[0], 1.0);
+  EXPECT_NEAR(needs[1], std::pow(0.5, 1.0 / 0.7), 1e-12);
+  EXPECT_NEAR(needs[2], 0.5, 1e-12);
+  EXPECT_NEAR(needs[3], std::pow(0.75, 1.0 / 0.7), 1e-12);
+  EXPECT_EQ(needs[4], 1.0) << "a faint light gets no more than the others";
+  const std::vector<double> shares = planner.ray_shares(needs);
+  for (std::size_t k = 0; k < needs.size(); ++k) EXPECT_NEAR(shares[k], std::min(1.0, 1.5 * needs[k]), 1e-12);
   for (SeriesOutcome& light : lights) light.direct_error = 0.0;
-  EXPECT_EQ(planner.ray_shares(rays, lights, std::vector(5, true)), std::vector(5, 1.0));
+  EXPECT_EQ(planner.ray_needs(rays, lights, std::vector(5, true)), std::vector(5, 1.0));
+}
+
+// Two lights of which one needs a tenth of the other's rays: 1.15 times the rays of the work, with what both get in pilots.
+TEST_F(WorkPlannerTest, AddsRaysWhereTheyCostLittleBesidePackets) {
+  const WorkPlanner planner(model_, settings_, maker_);
+  const std::vector<double> needs{1.0, 0.1};
+  Work cheap{100000.0, 100000.0};
+  const std::vector<double> shares = planner.spare_rays(needs, cheap);
+  EXPECT_EQ(cheap.rays, 200000.0) << "twice what the light asks for that needs most";
+  EXPECT_EQ(shares, (std::vector{1.0, 0.125})) << "a quarter of a ray for each packet";
+  EXPECT_EQ(cheap.packets, 100000.0);
+
+  Work between{100000.0, 40000.0};
+  EXPECT_NEAR(planner.spare_rays(needs, between)[1], 0.15 * 1.15 / 1.6, 1e-12) << "still a half more than it asks for";
+  EXPECT_NEAR(between.rays, 160000.0 / 1.15, 1e-6) << "four rays of both lights for each packet";
+
+  Work dear{400000.0, 100000.0};
+  EXPECT_NEAR(planner.spare_rays(needs, dear)[1], 0.15, 1e-12);
+  EXPECT_EQ(dear.rays, 400000.0);
+
+  settings_.max_rays = 1000000;
+  Work limited{100000.0, 100000.0};
+  EXPECT_EQ(planner.spare_rays(needs, limited), planner.ray_shares(needs));
+  EXPECT_EQ(limited.rays, 100000.0);
 }
 
 TEST_F(WorkPlannerTest, ChoosesNothingIfStopped) {
