@@ -4,9 +4,38 @@
 #include "base/error.h"
 #include "base/file.h"
 
-#include <stb_image_write.h>
-
 #include <fmt/format.h>
+#include <libdeflate.h>
+
+#include <cstdlib>
+#include <memory>
+
+namespace sunfleck {
+namespace {
+
+// Deflates what stb_image_write has filtered, which frees the result; null without memory. Its own compression takes five times as
+// long and is no smaller.
+unsigned char* deflated(unsigned char* bytes, int size, int* deflated_size, int /*quality*/) {
+  constexpr int level = 6;
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
+  if (!compressor) return nullptr;
+  const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), static_cast<std::size_t>(size));
+  auto* const result = static_cast<unsigned char*>(std::malloc(room));
+  if (result == nullptr) return nullptr;
+  *deflated_size =
+      static_cast<int>(libdeflate_zlib_compress(compressor.get(), bytes, static_cast<std::size_t>(size), result, room));
+  return result;
+}
+
+}  // namespace
+}  // namespace sunfleck
+
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBIW_ZLIB_COMPRESS sunfleck::deflated
+#include <stb_image_write.h>
 
 namespace sunfleck {
 
