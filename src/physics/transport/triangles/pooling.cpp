@@ -45,16 +45,33 @@ std::vector<double> resolvable(std::span<const double> weights) {
   return resolved;
 }
 
+double in(const std::vector<double>& sums, const TreeRange& range) {
+  return sums[range.end] - sums[range.begin];
+}
+
+TreeRange first_part(const TreeCut& cut) {
+  return {cut.whole.begin, cut.middle};
+}
+
+TreeWeights weigh(const SurfaceTree& tree, std::span<const double> weights) {
+  TreeWeights of_tree{running_sums(tree, weights), {}};
+  of_tree.expected.reserve(tree.cuts.size());
+  for (const TreeCut& cut : tree.cuts)
+    of_tree.expected.push_back(in(of_tree.sums, first_part(cut)) / in(of_tree.sums, cut.whole));
+  return of_tree;
+}
+
+// Returns what scales differences of shares to a noise that is the same for all splits of one flux.
+double spread_of(double expected) {
+  return std::sqrt(expected * (1.0 - expected));
+}
+
 // Pools over one tree.
 class TreePooling {
  public:
-  TreePooling(const SurfaceTree& tree, std::span<const double> weights, std::span<const double> half_a,
+  TreePooling(const SurfaceTree& tree, const TreeWeights& weights, std::span<const double> half_a,
               std::span<const double> half_b)
-      : tree_(tree),
-        weights_(running_sums(tree, weights)),
-        a_(running_sums(tree, half_a)),
-        b_(running_sums(tree, half_b)),
-        splits_(tree.cuts.size()) {}
+      : tree_(tree), weights_(weights), a_(running_sums(tree, half_a)), b_(running_sums(tree, half_b)) {}
 
   // Returns flux and variance by place in the order of the tree.
   PooledLight run() {
@@ -64,11 +81,6 @@ class TreePooling {
   }
 
  private:
-  struct Split {
-    double expected = 0.5;  // share of the first part, by weight
-    double spread = 0.5;    // scales differences of shares to a noise that is the same for all splits of one flux
-  };
-
   // Sums over comparisons of the halves: squared differences of the mean, times the flux. Their mean is the variance of a split's
   // difference times its flux.
   struct Noise {
@@ -84,25 +96,20 @@ class TreePooling {
     Noise noise;
   };
 
-  [[nodiscard]] static double in(const std::vector<double>& sums, const TreeRange& range) {
-    return sums[range.end] - sums[range.begin];
-  }
-
   void compare() {
-    for (std::size_t k = 0; k < splits_.size(); ++k) {
+    for (std::size_t k = 0; k < tree_.cuts.size(); ++k) {
       const TreeCut& cut = tree_.cuts[k];
-      const TreeRange first{cut.whole.begin, cut.middle};
-      Split& split = splits_[k];
-      split.expected = in(weights_, first) / in(weights_, cut.whole);
-      split.spread = std::sqrt(split.expected * (1.0 - split.expected));
+      const TreeRange first = first_part(cut);
+      const double expected = weights_.expected[k];
+      const double spread = spread_of(expected);
       const double flux_a = in(a_, cut.whole);
       const double flux_b = in(b_, cut.whole);
       const double flux = flux_a + flux_b;
       Scale& scale = scales_[scale_of(cut)];
       scale.fluxes.push_back(flux);
-      scale.differences.push_back(flux > 0.0 ? ((in(a_, first) + in(b_, first)) / flux - split.expected) / split.spread : 0.0);
+      scale.differences.push_back(flux > 0.0 ? ((in(a_, first) + in(b_, first)) / flux - expected) / spread : 0.0);
       if (!(flux_a > 0.0 && flux_b > 0.0)) continue;
-      const double between = (in(a_, first) / flux_a - in(b_, first) / flux_b) / split.spread;
+      const double between = (in(a_, first) / flux_a - in(b_, first) / flux_b) / spread;
       for (Noise* noise : {&scale.noise, &noise_of_all_}) {
         noise->squares += 0.25 * between * between * flux;
         noise->count += 1.0;
@@ -126,30 +133,31 @@ class TreePooling {
       const double flux = in(a_, surface) + in(b_, surface);
       const double spread = flux > 0.0 ? noise_of_all_.mean() / flux : 0.0;
       for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
-        density[k] = flux / in(weights_, surface);
+        density[k] = flux / in(weights_.sums, surface);
         relative[k] = spread;
       }
     }
     // The ranges nest, so multiplying place by place costs as much as the depth of the tree.
     std::array<std::size_t, scales> next{};  // [scale], number of its next split
-    for (std::size_t k = 0; k < splits_.size(); ++k) {
-      const Split& split = splits_[k];
+    for (std::size_t k = 0; k < tree_.cuts.size(); ++k) {
       const TreeCut& cut = tree_.cuts[k];
+      const double expected = weights_.expected[k];
+      const double spread = spread_of(expected);
       const Scale& scale = scales_[scale_of(cut)];
       const std::size_t in_scale = next[scale_of(cut)]++;
-      const double share = std::clamp(split.expected + scale.differences[in_scale] * split.spread, least_share * split.expected,
-                                      1.0 - least_share * (1.0 - split.expected));
-      const double variance_of_share = scale.variances[in_scale] * split.spread * split.spread;
-      const auto multiply = [&](std::uint32_t begin, std::uint32_t end, double part, double expected) {
-        const double factor = part / expected;
+      const double share = std::clamp(expected + scale.differences[in_scale] * spread, least_share * expected,
+                                      1.0 - least_share * (1.0 - expected));
+      const double variance_of_share = scale.variances[in_scale] * spread * spread;
+      const auto multiply = [&](std::uint32_t begin, std::uint32_t end, double part, double expected_part) {
+        const double factor = part / expected_part;
         const double variance = variance_of_share / (part * part);
         for (std::uint32_t place = begin; place < end; ++place) {
           density[place] *= factor;
           relative[place] += variance;
         }
       };
-      multiply(cut.whole.begin, cut.middle, share, split.expected);
-      multiply(cut.middle, cut.whole.end, 1.0 - share, 1.0 - split.expected);
+      multiply(cut.whole.begin, cut.middle, share, expected);
+      multiply(cut.middle, cut.whole.end, 1.0 - share, 1.0 - expected);
     }
     return light(density, relative);
   }
@@ -159,9 +167,9 @@ class TreePooling {
     for (const TreeRange& surface : tree_.surfaces) {
       const bool dark = !(in(a_, surface) + in(b_, surface) > 0.0);
       for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
-        const double weight = weights_[k + 1] - weights_[k];
+        const double weight = weights_.sums[k + 1] - weights_.sums[k];
         pooled.flux[k] = density[k] * weight;
-        const double unseen = unseen_deviations * noise_of_all_.mean() * weight / in(weights_, surface);
+        const double unseen = unseen_deviations * noise_of_all_.mean() * weight / in(weights_.sums, surface);
         pooled.variance[k] = dark ? unseen * unseen : relative[k] * pooled.flux[k] * pooled.flux[k];
       }
     }
@@ -169,38 +177,43 @@ class TreePooling {
   }
 
   const SurfaceTree& tree_;
-  std::vector<double> weights_, a_, b_;  // [place + 1], running sums
-  std::vector<Split> splits_;            // [cut]
+  const TreeWeights& weights_;
+  std::vector<double> a_, b_;  // [place + 1], running sums
   std::array<Scale, scales> scales_;
   Noise noise_of_all_;
 };
 
 }  // namespace
 
-PooledLight pool(std::span<const SurfaceTree> trees, std::span<const double> weights, std::span<const double> half_a,
-                 std::span<const double> half_b) {
-  PooledLight pooled{std::vector<double>(weights.size()), std::vector<double>(weights.size())};
+Pooling::Pooling(std::span<const SurfaceTree> trees, std::span<const double> weights)
+    : trees_(trees), weights_(weights), of_trees_(trees.size()) {
   const std::vector<double> resolved = resolvable(weights);
-  std::vector<PooledLight> of_tree(trees.size());
-  tbb::parallel_for(std::size_t{0}, trees.size(),
-                    [&](std::size_t t) { of_tree[t] = TreePooling(trees[t], resolved, half_a, half_b).run(); });
-  const double share = 1.0 / static_cast<double>(trees.size());
-  std::vector<double> squares(weights.size());
-  for (std::size_t t = 0; t < trees.size(); ++t) {
-    for (std::size_t k = 0; k < trees[t].order.size(); ++k) {
-      const std::uint32_t e = trees[t].order[k];
+  tbb::parallel_for(std::size_t{0}, trees.size(), [&](std::size_t t) { of_trees_[t] = weigh(trees_[t], resolved); });
+}
+
+PooledLight Pooling::pool(std::span<const double> half_a, std::span<const double> half_b) const {
+  const std::size_t elements = weights_.size();
+  PooledLight pooled{std::vector<double>(elements), std::vector<double>(elements)};
+  std::vector<PooledLight> of_tree(trees_.size());
+  tbb::parallel_for(std::size_t{0}, trees_.size(),
+                    [&](std::size_t t) { of_tree[t] = TreePooling(trees_[t], of_trees_[t], half_a, half_b).run(); });
+  const double share = 1.0 / static_cast<double>(trees_.size());
+  std::vector<double> squares(elements);
+  for (std::size_t t = 0; t < trees_.size(); ++t) {
+    for (std::size_t k = 0; k < trees_[t].order.size(); ++k) {
+      const std::uint32_t e = trees_[t].order[k];
       pooled.flux[e] += share * of_tree[t].flux[k];
       squares[e] += share * of_tree[t].flux[k] * of_tree[t].flux[k];
       pooled.variance[e] += share * of_tree[t].variance[k];
     }
   }
   // The mean over the trees is better than a single tree by as much as they differ from it (Krogh and Vedelsby 1995, NIPS 7).
-  for (std::size_t e = 0; e < weights.size(); ++e) {
+  for (std::size_t e = 0; e < elements; ++e) {
     const double between = squares[e] - pooled.flux[e] * pooled.flux[e];
     pooled.variance[e] = std::max(least_part_of_variance * pooled.variance[e], pooled.variance[e] - between);
   }
-  for (std::size_t e = 0; e < weights.size(); ++e) {
-    if (!(weights[e] > 0.0)) pooled.flux[e] = half_a[e] + half_b[e];
+  for (std::size_t e = 0; e < elements; ++e) {
+    if (!(weights_[e] > 0.0)) pooled.flux[e] = half_a[e] + half_b[e];
   }
   return pooled;
 }

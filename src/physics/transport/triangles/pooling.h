@@ -14,12 +14,28 @@ struct PooledLight {
   std::vector<double> variance;  // [element], of that flux
 };
 
+// What the weights of elements say of a tree.
+struct TreeWeights {
+  std::vector<double> sums;      // [place + 1], running
+  std::vector<double> expected;  // [cut], share of the first part
+};
+
 // Pools the flux that landed on elements in two independent halves of a run. A range of a tree divides its flux among its two
 // parts by their weights, corrected by the part of the seen difference that adaptive shrinkage takes for true: a multiscale
 // model of counts in the manner of Kolaczyk (1999, J. Am. Stat. Assoc. 94:920), with the noise of each scale taken from the
-// difference between the halves. The results are averages over the trees. `weights` are [element]: the flux on an element is
-// expected to be in proportion to its weight. An element without weight keeps what landed there, with variance 0.
-[[nodiscard]] PooledLight pool(std::span<const SurfaceTree> trees, std::span<const double> weights,
-                               std::span<const double> half_a, std::span<const double> half_b);
+// difference between the halves. The results are averages over the trees.
+class Pooling {
+ public:
+  // `weights` are [element]: the flux on an element is expected to be in proportion to its weight. An element without weight keeps
+  // what landed there, with variance 0. Both arguments must outlive the object.
+  Pooling(std::span<const SurfaceTree> trees, std::span<const double> weights);
+
+  [[nodiscard]] PooledLight pool(std::span<const double> half_a, std::span<const double> half_b) const;
+
+ private:
+  std::span<const SurfaceTree> trees_;
+  std::span<const double> weights_;
+  std::vector<TreeWeights> of_trees_;
+};
 
 }  // namespace sunfleck

@@ -90,24 +90,25 @@ class Estimation {
       scattered[k] -= sums_.sky[k];
       half_scattered[k] -= sums_.half_sky[k];
     }
+    const Pooling pooling(trees_, areas_m2_);
     for (std::size_t part = 0; part < 2 * bands; ++part) {
       const auto at = [&](std::size_t e) { return (2 * e + part / bands) * bands + part % bands; };
-      pool_part(scattered, half_scattered, at, light_.side_indirect);
+      pool_part(pooling, scattered, half_scattered, at, light_.side_indirect);
       if (sums_.sky.empty()) continue;
-      pool_part(sums_.sky, sums_.half_sky, at, light_.side_sky);
+      pool_part(pooling, sums_.sky, sums_.half_sky, at, light_.side_sky);
       for (std::size_t e = 0; e < elements_; ++e) light_.side_indirect[at(e)] += light_.side_sky[at(e)];
     }
   }
 
   template <class At>
-  void pool_part(std::span<const std::int64_t> all, std::span<const std::int64_t> half, const At& at,
+  void pool_part(const Pooling& pooling, std::span<const std::int64_t> all, std::span<const std::int64_t> half, const At& at,
                  std::vector<std::int64_t>& result) {
     std::vector<double> a(elements_), b(elements_);
     for (std::size_t e = 0; e < elements_; ++e) {
       a[e] = static_cast<double>(half[at(e)]);
       b[e] = static_cast<double>(all[at(e)] - half[at(e)]);
     }
-    const PooledLight pooled = pool(trees_, areas_m2_, a, b);
+    const PooledLight pooled = pooling.pool(a, b);
     for (std::size_t e = 0; e < elements_; ++e) {
       result[at(e)] = all[at(e)];
       light_.indirect_variance[at(e)] += pooled.variance[e];
@@ -146,7 +147,7 @@ class Estimation {
       a[e] = static_cast<double>(sums_.half_landings[e].both());
       b[e] = static_cast<double>(sums_.landings[e].both()) - a[e];
     }
-    PooledLight pooled = pool(trees_, weights, a, b);
+    PooledLight pooled = Pooling(trees_, weights).pool(a, b);
     return {std::move(pooled.flux), std::move(pooled.variance)};
   }
 

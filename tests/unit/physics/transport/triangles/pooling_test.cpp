@@ -61,7 +61,7 @@ class Pooling : public testing::Test {
     }
   }
 
-  [[nodiscard]] PooledLight pooled() const { return pool(trees_, weights_, a_, b_); }
+  [[nodiscard]] PooledLight pooled() const { return sunfleck::Pooling(trees_, weights_).pool(a_, b_); }
 
   // Returns the root-mean-square error relative to the mean.
   [[nodiscard]] double error_of(const std::vector<double>& flux) const {
