@@ -95,6 +95,11 @@ RankScale in_logarithms(RankScale scale) {
   return scale;
 }
 
+// IEC 61966-2-1:1999, section 5.2.
+double from_encoded(double c) {
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
 }  // namespace
 
 double weighted_quantile(std::span<const double> values, std::span<const double> weights, double share) {
@@ -209,16 +214,16 @@ std::array<std::uint8_t, 3> to_srgb(const Colour& linear) {
 }
 
 Colour from_srgb(const std::array<std::uint8_t, 3>& srgb) {
-  return from_encoded({srgb[0] / 255.0, srgb[1] / 255.0, srgb[2] / 255.0});
+  static const std::array<double, 256> decoded = [] {
+    std::array<double, 256> of_byte{};
+    for (std::size_t k = 0; k < of_byte.size(); ++k) of_byte[k] = from_encoded(static_cast<double>(k) / 255.0);
+    return of_byte;
+  }();
+  return {decoded[srgb[0]], decoded[srgb[1]], decoded[srgb[2]]};
 }
 
 Colour from_encoded(const Colour& encoded) {
-  Colour linear{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double c = encoded[i];
-    linear[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  }
-  return linear;
+  return {from_encoded(encoded[0]), from_encoded(encoded[1]), from_encoded(encoded[2])};
 }
 
 }  // namespace sunfleck
