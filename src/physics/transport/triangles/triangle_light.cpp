@@ -6,6 +6,8 @@
 #include "physics/transport/triangles/shadow_points.h"
 #include "physics/transport/triangles/surface_tree.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -163,10 +165,9 @@ class Estimation {
 }  // namespace
 
 TriangleNeighbours::TriangleNeighbours(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces)
-    : areas_m2(areas_within_reach_m2(model, layout)) {
-  for (std::size_t t = 0; t < tree_count; ++t) {
-    trees.push_back(make_surface_tree(model.canopy, surfaces.number_of, areas_m2, t));
-  }
+    : areas_m2(areas_within_reach_m2(model, layout)), trees(tree_count) {
+  tbb::parallel_for(std::size_t{0}, tree_count,
+                    [&](std::size_t t) { trees[t] = make_surface_tree(model.canopy, surfaces.number_of, areas_m2, t); });
 }
 
 TriangleEstimator::TriangleEstimator(const TriangleScene& scene, const TriangleNeighbours& neighbours, Tracer& tracer,
