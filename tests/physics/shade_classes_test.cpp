@@ -89,6 +89,33 @@ TEST(ShadeClasses, OfALeafInHalfShade) {
   }
 }
 
+// Upright leaves, all of whose area is sunlit, under a high sun: few rays of a coarse grid meet any of them. Where none does, the
+// interval of both areas knows how much of the leaf no ray would have shown.
+TEST(ShadeClasses, OfUprightLeavesThatNoRayMeets) {
+  MeshMaker maker;
+  constexpr double leaf_m2 = 0.2 * 0.02;
+  for (int leaf = 0; leaf < 20; ++leaf) {
+    const double x = 0.1 + 0.16 * (leaf % 5), z = 0.1 + 0.2 * (leaf / 5);
+    maker.organ("leaf", 1, leaf + 1);
+    maker.quad({x, 0.5, z}, {x, 0.5, z + 0.02}, {x, 0.7, z + 0.02}, {x, 0.7, z});
+  }
+  const RadiationModel model = black_model(maker.mesh(), {1.0, 1.0, false}, sun_at(85.0, 180.0));
+  std::size_t unmet = 0, outside = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SolveSettings settings = fixed_work(model, 1500.0, 8);
+    settings.seed = seed;
+    for (const OrganResult& organ : simulate(model, settings).organs) {
+      const Estimate& sunlit_m2 = organ.classes.sunlit_m2;
+      if (sunlit_m2.value > 0.0) continue;
+      ++unmet;
+      EXPECT_EQ(organ.classes.shaded_m2.half_width, sunlit_m2.half_width);
+      if (sunlit_m2.half_width < 0.999 * leaf_m2) ++outside;
+    }
+  }
+  EXPECT_GT(unmet, 20U);
+  EXPECT_EQ(outside, 0U);
+}
+
 // A leaf of two triangles rises through all layers, and its lower half lies in the shade of a leaf right above it. Light of the sky
 // is taken to be even over each triangle, so that each layer's sunlit and shaded leaf area absorb about the same of it.
 TEST(ShadeClasses, OfALeafInTheShadeOfSomeLayers) {

@@ -42,7 +42,8 @@ class ResultMaker {
     result.organs = organ_results();
     result.plants = plant_results();
     result.layers = layer_results();
-    result.leaf_classes = sums_.classes.leaves(class_errors());
+    const double unseen_leaves_m2 = unseen_m2(agreed_foliage());
+    result.leaf_classes = sums_.classes.leaves(unseen_leaves_m2, class_errors());
     result.element_error = element_errors();
     result.side_error = side_errors();
     if (sums_.planes) {
@@ -50,7 +51,7 @@ class ResultMaker {
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) events_w_m2.push_back(events_.largest_w_m2(b));
       result.planes = sums_.planes->results(quantile_, unseen_events(confidence_), events_w_m2);
     }
-    result.sunlit_leaf_fraction = sunlit_estimate(sums_.sunlit, areas_.facing_m2, agreed_foliage());
+    result.sunlit_leaf_fraction = sunlit_estimate(sums_.sunlit, areas_.facing_m2, unseen_leaves_m2);
     result.ground_sunfleck_ratio = {no_value, no_value};
     if (model_.has_beam()) result.ground_sunfleck_ratio = sums_.ground_ratio.estimate(quantile_, unseen(share_of_one_ray()));
     result.leaf_area_index = areas_.foliage_m2 / model_.plot.area_m2();
@@ -109,14 +110,19 @@ class ResultMaker {
     return result;
   }
 
+  // Returns the area of these parts that the sun may shine on, or not, although all replicates agree about it.
+  [[nodiscard]] double unseen_m2(std::vector<FacingArea> parts) const {
+    return unseen_sunlit_m2(std::move(parts), unseen(1.0));
+  }
+
   // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` or, where that is zero,
-  // from `parts`. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree
+  // from the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree
   // with what the rays met.
-  [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, std::vector<FacingArea> parts) const {
+  [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, double unseen_lit_m2) const {
     if (!(facing_m2 > 0.0)) return {no_value, no_value};
     const bool agree = sums_.replicates >= 2 && mean.squares() == 0.0;
     if (!agree) return mean.estimate(quantile_);
-    const double unseen_share = unseen_sunlit_m2(std::move(parts), unseen(1.0)) / facing_m2;
+    const double unseen_share = unseen_lit_m2 / facing_m2;
     return unseen_share < unknown_share ? Estimate{mean.mean(), unseen_share} : Estimate{no_value, no_value};
   }
 
@@ -176,7 +182,8 @@ class ResultMaker {
     for (std::size_t o = 0; o < sums_.organs.size(); ++o) {
       OrganResult result;
       result.area_m2 = areas_.organ_m2[o];
-      result.sunlit_fraction = sunlit_estimate(sums_.organs[o].sunlit, areas_.organ_facing_m2[o], std::move(parts[o]));
+      const double unseen_lit_m2 = unseen_m2(std::move(parts[o]));
+      result.sunlit_fraction = sunlit_estimate(sums_.organs[o].sunlit, areas_.organ_facing_m2[o], unseen_lit_m2);
       const double per_area = areas_.organ_m2[o] > 0.0 ? model_.plot.area_m2() / areas_.organ_m2[o] : 0.0;
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
         const double absorptance = areas_.organ_absorptance[o * sums_.bands.size() + b];
@@ -187,7 +194,7 @@ class ResultMaker {
         const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
         result.absorbed.push_back(with_unshot(sums_.organs[o].absorbed[b], event_w_m2, b));
       }
-      result.classes = sums_.classes.organ(o, errors);
+      result.classes = sums_.classes.organ(o, unseen_lit_m2, errors);
       results.push_back(std::move(result));
     }
     return results;
@@ -215,7 +222,8 @@ class ResultMaker {
       result.position_m = plants.sites[p].position_m;
       result.height_m = plants.height_m[p];
       result.leaf_area_m2 = plants.leaf_m2[p];
-      result.sunlit_leaf_fraction = sunlit_estimate(sums_.plants[p].sunlit, plants.facing_leaf_m2[p], std::move(parts[p]));
+      result.sunlit_leaf_fraction =
+          sunlit_estimate(sums_.plants[p].sunlit, plants.facing_leaf_m2[p], unseen_m2(std::move(parts[p])));
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
         const double absorptance = plants.largest_absorptance[p * sums_.bands.size() + b];
         const double beam = plants.beam_meets[p] ? events_.beam_w_m2[b] : 0.0;
@@ -251,8 +259,9 @@ class ResultMaker {
       result.sunlit_leaf_fraction = {no_value, no_value};
       if (below_top) {
         result.leaf_area_index = areas_.layer_foliage_m2[k] / model_.plot.area_m2();
-        result.leaf_classes = sums_.classes.layer(k, errors);
-        result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], std::move(parts[k]));
+        const double unseen_lit_m2 = unseen_m2(std::move(parts[k]));
+        result.leaf_classes = sums_.classes.layer(k, unseen_lit_m2, errors);
+        result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], unseen_lit_m2);
       }
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
         const double any = std::max(areas_.beam_meets_canopy() ? events_.beam_w_m2[b] : 0.0, events_.other_w_m2[b]);

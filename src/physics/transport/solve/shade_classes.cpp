@@ -108,9 +108,10 @@ void ShadeClasses::add(const Replicate& replicate, PlaceSums& landed) {
   add_to(leaves_, groups.leaves, {&areas.open_foliage_m2, 1});
 }
 
-ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, const Errors& errors) const {
+ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, double unseen_lit_m2,
+                                      const Errors& errors) const {
   ShadeClassResult result;
-  result.sunlit_m2 = means.lit_m2.estimate(errors.t_quantile, errors.unseen_events * conversion_.ground_per_ray_m2);
+  result.sunlit_m2 = means.lit_m2.estimate(errors.t_quantile, unseen_lit_m2);
   // The estimate is unbiased and may leave this range by chance, although the area cannot.
   result.sunlit_m2.value = std::clamp(result.sunlit_m2.value, 0.0, open_m2);
   result.shaded_m2 = {open_m2 - result.sunlit_m2.value, result.sunlit_m2.half_width};
@@ -133,16 +134,18 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, c
   return result;
 }
 
-ShadeClassResult ShadeClasses::organ(std::size_t organ, const Errors& errors) const {
-  return all_groups_ ? result(organs_[organ], conversion_.areas.organ_open_m2[organ], errors) : ShadeClassResult{};
+ShadeClassResult ShadeClasses::organ(std::size_t organ, double unseen_lit_m2, const Errors& errors) const {
+  return all_groups_ ? result(organs_[organ], conversion_.areas.organ_open_m2[organ], unseen_lit_m2, errors)
+                     : ShadeClassResult{};
 }
 
-ShadeClassResult ShadeClasses::layer(std::size_t layer, const Errors& errors) const {
-  return all_groups_ ? result(layers_[layer], conversion_.areas.layer_open_foliage_m2[layer], errors) : ShadeClassResult{};
+ShadeClassResult ShadeClasses::layer(std::size_t layer, double unseen_lit_m2, const Errors& errors) const {
+  return all_groups_ ? result(layers_[layer], conversion_.areas.layer_open_foliage_m2[layer], unseen_lit_m2, errors)
+                     : ShadeClassResult{};
 }
 
-ShadeClassResult ShadeClasses::leaves(const Errors& errors) const {
-  return result(leaves_[0], conversion_.areas.open_foliage_m2, errors);
+ShadeClassResult ShadeClasses::leaves(double unseen_lit_m2, const Errors& errors) const {
+  return result(leaves_[0], conversion_.areas.open_foliage_m2, unseen_lit_m2, errors);
 }
 
 }  // namespace sunfleck

@@ -109,17 +109,19 @@ class ShadeClasses {
   }
 
   // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are
-  // kept. `unshot_share` is [band], and `event_w` the flux that one event brings, [band].
+  // kept. `unseen_lit_m2` is the half-width of the sunlit area if all replicates agree, `unshot_share` is [band], and `event_w` the flux
+  // that one event brings, [band].
   struct Errors {
     double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
     std::vector<double> unshot_share, event_w;
   };
-  [[nodiscard]] ShadeClassResult organ(std::size_t organ, const Errors& errors) const;
-  [[nodiscard]] ShadeClassResult layer(std::size_t layer, const Errors& errors) const;
-  [[nodiscard]] ShadeClassResult leaves(const Errors& errors) const;
+  [[nodiscard]] ShadeClassResult organ(std::size_t organ, double unseen_lit_m2, const Errors& errors) const;
+  [[nodiscard]] ShadeClassResult layer(std::size_t layer, double unseen_lit_m2, const Errors& errors) const;
+  [[nodiscard]] ShadeClassResult leaves(double unseen_lit_m2, const Errors& errors) const;
 
  private:
-  [[nodiscard]] ShadeClassResult result(const ShadeMeans& means, double open_m2, const Errors& errors) const;
+  [[nodiscard]] ShadeClassResult result(const ShadeMeans& means, double open_m2, double unseen_lit_m2,
+                                        const Errors& errors) const;
 
   const Conversion& conversion_;
   bool all_groups_;
