@@ -3,11 +3,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/sealed_file.h"
 #include "base/stopwatch.h"
 #include "base/units.h"
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"
 #include "files/results/tables/plane_day.h"
+#include "files/results/tables/result_writer.h"
 #include "programs/cli/process.h"
 #include "programs/cli/terminal.h"
 #include "simulate/day.h"
@@ -188,6 +190,16 @@ int help_with_day(const DayOptions& options, Ranks& ranks) {
   return served ? exit_done : exit_failed;
 }
 
+// Throws Error (input) if the folder holds the result of another command, which a day that begins would remove.
+void expect_no_other_result(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / summary_file, error)) return;
+  const ordered_json summary = ordered_json::parse(read_file(folder / summary_file), nullptr, false);
+  if (!summary.is_object()) return;
+  const ordered_json command = summary.value("command", ordered_json("run"));
+  expect_same_settings({{"command", "day"}}, {{"command", command}}, "the result there", folder);
+}
+
 // Prepares the folder for the steps that are still to be simulated.
 void open_day_folder(const fs::path& folder, FolderLock& lock, StepStore& store, bool resumed) {
   if (resumed) {
@@ -223,6 +235,7 @@ int run_day(const DayOptions& asked) {
   const ordered_json kept_settings = day_settings(options, scene, settings, plan, wanted_fields(run, plan.course));
   StepStore store(folder, scene.model, kept_settings, wanted_fields(run, plan.course));
   const StepStore::Found found = run.resume ? store.find() : StepStore::Found::nothing;
+  if (run.resume && found == StepStore::Found::nothing) expect_no_other_result(folder);
   if (found == StepStore::Found::finished) {
     expect_plane_maps(folder, run, scene.model);
     return report_finished(folder, run, "day");

@@ -86,6 +86,7 @@ ordered_json copies_json(const Canopy& canopy) {
 
 // Adds the memory that a run with these options needs, and what it is needed for.
 void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
+  check_grid(options, scene);
   const SolveSettings settings = solve_settings(options, scene, options.threads);
   RunOptions undrawn = options;
   undrawn.triangle_light = !options.exports.empty();
