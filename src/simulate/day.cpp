@@ -76,11 +76,17 @@ class DayRun {
     return true;
   }
 
+  // Returns the settings with the seed of a step. Each step's sensors have that seed, too, so that the errors of their readings are
+  // independent and those of a date's sums follow from them.
+  [[nodiscard]] SolveSettings with_seed_of(std::size_t step, SolveSettings settings) const {
+    settings.seed = RandomStream(settings_.seed, step).word();
+    return settings;
+  }
+
   // Simulates the daytime steps of a block; returns false if it was stopped meanwhile.
   [[nodiscard]] bool simulate(const DayBlock& block) {
     if (hooks_.ranks != nullptr) hooks_.ranks->set_stage(number_of(block));
-    SolveSettings settings = settings_;
-    settings.seed = RandomStream(settings_.seed, block.first).word();
+    SolveSettings settings = with_seed_of(block.first, settings_);
     // A limit of rays may be too low for the work of an earlier step, but never is for pilots.
     if (!settings.grid_m && !settings.passes && !settings.max_rays) settings.begin_with = work_to_begin_with(block);
     const std::optional<SolveState> left = find_state(block, settings);
@@ -168,7 +174,7 @@ class DayRun {
     Stopwatch watch;
     double shared_s = 0.0;  // each step's part of the time that all of them took
     const auto take = [&](std::size_t light, RadiationResult result, const SharedOutcome& outcome) {
-      simulation_.add_sensors(lights[light], settings, monitor, watch, result);
+      simulation_.add_sensors(lights[light], with_seed_of(block.first + light, settings), monitor, watch, result);
       // What stopped the block may have cut the light of its triangles short.
       if (too_little || stopped() || result.stop == StopReason::interrupted) return;
       StoredStep step = stored_step(lights[light], result);

@@ -1,7 +1,7 @@
 #pragma once
 // Simulates the steps of one or several days, block by block with one tree. The steps of a block are simulated together.
 //
-// A block whose first step is n, from 0, has the seed RandomStream(seed, n).word(). Where it can, it begins with the work that
+// A block whose first step is n, from 0, has the seed RandomStream(seed, n).word(), and so have the sensors of step n. Where it can, it begins with the work that
 // an earlier step, or the block at the same hours of an earlier date, would now choose (RadiationResult::next_work), which is
 // stored with each step: a day that was stopped anywhere and is resumed gives the same bytes as one that was not.
 

@@ -57,7 +57,8 @@ f 2 4 3
 
 constexpr double day_plot_m2 = 1.25;
 const std::array<const char*, 2> bands{"PAR", "NIR"};
-const std::array<const char*, 5> terms{"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected"};
+const std::array<const char*, 6> terms{"incident",      "absorbed_vegetation", "absorbed_structure",
+                                       "absorbed_soil", "reflected",           "transmitted"};
 const std::array<const char*, 5> tables{"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv", "day.nc"};
 
 class Day : public PreloadTest {
@@ -525,7 +526,12 @@ TEST_F(Day, SharesNoFolderWithARun) {
   simulate(scene_, {"--device", "cpu", "--images", "none"});
   for (const char* name : tables) EXPECT_FALSE(exists(name)) << name;
   EXPECT_FALSE(exists("steps"));
-  expect_day({"--from", "12:00", "--to", "13:00", "--resume"});
+  const Outcome refused = day({"--from", "12:00", "--to", "13:00", "--resume"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("the result there has other settings: command was \"run\", now \"day\""), std::string::npos)
+      << refused.err;
+  EXPECT_TRUE(exists("organs.csv")) << "a day that is to be continued removes no other result";
+  expect_day({"--from", "12:00", "--to", "13:00"});
   EXPECT_TRUE(exists("day.csv"));
   EXPECT_FALSE(exists("organs.csv"));
 }

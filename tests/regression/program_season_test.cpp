@@ -287,6 +287,31 @@ TEST_F(Season, SumsOfReceiversAreThoseOfTheirSteps) {
     EXPECT_NEAR(map.number(cell, "sunlit_h"), 16.0 * map.number(cell, "sunlit_share"), 1e-6);
 }
 
+// Under a sky that stays the same, the readings below a leaf differ between steps by as much as their errors say, also within the
+// blocks of steps that share packets.
+TEST_F(Season, SensorsMeasureEachStepWithRaysOfTheirOwn) {
+  std::string text = scene_text;
+  const auto replace = [&](const std::string& from, const std::string& by) { text.replace(text.find(from), from.size(), by); };
+  replace("model = \"perez\"", "model = \"cie-overcast\"");
+  replace("[weather]\nfile = \"station.csv\"\n", "");
+  for (int band = 0; band < 2; ++band) replace("share = 0.5", "direct_normal = 1\ndiffuse = 100");
+  replace("[0.5, 0.4, 0.5]", "[0.3, 0.45, 0.3]");
+  folder_.write("scene.toml", text);
+  expect_day({"--from", "06:00", "--to", "18:00"});
+  const Table readings(file("sensors_day.csv"));
+  ASSERT_EQ(readings.size(), 12U * 4U);
+  double mean = 0.0, squares = 0.0, of_errors = 0.0;
+  for (std::size_t row = 3; row < readings.size(); row += 4) mean += readings.number(row, "PAR_sky") / 12.0;
+  for (std::size_t row = 3; row < readings.size(); row += 4) {
+    ASSERT_EQ(readings.cell(row, "sensor"), "ball");
+    squares += std::pow(readings.number(row, "PAR_sky") - mean, 2);
+    of_errors += std::pow(readings.number(row, "PAR_sky_error"), 2);
+  }
+  // A half-width is about 2.2 standard errors.
+  EXPECT_GT(std::sqrt(squares / of_errors), 0.25);
+  EXPECT_LT(std::sqrt(squares / of_errors), 0.8);
+}
+
 TEST_F(Season, GoesOnWhereItWasKilled) {
   const Arguments asked = three_days_ + Arguments{"--export", "nc"};
   expect_day(asked, 0, "whole");

@@ -64,8 +64,9 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
   const std::vector<DayStep>& steps = part.course.steps;
   const std::span<const StepLight> lights = part.lights;
   Table table{"The course of the day; a step has the light of its middle, at night that of lamps alone",
-              "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected: "
-              "W m-2 of ground; _sunlit, _shaded: W m-2 of that leaf area; sunlit_leaf_fraction: share; _error: half-width of "
+              "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected, "
+              "transmitted: W m-2 of ground; _sunlit, _shaded: W m-2 of that leaf area; sunlit_leaf_fraction: share; _error: "
+              "half-width of "
               "the confidence interval",
               {},
               {lights.size()},
@@ -88,6 +89,8 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
               [&](std::size_t i) { return lights[i].bands[b].absorbed_soil; });
     table.add({band + "_reflected", "W m-2", "flux that leaves upwards per ground area"},
               [&](std::size_t i) { return lights[i].bands[b].reflected; });
+    table.add({band + "_transmitted", "W m-2", "flux that leaves downwards per ground area"},
+              [&](std::size_t i) { return lights[i].bands[b].transmitted; });
   }
   table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in direct sun"},
             [&](std::size_t i) { return as_share(lights[i].sunlit_leaf_fraction); });
@@ -100,13 +103,13 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
   const RadiationModel& model = stand.model;
   const std::vector<DateSums>& sums = part.sums;
   const std::vector<std::size_t> dates = part.dates();
-  Table table{
-      "The light of each date: sums over its steps",
-      "steps: their number; incident, absorbed, reflected: per ground area, MJ m-2 and mol of photons m-2; _error: half-width "
-      "of the confidence interval",
-      {},
-      {dates.size()},
-      {}};
+  Table table{"The light of each date: sums over its steps",
+              "steps: their number; incident, absorbed, reflected, transmitted: per ground area, MJ m-2 and mol of photons "
+              "m-2; _error: "
+              "half-width of the confidence interval",
+              {},
+              {dates.size()},
+              {}};
   add_dates(table, part);
   table.add({"steps", "1", "number of its steps"},
             [&](std::size_t d) { return static_cast<std::uint32_t>(sums[dates[d]].steps); });
@@ -126,6 +129,7 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
     add("_absorbed_structure", "absorbed by structures and lamps", &StepBand::absorbed_structure);
     add("_absorbed_soil", "absorbed by soil", &StepBand::absorbed_soil);
     add("_reflected", "that left upwards", &StepBand::reflected);
+    add("_transmitted", "that left downwards", &StepBand::transmitted);
   }
   return table;
 }

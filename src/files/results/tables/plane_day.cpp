@@ -10,11 +10,25 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace sunfleck {
 namespace {
 
 constexpr double seconds_per_hour = 3600.0;
+
+// Returns the mean of the numbers; nothing if there are none.
+std::optional<double> mean_of_known(std::span<const float> values) {
+  double sum = 0.0;
+  std::size_t known = 0;
+  for (const float value : values) {
+    if (std::isnan(value)) continue;
+    sum += double{value};
+    ++known;
+  }
+  if (known == 0) return std::nullopt;
+  return sum / static_cast<double>(known);
+}
 
 }  // namespace
 
@@ -51,7 +65,7 @@ PlaneMapSums::PlaneMapSums(const RadiationModel& model) : plot_(model.plot), ban
   for (const PlaneReceiver& plane : model.planes) {
     const std::size_t cells = plane.cells();
     const std::vector<double> dark(model.bands.size() * cells);
-    sums_.push_back({std::vector<Cell>(cells), dark, dark});
+    sums_.push_back({std::vector<double>(cells), 0.0, dark, dark});
   }
 }
 
@@ -59,7 +73,7 @@ void PlaneMapSums::add(const DayStep& step, std::span<const float> maps) {
   ++steps_;
   bool beam = false;
   for (Sums& sums : sums_) {
-    const std::size_t cells = sums.cells.size();
+    const std::size_t cells = sums.sunlit_s.size();
     EXPECT(maps.size(), >=, cells * (1 + 2 * bands_.size()));
     const auto next = [&] {
       const std::span<const float> values = maps.first(cells);
@@ -67,11 +81,11 @@ void PlaneMapSums::add(const DayStep& step, std::span<const float> maps) {
       return values;
     };
     const std::span<const float> shares = next();
-    for (std::size_t c = 0; c < cells; ++c) {
-      if (std::isnan(shares[c])) continue;
+    if (const std::optional<double> mean = mean_of_known(shares)) {
       beam = true;
-      sums.cells[c].known_s += step.length_s;
-      sums.cells[c].sunlit_s += step.length_s * double{shares[c]};
+      sums.known_s += step.length_s;
+      for (std::size_t c = 0; c < cells; ++c)
+        sums.sunlit_s[c] += step.length_s * (std::isnan(shares[c]) ? *mean : double{shares[c]});
     }
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       for (std::vector<double>* of : {&sums.direct, &sums.total}) {
@@ -86,7 +100,7 @@ void PlaneMapSums::add(const DayStep& step, std::span<const float> maps) {
 Table PlaneMapSums::table(const DayCourse& course, std::size_t plane) const {
   const Sums& sums = sums_.at(plane);
   const UserMap map(planes_[plane], plot_);
-  const std::size_t cells = sums.cells.size();
+  const std::size_t cells = sums.sunlit_s.size();
   const std::size_t dates = steps_ > 0 ? course.steps[steps_ - 1].date + 1 : 0;
   Table table{fmt::format("Sums of the light through the horizontal plane at {:.9g} m, {} x {} cells", planes_[plane].height_m,
                           map.first.cells, map.second.cells),
@@ -97,9 +111,7 @@ Table PlaneMapSums::table(const DayCourse& course, std::size_t plane) const {
               {map.second.cells, map.first.cells},
               {}};
   map.add_centres(table);
-  const auto share = [&](std::size_t c) {
-    return sums.cells[c].known_s > 0.0 ? sums.cells[c].sunlit_s / sums.cells[c].known_s : no_value;
-  };
+  const auto share = [&](std::size_t c) { return sums.known_s > 0.0 ? sums.sunlit_s[c] / sums.known_s : no_value; };
   table.add({"sunlit_h", "h", "time in direct sun"},
             [&](std::size_t c) { return beam_s_ > 0.0 ? share(c) * beam_s_ / seconds_per_hour : 0.0; });
   table.add({"sunlit_share", "1", "time in direct sun, as a share of the time with a direct beam"}, share);

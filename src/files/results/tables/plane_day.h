@@ -27,7 +27,8 @@ class PlaneMapSums {
  public:
   explicit PlaneMapSums(const RadiationModel& model);
 
-  // Adds the maps of a lit step.
+  // Adds the maps of a lit step. A cell that no ray would cross counts as the mean of the others: leaving the step out would weigh
+  // steps by their numbers of rays.
   void add(const DayStep& step, std::span<const float> maps);
   // Counts an unlit step.
   void add_unlit() { ++steps_; }
@@ -36,11 +37,9 @@ class PlaneMapSums {
   [[nodiscard]] Table table(const DayCourse& course, std::size_t plane) const;
 
  private:
-  struct Cell {
-    double sunlit_s = 0.0, known_s = 0.0;  // time in the sun, out of the time with a beam whose share is known
-  };
   struct Sums {
-    std::vector<Cell> cells;
+    std::vector<double> sunlit_s;       // [cell], time in the sun
+    double known_s = 0.0;               // time with a beam
     std::vector<double> direct, total;  // [band * cells + cell], J m-2
   };
 

@@ -56,7 +56,7 @@ StepLight light(double w_m2, double half_width, double unshot) {
                       {0.0625 * w_m2, half_width},
                       {0.25 * w_m2, half_width},
                       {0.125 * w_m2, half_width},
-                      {0.0, half_width},
+                      {0.0625 * w_m2, half_width},
                       unshot};
   StepLight step{{band, band}, {{w_m2, half_width}, {2.0 * w_m2, half_width}, {0.0, 0.0}, {3.0 * w_m2, no_value}}, {0.5, 0.01}};
   step.kind_absorbed.resize(4, {{0.0, 0.0}});
@@ -130,6 +130,7 @@ TEST(DayTables, DayIsWrittenStepByStep) {
   EXPECT_NEAR(table.number(0, "elevation_deg"), 28.6478898, 1e-7);
   EXPECT_EQ(table.number(0, "B_absorbed_soil"), 25.0);
   EXPECT_EQ(table.number(0, "B_absorbed_soil_error"), 3.0);
+  EXPECT_EQ(table.number(0, "B_transmitted"), 6.25);
   EXPECT_EQ(table.number(0, "sunlit_leaf_fraction"), 0.5);
   EXPECT_EQ(table.cell(1, "A_incident"), "0");
   EXPECT_EQ(table.cell(1, "sunlit_leaf_fraction_error"), "0");
@@ -141,7 +142,8 @@ TEST(DayTables, DatesHaveSums) {
   const std::vector<StepLight> lights{light(100.0, 4.0, 1.0), no_light(model), light(10.0, 5.0, 0.0)};
   const regression::Table table(text_of(day_sums_table, model, lights));
   std::string header = "date,steps";
-  for (const char* name : {"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected"}) {
+  for (const char* name :
+       {"incident", "absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected", "transmitted"}) {
     for (const char* unit : {"_mj_m2", "_mol_m2"}) header += std::string(",A_") + name + unit + ",A_" + name + unit + "_error";
   }
   EXPECT_EQ(table.header().substr(0, header.size()), header);
@@ -155,6 +157,7 @@ TEST(DayTables, DatesHaveSums) {
   EXPECT_EQ(table.number(0, "A_absorbed_vegetation_mj_m2_error"), 0.0072);
   EXPECT_EQ(table.number(0, "A_absorbed_soil_mj_m2"), 0.045);
   EXPECT_EQ(table.number(0, "B_reflected_mj_m2"), 0.0225);
+  EXPECT_EQ(table.number(0, "B_transmitted_mj_m2"), 0.01125);
   EXPECT_EQ(table.cell(1, "date"), "2003-01-01");
   EXPECT_EQ(table.number(1, "A_incident_mj_m2"), 0.006);
 }
@@ -374,8 +377,9 @@ TEST(PlaneDay, SumsMapsOverTime) {
   EXPECT_NEAR(table.number(0, "sunlit_share"), 1050.0 / 2400.0, 1e-9);
   EXPECT_NEAR(table.number(0, "A_direct_mj_m2"), 0.216, 1e-9);
   EXPECT_NEAR(table.number(1, "A_total_mol_m2"), 0.72, 1e-9);
-  // Where the share was unknown for a time, it counts as in the rest of the time.
-  EXPECT_NEAR(table.number(1, "sunlit_h"), 2400.0 / 3600.0, 1e-9);
+  // Where the share was unknown for a time, it counts as elsewhere at that time.
+  EXPECT_NEAR(table.number(1, "sunlit_h"), 1500.0 / 3600.0, 1e-9);
+  EXPECT_NEAR(table.number(1, "sunlit_share"), 1500.0 / 2400.0, 1e-9);
 }
 
 TEST(DayTables, SaysWhatIsMissing) {
