@@ -211,7 +211,11 @@ void add_render(CLI::App& app, RenderOptions& options, OptionWords& words) {
                   "Scene file (TOML), or a .can with CARIBU's files, or the folder of a finished run")
       ->required()
       ->check(not_empty());
-  render.add_option("-o,--output", options.file, "Picture file: .png, or .exr for the values themselves")->check(not_empty());
+  render
+      .add_option("-o,--output", options.file,
+                  "Picture file: .png, or .exr for the values themselves (default: CHART_FIELD.png in the folder of a finished "
+                  "run, in place of the one there; for a scene SCENE_CHART_FIELD.png here)")
+      ->check(not_empty());
   add_stand(render, options.run.stand);
   add_device(render, options.run);
   add_memory(add_simulation(render, options.run, words), options.run);
