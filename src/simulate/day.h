@@ -1,9 +1,10 @@
 #pragma once
 // Simulates the steps of one or several days, block by block with one tree. The steps of a block are simulated together.
 //
-// A block whose first step is n, from 0, has the seed RandomStream(seed, n).word(), and so have the sensors of step n. Where it can, it begins with the work that
-// an earlier step, or the block at the same hours of an earlier date, would now choose (RadiationResult::next_work), which is
-// stored with each step: a day that was stopped anywhere and is resumed gives the same bytes as one that was not.
+// A block whose first step is n, from 0, has the seed RandomStream(seed, n).word(), and so have the sensors of step n. Where it
+// can, a block begins with the work that an earlier step, or the block at the same hours of an earlier date, would now choose
+// (RadiationResult::next_work), which is stored with each step: a day that was stopped anywhere and is resumed gives the same bytes
+// as one that was not.
 
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"

@@ -528,8 +528,7 @@ TEST_F(Day, SharesNoFolderWithARun) {
   EXPECT_FALSE(exists("steps"));
   const Outcome refused = day({"--from", "12:00", "--to", "13:00", "--resume"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("the result there has other settings: command was \"run\", now \"day\""), std::string::npos)
-      << refused.err;
+  EXPECT_NE(refused.err.find("the folder holds the result of \"run\", not of a day"), std::string::npos) << refused.err;
   EXPECT_TRUE(exists("organs.csv")) << "a day that is to be continued removes no other result";
   expect_day({"--from", "12:00", "--to", "13:00"});
   EXPECT_TRUE(exists("day.csv"));

@@ -1,6 +1,6 @@
 #pragma once
 // The reference tracer. Walks the tree on all cores with the arithmetic it shares with the shaders, beam rays and other
-// parallel rays in bundles and packets side by side; or tests every element, ray by ray, when the tree itself is in doubt.
+// parallel rays in bundles, and packets side by side; or tests every element, ray by ray, when the tree itself is in doubt.
 
 #include "devices/tracers/cpu_walk.h"
 #include "devices/tracers/dispatch_budget.h"

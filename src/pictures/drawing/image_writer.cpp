@@ -23,8 +23,9 @@ unsigned char* deflated(unsigned char* bytes, int size, int* deflated_size, int 
   const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), static_cast<std::size_t>(size));
   auto* const result = static_cast<unsigned char*>(std::malloc(room));
   if (result == nullptr) return nullptr;
-  *deflated_size =
-      static_cast<int>(libdeflate_zlib_compress(compressor.get(), bytes, static_cast<std::size_t>(size), result, room));
+  const std::size_t taken = libdeflate_zlib_compress(compressor.get(), bytes, static_cast<std::size_t>(size), result, room);
+  EXPECT(taken, >, std::size_t{0});
+  *deflated_size = static_cast<int>(taken);
   return result;
 }
 

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "base/sealed_file.h"
 #include "base/stopwatch.h"
 #include "base/units.h"
 #include "files/results/stores/step_store.h"
@@ -195,9 +194,12 @@ void expect_no_other_result(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_regular_file(folder / summary_file, error)) return;
   const ordered_json summary = ordered_json::parse(read_file(folder / summary_file), nullptr, false);
-  if (!summary.is_object()) return;
+  if (!summary.is_object() || !summary.contains("settings")) return;  // of a command that has only begun
   const ordered_json command = summary.value("command", ordered_json("run"));
-  expect_same_settings({{"command", "day"}}, {{"command", command}}, "the result there", folder);
+  if (command == "day") return;
+  throw_input(fmt::format("--resume {}", printable(folder.string())),
+              fmt::format("the folder holds the result of {}, not of a day", printable(command.dump())),
+              "choose another folder with -o, or omit --resume to replace that result");
 }
 
 // Prepares the folder for the steps that are still to be simulated.

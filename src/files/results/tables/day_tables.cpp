@@ -66,8 +66,7 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
   Table table{"The course of the day; a step has the light of its middle, at night that of lamps alone",
               "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected, "
               "transmitted: W m-2 of ground; _sunlit, _shaded: W m-2 of that leaf area; sunlit_leaf_fraction: share; _error: "
-              "half-width of "
-              "the confidence interval",
+              "half-width of the confidence interval",
               {},
               {lights.size()},
               {}};
@@ -105,8 +104,7 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
   const std::vector<std::size_t> dates = part.dates();
   Table table{"The light of each date: sums over its steps",
               "steps: their number; incident, absorbed, reflected, transmitted: per ground area, MJ m-2 and mol of photons "
-              "m-2; _error: "
-              "half-width of the confidence interval",
+              "m-2; _error: half-width of the confidence interval",
               {},
               {dates.size()},
               {}};

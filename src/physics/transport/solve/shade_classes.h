@@ -109,8 +109,8 @@ class ShadeClasses {
   }
 
   // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are
-  // kept. `unseen_lit_m2` is the half-width of the sunlit area if all replicates agree, `unshot_share` is [band], and `event_w` the flux
-  // that one event brings, [band].
+  // kept. `unseen_lit_m2` is the half-width of the sunlit area if all replicates agree, `unshot_share` is [band], and `event_w` the
+  // flux that one event brings, [band].
   struct Errors {
     double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
     std::vector<double> unshot_share, event_w;

@@ -27,14 +27,16 @@ struct Forecast {
 constexpr Forecast ray_forecast{64, 20};
 constexpr Forecast packet_forecast{128, 64};
 // Lights that need fewer rays than another one, and replicates that hold fewer packets than asked, get this multiple of the rays
-// that their own errors ask for: errors from pilots are uncertain, and a beam that lags behind costs more replicates with all of their
-// packets.
+// that their own errors ask for: errors from pilots are uncertain, and a beam that lags behind costs more replicates with all of
+// their packets.
 constexpr double spare_of_rays = 1.5;
-// All lights of a simulation get up to this multiple, as far as they then have at most so many rays together for each packet, and
-// each light gets a least number of rays for each packet: a packet of six lights takes the time of twenty rays.
+// All lights of a simulation get up to this multiple while their rays together stay cheap beside the packets, and no light gets fewer
+// than the least number of rays for each packet: a packet of six lights takes the time of twenty rays.
 constexpr double most_spare_of_rays = 2.0;
-constexpr double cheap_rays_per_packet = 4.0;
 constexpr double least_rays_per_packet = 0.25;
+double cheap_rays_per_packet(std::size_t lights) {
+  return 1.0 + 0.5 * static_cast<double>(lights);
+}
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
 // Half of a limit on rays or time is enough for this many replicates.
@@ -211,11 +213,15 @@ std::vector<double> WorkPlanner::spare_rays(std::span<const double> needs, Work&
   std::vector<double> shares = ray_shares(needs);
   const double rays = work.rays * std::accumulate(shares.begin(), shares.end(), 0.0);
   if (fixed() || settings_.max_rays || fitted_to_time_ || shares.size() < 2 || !(rays > 0.0)) return shares;
-  const double spare = std::clamp(cheap_rays_per_packet * work.packets / rays, 1.0, most_spare_of_rays);
-  work.rays = std::min(spare * work.rays, static_cast<double>(max_grid_rays));
-  const double least = least_rays_per_packet * work.packets / work.rays;
+  const double cheap = cheap_rays_per_packet(shares.size()) * work.packets;
+  Work more = work;
+  more.rays = std::min(std::clamp(cheap / rays, 1.0, most_spare_of_rays) * work.rays, static_cast<double>(max_grid_rays));
+  if (more.packets > most_packets(more)) return shares;  // the rays would take the packets' memory
+  const double spare = more.rays / work.rays;
+  const double least = least_rays_per_packet * more.packets / more.rays;
   for (std::size_t k = 0; k < shares.size(); ++k)
     shares[k] = std::min(1.0, std::max(needs[k] * std::max(1.0, spare_of_rays / spare), least));
+  work = more;
   return shares;
 }
 

@@ -130,6 +130,23 @@ TEST(PacketBundles, AreForNeighboursOfOneDirection) {
   EXPECT_TRUE(test.in_bundles({}, any_size, landings));
 }
 
+// Many packets leave a large leaf one after the other, close to each other: the tracer takes bundles, and the landings are the same.
+TEST(PacketBundles, AreTakenWhereTheyPay) {
+  const PacketCase test(crossing_leaves(unit_plot));
+  const glm::dvec3 to_sun = direction_to_sun(sun_at(40, 130));
+  std::vector<shared::Packet> packets;
+  for (const shared::Packet& packet : test.from_elements(to_sun, 1)) {
+    for (int k = 0; k < 40; ++k) {
+      packets.push_back(packet);
+      packets.back().origin.y += 1e-4F * static_cast<float>(k);
+    }
+  }
+  Landings found;
+  EXPECT_TRUE(test.in_bundles(packets, triangle_size_squared(test.prepared.bvh), found));
+  EXPECT_TRUE(same(found, test.one_by_one(packets)));
+  EXPECT_GT(on_elements(found), 1000U);
+}
+
 TEST(PacketBundles, KnowTheSizeOfATypicalTriangle) {
   MeshMaker maker;
   for (int k = 0; k < 9; ++k) maker.level(0.1 * k, 0.1 * k + 0.02, 0.3, 0.35, 0.5);

@@ -152,28 +152,39 @@ TEST_F(WorkPlannerTest, GivesEachLightTheRaysThatItsErrorNeeds) {
   EXPECT_EQ(planner.ray_needs(rays, lights, std::vector(5, true)), std::vector(5, 1.0));
 }
 
-// Two lights of which one needs a tenth of the other's rays: 1.15 times the rays of the work, with what both get in pilots.
+// Two lights: two rays of both together for each packet are cheap.
 TEST_F(WorkPlannerTest, AddsRaysWhereTheyCostLittleBesidePackets) {
   const WorkPlanner planner(model_, settings_, maker_);
-  const std::vector<double> needs{1.0, 0.1};
-  Work cheap{100000.0, 100000.0};
-  const std::vector<double> shares = planner.spare_rays(needs, cheap);
-  EXPECT_EQ(cheap.rays, 200000.0) << "twice what the light asks for that needs most";
-  EXPECT_EQ(shares, (std::vector{1.0, 0.125})) << "a quarter of a ray for each packet";
-  EXPECT_EQ(cheap.packets, 100000.0);
+  const std::vector<double> needs{1.0, 0.4};
+  Work cheap{100000.0, 200000.0};
+  EXPECT_EQ(planner.spare_rays(needs, cheap), needs);
+  EXPECT_EQ(cheap.rays, 200000.0) << "twice what each of them asks for";
+  EXPECT_EQ(cheap.packets, 200000.0);
 
-  Work between{100000.0, 40000.0};
-  EXPECT_NEAR(planner.spare_rays(needs, between)[1], 0.15 * 1.15 / 1.6, 1e-12) << "still a half more than it asks for";
-  EXPECT_NEAR(between.rays, 160000.0 / 1.15, 1e-6) << "four rays of both lights for each packet";
+  Work few{100000.0, 200000.0};
+  EXPECT_EQ(planner.spare_rays(std::vector{1.0, 0.1}, few), (std::vector{1.0, 0.25})) << "a quarter of a ray for each packet";
+
+  Work between{100000.0, 100000.0};
+  EXPECT_NEAR(planner.spare_rays(needs, between)[1], 0.6 / 1.25, 1e-12) << "still a half more than it asks for";
+  EXPECT_NEAR(between.rays, 125000.0, 1e-6) << "what pilots would give both is 160,000, and 200,000 are cheap";
 
   Work dear{400000.0, 100000.0};
-  EXPECT_NEAR(planner.spare_rays(needs, dear)[1], 0.15, 1e-12);
+  EXPECT_NEAR(planner.spare_rays(needs, dear)[1], 0.6, 1e-12);
   EXPECT_EQ(dear.rays, 400000.0);
+}
 
+TEST_F(WorkPlannerTest, AddsNoRaysBeyondALimit) {
+  const std::vector<double> needs{1.0, 0.4};
+  Work work{100000.0, 200000.0};
   settings_.max_rays = 1000000;
-  Work limited{100000.0, 100000.0};
-  EXPECT_EQ(planner.spare_rays(needs, limited), planner.ray_shares(needs));
-  EXPECT_EQ(limited.rays, 100000.0);
+  const WorkPlanner limited(model_, settings_, maker_);
+  EXPECT_EQ(limited.spare_rays(needs, work), limited.ray_shares(needs));
+  EXPECT_EQ(work.rays, 100000.0);
+  settings_.max_rays.reset();
+  settings_.memory_bytes = 1e6;
+  const WorkPlanner short_of_memory(model_, settings_, maker_);
+  EXPECT_EQ(short_of_memory.spare_rays(needs, work), short_of_memory.ray_shares(needs));
+  EXPECT_EQ(work.rays, 100000.0);
 }
 
 TEST_F(WorkPlannerTest, ChoosesNothingIfStopped) {
