@@ -109,6 +109,13 @@ TEST_F(Commands, WarningsComeWithTheirPlace) {
   }
 }
 
+// A forecast would trace billions of rays first.
+TEST_F(Commands, InfoRefusesAGridThatRunRefuses) {
+  const Outcome outcome = run({"info", scene_file("two_squares.toml").string(), "--device", "cpu", "--grid", "1e-9"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("--grid 1e-09"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Commands, InfoOfASunByAnglesKnowsNoTimes) {
   const json info = json::parse(run({"info", scene_file("two_squares.toml").string(), "--json"}).out);
   EXPECT_EQ(info["triangles"], 4);
