@@ -50,16 +50,15 @@ Checkpoint::Found Checkpoint::find(const RadiationModel& model, const SolveSetti
 
 // The summary of a finished run contains its settings; a file that is not a summary of this program is ignored.
 bool Checkpoint::is_finished() const {
-  std::error_code error;
-  if (!fs::is_regular_file(folder_ / summary_file, error)) return false;
-  const json summary = json::parse(read_file(folder_ / summary_file), nullptr, false);
-  if (!summary.is_object() || summary.value("complete", json()) != true) return false;
+  const std::optional<json> found = summary_in(folder_);
+  if (!found || found->value("complete", json()) != true) return false;
+  const json& summary = *found;
   const json none;
   const json settings = summary.value("settings", json::object());
   ordered_json noted;
   for (const auto& [key, value] : settings_.items()) {
     const json& place = settings.is_object() && settings.contains(key) ? settings : summary;
-    noted[key] = key == "command" ? summary.value(key, json("run")) : place.value(key, none);
+    noted[key] = key == "command" ? command_of(summary) : place.value(key, none);
   }
   expect_same_settings(settings_, noted, "that finished run", folder_);
   for (const ExportKind kind : export_kinds) {

@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -238,6 +239,18 @@ void check_inputs(const std::filesystem::path& folder, const Scene& scene) {
     throw_input(printable(file.path.string()), "the result would replace this file of the scene",
                 "give another folder with -o, or rename the file");
   }
+}
+
+std::optional<nlohmann::json> summary_in(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(folder / summary_file, error)) return std::nullopt;
+  nlohmann::json summary = nlohmann::json::parse(read_file(folder / summary_file), nullptr, false);
+  if (!summary.is_object()) return std::nullopt;
+  return summary;
+}
+
+nlohmann::json command_of(const nlohmann::json& summary) {
+  return summary.value("command", nlohmann::json("run"));  // that of a run does not say
 }
 
 std::optional<std::string> lack_of(const std::filesystem::path& folder, std::string_view work, const std::string& file) {

@@ -9,6 +9,7 @@
 #include "simulate/unwritten_files.h"
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,11 @@
 namespace sunfleck {
 
 inline constexpr const char* summary_file = "summary.json";
+
+// Returns the summary in a folder; nothing if there is none, or if the file is not a JSON object.
+[[nodiscard]] std::optional<nlohmann::json> summary_in(const std::filesystem::path& folder);
+// Returns the command whose result that is: "run" or "day".
+[[nodiscard]] nlohmann::json command_of(const nlohmann::json& summary);
 
 // Returns the words that ResultRequest::images may hold: file stems, profile, planes, all and none.
 [[nodiscard]] std::vector<std::string> image_words();

@@ -1,13 +1,13 @@
 // Tests that the CPU walk, the CPU test of every element, and Vulkan count and record the same landings, word for word, however
 // the work is cut.
 
-#include "agreement/landings.h"
 #include "agreement/scenes.h"
 #include "devices/tracers/canopy_view.h"
 #include "devices/tracers/vulkan_tracer.h"
 #include "physics/transport/model/beam_block.h"
 #include "support/copies.h"
 #include "support/device.h"
+#include "support/landings.h"
 
 #include <gtest/gtest.h>
 

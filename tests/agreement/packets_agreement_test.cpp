@@ -1,12 +1,12 @@
 // Tests that packets land on the same places on the CPU path and on the device, bit by bit, however the work is cut, so that
 // whole runs with scattered light give the same numbers on both.
 
-#include "agreement/landings.h"
 #include "agreement/scenes.h"
 #include "devices/tracers/vulkan_tracer.h"
 #include "physics/transport/indirect/indirect.h"
 #include "support/copies.h"
 #include "support/device.h"
+#include "support/landings.h"
 #include "support/leaf_scenes.h"
 #include "support/processor_kinds.h"
 #include "support/result_numbers.h"

@@ -2,13 +2,13 @@
 // A tracer that makes the rounds of indirect passes twice, on the host and on a device, and compares what each stage of each
 // round leaves.
 
-#include "agreement/landings.h"
 #include "devices/tracers/round_steps.h"
 #include "physics/transport/indirect/arrivals.h"
 #include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/indirect/packet_draw.h"
 #include "physics/transport/indirect/packet_starts.h"
 #include "physics/transport/indirect/place_aim.h"
+#include "support/landings.h"
 #include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>

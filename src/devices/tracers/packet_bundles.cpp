@@ -2,6 +2,7 @@
 
 #include "devices/tracers/bundle_walk.h"
 #include "devices/tracers/packet_way.h"
+#include "devices/tracers/walk_parts.h"
 
 #include <glm/geometric.hpp>
 
@@ -102,10 +103,8 @@ float triangle_size_squared(const Bvh& bvh) {
   std::vector<float> sizes_squared;
   for (std::size_t k = 0; k < bvh.triangles.size(); k += step) {
     const BvhTriangle& triangle = bvh.triangles[k];
-    const glm::vec3 a(triangle.a[0], triangle.a[1], triangle.a[2]);
-    const glm::vec3 b(triangle.b[0], triangle.b[1], triangle.b[2]);
-    const glm::vec3 c(triangle.c[0], triangle.c[1], triangle.c[2]);
-    sizes_squared.push_back(glm::length(glm::cross(b - a, c - a)));
+    const glm::vec3 a = walk_parts::corner(triangle.a);
+    sizes_squared.push_back(glm::length(glm::cross(walk_parts::corner(triangle.b) - a, walk_parts::corner(triangle.c) - a)));
   }
   return median(sizes_squared);
 }

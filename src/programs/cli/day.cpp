@@ -8,7 +8,6 @@
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/day_summary.h"
 #include "files/results/tables/plane_day.h"
-#include "files/results/tables/result_writer.h"
 #include "programs/cli/process.h"
 #include "programs/cli/terminal.h"
 #include "simulate/day.h"
@@ -24,6 +23,7 @@
 #include <algorithm>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 namespace sunfleck {
@@ -191,11 +191,9 @@ int help_with_day(const DayOptions& options, Ranks& ranks) {
 
 // Throws Error (input) if the folder holds the result of another command, which a day that begins would remove.
 void expect_no_other_result(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::is_regular_file(folder / summary_file, error)) return;
-  const ordered_json summary = ordered_json::parse(read_file(folder / summary_file), nullptr, false);
-  if (!summary.is_object() || !summary.contains("settings")) return;  // of a command that has only begun
-  const ordered_json command = summary.value("command", ordered_json("run"));
+  const std::optional<nlohmann::json> summary = summary_in(folder);
+  if (!summary || !summary->contains("settings")) return;  // of a command that has only begun
+  const nlohmann::json command = command_of(*summary);
   if (command == "day") return;
   throw_input(fmt::format("--resume {}", printable(folder.string())),
               fmt::format("the folder holds the result of {}, not of a day", printable(command.dump())),

@@ -5,27 +5,21 @@
 #include "physics/light/sun.h"
 #include "physics/transport/receivers/sensor_rays.h"
 #include "support/copies.h"
+#include "support/landings.h"
 #include "support/models.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 namespace sunfleck::test {
 namespace {
 
-using Landings = std::vector<shared::Landing>;
-
 constexpr float any_size = 1e12F;
 constexpr float no_size = 0.0F;
-
-bool same(const Landings& a, const Landings& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(shared::Landing)) == 0;
-}
 
 std::size_t on_elements(const Landings& landings) {
   return static_cast<std::size_t>(std::count_if(landings.begin(), landings.end(), [](const shared::Landing& landing) {
@@ -79,11 +73,10 @@ struct PacketCase {
       const Landings expected = one_by_one(packets);
       Landings found;
       EXPECT_TRUE(in_bundles(packets, any_size, found));
-      EXPECT_TRUE(same(found, expected));
+      EXPECT_EQ(landings_apart(found, expected), 0U);
       landed += on_elements(found);
       CpuTracer tracer(prepared.bvh, tracer_scene(model));
-      EXPECT_EQ(tracer.trace(scene, packets, found, {}), TraceOutcome::finished);
-      EXPECT_TRUE(same(found, expected));
+      EXPECT_EQ(landings_apart(follow(tracer, scene, packets), expected), 0U);
     }
     return landed;
   }
@@ -143,7 +136,7 @@ TEST(PacketBundles, AreTakenWhereTheyPay) {
   }
   Landings found;
   EXPECT_TRUE(test.in_bundles(packets, triangle_size_squared(test.prepared.bvh), found));
-  EXPECT_TRUE(same(found, test.one_by_one(packets)));
+  EXPECT_EQ(landings_apart(found, test.one_by_one(packets)), 0U);
   EXPECT_GT(on_elements(found), 1000U);
 }
 
