@@ -20,7 +20,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # dpkg-shlibdeps finds the linked libraries; the following are opened at run time.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libvulkan1")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libvulkan1, ${NETCDF_PACKAGE}")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers, gnuplot-nox")
 if(TARGET sunfleck_python)
   math(EXPR next_minor "${Python_VERSION_MINOR} + 1")

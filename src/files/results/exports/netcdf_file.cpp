@@ -3,10 +3,9 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "files/results/exports/netcdf_library.h"
 
 #include <fmt/format.h>
-#include <netcdf.h>
-#include <netcdf_mem.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -33,17 +32,17 @@ template <>
 constexpr int type_number<double> = NC_DOUBLE;
 
 int put_all(int file, int variable, const std::int32_t* values) {
-  return nc_put_var_int(file, variable, values);
+  return netcdf().put_var_int(file, variable, values);
 }
 int put_all(int file, int variable, const std::int64_t* values) {
   static_assert(sizeof(long long) == sizeof(std::int64_t));
-  return nc_put_var_longlong(file, variable, reinterpret_cast<const long long*>(values));
+  return netcdf().put_var_longlong(file, variable, reinterpret_cast<const long long*>(values));
 }
 int put_all(int file, int variable, const float* values) {
-  return nc_put_var_float(file, variable, values);
+  return netcdf().put_var_float(file, variable, values);
 }
 int put_all(int file, int variable, const double* values) {
-  return nc_put_var_double(file, variable, values);
+  return netcdf().put_var_double(file, variable, values);
 }
 
 // After a failed write, netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process exits and the
@@ -65,17 +64,17 @@ bool reason_of_disk(int code) {
 
 NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)), cure_("export vtp or csv") {
   constexpr std::size_t first_bytes = std::size_t{1} << 20;
-  check(nc_create_mem(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
+  check(netcdf().create_mem(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
 }
 
 NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file)
     : name_(std::move(name)), cure_("free some space, or choose another folder with -o"), on_disk_(true) {
   errno = 0;
-  check(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
+  check(netcdf().create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
 }
 
 NetcdfFile::~NetcdfFile() {
-  if (file_ >= 0 && !broken_) nc_abort(file_);
+  if (file_ >= 0 && !broken_) netcdf().abort(file_);
 }
 
 void NetcdfFile::check(int status, std::string_view what) {
@@ -84,22 +83,22 @@ void NetcdfFile::check(int status, std::string_view what) {
   if (!std::exchange(broken_, true)) leave_before_libraries();
   // HDF5, below netCDF, reports only that a write failed; errno still holds the reason.
   const bool of_disk = status == NC_EHDFERR && on_disk_ && reason_of_disk(reason);
-  throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : nc_strerror(status),
+  throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : netcdf().strerror(status),
                 of_disk ? write_cure(reason) : cure_);
 }
 
 int NetcdfFile::dimension(const std::string& name, std::size_t size) {
   int number = -1;
-  check(nc_def_dim(file_, name.c_str(), size, &number), fmt::format("dimension {}", name));
+  check(netcdf().def_dim(file_, name.c_str(), size, &number), fmt::format("dimension {}", name));
   return number;
 }
 
 int NetcdfFile::define(const std::string& name, int type, const std::vector<int>& dimensions) {
   const std::string what = fmt::format("variable {}", name);
   int number = -1;
-  check(nc_def_var(file_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &number), what);
+  check(netcdf().def_var(file_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &number), what);
   constexpr int deflate_level = 2;
-  if (!dimensions.empty()) check(nc_def_var_deflate(file_, number, 1, 1, deflate_level), what);
+  if (!dimensions.empty()) check(netcdf().def_var_deflate(file_, number, 1, 1, deflate_level), what);
   return number;
 }
 
@@ -108,7 +107,7 @@ int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimens
   const int number = define(name, type_number<T>, dimensions);
   if constexpr (std::is_floating_point_v<T>) {
     const T missing = std::numeric_limits<T>::quiet_NaN();
-    check(nc_def_var_fill(file_, number, NC_FILL, &missing), fmt::format("variable {}", name));
+    check(netcdf().def_var_fill(file_, number, NC_FILL, &missing), fmt::format("variable {}", name));
   }
   return number;
 }
@@ -123,11 +122,11 @@ int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimens
 }
 
 void NetcdfFile::attribute(int variable, const std::string& name, std::string_view text) {
-  check(nc_put_att_text(file_, variable, name.c_str(), text.size(), text.data()), fmt::format("attribute {}", name));
+  check(netcdf().put_att_text(file_, variable, name.c_str(), text.size(), text.data()), fmt::format("attribute {}", name));
 }
 
 void NetcdfFile::attribute(int variable, const std::string& name, std::span<const std::int32_t> numbers) {
-  check(nc_put_att_int(file_, variable, name.c_str(), NC_INT, numbers.size(), numbers.data()),
+  check(netcdf().put_att_int(file_, variable, name.c_str(), NC_INT, numbers.size(), numbers.data()),
         fmt::format("attribute {}", name));
 }
 
@@ -169,12 +168,12 @@ int NetcdfFile::add(const Column& column, const std::vector<int>& dimensions) {
 
 std::vector<std::size_t> NetcdfFile::shape_of(int variable) {
   int count = 0;
-  check(nc_inq_varndims(file_, variable, &count), "its dimensions cannot be read");
+  check(netcdf().inq_varndims(file_, variable, &count), "its dimensions cannot be read");
   std::vector<int> dimensions(static_cast<std::size_t>(count));
-  check(nc_inq_vardimid(file_, variable, dimensions.data()), "its dimensions cannot be read");
+  check(netcdf().inq_vardimid(file_, variable, dimensions.data()), "its dimensions cannot be read");
   std::vector<std::size_t> shape(dimensions.size());
   for (std::size_t i = 0; i < shape.size(); ++i)
-    check(nc_inq_dimlen(file_, dimensions[i], &shape[i]), "its dimensions cannot be read");
+    check(netcdf().inq_dimlen(file_, dimensions[i], &shape[i]), "its dimensions cannot be read");
   return shape;
 }
 
@@ -187,10 +186,10 @@ void NetcdfFile::store_by_rows(int variable, std::size_t rows_at_once) {
     chunk[i] = std::clamp<std::size_t>(chunk[i], 1, std::max<std::size_t>(1, longest_chunk / values));
     values *= chunk[i];
   }
-  check(nc_def_var_chunking(file_, variable, NC_CHUNKED, chunk.data()), "its layout cannot be set");
+  check(netcdf().def_var_chunking(file_, variable, NC_CHUNKED, chunk.data()), "its layout cannot be set");
   // put_rows writes whole chunks, so that there is no use in keeping many of them.
   constexpr std::size_t cache_bytes = std::size_t{1} << 20, slots = 521;
-  check(nc_set_var_chunk_cache(file_, variable, cache_bytes, slots, 1.0F), "its layout cannot be set");
+  check(netcdf().set_var_chunk_cache(file_, variable, cache_bytes, slots, 1.0F), "its layout cannot be set");
 }
 
 void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std::span<const float> values) {
@@ -199,7 +198,7 @@ void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std
   std::vector<std::size_t> begin(count.size());
   begin.at(0) = first;
   count.at(0) = rows;
-  check(nc_put_vara_float(file_, variable, begin.data(), count.data(), values.data()), "its values cannot be written");
+  check(netcdf().put_vara_float(file_, variable, begin.data(), count.data(), values.data()), "its values cannot be written");
 }
 
 void NetcdfFile::names(const std::string& name, int dimension, const std::vector<std::string>& values,
@@ -215,19 +214,19 @@ void NetcdfFile::names(const std::string& name, int dimension, const std::vector
     text += value;
     text.append(longest - value.size(), '\0');
   }
-  if (!values.empty()) check(nc_put_var_text(file_, number, text.data()), "its names cannot be written");
+  if (!values.empty()) check(netcdf().put_var_text(file_, number, text.data()), "its names cannot be written");
 }
 
 std::string NetcdfFile::take() {
   NC_memio memory{};
-  check(nc_close_memio(std::exchange(file_, -1), &memory), "it cannot be finished");
+  check(netcdf().close_memio(std::exchange(file_, -1), &memory), "it cannot be finished");
   const std::unique_ptr<void, decltype(&std::free)> owner(memory.memory, &std::free);
   return {static_cast<const char*>(memory.memory), memory.size};
 }
 
 void NetcdfFile::finish() {
-  check(nc_sync(file_), "it cannot be finished");  // so that closing writes nothing more
-  check(nc_close(std::exchange(file_, -1)), "it cannot be finished");
+  check(netcdf().sync(file_), "it cannot be finished");  // so that closing writes nothing more
+  check(netcdf().close(std::exchange(file_, -1)), "it cannot be finished");
 }
 
 template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::vector<int>&);

@@ -1,0 +1,41 @@
+#pragma once
+// The netCDF C library, opened when the first file is written. It brings thirty other libraries along (HDF5, curl, Kerberos), and
+// loading them takes as long as everything else that the program does before its work.
+
+#include <netcdf.h>
+#include <netcdf_mem.h>
+
+namespace sunfleck {
+
+// Its functions, under their names without nc_.
+struct NetcdfLibrary {
+  decltype(&nc_abort) abort;
+  decltype(&nc_close) close;
+  decltype(&nc_close_memio) close_memio;
+  decltype(&nc_create) create;
+  decltype(&nc_create_mem) create_mem;
+  decltype(&nc_def_dim) def_dim;
+  decltype(&nc_def_var) def_var;
+  decltype(&nc_def_var_chunking) def_var_chunking;
+  decltype(&nc_def_var_deflate) def_var_deflate;
+  decltype(&nc_def_var_fill) def_var_fill;
+  decltype(&nc_inq_dimlen) inq_dimlen;
+  decltype(&nc_inq_vardimid) inq_vardimid;
+  decltype(&nc_inq_varndims) inq_varndims;
+  decltype(&nc_put_att_int) put_att_int;
+  decltype(&nc_put_att_text) put_att_text;
+  decltype(&nc_put_var_double) put_var_double;
+  decltype(&nc_put_var_float) put_var_float;
+  decltype(&nc_put_var_int) put_var_int;
+  decltype(&nc_put_var_longlong) put_var_longlong;
+  decltype(&nc_put_var_text) put_var_text;
+  decltype(&nc_put_vara_float) put_vara_float;
+  decltype(&nc_set_var_chunk_cache) set_var_chunk_cache;
+  decltype(&nc_strerror) strerror;
+  decltype(&nc_sync) sync;
+};
+
+// Returns the library, which stays open. Throws Error (failure) if it cannot be loaded.
+[[nodiscard]] const NetcdfLibrary& netcdf();
+
+}  // namespace sunfleck
