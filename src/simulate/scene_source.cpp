@@ -70,9 +70,8 @@ Scene load_scene(const SceneRequest& request, ScenePurpose purpose, SourceFiles*
   const CaribuSet set = caribu_set(scene, stand, request.allow_outside);
   const CaribuScene made =
       caribu_scene(set, {name_from(folder, scene).generic_string(), name_from(folder, stand.light).generic_string()}, files);
-  // The user named every file; a .can refers to no other files.
   return read_scene(SceneText{scene, made.text, {}},
-                    {.allow_outside = request.allow_outside || is_can_file(scene), .files = files});
+                    {.allow_outside = request.allow_outside, .files = files, .named = {scene, stand.light}});
 }
 
 Scene load_scene_with_warnings(const SceneRequest& request, ScenePurpose purpose) {

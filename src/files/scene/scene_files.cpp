@@ -15,6 +15,13 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
   return in_folder == folder.end();
 }
 
+bool is_named(const fs::path& file, const SceneAccess& access) {
+  return std::any_of(access.named.begin(), access.named.end(), [&](const fs::path& named) {
+    std::error_code code;
+    return fs::weakly_canonical(named, code) == file;
+  });
+}
+
 }  // namespace
 
 fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, const SceneAccess& access, std::string_view wanted,
@@ -27,7 +34,7 @@ fs::path find_scene_file(const TomlTable& table, const fs::path& scene_file, con
   if (code) table.refuse(key, "the scene's folder cannot be read: " + code.message(), "check its permissions");
   fs::path file = fs::weakly_canonical(folder / name, code);
   if (code) table.refuse(key, "its path cannot be resolved: " + code.message(), "correct the path");
-  if (!access.allow_outside && !lies_in(file, folder)) {
+  if (!access.allow_outside && !lies_in(file, folder) && !is_named(file, access)) {
     table.refuse(key, "it lies outside the scene's folder", "move it into that folder, or run with --allow-outside");
   }
   access.files->note(folder / name);

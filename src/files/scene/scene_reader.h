@@ -75,7 +75,8 @@ enum class ScenePurpose { moment, day };
 struct SceneAccess {
   bool allow_outside = false;  // true if files may lie outside the scene's folder
   ScenePurpose purpose = ScenePurpose::moment;
-  SourceFiles* files = nullptr;  // if set, collects every file that is tried, even if reading then fails
+  SourceFiles* files = nullptr;              // if set, collects every file that is tried, even if reading then fails
+  std::vector<std::filesystem::path> named;  // files that the user named, which may lie anywhere
 };
 
 // Reads, checks and assembles a scene. Throws Error (input), one line `file:line: key ...`, before any work starts.

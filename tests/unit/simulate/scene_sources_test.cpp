@@ -132,6 +132,19 @@ TEST_F(SceneSources, MayLieAnywhere) {
   EXPECT_EQ(load_scene({other / "scene.toml"}).digest, scene().digest);
 }
 
+// A mesh may refer to files of its own, which stay in its folder.
+TEST_F(SceneSources, ThatTheUserNamesMayLieOutsideTheFolder) {
+  write(folder_ / "leaf.gltf", gltf_beside("parts/stand.bin"));
+  const TempFolder elsewhere;
+  write(elsewhere / "far.light", "0.75 0 0 -1\n0.5 0.5 0.5 -0.7\n");
+  for (const std::string canopy : {"stand.can", "leaf.gltf"}) {
+    const Scene far = stand(canopy, (elsewhere / "far.light").string()), near = stand(canopy, "sky.light");
+    ASSERT_TRUE(far.model.sky && near.model.sky) << canopy;
+    EXPECT_EQ(far.model.sky->lights.size(), 2U) << canopy;
+    EXPECT_EQ(far.files.size(), near.files.size()) << canopy;
+  }
+}
+
 TEST_F(SceneSources, OfASceneThatFailsAreListedToo) {
   const auto tried = [this](const std::string& names_of) {
     SourceFiles files;
