@@ -73,6 +73,49 @@ def test_infinite_canopy_over_soil():
     assert within(scene.soil_aggregated["nir"]["Eabs"], (1.0 - soil) * between, 0.002)
 
 
+def test_white_soil():
+    """Soil that absorbs nothing is still lit."""
+    plate = {"plate": [[(0, 0, 1), (1, 0, 1), (0, 1, 1)], [(1, 0, 1), (1, 1, 1), (0, 1, 1)]]}
+    light = [(200.0, (0.3, -0.2, -1.0))]
+    scene = CaribuScene(plate, light=light, pattern=SQUARE, opt={"nir": (0.4, 0.3)}, soil_reflectance=1.0)
+    scene.run(direct=False, infinite=True, error=0.002)
+    assert within(scene.soil_aggregated["nir"]["Ei"], 200.0 * 0.3 / (1.0 - 0.4), 0.002)
+    assert scene.soil_aggregated["nir"]["Eabs"] == 0.0
+
+
+def test_white_soil_of_an_isolated_canopy():
+    """The light on the soil does not jump where its reflectance becomes 1."""
+    incident = []
+    for reflectance in (1.0 - 1e-3, 1.0):
+        scene = CaribuScene(HALVES, pattern=SQUARE, opt={"nir": (0.4, 0.3)}, soil_reflectance=reflectance, soil_mesh=0, z_soil=-1.0)
+        scene.run(direct=False, error=0.002)
+        incident.append(scene.soil_aggregated["nir"]["Ei"])
+    assert incident[0] > 0.0 and within(incident[1], incident[0], 0.003)
+
+
+@pytest.mark.parametrize(
+    "mesh, is_soil", [(None, False), (-1, False), (np.int64(-1), False), (0, True), ([LOWER], True), (np.array([LOWER]), True)]
+)
+def test_meshes_of_soil(mesh, is_soil):
+    scene = CaribuScene(HALVES, pattern=SQUARE, soil_mesh=mesh)
+    scene.run(error=0.05)
+    assert bool(scene.soil_aggregated) == is_soil
+
+
+def test_soil_may_have_more_bands():
+    scene = CaribuScene(HALVES, opt={"nir": (0.4, 0.3)}, soil_reflectance={"par": 0.1, "nir": 0.35})
+    assert scene.soil_reflectance == {"nir": 0.35}
+    assert CaribuScene(HALVES, soil_reflectance={"par": 0.1}).soil_reflectance == {"par": 0.1}
+
+
+def test_primitives_without_triangles():
+    scene = CaribuScene({"list": [], "array": np.empty((0, 3, 3)), **HALVES}, pattern=SQUARE)
+    raw, aggregated = scene.run(error=0.05, simplify=True)
+    for quantity, values in aggregated.items():
+        assert raw[quantity]["list"] == raw[quantity]["array"] == []
+        assert values["list"] == values["array"] == 0.0
+
+
 def checkerboards(heights=(15, 10, 5), side=20, cells=8):
     """Each layer lets half of the light through that reaches it: it consists of a board's squares of one colour."""
     step = side / cells
@@ -98,6 +141,14 @@ def test_lists_of_lights():
     _, aggregated = CaribuScene(full, light=lights, pattern=(0, 0, 4, 4), opt={"par": (0.1,)}).run(infinite=True, error=0.005, simplify=True)
     assert within(aggregated["Ei"]["top"], 10.0, 0.005)
     assert aggregated["Ei"]["below"] == 0.0
+
+
+@pytest.mark.filterwarnings("ignore:scene")
+def test_low_light():
+    """Light that just descends enough gives a level leaf its irradiance."""
+    light = [(100.0, (1.0, 0.0, -math.tan(math.radians(0.011))))]
+    _, aggregated = CaribuScene({"leaf": [LOWER]}, light=light, pattern=SQUARE).run(error=0.01, max_seconds=10, simplify=True)
+    assert within(aggregated["Ei"]["leaf"] / 100.0, 1.0, 0.01)
 
 
 def test_light_comes_from_where_it_comes():
@@ -136,6 +187,24 @@ BAD = {
     "a material of three": (lambda: CaribuScene(HALVES, opt={"par": (0.1, 0.1, 0.1)}), "opt['par']"),
     "a material above one": (lambda: CaribuScene(HALVES, opt={"par": (0.6, 0.5)}), "together at most 1"),
     "a missing material": (lambda: CaribuScene(HALVES, opt={"par": {"upper": (0.1,)}}), "primitive 'lower' has no material"),
+    "no triangles": (lambda: CaribuScene({"a": np.empty((0, 3, 3)), "b": []}), "no triangles"),
+    "a number as lights": (lambda: CaribuScene(HALVES, light=5), "light: int"),
+    "an array that is no list": (lambda: CaribuScene(HALVES, light=np.array(5.0)), "light: ndarray"),
+    "an array of lights": (lambda: CaribuScene(HALVES, light=np.array([[1, 0, 0, -1.0]])), "light[0]"),
+    "a grazing light": (lambda: CaribuScene(HALVES, light=[(100.0, (1, 0, -1e-7))]), "must descend by 0.01 degrees"),
+    "one grazing light of two": (lambda: CaribuScene(HALVES, light=[(1, (0, 0, -1)), (1, (1, 0, -1e-7))]), "light[1] direction"),
+    "a list of units": (lambda: CaribuScene(HALVES, scene_unit=["m"]), "scene_unit"),
+    "files of materials": (lambda: CaribuScene(HALVES, opt=["par.opt"]), "opt: list"),
+    "a material without a band": (lambda: CaribuScene(HALVES, opt=(0.1, 0.05)), "opt: tuple"),
+    "a number as materials": (lambda: CaribuScene(HALVES, opt=0.1), "opt: float"),
+    "a set of bands": (lambda: CaribuScene(HALVES, opt={"par"}), "opt: set"),
+    "soil of another band": (
+        lambda: CaribuScene(HALVES, opt={"nir": (0.4, 0.3)}, soil_reflectance={"NIR": 0.35}),
+        "band 'nir' has no reflectance",
+    ),
+    "soil without a band": (lambda: CaribuScene(HALVES, soil_reflectance={}), "soil_reflectance"),
+    "soil without a number": (lambda: CaribuScene(HALVES, soil_reflectance={"nir": None}), "soil_reflectance['nir']"),
+    "a list of bounds": (lambda: CaribuScene(HALVES, pattern=SQUARE).run(of=["canopy"]), "of = "),
     "soil above one": (lambda: CaribuScene(HALVES, soil_reflectance=1.5), "soil_reflectance"),
     "no pattern": (lambda: CaribuScene(HALVES).run(infinite=True), "pattern"),
     "sensors": (lambda: CaribuScene(HALVES, pattern=SQUARE).run(sensors={}), "sensors"),

@@ -34,18 +34,20 @@ Material = tuple[float, ...]  # one, two or four fractions
 _METRES = {"mm": 0.001, "cm": 0.01, "dm": 0.1, "m": 1.0, "dam": 10.0, "hm": 100.0, "km": 1000.0}
 _BOUNDED = {"canopy": "canopy", "primitive": "organ", "triangle": "triangle"}  # what `error` bounds, and the scene's word for it
 _LEAST_SHARE_OF_EXTENT = 1e-3  # gives a canopy that is a line or a point from above a plot
+_LEAST_DESCENT_DEG = 0.01  # lower light is biased by percents at 0.001 degrees, and lost at 0.0001
 
 
 class CaribuScene:
     """Triangles under lights.
 
     scene: {primitive: [triangle, ...]}, where a triangle is three points (x, y, z).
-    light: [(energy, (x, y, z)), ...]: the irradiance of a horizontal plane, and the direction in which the light travels (z < 0).
+    light: [(energy, (x, y, z)), ...]: the irradiance of a horizontal plane, and the direction in which the light travels, at least
+        0.01 degrees downwards (z < 0).
     pattern: (xmin, ymin, xmax, ymax), or ((xmin, ymin), (xmax, ymax)): the domain that an infinite canopy repeats.
     opt: {band: {primitive: material}} or {band: material}, where a material is (reflectance,) for an opaque surface, (reflectance,
         transmittance), or (reflectance_sup, transmittance_sup, reflectance_inf, transmittance_inf).
-    soil_reflectance: {band: reflectance}, or one number for all bands.
-    soil_mesh: anything but None adds soil under a canopy that is not infinite; an infinite one always has soil.
+    soil_reflectance: {band: reflectance} with every band of opt, or one number for all bands.
+    soil_mesh: anything but None and -1 adds soil under a canopy that is not infinite; an infinite one always has soil.
     z_soil: height of the soil (default: 0, or the lowest point if that is below 0).
     scene_unit: unit of the points and the pattern: mm, cm, dm, m, dam, hm or km. Energies are per square metre.
 
@@ -69,13 +71,13 @@ class CaribuScene:
         z_soil: Optional[float] = None,
         scene_unit: str = "m",
     ) -> None:
-        if scene_unit not in _METRES:
+        if not isinstance(scene_unit, str) or scene_unit not in _METRES:
             refuse(f"scene_unit = {scene_unit!r}", "unknown unit", f"use {', '.join(_METRES)}")
         self.scene_unit = scene_unit
         self.scene = _checked_scene(scene)
-        self.light = [_checked_light(one, number) for number, one in enumerate(light or [self.default_light])]
+        self.light = _checked_lights(light) or [self.default_light]
         self.pattern = _checked_pattern(pattern)
-        bands = list(opt) if opt else list(soil_reflectance) if isinstance(soil_reflectance, Mapping) else [self.default_band]
+        bands = self._bands(opt, soil_reflectance)
         self.material = {band: self._materials(opt[band] if opt else self.default_material, band) for band in bands}
         self.soil_reflectance = {band: self._soil_of(soil_reflectance, band) for band in bands}
         self.soil_mesh = soil_mesh
@@ -119,15 +121,15 @@ class CaribuScene:
         raw[band][quantity][primitive] is a list by triangle; aggregated[band][quantity][primitive] is the mean weighted by area,
         or the sum for area. Quantities: area (m2, one-sided), Eabs, Ei, Ei_sup, Ei_inf (absorbed, incident on both faces, on the
         upper and on the lower face, per area of one face, in the lights' unit), and Eabs_error, the half-width of the 95 %
-        confidence interval of Eabs (NaN if there are too few rays). The upper face is the one from which the corners run counter-clockwise. Sets soil_aggregated, and result to the
-        simulation's own result.
+        confidence interval of Eabs (NaN if there are too few rays). The upper face is the one from which the corners run
+        counter-clockwise. Sets soil_aggregated, and result to the simulation's own result.
         """
         if sensors is not None:
             refuse("sensors", "not supported here", "give the whole scene to sunfleck.run, with [[sensor]] or [[plane]]")
         if infinite and self.pattern is None:
             refuse("pattern", "an infinite canopy needs one to repeat", "give (xmin, ymin, xmax, ymax)")
         error = bound(error, "error")
-        if of not in _BOUNDED:
+        if not isinstance(of, str) or of not in _BOUNDED:
             refuse(f"of = {of!r}", "unknown", f"use {', '.join(_BOUNDED)}")
         with tempfile.TemporaryDirectory(prefix="sunfleck") as folder:
             tables = self._tables(direct, infinite, Path(folder))
@@ -145,6 +147,17 @@ class CaribuScene:
             return next(iter(raw.values())), next(iter(aggregated.values()))
         return raw, aggregated
 
+    def _bands(self, opt: Any, soil_reflectance: Any) -> list[str]:
+        if opt is not None and not isinstance(opt, Mapping):
+            refuse(f"opt: {type(opt).__name__}", "must be a dict of bands", "give {band: material}")
+        if opt:
+            return list(opt)
+        if not isinstance(soil_reflectance, Mapping):
+            return [self.default_band]
+        if not soil_reflectance:
+            refuse("soil_reflectance", "has no band", "give {band: reflectance}, or one number for all bands")
+        return list(soil_reflectance)
+
     def _materials(self, given: Any, band: str) -> dict[Any, Material]:
         if not isinstance(given, Mapping):
             return dict.fromkeys(self.scene, _checked_material(given, f"opt[{band!r}]"))
@@ -158,11 +171,19 @@ class CaribuScene:
         return materials
 
     def _soil_of(self, given: Union[float, Mapping[str, float], None], band: str) -> float:
-        value = given.get(band, self.default_soil_reflectance) if isinstance(given, Mapping) else given
-        reflectance = self.default_soil_reflectance if value is None else real(value, f"soil_reflectance[{band!r}]")
+        if given is None:
+            return self.default_soil_reflectance
+        if isinstance(given, Mapping) and band not in given:
+            refuse("soil_reflectance", f"band {band!r} has no reflectance", "give it, or one number for all bands")
+        value = given[band] if isinstance(given, Mapping) else given
+        reflectance = real(value, f"soil_reflectance[{band!r}]")
         if not 0.0 <= reflectance <= 1.0:
             refuse(f"soil_reflectance[{band!r}] = {value}", "must lie in 0..1", "give a fraction")
         return reflectance
+
+    def _has_soil(self, infinite: bool) -> bool:
+        no_mesh = self.soil_mesh is None or (np.isscalar(self.soil_mesh) and self.soil_mesh == -1)
+        return infinite or not no_mesh
 
     def _tables(self, direct: bool, infinite: bool, folder: Path) -> dict[str, Any]:
         unit = _METRES[self.scene_unit]
@@ -187,7 +208,7 @@ class CaribuScene:
         }
         bands = self._band_names(direct)
         tables["optics"] = {name: _surface(materials, bands) for name, materials in self._optics(direct).items()}
-        if infinite or self.soil_mesh is not None:
+        if self._has_soil(infinite):
             reflectance = [0.0] if direct else list(self.soil_reflectance.values())
             tables["soil"] = {"reflectance": dict(zip(bands, reflectance))}
         tables.update(self._light_tables(bands, folder))
@@ -236,7 +257,7 @@ class CaribuScene:
         if not shining:
             return {"band": [{"name": band} for band in bands]}
         energy, (x, y, z) = shining[0]
-        elevation = math.degrees(math.atan2(-z, math.hypot(x, y)))
+        elevation = _descent_deg((x, y, z))
         azimuth = math.degrees(math.atan2(-x, -y)) % 360.0
         return {
             "sun": {"elevation": elevation, "azimuth": azimuth},
@@ -307,16 +328,25 @@ class CaribuScene:
 
     def _book_soil(self, direct: bool, infinite: bool) -> None:
         self.soil_aggregated = {}
-        if (not infinite and self.soil_mesh is None) or self.result is None:
+        if not self._has_soil(infinite) or self.result is None:
             return
         area = self.result.summary["plot_area_m2"]
         for number, band in enumerate(self.material):
             reflectance = self.soil_reflectance[band]
-            absorbed = self.result.bands["b0" if direct else f"b{number}"]["absorbed_soil"]
-            # A black soil absorbs all the light that falls on it.
-            incident = absorbed if direct else absorbed / (1.0 - reflectance) if reflectance < 1.0 else math.nan
-            kept = (1.0 - reflectance) * incident if direct else absorbed
-            self.soil_aggregated[band] = {"area": area, "Ei": incident, "Eabs": kept}
+            if direct:
+                incident = _on_soil(self.result, "b0", 0.0)
+                absorbed = (1.0 - reflectance) * incident
+            else:
+                incident = _on_soil(self.result, f"b{number}", reflectance)
+                absorbed = self.result.bands[f"b{number}"]["absorbed_soil"]
+            self.soil_aggregated[band] = {"area": area, "Ei": incident, "Eabs": absorbed}
+
+
+def _on_soil(result: Result, band: str, reflectance: float) -> float:
+    """Returns the light that falls on soil of that reflectance."""
+    if reflectance < 1.0:
+        return result.bands[band]["absorbed_soil"] / (1.0 - reflectance)
+    return float(result.profile[f"{band}_up"][0])  # white soil reflects all of it
 
 
 def _absorptances(material: Material) -> tuple[float, float]:
@@ -356,13 +386,25 @@ def _checked_scene(scene: Any) -> dict[Any, np.ndarray]:
         try:
             array = np.asarray(triangles, dtype=float)
         except (TypeError, ValueError):
-            array = np.empty(0)
+            array = np.empty(())
+        if array.shape == (0,):
+            array = np.empty((0, 3, 3))
         if array.ndim != 3 or array.shape[1:] != (3, 3):
             refuse(f"scene[{primitive!r}]: shape {array.shape}", "must be a list of triangles of three points (x, y, z)", "reshape it")
         if not np.isfinite(array).all():
             refuse(f"scene[{primitive!r}]", "contains NaN or infinity", "remove or repair these triangles")
         checked[primitive] = array
+    if not any(len(array) for array in checked.values()):
+        refuse("scene", "has no triangles", "give at least one")
     return checked
+
+
+def _checked_lights(lights: Any) -> list[Light]:
+    try:
+        given = [] if lights is None else list(lights)
+    except TypeError:
+        refuse(f"light: {type(lights).__name__}", "must be a list of (energy, (x, y, z))", "put the light into a list")
+    return [_checked_light(light, number) for number, light in enumerate(given)]
 
 
 def _checked_light(light: Any, number: int) -> Light:
@@ -376,7 +418,14 @@ def _checked_light(light: Any, number: int) -> Light:
         refuse(f"{place} energy = {energy}", "must not be negative", "give an irradiance")
     if way[2] >= 0.0:
         refuse(f"{place} direction = {way}", "light must travel downwards, z < 0", "reverse its sign")
+    if _descent_deg(way) < _LEAST_DESCENT_DEG:
+        refuse(f"{place} direction = {way}", f"must descend by {_LEAST_DESCENT_DEG} degrees or more", "leave this light out")
     return energy, way
+
+
+def _descent_deg(way: Sequence[float]) -> float:
+    x, y, z = way
+    return math.degrees(math.atan2(-z, math.hypot(x, y)))
 
 
 def _checked_pattern(pattern: Any) -> Optional[tuple[float, float, float, float]]:
