@@ -103,6 +103,32 @@ TEST(Plates, FewPacketsAreUnbiased) {
   }
 }
 
+// A plate that lets light in but not out, and one that is nearly white: light that is still under way when a loose bound ends the
+// run would cross a plane several times, and nothing else makes an error here.
+TEST(Plates, UnshotFluxIsInEveryIntervalThatItWouldReach) {
+  const std::vector<PlateStack> bands = {{{0.0, 1.0}, {1.0, 0.0}, 0.8}, {{0.5, 0.5}, {0.9, 0.05}, 0.9}};
+  RadiationModel model = plates_over_soil(1, bands);
+  model.planes.push_back({0.0, 2, 2});
+  SolveSettings settings = fixed_packets(model, 2048, usual_replicates);
+  settings.accuracy.indirect = 0.02;
+  const RadiationResult result = simulate_soundly(model, settings);
+  const LayerResult& ground = result.layers.front();
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const PlateLight exact = light_on_plates(1, bands[b]);
+    const double beam_w_m2 = model.bands[b].direct_w_m2;
+    const auto expect_held = [&](const Estimate& got, double truth, const char* what) {
+      EXPECT_GT(std::abs(got.value - truth), 1e-5) << what << " of band " << b;
+      EXPECT_LE(std::abs(got.value - truth), got.half_width) << what << " of band " << b;
+      EXPECT_LE(got.half_width, 3.0 * std::abs(got.value - truth) + 0.01) << what << " of band " << b;
+    };
+    ASSERT_GT(result.bands[b].unshot, 1e-5);
+    expect_held(ground.down[b], exact.on_soil, "light down at the ground");
+    expect_held(ground.up[b], exact.up[0], "light up at the ground");
+    expect_held(result.planes[0].total_down[b], exact.on_soil, "light through the plane");
+    expect_held(result.organs[0].indirect[b], exact.down[0] + exact.up[0] - beam_w_m2, "scattered light on the plate");
+  }
+}
+
 // The leaves have rho + tau = 1 and stand over white soil: everything comes back out.
 TEST(Plates, NothingIsAbsorbedWhereNothingAbsorbs) {
   RadiationModel model = black_model(random_leaves(60, 0.02, unit_plot, 1.0, 7), unit_plot, beijing_sun());

@@ -260,5 +260,53 @@ TEST_P(TriangleLight, CanBeBounded) {
   EXPECT_LT(result.triangle_relative_error.at(0), 0.14);
 }
 
+// Small leaves of one or two triangles each, none of which any neighbour helps.
+RadiationModel small_leaves(int corners, bool overcast) {
+  Random random(11);
+  MeshMaker maker;
+  for (int number = 1; number <= 40; ++number) {
+    maker.organ("leaf", 1, number);
+    const glm::dvec3 centre_m(random.uniform(0.0, 1.0), random.uniform(0.1, 0.5), random.uniform(0.0, 1.0));
+    const glm::dvec3 normal = inclined(random.uniform(0.0, 0.6), random.uniform(0.0, 6.0));
+    maker.polygon(centre_m, normal, random.uniform(0.0005, 0.01), corners, random.uniform(0.0, 1.5));
+  }
+  RadiationModel model = leaf_model(maker.mesh(), unit_plot, sun_at(80.0, 120.0), std::array{par_band});
+  model.bands[0].direct_w_m2 = overcast ? 0.0 : 350.0;
+  if (overcast) {
+    model.sky = SkyModel{.kind = SkyKind::overcast};
+    model.bands[0].diffuse_w_m2 = 150.0;
+  }
+  return model;
+}
+
+// The light of a leaf is that of its triangles, and so is its error where there are few of them: what landed on the leaf varies.
+TEST(TriangleLightOfSmallLeaves, IsAsUncertainAsThatOfTheLeaves) {
+  for (const auto& [corners, overcast] : {std::pair{4, false}, std::pair{3, false}, std::pair{3, true}}) {
+    const RadiationModel model = small_leaves(corners, overcast);
+    const Prepared prepared(model);
+    const auto run = [&](double rays, std::uint64_t seed) {
+      SolveSettings settings = fixed_scatter(model, {.rays = rays, .packets = rays / usual_replicates, .seed = seed});
+      settings.element_errors = ElementErrors::refine;
+      return simulate(model, prepared, settings);
+    };
+    const Leaves truth = leaves_of_run(model, run(1e6, 99));
+    double held = 0.0, ratio = 0.0;
+    constexpr std::uint64_t seeds = 6;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      const RadiationResult result = run(2e4, seed);
+      const Leaves got = leaves_of_run(model, result);
+      held += covered(got, truth, [](std::size_t) { return true; }) / seeds;
+      double of_triangles = 0.0, of_leaves = 0.0;
+      for (std::size_t e = 0; e < got.area_m2.size(); ++e) of_triangles += got.area_m2[e] * got.error_w_m2[e];
+      for (const OrganResult& organ : result.organs) of_leaves += organ.area_m2 * organ.absorbed[0].half_width;
+      ratio += of_triangles / of_leaves / seeds;
+    }
+    EXPECT_GE(held, 0.92) << corners << overcast;
+    EXPECT_GE(ratio, 0.9) << corners << overcast;
+    EXPECT_LE(ratio, 1.5) << corners << overcast;
+    std::printf("corners %d: %.3f of the area held, half-widths %.2f times those of leaves\n", corners, held, ratio);
+  }
+}
+
 }  // namespace
 }  // namespace sunfleck::test

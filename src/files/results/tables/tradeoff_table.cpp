@@ -48,7 +48,7 @@ std::string head(const TradeoffReport& report) {
       "flux on) or triangles (area-weighted) of the difference to the reference relative to the value (layers and canopy: at "
       "least 1 % of the incident flux; triangles: mean); reported_relative_error: the same of the half-widths; covered: share "
       "of "
-      "the values that they reach; triangles: of those with 20 hits\n";
+      "the values that they reach; organs are those of vegetation\n";
   for (std::size_t i = 0; i < report.reference_rays.size(); ++i) {
     if (report.reference_rays[i] == 0) continue;
     text += fmt::format("# reference of {} light: {} rays and packets, its own error", light_name(all_series[i]),

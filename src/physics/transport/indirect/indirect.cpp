@@ -64,10 +64,12 @@ class IndirectPass {
 
   std::optional<IndirectSums> run() {
     if (!first_flux_.let_sky_in(order_.sky_rays, random_, stop_)) return std::nullopt;
+    IndirectSums& sums = books_.sums();
+    for (std::size_t c = 0; c < columns_; ++c) sums.sky_landed[c] = landed(sums.ledger[c]);
     first_flux_.add_lamps();
     const std::vector<std::int64_t> scattered = first_flux_.add_landings();
+    sums.first_waiting = books_.waiting();
     std::optional<TraceOutcome> outcome = start_on_device(scattered);
-    IndirectSums& sums = books_.sums();
     if (!outcome) {
       if (!sample_landings(scene_, light_, wanted_landings(), random_, stop_, arrays_)) return std::nullopt;
       first_flux_.add_points(arrays_.points, scattered);
@@ -83,6 +85,11 @@ class IndirectPass {
   }
 
  private:
+  // Returns what has landed of the light that came in.
+  [[nodiscard]] static std::int64_t landed(const FluxLedger& ledger) {
+    return ledger.incident - ledger.reflected - ledger.transmitted - ledger.unshot;
+  }
+
   // Makes all rounds on the host.
   [[nodiscard]] TraceOutcome make_rounds() {
     std::optional<PlaceAim> aim;

@@ -60,7 +60,9 @@ IndirectSums::IndirectSums(const RadiationModel& model, const CounterLayout& lay
       cell_landed(layout.cells(), bands),
       down((static_cast<std::size_t>(layout.layers.count) + 1) * bands),
       up(down.size()),
-      ledger(bands) {}
+      ledger(bands),
+      sky_landed(bands),
+      first_waiting(bands) {}
 
 std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights, const PlaceMemory& memory) {
   std::vector<IndirectSums> dealt;
@@ -81,6 +83,8 @@ std::vector<IndirectSums> sums_by_light(IndirectSums joint, std::size_t lights, 
     own.layer_landed = of_light(all.layer_landed, k, lights);
     own.down = of_light(all.down, k, lights);
     own.up = of_light(all.up, k, lights);
+    own.sky_landed = of_light(all.sky_landed, k, lights);
+    own.first_waiting = of_light(all.first_waiting, k, lights);
     own.receivers.down = of_light(all.receivers.down, k, lights);
     own.receivers.through_down = of_light(all.receivers.through_down, k, lights);
     own.receivers.through_up = of_light(all.receivers.through_up, k, lights);

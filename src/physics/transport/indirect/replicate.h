@@ -36,8 +36,8 @@ struct IndirectSums {
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
     archive(self.surface_landed, self.layer_landed, self.side_landed, self.element_hits, self.cell_landed, self.side_sky,
-            self.cell_sky, self.down, self.up, self.ledger, self.receivers, self.sky_rays, self.packets, self.rounds,
-            self.first_places, self.most_places, self.lost);
+            self.cell_sky, self.down, self.up, self.ledger, self.sky_landed, self.first_waiting, self.receivers, self.sky_rays,
+            self.packets, self.rounds, self.first_places, self.most_places, self.lost);
   }
 
   std::size_t bands = 0;                     // number of columns
@@ -50,6 +50,8 @@ struct IndirectSums {
   PlaceSums cell_sky;                        // as cell_landed, sky rays only
   std::vector<std::int64_t> down, up;        // [plane * bands + band], through the planes of the layers, top plane last
   std::vector<FluxLedger> ledger;            // [band]; `incident` holds flux from the lamps and the sky
+  std::vector<std::int64_t> sky_landed;      // [band], by sky rays
+  std::vector<std::int64_t> first_waiting;   // [band], what waits before the first round
   PlaneSums receivers;                       // at the horizontal receivers, if there are any
   std::uint64_t sky_rays = 0, packets = 0, rounds = 0, lost = 0;
   // Number of places with waiting flux before the first round, and the largest number after a round.

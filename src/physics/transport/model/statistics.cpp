@@ -26,4 +26,9 @@ double t_quantile(double confidence, std::size_t replicates) {
   return boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - confidence)));
 }
 
+double normal_quantile(double confidence) {
+  constexpr std::size_t many = 1000000;
+  return t_quantile(confidence, many);
+}
+
 }  // namespace sunfleck

@@ -64,4 +64,7 @@ class ReplicateMean {
 // freedom; NaN below two replicates.
 [[nodiscard]] double t_quantile(double confidence, std::size_t replicates);
 
+// Returns that ratio where the standard error is known.
+[[nodiscard]] double normal_quantile(double confidence);
+
 }  // namespace sunfleck

@@ -142,7 +142,8 @@ std::vector<std::int64_t> PlaneTally::closed_cells(std::size_t plane) const {
   return closed;
 }
 
-std::vector<PlaneResult> PlaneTally::results(double quantile, double unseen_events, std::span<const double> event_w_m2) const {
+std::vector<PlaneResult> PlaneTally::results(double quantile, double unseen_events, std::span<const double> event_w_m2,
+                                             std::span<const double> unshot_w_m2) const {
   std::vector<PlaneResult> results;
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     const PlaneReceiver& plane = model_.planes[p];
@@ -164,7 +165,9 @@ std::vector<PlaneResult> PlaneTally::results(double quantile, double unseen_even
     if (rays > 0.0) result.sunfleck_ratio = means_[p].sunfleck.estimate(quantile, events / rays);
     for (std::size_t b = 0; b < means_[p].down.size(); ++b) {
       const ReplicateMean& down = means_[p].down[b];
-      result.total_down.push_back(down.estimate(quantile, events * event_w_m2[b] / static_cast<double>(down.count())));
+      Estimate total = down.estimate(quantile, events * event_w_m2[b] / static_cast<double>(down.count()));
+      if (!planes_.above_all(p)) total.half_width += unshot_w_m2[b];
+      result.total_down.push_back(total);
     }
     results.push_back(std::move(result));
   }

@@ -92,9 +92,9 @@ class PlaneTally {
 
   // Returns the maps of all planes. `quantile` is Student's, for the confidence intervals. Where all replicates agree, the
   // intervals follow from `unseen_events` of statistics.h, each event being a beam ray or the light that `event_w_m2`
-  // gives, [band], W m-2 of plane in one replicate.
-  [[nodiscard]] std::vector<PlaneResult> results(double quantile, double unseen_events,
-                                                 std::span<const double> event_w_m2) const;
+  // gives, [band], W m-2 of plane in one replicate. `unshot_w_m2` is what unshot flux would still bring through a plane, [band].
+  [[nodiscard]] std::vector<PlaneResult> results(double quantile, double unseen_events, std::span<const double> event_w_m2,
+                                                 std::span<const double> unshot_w_m2) const;
 
   [[nodiscard]] std::size_t planes() const { return means_.size(); }
   // Returns the light through a plane downwards in one band, W m-2.

@@ -47,9 +47,12 @@ class ResultMaker {
     result.element_error = element_errors();
     result.side_error = side_errors();
     if (sums_.planes) {
-      std::vector<double> events_w_m2;
-      for (std::size_t b = 0; b < sums_.bands.size(); ++b) events_w_m2.push_back(events_.largest_w_m2(b));
-      result.planes = sums_.planes->results(quantile_, unseen_events(confidence_), events_w_m2);
+      std::vector<double> events_w_m2, unshot_w_m2;
+      for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
+        events_w_m2.push_back(events_.largest_w_m2(b));
+        unshot_w_m2.push_back(unshot_through_w_m2(b));
+      }
+      result.planes = sums_.planes->results(quantile_, unseen_events(confidence_), events_w_m2, unshot_w_m2);
     }
     result.sunlit_leaf_fraction = sunlit_estimate(sums_.sunlit, areas_.facing_m2, unseen_leaves_m2);
     result.ground_sunfleck_ratio = {no_value, no_value};
@@ -89,7 +92,7 @@ class ResultMaker {
     result.name = model_.bands[band].name;
     result.ledger = ledger;
     result.incident = static_cast<double>(ledger.incident) * per_quantum;
-    result.unshot = static_cast<double>(ledger.unshot) * per_quantum;
+    result.unshot = unshot_w_m2(band);
     const auto estimate = [&](std::int64_t quanta, const ReplicateMean& mean, double event_w_m2) {
       const Estimate of_mean = mean.estimate(quantile_, unseen(event_w_m2));
       return Estimate{static_cast<double>(quanta) * per_quantum, of_mean.half_width + result.unshot};
@@ -190,7 +193,7 @@ class ResultMaker {
         const double beam = areas_.organ_facing_m2[o] > 0.0 ? events_.beam_w_m2[b] : 0.0;
         const double other = absorptance > 0.0 ? events_.other_w_m2[b] : 0.0;
         result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, unseen(beam * per_area)));
-        result.indirect.push_back(with_unshot(sums_.organs[o].indirect[b], other * per_area, b));
+        result.indirect.push_back(scattered_with_unshot(sums_.organs[o].indirect[b], other * per_area, b));
         const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
         result.absorbed.push_back(with_unshot(sums_.organs[o].absorbed[b], event_w_m2, b));
       }
@@ -243,6 +246,30 @@ class ResultMaker {
     return estimate;
   }
 
+  // Returns the same for light other than the beam's. The flux that stays unshot need not wait where the light that was shot came
+  // from: it may bring twice its share.
+  [[nodiscard]] Estimate scattered_with_unshot(const ReplicateMean& mean, double event_w_m2, std::size_t band) const {
+    constexpr double most_times_its_share = 2.0;
+    const double waited = sums_.first_waiting[band];
+    if (!(waited > 0.0)) return with_unshot(mean, event_w_m2, band);
+    Estimate estimate = mean.estimate(quantile_, unseen(event_w_m2));
+    estimate.half_width += most_times_its_share * estimate.value * static_cast<double>(sums_.ledgers[band].unshot) / waited;
+    return estimate;
+  }
+
+  [[nodiscard]] double unshot_w_m2(std::size_t band) const {
+    return static_cast<double>(sums_.ledgers[band].unshot) * quanta_[band].w_m2_per_quantum /
+           std::max(1.0, static_cast<double>(sums_.replicates));
+  }
+
+  // Returns the most that unshot flux would still bring through a plane in one direction, W m-2. It crosses the plane on every second
+  // flight at most, and makes a flight more than it has landings.
+  [[nodiscard]] double unshot_through_w_m2(std::size_t band) const {
+    const double waited = sums_.first_waiting[band];
+    const double landings = waited > 0.0 ? (sums_.landed[band] - sums_.sky_landed[band]) / waited : 0.0;
+    return 0.5 * (2.0 + landings) * unshot_w_m2(band);
+  }
+
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
     const std::size_t count = areas_.layer_foliage_m2.size();
     std::vector<std::vector<FacingArea>> parts = agreed_layers();
@@ -268,6 +295,8 @@ class ResultMaker {
         const double packet = scatters(model_, b) ? events_.other_w_m2[b] : 0.0;
         result.down.push_back(means.down[b].estimate(quantile_, unseen(below_top ? any : 0.0)));
         result.up.push_back(means.up[b].estimate(quantile_, unseen(packet)));
+        if (below_top) result.down.back().half_width += unshot_through_w_m2(b);
+        result.up.back().half_width += below_top ? unshot_through_w_m2(b) : unshot_w_m2(b);
         if (!below_top) continue;
         const double by_plants = areas_.layer_holds_vegetation[k] ? any * areas_.vegetation_absorptance[b] : 0.0;
         const double by_structures = areas_.layer_holds_structure[k] ? any * areas_.structure_absorptance[b] : 0.0;

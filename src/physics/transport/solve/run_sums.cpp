@@ -76,6 +76,8 @@ class Addition {
     const std::vector<double> landed = landed_quanta(*indirect_);
     for (std::size_t b = 0; b < sums_.landed.size(); ++b) {
       sums_.landed[b] += landed[b];
+      sums_.sky_landed[b] += static_cast<double>(indirect_->sky_landed[b]);
+      sums_.first_waiting[b] += static_cast<double>(indirect_->first_waiting[b]);
       if (sums_.landed[b] <= most_landed) continue;
       throw_failure(fmt::format("band {}: its light landed too often for the integer sums of {} replicates",
                                 model_.bands[b].name, sums_.replicates),
@@ -358,6 +360,8 @@ RunSums::RunSums(const Conversion& of, ElementErrors element_errors, ShadeGroups
       has_sky(of.model.has_sky() || any_sky(lights)),
       has_packets(has_sky || scatters(of.model)),
       landed(of.quanta.size()),
+      sky_landed(of.quanta.size()),
+      first_waiting(of.quanta.size()),
       ledgers(of.quanta.size()),
       bands(of.quanta.size()),
       classes(of, shade_groups),

@@ -74,7 +74,8 @@ struct RunSums {
   bool keeps_half = false;
   std::size_t replicates = 0;
   std::uint64_t lost = 0, sky_rays = 0, packets = 0, rounds = 0;
-  std::vector<double> landed;  // [band], quanta of packets and sky rays, counted once per landing
+  // [band], quanta: of packets and sky rays, counted once per landing; of sky rays alone; what waited before the first rounds
+  std::vector<double> landed, sky_landed, first_waiting;
   ReplicateMean first_vegetation, first_ground, met, ground_ratio, sunlit;
   std::vector<FluxLedger> ledgers;  // [band]
   std::vector<BandMeans> bands;
@@ -100,8 +101,8 @@ struct RunSums {
 
 template <class Self, class Archive>
 void RunSums::visit(Self& self, Archive& archive) {
-  archive(self.replicates, self.lost, self.sky_rays, self.packets, self.rounds, self.landed, self.first_vegetation,
-          self.first_ground, self.met, self.ground_ratio, self.sunlit);
+  archive(self.replicates, self.lost, self.sky_rays, self.packets, self.rounds, self.landed, self.sky_landed,
+          self.first_waiting, self.first_vegetation, self.first_ground, self.met, self.ground_ratio, self.sunlit);
   for (auto& ledger : self.ledgers) {
     archive(ledger.incident, ledger.absorbed_vegetation, ledger.absorbed_structure, ledger.absorbed_soil, ledger.reflected,
             ledger.transmitted, ledger.unshot);

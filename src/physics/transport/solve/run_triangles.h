@@ -35,7 +35,7 @@ class RunTriangles {
   void refine(const RunSums& sums, double confidence, RadiationResult& result);
 
  private:
-  [[nodiscard]] TriangleLight estimate(const RunSums& sums, std::span<const BeamLandings> landings,
+  [[nodiscard]] TriangleLight estimate(const RunSums& sums, double confidence, std::span<const BeamLandings> landings,
                                        std::span<const std::int64_t> indirect, std::span<const std::int64_t> sky);
 
   Tracer& tracer_;

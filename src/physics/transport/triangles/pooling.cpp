@@ -70,8 +70,8 @@ double spread_of(double expected) {
 class TreePooling {
  public:
   TreePooling(const SurfaceTree& tree, const TreeWeights& weights, std::span<const double> half_a,
-              std::span<const double> half_b)
-      : tree_(tree), weights_(weights), a_(running_sums(tree, half_a)), b_(running_sums(tree, half_b)) {}
+              std::span<const double> half_b, double noise)
+      : tree_(tree), weights_(weights), noise_(noise), a_(running_sums(tree, half_a)), b_(running_sums(tree, half_b)) {}
 
   // Returns flux and variance by place in the order of the tree.
   PooledLight run() {
@@ -117,9 +117,12 @@ class TreePooling {
     }
   }
 
+  // Returns the noise of all scales together.
+  [[nodiscard]] double noise_of_all() const { return noise_of_all_.count < least_comparisons ? noise_ : noise_of_all_.mean(); }
+
   // Replaces the differences of a scale by true ones.
   void shrink(Scale& scale) const {
-    const double noise_flux = (scale.noise.count < least_comparisons ? noise_of_all_ : scale.noise).mean();
+    const double noise_flux = scale.noise.count < least_comparisons ? noise_of_all() : scale.noise.mean();
     scale.variances.reserve(scale.fluxes.size());
     for (const double flux : scale.fluxes) scale.variances.push_back(flux > 0.0 ? noise_flux / flux : infinite);
     Shrinkage(scale.differences, scale.variances).shrink(scale.differences, scale.variances);
@@ -131,7 +134,7 @@ class TreePooling {
     std::vector<double> density(places), relative(places);
     for (const TreeRange& surface : tree_.surfaces) {
       const double flux = in(a_, surface) + in(b_, surface);
-      const double spread = flux > 0.0 ? noise_of_all_.mean() / flux : 0.0;
+      const double spread = flux > 0.0 ? noise_of_all() / flux : 0.0;
       for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
         density[k] = flux / in(weights_.sums, surface);
         relative[k] = spread;
@@ -169,7 +172,7 @@ class TreePooling {
       for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
         const double weight = weights_.sums[k + 1] - weights_.sums[k];
         pooled.flux[k] = density[k] * weight;
-        const double unseen = unseen_deviations * noise_of_all_.mean() * weight / in(weights_.sums, surface);
+        const double unseen = unseen_deviations * noise_of_all() * weight / in(weights_.sums, surface);
         pooled.variance[k] = dark ? unseen * unseen : relative[k] * pooled.flux[k] * pooled.flux[k];
       }
     }
@@ -178,6 +181,7 @@ class TreePooling {
 
   const SurfaceTree& tree_;
   const TreeWeights& weights_;
+  double noise_;
   std::vector<double> a_, b_;  // [place + 1], running sums
   std::array<Scale, scales> scales_;
   Noise noise_of_all_;
@@ -191,12 +195,12 @@ Pooling::Pooling(std::span<const SurfaceTree> trees, std::span<const double> wei
   tbb::parallel_for(std::size_t{0}, trees.size(), [&](std::size_t t) { of_trees_[t] = weigh(trees_[t], resolved); });
 }
 
-PooledLight Pooling::pool(std::span<const double> half_a, std::span<const double> half_b) const {
+PooledLight Pooling::pool(std::span<const double> half_a, std::span<const double> half_b, double noise) const {
   const std::size_t elements = weights_.size();
   PooledLight pooled{std::vector<double>(elements), std::vector<double>(elements)};
   std::vector<PooledLight> of_tree(trees_.size());
   tbb::parallel_for(std::size_t{0}, trees_.size(),
-                    [&](std::size_t t) { of_tree[t] = TreePooling(trees_[t], of_trees_[t], half_a, half_b).run(); });
+                    [&](std::size_t t) { of_tree[t] = TreePooling(trees_[t], of_trees_[t], half_a, half_b, noise).run(); });
   const double share = 1.0 / static_cast<double>(trees_.size());
   std::vector<double> squares(elements);
   for (std::size_t t = 0; t < trees_.size(); ++t) {

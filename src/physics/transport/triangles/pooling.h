@@ -30,7 +30,9 @@ class Pooling {
   // what landed there, with variance 0. Both arguments must outlive the object.
   Pooling(std::span<const SurfaceTree> trees, std::span<const double> weights);
 
-  [[nodiscard]] PooledLight pool(std::span<const double> half_a, std::span<const double> half_b) const;
+  // Where the parts of surfaces allow too few comparisons of the halves to know the noise, as where each surface is a single
+  // element, it is `noise`: the variance of the flux on a surface for a unit of that flux.
+  [[nodiscard]] PooledLight pool(std::span<const double> half_a, std::span<const double> half_b, double noise) const;
 
  private:
   std::span<const SurfaceTree> trees_;

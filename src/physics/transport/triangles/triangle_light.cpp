@@ -12,14 +12,13 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <optional>
 
 namespace sunfleck {
 namespace {
 
 constexpr std::size_t tree_count = 4;
-// Replicates of a normal distribution, for the quantile of pooled variances.
-constexpr std::size_t many = 1000000;
 
 // Returns whole numbers in proportion to `values` whose sum is `total`; `values` of which none is positive count as equal.
 void apportion(std::span<const double> values, std::int64_t total, std::span<std::int64_t> parts) {
@@ -95,22 +94,23 @@ class Estimation {
     const Pooling pooling(trees_, areas_m2_);
     for (std::size_t part = 0; part < 2 * bands; ++part) {
       const auto at = [&](std::size_t e) { return (2 * e + part / bands) * bands + part % bands; };
-      pool_part(pooling, scattered, half_scattered, at, light_.side_indirect);
+      const double noise = sums_.other_noise[part % bands];
+      pool_part(pooling, scattered, half_scattered, at, noise, light_.side_indirect);
       if (sums_.sky.empty()) continue;
-      pool_part(pooling, sums_.sky, sums_.half_sky, at, light_.side_sky);
+      pool_part(pooling, sums_.sky, sums_.half_sky, at, noise, light_.side_sky);
       for (std::size_t e = 0; e < elements_; ++e) light_.side_indirect[at(e)] += light_.side_sky[at(e)];
     }
   }
 
   template <class At>
   void pool_part(const Pooling& pooling, std::span<const std::int64_t> all, std::span<const std::int64_t> half, const At& at,
-                 std::vector<std::int64_t>& result) {
+                 double noise, std::vector<std::int64_t>& result) {
     std::vector<double> a(elements_), b(elements_);
     for (std::size_t e = 0; e < elements_; ++e) {
       a[e] = static_cast<double>(half[at(e)]);
       b[e] = static_cast<double>(all[at(e)] - half[at(e)]);
     }
-    const PooledLight pooled = pooling.pool(a, b);
+    const PooledLight pooled = pooling.pool(a, b, noise);
     for (std::size_t e = 0; e < elements_; ++e) {
       result[at(e)] = all[at(e)];
       light_.indirect_variance[at(e)] += pooled.variance[e];
@@ -121,7 +121,6 @@ class Estimation {
   void estimate_beam() {
     const BeamShares shares(scene_.exposure, sums_, areas_m2_);
     BeamLight beam = shades_ != nullptr ? shares.join(*shades_) : pooled_landings(shares);
-    light_.direct_variance = std::move(beam.variance);
     std::vector<std::int64_t> landed(2 * elements_);
     for (std::size_t e = 0; e < elements_; ++e) {
       landed[2 * e] = static_cast<std::int64_t>(sums_.landings[e].upper);
@@ -130,15 +129,67 @@ class Estimation {
     light_.side_direct.resize(landed.size());
     for (std::size_t k = 0; k < landed.size(); ++k) light_.side_direct[k] = landed[k] * RadiationResult::parts_per_landing;
     const glm::dvec3 to_sun = direction_to_sun(*scene_.model.sun);
+    std::array<std::vector<double>, 2> expected{std::vector<double>(elements_), std::vector<double>(elements_)};  // [side]
+    for (std::size_t e = 0; e < elements_; ++e) {
+      const bool upper = glm::dot(unit_normal(scene_.model.canopy.corners[e]), to_sun) > 0.0;
+      expected[upper ? 0 : 1][e] = beam.landings[e];
+    }
     for (std::size_t side = 0; side < 2; ++side) {
-      std::vector<double> on_side(elements_);
-      for (std::size_t e = 0; e < elements_; ++e) {
-        const bool upper = glm::dot(unit_normal(scene_.model.canopy.corners[e]), to_sun) > 0.0;
-        if (upper == (side == 0)) on_side[e] = beam.landings[e];
-      }
       divide(
-          on_side, RadiationResult::parts_per_landing, landed, [side](std::size_t e) { return 2 * e + side; },
+          expected[side], RadiationResult::parts_per_landing, landed, [side](std::size_t e) { return 2 * e + side; },
           light_.side_direct);
+    }
+    light_.direct_variance = std::move(beam.variance);
+    if (shades_ != nullptr) add_variance_of_totals(expected, landed);  // pooled landings have it
+  }
+
+  // What landed on one side of a surface.
+  struct SideTotal {
+    TreeRange surface;
+    std::size_t side = 0;
+    std::uint32_t organ = 0;
+    double expected = 0.0, variance = 0.0;  // of the expected landings
+    double landings = 0.0;                  // expected or seen, whichever is more
+  };
+
+  // `expected` is [side][element], `landed` is [2 * element + side].
+  [[nodiscard]] std::vector<SideTotal> side_totals(const std::array<std::vector<double>, 2>& expected,
+                                                   const std::vector<std::int64_t>& landed) const {
+    const SurfaceTree& tree = trees_.front();
+    std::vector<SideTotal> totals;
+    for (const TreeRange& surface : tree.surfaces) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        SideTotal& total = totals.emplace_back(SideTotal{surface, side, scene_.surfaces.at(tree.order[surface.begin]).organ});
+        for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
+          const std::uint32_t e = tree.order[k];
+          total.expected += expected[side][e];
+          if (expected[side][e] > 0.0) total.variance += light_.direct_variance[e];
+          total.landings += static_cast<double>(landed[2 * e + side]);
+        }
+        total.landings = std::max(total.landings, total.expected);
+      }
+    }
+    return totals;
+  }
+
+  // Turns variances of expected landings into those of the landings that divide() gives: an element gets its share of what landed on
+  // its side of the surface, which varies from run to run, too. The variance of an organ's landings belongs to its sides in proportion
+  // to their landings.
+  void add_variance_of_totals(const std::array<std::vector<double>, 2>& expected, const std::vector<std::int64_t>& landed) {
+    const std::vector<SideTotal> totals = side_totals(expected, landed);
+    std::vector<double> organ_landings(sums_.organ_landings_variance.size());
+    for (const SideTotal& total : totals) organ_landings[total.organ] += total.landings;
+    for (const SideTotal& total : totals) {
+      if (!(total.expected > 0.0)) continue;
+      const double of_total = sums_.organ_landings_variance[total.organ] * total.landings / organ_landings[total.organ];
+      for (std::uint32_t k = total.surface.begin; k < total.surface.end; ++k) {
+        const std::uint32_t e = trees_.front().order[k];
+        if (!(expected[total.side][e] > 0.0)) continue;
+        const double share = expected[total.side][e] / total.expected;
+        double& variance = light_.direct_variance[e];
+        const double of_others = std::max(0.0, total.variance - variance);
+        variance = (1.0 - share) * (1.0 - share) * variance + share * share * (of_others + of_total);
+      }
     }
   }
 
@@ -149,7 +200,9 @@ class Estimation {
       a[e] = static_cast<double>(sums_.half_landings[e].both());
       b[e] = static_cast<double>(sums_.landings[e].both()) - a[e];
     }
-    PooledLight pooled = Pooling(trees_, weights).pool(a, b);
+    const double variance = std::reduce(sums_.organ_landings_variance.begin(), sums_.organ_landings_variance.end());
+    const double landings = std::reduce(a.begin(), a.end()) + std::reduce(b.begin(), b.end());
+    PooledLight pooled = Pooling(trees_, weights).pool(a, b, variance / std::max(1.0, landings));
     return {std::move(pooled.flux), std::move(pooled.variance)};
   }
 
@@ -194,7 +247,7 @@ TriangleLight TriangleEstimator::estimate(const BeamExposure& exposure, const Tr
 }
 
 TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence) {
-  const double quantile = t_quantile(confidence, many);
+  const double quantile = normal_quantile(confidence);
   const RadiationModel& model = scene.model;
   const std::size_t bands = light.side_indirect.size() / std::max<std::size_t>(1, 2 * model.canopy.size());
   TriangleErrors errors;
@@ -231,7 +284,7 @@ void set_triangle_light(const TriangleScene& scene, TriangleLight light, double 
   const RadiationModel& model = scene.model;
   const std::size_t elements = model.canopy.size();
   const std::size_t bands = model.bands.size();
-  const double quantile = t_quantile(confidence, many);
+  const double quantile = normal_quantile(confidence);
   result.side_direct = std::move(light.side_direct);
   if (!light.side_indirect.empty()) result.side_indirect = std::move(light.side_indirect);
   if (!light.side_sky.empty()) result.side_sky = std::move(light.side_sky);

@@ -103,6 +103,15 @@ TEST_F(Replicates, ArriveAsTheyWereMade) {
     EXPECT_EQ(got.packets->receivers.through_up, made.packets->receivers.through_up);
     EXPECT_EQ(got.packets->ledger[1].unshot, made.packets->ledger[1].unshot);
     EXPECT_EQ(got.packets->lost, made.packets->lost);
+    EXPECT_EQ(got.packets->first_waiting, made.packets->first_waiting);
+    EXPECT_EQ(got.packets->sky_landed, made.packets->sky_landed);
+    std::vector<std::int64_t> from_sky(made.packets->bands);
+    for (const PlaceSums* sums : {&made.packets->side_sky, &made.packets->cell_sky}) {
+      sums->for_each([&](std::size_t, std::span<const std::int64_t> quanta) {
+        for (std::size_t b = 0; b < from_sky.size(); ++b) from_sky[b] += quanta[b];
+      });
+    }
+    EXPECT_EQ(made.packets->sky_landed, from_sky);
     EXPECT_FALSE(got.packets->element_hits.empty());
     EXPECT_EQ(got.packets->element_hits, made.packets->element_hits);
   }

@@ -61,7 +61,7 @@ class Pooling : public testing::Test {
     }
   }
 
-  [[nodiscard]] PooledLight pooled() const { return sunfleck::Pooling(trees_, weights_).pool(a_, b_); }
+  [[nodiscard]] PooledLight pooled(double noise = 1.0) const { return sunfleck::Pooling(trees_, weights_).pool(a_, b_, noise); }
 
   // Returns the root-mean-square error relative to the mean.
   [[nodiscard]] double error_of(const std::vector<double>& flux) const {
@@ -156,10 +156,27 @@ TEST_F(Pooling, OfADarkSurfaceKnowsThatLittleMayHaveBeenMissed) {
   EXPECT_NEAR(1.96 * deviations, 3.69, 0.4);
 }
 
+// Some light may have been missed, as much as a few packets carry.
 TEST_F(Pooling, OfNoLightAtAllIsDark) {
+  for (const double packet : {0.0, 2.0}) {
+    const PooledLight light = pooled(packet);
+    EXPECT_EQ(*std::max_element(light.flux.begin(), light.flux.end()), 0.0);
+    double deviation = 0.0;
+    for (std::size_t e = 0; e < count / 2; ++e) deviation += std::sqrt(light.variance[e]);
+    EXPECT_NEAR(1.96 * deviation, 3.69 * packet, 0.01 * packet) << "of the first surface";
+  }
+}
+
+// Nothing but the noise that is given tells how well a surface without parts is known.
+TEST_F(Pooling, SurfacesOfOneElementHaveTheNoiseOfTheirFlux) {
+  std::iota(surfaces_.begin(), surfaces_.end(), 0U);
+  trees_ = {make_surface_tree(canopy_, surfaces_, weights_, 0)};
+  land([](std::size_t) { return 9.0; });
   const PooledLight light = pooled();
-  EXPECT_EQ(*std::max_element(light.flux.begin(), light.flux.end()), 0.0);
-  EXPECT_EQ(*std::max_element(light.variance.begin(), light.variance.end()), 0.0);
+  EXPECT_EQ(light.flux, raw());
+  const double held = covered(light);
+  EXPECT_GT(held, 0.92);
+  EXPECT_LT(held, 0.97);
 }
 
 TEST_F(Pooling, ElementsOfVeryDifferentSizeStayFinite) {
