@@ -111,6 +111,7 @@ TEST(Plates, UnshotFluxIsInEveryIntervalThatItWouldReach) {
   model.planes.push_back({0.0, 2, 2});
   SolveSettings settings = fixed_packets(model, 2048, usual_replicates);
   settings.accuracy.indirect = 0.02;
+  settings.element_errors = ElementErrors::refine;
   const RadiationResult result = simulate_soundly(model, settings);
   const LayerResult& ground = result.layers.front();
   for (std::size_t b = 0; b < bands.size(); ++b) {
@@ -126,6 +127,13 @@ TEST(Plates, UnshotFluxIsInEveryIntervalThatItWouldReach) {
     expect_held(ground.up[b], exact.up[0], "light up at the ground");
     expect_held(result.planes[0].total_down[b], exact.on_soil, "light through the plane");
     expect_held(result.organs[0].indirect[b], exact.down[0] + exact.up[0] - beam_w_m2, "scattered light on the plate");
+    double from_below = 0.0, half_widths = 0.0;
+    for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+      const double element_m2 = area_m2(model.canopy.corners[e]);
+      from_below += result.side_indirect_w_m2(2 * e + 1, element_m2, b) * element_m2;
+      half_widths += result.side_error[(2 * e + 1) * bands.size() + b] * element_m2;
+    }
+    EXPECT_LE(std::abs(from_below - exact.up[0]), half_widths) << "light from below on the triangles of band " << b;
   }
 }
 

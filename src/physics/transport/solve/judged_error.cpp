@@ -40,7 +40,7 @@ JudgedError organ_error(const RunSums& sums, double quantile, bool indirect) {
       const double error = quantile * mean_of(o).standard_error() / mean_of(o).mean();
       JudgedFigure figure{.of = JudgedFigure::Of::organ, .organ = o};
       if (indirect) figure.band = b;
-      largest.raise({error + (indirect ? sums.ledgers[b].unshot_share() : 0.0), figure});
+      largest.raise({error + (indirect ? sums.unshot_share_of_scattered(b) : 0.0), figure});
     }
   }
   return largest;

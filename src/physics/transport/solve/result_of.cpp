@@ -246,14 +246,10 @@ class ResultMaker {
     return estimate;
   }
 
-  // Returns the same for light other than the beam's. The flux that stays unshot need not wait where the light that was shot came
-  // from: it may bring twice its share.
+  // Returns the same for light other than the beam's.
   [[nodiscard]] Estimate scattered_with_unshot(const ReplicateMean& mean, double event_w_m2, std::size_t band) const {
-    constexpr double most_times_its_share = 2.0;
-    const double waited = sums_.first_waiting[band];
-    if (!(waited > 0.0)) return with_unshot(mean, event_w_m2, band);
     Estimate estimate = mean.estimate(quantile_, unseen(event_w_m2));
-    estimate.half_width += most_times_its_share * estimate.value * static_cast<double>(sums_.ledgers[band].unshot) / waited;
+    estimate.half_width += estimate.value * sums_.unshot_share_of_scattered(band);
     return estimate;
   }
 

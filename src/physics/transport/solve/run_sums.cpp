@@ -392,6 +392,12 @@ void RunSums::add(const Replicate& replicate) {
   Addition(*this, replicate).add();
 }
 
+double RunSums::unshot_share_of_scattered(std::size_t band) const {
+  constexpr double most_times_its_share = 2.0;
+  if (!(first_waiting[band] > 0.0)) return ledgers[band].unshot_share();
+  return most_times_its_share * static_cast<double>(ledgers[band].unshot) / first_waiting[band];
+}
+
 double RunSums::unseen(double event, double confidence) const {
   return unseen_events(confidence) * event / static_cast<double>(replicates);
 }

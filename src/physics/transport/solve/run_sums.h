@@ -64,6 +64,10 @@ struct RunSums {
   // replicate.
   [[nodiscard]] double unseen(double event, double confidence) const;
 
+  // Returns what unshot flux may still add to any figure of light other than the beam's, relative to the figure. It need not wait
+  // where the light that was shot came from: that is twice the share of unshot flux in all that waited.
+  [[nodiscard]] double unshot_share_of_scattered(std::size_t band) const;
+
   // Passes every sum to `archive`, which writes those of const sums and fills others. The number of values depends only on
   // the lights and on the element errors: zeros are passed for arrays that are empty before the first replicate.
   template <class Self, class Archive>

@@ -75,7 +75,7 @@ void RunTriangles::judge(const RunSums& sums, const Accuracy& accuracy) {
   direct_ = {errors.direct, {.of = JudgedFigure::Of::triangles}};
   indirect_ = {};
   for (std::size_t b = 0; b < errors.indirect.size(); ++b) {
-    const double unshot = sums.ledgers[b].unshot_share();
+    const double unshot = sums.unshot_share_of_scattered(b);
     indirect_.raise({errors.indirect[b] + unshot, {.of = JudgedFigure::Of::triangles, .band = b}});
   }
 }
@@ -83,7 +83,9 @@ void RunTriangles::judge(const RunSums& sums, const Accuracy& accuracy) {
 void RunTriangles::refine(const RunSums& sums, double confidence, RadiationResult& result) {
   if (!sums.keeps_half || sums.replicates < 2) return;
   TriangleLight light = estimate(sums, confidence, result.elements, result.side_indirect, result.side_sky);
-  set_triangle_light(scene_of(sums), std::move(light), confidence, result);
+  std::vector<double> unshot_shares;
+  for (std::size_t b = 0; b < sums.bands.size(); ++b) unshot_shares.push_back(sums.unshot_share_of_scattered(b));
+  set_triangle_light(scene_of(sums), std::move(light), unshot_shares, confidence, result);
   estimator_.reset();
 }
 

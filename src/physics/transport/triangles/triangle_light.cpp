@@ -280,7 +280,8 @@ TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& 
   return errors;
 }
 
-void set_triangle_light(const TriangleScene& scene, TriangleLight light, double confidence, RadiationResult& result) {
+void set_triangle_light(const TriangleScene& scene, TriangleLight light, std::span<const double> unshot_shares,
+                        double confidence, RadiationResult& result) {
   const RadiationModel& model = scene.model;
   const std::size_t elements = model.canopy.size();
   const std::size_t bands = model.bands.size();
@@ -293,17 +294,17 @@ void set_triangle_light(const TriangleScene& scene, TriangleLight light, double 
   result.triangle_relative_error.clear();
   const glm::dvec3 to_sun = model.has_beam() ? direction_to_sun(*model.sun) : glm::dvec3(0.0, 1.0, 0.0);
   for (std::size_t b = 0; b < bands; ++b) {
-    const double unshot = result.bands[b].ledger.unshot_share();
     double squares = 0.0, flux = 0.0, area = 0.0;
     for (std::size_t e = 0; e < elements; ++e) {
       const double element_m2 = area_m2(model.canopy.corners[e]);
       if (!(element_m2 > 0.0)) continue;
       const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
       const bool upper = glm::dot(unit_normal(model.canopy.corners[e]), to_sun) > 0.0;
-      double absorbed = 0.0, variance = 0.0;
+      double absorbed = 0.0, variance = 0.0, unshot = 0.0;
       for (std::size_t side = 0; side < 2; ++side) {
         const std::size_t place = (2 * e + side) * bands + b;
         double incident = result.side_indirect_w_m2(2 * e + side, element_m2, b);
+        const double unshot_of_side = incident * unshot_shares[b];
         double of_side = 0.0;
         if (!light.indirect_variance.empty()) {
           const double per_quantum = result.w_per_quantum[b] / element_m2;
@@ -317,9 +318,10 @@ void set_triangle_light(const TriangleScene& scene, TriangleLight light, double 
         const double absorptance = (side == 0 ? optics.upper : optics.lower)[b].absorptance();
         absorbed += incident * absorptance;
         variance += of_side * absorptance * absorptance;
-        result.side_error[place] = quantile * std::sqrt(of_side) + incident * unshot;
+        unshot += unshot_of_side * absorptance;
+        result.side_error[place] = quantile * std::sqrt(of_side) + unshot_of_side;
       }
-      const double error = quantile * std::sqrt(variance) + absorbed * unshot;
+      const double error = quantile * std::sqrt(variance) + unshot;
       result.element_error[b * elements + e] = error;
       if (!is_vegetation(scene.surfaces.at(e).role)) continue;
       squares += error * error * element_m2;

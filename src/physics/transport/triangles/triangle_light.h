@@ -74,8 +74,9 @@ class TriangleEstimator {
 [[nodiscard]] TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence);
 
 // Fills in the light of the result's triangles with their errors: `side_direct`, `side_indirect`, `side_sky`, `element_error`,
-// `side_error` and `triangle_relative_error`. The result needs everything but these. An error includes unshot flux in
-// proportion.
-void set_triangle_light(const TriangleScene& scene, TriangleLight light, double confidence, RadiationResult& result);
+// `side_error` and `triangle_relative_error`. The result needs everything but these. `unshot_shares` is what unshot flux may still
+// add to light other than the beam's, relative to it, [band]; it is part of the errors.
+void set_triangle_light(const TriangleScene& scene, TriangleLight light, std::span<const double> unshot_shares,
+                        double confidence, RadiationResult& result);
 
 }  // namespace sunfleck
