@@ -3,6 +3,8 @@
 
 #include "base/file.h"
 #include "files/formats/mesh/mesh_reader.h"
+#include "files/results/exports/netcdf_file.h"
+#include "files/results/exports/netcdf_rows.h"
 #include "files/results/tables/result_writer.h"
 #include "support/export_models.h"
 #include "support/temp_folder.h"
@@ -302,6 +304,36 @@ TEST_F(ExportReadBack, AnEmptyCanopy) {
     EXPECT_FALSE(read_file(folder_ / export_file(kind)).empty());
   }
   EXPECT_EQ(read(ExportKind::nc)["triangles"], 0);
+}
+
+// Rows that are longer than a chunk, whose last chunk is cut by the end of the row.
+TEST_F(ExportReadBack, RowsStoredChunkByChunk) {
+  constexpr std::size_t columns = NetcdfFile::longest_chunk + 1000, rows = 3;
+  const std::filesystem::path place = folder_ / "rows.nc";
+  const std::vector<std::string> names{"first", "second"};
+  {
+    NetcdfFile file("rows.nc", place);
+    const int row = file.dimension("row", rows), column = file.dimension("column", columns);
+    for (const std::string& name : names) file.store_by_rows(file.variable<float>(name, {row, column}));
+    file.add("kept", {row}, "1", "what was there before", std::vector<std::int32_t>{5, 6, 7});
+    file.finish();
+  }
+  NetcdfRows writer("rows.nc", place, names, columns);
+  for (std::size_t r = 0; r < rows; ++r) {
+    std::vector<float> values;
+    for (std::size_t k = 0; k < names.size() * columns; ++k) {
+      const std::size_t v = k / columns, c = k % columns;
+      values.push_back(static_cast<float>(1000 * v + 100 * r) + static_cast<float>(c % 97) / 8.0F);
+    }
+    writer.put(r, values);
+  }
+  writer.finish();
+  const json found = json::parse(output_of(
+      "'" SUNFLECK_PYTHON "' -B '" SUNFLECK_SOURCE_DIR "/tests/regression/read_back/read_rows.py' '" + place.string() + "'"));
+  EXPECT_EQ(found["wrong"], 0);
+  EXPECT_EQ(found["filters"], true);
+  EXPECT_EQ(found["chunks"], (json{1, NetcdfFile::longest_chunk}));
+  EXPECT_EQ(found["kept"], 6);
 }
 
 }  // namespace

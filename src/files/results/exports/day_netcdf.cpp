@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "files/results/exports/day_time_axis.h"
 #include "files/results/exports/netcdf_file.h"
+#include "files/results/exports/netcdf_rows.h"
 #include "files/results/exports/netcdf_writer.h"
 #include "files/results/tables/day_fields.h"
 
@@ -17,6 +18,7 @@ class DayWriter {
   DayWriter(const DayFields& day, const std::filesystem::path& file)
       : day_(day),
         columns_(day_columns(day.model)),
+        place_(file),
         file_("day.nc", file),
         time_(add_time_axis(file_, day.course, day.steps)),
         triangle_(file_.dimension("triangle", day.model.canopy.size())) {}
@@ -25,16 +27,14 @@ class DayWriter {
     add_record(file_, "day", day_.record, day_.model);
     add_triangles();
     define_light();
+    file_.finish();
     const std::size_t elements = day_.model.canopy.size();
+    NetcdfRows rows("day.nc", place_, light_, elements);
     const std::vector<float> dark(light_.size() * elements);
     for (std::size_t step = 0; step < day_.steps; ++step) {
-      const std::vector<float> fields = day_.course.steps[step].unlit() ? dark : day_.fields(step);
-      EXPECT(fields.size(), ==, dark.size());
-      for (std::size_t i = 0; i < light_.size(); ++i) {
-        file_.put_rows(light_[i], step, 1, std::span(fields).subspan(i * elements, elements));
-      }
+      rows.put(step, day_.course.steps[step].unlit() ? dark : day_.fields(step));
     }
-    file_.finish();
+    rows.finish();
   }
 
  private:
@@ -54,22 +54,22 @@ class DayWriter {
   void define_light() {
     for (const Waveband& band : day_.model.bands) {
       for (const LightColumn column : columns_) {
-        const int number = file_.variable<float>(fmt::format("{}_{}", band.name, ending(column)), {time_, triangle_},
-                                                 light_units, meaning(column));
+        light_.push_back(fmt::format("{}_{}", band.name, ending(column)));
+        const int number = file_.variable<float>(light_.back(), {time_, triangle_}, light_units, meaning(column));
         file_.attribute(number, "coordinates", "x y z");
         if (column == LightColumn::absorbed)
           file_.attribute(number, "ancillary_variables", fmt::format("{}_{}", band.name, ending(LightColumn::absorbed_error)));
         file_.store_by_rows(number);
-        light_.push_back(number);
       }
     }
   }
 
   const DayFields& day_;
   std::vector<LightColumn> columns_;
+  std::filesystem::path place_;
   NetcdfFile file_;
   int time_, triangle_;
-  std::vector<int> light_;  // [band * columns + column]
+  std::vector<std::string> light_;  // names of the variables, [band * columns + column]
 };
 
 }  // namespace

@@ -45,30 +45,14 @@ int put_all(int file, int variable, const double* values) {
   return netcdf().put_var_double(file, variable, values);
 }
 
-// After a failed write, netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process exits and the
-// library closes it by itself. The file is therefore left open, and the process exits with its intended status before that.
-void leave_before_libraries() {
-  ::on_exit(
-      [](int status, void*) {
-        std::fflush(nullptr);
-        std::_Exit(status);
-      },
-      nullptr);
-}
-
-bool reason_of_disk(int code) {
-  return code == ENOSPC || code == EDQUOT || code == EFBIG || code == EIO;
-}
-
 }  // namespace
 
-NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)), cure_("export vtp or csv") {
+NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)) {
   constexpr std::size_t first_bytes = std::size_t{1} << 20;
   check(netcdf().create_mem(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
 }
 
-NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file)
-    : name_(std::move(name)), cure_("free some space, or choose another folder with -o"), on_disk_(true) {
+NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file) : name_(std::move(name)), on_disk_(true) {
   errno = 0;
   check(netcdf().create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
 }
@@ -81,10 +65,9 @@ void NetcdfFile::check(int status, std::string_view what) {
   if (status == NC_NOERR) return;
   const int reason = errno;
   if (!std::exchange(broken_, true)) leave_before_libraries();
+  if (!on_disk_) throw_failure(fmt::format("{}: {}", name_, what), netcdf().strerror(status), "export vtp or csv");
   // HDF5, below netCDF, reports only that a write failed; errno still holds the reason.
-  const bool of_disk = status == NC_EHDFERR && on_disk_ && reason_of_disk(reason);
-  throw_failure(fmt::format("{}: {}", name_, what), of_disk ? std::strerror(reason) : netcdf().strerror(status),
-                of_disk ? write_cure(reason) : cure_);
+  throw_write_failure(fmt::format("{}: {}", name_, what), status == NC_EHDFERR ? reason : 0, netcdf().strerror(status));
 }
 
 int NetcdfFile::dimension(const std::string& name, std::size_t size) {
@@ -178,7 +161,6 @@ std::vector<std::size_t> NetcdfFile::shape_of(int variable) {
 }
 
 void NetcdfFile::store_by_rows(int variable, std::size_t rows_at_once) {
-  constexpr std::size_t longest_chunk = std::size_t{1} << 18;
   std::vector<std::size_t> chunk = shape_of(variable);
   std::size_t values = 1;
   for (std::size_t i = chunk.size(); i-- > 0;) {

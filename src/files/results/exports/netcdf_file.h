@@ -15,6 +15,8 @@ namespace sunfleck {
 
 class NetcdfFile {
  public:
+  static constexpr std::size_t longest_chunk = std::size_t{1} << 18U;  // values, of variables that are stored by rows
+
   explicit NetcdfFile(std::string name);  // creates a file in memory; `name` is for messages
   NetcdfFile(std::string name, const std::filesystem::path& file);
   ~NetcdfFile();
@@ -68,7 +70,7 @@ class NetcdfFile {
   int define(const std::string& name, int type, const std::vector<int>& dimensions);
   void check(int status, std::string_view what);
 
-  std::string name_, cure_;
+  std::string name_;
   bool on_disk_ = false;
   bool broken_ = false;  // a call failed, so the library must not be called again with this file
   int file_ = -1;

@@ -1,10 +1,14 @@
 #include "files/results/exports/netcdf_library.h"
 
 #include "base/error.h"
+#include "base/file.h"
 
 #include <dlfcn.h>
 
-#include <type_traits>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 namespace sunfleck {
 namespace {
@@ -15,14 +19,15 @@ namespace {
                 "install " SUNFLECK_NETCDF_PACKAGE ", or export vtp or csv");
 }
 
-NetcdfLibrary load() {
-  void* const library = ::dlopen(SUNFLECK_NETCDF_SONAME, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw_missing();
-  const auto find = [library](const char* name, auto& function) {
-    void* const found = ::dlsym(library, name);
-    if (found == nullptr) throw_missing();
-    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(found);
-  };
+template <class Function>
+void find(const char* name, Function& function) {
+  static void* const library = ::dlopen(SUNFLECK_NETCDF_SONAME, RTLD_NOW | RTLD_LOCAL);
+  void* const found = library != nullptr ? ::dlsym(library, name) : nullptr;
+  if (found == nullptr) throw_missing();
+  function = reinterpret_cast<Function>(found);
+}
+
+NetcdfLibrary load_netcdf() {
   NetcdfLibrary functions{};
   find("nc_abort", functions.abort);
   find("nc_close", functions.close);
@@ -51,11 +56,42 @@ NetcdfLibrary load() {
   return functions;
 }
 
+// netCDF depends on HDF5, so that its handle finds these too.
+Hdf5Library load_hdf5() {
+  Hdf5Library functions{};
+  find("H5Fopen", functions.file_open);
+  find("H5Fclose", functions.file_close);
+  find("H5Dopen2", functions.dataset_open);
+  find("H5Dclose", functions.dataset_close);
+  find("H5Dwrite_chunk", functions.dataset_write_chunk);
+  return functions;
+}
+
 }  // namespace
 
 const NetcdfLibrary& netcdf() {
-  static const NetcdfLibrary library = load();
+  static const NetcdfLibrary library = load_netcdf();
   return library;
+}
+
+const Hdf5Library& hdf5() {
+  static const Hdf5Library library = load_hdf5();
+  return library;
+}
+
+void leave_before_libraries() {
+  ::on_exit(
+      [](int status, void*) {
+        std::fflush(nullptr);
+        std::_Exit(status);
+      },
+      nullptr);
+}
+
+void throw_write_failure(const std::string& what, int reason, const char* otherwise) {
+  const bool of_disk = reason == ENOSPC || reason == EDQUOT || reason == EFBIG || reason == EIO;
+  throw_failure(what, of_disk ? std::strerror(reason) : otherwise,
+                of_disk ? write_cure(reason) : "free some space, or choose another folder with -o");
 }
 
 }  // namespace sunfleck

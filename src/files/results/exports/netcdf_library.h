@@ -2,8 +2,11 @@
 // The netCDF C library, opened when the first file is written. It brings thirty other libraries along (HDF5, curl, Kerberos), and
 // loading them takes as long as everything else that the program does before its work.
 
+#include <hdf5.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
+
+#include <string>
 
 namespace sunfleck {
 
@@ -35,7 +38,24 @@ struct NetcdfLibrary {
   decltype(&nc_sync) sync;
 };
 
-// Returns the library, which stays open. Throws Error (failure) if it cannot be loaded.
+// Functions of HDF5, the library below it.
+struct Hdf5Library {
+  decltype(&H5Fopen) file_open;
+  decltype(&H5Fclose) file_close;
+  decltype(&H5Dopen2) dataset_open;
+  decltype(&H5Dclose) dataset_close;
+  decltype(&H5Dwrite_chunk) dataset_write_chunk;
+};
+
+// Return the libraries, which stay open. Throw Error (failure) if they cannot be loaded.
 [[nodiscard]] const NetcdfLibrary& netcdf();
+[[nodiscard]] const Hdf5Library& hdf5();
+
+// After a failed write, netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process exits and the
+// library closes it by itself. This makes the process exit with its intended status before that; the file is left open.
+void leave_before_libraries();
+
+// Throws Error (failure): that `what` failed for that `reason`, an errno, or if this is none of a disk, because of `otherwise`.
+[[noreturn]] void throw_write_failure(const std::string& what, int reason, const char* otherwise);
 
 }  // namespace sunfleck
