@@ -137,6 +137,7 @@ TEST_F(ProgramMesh, NewWritesToStandardOutputAndNeverReplacesAFile) {
   EXPECT_EQ(run({"new", "plant.obj", "-o", "stand.toml", "--force"}).status, 0);
   EXPECT_EQ(content(folder_ / "stand.toml"), text.out);
   expect_one_error(run({"new", "plant.obj", "-o", "plant.obj", "--force"}), 2, "plant.obj (a scene file ends in .toml)");
+  expect_one_error(run({"new", "plant.obj", "-o", "missing/stand.toml"}), 1, "missing/stand.toml (its folder does not exist)");
 }
 
 TEST_F(ProgramMesh, ASceneElsewhereNamesTheWholePath) {

@@ -5,6 +5,7 @@
 #include "base/text_reader.h"
 #include "files/formats/mesh/organ_name.h"
 #include "files/formats/mesh/organ_split.h"
+#include "files/formats/mesh/polygon_cut.h"
 
 #include <fmt/format.h>
 
@@ -126,12 +127,22 @@ void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint3
   DCHECK(corners.size(), >=, 3U);
   if (mesh_.triangles.size() + corners.size() > most_vertices)
     refuse(source_, 0, fmt::format("more than {} triangles", most_vertices), "the limit for one file", "split the file");
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    mesh_.triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh_.triangles.emplace_back(a, b, c);
     mesh_.optics_of.push_back(optics);
     mesh_.organ_of.push_back(organ);
     if (label) mesh_.labels.push_back(*label);
+  };
+  std::vector<glm::dvec3> places;
+  for (std::size_t i = 0; corners.size() > 3 && i < corners.size(); ++i) places.push_back(mesh_.vertices.at(corners[i]));
+  if (!fan_folds(places)) {
+    for (std::size_t i = 2; i < corners.size(); ++i) add(corners[0], corners[i - 1], corners[i]);
+    return;
   }
+  if (corners.size() > most_corners_with_ears)
+    refuse(source_, 0, fmt::format("a polygon of {} corners that is not convex", corners.size()),
+           fmt::format("at most {} are supported", most_corners_with_ears), "triangulate it");
+  for (const CornerTriangle& ear : cut_ears(places)) add(corners[ear[0]], corners[ear[1]], corners[ear[2]]);
 }
 
 }  // namespace sunfleck

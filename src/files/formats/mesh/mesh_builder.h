@@ -45,8 +45,8 @@ class MeshBuilder {
   // that a table cannot hold become `?`.
   [[nodiscard]] std::uint32_t object_organ(std::uint32_t object, std::uint32_t optics, std::uint32_t plant = 1, int rank = 0);
 
-  // Adds a polygon, cut into the triangle fan about its first corner. It needs at least three valid vertex numbers. Either all
-  // polygons of a file have labels or none has.
+  // Adds a polygon, cut into the triangle fan about its first corner or, where that would fold over itself, by cut_ears
+  // (polygon_cut.h). It needs at least three valid vertex numbers. Either all polygons of a file have labels or none has.
   void add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ,
                    std::optional<std::uint64_t> label = std::nullopt);
 

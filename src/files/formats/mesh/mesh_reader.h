@@ -25,7 +25,7 @@ struct MeshImport {
   NamedParts* named = nullptr;      // receives what read_mesh counts, if given
 };
 
-// Returns the triangles of the file in the scene's axes, scaled, with polygons cut into fans. A z-up file has x east, y north:
+// Returns the triangles of the file in the scene's axes, scaled, with polygons cut into triangles. A z-up file has x east, y north:
 // X = -y, Y = z, Z = -x. An x-up file has y east, z north: X = -z, Y = x, Z = -y. A y-up file has x south, z west as the scene;
 // but with the user's axes east_north_up it has x east, z south, which is how glTF and Blender turn these axes: X = z, Y = y, Z
 // = -x. Every named object, group, node or solid of the file is an organ of plant 1, with its name and rank 0; names like

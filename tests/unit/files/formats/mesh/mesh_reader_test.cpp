@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,29 @@ TEST(MeshReader, PolygonsBecomeFansInFileOrder) {
   EXPECT_EQ(
       corners_of(read_text(folder, "a.obj", "v 0 0 0\nv 2 0 0\nv 3 1 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4 5\n", as_it_stands())),
       fan);
+}
+
+// The fan of a notched square would fold over itself and have half as much area again.
+TEST(MeshReader, PolygonsThatAreNotConvexKeepTheirArea) {
+  const TempFolder folder;
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0.5 0.2 0\nv 0 1 0\nf 1 2 3 4 5\n";
+  const std::string can = "p 1 100001001001 5 0 0 0 1 0 0 1 1 0 0.5 0.2 0 0 1 0\n";
+  for (const auto& [name, text] : {std::pair{"a.obj", obj}, std::pair{"a.can", can}}) {
+    const Corners cut = corners_of(read_text(folder, name, text, as_it_stands()));
+    ASSERT_EQ(cut.size(), 9U) << name;
+    double area = 0.0;
+    for (std::size_t k = 0; k < cut.size(); k += 3)
+      area += 0.5 * glm::length(glm::cross(cut[k + 1] - cut[k], cut[k + 2] - cut[k]));
+    EXPECT_NEAR(area, 0.6, 1e-12) << name;
+  }
+  std::string comb = "v 0 0 0\n", face = "f 1";
+  for (int k = 1; k <= 1200; ++k) {
+    comb += "v " + std::to_string(k) + (k % 2 == 0 ? " 9 0\n" : " 1 0\n");
+    face += ' ' + std::to_string(k + 1);
+  }
+  const std::string message =
+      refusal_of([&] { static_cast<void>(read_text(folder, "comb.obj", comb + face + '\n', as_it_stands())); });
+  EXPECT_NE(message.find("a polygon of 1201 corners that is not convex"), std::string::npos) << message;
 }
 
 TEST(MeshReader, ObjNumbersAndNegativeIndices) {
