@@ -57,6 +57,9 @@ if (measured ne '') {
 if (measured eq '') { set print $measured; print 'sunfleck_ratio,height_m'; unset print }
 legend = n > 1 || measured ne '' ? n + (measured ne '') : 0
 
+# A step of 1, 2 or 5 times a power of ten of which a range has six at most, so that their numbers do not touch.
+few(range) = (power = 10.0 ** floor(log10(range / 6)), steps = range / 6 / power, power * (steps <= 1 ? 1 : steps <= 2 ? 2 : steps <= 5 ? 5 : 10))
+
 # The panels with something to show share the room.
 array shown[3]
 shown[1] = points[1] > 0 || measured ne ''
@@ -97,7 +100,7 @@ do for [panel = 1:3] {
       set xtics 0.2
     } else {
       set xrange [0:1.05 * positive(most, 1)]
-      set xtics autofreq
+      set xtics few(1.05 * positive(most, 1))
     }
     if (points[panel] == 0) { set label 3 panel < 3 ? 'no direct beam' : 'no light of this band' at graph 0.5,0.5 center }
     plot NaN notitle, \

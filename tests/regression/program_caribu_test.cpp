@@ -261,7 +261,7 @@ TEST_F(Convert, TheWholeCanopyOfAScene) {
   for (const char* label : {"200012001007", "100007003042", "200024001007", "100019003042"})
     EXPECT_NE(can.find(std::string("p 1 ") + label + " 3 "), std::string::npos) << label;
   EXPECT_EQ(run({"convert", scene, "squares.can"}).status, 0);
-  EXPECT_NE(run({"convert", scene, "squares.can"}).err.find("become stems"), std::string::npos);
+  EXPECT_NE(run({"convert", scene, "squares.can"}).err.find("become leaves or stems"), std::string::npos);
   // Two organs of one plant that have the same number.
   folder_.write("twins.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl leaf\no plant1_leaf2\nf 1 2 3\no plant1_petiole2\nf 1 3 2\n");
   const Outcome merged = run({"convert", "twins.obj", "twins.can"});

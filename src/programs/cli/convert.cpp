@@ -102,7 +102,8 @@ MeshToWrite read_input(const ConvertOptions& options) {
     MeshImport import{.optics = default_optics,
                       .up = std::nullopt,
                       .scale = options.stand.scale.value_or(1.0),
-                      .allow_outside = options.allow_outside};
+                      .allow_outside = options.allow_outside,
+                      .keeps_colours = true};
     if (options.z_up) import.up = UpAxis::z;
     const std::vector<std::string>& splits = organ_split_names();
     const auto split = std::find(splits.begin(), splits.end(), options.split);
@@ -121,7 +122,7 @@ int write_as_mesh(const ConvertOptions& options) {
   if (is_can_file(options.output)) {
     const std::vector<std::string> lost = optics_lost_in_can(mesh);
     if (!lost.empty())
-      warn(printable(fmt::format("{}: optics {} become stems: a .can only has soil, leaf, stem, leaf2, stem2, ...",
+      warn(printable(fmt::format("{}: optics {} become leaves or stems: a .can only has soil, leaf, stem, leaf2, stem2, ...",
                                  options.output.string(), fmt::join(lost, ", "))));
     const std::size_t merged = organs_merged_in_can(mesh);
     if (merged > 0)

@@ -1,6 +1,7 @@
 #include "programs/viewer/picked.h"
 
 #include "files/results/tables/irradiance.h"
+#include "files/results/tables/table.h"
 
 #include <algorithm>
 #include <limits>
@@ -52,7 +53,7 @@ PickedOrgan describe_organ(const Scene& scene, const RadiationResult& result, st
   picked.optics = scene.model.optics[canopy.optics_of[element]].name;
   for (std::size_t e = 0; e < canopy.size(); ++e) picked.triangles += canopy.organ_of[e] == number ? 1 : 0;
   picked.area_m2 = light.area_m2;
-  picked.sunlit_fraction = light.sunlit_fraction;
+  picked.sunlit_fraction = as_share(light.sunlit_fraction);
   picked.direct = light.direct[band];
   picked.indirect = light.indirect[band];
   picked.absorbed = light.absorbed[band];

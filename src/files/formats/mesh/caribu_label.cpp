@@ -21,12 +21,13 @@ constexpr int most_leaf = 999;
                 "choose another format");
 }
 
-// Returns the species: 2 for leaf2, 1 for leaf and any other ending.
+// Returns the species, which has one digit: 2 for leaf2, 1 for leaf and any other ending.
 unsigned species_of(const std::string& name) {
+  constexpr unsigned most_species = 9;
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   unsigned species = 1;
   const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), species);
-  return error == std::errc() ? species : 1;
+  return error == std::errc() && species <= most_species ? species : 1;
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace sunfleck {
 
-// Returns the label of an element in CARIBU files, O PPPPP LLL EEE: the species (N for organs named leafN or stemN, 1 for names
-// without a number, 0 for soil); the plant; the leaf (the rank, at least 1, for organs named leaf..., 000 for all others); and
+// Returns the label of an element in CARIBU files, O PPPPP LLL EEE: the species (N for organs named leafN or stemN, N up to 9, 1
+// for other names, 0 for soil); the plant; the leaf (the rank, at least 1, for organs named leaf..., 000 for all others); and
 // the number of the triangle in its organ, modulo 1000. Throws Error (failure) if a number has too many digits.
 [[nodiscard]] std::string caribu_label(const Organ& organ, std::size_t number_in_organ);
 

@@ -135,7 +135,7 @@ bool is_can_file(const std::filesystem::path& file) {
 Mesh read_mesh(const std::filesystem::path& file, const MeshImport& import, SourceFiles* files) {
   EXPECT(import.scale, >, 0.0);
   const MeshFormat format = format_of(file);
-  MeshSource source{file, {}, import.optics, import.allow_outside, files, import.named};
+  MeshSource source{file, {}, import.optics, import.allow_outside, files, import.named, import.keeps_colours};
   try {
     const std::string bytes = format == MeshFormat::unknown ? std::string() : read_source(file, files);
     source.bytes = without_mark(bytes);

@@ -23,6 +23,7 @@ struct MeshImport {
   OrganSplit split = OrganSplit::names;
   Axes axes = Axes::south_up_west;  // of the user, which decide what x and z are in a file with y up
   NamedParts* named = nullptr;      // receives what read_mesh counts, if given
+  bool keeps_colours = false;       // true if the colours of a PLY name its materials whether `optics` is given or not
 };
 
 // Returns the triangles of the file in the scene's axes, scaled, with polygons cut into triangles. A z-up file has x east, y north:

@@ -24,6 +24,7 @@ struct MeshSource {
   bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
   SourceFiles* files = nullptr;       // collects the buffers of a glTF file
   NamedParts* named = nullptr;        // receives the counts of the file, if given
+  bool keeps_colours = false;         // true if the colours of a PLY name its materials whether `optics` is given or not
 };
 
 // Throws Error (input) `FILE:LINE: what (why); cure`. Line 0 leaves the line out.

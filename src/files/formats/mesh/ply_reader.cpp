@@ -254,7 +254,7 @@ class PlyReader {
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> surfaces;  // [colour]
     for (const std::string& name : names) {
-      const std::uint32_t optics = builder_.optics(source_.optics.value_or(name));
+      const std::uint32_t optics = builder_.optics(source_.keeps_colours ? name : source_.optics.value_or(name));
       surfaces.emplace_back(optics, builder_.organ({1, name, 0}));
     }
     for (std::size_t t = 0; t < builder_.triangle_count(); ++t) {

@@ -41,7 +41,7 @@ class DayWriter {
   void add_triangles() {
     const ElementFields places = make_element_places(day_.model);
     for (const Column& column : triangles_table(places).columns) {
-      if (!column.is_in(in_netcdf) || column.name == "optics") continue;
+      if (!column.is_in(in_netcdf)) continue;
       file_.add(column, {triangle_});
       if (!column.categories) continue;
       std::vector<std::string> names;

@@ -130,6 +130,9 @@ TEST(Organs, ColoursOfAPlyNameOrgansAndMaterials) {
   const Mesh leaf = read_split(folder, "a.ply", faces);
   EXPECT_EQ(organs_of(leaf), organs_of(mesh));
   EXPECT_EQ(leaf.optics_names, Names{"leaf"}) << "the scene's optics, where it gives any";
+  MeshImport converted{.optics = "leaf"};
+  converted.keeps_colours = true;
+  EXPECT_EQ(read_mesh(folder / "a.ply", converted).optics_names, mesh.optics_names);
   const std::string diffuse = "property float diffuse_red\nproperty float diffuse_green\nproperty float diffuse_blue\n";
   const Mesh by_vertex =
       read_split(folder, "b.ply",

@@ -135,6 +135,7 @@ TEST(Caribu, Labels) {
   EXPECT_EQ(caribu_label({1, "leaf", 0}, 0), "100001001000") << "leaf 0 would be an opaque stem";
   EXPECT_EQ(caribu_label({1, "stem", 0}, 0), "100001000000");
   EXPECT_EQ(caribu_label({1, "ear", 5}, 0), "100001000000");
+  EXPECT_EQ(caribu_label({1, "leaf.113", 5}, 0), "100001005000") << "a label has twelve digits";
   EXPECT_EQ(caribu_label({0, "soil", 0}, 5), "000000000005");
   EXPECT_NE(refusal({100'000, "leaf", 1}).find("plant 100000 has no label (CARIBU labels have numbers 0..99999); "),
             std::string::npos);
