@@ -119,7 +119,11 @@ void NetcdfFile::put(int variable, std::span<const T> values) {
 }
 
 int NetcdfFile::variable(const Column& column, const std::vector<int>& dimensions) {
-  const auto define_as = [&]<class T>(T) { return variable<T>(column.name, dimensions, column.unit, column.meaning); };
+  const auto define_as = [&]<class T>(T) {
+    const int number = variable<T>(column.name, dimensions, column.unit, column.meaning);
+    if (!column.error_column.empty()) attribute(number, "ancillary_variables", column.error_column);
+    return number;
+  };
   if (std::holds_alternative<std::span<const double>>(column.values)) return define_as(double{});
   if (std::holds_alternative<std::span<const std::int32_t>>(column.values)) return define_as(std::int32_t{});
   return define_as(std::int64_t{});

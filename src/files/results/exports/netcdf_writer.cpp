@@ -60,7 +60,6 @@ class ResultsWriter {
   void add_light(const Column& column) {
     const int number = file_.variable(column, {triangle_});
     file_.attribute(number, "coordinates", "x y z");
-    if (!column.error_column.empty()) file_.attribute(number, "ancillary_variables", column.error_column);
     file_.put(number, column);
   }
 
@@ -126,6 +125,7 @@ class ResultsWriter {
         file_.names(prefix + "name", dimension, cleaned, column.meaning);
       } else if (column.is_in(in_arrays)) {
         column.name.insert(0, prefix);
+        if (!column.error_column.empty()) column.error_column.insert(0, prefix);
         file_.add(column, {dimension});
       }
     }

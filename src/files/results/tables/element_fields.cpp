@@ -52,7 +52,7 @@ constexpr LightLabel light_labels[] = {
     {"indirect_lower", "irradiance of the lower face by all light but the sun's beam at its first hit"},
     {"total", "irradiance of both faces together by all light"},
     {"absorbed", "flux absorbed by both faces per one-sided area"},
-    {"absorbed_error", "half-width of the confidence interval of absorbed"}};
+    {"absorbed_error", "half-width of the confidence interval of what both faces absorb"}};
 
 const LightLabel& label_of(LightColumn column) {
   return light_labels[static_cast<std::size_t>(column)];
