@@ -43,6 +43,23 @@ TEST(ShadeClasses, AddUpToWhatOrgansLayersAndLeavesAbsorb) {
   }
 }
 
+// Everything on a level black leaf in the open absorbs the whole beam, but the leaf's own absorption is known to a percent.
+TEST(ShadeClasses, OfALeafWhollyInTheSunIncludeTheBeam) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.polygon({0.5, 0.5, 0.5}, {0.0, 1.0, 0.0}, 0.16, 4, 0.3);
+  const RadiationModel model = black_model(maker.mesh(), unit_plot, sun_at(60.0, 90.0));
+  const Prepared prepared(model);
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const RadiationResult result = simulate(model, prepared, fixed_work(model, 2e3, usual_replicates, seed));
+    for (const ShadeClassResult* classes : {&result.organs[0].classes, &result.leaf_classes}) {
+      const Estimate sunlit = classes->absorbed_sunlit[0];
+      ASSERT_FALSE(std::isnan(sunlit.value));
+      EXPECT_LE(std::abs(sunlit.value - model.bands[0].direct_w_m2), sunlit.half_width + 1e-9) << seed;
+    }
+  }
+}
+
 // In a short run the flux of a small class is mostly noise. It stays between nothing and what its organ absorbs.
 TEST(ShadeClasses, ArePossible) {
   RadiationModel model = light_mix();

@@ -279,6 +279,49 @@ RadiationModel small_leaves(int corners, bool overcast) {
   return model;
 }
 
+// One leaf that covers most of the plot, and whose light is known far better than that of the small ones below.
+RadiationModel below_a_roof() {
+  Random random(5);
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.polygon({0.5, 0.6, 0.5}, {0.0, 1.0, 0.0}, 0.81, 4, 0.25 * std::numbers::pi);
+  for (int number = 2; number <= 21; ++number) {
+    maker.organ("leaf", 1, number);
+    maker.polygon({random.uniform(0.0, 1.0), random.uniform(0.1, 0.3), random.uniform(0.0, 1.0)}, {0.0, 1.0, 0.0}, 0.0016, 4,
+                  0.3);
+  }
+  RadiationModel model = black_model(maker.mesh(), unit_plot, sun_at(60.0, 90.0));
+  model.sun.reset();
+  model.bands[0].direct_w_m2 = 0.0;
+  model.bands[0].diffuse_w_m2 = 100.0;
+  model.sky = SkyModel{.kind = SkyKind::overcast};
+  return model;
+}
+
+TEST(TriangleLightOfSmallLeaves, IsNoBetterKnownBelowALargeLeaf) {
+  const RadiationModel model = below_a_roof();
+  const Prepared prepared(model);
+  const auto run = [&](double packets, std::uint64_t seed) {
+    SolveSettings settings = fixed_scatter(model, {.rays = 1e3, .packets = packets, .seed = seed});
+    settings.element_errors = ElementErrors::refine;
+    return leaves_of_run(model, simulate(model, prepared, settings));
+  };
+  const Leaves truth = run(1e5, 99);
+  const auto is_small = [&](std::size_t k) { return truth.area_m2[k] < 0.01; };
+  constexpr std::uint64_t seeds = 40;
+  for (const double packets : {300.0, 800.0}) {
+    double held = 0.0, least = 1.0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      const double own = covered(run(packets, seed), truth, is_small);
+      held += own / seeds;
+      least = std::min(least, own);
+    }
+    std::printf("%.0f packets: %.3f of the area held, %.3f at least\n", packets, held, least);
+    EXPECT_GE(held, 0.92);
+    EXPECT_GE(least, 0.6);
+  }
+}
+
 // The light of a leaf is that of its triangles, and so is its error where there are few of them: what landed on the leaf varies.
 TEST(TriangleLightOfSmallLeaves, IsAsUncertainAsThatOfTheLeaves) {
   for (const auto& [corners, overcast] : {std::pair{4, false}, std::pair{3, false}, std::pair{3, true}}) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace sunfleck {
@@ -196,6 +197,12 @@ class ResultMaker {
         result.indirect.push_back(scattered_with_unshot(sums_.organs[o].indirect[b], other * per_area, b));
         const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
         result.absorbed.push_back(with_unshot(sums_.organs[o].absorbed[b], event_w_m2, b));
+        // Where one part of the light never came, the spread of the other says nothing of it.
+        for (const auto& [mean, event] : {std::pair{&sums_.organs[o].direct[b], beam}, {&sums_.organs[o].indirect[b], other}}) {
+          if (mean->squares() > 0.0 || !(sums_.organs[o].absorbed[b].squares() > 0.0)) continue;
+          result.absorbed.back().half_width =
+              std::hypot(result.absorbed.back().half_width, unseen(event) * absorptance * per_area);
+        }
       }
       result.classes = sums_.classes.organ(o, unseen_lit_m2, errors);
       results.push_back(std::move(result));

@@ -34,18 +34,20 @@ std::vector<double> other_noise(const RunSums& sums, double confidence) {
   std::vector<double> noise;
   for (std::size_t b = 0; b < sums.bands.size(); ++b) {
     const double w_m2_per_quantum = conversion.quanta[b].w_m2_per_quantum;
-    double variance = 0.0, quanta = 0.0;
+    double sum = 0.0, lit = 0.0;
     for (std::size_t o = 0; o < sums.organs.size(); ++o) {
       const ReplicateMean& light = sums.organs[o].indirect[b];
       const double quanta_per_w_m2 = conversion.areas.organ_m2[o] / (w_m2_per_quantum * conversion.model.plot.area_m2());
+      const double quanta = replicates * light.mean() * quanta_per_w_m2;
+      if (!(quanta > 0.0)) continue;
       const double deviation = replicates * to_normal * light.standard_error() * quanta_per_w_m2;
-      variance += deviation * deviation;
-      quanta += replicates * light.mean() * quanta_per_w_m2;
+      sum += deviation * deviation / quanta;
+      lit += 1.0;
     }
     if (!(w_m2_per_quantum > 0.0)) {  // a band without light
       noise.push_back(0.0);
     } else {
-      noise.push_back(quanta > 0.0 ? variance / quanta : conversion.events.other_w_m2[b] / w_m2_per_quantum);
+      noise.push_back(lit > 0.0 ? sum / lit : conversion.events.other_w_m2[b] / w_m2_per_quantum);
     }
   }
   return noise;

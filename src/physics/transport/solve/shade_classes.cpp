@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -120,10 +121,13 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, d
     const auto add_class = [&](const RatioMean& ratio, const SpreadMean& spread, const Estimate& class_m2, auto& absorbed,
                                auto& spreads) {
       Estimate flux = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]);
-      // So may this estimate, where its class is small. The truth lies between nothing and all that the group absorbs: moving the
-      // value there brings it no further away.
+      // So may this estimate, where its class is small. It is moved to between nothing and all that the group absorbs, so that both
+      // classes together absorb that; but that is not certain either.
       const double most = std::max(0.0, absorbed_w) / class_m2.value;
-      if (!std::isnan(flux.value)) flux.value = std::clamp(flux.value, class_m2.value == open_m2 ? most : 0.0, most);
+      if (!std::isnan(flux.value)) {
+        const double moved = std::clamp(flux.value, class_m2.value == open_m2 ? most : 0.0, most);
+        flux.half_width += std::abs(moved - std::exchange(flux.value, moved));
+      }
       flux.half_width += flux.value * errors.unshot_share[b];
       absorbed.push_back(flux);
       spreads.push_back(std::isnan(flux.value) ? Estimate{no_value, no_value} : spread.estimate(errors.spread_quantile));
