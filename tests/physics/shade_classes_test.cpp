@@ -60,6 +60,21 @@ TEST(ShadeClasses, OfALeafWhollyInTheSunIncludeTheBeam) {
   }
 }
 
+// All replicates agree that no ray met this leaf, which is wholly in the sun: neither of its classes is known to be there.
+TEST(ShadeClasses, ThatMayBeNothingHaveNoValues) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.polygon({0.5, 0.5, 0.5}, {0.0, 1.0, 0.0}, 1e-6, 4, 0.3);
+  const RadiationModel model = black_model(maker.mesh(), unit_plot, sun_at(60.0, 90.0));
+  const ShadeClassResult& classes = simulate(model, fixed_work(model, 1e3)).organs[0].classes;
+  EXPECT_EQ(classes.sunlit_m2.value, 0.0);
+  EXPECT_GE(classes.sunlit_m2.half_width, 1e-6 * (1.0 - 1e-6));
+  for (const auto* of : {&classes.absorbed_sunlit, &classes.absorbed_shaded, &classes.sunlit_sd, &classes.shaded_sd}) {
+    EXPECT_TRUE(std::isnan(of->at(0).value));
+    EXPECT_TRUE(std::isnan(of->at(0).half_width));
+  }
+}
+
 // In a short run the flux of a small class is mostly noise. It stays between nothing and what its organ absorbs.
 TEST(ShadeClasses, ArePossible) {
   RadiationModel model = light_mix();

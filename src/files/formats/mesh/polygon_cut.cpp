@@ -18,7 +18,8 @@ glm::dvec3 twice_area(std::span<const glm::dvec3> corners) {
   return sum;
 }
 
-// Corners as seen against the polygon's normal, along its largest component, so that they run counter-clockwise.
+// Returns the corners as seen along the axis that is closest to the polygon's normal, from the side from which they run
+// counter-clockwise.
 std::vector<glm::dvec2> seen_from_above(std::span<const glm::dvec3> corners) {
   const glm::dvec3 normal = twice_area(corners);
   int axis = 0;

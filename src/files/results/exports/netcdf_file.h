@@ -32,7 +32,8 @@ class NetcdfFile {
   template <class T>
   int variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning);
 
-  // Defines a variable for a column of numbers, which refers to that of its half-widths, if there is one; row numbers and unsigned numbers become std::int64_t.
+  // Defines a variable for a column of numbers, which refers to that of its half-widths, if there is one. Row numbers and unsigned
+  // numbers become std::int64_t.
   int variable(const Column& column, const std::vector<int>& dimensions);
 
   // Lays out a variable for writing by put_rows, that many rows at once. A row is an index of the first dimension.

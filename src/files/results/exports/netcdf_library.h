@@ -55,7 +55,8 @@ struct Hdf5Library {
 // library closes it by itself. This makes the process exit with its intended status before that; the file is left open.
 void leave_before_libraries();
 
-// Throws Error (failure): that `what` failed for that `reason`, an errno, or if this is none of a disk, because of `otherwise`.
+// Throws Error (failure), which says that `what` failed: because of `reason`, an errno, if that is one of disks, or else because of
+// `otherwise`.
 [[noreturn]] void throw_write_failure(const std::string& what, int reason, const char* otherwise);
 
 }  // namespace sunfleck

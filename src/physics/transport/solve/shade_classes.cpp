@@ -120,7 +120,9 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, d
     const double absorbed_w = means.sunlit[b].numerator() + means.shaded[b].numerator();
     const auto add_class = [&](const RatioMean& ratio, const SpreadMean& spread, const Estimate& class_m2, auto& absorbed,
                                auto& spreads) {
-      Estimate flux = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]);
+      const bool is_known = class_m2.value > class_m2.half_width;  // to be there
+      Estimate flux =
+          is_known ? ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]) : Estimate{no_value, no_value};
       // So may this estimate, where its class is small. It is moved to between nothing and all that the group absorbs, so that both
       // classes together absorb that; but that is not certain either.
       const double most = std::max(0.0, absorbed_w) / class_m2.value;
@@ -130,7 +132,11 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, d
       }
       flux.half_width += flux.value * errors.unshot_share[b];
       absorbed.push_back(flux);
-      spreads.push_back(std::isnan(flux.value) ? Estimate{no_value, no_value} : spread.estimate(errors.spread_quantile));
+      Estimate deviation{no_value, no_value};
+      if (!std::isnan(flux.value)) deviation = spread.estimate(errors.spread_quantile);
+      // What nothing was seen of may deviate as much as there may be of it.
+      if (flux.value == 0.0) deviation.half_width = std::max(deviation.half_width, flux.half_width);
+      spreads.push_back(deviation);
     };
     add_class(means.sunlit[b], means.sunlit_spread[b], result.sunlit_m2, result.absorbed_sunlit, result.sunlit_sd);
     add_class(means.shaded[b], means.shaded_spread[b], result.shaded_m2, result.absorbed_shaded, result.shaded_sd);

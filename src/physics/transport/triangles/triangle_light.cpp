@@ -200,8 +200,8 @@ class Estimation {
       a[e] = static_cast<double>(sums_.half_landings[e].both());
       b[e] = static_cast<double>(sums_.landings[e].both()) - a[e];
     }
-    const double variance = std::reduce(sums_.organ_landings_variance.begin(), sums_.organ_landings_variance.end());
-    const double landings = std::reduce(a.begin(), a.end()) + std::reduce(b.begin(), b.end());
+    const auto sum = [](const auto& values) { return std::accumulate(values.begin(), values.end(), 0.0); };
+    const double variance = sum(sums_.organ_landings_variance), landings = sum(a) + sum(b);
     PooledLight pooled = Pooling(trees_, weights).pool(a, b, variance / std::max(1.0, landings));
     return {std::move(pooled.flux), std::move(pooled.variance)};
   }
