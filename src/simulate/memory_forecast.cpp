@@ -23,7 +23,7 @@ constexpr double memory_per_byte = 1.2;
 
 // Returns the memory of the program and its libraries; on Vulkan it includes the driver and its compiled shaders.
 double program_bytes(const TracerDevice& device) {
-  return (device.kind == "cpu" ? 31.0 : 125.0) * mib;
+  return (device.kind == "cpu" ? 22.0 : 116.0) * mib;
 }
 
 double canopy_bytes(const RadiationModel& model) {

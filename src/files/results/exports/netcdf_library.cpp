@@ -9,14 +9,20 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <new>
+#include <string_view>
 
 namespace sunfleck {
 namespace {
 
 [[noreturn]] void throw_missing() {
-  const char* reason = ::dlerror();
-  throw_failure("netCDF", reason != nullptr ? reason : "it cannot be loaded",
-                "install " SUNFLECK_NETCDF_PACKAGE ", or export vtp or csv");
+  const char* const told = ::dlerror();
+  const std::string_view reason = told != nullptr ? told : "it cannot be loaded";
+  // A library for which there is no room is not missing. The loader says so in these words alone.
+  for (const char* of_memory : {" map ", "allocate", "cannot create", "memory"}) {
+    if (reason.find(of_memory) != reason.npos) throw std::bad_alloc();
+  }
+  throw_failure("netCDF", std::string(reason), "install " SUNFLECK_NETCDF_PACKAGE ", or export vtp or csv");
 }
 
 template <class Function>
