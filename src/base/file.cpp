@@ -213,6 +213,15 @@ void expect_file(const fs::path& file) {
   if (!fs::is_regular_file(status)) refuse_read(file, "it is not a regular file", "name a file on disk");
 }
 
+void expect_folder_of(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw_failure(printable(file.string()), "its folder does not exist", "create the folder first");
+  if (::access(folder.c_str(), W_OK) != 0)
+    throw_failure(printable(file.string()), "its folder cannot be written", "name another place with -o");
+}
+
 std::string read_file(const fs::path& file, std::uintmax_t most_bytes) {
   expect_file(file);
   const Handle handle = open(file, "rb");

@@ -15,6 +15,9 @@ inline constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 30U;
 // Throws Error (input) if the file is missing or not a regular file.
 void expect_file(const std::filesystem::path& file);
 
+// Throws Error (failure) unless the folder in which a file is to be written exists and can be written.
+void expect_folder_of(const std::filesystem::path& file);
+
 // Returns the bytes of a regular file. Throws Error (input) if it is missing, not a regular file or unreadable, and also,
 // before allocating memory for it, if it is longer than `most_bytes` or than the memory of this machine.
 [[nodiscard]] std::string read_file(const std::filesystem::path& file, std::uintmax_t most_bytes = largest_file_bytes);

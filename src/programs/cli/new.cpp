@@ -25,8 +25,7 @@ void check_output(const NewOptions& options) {
   std::error_code error;
   if (!options.force && fs::exists(fs::symlink_status(options.output, error)))
     throw_input(name, "it exists already", "give another name, or --force to replace it");
-  if (options.output.has_parent_path() && !fs::is_directory(options.output.parent_path(), error))
-    throw_failure(name, "its folder does not exist", "create the folder first");
+  expect_folder_of(options.output);
 }
 
 }  // namespace

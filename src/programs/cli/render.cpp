@@ -14,7 +14,6 @@
 #include "simulate/simulation.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <optional>
 #include <utility>
@@ -40,14 +39,7 @@ fs::path picture_file(const RenderOptions& options, bool finished_run) {
   if (is_exr(file) && options.chart_given) {
     throw_input("--chart", "an .exr file contains values, not colours", "leave it out, or name a .png");
   }
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw_failure(printable(file.string()), "its folder does not exist", "create the folder first");
-  }
-  if (::access(folder.c_str(), W_OK) != 0) {
-    throw_failure(printable(file.string()), "its folder cannot be written", "name another place with -o");
-  }
+  expect_folder_of(file);
   return file;
 }
 

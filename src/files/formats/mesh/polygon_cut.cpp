@@ -10,8 +10,8 @@
 namespace sunfleck {
 namespace {
 
-// Returns twice the area of a polygon, as a vector along its normal (Newell's method). Positions are relative to the first corner,
-// since the corners may be far from zero.
+// Returns twice the area of a polygon, as a vector along its normal. Positions are relative to the first corner, since the corners
+// may be far from zero.
 glm::dvec3 twice_area(std::span<const glm::dvec3> corners) {
   glm::dvec3 sum(0.0);
   for (std::size_t i = 2; i < corners.size(); ++i) sum += glm::cross(corners[i - 1] - corners[0], corners[i] - corners[0]);

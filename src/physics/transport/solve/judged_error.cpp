@@ -107,7 +107,7 @@ JudgedError indirect_error(const RunSums& sums, const Accuracy& accuracy) {
     const double per_quantum = conversion.quanta[b].w_m2_per_quantum;
     const double least = least_judged_share * static_cast<double>(sums.ledgers[b].incident) * per_quantum / n;
     if (!(least > 0.0)) continue;
-    const double unshot = static_cast<double>(sums.ledgers[b].unshot) * per_quantum / n;
+    const double unshot = sums.unshot_w_m2(b);
     const double one_packet = sums.unseen(conversion.events.other_w_m2[b], accuracy.confidence);
     const auto judge = [&](const ReplicateMean& mean, double absorptance, double at_least, JudgedFigure::Of of) {
       const double half_width = mean.estimate(quantile, one_packet * absorptance).half_width;

@@ -93,7 +93,7 @@ class ResultMaker {
     result.name = model_.bands[band].name;
     result.ledger = ledger;
     result.incident = static_cast<double>(ledger.incident) * per_quantum;
-    result.unshot = unshot_w_m2(band);
+    result.unshot = sums_.unshot_w_m2(band);
     const auto estimate = [&](std::int64_t quanta, const ReplicateMean& mean, double event_w_m2) {
       const Estimate of_mean = mean.estimate(quantile_, unseen(event_w_m2));
       return Estimate{static_cast<double>(quanta) * per_quantum, of_mean.half_width + result.unshot};
@@ -194,20 +194,25 @@ class ResultMaker {
         const double beam = areas_.organ_facing_m2[o] > 0.0 ? events_.beam_w_m2[b] : 0.0;
         const double other = absorptance > 0.0 ? events_.other_w_m2[b] : 0.0;
         result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, unseen(beam * per_area)));
-        result.indirect.push_back(scattered_with_unshot(sums_.organs[o].indirect[b], other * per_area, b));
-        const double event_w_m2 = std::max(beam, other) * absorptance * per_area;
-        result.absorbed.push_back(with_unshot(sums_.organs[o].absorbed[b], event_w_m2, b));
-        // Where one part of the light never came, the spread of the other says nothing of it.
-        for (const auto& [mean, event] : {std::pair{&sums_.organs[o].direct[b], beam}, {&sums_.organs[o].indirect[b], other}}) {
-          if (mean->squares() > 0.0 || !(sums_.organs[o].absorbed[b].squares() > 0.0)) continue;
-          result.absorbed.back().half_width =
-              std::hypot(result.absorbed.back().half_width, unseen(event) * absorptance * per_area);
-        }
+        const double scattered_share = sums_.unshot_share_of_scattered(b);
+        result.indirect.push_back(with_unshot_share(sums_.organs[o].indirect[b], other * per_area, scattered_share));
+        result.absorbed.push_back(organ_absorbed(o, b, beam * absorptance * per_area, other * absorptance * per_area));
       }
       result.classes = sums_.classes.organ(o, unseen_lit_m2, errors);
       results.push_back(std::move(result));
     }
     return results;
+  }
+
+  // Returns what an organ absorbs. One event of the beam changes it by `beam_w_m2`, one of other light by `other_w_m2`.
+  [[nodiscard]] Estimate organ_absorbed(std::size_t organ, std::size_t band, double beam_w_m2, double other_w_m2) const {
+    const OrganMeans& means = sums_.organs[organ];
+    Estimate absorbed = with_unshot(means.absorbed[band], std::max(beam_w_m2, other_w_m2), band);
+    if (!(means.absorbed[band].squares() > 0.0)) return absorbed;
+    // Where one part of the light never came, the spread of the other says nothing of it.
+    if (!(means.direct[band].squares() > 0.0)) absorbed.half_width = std::hypot(absorbed.half_width, unseen(beam_w_m2));
+    if (!(means.indirect[band].squares() > 0.0)) absorbed.half_width = std::hypot(absorbed.half_width, unseen(other_w_m2));
+    return absorbed;
   }
 
   // Returns the parts of each plant's leaves about whose light all replicates agree: [plant]; empty for the other plants.
@@ -248,21 +253,12 @@ class ResultMaker {
 
   // Returns the mean with its interval, which includes unshot flux in proportion; one event changes it by `event_w_m2`.
   [[nodiscard]] Estimate with_unshot(const ReplicateMean& mean, double event_w_m2, std::size_t band) const {
-    Estimate estimate = mean.estimate(quantile_, unseen(event_w_m2));
-    estimate.half_width += estimate.value * sums_.ledgers[band].unshot_share();
-    return estimate;
+    return with_unshot_share(mean, event_w_m2, sums_.ledgers[band].unshot_share());
   }
-
-  // Returns the same for light other than the beam's.
-  [[nodiscard]] Estimate scattered_with_unshot(const ReplicateMean& mean, double event_w_m2, std::size_t band) const {
+  [[nodiscard]] Estimate with_unshot_share(const ReplicateMean& mean, double event_w_m2, double share) const {
     Estimate estimate = mean.estimate(quantile_, unseen(event_w_m2));
-    estimate.half_width += estimate.value * sums_.unshot_share_of_scattered(band);
+    estimate.half_width += estimate.value * share;
     return estimate;
-  }
-
-  [[nodiscard]] double unshot_w_m2(std::size_t band) const {
-    return static_cast<double>(sums_.ledgers[band].unshot) * quanta_[band].w_m2_per_quantum /
-           std::max(1.0, static_cast<double>(sums_.replicates));
   }
 
   // Returns the most that unshot flux would still bring through a plane in one direction, W m-2. It crosses the plane on every second
@@ -270,7 +266,7 @@ class ResultMaker {
   [[nodiscard]] double unshot_through_w_m2(std::size_t band) const {
     const double waited = sums_.first_waiting[band];
     const double landings = waited > 0.0 ? (sums_.landed[band] - sums_.sky_landed[band]) / waited : 0.0;
-    return 0.5 * (2.0 + landings) * unshot_w_m2(band);
+    return 0.5 * (2.0 + landings) * sums_.unshot_w_m2(band);
   }
 
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
@@ -299,7 +295,7 @@ class ResultMaker {
         result.down.push_back(means.down[b].estimate(quantile_, unseen(below_top ? any : 0.0)));
         result.up.push_back(means.up[b].estimate(quantile_, unseen(packet)));
         if (below_top) result.down.back().half_width += unshot_through_w_m2(b);
-        result.up.back().half_width += below_top ? unshot_through_w_m2(b) : unshot_w_m2(b);
+        result.up.back().half_width += below_top ? unshot_through_w_m2(b) : sums_.unshot_w_m2(b);
         if (!below_top) continue;
         const double by_plants = areas_.layer_holds_vegetation[k] ? any * areas_.vegetation_absorptance[b] : 0.0;
         const double by_structures = areas_.layer_holds_structure[k] ? any * areas_.structure_absorptance[b] : 0.0;

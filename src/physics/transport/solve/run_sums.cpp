@@ -392,6 +392,11 @@ void RunSums::add(const Replicate& replicate) {
   Addition(*this, replicate).add();
 }
 
+double RunSums::unshot_w_m2(std::size_t band) const {
+  return static_cast<double>(ledgers[band].unshot) * conversion.quanta[band].w_m2_per_quantum /
+         std::max(1.0, static_cast<double>(replicates));
+}
+
 double RunSums::unshot_share_of_scattered(std::size_t band) const {
   constexpr double most_times_its_share = 2.0;
   if (!(first_waiting[band] > 0.0)) return ledgers[band].unshot_share();

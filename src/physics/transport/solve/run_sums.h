@@ -64,6 +64,8 @@ struct RunSums {
   // replicate.
   [[nodiscard]] double unseen(double event, double confidence) const;
 
+  // Returns the unshot flux of a replicate, W m-2 of ground.
+  [[nodiscard]] double unshot_w_m2(std::size_t band) const;
   // Returns what unshot flux may still add to any figure of light other than the beam's, relative to the figure. It need not wait
   // where the light that was shot came from: that is twice the share of unshot flux in all that waited.
   [[nodiscard]] double unshot_share_of_scattered(std::size_t band) const;
