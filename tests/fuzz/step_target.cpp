@@ -67,7 +67,7 @@ void feed_step_settings(std::string_view bytes) {
 }
 
 void feed_run_state(std::string_view bytes) {
-  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS8", bytes)));
+  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS9", bytes)));
   read_or_refuse([&] {
     const auto state = RunStore(folder(), {{"scene_digest", "0123"}, {"seed", 1}}).read(StateShape{2, 3, 2, 1.0});
     promise(state && state->replicates() >= 2 && state->sums.reals.size() == 2, "a state of this run");

@@ -36,6 +36,8 @@ TEST(Plates, FluxesOfOneAndTwoPlates) {
         // No ray of the beam passes the upper plate, but a few more might have.
         const FaceOptics& top = bands[b].top;
         EXPECT_GE(result.organs[k].absorbed[b].half_width, 0.99 * top.absorptance() * result.organs[k].direct[b].half_width);
+        const double missed_w = result.organs[k].direct[b].half_width * result.organs[k].area_m2;
+        EXPECT_GE(result.plants.front().incident_w[b].half_width, 0.99 * missed_w);
       }
     }
   }

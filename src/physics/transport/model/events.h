@@ -1,6 +1,7 @@
 #pragma once
 // The light of a single ray or packet. Where all replicates agree (no ray met a surface, or every ray did), their spread is
-// zero and gives no interval; the interval then follows from how much a few more or fewer events would have changed the figure.
+// zero, and where few events made the figure it is a poor guess. The half-widths of such figures are therefore at least what a few
+// more events, or fewer, would have changed.
 
 #include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/model.h"

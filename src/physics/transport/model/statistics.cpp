@@ -1,5 +1,6 @@
 #include "physics/transport/model/statistics.h"
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -12,8 +13,9 @@ double ReplicateMean::standard_error() const {
 }
 
 Estimate ReplicateMean::estimate(double t_quantile, double unseen) const {
-  const bool agree = count_ >= 2 && squares_ == 0.0;
-  return {mean_, agree ? unseen : t_quantile * standard_error()};
+  const bool seen_well = squares_ > 0.0 && 2 * zeros_ < count_;
+  if (count_ < 2 || seen_well) return estimate(t_quantile);
+  return {mean_, std::max(t_quantile * standard_error(), unseen)};
 }
 
 double unseen_events(double confidence) {

@@ -27,13 +27,14 @@ class ReplicateMean {
     const double delta = value - mean_;
     mean_ += delta / static_cast<double>(count_);
     squares_ += delta * (value - mean_);
+    zeros_ += value == 0.0 ? 1 : 0;
     last_ = value;
   }
 
   // Passes the whole state to `archive`.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.count_, self.mean_, self.squares_);
+    archive(self.count_, self.zeros_, self.mean_, self.squares_);
   }
 
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -44,12 +45,12 @@ class ReplicateMean {
   // Returns the standard error of the mean; NaN below two replicates.
   [[nodiscard]] double standard_error() const;
   [[nodiscard]] Estimate estimate(double t_quantile) const { return {mean_, t_quantile * standard_error()}; }
-  // Returns the same, except where all replicates agree, perhaps by chance: the half-width is then `unseen`, the amount
-  // that may have escaped them all.
+  // Returns the same, but the half-width is at least `unseen`, the amount that may have escaped all replicates, where their spread
+  // says too little of it: where they agree, perhaps by chance, and where so few events came that half of them had none.
   [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
 
  private:
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, zeros_ = 0;
   double mean_ = 0.0;
   double squares_ = 0.0;
   double last_ = 0.0;

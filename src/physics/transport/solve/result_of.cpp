@@ -196,7 +196,8 @@ class ResultMaker {
         result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, unseen(beam * per_area)));
         const double scattered_share = sums_.unshot_share_of_scattered(b);
         result.indirect.push_back(with_unshot_share(sums_.organs[o].indirect[b], other * per_area, scattered_share));
-        result.absorbed.push_back(organ_absorbed(o, b, beam * absorptance * per_area, other * absorptance * per_area));
+        result.absorbed.push_back(of_both(sums_.organs[o].absorbed[b], varies_on_organ(o, b), beam * absorptance * per_area,
+                                          other * absorptance * per_area, b));
       }
       result.classes = sums_.classes.organ(o, unseen_lit_m2, errors);
       results.push_back(std::move(result));
@@ -204,15 +205,38 @@ class ResultMaker {
     return results;
   }
 
-  // Returns what an organ absorbs. One event of the beam changes it by `beam_w_m2`, one of other light by `other_w_m2`.
-  [[nodiscard]] Estimate organ_absorbed(std::size_t organ, std::size_t band, double beam_w_m2, double other_w_m2) const {
+  // Whether the replicates differ in the light that the beam brings, and in all other light.
+  struct Varies {
+    bool beam = false, other = false;
+  };
+  [[nodiscard]] Varies varies_on_organ(std::size_t organ, std::size_t band) const {
     const OrganMeans& means = sums_.organs[organ];
-    Estimate absorbed = with_unshot(means.absorbed[band], std::max(beam_w_m2, other_w_m2), band);
-    if (!(means.absorbed[band].squares() > 0.0)) return absorbed;
-    // Where one part of the light never came, the spread of the other says nothing of it.
-    if (!(means.direct[band].squares() > 0.0)) absorbed.half_width = std::hypot(absorbed.half_width, unseen(beam_w_m2));
-    if (!(means.indirect[band].squares() > 0.0)) absorbed.half_width = std::hypot(absorbed.half_width, unseen(other_w_m2));
-    return absorbed;
+    return {means.direct[band].squares() > 0.0, means.indirect[band].squares() > 0.0};
+  }
+  // [plant * bands + band]
+  [[nodiscard]] std::vector<Varies> varies_on_plants() const {
+    const std::size_t bands = sums_.bands.size();
+    std::vector<Varies> result(areas_.plants.size() * bands);
+    for (std::size_t s = 0; s < sums_.conversion.surfaces.of.size(); ++s) {
+      const std::uint32_t plant = areas_.plants.of_surface[s];
+      if (plant == PlantAreas::no_plant) continue;
+      for (std::size_t b = 0; b < bands; ++b) {
+        const Varies organ = varies_on_organ(sums_.conversion.surfaces.of[s].organ, b);
+        Varies& varies = result[plant * bands + b];
+        varies = {varies.beam || organ.beam, varies.other || organ.other};
+      }
+    }
+    return result;
+  }
+
+  // Returns a mean of the beam's light and other light together. One event of the beam changes it by `beam`, one of other light by
+  // `other`. Where one part never varied, perhaps because it never came, the spread of the other says nothing of it.
+  [[nodiscard]] Estimate of_both(const ReplicateMean& mean, Varies varies, double beam, double other, std::size_t band) const {
+    Estimate both = with_unshot(mean, std::max(beam, other), band);
+    if (!(mean.squares() > 0.0)) return both;
+    if (!varies.beam) both.half_width = std::hypot(both.half_width, unseen(beam));
+    if (!varies.other) both.half_width = std::hypot(both.half_width, unseen(other));
+    return both;
   }
 
   // Returns the parts of each plant's leaves about whose light all replicates agree: [plant]; empty for the other plants.
@@ -230,6 +254,7 @@ class ResultMaker {
   [[nodiscard]] std::vector<PlantResult> plant_results() const {
     const PlantAreas& plants = areas_.plants;
     std::vector<std::vector<FacingArea>> parts = agreed_plants();
+    const std::vector<Varies> varies = varies_on_plants();
     std::vector<PlantResult> results;
     for (std::size_t p = 0; p < plants.size(); ++p) {
       PlantResult result;
@@ -240,11 +265,13 @@ class ResultMaker {
       result.sunlit_leaf_fraction =
           sunlit_estimate(sums_.plants[p].sunlit, plants.facing_leaf_m2[p], unseen_m2(std::move(parts[p])));
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
-        const double absorptance = plants.largest_absorptance[p * sums_.bands.size() + b];
-        const double beam = plants.beam_meets[p] ? events_.beam_w_m2[b] : 0.0;
-        const double event_w = model_.plot.area_m2() * std::max(beam, events_.other_w_m2[b]);
-        result.incident_w.push_back(with_unshot(sums_.plants[p].incident[b], event_w, b));
-        result.absorbed_w.push_back(with_unshot(sums_.plants[p].absorbed[b], event_w * absorptance, b));
+        const std::size_t place = p * sums_.bands.size() + b;
+        const double absorptance = plants.largest_absorptance[place];
+        const double beam_w = plants.beam_meets[p] ? events_.beam_w_m2[b] * model_.plot.area_m2() : 0.0;
+        const double other_w = events_.other_w_m2[b] * model_.plot.area_m2();
+        result.incident_w.push_back(of_both(sums_.plants[p].incident[b], varies[place], beam_w, other_w, b));
+        result.absorbed_w.push_back(
+            of_both(sums_.plants[p].absorbed[b], varies[place], beam_w * absorptance, other_w * absorptance, b));
       }
       results.push_back(std::move(result));
     }
