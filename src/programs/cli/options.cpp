@@ -72,19 +72,61 @@ void add_caribu_table(RunOptions& options) {
   if (is_can_file(options.scene) && !given) options.exports.push_back(table);
 }
 
+// Warns of each of the options that was given, but changes nothing.
+void warn_without_effect(const CLI::App& command, std::initializer_list<const char*> names, const std::string& why,
+                         RunOptions& options) {
+  for (const char* name : names) {
+    if (command.count(name) > 0) options.without_effect.push_back(fmt::format("{} has no effect: {}", name, why));
+  }
+}
+
+bool draws(const RunOptions& options, const char* word) {
+  const std::vector<std::string>& images = options.images;
+  return std::find(images.begin(), images.end(), word) != images.end();
+}
+
+// Returns whether --range applies to any of the pictures.
+bool draws_a_range(const RunOptions& options) {
+  if (options.extra_picture && has_top(options.extra_picture->chart)) return true;
+  const std::vector<Picture> pictures = all_pictures();
+  return std::any_of(pictures.begin(), pictures.end(), [&](const Picture& picture) {
+    return has_top(picture.chart) && draws(options, stem_of(picture).c_str());
+  });
+}
+
+constexpr const char* no_upper_end =
+    "the scales of rank and hue have no upper end to choose; give --chart rank-log, for example";
+
+void warn_of_pictures_not_drawn(const CLI::App& command, RunOptions& options) {
+  if (draws(options, "none")) {
+    warn_without_effect(command, {"--view", "--range", "--size", "--samples", "--repeat", "--compare"},
+                        "--images none draws no picture", options);
+    return;
+  }
+  if (!draws_a_range(options)) warn_without_effect(command, {"--range"}, no_upper_end, options);
+  if (!draws(options, "all") && !draws(options, "profile")) {
+    warn_without_effect(command, {"--compare"}, "profile.png is not among the --images", options);
+  }
+}
+
 RunOptions finished(RunOptions options, const OptionWords& words, const CLI::App& command) {
   add_caribu_table(options);
   read_errors(words, options);
   read_pictures(words, options.pictures);
   if (command.count("--chart") + command.count("--field") > 0) options.extra_picture = read_picture(words);
   check_images(options);
+  warn_of_pictures_not_drawn(command, options);
   options.triangle_light = shows_triangles(options);
   return options;
 }
 
-DayOptions finished(DayOptions options, const OptionWords& words) {
+DayOptions finished(DayOptions options, const OptionWords& words, const CLI::App& command) {
   read_errors(words, options.run);
   check_images(options.run);
+  if (draws(options.run, "none")) warn_without_effect(command, {"--band"}, "--images none draws no picture", options.run);
+  if (options.to_date.empty() && options.run.images == std::vector<std::string>{"season"}) {
+    options.run.without_effect.emplace_back("--images season draws nothing for a single date; give --to-date, or --images day");
+  }
   return options;
 }
 
@@ -101,8 +143,13 @@ void sort_files(InfoOptions& options) {
   files.clear();
 }
 
-InfoOptions finished(InfoOptions options, const OptionWords& words) {
+InfoOptions finished(InfoOptions options, const OptionWords& words, const CLI::App& command) {
   if (!options.meshes.empty()) sort_files(options);
+  const std::string no_run = options.meshes.empty() ? "no scene is given" : "meshes are described without a run";
+  if (options.run.scene.empty()) {
+    warn_without_effect(command, {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--memory"}, no_run,
+                        options.run);
+  }
   read_errors(words, options.run);
   add_caribu_table(options.run);
   options.run.triangle_light = shows_triangles(options.run);
@@ -115,6 +162,11 @@ RenderOptions finished(RenderOptions options, const OptionWords& words, const CL
   options.picture = read_picture(words);
   options.run.triangle_light = true;
   options.chart_given = command.count("--chart") > 0;
+  if (options.file.extension() == ".exr") {
+    warn_without_effect(command, {"--range"}, "an .exr file contains values, not colours", options.run);
+  } else if (!has_top(options.picture.chart)) {
+    warn_without_effect(command, {"--range"}, no_upper_end, options.run);
+  }
   for (const char* name : {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--max-seconds", "--max-rays",
                            "--memory", "--seed", "--allow-outside", "--optics", "--light", "--domain", "--scale"}) {
     if (options.simulating.empty() && command.count(name) > 0) options.simulating = name;
@@ -240,10 +292,10 @@ Command parse_command_line(int argc, const char* const* argv) {
   }
   if (app.got_subcommand("convert")) return convert;
   if (app.got_subcommand("new")) return new_scene;
-  if (app.got_subcommand("info")) return finished(info, words);
+  if (app.got_subcommand("info")) return finished(info, words, *app.get_subcommand("info"));
   if (app.got_subcommand("validate")) return validate;
   if (app.got_subcommand("tradeoff")) return tradeoff;
-  if (app.got_subcommand("day")) return finished(day, words);
+  if (app.got_subcommand("day")) return finished(day, words, *app.get_subcommand("day"));
   if (app.got_subcommand("view")) return finished(view, words, *app.get_subcommand("view"));
   if (app.got_subcommand("render")) return finished(render, words, *app.get_subcommand("render"));
   return finished(run, words, *app.get_subcommand("run"));

@@ -16,6 +16,7 @@ namespace sunfleck {
 struct RunOptions : SceneRequest, DeviceRequest, WorkRequest, ResultRequest {
   bool quiet = false;
   bool json = false;
+  std::vector<std::string> without_effect;  // a warning for each given option that changes nothing beside the others
 };
 
 // Options of `day`.

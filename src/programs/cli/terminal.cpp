@@ -34,6 +34,7 @@ void warn_of_missing_pictures(const std::filesystem::path& folder, const RunOpti
 void start_at_terminal(const RunOptions& options) {
   start_log(options.quiet || options.json ? Verbosity::quiet : Verbosity::normal);
   exit_on_interrupts();
+  for (const std::string& warning : options.without_effect) warn(warning);
 }
 
 std::string device_line(const TracerDevice& device) {

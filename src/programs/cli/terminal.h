@@ -21,7 +21,8 @@ inline constexpr int exit_failed = 1;
 inline constexpr int exit_short_of_bound = 1;
 inline constexpr int exit_interrupted = 130;
 
-// Starts the log, which is quiet with --quiet and --json, and lets an interrupt end the program while nothing is written yet.
+// Starts the log, which is quiet with --quiet and --json, warns of options without effect, and lets an interrupt end the program
+// while nothing is written yet.
 void start_at_terminal(const RunOptions& options);
 
 // Returns the device in use, as one line for the user.

@@ -316,5 +316,43 @@ TEST(Options, MistakesAreNamed) {
             "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
 }
 
+// Each warning names the option; options that have an effect cause none.
+TEST(Options, WithoutEffectAreNamed) {
+  const auto names_of = [](const RunOptions& options) {
+    std::vector<std::string> names;
+    for (const std::string& warning : options.without_effect) names.push_back(warning.substr(0, warning.find(' ')));
+    return names;
+  };
+  const auto of_run = [&](std::initializer_list<const char*> words) { return names_of(parse_run(words)); };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(of_run({"run", "a.toml", "--images", "none", "--size", "80x80", "--compare", "b", "--band", "PAR"}),
+            (Names{"--size", "--compare"}));
+  EXPECT_EQ(of_run({"run", "a.toml", "--images", "rank_total", "--compare", "b", "--range", "9"}),
+            (Names{"--range", "--compare"}));
+  EXPECT_EQ(of_run({"run", "a.toml", "--images", "profile,rank-log_total", "--compare", "b", "--range", "9"}), Names{});
+  EXPECT_EQ(of_run({"run", "a.toml", "--chart", "map", "--range", "9"}), Names{});
+  EXPECT_EQ(of_run({"run", "a.toml", "--range", "9"}), Names{"--range"});
+
+  const auto of_render = [&](std::initializer_list<const char*> words) {
+    return names_of(std::get<RenderOptions>(parse(words)).run);
+  };
+  EXPECT_EQ(of_render({"render", "a.toml", "--chart", "hue", "--range", "9"}), Names{"--range"});
+  EXPECT_EQ(of_render({"render", "a.toml", "-o", "a.exr", "--range", "9"}), Names{"--range"});
+  EXPECT_EQ(of_render({"render", "a.toml", "--chart", "rank-interval", "--range", "9"}), Names{});
+
+  const auto of_day = [&](std::initializer_list<const char*> words) {
+    return names_of(std::get<DayOptions>(parse(words)).run);
+  };
+  EXPECT_EQ(of_day({"day", "a.toml", "--images", "season"}), Names{"--images"});
+  EXPECT_EQ(of_day({"day", "a.toml", "--images", "season", "--to-date", "2002-08-09"}), Names{});
+  EXPECT_EQ(of_day({"day", "a.toml", "--images", "none", "--band", "PAR"}), Names{"--band"});
+
+  const auto of_info = [&](std::initializer_list<const char*> words) {
+    return names_of(std::get<InfoOptions>(parse(words)).run);
+  };
+  EXPECT_EQ(of_info({"info", "a.obj", "--error", "0.1"}), Names{"--error"});
+  EXPECT_EQ(of_info({"info", "a.toml", "--error", "0.1"}), Names{});
+}
+
 }  // namespace
 }  // namespace sunfleck
