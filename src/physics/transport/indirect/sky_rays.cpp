@@ -174,10 +174,10 @@ std::span<const double> SkyShares::next() {
   return shares_;
 }
 
-void SkyShares::add(std::size_t ray, std::vector<double>& sums) const {
+void SkyShares::add(std::size_t ray, std::vector<double>& sums) {
   const double share = sky_.share_of_first(ray + 1, rays_.size()) - sky_.share_of_first(ray, rays_.size());
-  const std::span<const float> weights = sky_.weights(rays_[ray].direction);
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * double{weights[k]};
+  if (ray == 0 || rays_[ray].direction != rays_[ray - 1].direction) weights_ = sky_.weights(rays_[ray].direction);
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * double{weights_[k]};
 }
 
 double SkyRays::largest_weight(std::size_t light) const {

@@ -77,13 +77,15 @@ class SkyShares {
   [[nodiscard]] std::span<const double> next();
 
  private:
-  void add(std::size_t ray, std::vector<double>& sums) const;
+  // Adds the weights of a ray; rays are added one after the other.
+  void add(std::size_t ray, std::vector<double>& sums);
 
   const SkyRays& sky_;
   std::span<const shared::Packet> rays_;
   std::size_t taken_ = 0;
   std::vector<double> shares_;         // [light]
   std::vector<double> totals_, sums_;  // [light], of weights; empty if all skies are alike
+  std::span<const float> weights_;     // [light], of the last ray, and of all rays of its beam
 };
 
 }  // namespace sunfleck
