@@ -18,6 +18,7 @@ CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layou
 CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces,
                          const BeamExposure& exposure)
     : foliage(model.canopy.size()),
+      per_m2(model.canopy.size()),
       organ_m2(model.canopy.organs.size()),
       organ_facing_m2(organ_m2),
       organ_open_m2(organ_m2),
@@ -40,6 +41,7 @@ CanopyAreas::CanopyAreas(const RadiationModel& model, const CounterLayout& layou
   for (std::size_t e = 0; e < canopy.size(); ++e) {
     const Triangle& corners = canopy.corners[e];
     const double area = area_m2(corners);
+    if (area > 0.0) per_m2[e] = 1.0 / area;
     const std::size_t organ = canopy.organ_of[e];
     organ_m2[organ] += area;
     if (exposure.can_hit(e)) organ_facing_m2[organ] += area;

@@ -16,6 +16,7 @@ struct CanopyAreas {
   CanopyAreas(const RadiationModel& model, const CounterLayout& layout, const Surfaces& surfaces);
 
   std::vector<bool> foliage;                  // [element]
+  std::vector<double> per_m2;                 // [element], 1 / its area, or 0 without area
   std::vector<double> organ_m2;               // [organ]
   std::vector<double> organ_facing_m2;        // [organ], of elements that the beam can hit
   std::vector<double> organ_open_m2;          // [organ], of elements that light can reach

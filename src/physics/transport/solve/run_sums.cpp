@@ -313,8 +313,7 @@ class Addition {
       const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
       sums_.direct_spread[e].add(static_cast<double>(landings.both()));
       sums_.element_hits[e] += landings.both() + (indirect_ != nullptr ? indirect_->element_hits[e] : 0);
-      const double element_m2 = area_m2(model_.canopy.corners[e]);
-      const double per_area = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
+      const double per_area = conversion_.areas.per_m2[e];
       const double sides[2] = {static_cast<double>(landings.upper), static_cast<double>(landings.lower)};
       for (std::size_t b = 0; b < bands; ++b) {
         double absorbed = 0.0;

@@ -173,6 +173,7 @@ class ShadeAddition {
     const auto come = [&](std::size_t side) {
       earlier_.prefetch(side);
       earlier_.prefetch(side ^ std::size_t{1});
+      prefetch(conversion_.areas.per_m2[side / 2]);
       if (!own.empty()) prefetch(own[side / 2]);
     };
     const auto add_side = [&](std::size_t side, std::span<const std::int64_t> quanta) {
@@ -206,8 +207,7 @@ class ShadeAddition {
     set_absorbed_w(side, quanta, light.absorbed_w);
     const std::size_t e = side / 2;
     if (std::exchange(light.element, e) == e) return;
-    const double element_m2 = area_m2(canopy_.corners[e]);
-    light.per_m2 = element_m2 > 0.0 ? 1.0 / element_m2 : 0.0;
+    light.per_m2 = conversion_.areas.per_m2[e];
     std::fill(light.earlier_w_m2.begin(), light.earlier_w_m2.end(), 0.0);
     for (const std::size_t of : {2 * e, 2 * e + 1}) {
       const auto landed = earlier_.at(of);
