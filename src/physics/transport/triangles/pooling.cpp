@@ -32,9 +32,20 @@ std::size_t scale_of(const TreeCut& cut) {
   return std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(cut.whole.size())), scales - 1);
 }
 
-std::vector<double> running_sums(const SurfaceTree& tree, std::span<const double> values) {
-  std::vector<double> sums(tree.order.size() + 1);
-  for (std::size_t k = 0; k < tree.order.size(); ++k) sums[k + 1] = sums[k] + values[tree.order[k]];
+// What landed in the two halves of a run.
+struct Halves {
+  [[nodiscard]] double both() const { return a + b; }
+  friend Halves operator+(const Halves& x, const Halves& y) { return {x.a + y.a, x.b + y.b}; }
+  friend Halves operator-(const Halves& x, const Halves& y) { return {x.a - y.a, x.b - y.b}; }
+
+  double a = 0.0, b = 0.0;
+};
+
+// Returns the sums of value(element) up to each place.
+template <class ValueOf>
+auto running_sums(const SurfaceTree& tree, const ValueOf& value) {
+  std::vector<decltype(value(0))> sums(tree.order.size() + 1);
+  for (std::size_t k = 0; k < tree.order.size(); ++k) sums[k + 1] = sums[k] + value(tree.order[k]);
   return sums;
 }
 
@@ -45,7 +56,8 @@ std::vector<double> resolvable(std::span<const double> weights) {
   return resolved;
 }
 
-double in(const std::vector<double>& sums, const TreeRange& range) {
+template <class Value>
+Value in(const std::vector<Value>& sums, const TreeRange& range) {
   return sums[range.end] - sums[range.begin];
 }
 
@@ -54,16 +66,15 @@ TreeRange first_part(const TreeCut& cut) {
 }
 
 TreeWeights weigh(const SurfaceTree& tree, std::span<const double> weights) {
-  TreeWeights of_tree{running_sums(tree, weights), {}};
+  TreeWeights of_tree{running_sums(tree, [&](std::uint32_t e) { return weights[e]; }), {}, {}};
   of_tree.expected.reserve(tree.cuts.size());
-  for (const TreeCut& cut : tree.cuts)
-    of_tree.expected.push_back(in(of_tree.sums, first_part(cut)) / in(of_tree.sums, cut.whole));
+  of_tree.spreads.reserve(tree.cuts.size());
+  for (const TreeCut& cut : tree.cuts) {
+    const double expected = in(of_tree.sums, first_part(cut)) / in(of_tree.sums, cut.whole);
+    of_tree.expected.push_back(expected);
+    of_tree.spreads.push_back(std::sqrt(expected * (1.0 - expected)));
+  }
   return of_tree;
-}
-
-// Returns what scales differences of shares to a noise that is the same for all splits of one flux.
-double spread_of(double expected) {
-  return std::sqrt(expected * (1.0 - expected));
 }
 
 // Pools over one tree.
@@ -71,7 +82,9 @@ class TreePooling {
  public:
   TreePooling(const SurfaceTree& tree, const TreeWeights& weights, std::span<const double> half_a,
               std::span<const double> half_b, double noise)
-      : tree_(tree), weights_(weights), noise_(noise), a_(running_sums(tree, half_a)), b_(running_sums(tree, half_b)) {}
+      : tree_(tree), weights_(weights), noise_(noise), landed_(running_sums(tree, [&](std::uint32_t e) {
+          return Halves{half_a[e], half_b[e]};
+        })) {}
 
   // Returns flux and variance by place in the order of the tree.
   PooledLight run() {
@@ -99,17 +112,15 @@ class TreePooling {
   void compare() {
     for (std::size_t k = 0; k < tree_.cuts.size(); ++k) {
       const TreeCut& cut = tree_.cuts[k];
-      const TreeRange first = first_part(cut);
       const double expected = weights_.expected[k];
-      const double spread = spread_of(expected);
-      const double flux_a = in(a_, cut.whole);
-      const double flux_b = in(b_, cut.whole);
-      const double flux = flux_a + flux_b;
+      const double spread = weights_.spreads[k];
+      const Halves whole = in(landed_, cut.whole), in_first = in(landed_, first_part(cut));
+      const double flux = whole.both();
       Scale& scale = scales_[scale_of(cut)];
       scale.fluxes.push_back(flux);
-      scale.differences.push_back(flux > 0.0 ? ((in(a_, first) + in(b_, first)) / flux - expected) / spread : 0.0);
-      if (!(flux_a > 0.0 && flux_b > 0.0)) continue;
-      const double between = (in(a_, first) / flux_a - in(b_, first) / flux_b) / spread;
+      scale.differences.push_back(flux > 0.0 ? (in_first.both() / flux - expected) / spread : 0.0);
+      if (!(whole.a > 0.0 && whole.b > 0.0)) continue;
+      const double between = (in_first.a / whole.a - in_first.b / whole.b) / spread;
       for (Noise* noise : {&scale.noise, &noise_of_all_}) {
         noise->squares += 0.25 * between * between * flux;
         noise->count += 1.0;
@@ -128,52 +139,50 @@ class TreePooling {
     Shrinkage(scale.differences, scale.variances).shrink(scale.differences, scale.variances);
   }
 
-  // Passes the flux of each surface down to its elements.
+  // Passes the flux of each surface down to its elements. All places of a range have the same flux for a unit of weight and the
+  // same relative variance until the range is cut, so the first of them holds both for all.
   [[nodiscard]] PooledLight divide() const {
     const std::size_t places = tree_.order.size();
     std::vector<double> density(places), relative(places);
     for (const TreeRange& surface : tree_.surfaces) {
-      const double flux = in(a_, surface) + in(b_, surface);
-      const double spread = flux > 0.0 ? noise_of_all() / flux : 0.0;
-      for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
-        density[k] = flux / in(weights_.sums, surface);
-        relative[k] = spread;
-      }
+      const double flux = in(landed_, surface).both();
+      density[surface.begin] = flux / in(weights_.sums, surface);
+      relative[surface.begin] = flux > 0.0 ? noise_of_all() / flux : 0.0;
     }
-    // The ranges nest, so multiplying place by place costs as much as the depth of the tree.
     std::array<std::size_t, scales> next{};  // [scale], number of its next split
     for (std::size_t k = 0; k < tree_.cuts.size(); ++k) {
       const TreeCut& cut = tree_.cuts[k];
       const double expected = weights_.expected[k];
-      const double spread = spread_of(expected);
+      const double spread = weights_.spreads[k];
       const Scale& scale = scales_[scale_of(cut)];
       const std::size_t in_scale = next[scale_of(cut)]++;
       const double share = std::clamp(expected + scale.differences[in_scale] * spread, least_share * expected,
                                       1.0 - least_share * (1.0 - expected));
       const double variance_of_share = scale.variances[in_scale] * spread * spread;
-      const auto multiply = [&](std::uint32_t begin, std::uint32_t end, double part, double expected_part) {
-        const double factor = part / expected_part;
-        const double variance = variance_of_share / (part * part);
-        for (std::uint32_t place = begin; place < end; ++place) {
-          density[place] *= factor;
-          relative[place] += variance;
-        }
+      const std::uint32_t whole = cut.whole.begin;
+      const auto pass = [&](std::uint32_t to, double part, double expected_part) {
+        density[to] = density[whole] * (part / expected_part);
+        relative[to] = relative[whole] + variance_of_share / (part * part);
       };
-      multiply(cut.whole.begin, cut.middle, share, expected);
-      multiply(cut.middle, cut.whole.end, 1.0 - share, 1.0 - expected);
+      pass(cut.middle, 1.0 - share, 1.0 - expected);
+      pass(whole, share, expected);
     }
-    return light(density, relative);
+    return light({std::move(density), std::move(relative)});
   }
 
-  [[nodiscard]] PooledLight light(const std::vector<double>& density, const std::vector<double>& relative) const {
-    PooledLight pooled{std::vector<double>(density.size()), std::vector<double>(density.size())};
+  // Returns the light of places with that flux for a unit of weight and that relative variance.
+  [[nodiscard]] PooledLight light(PooledLight pooled) const {
     for (const TreeRange& surface : tree_.surfaces) {
-      const bool dark = !(in(a_, surface) + in(b_, surface) > 0.0);
+      const bool dark = !(in(landed_, surface).both() > 0.0);
       for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
         const double weight = weights_.sums[k + 1] - weights_.sums[k];
-        pooled.flux[k] = density[k] * weight;
-        const double unseen = unseen_deviations * noise_of_all() * weight / in(weights_.sums, surface);
-        pooled.variance[k] = dark ? unseen * unseen : relative[k] * pooled.flux[k] * pooled.flux[k];
+        pooled.flux[k] *= weight;
+        if (dark) {
+          const double unseen = unseen_deviations * noise_of_all() * weight / in(weights_.sums, surface);
+          pooled.variance[k] = unseen * unseen;
+        } else {
+          pooled.variance[k] = pooled.variance[k] * pooled.flux[k] * pooled.flux[k];
+        }
       }
     }
     return pooled;
@@ -182,7 +191,7 @@ class TreePooling {
   const SurfaceTree& tree_;
   const TreeWeights& weights_;
   double noise_;
-  std::vector<double> a_, b_;  // [place + 1], running sums
+  std::vector<Halves> landed_;  // [place + 1], running sums
   std::array<Scale, scales> scales_;
   Noise noise_of_all_;
 };
@@ -203,14 +212,18 @@ PooledLight Pooling::pool(std::span<const double> half_a, std::span<const double
                     [&](std::size_t t) { of_tree[t] = TreePooling(trees_[t], of_trees_[t], half_a, half_b, noise).run(); });
   const double share = 1.0 / static_cast<double>(trees_.size());
   std::vector<double> squares(elements);
-  for (std::size_t t = 0; t < trees_.size(); ++t) {
-    for (std::size_t k = 0; k < trees_[t].order.size(); ++k) {
-      const std::uint32_t e = trees_[t].order[k];
-      pooled.flux[e] += share * of_tree[t].flux[k];
-      squares[e] += share * of_tree[t].flux[k] * of_tree[t].flux[k];
-      pooled.variance[e] += share * of_tree[t].variance[k];
+  // The trees have the same surfaces, each at the same places.
+  const std::vector<TreeRange>& surfaces = trees_.front().surfaces;
+  tbb::parallel_for(std::size_t{0}, surfaces.size(), [&](std::size_t s) {
+    for (std::size_t t = 0; t < trees_.size(); ++t) {
+      for (std::size_t k = surfaces[s].begin; k < surfaces[s].end; ++k) {
+        const std::uint32_t e = trees_[t].order[k];
+        pooled.flux[e] += share * of_tree[t].flux[k];
+        squares[e] += share * of_tree[t].flux[k] * of_tree[t].flux[k];
+        pooled.variance[e] += share * of_tree[t].variance[k];
+      }
     }
-  }
+  });
   // The mean over the trees is better than a single tree by as much as they differ from it (Krogh and Vedelsby 1995, NIPS 7).
   for (std::size_t e = 0; e < elements; ++e) {
     const double between = squares[e] - pooled.flux[e] * pooled.flux[e];

@@ -18,6 +18,8 @@ struct PooledLight {
 struct TreeWeights {
   std::vector<double> sums;      // [place + 1], running
   std::vector<double> expected;  // [cut], share of the first part
+  // [cut], what scales differences of shares to a noise that is the same for all splits of one flux
+  std::vector<double> spreads;
 };
 
 // Pools the flux that landed on elements in two independent halves of a run. A range of a tree divides its flux among its two

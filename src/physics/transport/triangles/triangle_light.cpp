@@ -20,20 +20,21 @@ namespace {
 
 constexpr std::size_t tree_count = 4;
 
-// Returns whole numbers in proportion to `values` whose sum is `total`; `values` of which none is positive count as equal.
-void apportion(std::span<const double> values, std::int64_t total, std::span<std::int64_t> parts) {
+// Calls give(k, part) for each number k below `count`, with whole numbers in proportion to value(k) whose sum is `total`, which
+// is at least 0; values of which none is positive count as equal.
+template <class Value, class Give>
+void apportion(std::size_t count, std::int64_t total, const Value& value, const Give& give) {
   double sum = 0.0;
-  for (const double value : values) sum += std::max(0.0, value);
+  for (std::size_t k = 0; k < count; ++k) sum += std::max(0.0, value(k));
   const bool equal = !(sum > 0.0);
-  if (equal) sum = static_cast<double>(values.size());
+  if (equal) sum = static_cast<double>(count);
   double passed = 0.0;
   std::int64_t given = 0;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    passed += equal ? 1.0 : std::max(0.0, values[k]);
-    const bool last = k + 1 == values.size();
-    const auto until =
-        last ? total : static_cast<std::int64_t>(std::floor(static_cast<double>(total) * std::min(1.0, passed / sum)));
-    parts[k] = until - given;
+  for (std::size_t k = 0; k < count; ++k) {
+    passed += equal ? 1.0 : std::max(0.0, value(k));
+    const bool last = k + 1 == count;
+    const auto until = last ? total : static_cast<std::int64_t>(static_cast<double>(total) * std::min(1.0, passed / sum));
+    give(k, until - given);
     given = until;
   }
 }
@@ -64,20 +65,15 @@ class Estimation {
   template <class At>
   void divide(const std::vector<double>& values, std::int64_t unit, std::span<const std::int64_t> landed, const At& at,
               std::vector<std::int64_t>& result) const {
-    for (const TreeRange& surface : trees_.front().surfaces) {
-      std::vector<double> of_surface;
+    const std::vector<TreeRange>& surfaces = trees_.front().surfaces;
+    tbb::parallel_for(std::size_t{0}, surfaces.size(), [&](std::size_t s) {
+      const auto element = [&](std::size_t k) { return trees_.front().order[surfaces[s].begin + k]; };
       std::int64_t total = 0;
-      for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
-        const std::uint32_t e = trees_.front().order[k];
-        of_surface.push_back(values[e]);
-        total += landed[at(e)] * unit;
-      }
-      std::vector<std::int64_t> parts(of_surface.size());
-      apportion(of_surface, total, parts);
-      for (std::uint32_t k = surface.begin; k < surface.end; ++k) {
-        result[at(trees_.front().order[k])] = parts[k - surface.begin];
-      }
-    }
+      for (std::size_t k = 0; k < surfaces[s].size(); ++k) total += landed[at(element(k))] * unit;
+      apportion(
+          surfaces[s].size(), total, [&](std::size_t k) { return values[element(k)]; },
+          [&](std::size_t k, std::int64_t part) { result[at(element(k))] = part; });
+    });
   }
 
   void estimate_indirect() {
@@ -93,8 +89,9 @@ class Estimation {
     }
     const Pooling pooling(trees_, areas_m2_);
     for (std::size_t part = 0; part < 2 * bands; ++part) {
-      const auto at = [&](std::size_t e) { return (2 * e + part / bands) * bands + part % bands; };
-      const double noise = sums_.other_noise[part % bands];
+      const std::size_t side = part / bands, band = part % bands;
+      const auto at = [side, band, bands](std::size_t e) { return (2 * e + side) * bands + band; };
+      const double noise = sums_.other_noise[band];
       pool_part(pooling, scattered, half_scattered, at, noise, light_.side_indirect);
       if (sums_.sky.empty()) continue;
       pool_part(pooling, sums_.sky, sums_.half_sky, at, noise, light_.side_sky);
@@ -109,12 +106,10 @@ class Estimation {
     for (std::size_t e = 0; e < elements_; ++e) {
       a[e] = static_cast<double>(half[at(e)]);
       b[e] = static_cast<double>(all[at(e)] - half[at(e)]);
+      result[at(e)] = all[at(e)];
     }
     const PooledLight pooled = pooling.pool(a, b, noise);
-    for (std::size_t e = 0; e < elements_; ++e) {
-      result[at(e)] = all[at(e)];
-      light_.indirect_variance[at(e)] += pooled.variance[e];
-    }
+    for (std::size_t e = 0; e < elements_; ++e) light_.indirect_variance[at(e)] += pooled.variance[e];
     divide(pooled.flux, 1, all, at, result);
   }
 
@@ -293,13 +288,16 @@ void set_triangle_light(const TriangleScene& scene, TriangleLight light, std::sp
   result.side_error.assign(2 * elements * bands, 0.0);
   result.triangle_relative_error.clear();
   const glm::dvec3 to_sun = model.has_beam() ? direction_to_sun(*model.sun) : glm::dvec3(0.0, 1.0, 0.0);
-  for (std::size_t b = 0; b < bands; ++b) {
-    double squares = 0.0, flux = 0.0, area = 0.0;
-    for (std::size_t e = 0; e < elements; ++e) {
-      const double element_m2 = area_m2(model.canopy.corners[e]);
-      if (!(element_m2 > 0.0)) continue;
-      const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
-      const bool upper = glm::dot(unit_normal(model.canopy.corners[e]), to_sun) > 0.0;
+  std::vector<double> squares(bands), flux(bands);
+  double area = 0.0;
+  for (std::size_t e = 0; e < elements; ++e) {
+    const double element_m2 = area_m2(model.canopy.corners[e]);
+    if (!(element_m2 > 0.0)) continue;
+    const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
+    const bool upper = glm::dot(unit_normal(model.canopy.corners[e]), to_sun) > 0.0;
+    const bool vegetation = is_vegetation(scene.surfaces.at(e).role);
+    if (vegetation) area += element_m2;
+    for (std::size_t b = 0; b < bands; ++b) {
       double absorbed = 0.0, variance = 0.0, unshot = 0.0;
       for (std::size_t side = 0; side < 2; ++side) {
         const std::size_t place = (2 * e + side) * bands + b;
@@ -323,12 +321,13 @@ void set_triangle_light(const TriangleScene& scene, TriangleLight light, std::sp
       }
       const double error = quantile * std::sqrt(variance) + unshot;
       result.element_error[b * elements + e] = error;
-      if (!is_vegetation(scene.surfaces.at(e).role)) continue;
-      squares += error * error * element_m2;
-      flux += absorbed * element_m2;
-      area += element_m2;
+      if (!vegetation) continue;
+      squares[b] += error * error * element_m2;
+      flux[b] += absorbed * element_m2;
     }
-    result.triangle_relative_error.push_back(flux > 0.0 ? std::sqrt(squares * area) / flux : 0.0);
+  }
+  for (std::size_t b = 0; b < bands; ++b) {
+    result.triangle_relative_error.push_back(flux[b] > 0.0 ? std::sqrt(squares[b] * area) / flux[b] : 0.0);
   }
 }
 
