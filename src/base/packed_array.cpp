@@ -2,12 +2,11 @@
 
 #include "base/in_blocks.h"
 #include "base/large_pages.h"
+#include "base/zlib_streams.h"
 
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <array>
-#include <initializer_list>
 #include <memory>
 #include <new>
 #include <optional>
@@ -77,42 +76,13 @@ class ShallowValue : public nlohmann::json_sax<json> {
 // smaller.
 constexpr std::size_t block_bytes = std::size_t{1} << 18U;
 constexpr std::size_t bytes_at_once = 8 * block_bytes;
-constexpr std::size_t most_planes = 8;
-static_assert(block_bytes / most_planes < (1U << 16U), "a plane is stored in one block of deflate");
 
-using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
 using Decompressor = std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>;
-
-Compressor make_compressor() {
-  constexpr int fastest = 1;
-  Compressor compressor(libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  return compressor;
-}
 
 Decompressor make_decompressor() {
   Decompressor decompressor(libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
   if (!decompressor) throw std::bad_alloc();
   return decompressor;
-}
-
-// Returns whether deflate would hardly shrink the bytes: among some of them, and among these and their neighbours, fewer than
-// 1.5 times as many pairs are equal as among random bytes.
-bool look_random(std::span<const std::byte> bytes) {
-  constexpr std::size_t step = 8;
-  constexpr std::size_t least_bytes = std::size_t{1} << 12U;
-  if (bytes.size() < least_bytes) return false;
-  std::array<std::uint64_t, 256> counts{};
-  std::uint64_t sampled = 0;
-  std::uint64_t equal_neighbours = 0;
-  for (std::size_t k = 0; k + 1 < bytes.size(); k += step, ++sampled) {
-    ++counts[std::to_integer<std::size_t>(bytes[k])];
-    if (bytes[k] == bytes[k + 1]) ++equal_neighbours;
-  }
-  std::uint64_t equal_pairs = 0;
-  for (const std::uint64_t count : counts) equal_pairs += count * (count - 1);
-  const auto few = [&](std::uint64_t equal, std::uint64_t pairs) { return 2 * counts.size() * equal < 3 * pairs; };
-  return few(equal_pairs, sampled * (sampled - 1)) && few(equal_neighbours, sampled);
 }
 
 // Packs blocks one after the other.
@@ -122,10 +92,9 @@ class BlockDeflater {
     const std::size_t words = block.size() / word;
     plane_.resize(words);
     packed_.clear();
-    packed_.reserve(word * libdeflate_zlib_compress_bound(compressor_.get(), words));
     for (std::size_t k = 0; k < word; ++k) {
       for (std::size_t i = 0; i < words; ++i) plane_[i] = block[i * word + k];
-      word > 1 && look_random(plane_) ? store() : deflate();
+      streams_.append(plane_, word > 1 && look_random(plane_) ? words : 0, packed_);
     }
   }
 
@@ -133,28 +102,7 @@ class BlockDeflater {
   [[nodiscard]] std::span<const std::uint8_t> packed() const { return packed_; }
 
  private:
-  void deflate() {
-    const std::size_t before = packed_.size();
-    packed_.resize(before + libdeflate_zlib_compress_bound(compressor_.get(), plane_.size()));
-    packed_.resize(before + libdeflate_zlib_compress(compressor_.get(), plane_.data(), plane_.size(), &packed_[before],
-                                                     packed_.size() - before));
-  }
-
-  // Appends a zlib stream of one stored block (RFC 1950, 1951). A compressor that only stores would take as much memory as one
-  // that deflates.
-  void store() {
-    const std::size_t size = plane_.size();
-    const std::uint32_t checksum = libdeflate_adler32(1, plane_.data(), size);
-    const auto append = [&](std::initializer_list<std::size_t> bytes) {
-      for (const std::size_t byte : bytes) packed_.push_back(static_cast<std::uint8_t>(byte));
-    };
-    append({0x78, 0x01, 0x01, size, size >> 8U, ~size, ~size >> 8U});
-    const auto* const first = reinterpret_cast<const std::uint8_t*>(plane_.data());
-    packed_.insert(packed_.end(), first, first + size);
-    append({checksum >> 24U, checksum >> 16U, checksum >> 8U, checksum});
-  }
-
-  Compressor compressor_ = make_compressor();
+  ZlibStreams streams_;
   std::vector<std::byte> plane_;
   std::vector<std::uint8_t> packed_;
 };

@@ -2,10 +2,10 @@
 // Stores long arrays of numbers as CBOR, and reads CBOR from untrusted files.
 //
 // An array is cut into blocks of 256 KiB, and each block becomes a zlib stream; all streams stand one after the other in a byte
-// string. A block of whole numbers of 64 bits, or of doubles, is first taken apart into planes: the lowest bytes of all its words,
-// then the next bytes, and so on. High bytes hardly differ from word to word and shrink to little; low bytes are often as good as
-// random and are stored as they are. Each plane is a stream, and the byte string stands under the key "planes" of a map. Files
-// from earlier builds have no planes, and streams of any length.
+// string. A block of whole numbers of 64 bits, or of floating-point numbers, is first taken apart into planes: the lowest bytes
+// of all its words, then the next bytes, and so on. High bytes hardly differ from word to word and shrink to little; low bytes
+// are often as good as random and are stored as they are. Each plane is a stream, and the byte string stands under the key
+// "planes" of a map. Files from earlier builds have no planes, and streams of any length.
 
 #include "base/error.h"
 #include "base/number_pieces.h"
@@ -44,7 +44,7 @@ template <class T>
 }
 
 // Returns the deflated bytes of all pieces together, of which there are about `expected_bytes`, or 0 if nobody knows. They are
-// taken apart into as many planes as a word has bytes, 1 or 8, and are whole words.
+// taken apart into as many planes as a word has bytes, 1, 4 or 8, and are whole words.
 [[nodiscard]] nlohmann::json::binary_t deflated(const NumberPieces<std::byte>& pieces, std::size_t word,
                                                 std::size_t expected_bytes);
 
@@ -57,9 +57,12 @@ template <class T>
 // details).
 [[nodiscard]] bool may_hold(const nlohmann::json::binary_t& packed, std::size_t count, std::size_t size);
 
+template <class T>
+inline constexpr bool is_taken_apart = std::is_floating_point_v<T> || (std::is_integral_v<T> && sizeof(T) == 8);
+
 // Returns the number of planes. Parts of structures repeat as a whole, which planes would hide from deflate.
 template <class T>
-inline constexpr std::size_t planes_of = std::is_arithmetic_v<T> && sizeof(T) == 8 ? 8 : 1;
+inline constexpr std::size_t planes_of = is_taken_apart<T> ? sizeof(T) : 1;
 
 // `count` is the number of values, or 0 if nobody knows it.
 template <class T>

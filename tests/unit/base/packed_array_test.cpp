@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -80,6 +82,17 @@ TEST_P(PackedArray, OfWordsIsReadAsItWasWritten) {
   EXPECT_LE(packed.at("planes").get_binary().size(), numbers.size() * 9 / 2 + 128) << "half of the bytes, and a little";
   EXPECT_EQ(unpack<std::uint64_t>(packed, numbers.size()), numbers);
   EXPECT_THROW(static_cast<void>(unpack<std::uint64_t>(packed, numbers.size() + 1)), std::runtime_error);
+}
+
+// Their lower bytes are random, and longer than a block of deflate that is stored as it is.
+TEST_P(PackedArray, OfFloatsIsReadAsItWasWritten) {
+  RandomStream random(5, 6);
+  std::vector<float> numbers(GetParam() / sizeof(float));
+  for (float& number : numbers) number = std::bit_cast<float>(0x42000000U + static_cast<std::uint32_t>(random.word() >> 48U));
+  const nlohmann::json packed = pack(numbers);
+  EXPECT_LE(packed.at("planes").get_binary().size(), numbers.size() * 9 / 4 + 128) << "half of the bytes, and a little";
+  EXPECT_EQ(unpack<float>(packed, numbers.size()), numbers);
+  EXPECT_THROW(static_cast<void>(unpack<float>(packed, numbers.size() + 1)), std::runtime_error);
 }
 
 // Deflate leaves some bits without a meaning; a change of such a bit changes no number.

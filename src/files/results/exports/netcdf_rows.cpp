@@ -1,17 +1,15 @@
 #include "files/results/exports/netcdf_rows.h"
 
 #include "base/check.h"
+#include "base/zlib_streams.h"
 #include "files/results/exports/netcdf_file.h"
 #include "files/results/exports/netcdf_library.h"
 
-#include <libdeflate.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <memory>
-#include <new>
 #include <utility>
 
 namespace sunfleck {
@@ -20,12 +18,11 @@ namespace {
 constexpr unsigned read_and_write = 0x0001U;  // H5F_ACC_RDWR, which calls functions of the library
 
 // Returns all first bytes of the values, then all second ones, and so on, as the shuffle filter of HDF5 does.
-std::vector<std::uint8_t> shuffled(std::span<const float> values, std::size_t count) {
+std::vector<std::byte> shuffled(std::span<const float> values, std::size_t count) {
   const std::span<const std::byte> bytes = std::as_bytes(values);
-  std::vector<std::uint8_t> planes(sizeof(float) * count);
+  std::vector<std::byte> planes(sizeof(float) * count);
   for (std::size_t k = 0; k < sizeof(float); ++k) {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      planes[k * count + i] = std::to_integer<std::uint8_t>(bytes[i * sizeof(float) + k]);
+    for (std::size_t i = 0; i < values.size(); ++i) planes[k * count + i] = bytes[i * sizeof(float) + k];
   }
   return planes;
 }
@@ -81,15 +78,14 @@ void NetcdfRows::check(bool good) {
   throw_write_failure(name_ + ": its values cannot be written", reason, "HDF5 reports an error");
 }
 
-// A chunk at the end of a row is as long as the others.
+// A chunk at the end of a row is as long as the others. The lowest bytes of its values, which come first, are often as good as
+// random.
 std::vector<std::uint8_t> NetcdfRows::packed(std::span<const float> values) const {
-  constexpr int fastest = 1;
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  const std::vector<std::uint8_t> planes = shuffled(values, chunk_);
-  std::vector<std::uint8_t> bytes(libdeflate_zlib_compress_bound(compressor.get(), planes.size()));
-  bytes.resize(libdeflate_zlib_compress(compressor.get(), planes.data(), planes.size(), bytes.data(), bytes.size()));
+  const std::vector<std::byte> planes = shuffled(values, chunk_);
+  std::size_t stored = 0;
+  while (stored < planes.size() && look_random(std::span(planes).subspan(stored, chunk_))) stored += chunk_;
+  std::vector<std::uint8_t> bytes;
+  ZlibStreams().append(planes, stored, bytes);
   return bytes;
 }
 
