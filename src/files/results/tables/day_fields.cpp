@@ -1,5 +1,7 @@
 #include "files/results/tables/day_fields.h"
 
+#include "base/in_blocks.h"
+
 #include <algorithm>
 
 namespace sunfleck {
@@ -15,18 +17,15 @@ std::vector<LightColumn> day_columns(const RadiationModel& model) {
 std::vector<float> day_fields(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<LightColumn> columns = day_columns(model);
   const ElementFields all = make_element_fields(model, result);
-  std::vector<float> fields;
-  fields.reserve(model.bands.size() * columns.size() * all.size());
-  for (const std::vector<LightValues>& band : all.light) {
-    for (const LightColumn column : columns) {
-      const auto found = std::find_if(band.begin(), band.end(), [&](const LightValues& v) { return v.column == column; });
-      if (found == band.end()) {
-        fields.insert(fields.end(), all.size(), 0.0F);  // for a sky without light
-      } else {
-        for (const double value : found->values) fields.push_back(static_cast<float>(value));
-      }
-    }
-  }
+  std::vector<float> fields(model.bands.size() * columns.size() * all.size());
+  each_in_blocks(model.bands.size() * columns.size(), 1, [&](std::size_t k) {
+    const std::vector<LightValues>& band = all.light[k / columns.size()];
+    const LightColumn column = columns[k % columns.size()];
+    const auto found = std::find_if(band.begin(), band.end(), [&](const LightValues& v) { return v.column == column; });
+    if (found == band.end()) return;  // a sky without light
+    const auto first = fields.begin() + static_cast<std::ptrdiff_t>(k * all.size());
+    std::transform(found->values.begin(), found->values.end(), first, [](double value) { return static_cast<float>(value); });
+  });
   return fields;
 }
 

@@ -1,6 +1,7 @@
 #include "files/results/tables/element_fields.h"
 
 #include "base/check.h"
+#include "base/in_blocks.h"
 #include "base/units.h"
 #include "files/results/tables/irradiance.h"
 #include "physics/canopy/axes.h"
@@ -12,6 +13,8 @@
 
 namespace sunfleck {
 namespace {
+
+constexpr std::size_t elements_per_block = 16384;
 
 double value_of(LightColumn column, const Irradiance& upper, const Irradiance& lower, double absorbed_w_m2, double error_w_m2) {
   switch (column) {
@@ -88,18 +91,24 @@ ElementFields make_element_places(const RadiationModel& model) {
     kind_of_organ.push_back(found->second);
   }
   fields.optics_names = canopy.optics_names;
-  for (std::size_t e = 0; e < canopy.size(); ++e) {
+  fields.plant.resize(canopy.size());
+  fields.rank.resize(canopy.size());
+  fields.organ.resize(canopy.size());
+  fields.optics.resize(canopy.size());
+  fields.area_m2.resize(canopy.size());
+  for (std::vector<double>& along : fields.centroid_m) along.resize(canopy.size());
+  each_in_blocks(canopy.size(), elements_per_block, [&](std::size_t e) {
     const Organ& organ = canopy.organs[canopy.organ_of[e]];
-    fields.plant.push_back(organ.plant);
-    fields.rank.push_back(organ.rank);
-    fields.organ.push_back(kind_of_organ[canopy.organ_of[e]]);
-    fields.optics.push_back(canopy.optics_of[e]);
+    fields.plant[e] = organ.plant;
+    fields.rank[e] = organ.rank;
+    fields.organ[e] = kind_of_organ[canopy.organ_of[e]];
+    fields.optics[e] = canopy.optics_of[e];
     const Triangle& corners = canopy.corners[e];
-    fields.area_m2.push_back(area_m2(corners));
+    fields.area_m2[e] = area_m2(corners);
     const glm::dvec3 sum = glm::dvec3(corners[0]) + glm::dvec3(corners[1]) + glm::dvec3(corners[2]);
     const glm::dvec3 centroid_m = user_position_m(model.plot, sum / 3.0 + canopy.origin_m);
-    for (int axis = 0; axis < 3; ++axis) fields.centroid_m[static_cast<std::size_t>(axis)].push_back(centroid_m[axis]);
-  }
+    for (int axis = 0; axis < 3; ++axis) fields.centroid_m[static_cast<std::size_t>(axis)][e] = centroid_m[axis];
+  });
   return fields;
 }
 
@@ -109,16 +118,16 @@ ElementFields make_element_fields(const RadiationModel& model, const RadiationRe
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     std::vector<LightValues>& columns = fields.light.emplace_back();
     for (const LightColumn column : columns_of(result)) {
-      columns.push_back({column, fmt::format("{}_{}", model.bands[b].name, ending(column)), {}});
-      columns.back().values.reserve(fields.size());
+      columns.push_back(
+          {column, fmt::format("{}_{}", model.bands[b].name, ending(column)), std::vector<double>(fields.size())});
     }
-    for (std::size_t e = 0; e < fields.size(); ++e) {
+    each_in_blocks(fields.size(), elements_per_block, [&](std::size_t e) {
       const Irradiance upper = side_irradiance(model, result, 2 * e, fields.area_m2[e], b);
       const Irradiance lower = side_irradiance(model, result, 2 * e + 1, fields.area_m2[e], b);
       const double absorbed = absorbed_w_m2(model.optics[model.canopy.optics_of[e]], upper.total_w_m2(), lower.total_w_m2(), b);
       const double error = result.element_error.empty() ? no_value : result.element_error[b * fields.size() + e];
-      for (LightValues& column : columns) column.values.push_back(value_of(column.column, upper, lower, absorbed, error));
-    }
+      for (LightValues& column : columns) column.values[e] = value_of(column.column, upper, lower, absorbed, error);
+    });
   }
   return fields;
 }

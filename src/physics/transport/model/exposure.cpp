@@ -1,5 +1,7 @@
 #include "physics/transport/model/exposure.h"
 
+#include "base/in_blocks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -34,14 +36,15 @@ BeamExposure::BeamExposure(const RadiationModel& model, const CounterLayout& lay
   const glm::dvec3 to_sun = direction_to_sun(*model.sun);
   const std::vector<bool> copied = copied_elements(model.canopy.copies, model.canopy.size());
   const shared::GroundMap ground = make_ground_map(layout);
-  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+  constexpr std::size_t elements_per_block = 16384;
+  each_in_blocks(model.canopy.size(), elements_per_block, [&](std::size_t e) {
     const Triangle& corners = model.canopy.corners[e];
     const double cosine = std::abs(glm::dot(unit_normal(corners), to_sun));
-    if (cosine <= least_cosine || copied[e]) continue;
+    if (cosine <= least_cosine || copied[e]) return;
     const bool below = model.soil && is_below(ground, corners);
-    if (below && (model.plot.periodic || is_shaded_by_soil(ground, corners, to_sun))) continue;
+    if (below && (model.plot.periodic || is_shaded_by_soil(ground, corners, to_sun))) return;
     lit_m2_per_landing_[e] = static_cast<float>(ground_per_ray_m2 * to_sun.y / cosine);
-  }
+  });
 }
 
 double unseen_sunlit_m2(std::vector<FacingArea> parts, double landings) {
