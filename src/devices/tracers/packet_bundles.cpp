@@ -43,9 +43,10 @@ class PacketBundles {
   void follow(const shared::PacketBlock& scene, TraceDomain domain, std::span<const shared::Packet> packets) {
     ways_.resize(packets.size());
     std::vector<Going> going(packets.size());
+    const shared::Ray along = packets.empty() ? shared::Ray{} : shared::make_ray({}, packets.front().direction);
     for (std::uint32_t k = 0; k < packets.size(); ++k) {
       going[k].packet = k;
-      ways_[k] = PacketWay(scene, domain, packets[k], 0, going[k].search);
+      ways_[k] = PacketWay(scene, domain, packets[k], along, going[k].search);
     }
     while (!going.empty()) {
       along_x_.clear();
@@ -117,8 +118,9 @@ bool have_one_direction(std::span<const shared::Packet> packets) {
 bool trace_in_bundles(const Bvh& bvh, const shared::PacketBlock& scene, TraceDomain domain, float size_squared,
                       std::span<const shared::Packet> packets, std::span<shared::Landing> landings) {
   if (!have_one_direction(packets)) return false;
+  constexpr std::size_t step = 5;  // one gap of five is enough; packets of an element often come in fours
   std::vector<float> gaps_squared;
-  for (std::size_t k = 1; k < packets.size(); ++k)
+  for (std::size_t k = 1; k < packets.size(); k += step)
     gaps_squared.push_back(distance_squared(packets[k].origin - packets[k - 1].origin, packets[k].direction));
   const float gap_squared = median(gaps_squared);
   if (!(gap_squared <= most_gap_in_sizes * most_gap_in_sizes * size_squared)) return false;

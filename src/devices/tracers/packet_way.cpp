@@ -4,8 +4,15 @@ namespace sunfleck {
 
 PacketWay::PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet,
                      std::uint32_t crossings, Search& search)
-    : scene_(&scene), domain_(domain), crossings_(crossings) {
-  search.ray = shared::make_ray(packet.origin, packet.direction);
+    : PacketWay(scene, domain, packet, shared::make_ray(packet.origin, packet.direction), search) {
+  crossings_ = crossings;
+}
+
+PacketWay::PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet,
+                     const shared::Ray& along, Search& search)
+    : scene_(&scene), domain_(domain) {
+  search.ray = along;
+  search.ray.origin = packet.origin;
   search.own = {packet.element, packet.image};
   down_ = search.ray.inverse.y < 0.0F;
   look_ahead(search);

@@ -18,6 +18,9 @@ class PacketWay {
   // the way.
   PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet, std::uint32_t crossings,
             Search& search);
+  // Begins like that before any crossing. `along` is a ray of the packet's direction.
+  PacketWay(const shared::PacketBlock& scene, TraceDomain domain, const shared::Packet& packet, const shared::Ray& along,
+            Search& search);
 
   // Takes the hit of the search; returns false if the packet has landed, else turns the search into that in the next period.
   [[nodiscard]] bool goes_on(const CpuHit& hit, Search& search);
