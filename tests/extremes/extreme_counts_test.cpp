@@ -5,7 +5,7 @@
 #include "physics/transport/indirect/landing_points.h"
 #include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/beam_block.h"
-#include "physics/transport/solve/run_sums.h"
+#include "physics/transport/solve/run_addition.h"
 #include "shared/beam.h"
 #include "support/chi_square.h"
 #include "support/comparison.h"
@@ -239,7 +239,7 @@ TEST(ExtremeQuanta, TooManyLandingsFailTheRun) {
   int added = 0;
   const std::string message = refusal_of(
       [&] {
-        for (; added < 100; ++added) sums.add(replicate);
+        for (; added < 100; ++added) add_replicate(replicate, sums);
       },
       ErrorKind::failure);
   EXPECT_NE(message.find("band NIR: its light landed too often"), std::string::npos) << message;

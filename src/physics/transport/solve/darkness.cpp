@@ -4,7 +4,7 @@
 #include "physics/transport/model/surfaces.h"
 #include "physics/transport/receivers/planes.h"
 #include "physics/transport/solve/result_of.h"
-#include "physics/transport/solve/run_sums.h"
+#include "physics/transport/solve/run_addition.h"
 
 #include <algorithm>
 #include <optional>
@@ -37,7 +37,7 @@ RadiationResult dark_result(const RadiationModel& model, const CounterLayout& la
   Replicate nothing;
   nothing.counters.resize(layout.words());
   nothing.direct = conversion.sum(nothing.counters);
-  for (int k = 0; k < darkness_replicates; ++k) sums.add(nothing);
+  for (int k = 0; k < darkness_replicates; ++k) add_replicate(nothing, sums);
   RadiationResult result = result_of(sums, settings.accuracy.confidence);
   result.stop = StopReason::bound_reached;
   result.direct.relative_error = 0.0;

@@ -55,11 +55,6 @@ struct RunSums {
   RunSums(const Conversion& conversion, ElementErrors element_errors, ShadeGroups shade_groups = ShadeGroups::all,
           Lights lights = {});
 
-  // Adds a replicate. Without an indirect pass the flux scattered by first landings counts as unshot, as does the sky's flux
-  // in an endless canopy. Throws Error (failure) if the sums over all replicates would overflow: light between mirrors can
-  // land that often.
-  void add(const Replicate& replicate);
-
   // Returns how much the events that may have escaped all replicates would add to a mean if each adds `event` in its
   // replicate.
   [[nodiscard]] double unseen(double event, double confidence) const;

@@ -1,5 +1,7 @@
 #include "physics/transport/solve/series.h"
 
+#include "physics/transport/solve/run_addition.h"
+
 #include <oneapi/tbb/parallel_for.h>
 
 namespace sunfleck {
@@ -20,7 +22,7 @@ Series::Series(const ReplicateMaker& maker, std::span<const Incidence> incidence
 }
 
 void Series::add(const ReplicateSet& replicates) {
-  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) { sums[k]->add(replicates[k]); });
+  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) { add_replicate(replicates[k], *sums[k]); });
   for (JointSums& sum : joint) sum.add(sums);
 }
 

@@ -2,6 +2,7 @@
 
 #include "physics/transport/indirect/replicate_maker.h"
 #include "physics/transport/solve/result_of.h"
+#include "physics/transport/solve/run_addition.h"
 #include "support/light_mix.h"
 #include "support/models.h"
 
@@ -41,7 +42,7 @@ TEST_F(JointSumsTest, OfALightWithItselfHasTheErrorOfTheLight) {
   JointSums joint({{0, 0.5}, {1, 0.5}}, groups, *lights.front());
   for (std::uint64_t number = 0; number < 4; ++number) {
     const ReplicateSet made = made_replicate(number);
-    for (const auto& sums : lights) sums->add(made.front());
+    for (const auto& sums : lights) add_replicate(made.front(), *sums);
     joint.add(lights);
   }
   const double quantile = t_quantile(0.95, 4);
@@ -77,7 +78,7 @@ TEST_F(JointSumsTest, KeepTheErrorsOfUnseenEvents) {
   JointSums joint({{0, 600.0}}, {}, *lights.front());
   const ReplicateSet made = made_replicate(0);
   for (int twice = 0; twice < 2; ++twice) {
-    lights.front()->add(made.front());
+    add_replicate(made.front(), *lights.front());
     joint.add(lights);
   }
   const RadiationResult result = figures_of(*lights.front(), 0.95);
