@@ -276,13 +276,25 @@ TEST(RatioMean, ErrorsThatRiseAndFallTogetherCancel) {
   RatioMean together, apart;
   for (int k = 0; k < 50; ++k) {
     const double size = 1.0 + random.unit();
-    together.add(3.0 * size, size);
-    apart.add(3.0 * (1.0 + random.unit()), size);
+    together.add(3.0 * size, size, 1.0);
+    apart.add(3.0 * (1.0 + random.unit()), size, 1.0);
   }
-  EXPECT_NEAR(together.estimate(2.0, 0.0).value, 3.0, 1e-12);
-  EXPECT_LT(together.estimate(2.0, 0.0).half_width, 1e-6);
-  EXPECT_GT(apart.estimate(2.0, 0.0).half_width, 0.1);
-  EXPECT_TRUE(std::isnan(RatioMean().estimate(2.0, 0.0).value));
+  EXPECT_NEAR(together.estimate(2.0, 0.0, 0.0).value, 3.0, 1e-12);
+  EXPECT_LT(together.estimate(2.0, 0.0, 0.0).half_width, 1e-6);
+  EXPECT_GT(apart.estimate(2.0, 0.0, 0.0).half_width, 0.1);
+  EXPECT_TRUE(std::isnan(RatioMean().estimate(2.0, 0.0, 0.0).value));
+}
+
+// The beam's part is known, but of the other light half of the replicates saw nothing.
+TEST(RatioMean, OfLightThatFewEventsBringHasAtLeastTheErrorOfUnseenOnes) {
+  constexpr double unseen_other = 0.5;
+  RatioMean seldom, often;
+  for (int k = 0; k < 16; ++k) {
+    seldom.add(2.0 + (k < 8 ? 0.01 : 0.0), 2.0, k < 8 ? 0.01 : 0.0);
+    often.add(2.0 + (k < 9 ? 0.01 : 0.0), 2.0, k < 9 ? 0.01 : 0.0);
+  }
+  EXPECT_DOUBLE_EQ(seldom.estimate(2.0, 0.0, unseen_other).half_width, unseen_other / 2.0);
+  EXPECT_LT(often.estimate(2.0, 0.0, unseen_other).half_width, 0.01);
 }
 
 TEST(SpreadMean, IsTheDeviationOfADensityOverAnArea) {

@@ -13,9 +13,7 @@ double ReplicateMean::standard_error() const {
 }
 
 Estimate ReplicateMean::estimate(double t_quantile, double unseen) const {
-  const bool seen_well = squares_ > 0.0 && 2 * zeros_ < count_;
-  if (count_ < 2 || seen_well) return estimate(t_quantile);
-  return {mean_, std::max(t_quantile * standard_error(), unseen)};
+  return {mean_, says_little() ? std::max(t_quantile * standard_error(), unseen) : t_quantile * standard_error()};
 }
 
 double unseen_events(double confidence) {

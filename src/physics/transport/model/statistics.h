@@ -45,8 +45,11 @@ class ReplicateMean {
   // Returns the standard error of the mean; NaN below two replicates.
   [[nodiscard]] double standard_error() const;
   [[nodiscard]] Estimate estimate(double t_quantile) const { return {mean_, t_quantile * standard_error()}; }
-  // Returns the same, but the half-width is at least `unseen`, the amount that may have escaped all replicates, where their spread
-  // says too little of it: where they agree, perhaps by chance, and where so few events came that half of them had none.
+  // Returns whether the spread of the replicates is a poor guess: where they agree, perhaps by chance, and where so few events came
+  // that half of them had none.
+  [[nodiscard]] bool says_little() const { return count_ >= 2 && (squares_ == 0.0 || 2 * zeros_ >= count_); }
+  // Returns the same as above, but where the spread says little the half-width is at least `unseen`, the amount that may have
+  // escaped all replicates.
   [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
 
  private:

@@ -43,7 +43,7 @@ class ResultMaker {
     result.organs = organ_results();
     result.plants = plant_results();
     result.layers = layer_results();
-    const double unseen_leaves_m2 = unseen_m2(agreed_foliage());
+    const double unseen_leaves_m2 = unseen_m2(unknown_foliage());
     result.leaf_classes = sums_.classes.leaves(unseen_leaves_m2, class_errors());
     result.element_error = element_errors();
     result.side_error = side_errors();
@@ -73,10 +73,11 @@ class ResultMaker {
 
   [[nodiscard]] ShadeClasses::Errors class_errors() const {
     ShadeClasses::Errors errors{
-        quantile_, t_quantile(confidence_, SpreadMean::effective(sums_.replicates)), unseen(1.0), {}, {}};
+        quantile_, t_quantile(confidence_, SpreadMean::effective(sums_.replicates)), unseen(1.0), {}, {}, {}};
     for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
       errors.unshot_share.push_back(sums_.ledgers[b].unshot_share());
       errors.event_w.push_back(events_.largest_w_m2(b) * model_.plot.area_m2());
+      errors.other_event_w.push_back(events_.other_w_m2[b] * model_.plot.area_m2());
     }
     return errors;
   }
@@ -114,42 +115,39 @@ class ResultMaker {
     return result;
   }
 
-  // Returns the area of these parts that the sun may shine on, or not, although all replicates agree about it.
+  // Returns the area of these parts that the sun may shine on, or not, although the replicates do not show it.
   [[nodiscard]] double unseen_m2(std::vector<FacingArea> parts) const {
     return unseen_sunlit_m2(std::move(parts), unseen(1.0));
   }
 
-  // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` or, where that is zero,
-  // from the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree
-  // with what the rays met.
+  // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` and, where that says little, from
+  // the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree with
+  // what the rays met.
   [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, double unseen_lit_m2) const {
     if (!(facing_m2 > 0.0)) return {no_value, no_value};
-    const bool agree = sums_.replicates >= 2 && mean.squares() == 0.0;
-    if (!agree) return mean.estimate(quantile_);
+    if (!mean.says_little()) return mean.estimate(quantile_);
     const double unseen_share = unseen_lit_m2 / facing_m2;
-    return unseen_share < unknown_share ? Estimate{mean.mean(), unseen_share} : Estimate{no_value, no_value};
+    return unseen_share < unknown_share ? mean.estimate(quantile_, unseen_share) : Estimate{no_value, no_value};
   }
 
-  // Returns the parts of each organ about which all replicates agree: [organ]; empty for the other organs.
-  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_organs() const {
+  // Returns the parts of each organ of whose sunlit area the spread says little: [organ]; empty for the other organs.
+  [[nodiscard]] std::vector<std::vector<FacingArea>> unknown_organs() const {
     std::vector<std::vector<FacingArea>> parts(sums_.organs.size());
     for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
       const std::size_t organ = model_.canopy.organ_of[e];
-      if (sums_.organs[organ].sunlit.squares() > 0.0 || !exposure_.can_hit(e)) continue;
+      if (!sums_.organs[organ].sunlit.says_little() || !exposure_.can_hit(e)) continue;
       parts[organ].push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
     }
     return parts;
   }
 
   // Returns the same for the foliage in each layer: [layer].
-  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_layers() const {
+  [[nodiscard]] std::vector<std::vector<FacingArea>> unknown_layers() const {
     const std::size_t count = areas_.layer_foliage_m2.size();
     std::vector<std::vector<FacingArea>> parts(count);
-    const auto agree = [&](std::size_t k) {
-      return areas_.layer_facing_m2[k] > 0.0 && sums_.layers[k].sunlit.squares() == 0.0;
-    };
+    const auto unknown = [&](std::size_t k) { return areas_.layer_facing_m2[k] > 0.0 && sums_.layers[k].sunlit.says_little(); };
     bool any = false;
-    for (std::size_t k = 0; k < count; ++k) any = any || agree(k);
+    for (std::size_t k = 0; k < count; ++k) any = any || unknown(k);
     std::vector<double> area_in_layer_m2(count);
     for (std::size_t e = 0; any && e < sums_.elements.size(); ++e) {
       if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
@@ -157,7 +155,7 @@ class ResultMaker {
       add_area_by_layer(layout_.layers, corners, area_in_layer_m2);
       const std::size_t first = first_layer(layout_, corners);
       for (std::size_t k = first; k < layout_.end_layer(e, first); ++k) {
-        if (agree(k)) parts[k].push_back({area_in_layer_m2[k], exposure_.lit_m2_per_landing(e)});
+        if (unknown(k)) parts[k].push_back({area_in_layer_m2[k], exposure_.lit_m2_per_landing(e)});
         area_in_layer_m2[k] = 0.0;
       }
     }
@@ -165,9 +163,9 @@ class ResultMaker {
   }
 
   // Returns the same for all foliage together.
-  [[nodiscard]] std::vector<FacingArea> agreed_foliage() const {
+  [[nodiscard]] std::vector<FacingArea> unknown_foliage() const {
     std::vector<FacingArea> parts;
-    for (std::size_t e = 0; sums_.sunlit.squares() == 0.0 && e < sums_.elements.size(); ++e) {
+    for (std::size_t e = 0; sums_.sunlit.says_little() && e < sums_.elements.size(); ++e) {
       if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
       parts.push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
     }
@@ -180,7 +178,7 @@ class ResultMaker {
   }
 
   [[nodiscard]] std::vector<OrganResult> organ_results() const {
-    std::vector<std::vector<FacingArea>> parts = agreed_organs();
+    std::vector<std::vector<FacingArea>> parts = unknown_organs();
     const ShadeClasses::Errors errors = class_errors();
     std::vector<OrganResult> results;
     for (std::size_t o = 0; o < sums_.organs.size(); ++o) {
@@ -239,13 +237,13 @@ class ResultMaker {
     return both;
   }
 
-  // Returns the parts of each plant's leaves about whose light all replicates agree: [plant]; empty for the other plants.
-  [[nodiscard]] std::vector<std::vector<FacingArea>> agreed_plants() const {
+  // Returns the parts of each plant's leaves of whose sunlit area the spread says little: [plant]; empty for the other plants.
+  [[nodiscard]] std::vector<std::vector<FacingArea>> unknown_plants() const {
     std::vector<std::vector<FacingArea>> parts(sums_.plants.size());
     for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
       if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
       const std::uint32_t plant = areas_.plants.of_surface[sums_.conversion.surfaces.number_of[e]];
-      if (plant == PlantAreas::no_plant || sums_.plants[plant].sunlit.squares() > 0.0) continue;
+      if (plant == PlantAreas::no_plant || !sums_.plants[plant].sunlit.says_little()) continue;
       parts[plant].push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
     }
     return parts;
@@ -253,7 +251,7 @@ class ResultMaker {
 
   [[nodiscard]] std::vector<PlantResult> plant_results() const {
     const PlantAreas& plants = areas_.plants;
-    std::vector<std::vector<FacingArea>> parts = agreed_plants();
+    std::vector<std::vector<FacingArea>> parts = unknown_plants();
     const std::vector<Varies> varies = varies_on_plants();
     std::vector<PlantResult> results;
     for (std::size_t p = 0; p < plants.size(); ++p) {
@@ -298,7 +296,7 @@ class ResultMaker {
 
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
     const std::size_t count = areas_.layer_foliage_m2.size();
-    std::vector<std::vector<FacingArea>> parts = agreed_layers();
+    std::vector<std::vector<FacingArea>> parts = unknown_layers();
     const ShadeClasses::Errors errors = class_errors();
     const double one_ray = unseen(share_of_one_ray());
     std::vector<LayerResult> results;

@@ -21,8 +21,8 @@ void add_to(std::vector<ShadeMeans>& means, const ShadeSums& sums, std::span<con
       const std::size_t k = i * sums.bands + b;
       const double sunlit_w = sums.direct_w[k] + sums.lit_indirect_w[k];
       const double shaded_w = sums.indirect_w[k] - sums.lit_indirect_w[k];
-      means[i].sunlit[b].add(sunlit_w, lit_m2);
-      means[i].shaded[b].add(shaded_w, shaded_m2);
+      means[i].sunlit[b].add(sunlit_w, lit_m2, sums.lit_indirect_w[k]);
+      means[i].shaded[b].add(shaded_w, shaded_m2, shaded_w);
       means[i].sunlit_spread[b].add({lit_m2, sunlit_w, sums.lit_square[k], sums.lit_indirect_square[k]});
       means[i].shaded_spread[b].add({shaded_m2, shaded_w, 0.0, sums.indirect_square[k] - sums.lit_indirect_square[k]});
     }
@@ -31,19 +31,21 @@ void add_to(std::vector<ShadeMeans>& means, const ShadeSums& sums, std::span<con
 
 }  // namespace
 
-void RatioMean::add(double numerator, double denominator) {
+void RatioMean::add(double numerator, double denominator, double other) {
   const double from_old_mean = numerator_.count() > 0 ? numerator - numerator_.mean() : 0.0;
   numerator_.add(numerator);
   denominator_.add(denominator);
   products_ += from_old_mean * (denominator - denominator_.mean());
+  without_other_ += other == 0.0 ? 1 : 0;
 }
 
-Estimate RatioMean::estimate(double t_quantile, double unseen) const {
+Estimate RatioMean::estimate(double t_quantile, double unseen, double unseen_other) const {
   if (!(denominator_.mean() > t_quantile * denominator_.standard_error())) return {no_value, no_value};
   const double ratio = numerator_.mean() / denominator_.mean();
   const double squares = std::max(0.0, numerator_.squares() - 2.0 * ratio * products_ + ratio * ratio * denominator_.squares());
   const auto n = static_cast<double>(numerator_.count());
-  const double half_width = squares > 0.0 ? t_quantile * std::sqrt(squares / (n - 1.0) / n) : unseen;
+  double half_width = squares > 0.0 ? t_quantile * std::sqrt(squares / (n - 1.0) / n) : unseen;
+  if (2 * without_other_ >= numerator_.count()) half_width = std::max(half_width, unseen_other);
   return {ratio, half_width / denominator_.mean()};
 }
 
@@ -121,8 +123,11 @@ ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, d
     const auto add_class = [&](const RatioMean& ratio, const SpreadMean& spread, const Estimate& class_m2, auto& absorbed,
                                auto& spreads) {
       const bool is_known = class_m2.value > class_m2.half_width;  // to be there
-      Estimate flux =
-          is_known ? ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b]) : Estimate{no_value, no_value};
+      Estimate flux{no_value, no_value};
+      if (is_known) {
+        flux = ratio.estimate(errors.t_quantile, errors.unseen_events * errors.event_w[b],
+                              errors.unseen_events * errors.other_event_w[b]);
+      }
       // So may this estimate, where its class is small. It is moved to between nothing and all that the group absorbs, so that both
       // classes together absorb that; but that is not certain either.
       const double most = std::max(0.0, absorbed_w) / class_m2.value;

@@ -19,25 +19,27 @@ namespace sunfleck {
 // A ratio of two means over replicates, whose error includes that both vary together.
 class RatioMean {
  public:
-  void add(double numerator, double denominator);
+  // `other` is the part of the numerator that rays and packets bring of which few may come.
+  void add(double numerator, double denominator, double other);
 
   // Passes the whole state to `archive`.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
-    archive(self.numerator_, self.denominator_, self.products_);
+    archive(self.numerator_, self.denominator_, self.products_, self.without_other_);
   }
 
   // Returns the ratio of the means; NaN unless the denominator is known to be above 0. Its half-width follows from the spread
   // of numerator - ratio * denominator (Cochran 1977, Sampling Techniques, eq. 6.13) or, if that is 0, from an `unseen` part of
-  // the numerator.
-  [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
+  // the numerator. It is at least that of `unseen_other` where half of the replicates had none of the other part.
+  [[nodiscard]] Estimate estimate(double t_quantile, double unseen, double unseen_other) const;
 
   // Returns the mean numerator.
   [[nodiscard]] double numerator() const { return numerator_.mean(); }
 
  private:
   ReplicateMean numerator_, denominator_;
-  double products_ = 0.0;  // sum of the products of both deviations
+  double products_ = 0.0;          // sum of the products of both deviations
+  std::size_t without_other_ = 0;  // replicates
 };
 
 // The standard deviation of a density over an area, from what every replicate finds. One part of the density is known without
@@ -109,11 +111,11 @@ class ShadeClasses {
   }
 
   // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are
-  // kept. `unseen_lit_m2` is the half-width of the sunlit area if all replicates agree, `unshot_share` is [band], and `event_w` the
-  // flux that one event brings, [band].
+  // kept. `unseen_lit_m2` is the half-width of the sunlit area if all replicates agree, `unshot_share` is [band], `event_w` the
+  // flux that one event brings, [band], and `other_event_w` that of an event that is not the beam's.
   struct Errors {
     double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
-    std::vector<double> unshot_share, event_w;
+    std::vector<double> unshot_share, event_w, other_event_w;
   };
   [[nodiscard]] ShadeClassResult organ(std::size_t organ, double unseen_lit_m2, const Errors& errors) const;
   [[nodiscard]] ShadeClassResult layer(std::size_t layer, double unseen_lit_m2, const Errors& errors) const;
