@@ -15,6 +15,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <string_view>
 
 namespace sunfleck {
 namespace {
@@ -58,9 +60,12 @@ void read_errors(const OptionWords& words, RunOptions& options) {
   if (!options.indirect_error) options.indirect_error = words.both_errors;
 }
 
+bool draws(const RunOptions& options, std::string_view word) {
+  return std::find(options.images.begin(), options.images.end(), word) != options.images.end();
+}
+
 void check_images(const RunOptions& options) {
-  const bool none = std::find(options.images.begin(), options.images.end(), "none") != options.images.end();
-  if (!none || (options.images.size() == 1 && !options.extra_picture)) return;
+  if (!draws(options, "none") || (options.images.size() == 1 && !options.extra_picture)) return;
   throw_input(fmt::format("--images {}", fmt::join(options.images, ",")),
               "none cannot be combined with other pictures, --chart or --field", "remove either none or the others");
 }
@@ -80,30 +85,28 @@ void warn_without_effect(const CLI::App& command, std::initializer_list<const ch
   }
 }
 
-bool draws(const RunOptions& options, const char* word) {
-  const std::vector<std::string>& images = options.images;
-  return std::find(images.begin(), images.end(), word) != images.end();
-}
-
-// Returns whether --range applies to any of the pictures.
-bool draws_a_range(const RunOptions& options) {
-  if (options.extra_picture && has_top(options.extra_picture->chart)) return true;
+bool draws_any(const RunOptions& options, const std::function<bool(const Picture&)>& is_meant) {
+  if (options.extra_picture && is_meant(*options.extra_picture)) return true;
   const std::vector<Picture> pictures = all_pictures();
   return std::any_of(pictures.begin(), pictures.end(), [&](const Picture& picture) {
-    return has_top(picture.chart) && draws(options, stem_of(picture).c_str());
+    return is_meant(picture) && (draws(options, "all") || draws(options, stem_of(picture)));
   });
 }
 
-constexpr const char* no_upper_end =
-    "the scales of rank and hue have no upper end to choose; give --chart rank-log, for example";
+// The soil of rank charts has a scale of its own, whose upper end can be chosen.
+bool uses_range(const Picture& picture) {
+  return picture.chart != ChartKind::hue;
+}
+
+constexpr const char* no_upper_end = "the scale of a hue chart has no upper end to choose; give --chart map, for example";
 
 void warn_of_pictures_not_drawn(const CLI::App& command, RunOptions& options) {
-  if (draws(options, "none")) {
-    warn_without_effect(command, {"--view", "--range", "--size", "--samples", "--repeat", "--compare"},
-                        "--images none draws no picture", options);
-    return;
+  if (!draws_any(options, [](const Picture&) { return true; })) {
+    warn_without_effect(command, {"--view", "--range", "--size", "--samples", "--repeat"},
+                        "no picture of the stand is among the --images", options);
+  } else if (!draws_any(options, uses_range)) {
+    warn_without_effect(command, {"--range"}, no_upper_end, options);
   }
-  if (!draws_a_range(options)) warn_without_effect(command, {"--range"}, no_upper_end, options);
   if (!draws(options, "all") && !draws(options, "profile")) {
     warn_without_effect(command, {"--compare"}, "profile.png is not among the --images", options);
   }
@@ -164,7 +167,7 @@ RenderOptions finished(RenderOptions options, const OptionWords& words, const CL
   options.chart_given = command.count("--chart") > 0;
   if (options.file.extension() == ".exr") {
     warn_without_effect(command, {"--range"}, "an .exr file contains values, not colours", options.run);
-  } else if (!has_top(options.picture.chart)) {
+  } else if (!uses_range(options.picture)) {
     warn_without_effect(command, {"--range"}, no_upper_end, options.run);
   }
   for (const char* name : {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--max-seconds", "--max-rays",

@@ -327,18 +327,19 @@ TEST(Options, WithoutEffectAreNamed) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(of_run({"run", "a.toml", "--images", "none", "--size", "80x80", "--compare", "b", "--band", "PAR"}),
             (Names{"--size", "--compare"}));
-  EXPECT_EQ(of_run({"run", "a.toml", "--images", "rank_total", "--compare", "b", "--range", "9"}),
+  EXPECT_EQ(of_run({"run", "a.toml", "--images", "hue_total", "--compare", "b", "--range", "9"}),
             (Names{"--range", "--compare"}));
+  EXPECT_EQ(of_run({"run", "a.toml", "--images", "profile,planes", "--compare", "b", "--view", "top"}), Names{"--view"});
   EXPECT_EQ(of_run({"run", "a.toml", "--images", "profile,rank-log_total", "--compare", "b", "--range", "9"}), Names{});
-  EXPECT_EQ(of_run({"run", "a.toml", "--chart", "map", "--range", "9"}), Names{});
-  EXPECT_EQ(of_run({"run", "a.toml", "--range", "9"}), Names{"--range"});
+  EXPECT_EQ(of_run({"run", "a.toml", "--images", "planes", "--chart", "map", "--range", "9"}), Names{});
+  EXPECT_EQ(of_run({"run", "a.toml", "--range", "9", "--size", "80x80"}), Names{}) << "the soil of rank charts has a scale";
 
   const auto of_render = [&](std::initializer_list<const char*> words) {
     return names_of(std::get<RenderOptions>(parse(words)).run);
   };
   EXPECT_EQ(of_render({"render", "a.toml", "--chart", "hue", "--range", "9"}), Names{"--range"});
   EXPECT_EQ(of_render({"render", "a.toml", "-o", "a.exr", "--range", "9"}), Names{"--range"});
-  EXPECT_EQ(of_render({"render", "a.toml", "--chart", "rank-interval", "--range", "9"}), Names{});
+  EXPECT_EQ(of_render({"render", "a.toml", "--range", "9"}), Names{});
 
   const auto of_day = [&](std::initializer_list<const char*> words) {
     return names_of(std::get<DayOptions>(parse(words)).run);
