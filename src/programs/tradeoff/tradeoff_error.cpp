@@ -44,6 +44,25 @@ double TradeoffReference::own_error(Quantity quantity) const {
   return weights > 0.0 ? std::sqrt(squares / weights) : no_value;
 }
 
+bool TradeoffReference::resolves(const TradeoffReference& runs, Quantity quantity) const {
+  constexpr double significant = 3.0;
+  const QuantityNorm& norm = norms_[number(quantity)];
+  const std::vector<ReplicateMean>& truth = means_[number(quantity)];
+  const std::vector<ReplicateMean>& means = runs.means_[number(quantity)];
+  if (means.size() != truth.size() || runs.parts() < 2) return true;
+  double apart = 0.0, of_means = 0.0, of_truth = 0.0;  // sums of squares
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (norm.weight[i] == 0.0) continue;
+    const double weight = norm.weight[i] / (norm.scale[i] * norm.scale[i]);
+    const auto square = [weight](double value) { return weight * value * value; };
+    apart += square(means[i].mean() - truth[i].mean());
+    of_means += square(means[i].standard_error());
+    of_truth += square(truth[i].standard_error());
+  }
+  const double scatter = of_means * static_cast<double>(runs.parts());
+  return apart <= significant * significant * (of_means + of_truth) && of_truth <= scatter;
+}
+
 QuantityError TradeoffReference::error(Quantity quantity, const QuantityValues& run, double confidence,
                                        std::size_t replicates) const {
   const QuantityNorm& norm = norms_[number(quantity)];

@@ -22,6 +22,10 @@ class TradeoffReference {
   // Returns the reference's own standard error, in the same norm as the errors of runs. NaN if nothing is judged.
   [[nodiscard]] double own_error(Quantity quantity) const;
 
+  // Returns whether the reference is exact enough to tell the error of some runs of one setting: it agrees with their mean within
+  // three standard errors of both, and its own error is below their scatter.
+  [[nodiscard]] bool resolves(const TradeoffReference& runs, Quantity quantity) const;
+
   // Returns the error of a run whose half-widths come from `replicates` replicates at that confidence. A value counts as
   // covered if it differs from the reference by no more than the confidence interval of their difference. A quantity whose
   // number of values differs from the reference's (triangles of a coarser mesh) has no error.

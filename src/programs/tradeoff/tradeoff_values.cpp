@@ -62,12 +62,13 @@ void add_absorbed_triangles(const RadiationModel& model, const RadiationResult& 
   }
 }
 
+// Values of 0, such as those of layers without leaves, are not judged: they would make the others look better.
 QuantityNorm against_incident(const std::vector<double>& values, const std::vector<double>& incident, auto band_of) {
   QuantityNorm norm;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double scale = std::max(values[i], least_judged_share * incident[band_of(i)]);
     norm.scale.push_back(scale);
-    norm.weight.push_back(scale > 0.0 ? 1.0 : 0.0);
+    norm.weight.push_back(scale > 0.0 && values[i] > 0.0 ? 1.0 : 0.0);
   }
   return norm;
 }

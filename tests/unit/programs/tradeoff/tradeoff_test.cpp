@@ -63,6 +63,29 @@ TEST(TradeoffError, TheReferencesOwnErrorIsKnownAndWidensIntervals) {
   EXPECT_EQ(reference.error(Quantity::organ, {{12.4, 40.0, 0.0}, {1e-6, 0.1, no_value}}, 0.95, 8).covered, 0.5);
 }
 
+// Returns runs that find such a value for the first organ, and for the others what the reference finds.
+TradeoffReference runs_about(const TradeoffReference& reference, double value, double off) {
+  TradeoffReference runs;
+  for (const double sign : {-2.0, -1.0, 1.0, 2.0}) {
+    RunValues run = reference.values();
+    run[number(Quantity::organ)].value[0] = value + sign * off;
+    runs.add(run);
+  }
+  return runs;
+}
+
+TEST(TradeoffError, RunsThatAgreeShowThatTheReferenceIsWrong) {
+  const TradeoffReference reference = organ_reference(0.0);
+  EXPECT_TRUE(reference.resolves(runs_about(reference, 10.01, 0.01), Quantity::organ));
+  EXPECT_FALSE(reference.resolves(runs_about(reference, 12.0, 0.01), Quantity::organ));
+}
+
+TEST(TradeoffError, RunsThatScatterLessThanTheReferenceMayBeOffAreNotJudged) {
+  const TradeoffReference reference = organ_reference(1.0);
+  EXPECT_TRUE(reference.resolves(runs_about(reference, 10.0, 1.0), Quantity::organ));
+  EXPECT_FALSE(reference.resolves(runs_about(reference, 10.0, 0.5), Quantity::organ));
+}
+
 TEST(TradeoffError, OtherNumbersOfValuesHaveNone) {
   EXPECT_TRUE(std::isnan(organ_reference(0.0).error(Quantity::organ, {{1.0}, {1.0}}, 0.95, 8).true_error));
 }
