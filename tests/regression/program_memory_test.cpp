@@ -1,6 +1,8 @@
 // Tests the memory of a run: --memory limits it, and `info` forecasts it.
 #include "regression/program.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -51,6 +53,15 @@ optics = "leaf"
 )");
   }
 
+  // Returns the median peak of three runs: on a busy machine a thread may come too late to need memory of its own, or replicates
+  // reach their peaks together that seldom do.
+  [[nodiscard]] double usual_peak_mib(const std::filesystem::path& scene, const Arguments& more) const {
+    std::array<double, 3> peaks_mib{};
+    for (double& peak_mib : peaks_mib) peak_mib = simulate(scene, more).peak_mib;
+    std::sort(peaks_mib.begin(), peaks_mib.end());
+    return peaks_mib[1];
+  }
+
   // Eight large replicates: their number is fixed, so that the test takes a few seconds.
   const Arguments tight_{"--device", "cpu", "--threads", "2", "--images", "none", "--passes", "8", "--indirect-error", "3e-4"};
 };
@@ -94,8 +105,8 @@ TEST_F(Memory, IsForetoldByInfo) {
     ASSERT_EQ(info.status, 0) << info.err;
     for (const auto& [images, key] : {std::pair{"none", "memory_without_pictures_bytes"}, {"all", "memory_bytes"}}) {
       const double forecast_mib = json::parse(info.out)[key].get<double>() / 1048576.0;
-      const Outcome ran = simulate("stand.toml", Arguments{"--device", "cpu", "--images", images} + work);
-      EXPECT_NEAR(forecast_mib / ran.peak_mib, 1.0, 0.2) << forecast_mib << " MiB forecast, images " << images;
+      const double peak_mib = usual_peak_mib("stand.toml", Arguments{"--device", "cpu", "--images", images} + work);
+      EXPECT_NEAR(forecast_mib / peak_mib, 1.0, 0.2) << forecast_mib << " MiB forecast, images " << images;
     }
   }
 }
@@ -106,8 +117,8 @@ TEST_F(Memory, OfABlackSceneIsForetoldWithItsPictures) {
   const Outcome info = run(Arguments{"info", scene_file("two_squares.toml"), "--json"} + work);
   ASSERT_EQ(info.status, 0) << info.err;
   const double forecast_mib = json::parse(info.out)["memory_bytes"].get<double>() / 1048576.0;
-  const Outcome ran = simulate(scene_file("two_squares.toml"), work);
-  EXPECT_NEAR(forecast_mib / ran.peak_mib, 1.0, 0.15) << forecast_mib << " MiB forecast";
+  EXPECT_NEAR(forecast_mib / usual_peak_mib(scene_file("two_squares.toml"), work), 1.0, 0.15)
+      << forecast_mib << " MiB forecast";
 }
 
 // 400 copies of the stand, which share its triangles. Of what 400,000 triangles take by themselves, corners and tree are saved:
