@@ -57,12 +57,10 @@ template <class T>
 // details).
 [[nodiscard]] bool may_hold(const nlohmann::json::binary_t& packed, std::size_t count, std::size_t size);
 
-template <class T>
-inline constexpr bool is_taken_apart = std::is_floating_point_v<T> || (std::is_integral_v<T> && sizeof(T) == 8);
-
 // Returns the number of planes. Parts of structures repeat as a whole, which planes would hide from deflate.
 template <class T>
-inline constexpr std::size_t planes_of = is_taken_apart<T> ? sizeof(T) : 1;
+inline constexpr std::size_t planes_of = std::is_floating_point_v<T> || (std::is_integral_v<T> && sizeof(T) == 8) ? sizeof(T)
+                                                                                                                  : 1;
 
 // `count` is the number of values, or 0 if nobody knows it.
 template <class T>

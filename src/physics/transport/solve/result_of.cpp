@@ -15,10 +15,6 @@ namespace {
 // A half-width of a share from here on means that nothing is known except that the share lies between 0 and 1.
 constexpr double unknown_share = 1.0 - 1e-9;
 
-// Confidence intervals of single elements stay empty below this many landings (validation G2: a normal interval on fewer
-// hits too seldom covers the true value).
-constexpr std::uint64_t least_landings = 20;
-
 // Makes the result of one series of replicates.
 class ResultMaker {
  public:
@@ -45,8 +41,8 @@ class ResultMaker {
     result.layers = layer_results();
     const double unseen_leaves_m2 = unseen_m2(unknown_foliage());
     result.leaf_classes = sums_.classes.leaves(unseen_leaves_m2, class_errors());
-    result.element_error = element_errors();
-    result.side_error = side_errors();
+    result.element_error = sums_.element_errors(quantile_);
+    result.side_error = sums_.side_errors(quantile_);
     if (sums_.planes) {
       std::vector<double> events_w_m2, unshot_w_m2;
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
@@ -330,36 +326,6 @@ class ResultMaker {
       results.push_back(std::move(result));
     }
     return results;
-  }
-
-  [[nodiscard]] std::vector<double> element_errors() const {
-    std::vector<double> errors;
-    errors.reserve(sums_.absorbed_spread.size());
-    for (std::size_t b = 0; b < sums_.bands.size() && !sums_.absorbed_spread.empty(); ++b) {
-      for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
-        const Spread& spread = sums_.absorbed_spread[b * sums_.elements.size() + e];
-        const bool enough = sums_.element_hits[e] >= least_landings;
-        const double mean = spread.sum / static_cast<double>(sums_.replicates);
-        errors.push_back(enough ? spread.half_width(quantile_, sums_.replicates) + mean * sums_.ledgers[b].unshot_share()
-                                : no_value);
-      }
-    }
-    return errors;
-  }
-
-  [[nodiscard]] std::vector<double> side_errors() const {
-    std::vector<double> errors;
-    errors.reserve(sums_.side_spread.size());
-    for (std::size_t place = 0; place < sums_.side_spread.size(); ++place) {
-      const std::size_t bands = sums_.bands.size();
-      const double mean = sums_.side_spread[place].sum / static_cast<double>(sums_.replicates);
-      // If no light fell on a side its error is unknown, however often the other side was hit.
-      const bool enough = mean > 0.0 && sums_.element_hits[place / bands / 2] >= least_landings;
-      errors.push_back(enough ? sums_.side_spread[place].half_width(quantile_, sums_.replicates) +
-                                    mean * sums_.ledgers[place % bands].unshot_share()
-                              : no_value);
-    }
-    return errors;
   }
 
   const RunSums& sums_;

@@ -1,9 +1,18 @@
 #include "physics/transport/solve/run_sums.h"
 
+#include "base/units.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace sunfleck {
+namespace {
+
+// Confidence intervals of single elements stay empty below this many landings (validation G2: a normal interval on fewer
+// hits too seldom covers the true value).
+constexpr std::uint64_t least_landings = 20;
+
+}  // namespace
 
 double Spread::half_width(double t_quantile, std::size_t replicates) const {
   const auto n = static_cast<double>(replicates);
@@ -56,6 +65,33 @@ double RunSums::unshot_share_of_scattered(std::size_t band) const {
 
 double RunSums::unseen(double event, double confidence) const {
   return unseen_events(confidence) * event / static_cast<double>(replicates);
+}
+
+std::vector<double> RunSums::element_errors(double t_quantile) const {
+  std::vector<double> errors;
+  errors.reserve(absorbed_spread.size());
+  for (std::size_t place = 0; place < absorbed_spread.size(); ++place) {
+    const Spread& spread = absorbed_spread[place];
+    const double mean = spread.sum / static_cast<double>(replicates);
+    const bool enough = element_hits[place % elements.size()] >= least_landings;
+    const double unshot_share = ledgers[place / elements.size()].unshot_share();
+    errors.push_back(enough ? spread.half_width(t_quantile, replicates) + mean * unshot_share : no_value);
+  }
+  return errors;
+}
+
+std::vector<double> RunSums::side_errors(double t_quantile) const {
+  std::vector<double> errors;
+  errors.reserve(side_spread.size());
+  for (std::size_t place = 0; place < side_spread.size(); ++place) {
+    const Spread& spread = side_spread[place];
+    const double mean = spread.sum / static_cast<double>(replicates);
+    // If no light fell on a side its error is unknown, however often the other side was hit.
+    const bool enough = mean > 0.0 && element_hits[place / bands.size() / 2] >= least_landings;
+    const double unshot_share = ledgers[place % bands.size()].unshot_share();
+    errors.push_back(enough ? spread.half_width(t_quantile, replicates) + mean * unshot_share : no_value);
+  }
+  return errors;
 }
 
 }  // namespace sunfleck

@@ -65,6 +65,11 @@ struct RunSums {
   // where the light that was shot came from: that is twice the share of unshot flux in all that waited.
   [[nodiscard]] double unshot_share_of_scattered(std::size_t band) const;
 
+  // Return the half-widths of what elements absorb, [band * elements + element], and of the irradiance of their sides, as
+  // side_spread; NaN where too few rays and packets came to tell. Empty unless the spreads are kept.
+  [[nodiscard]] std::vector<double> element_errors(double t_quantile) const;
+  [[nodiscard]] std::vector<double> side_errors(double t_quantile) const;
+
   // Passes every sum to `archive`, which writes those of const sums and fills others. The number of values depends only on
   // the lights and on the element errors: zeros are passed for arrays that are empty before the first replicate.
   template <class Self, class Archive>

@@ -111,8 +111,8 @@ class ShadeClasses {
   }
 
   // Return the classes of an organ, of the leaves in a layer, or of all leaves; the first two are empty unless all groups are
-  // kept. `unseen_lit_m2` is the half-width of the sunlit area if all replicates agree, `unshot_share` is [band], `event_w` the
-  // flux that one event brings, [band], and `other_event_w` that of an event that is not the beam's.
+  // kept. `unseen_lit_m2` is the least half-width of a sunlit area of which the replicates show little, `unshot_share` is [band],
+  // `event_w` the flux that one event brings, [band], and `other_event_w` that of an event that is not the beam's.
   struct Errors {
     double t_quantile = 0.0, spread_quantile = 0.0, unseen_events = 0.0;
     std::vector<double> unshot_share, event_w, other_event_w;
