@@ -2,17 +2,19 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <initializer_list>
 
 namespace sunfleck {
 namespace {
 
-// The only object that a signal handler may write to.
-volatile std::sig_atomic_t signal_came = 0;
+// Lock-free, so that a signal handler may write to it and any thread may read it.
+std::atomic<bool> signal_came = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void note_signal(int) {
-  signal_came = 1;
+  signal_came = true;
 }
 
 extern "C" void exit_now(int) {
@@ -44,7 +46,7 @@ void watch_for_interrupts() {
 }
 
 bool interrupted() {
-  return signal_came != 0;
+  return signal_came;
 }
 
 }  // namespace sunfleck

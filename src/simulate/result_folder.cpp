@@ -44,10 +44,12 @@ bool asks_for(const ResultRequest& request, const std::string& image) {
   return std::find(request.images.begin(), request.images.end(), image) != request.images.end();
 }
 
-// Returns whether a run or a day writes a receiver's map or plot under this name.
+// Returns whether a run or a day writes a receiver's map or plot under this name: "plane_", its height, and perhaps a word.
 bool is_plane_file(const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
-  return file.filename().string().rfind("plane_", 0) == 0 && (extension == ".csv" || extension == ".png" || extension == ".nc");
+  constexpr std::string_view begin = "plane_";
+  const std::string name = file.filename().string(), extension = file.extension().string();
+  const bool has_height = name.starts_with(begin) && name[begin.size()] >= '0' && name[begin.size()] <= '9';
+  return has_height && (extension == ".csv" || extension == ".png" || extension == ".nc");
 }
 
 // Returns the pictures that are requested one by one.

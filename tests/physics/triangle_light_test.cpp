@@ -1,19 +1,25 @@
 // The light of single triangles: exact in its sums, honest in its errors, and fit for what is computed from it.
 
+#include "devices/tracers/cpu_tracer.h"
 #include "physics/canopy/maize_plant.h"
 #include "physics/transport/model/surfaces.h"
+#include "physics/transport/solve/work_planner.h"
 #include "support/leaf_scenes.h"
 #include "support/maize_stands.h"
 #include "support/result_numbers.h"
+#include "support/wrapped_tracer.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 namespace sunfleck::test {
@@ -258,6 +264,60 @@ TEST_P(TriangleLight, CanBeBounded) {
   // The typical error of both together lies below the bound of each, since the larger part is known better.
   EXPECT_GT(result.triangle_relative_error.at(0), 0.02);
   EXPECT_LT(result.triangle_relative_error.at(0), 0.14);
+}
+
+// A tracer for one thread at a time, as those of GPUs are. It notes if two threads trace at once.
+class TracerOfOneThread final : public WrappedTracer {
+ public:
+  using WrappedTracer::WrappedTracer;
+
+  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
+                                        const StopQuestion& stop) override {
+    const Visit visit(*this);
+    return WrappedTracer::count_beam(beam, counters, stop);
+  }
+  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
+                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
+    const Visit visit(*this);
+    return WrappedTracer::trace(scene, packets, landings, stop);
+  }
+
+  [[nodiscard]] int calls() const { return calls_; }
+  [[nodiscard]] bool had_two_at_once() const { return had_two_at_once_; }
+
+ private:
+  // Stays long enough for another thread to come in.
+  struct Visit {
+    explicit Visit(TracerOfOneThread& tracer) : tracer_(tracer) {
+      ++tracer_.calls_;
+      if (++tracer_.inside_ > 1) tracer_.had_two_at_once_ = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ~Visit() { --tracer_.inside_; }
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+    TracerOfOneThread& tracer_;
+  };
+  std::atomic<int> inside_ = 0, calls_ = 0;
+  std::atomic<bool> had_two_at_once_ = false;
+};
+
+// Pilots that are far too small are left early, while others of them are in the making; then triangles are judged.
+TEST_P(TriangleLight, IsJudgedWithoutASecondThreadInTheTracer) {
+  CpuTracer inner(prepared_.bvh, tracer_scene(model_));
+  TracerOfOneThread tracer(inner);
+  SolveSettings settings;
+  settings.element_errors = ElementErrors::refine;
+  settings.accuracy.of = ErrorTarget::triangle;
+  settings.accuracy.direct = settings.accuracy.indirect = 1e-4;
+  settings.replicates_at_once = 4;
+  Monitor monitor;
+  std::atomic<int> pilots = 0;
+  monitor.report = [&](const Progress& progress) { pilots += progress.stage == Progress::Stage::pilot ? 1 : 0; };
+  monitor.interrupted = [&] { return pilots > glanced_pilots; };  // the second series has begun
+  static_cast<void>(solve(model_, prepared_.layout, tracer, settings, monitor));
+  EXPECT_GT(tracer.calls(), glanced_pilots);
+  EXPECT_FALSE(tracer.had_two_at_once());
 }
 
 // Small leaves of one or two triangles each, none of which any neighbour helps.

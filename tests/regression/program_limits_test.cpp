@@ -152,6 +152,7 @@ TEST_F(Limits, AFolderHoldsOneRun) {
   EXPECT_TRUE(exists("triangles.csv"));
   EXPECT_TRUE(exists("rank_direct.png"));
   folder_.write("out/notes.txt", "mine");
+  folder_.write("out/plane_tree.png", "mine");
   const Outcome refused = run({"run", squares_.string(), "-o", "out", "--device", "nonexistent"});
   EXPECT_EQ(refused.status, 3);
   EXPECT_EQ(summary()["complete"], true) << "a run that never began spoils nothing";
@@ -159,6 +160,7 @@ TEST_F(Limits, AFolderHoldsOneRun) {
   EXPECT_FALSE(exists("triangles.csv"));
   EXPECT_FALSE(exists("rank_direct.png"));
   EXPECT_TRUE(exists("notes.txt"));
+  EXPECT_TRUE(exists("plane_tree.png")) << "no name of a run's own: a height would follow plane_";
   EXPECT_EQ(summary()["seed"], 2);
 }
 

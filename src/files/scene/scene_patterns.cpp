@@ -22,11 +22,7 @@ constexpr std::size_t most_shown = 12;  // names in a message
 std::u32string letters_of(std::string_view text) {
   const std::string lower = lower_case(text);
   std::u32string letters;
-  for (std::string_view rest = lower; !rest.empty();) {
-    const auto letter = take_code_point(rest);
-    if (!letter) rest.remove_prefix(1);
-    letters.push_back(letter.value_or(U'\uFFFD'));
-  }
+  for (std::string_view rest = lower; !rest.empty();) letters.push_back(take_code_point(rest).value_or(U'\uFFFD'));
   return letters;
 }
 

@@ -111,12 +111,22 @@ class TwoLevels {
     std::vector<Piece> pieces;
   };
 
+  // Refuses more triangles than a tree holds before their copies take memory.
+  void count(std::uint64_t triangles) {
+    triangles_ += triangles;
+    if (triangles_ <= max_references) return;
+    throw_input(fmt::format("canopy: {} triangles or more, counting the copies that reach into the plot", triangles_),
+                fmt::format("a tree holds at most {}", max_references),
+                "place fewer plants, or enlarge plot.size if plants are larger than the plot");
+  }
+
   void add_own() {
     if (canopy_.corners.own().empty()) return;
     Bvh tree = build_own_tree(canopy_, padding_m_, depth_of_triangles);
     if (tree.triangles.empty()) return;
     parts_.push_back({own_corners, std::move(tree), {}});
     parts_.back().pieces = pieces_of(parts_.back().tree);
+    count(parts_.back().tree.triangles.size());
     for (const Piece& piece : parts_.back().pieces) copies_.push_back(placed_piece(unturned, 0, piece));
   }
 
@@ -165,6 +175,7 @@ class TwoLevels {
       PlacedCopy copy = placed_piece(placed.turn, part, piece);
       copy.copy.first_element = placed.first_element;
       const ImageRanges images = images_of(canopy_, copy.box, placed.first_element);
+      count(images.count() * copy.copy.triangles);
       for (int dz = images.first_z; dz <= images.last_z; ++dz) {
         for (int dx = images.first_x; dx <= images.last_x; ++dx) copies_.push_back(moved(copy, dx, dz));
       }
@@ -208,11 +219,6 @@ class TwoLevels {
       set_copy(bvh, node, copy);
       order += copy.triangles;
     }
-    if (order > max_references) {
-      throw_input(fmt::format("canopy: {} triangles, counting the copies that reach into the plot", order),
-                  fmt::format("a tree holds at most {}", max_references),
-                  "place fewer plants, or enlarge plot.size if plants are larger than the plot");
-    }
   }
 
   const Canopy& canopy_;
@@ -220,6 +226,7 @@ class TwoLevels {
   std::vector<Part> parts_;
   std::vector<std::uint32_t> part_of_mesh_;
   std::vector<PlacedCopy> copies_;
+  std::uint64_t triangles_ = 0;  // of all copies
 };
 
 }  // namespace

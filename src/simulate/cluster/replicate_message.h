@@ -65,7 +65,7 @@ template <class Message>
 template <class Message>
 [[nodiscard]] Message unpack(std::span<const std::byte> bytes);
 [[nodiscard]] ReplicateKey unpack_key(std::span<const std::byte> bytes);  // of a replicate, too
-// `blank` gives the sizes of the arrays; its `sums` are left as they are.
+// `blank` gives the sizes of the arrays; what follows from the counters (Replicate::direct) is left as it is there.
 [[nodiscard]] ReplicateSet unpack_replicates(std::span<const std::byte> bytes, const ReplicateSet& blank);
 
 }  // namespace sunfleck

@@ -1,6 +1,5 @@
 #include "files/results/exports/day_time_axis.h"
 
-#include "base/error.h"
 #include "base/file.h"
 #include "base/units.h"
 
@@ -43,7 +42,7 @@ int add_time_axis(NetcdfFile& file, const DayCourse& course, std::size_t steps) 
 void write_aside(const std::filesystem::path& file, const std::filesystem::path& aside, const std::function<void()>& write) {
   try {
     write();
-  } catch (const Error&) {
+  } catch (...) {
     std::error_code error;
     std::filesystem::remove(aside, error);
     throw;

@@ -127,6 +127,7 @@ class Solver {
       report_pilot();
       if (series_->replicates() == glanced_pilots && planner_.far_too_small(outcome())) break;
     }
+    queue_.end();  // replicates in the making use the tracer, too
     judge_.judge_triangles(*series_);
     share_rays();
     SeriesOutcome pilots = outcome();

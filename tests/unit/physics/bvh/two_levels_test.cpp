@@ -4,12 +4,14 @@
 #include "physics/bvh/build.h"
 #include "physics/bvh/decode.h"
 #include "support/copies.h"
+#include "support/error_text.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -143,6 +145,15 @@ TEST(TwoLevels, AreWalkedToTheHitsOfATestOfEveryTriangle) {
     }
     EXPECT_GT(hits, 1000);
   }
+}
+
+// The plant reaches over some 100 million periods, whose copies would take 10 GB.
+TEST(TwoLevels, RefuseMoreTrianglesThanATreeHoldsBeforeTheyTakeMemory) {
+  const Plot plot{5e-5, 5e-5, true};
+  const std::vector<PlacedMesh> parts = {{leafy_plant(30, 1), {Placement{}}, {}, true}};
+  const Canopy canopy = assemble_canopy(parts, plot);
+  const std::string refusal = refusal_of([&] { static_cast<void>(build_bvh(canopy, 1e-6F)); });
+  EXPECT_NE(refusal.find("a tree holds at most 2147483648"), std::string::npos) << refusal;
 }
 
 }  // namespace
