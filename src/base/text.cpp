@@ -1,7 +1,7 @@
 #include "base/text.h"
 
+#include <algorithm>
 #include <array>
-#include <cstddef>
 
 namespace sunfleck {
 
@@ -11,6 +11,21 @@ std::string lower_case(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+std::string counted(std::size_t number, std::string_view one) {
+  return std::to_string(number).append(" ").append(one).append(number == 1 ? "" : "s");
+}
+
+std::string in_shell(std::string_view name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./").find(c) != std::string_view::npos;
+  };
+  if (!name.empty() && std::all_of(name.begin(), name.end(), plain)) return std::string(name);
+  std::string word = "'";
+  for (const char c : name) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
 }
 
 std::optional<char32_t> take_code_point(std::string_view& text) {

@@ -1,6 +1,7 @@
 #pragma once
 // Tools for text that know nothing of files.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,12 @@ namespace sunfleck {
 
 // Returns the text with the letters A to Z in lower case.
 [[nodiscard]] std::string lower_case(std::string_view text);
+
+// Returns a number with the name of what is counted, in the plural unless it is one: "1 triangle", "3 triangles".
+[[nodiscard]] std::string counted(std::size_t number, std::string_view one);
+
+// Returns a name as a word of a shell's command: in single quotes unless it has only letters, digits and "_-./".
+[[nodiscard]] std::string in_shell(std::string_view name);
 
 // Removes the next code point of UTF-8 from the text, which is not empty, and returns it. Returns nothing for invalid bytes, and
 // removes at least one of them. Overlong forms, surrogates and values above U+10FFFF are invalid (Unicode 15.0, table 3-7).

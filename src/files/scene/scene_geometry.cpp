@@ -1,6 +1,7 @@
 #include "files/scene/scene_geometry.h"
 
 #include "base/file.h"
+#include "base/suggestions.h"
 #include "files/formats/mesh/mesh_content.h"
 #include "files/formats/mesh/mesh_survey.h"
 #include "files/scene/plain_name.h"

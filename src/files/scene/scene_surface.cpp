@@ -1,6 +1,7 @@
 #include "files/scene/scene_surface.h"
 
 #include "base/file.h"
+#include "base/suggestions.h"
 
 #include <fmt/format.h>
 

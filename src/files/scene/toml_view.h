@@ -37,14 +37,6 @@ struct OffsetTime {
   int offset_minutes = 0;
 };
 
-// Returns the candidate nearest to `word`, ignoring case: at most two edits away, and no more than half the letters. Returns
-// nothing if there is none.
-[[nodiscard]] std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates);
-
-// Returns "did you mean X?" if there is a nearest word, otherwise `otherwise`.
-[[nodiscard]] std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
-                                       std::string_view otherwise);
-
 // One table of a TOML text. It is a cheap handle that keeps the tree of the whole text alive. The accessors return nothing if
 // the key is absent; call `require` first for mandatory keys.
 class TomlTable {

@@ -42,9 +42,9 @@ struct PictureOptions {
   return chart == ChartKind::rank || chart == ChartKind::rank_interval || chart == ChartKind::rank_log;
 }
 
-// Returns whether the chart's scale can be given an upper end.
+// Returns whether the chart's scale, of a rank chart that of its soil, can be given an upper end.
 [[nodiscard]] constexpr bool has_top(ChartKind chart) {
-  return chart != ChartKind::rank && chart != ChartKind::hue;
+  return chart != ChartKind::hue;
 }
 
 // Return the names used on the command line, in the order of the enumerations.

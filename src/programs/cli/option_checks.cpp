@@ -1,6 +1,6 @@
 #include "programs/cli/option_checks.h"
 
-#include "files/scene/toml_view.h"
+#include "base/suggestions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/suggestions.h"
 #include "base/version.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/results/exports/exports.h"
-#include "files/scene/toml_view.h"
 #include "programs/cli/option_groups.h"
 #include "simulate/result_folder.h"
 
@@ -93,18 +93,13 @@ bool draws_any(const RunOptions& options, const std::function<bool(const Picture
   });
 }
 
-// The soil of rank charts has a scale of its own, whose upper end can be chosen.
-bool uses_range(const Picture& picture) {
-  return picture.chart != ChartKind::hue;
-}
-
 constexpr const char* no_upper_end = "the scale of a hue chart has no upper end to choose; give --chart map, for example";
 
 void warn_of_pictures_not_drawn(const CLI::App& command, RunOptions& options) {
   if (!draws_any(options, [](const Picture&) { return true; })) {
     warn_without_effect(command, {"--view", "--range", "--size", "--samples", "--repeat"},
                         "no picture of the stand is among the --images", options);
-  } else if (!draws_any(options, uses_range)) {
+  } else if (!draws_any(options, [](const Picture& picture) { return has_top(picture.chart); })) {
     warn_without_effect(command, {"--range"}, no_upper_end, options);
   }
   if (!draws(options, "all") && !draws(options, "profile")) {
@@ -167,7 +162,7 @@ RenderOptions finished(RenderOptions options, const OptionWords& words, const CL
   options.chart_given = command.count("--chart") > 0;
   if (options.file.extension() == ".exr") {
     warn_without_effect(command, {"--range"}, "an .exr file contains values, not colours", options.run);
-  } else if (!uses_range(options.picture)) {
+  } else if (!has_top(options.picture.chart)) {
     warn_without_effect(command, {"--range"}, no_upper_end, options.run);
   }
   for (const char* name : {"--error", "--direct-error", "--indirect-error", "--grid", "--passes", "--max-seconds", "--max-rays",
