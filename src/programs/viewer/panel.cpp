@@ -237,16 +237,16 @@ void draw_optics(ViewerState& state) {
 }
 
 void draw_picture(ViewerState& state) {
-  choose(state, "field", "Light", state.picture.field, {"direct", "sky", "indirect", "total", "absorbed", "scattered"});
+  choose(state, "field", "Light", state.picture.field, field_names());
   std::size_t band = state.band();
   if (choose(state, "band", "Band", band, state.bands)) state.options.band = state.bands[band];
-  choose(state, "chart", "Chart", state.picture.chart, {"rank", "rank, equal steps", "hue", "continuous"});
-  if (has_top(state.picture.chart)) {
+  choose(state, "chart", "Chart", state.picture.chart, chart_names());
+  const bool scaled = has_top(state.picture.chart);
+  if (scaled) {
     ImGui::Checkbox("Own range", &state.own_range);
     note(state, "own_range");
     if (state.own_range) slider(state, "range", "up to, W m⁻²", state.range_top_w_m2, {1.0, 1500.0, "%.0f"});
   }
-  const bool scaled = has_top(state.picture.chart);
   state.options.top_w_m2 = scaled && state.own_range ? std::optional(state.range_top_w_m2) : std::nullopt;
   slider(state, "samples", "Samples per pixel", state.options.samples, 1, 16);
 }
