@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/scene/mesh_scene.h"
 
@@ -31,7 +32,7 @@ CaribuSet caribu_set(const fs::path& mesh, const StandFiles& stand, bool allow_o
     throw_input(
         printable(mesh.string()), "a mesh alone has neither optics nor light",
         fmt::format("write a scene for it: sunfleck new {} -o stand.toml; or give --optics FILE.opt and --light FILE.light",
-                    printable(mesh.string())));
+                    in_shell(printable(mesh.string()))));
   }
   CaribuSet set{mesh, {}, stand.light, std::nullopt, stand.scale.value_or(1.0), allow_outside};
   for (const std::string& word : stand.optics) set.bands.push_back(caribu_band(word));

@@ -120,6 +120,10 @@ struct SharedScene {
   double packets = 2000;
 };
 
+void PrintTo(const SharedScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
 RadiationModel small_leaves() {
   return paper_model(random_leaves(60, 0.01, unit_plot, 0.6, 5), unit_plot, beijing_sun());
 }

@@ -377,6 +377,24 @@ class WindowTest(unittest.TestCase):
         self.assertAlmostEqual(event["upper"]["direct"] / 280.0, 1.0, delta=0.02)
         self.expect_clean_end(window)
 
+    def test_every_chart_can_be_chosen(self):
+        window = self.open("--chart", "map")
+        def saves():
+            return [event["file"] for event in window.events if event["event"] == "saved"]
+
+        charts = ("rank", "rank-interval", "rank-log", "hue", "map")
+        for chart in ("hue", "rank-log", "map"):
+            self.click(window.place("chart"))
+            for listed in charts:
+                window.place(f"chart/{listed}")
+            time.sleep(0.5)  # the list gets its place in its second frame
+            window.take_waiting()
+            self.click(window.place(f"chart/{chart}"))
+            before = len(saves())
+            self.click_until(window, "save_picture", lambda: len(saves()) > before)
+            self.assertIn(f"view_{chart}_", saves()[-1])
+        self.expect_clean_end(window)
+
     def test_pictures_have_the_chosen_size(self):
         window = self.open()
         window.heard_or_awaited("converged", wish=1)

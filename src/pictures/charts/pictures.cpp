@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "base/units.h"
 #include "devices/tracers/canopy_view.h"
@@ -36,7 +37,7 @@ std::string subtitle_line(const RadiationModel& model, const RadiationResult& re
     line = fmt::format("Sun at elevation {:.2f}°, azimuth {:.2f}°; ", in_degrees(model.sun->elevation_rad),
                        in_degrees(model.sun->azimuth_rad));
   }
-  return line + fmt::format("{} triangles, leaf area index {:.2f}", model.canopy.size(), result.leaf_area_index);
+  return line + fmt::format("{}, leaf area index {:.2f}", counted(model.canopy.size(), "triangle"), result.leaf_area_index);
 }
 
 std::string footer_line(LightField field, const RadiationResult& result, std::size_t band, const std::string& note) {

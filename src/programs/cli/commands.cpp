@@ -1,5 +1,6 @@
 #include "programs/cli/commands.h"
 
+#include "base/text.h"
 #include "files/formats/mesh/mesh_writer.h"
 #include "physics/canopy/maize.h"
 #include "programs/cli/terminal.h"
@@ -86,7 +87,8 @@ int write_maize(const MaizeOptions& options) {
   // From here on a signal does not end the program at once, so that an unfinished file is completed.
   watch_for_interrupts();
   write_gltf(mesh, options.output);
-  fmt::print("{}: {} triangles, {} organs\n", options.output.string(), mesh.triangles.size(), mesh.organs.size());
+  fmt::print("{}: {}, {}\n", options.output.string(), counted(mesh.triangles.size(), "triangle"),
+             counted(mesh.organs.size(), "organ"));
   return exit_done;
 }
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/formats/mesh/mesh_text.h"
 #include "files/formats/mesh/mesh_writer.h"
@@ -132,8 +133,8 @@ int write_as_mesh(const ConvertOptions& options) {
                       printable(options.output.string()), merged, mesh.organs.size()));
   }
   write_mesh(mesh, options.output, axes);
-  fmt::print("{}: {} triangles, {} organs, optics {}\n", options.output.string(), mesh.triangles.size(), mesh.organs.size(),
-             printable(fmt::format("{}", fmt::join(mesh.optics_names, ", "))));
+  fmt::print("{}: {}, {}, optics {}\n", options.output.string(), counted(mesh.triangles.size(), "triangle"),
+             counted(mesh.organs.size(), "organ"), printable(fmt::format("{}", fmt::join(mesh.optics_names, ", "))));
   return exit_done;
 }
 
@@ -182,7 +183,7 @@ int write_as_scene(const ConvertOptions& options) {
   const Scene scene = read_scene(SceneText{options.output, made.text, {}}, {options.allow_outside});
   for (const std::string& warning : scene.warnings) warn(warning);
   write_file(options.output, made.text);
-  fmt::print("{}: {} triangles, plot {:.6g} x {:.6g} m\n", options.output.string(), scene.model.canopy.size(),
+  fmt::print("{}: {}, plot {:.6g} x {:.6g} m\n", options.output.string(), counted(scene.model.canopy.size(), "triangle"),
              scene.model.plot.size_x_m, scene.model.plot.size_z_m);
   return exit_done;
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "devices/gpu/context.h"
 #include "physics/light/sun_events.h"
@@ -165,8 +166,10 @@ void print_copies(const ordered_json& info) {
   constexpr std::size_t most_lines = 10;
   const ordered_json& organs = info["coincident_organs"];
   if (organs.empty()) return;
-  fmt::print("{} triangles coincide with earlier ones and receive no light:\n",
-             info["coincident_triangles"].get<std::size_t>());
+  const auto coincident = info["coincident_triangles"].get<std::size_t>();
+  fmt::print("{} with earlier ones and {} no light:\n",
+             coincident == 1 ? "1 triangle coincides" : fmt::format("{} triangles coincide", coincident),
+             coincident == 1 ? "receives" : "receive");
   const auto name = [](const ordered_json& organ) {
     return fmt::format("{} of plant {}", printable(organ["organ"].get<std::string>()), organ["plant"].get<std::uint32_t>());
   };
@@ -200,9 +203,9 @@ void print_lines(const ordered_json& info) {
                device["usable"].get<bool>() ? "" : ", cannot be used: " + device["lacks"].get<std::string>());
   }
   if (!info.contains("triangles")) return;
-  fmt::print("{}\n{} triangles in {} organs, {:.5g} m2 on a plot of {:.5g} m2\n", info["title"].get<std::string>(),
-             info["triangles"].get<std::size_t>(), info["organs"].get<std::size_t>(), info["area_m2"].get<double>(),
-             info["plot_area_m2"].get<double>());
+  fmt::print("{}\n{} in {}, {:.5g} m2 on a plot of {:.5g} m2\n", info["title"].get<std::string>(),
+             counted(info["triangles"].get<std::size_t>(), "triangle"), counted(info["organs"].get<std::size_t>(), "organ"),
+             info["area_m2"].get<double>(), info["plot_area_m2"].get<double>());
   for (const auto& [name, area] : info["area_by_optics_m2"].items()) fmt::print("  {}: {:.5g} m2\n", name, area.get<double>());
   print_roles(info);
   print_copies(info);

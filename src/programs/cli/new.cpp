@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "files/scene/mesh_scene.h"
 #include "programs/cli/terminal.h"
 #include "simulate/interrupt.h"
@@ -52,9 +53,9 @@ int write_new_scene(const NewOptions& options) {
     return exit_done;
   }
   write_file(options.output, text);
-  fmt::print("{}: {} triangles, {} organs; next: sunfleck run {}{}\n", printable(options.output.string()),
-             scene.model.canopy.size(), scene.model.canopy.organs.size(), printable(options.output.string()),
-             outside ? " --allow-outside" : "");
+  const std::string written = printable(options.output.string());
+  fmt::print("{}: {}, {}; next: sunfleck run {}{}\n", written, counted(scene.model.canopy.size(), "triangle"),
+             counted(scene.model.canopy.organs.size(), "organ"), in_shell(written), outside ? " --allow-outside" : "");
   return exit_done;
 }
 

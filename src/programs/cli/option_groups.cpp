@@ -175,8 +175,8 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
          "--together", options.steps_together,
          fmt::format(
              "Simulate up to N consecutive steps of a date together: they share packets, which takes less time but memory for "
-             "each "
-             "step; --max-rays then holds for all of them (default: as many as --memory holds, up to {}, or 1 with --max-rays)",
+             "each step; --max-rays then holds for all of them (default: as many as --memory holds, up to {}, or 1 with "
+             "--max-rays)",
              usual_steps_together))
       ->transform(whole_number(1, most_steps_together));
   day.add_option("--step", options.step_min, "Step length in minutes; each step has the light of its midpoint (default: 60)")

@@ -1,5 +1,6 @@
 #include "programs/cli/report.h"
 
+#include "base/text.h"
 #include "base/units.h"
 #include "files/results/tables/table_text.h"
 #include "physics/transport/model/surfaces.h"
@@ -37,8 +38,8 @@ std::string areas_text(const RoleAreas& areas_m2) {
 
 std::string balance_report(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
   std::string text = fmt::format("{}\n", record.title);
-  text += fmt::format("  {} triangles, {} organs, leaf area index {:.3f}\n", model.canopy.size(), model.canopy.organs.size(),
-                      result.leaf_area_index);
+  text += fmt::format("  {}, {}, leaf area index {:.3f}\n", counted(model.canopy.size(), "triangle"),
+                      counted(model.canopy.organs.size(), "organ"), result.leaf_area_index);
   const RoleAreas areas_m2 = area_of_roles_m2(model);
   if (model.canopy.size() > 0) text += fmt::format("  one-sided areas: {}\n", areas_text(areas_m2));
   if (model.sun) {

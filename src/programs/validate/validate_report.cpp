@@ -76,8 +76,7 @@ std::string validation_markdown(const ValidationRecord& record, std::span<const 
                                  record.seconds, answer_summary(record, answers));
   text +=
       "An estimate passes within Student's t for the whole table at 0.1 % (Sidak), counted in standard errors: z says how many "
-      "it "
-      "is off. A value without error must be equal, to the last digit its source gives.\n\n"
+      "it is off. A value without error must be equal, to the last digit its source gives.\n\n"
       "| case | expected | got | standard_error | z | verdict |\n| --- | ---: | ---: | ---: | ---: | --- |\n";
   for (const JudgedAnswer& judged : answers) {
     const Cells cells = cells_of(judged);

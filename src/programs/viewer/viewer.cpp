@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "physics/canopy/axes.h"
@@ -70,8 +71,8 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.device = device_line(session_->simulation.device());
   const Plot& plot = scene.model.plot;
   const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
-  state_.plot_text = fmt::format("{} triangles, plot {:.4g} x {:.4g} m{}", scene.model.canopy.size(), size_m.x, size_m.y,
-                                 plot.periodic ? ", periodic" : "");
+  state_.plot_text = fmt::format("{}, plot {:.4g} x {:.4g} m{}", counted(scene.model.canopy.size(), "triangle"), size_m.x,
+                                 size_m.y, plot.periodic ? ", periodic" : "");
   state_.bands = session_->bands;
   state_.optics_names = session_->optics;
   if (state_.band() == 0) state_.options.band.clear();

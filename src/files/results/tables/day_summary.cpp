@@ -1,5 +1,6 @@
 #include "files/results/tables/day_summary.h"
 
+#include "base/text.h"
 #include "files/results/tables/summary_parts.h"
 #include "physics/canopy/axes.h"
 
@@ -146,8 +147,9 @@ std::string day_summary_json(const DaySummary& day) {
 }
 
 std::string day_report(const DaySummary& day) {
-  std::string text = fmt::format("{}\n  {} triangles, {} steps, {} of them simulated\n", day.record.title,
-                                 day.model.canopy.size(), day.steps_done, day.totals.simulated);
+  std::string text =
+      fmt::format("{}\n  {}, {}, {} of them simulated\n", day.record.title, counted(day.model.canopy.size(), "triangle"),
+                  counted(day.steps_done, "step"), day.totals.simulated);
   if (day.sums.size() > most_reported_dates) return text + season_lines(day);
   for (std::size_t d = 0; d < day.sums.size(); ++d) {
     const DateSums& date = day.sums[d];

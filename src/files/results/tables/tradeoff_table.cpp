@@ -41,14 +41,11 @@ std::string head(const TradeoffReport& report) {
                       report.record.device.name, report.seeds);
   text +=
       "# setting: grid, --grid in m with --passes 8, judged by the sun's direct light; packets, of the first round of each of "
-      "8 "
-      "replicates, by all other light; error, --error, and mesh, share of the triangles kept, by what is absorbed\n"
+      "8 replicates, by all other light; error, --error, and mesh, share of the triangles kept, by what is absorbed\n"
       "# true_relative_error: root mean square over canopy (vegetation, soil), layers, organs (from a tenth of the mean "
-      "organ's "
-      "flux on) or triangles (area-weighted) of the difference to the reference relative to the value (layers and canopy: at "
-      "least 1 % of the incident flux; triangles: mean); reported_relative_error: the same of the half-widths; covered: share "
-      "of "
-      "the values that they reach; organs are those of vegetation\n";
+      "organ's flux on) or triangles (area-weighted) of the difference to the reference relative to the value (layers and "
+      "canopy: at least 1 % of the incident flux; triangles: mean); reported_relative_error: the same of the half-widths; "
+      "covered: share of the values that they reach; organs are those of vegetation\n";
   for (std::size_t i = 0; i < report.reference_rays.size(); ++i) {
     if (report.reference_rays[i] == 0) continue;
     text += fmt::format("# reference of {} light: {} rays and packets, its own error", light_name(all_series[i]),
