@@ -242,7 +242,7 @@ TEST_F(Convert, MeshesAmongEachOther) {
 
 TEST_F(Convert, AnUprightMesh) {
   folder_.write("up.obj", "v 1 2 3\nv 4 2 3\nv 1 5 3\nf 1 2 3\n");
-  EXPECT_EQ(run({"convert", "up.obj", "turned.obj", "--z-up"}).out, "turned.obj: 1 triangles, 1 organs, optics leaf\n");
+  EXPECT_EQ(run({"convert", "up.obj", "turned.obj", "--z-up"}).out, "turned.obj: 1 triangle, 1 organ, optics leaf\n");
   EXPECT_NE(content(folder_ / "turned.obj").find("v -2 3 -1\n"), std::string::npos);
 }
 
