@@ -18,7 +18,7 @@
 
 namespace sunfleck {
 
-class VulkanTracer final : public Tracer {
+class VulkanTracer : public Tracer {
  public:
   // Context, tree and device tree must outlive the tracer. `counter_words` is the length of the counters of every count_beam.
   // Throws Error (device) naming the limit if the counters are too large for the device, and Error (failure) if its memory runs

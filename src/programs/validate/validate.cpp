@@ -25,37 +25,16 @@
 namespace sunfleck {
 namespace {
 
+struct OwnTree {
+  GpuTree tree;
+};
+
 // A tracer that owns its tree on the device.
-class DeviceTracer final : public Tracer {
+class DeviceTracer final : OwnTree, public VulkanTracer {
  public:
   DeviceTracer(const GpuContext& context, const Bvh& bvh, TraceDomain domain, std::size_t counter_words)
-      : tree_(context, bvh, preferred_fetch(context, bvh)), tracer_(context, bvh, tree_, domain, counter_words) {}
-
-  [[nodiscard]] TracerDevice device() const override { return tracer_.device(); }
-  [[nodiscard]] TraceOutcome count_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                        const StopQuestion& stop) override {
-    return tracer_.count_beam(beam, counters, stop);
-  }
-  [[nodiscard]] std::optional<TraceOutcome> record_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                                        std::span<shared::Landing> landings,
-                                                        const StopQuestion& stop) override {
-    return tracer_.record_beam(beam, counters, landings, stop);
-  }
-  [[nodiscard]] std::optional<KeptBeam> keep_beam(const shared::BeamBlock& beam, std::span<std::uint32_t> counters,
-                                                  const StopQuestion& stop) override {
-    return tracer_.keep_beam(beam, counters, stop);
-  }
-  [[nodiscard]] TraceOutcome trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
-                                   std::span<shared::Landing> landings, const StopQuestion& stop) override {
-    return tracer_.trace(scene, packets, landings, stop);
-  }
-  [[nodiscard]] std::optional<TraceOutcome> make_rounds(std::span<const RoundsPass> passes, const StopQuestion& stop) override {
-    return tracer_.make_rounds(passes, stop);
-  }
-
- private:
-  GpuTree tree_;
-  VulkanTracer tracer_;
+      : OwnTree{GpuTree(context, bvh, preferred_fetch(context, bvh))},
+        VulkanTracer(context, bvh, tree, domain, counter_words) {}
 };
 
 TracerMaker tracer_maker(const GpuContext* context) {
