@@ -169,6 +169,7 @@ TEST_F(Tradeoff, RefusesBadUsageInOneLine) {
 TEST_F(Tradeoff, NeedsLight) {
   std::string dark = leaf_scene;
   dark.replace(dark.find("50.0"), 4, "-5.0");
+  dark += "[optics.unused_lamp]\nreflectance = 0.1\ntransmittance = 0.0\nemission = 100.0\n";
   std::ofstream(folder_ / "dark.toml") << dark;
   const Outcome outcome = run({"tradeoff", "dark.toml", "-o", "bad", "--device", "cpu"});
   EXPECT_EQ(outcome.status, 2);

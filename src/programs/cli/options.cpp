@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/suggestions.h"
+#include "base/text_reader.h"
 #include "base/version.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/results/exports/exports.h"
@@ -14,8 +15,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 namespace sunfleck {
@@ -25,16 +27,16 @@ constexpr int usual_window_width = 1280;
 constexpr int usual_window_height = 800;
 
 void read_size(const std::string& size, PictureOptions& options) {
-  int width = 0;
-  int height = 0;
-  char rest = 0;
-  if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 64 || height < 64 || width > 8192 ||
-      height > 8192) {
+  const std::size_t cross = std::min(size.find('x'), size.size());
+  const auto width = parse_integer(std::string_view(size).substr(0, cross));
+  const auto height = parse_integer(std::string_view(size).substr(std::min(cross + 1, size.size())));
+  const auto fits = [](const std::optional<std::int64_t>& side) { return side && *side >= 64 && *side <= 8192; };
+  if (!fits(width) || !fits(height)) {
     throw_input(fmt::format("--size {}", printable(size)), "must be WIDTHxHEIGHT, each 64..8192",
                 "give 1600x1200, for example");
   }
-  options.width = width;
-  options.height = height;
+  options.width = static_cast<int>(*width);
+  options.height = static_cast<int>(*height);
 }
 
 template <class Choice>

@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "files/results/plots/plots.h"
 #include "files/results/tables/tradeoff_table.h"
+#include "physics/transport/solve/darkness.h"
 #include "programs/cli/terminal.h"
 #include "programs/tradeoff/tradeoff_fit.h"
 #include "programs/tradeoff/tradeoff_measure.h"
@@ -16,7 +17,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace sunfleck {
@@ -30,10 +30,7 @@ constexpr const char* plot_file = "tradeoff.png";
 Scene read_lit_scene(const RunOptions& options) {
   Scene scene = load_scene_with_warnings(options);
   RadiationModel& model = scene.model;
-  const bool lamps = std::any_of(model.optics.begin(), model.optics.end(), [](const SurfaceOptics& optics) {
-    return std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w_m2) { return w_m2 > 0.0; });
-  });
-  if (!model.has_beam() && !model.has_sky() && !lamps) {
+  if (is_dark(model)) {
     throw_input(printable(options.scene.string()), "the scene has no light, so every run is exact",
                 "give a scene with a sun above the horizon, a sky or a lamp");
   }

@@ -141,8 +141,10 @@ bool LivePicture::wait_for_work() {
     if (quitting_) return true;
     if (to_save_) return true;
     if (!request_) return false;
+    const bool asked = drawn_request_ != request_number_ || drawn_light_ != light_number_;
+    if (!problem_.empty()) return asked;  // the same picture would fail again
     const bool unfinished = sight_ && sight_->fineness != Fineness::full && !request_->moving && content_;
-    return !sight_ || sight_->look != look_ || drawn_request_ != request_number_ || drawn_light_ != light_number_ || unfinished;
+    return asked || !sight_ || sight_->look != look_ || unfinished;
   });
   return !quitting_;
 }

@@ -266,7 +266,8 @@ class PlyReader {
   std::size_t list_size(const PlyProperty& property) {
     const double size = body_.next(*property.list_size);
     if (!(size >= 0.0 && size <= static_cast<double>(body_.bytes_left())) || size != std::floor(size))
-      refuse(source_, body_.line(), fmt::format("a list of {} numbers", size), "the file ends before the end of the list",
+      refuse(source_, body_.line(), fmt::format("a list of {} numbers", size),
+             fmt::format("their number must be a whole one, and only {} bytes are left", body_.bytes_left()),
              "export the file again");
     return static_cast<std::size_t>(size);
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <optional>
 #include <string>
@@ -90,7 +91,7 @@ class EpwReader {
     Place place;
     place.latitude_rad = glm::radians(number(7, "latitude", -90.0, 90.0));
     place.longitude_rad = glm::radians(number(8, "longitude", -180.0, 180.0));
-    result_.weather.zone_minutes = static_cast<int>(60.0 * number(9, "time zone", -12.0, 14.0));
+    result_.weather.zone_minutes = static_cast<int>(std::lround(60.0 * number(9, "time zone", -12.0, 14.0)));
     place.altitude_m = number(10, "elevation", -1000.0, 9999.9);
     result_.place = place;
   }

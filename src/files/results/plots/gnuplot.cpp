@@ -129,7 +129,7 @@ std::string last_message(std::string_view messages) {
   messages = messages.substr(0, end + 1);
   messages.remove_prefix(messages.find_last_of("\r\n") + 1);  // if there is none, npos + 1 is 0
   messages.remove_prefix(messages.find_first_not_of(blanks));
-  return printable(messages.substr(0, longest));
+  return printable(shortened(messages, longest));
 }
 
 // Waits until gnuplot ends; kills it after the time limit or if its output is too large. Returns why it failed, or nothing.

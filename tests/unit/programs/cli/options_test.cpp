@@ -314,6 +314,8 @@ TEST(Options, MistakesAreNamed) {
             "sunfleck --help");
   EXPECT_EQ(refusal({"run", "a.toml", "--size", "3\nx"}),
             "--size 3?x (must be WIDTHxHEIGHT, each 64..8192); give 1600x1200, for example");
+  for (const char* size : {"4294967360x4294967360", "64", "64x", "x64", "63x64", "64x8193", "64x64x64"})
+    EXPECT_NE(refusal({"run", "a.toml", "--size", size}).find("each 64..8192"), std::string::npos) << size;
 }
 
 // Each warning names the option; options that have an effect cause none.
