@@ -146,6 +146,9 @@ class Window:
         self.wait_until_input_is_taken()
         return self.heard_or_awaited("restarted", because=because)["wish"]
 
+    def saved_files(self):
+        return [event["file"] for event in self.events if event["event"] == "saved"]
+
     def wait_until_input_is_taken(self):
         """Input is taken in its order. The second of two key presses, each answered by an event, comes after whatever the frame of
         the first one had to tell of the input before it."""
@@ -379,39 +382,34 @@ class WindowTest(unittest.TestCase):
 
     def test_every_chart_can_be_chosen(self):
         window = self.open("--chart", "map")
-        def saves():
-            return [event["file"] for event in window.events if event["event"] == "saved"]
-
         charts = ("rank", "rank-interval", "rank-log", "hue", "map")
         for chart in ("hue", "rank-log", "map"):
-            self.click(window.place("chart"))
+            self.click_until(window, "chart", lambda: f"chart/{chart}" in window.controls)
             for listed in charts:
                 window.place(f"chart/{listed}")
             time.sleep(0.5)  # the list gets its place in its second frame
             window.take_waiting()
-            self.click(window.place(f"chart/{chart}"))
-            before = len(saves())
-            self.click_until(window, "save_picture", lambda: len(saves()) > before)
-            self.assertIn(f"view_{chart}_", saves()[-1])
+            self.click_until(window, f"chart/{chart}", lambda: f"chart/{chart}" not in window.controls)
+            before = len(window.saved_files())
+            self.click_until(window, "save_picture", lambda: len(window.saved_files()) > before)
+            self.assertIn(f"view_{chart}_", window.saved_files()[-1])
         self.expect_clean_end(window)
 
     def test_pictures_have_the_chosen_size(self):
         window = self.open()
         window.heard_or_awaited("converged", wish=1)
         window.heard_or_awaited("picture", wish=1)
-        def saves():
-            return [event["file"] for event in window.events if event["event"] == "saved"]
 
         def last_saved():
-            return read_png(os.path.join(self.folder, saves()[-1]))
+            return read_png(os.path.join(self.folder, window.saved_files()[-1]))
 
         def has_own_size():
             window.wait_until_input_is_taken()  # which ends with a saved picture
             return last_saved().shape == (1200, 1600, 3)
 
         self.click_until(window, "own_size", has_own_size, share=0.1)
-        before = len(saves())
-        self.click_until(window, "save_picture", lambda: len(saves()) > before)
+        before = len(window.saved_files())
+        self.click_until(window, "save_picture", lambda: len(window.saved_files()) > before)
         saved = last_saved()
         self.assertEqual(saved.shape, (1200, 1600, 3))
         self.run_program("render", "leaves.toml", "--device", "lavapipe", "-o", "rendered.png", "--quiet")

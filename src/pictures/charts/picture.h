@@ -33,7 +33,7 @@ struct PictureOptions {
   // Plots shown along X and along Z if the plot is periodic; odd, with the plot itself in the middle. None: as many as the view
   // needs.
   std::optional<int> repeat;
-  // Upper end of the scales of rank_interval, rank_log and map; none: chosen from the values.
+  // Upper end of the scales of rank_interval, rank_log and map, and of the soil in rank charts; none: chosen from the values.
   std::optional<double> top_w_m2;
 };
 

@@ -167,9 +167,8 @@ void print_copies(const ordered_json& info) {
   const ordered_json& organs = info["coincident_organs"];
   if (organs.empty()) return;
   const auto coincident = info["coincident_triangles"].get<std::size_t>();
-  fmt::print("{} with earlier ones and {} no light:\n",
-             coincident == 1 ? "1 triangle coincides" : fmt::format("{} triangles coincide", coincident),
-             coincident == 1 ? "receives" : "receive");
+  fmt::print("{} {} no light:\n", counted(coincident, "triangle"),
+             coincident == 1 ? "coincides with an earlier one and receives" : "coincide with earlier ones and receive");
   const auto name = [](const ordered_json& organ) {
     return fmt::format("{} of plant {}", printable(organ["organ"].get<std::string>()), organ["plant"].get<std::uint32_t>());
   };

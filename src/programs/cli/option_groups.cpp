@@ -101,8 +101,10 @@ void add_pictures(CLI::App& command, PictureOptions& options, OptionWords& words
       ->check(one_of(view_names()))
       ->capture_default_str();
   group
-      .add_option("--range", options.top_w_m2,
-                  "Upper end of the scale of rank-interval, rank-log and map, W m-2 (default: close to the largest value)")
+      .add_option(
+          "--range", options.top_w_m2,
+          "Upper end of the scale of rank-interval, rank-log and map, and of the soil in rank charts, W m-2 (default: close to "
+          "the largest value)")
       ->check(positive());
   group.add_option("--size", words.size, "Picture size in pixels, WxH")->capture_default_str();
   group.add_option("--samples", options.samples, "Samples per pixel")->transform(whole_number(1, 256))->capture_default_str();

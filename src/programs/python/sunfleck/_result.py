@@ -262,7 +262,7 @@ class Result:
 
         chart: rank, rank-interval, rank-log, hue or map. field: direct, sky, indirect, total, absorbed or scattered. band: by default the
             first. view: camera, top, side or fisheye. size: (width, height), each 64..8192. samples: per pixel, 1..256.
-        repeat: N x N copies of a periodic plot, N odd up to 9; by default 1, or enough for a horizon in a view upwards. range: upper end of the scale of rank-interval, rank-log and map, W m-2.
+        repeat: N x N copies of a periodic plot, N odd up to 9; by default 1, or enough for a horizon in a view upwards. range: upper end of the scale of rank-interval, rank-log and map, and of the soil in rank charts, W m-2.
         """
         width, height = size
         pixels = (whole(width, "size", 64, 8192), whole(height, "size", 64, 8192))
