@@ -41,20 +41,14 @@ do for [i = 1:n] {
   }
 }
 
-# The law error = factor * rays ** slope of each pass and quantity, by least squares of the logarithms.
-array slope[8]; array factor[8]
+# The law error = factor * rays ** slope that the program fitted to each pass and quantity, and the half-width of the slope.
+array slope[8]; array factor[8]; array half_width[8]
 do for [p = 1:2] {
   do for [q = 1:4] {
-    m = 0; sx = 0.0; sy = 0.0; sxx = 0.0; sxy = 0.0
-    do for [i = 1:n] {
-      if (of_kind(i, p) && percent[4 * i + q] > 0 && rays[i] > 0) {
-        x = log(rays[i]); y = log(percent[4 * i + q])
-        m = m + 1; sx = sx + x; sy = sy + y; sxx = sxx + x * x; sxy = sxy + x * y
-      }
-    }
-    spread = m * sxx - sx * sx
-    slope[4 * p - 4 + q] = m > 1 && spread > 1e-9 * m * sxx ? (m * sxy - sx * sy) / spread : NaN
-    factor[4 * p - 4 + q] = m > 0 ? exp((sy - slope[4 * p - 4 + q] * sx) / m) : NaN
+    law = past(' ' . quantity[q] . ' ', past('of the slope:', after('error of ' . light[p] . ' light')))
+    factor[4 * p - 4 + q] = 100 * number(law)
+    slope[4 * p - 4 + q] = number(word(law . ' - -', 2))
+    half_width[4 * p - 4 + q] = number(word(law . ' - - -', 3))
   }
 }
 set datafile separator whitespace
@@ -89,23 +83,36 @@ set style line 10 linecolor rgb '#000000' linewidth 1.4 pointtype 6 pointsize 2.
 centimetres(m) = m < 0.01 ? sprintf('%.3g mm', 1000 * m) : sprintf('%.3g cm', 100 * m)
 name(kind, value) = kind eq 'grid' ? centimetres(value) : kind eq 'mesh' ? sprintf('mesh %.3g', value) : kind eq 'error' ? sprintf('%.3g', value) \
   : value >= 1024 ? sprintf('%.0f k', value / 1024) : sprintf('%.0f', value)
-apart(a, b, ratio) = a > ratio * b || b > ratio * a
+# Where the names placed so far in a panel are, in pixels, and whether they would hide one at this height.
+array text_from[n + 1]; array text_width[n + 1]; array text_height[n + 1]
+overlap(i, j) = text_from[i] < text_from[j] + text_width[j] && text_from[j] < text_from[i] + text_width[i]
+hidden(i, height_of_text) = (sum [j = 1:i - 1] (overlap(i, j) && abs(height_of_text - text_height[j]) < 21)) > 0
 across(i, p) = p < 3 ? rays[i] : time[i]
 array across_title[3] = ['Rays', 'Packets', 'Time of a run (s)']
 signed(x) = x == x ? (x < 0 ? '−' : '') . sprintf('%.2f', abs(x)) : ''
+with_error(x, half) = signed(x) . (x == x && half == half ? sprintf(' ± %.2f', half) : '')
 
 array end_place[4]; array end_error[4]
 do for [p = 1:3] {
   # Columns: rays or time, the errors of the four quantities, their fitted laws, whether the mesh is coarser.
-  first = 1e300; last = 0.0
-  at_place = 0.0; at_error = 0.0; lines_up = 0.75
+  first = p == 3 && seconds > 0 ? seconds : 1e300; last = p == 3 && seconds > 0 ? seconds : 0.0
+  do for [i = 1:n] {
+    if (of_kind(i, p) && across(i, p) > 0) {
+      first = across(i, p) < first ? across(i, p) : first
+      last = across(i, p) > last ? across(i, p) : last
+    }
+  }
+  nothing = last == 0
+  if (nothing) { first = 1.0; last = 1.0 }
+  least = first / 2.2
+  room = (last / least) ** (p < 3 ? 0.6 : 0.3) # a slope with its error takes three eighths of the width
+  most = last * (room > 7 ? room : 7)
+  named = 0
   unset label; unset arrow
   set print $points
   print 'NaN NaN NaN NaN NaN NaN NaN NaN NaN 0'
   do for [i = 1:n] {
     if (of_kind(i, p) && across(i, p) > 0) {
-      first = across(i, p) < first ? across(i, p) : first
-      last = across(i, p) > last ? across(i, p) : last
       top = 0.0; row = sprintf('%.9g', across(i, p))
       do for [q = 1:4] {
         top = percent[4 * i + q] > top ? percent[4 * i + q] : top
@@ -116,10 +123,18 @@ do for [p = 1:3] {
         row = row . sprintf(' %.9g', percent[4 * i + q] > 0 ? fitted : NaN)
       }
       print row . (word(settings, 2 * i - 1) eq 'mesh' ? ' 1' : ' 0')
-      if (top > 0 && (apart(across(i, p), at_place, 1.15) || apart(top, at_error, 1.3))) {
-        lines_up = apart(across(i, p), at_place, 1.6) || lines_up > 1 ? 0.75 : 1.7
-        at_place = across(i, p); at_error = top
-        set label name(word(settings, 2 * i - 1), real_of(word(settings, 2 * i))) at across(i, p),top left offset 0.6,lines_up font ',16' textcolor '#404040' front
+      if (top > 0) {
+        its_name = name(word(settings, 2 * i - 1), real_of(word(settings, 2 * i)))
+        named = named + 1; up = 18
+        text_from[named] = 8 + 440 * log(across(i, p) / least) / log(most / least)
+        text_width[named] = 14 * strlen(its_name) + 8
+        text_height[named] = 555 * log(top / lowest * 2.5) / log(highest / lowest * 25)
+        while (up < 45 && hidden(named, text_height[named] + up)) { up = up + 3 }
+        # A name for which there is no room is left out.
+        if (up < 45) {
+          text_height[named] = text_height[named] + up
+          set label its_name at across(i, p),top left offset screen 8 / width,up / height font ',16' textcolor '#404040' front
+        } else { named = named - 1 }
       }
     }
   }
@@ -137,13 +152,11 @@ do for [p = 1:3] {
     if (next > 0) {
       at_error = end_error[next] > free ? end_error[next] : free
       free = at_error * line
-      set label signed(slope[4 * p - 4 + next]) at end_place[next],at_error left offset 1.2,0 font ',17' textcolor rgb colour[next]
+      set label with_error(slope[4 * p - 4 + next], half_width[4 * p - 4 + next]) at end_place[next],at_error left offset screen 14 / width,0 font ',15' textcolor rgb colour[next]
       end_error[next] = NaN
     }
   }
   if (p == 3 && seconds > 0) {
-    first = seconds < first ? seconds : first
-    last = seconds > last ? seconds : last
     set arrow from graph 0,first 100 * asked to graph 1,first 100 * asked nohead back linestyle 9
     set arrow from seconds,graph 0 to seconds,first 100 * asked nohead back linestyle 9
     set label '' at seconds,100 * expected point linestyle 10 front
@@ -151,7 +164,7 @@ do for [p = 1:3] {
     set label up_to(':', advice) . ':' at graph 0.96,0.95 right font ',17' front
     set label past(': ', up_to(' on this', advice)) at graph 0.96,0.895 right font ',17' front
   }
-  if (last == 0) { set label 'nothing measured' at graph 0.5,0.5 center; first = 1.0; last = 1.0 }
+  if (nothing) { set label 'nothing measured' at graph 0.5,0.5 center }
   if (p == 1) {
     set label cut(title, 84) at screen 0.5,(1 - 40 / height) center font ',25' textcolor '#101010'
     set label 'Points: measured. Lines and numbers of the two passes: fitted powers of the number of rays' \
@@ -167,8 +180,8 @@ do for [p = 1:3] {
   left = 150 + 490 * (p - 1)
   set lmargin at screen left / width
   set rmargin at screen (left + 440) / width
-  room = (last / first) ** 0.35
-  set xrange [first / 2.2:last * (room > 7 ? room : 7)]
+  set xrange [least:most]
+  if (most / least > 1e5) { set xtics 1,100 } else { set xtics autofreq }
   set title panel[p] offset 0,-0.3
   set xlabel across_title[p] offset 0,0.2
   set format x p < 3 ? '%.0s %c' : '%g'

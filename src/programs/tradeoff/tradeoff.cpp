@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace sunfleck {
@@ -64,7 +65,9 @@ std::string slopes_line(const TradeoffReport& report, TradeoffSeries series, std
   std::string line;
   for (const TradeoffFit& fit : report.fits) {
     if (fit.series != series) continue;
+    const double half_width = fit.of_rays.half_width(report.record.accuracy.confidence);
     line += fmt::format("{} {} {:.2f}", line.empty() ? "" : ",", quantity_name(fit.quantity), fit.of_rays.exponent);
+    if (std::isfinite(half_width)) line += fmt::format(" ± {:.2f}", half_width);
   }
   return line.empty() ? line : fmt::format("  error of {} light falls as rays to the power of{}\n", light, line);
 }
@@ -84,8 +87,8 @@ void say_what_lacks(const TradeoffOptions& options, const TradeoffReport& report
     warn(fmt::format("{} after {} settings; they are kept and marked incomplete", why, report.levels.size()));
   }
   if (!report.recommendation && report.record.complete)
-    warn(fmt::format("no bound is recommended: this reference cannot resolve the error per {}; give more --rays",
-                     options.quantity));
+    warn(fmt::format("no bound is recommended: this reference does not resolve errors near {:g} % per {}; give more --rays",
+                     100.0 * options.requested_error, options.quantity));
 }
 
 }  // namespace

@@ -12,6 +12,8 @@ namespace {
 // the time grows at most with the square of the bound's inverse, as packets do.
 constexpr double least_error_slope = 0.5, most_error_slope = 1.0;
 constexpr double most_time_slope = 2.0;
+// A bound is extrapolated down to this share of the finest one measured; what is forecast beyond that means nothing.
+constexpr double least_extrapolated = 0.1;
 
 double rms(const TradeoffLevel& level, Quantity quantity) {
   double squares = 0.0;
@@ -134,6 +136,7 @@ std::optional<Recommendation> recommend(const std::vector<TradeoffLevel>& levels
   }
   found.bound = two_digits_down(std::exp(bound));
   bound = std::log(found.bound);
+  if (bound < steps.back().bound + std::log(least_extrapolated)) return {};
   found.extrapolated = bound < steps.back().bound - 0.01;
   found.expected = std::exp(interpolated(steps, &Step::bound, &Step::error, bound, least_error_slope, most_error_slope));
   // A wider bound takes less time, so the slope of the seconds is negative.

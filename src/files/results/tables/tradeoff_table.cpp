@@ -33,6 +33,20 @@ ordered_json by_quantity(const std::array<double, 4>& values) {
   return json;
 }
 
+// Returns the laws that were fitted to a series, or nothing if there is none.
+std::string laws_line(const TradeoffReport& report, TradeoffSeries series) {
+  std::string laws;
+  for (const TradeoffFit& fit : report.fits) {
+    if (fit.series != series) continue;
+    const PowerLaw& law = fit.of_rays;
+    laws += fmt::format("{} {} {:.4g} {:.3f} {:.2g}", laws.empty() ? "" : ",", quantity_name(fit.quantity), law.factor,
+                        law.exponent, law.half_width(report.record.accuracy.confidence));
+  }
+  if (laws.empty()) return laws;
+  return fmt::format("# error of {} light = factor * rays^slope; factor, slope and half-width of the slope:{}\n",
+                     light_name(series), laws);
+}
+
 std::string head(const TradeoffReport& report) {
   std::string text = table_head(report.record, "Speed against accuracy: runs of several seeds against a long reference",
                                 "seconds: s, simulation alone; rays: beam and sky rays and packets; the errors: relative; "
@@ -56,6 +70,7 @@ std::string head(const TradeoffReport& report) {
     }
     text += '\n';
   }
+  text += laws_line(report, TradeoffSeries::grids) + laws_line(report, TradeoffSeries::packets);
   if (report.recommendation) text += fmt::format("# {}\n", recommendation_line(*report.recommendation));
   if (!report.record.complete) text += "# incomplete: stopped before all settings were measured\n";
   return text;

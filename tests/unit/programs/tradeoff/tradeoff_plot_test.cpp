@@ -69,6 +69,7 @@ TradeoffReport maize_report() {
                                   static_cast<std::uint64_t>(300000 * more),
                                   {0.0025 * falls, 0.01 * falls, 0.036 * falls, 1.4 * falls}));
   }
+  report.fits = fit_series(report.levels);
   report.recommendation = Recommendation{0.01, Quantity::organ, 0.0024, 20.0, 0.009, 1.1, true};
   report.marked_grid_m = 0.0015;
   return report;
@@ -92,20 +93,29 @@ TEST_F(TradeoffPlot, MarksTheRecommendationAndTheGrid) {
   EXPECT_GT(recommendation, neither + 500);
 }
 
-TEST_F(TradeoffPlot, FitsTheSlopesThatTheProgramPrints) {
-  TradeoffReport report = maize_report();
+TEST_F(TradeoffPlot, ShowsTheLawsThatTheProgramFitted) {
+  const TradeoffReport report = maize_report();
   const std::string table = folder_.write("tradeoff.csv", tradeoff_csv(report)).string();
-  const std::vector<TradeoffFit> fits = fit_series(report.levels);
+  const std::string printed = folder_.write("laws", "").string();
   std::string script = "table = '" + table + "'\nload '" + SUNFLECK_SOURCE_DIR "/share/plots/tradeoff.gp'\n";
-  for (std::size_t i = 1; i <= 8; ++i) script += fmt::format("print sprintf('%.2f', slope[{}])\n", i);
-  ASSERT_EQ(fits.size(), 8U);
-  const std::string printed = folder_.write("slopes", "").string();
-  const std::string to_file = "set print '" + printed + "'\n";
-  const std::size_t at = script.find("print sprintf");
-  EXPECT_EQ(draw_plot(script.substr(0, at) + to_file + script.substr(at), folder_ / "a.png").value_or(""), "");
+  script += "set print '" + printed + "'\n";
+  for (std::size_t i = 1; i <= 8; ++i)
+    script += fmt::format("print sprintf('%.3g %.3f %.2g', factor[{0}], slope[{0}], half_width[{0}])\n", i);
+  EXPECT_EQ(draw_plot(script, folder_ / "a.png").value_or(""), "");
+  ASSERT_EQ(report.fits.size(), 8U);
   std::string expected;
-  for (const TradeoffFit& fit : fits) expected += fmt::format("{:.2f}\n", fit.of_rays.exponent);
+  for (const auto& [series, quantity, law, of_seconds] : report.fits)
+    expected += fmt::format("{:.3g} {:.3f} {:.2g}\n", 100.0 * law.factor, law.exponent, law.half_width(0.95));
   EXPECT_EQ(test::content(printed), expected);
+}
+
+TEST_F(TradeoffPlot, WithoutLawsHasPointsAlone) {
+  TradeoffReport report = maize_report();
+  const std::size_t with_laws = picture(report).count(vermilion);
+  report.fits.clear();
+  const std::size_t without = picture(report).count(vermilion);
+  EXPECT_GT(without, 1000U);
+  EXPECT_GT(with_laws, without + 500U);
 }
 
 TEST_F(TradeoffPlot, WholeRunsAndCoarserMeshesAreDrawnToo) {

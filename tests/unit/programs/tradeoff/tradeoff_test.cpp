@@ -179,6 +179,15 @@ TEST(Recommendation, GoesBeyondTheFinestRungAndSaysSo) {
   EXPECT_NEAR(recommend(flat, 0.01, Quantity::organ)->bound, 0.005, 1e-12);
 }
 
+TEST(Recommendation, GoesNoFurtherThanATenthOfTheFinestRung) {
+  const std::vector<TradeoffLevel> levels{bound_level(0.04, 1.0, {0.04}), bound_level(0.02, 4.0, {0.02})};
+  const auto found = recommend(levels, 0.00201, Quantity::organ);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->bound, 0.002, 1e-12);
+  EXPECT_FALSE(recommend(levels, 0.00199, Quantity::organ));
+  EXPECT_FALSE(recommend(levels, 1e-9, Quantity::organ));
+}
+
 TEST(Recommendation, StaysAtTheWidestBoundWhereThatIsEnough) {
   const std::vector<TradeoffLevel> levels{bound_level(0.04, 1.0, {0.004}), bound_level(0.02, 4.0, {0.002})};
   const auto found = recommend(levels, 0.01, Quantity::organ);
