@@ -14,27 +14,25 @@ with the same errors; an infinite canopy really is infinite.
 from __future__ import annotations
 
 import math
-import os
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Optional, Union
 
 import numpy as np
 
+from ._caribu_input import (
+    Light, Material, both_faces, checked_lights, checked_material, checked_pattern, checked_scene, descent_deg, four,
+)  # fmt: skip
 from ._errors import refuse
 from ._options import bound, real
 from ._progress import Progress
 from ._result import Result
 from ._simulation import Simulation
 
-Light = tuple[float, Sequence[float]]
-Material = tuple[float, ...]  # one, two or four fractions
-
 _METRES = {"mm": 0.001, "cm": 0.01, "dm": 0.1, "m": 1.0, "dam": 10.0, "hm": 100.0, "km": 1000.0}
 _BOUNDED = {"canopy": "canopy", "primitive": "organ", "triangle": "triangle"}  # what `error` bounds, and the scene's word for it
 _LEAST_SHARE_OF_EXTENT = 1e-3  # gives a canopy that is a line or a point from above a plot
-_LEAST_DESCENT_DEG = 0.01  # lower light is biased by percents at 0.001 degrees, and lost at 0.0001
 
 
 class CaribuScene:
@@ -74,9 +72,9 @@ class CaribuScene:
         if not isinstance(scene_unit, str) or scene_unit not in _METRES:
             refuse(f"scene_unit = {scene_unit!r}", "unknown unit", f"use {', '.join(_METRES)}")
         self.scene_unit = scene_unit
-        self.scene = _checked_scene(scene)
-        self.light = _checked_lights(light) or [self.default_light]
-        self.pattern = _checked_pattern(pattern)
+        self.scene = checked_scene(scene)
+        self.light = checked_lights(light) or [self.default_light]
+        self.pattern = checked_pattern(pattern)
         bands = self._bands(opt, soil_reflectance)
         self.material = {band: self._materials(opt[band] if opt else self.default_material, band) for band in bands}
         self.soil_reflectance = {band: self._soil_of(soil_reflectance, band) for band in bands}
@@ -160,14 +158,14 @@ class CaribuScene:
 
     def _materials(self, given: Any, band: str) -> dict[Any, Material]:
         if not isinstance(given, Mapping):
-            return dict.fromkeys(self.scene, _checked_material(given, f"opt[{band!r}]"))
+            return dict.fromkeys(self.scene, checked_material(given, f"opt[{band!r}]"))
         fallback = given.get("default")
         materials = {}
         for primitive in self.scene:
             material = given.get(primitive, fallback)
             if material is None:
                 refuse(f"opt[{band!r}]", f"primitive {primitive!r} has no material", "give its material, or a 'default'")
-            materials[primitive] = _checked_material(material, f"opt[{band!r}][{primitive!r}]")
+            materials[primitive] = checked_material(material, f"opt[{band!r}][{primitive!r}]")
         return materials
 
     def _soil_of(self, given: Union[float, Mapping[str, float], None], band: str) -> float:
@@ -216,11 +214,11 @@ class CaribuScene:
 
     def _domain(self, corners: np.ndarray, unit: float) -> tuple[float, float, float, float]:
         if self.pattern is not None:
-            return _four(unit * edge for edge in self.pattern)
+            return four(unit * edge for edge in self.pattern)
         lo, hi = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
         least = max(_LEAST_SHARE_OF_EXTENT * float((hi - lo).max()), 1e-6)
         spare = np.maximum(0.5 * (least - (hi - lo)), 0.0)
-        return _four(float(edge) for edge in (*(lo - spare)[:2], *(hi + spare)[:2]))
+        return four(float(edge) for edge in (*(lo - spare)[:2], *(hi + spare)[:2]))
 
     def _band_names(self, direct: bool) -> list[str]:
         """Returns band names valid in tables. Without scattered light one band represents all."""
@@ -257,7 +255,7 @@ class CaribuScene:
         if not shining:
             return {"band": [{"name": band} for band in bands]}
         energy, (x, y, z) = shining[0]
-        elevation = _descent_deg((x, y, z))
+        elevation = descent_deg((x, y, z))
         azimuth = math.degrees(math.atan2(-x, -y)) % 360.0
         return {
             "sun": {"elevation": elevation, "azimuth": azimuth},
@@ -351,102 +349,15 @@ def _on_soil(result: Result, band: str, reflectance: float) -> float:
 
 def _absorptances(material: Material) -> tuple[float, float]:
     """Returns the absorptances of the upper and the lower face."""
-    reflectance_up, transmittance_up, reflectance_down, transmittance_down = _faces(material)
+    reflectance_up, transmittance_up, reflectance_down, transmittance_down = both_faces(material)
     return 1.0 - reflectance_up - transmittance_up, 1.0 - reflectance_down - transmittance_down
-
-
-def _faces(material: Material) -> tuple[float, float, float, float]:
-    if len(material) == 1:
-        return material[0], 0.0, material[0], 0.0
-    return _four(material if len(material) == 4 else (*material, *material))
-
-
-def _four(numbers: Iterable[float]) -> tuple[float, float, float, float]:
-    a, b, c, d = numbers
-    return a, b, c, d
 
 
 def _surface(materials: list[Material], bands: list[str]) -> dict[str, Any]:
     """Returns an [optics] table from one material per band."""
-    faces = [_faces(material) for material in materials]
+    faces = [both_faces(material) for material in materials]
     side = lambda first: {  # noqa: E731
         "reflectance": {band: face[first] for band, face in zip(bands, faces)},
         "transmittance": {band: face[first + 1] for band, face in zip(bands, faces)},
     }
     return {"upper": side(0), "lower": side(2)}
-
-
-def _checked_scene(scene: Any) -> dict[Any, np.ndarray]:
-    if isinstance(scene, (str, os.PathLike)):
-        refuse("scene", "is a file", "run it with `sunfleck run STAND.can --optics ... --light ... --domain ...`, or convert it")
-    if not isinstance(scene, Mapping) or not scene:
-        refuse(f"scene: {type(scene).__name__}", "must be a dict with at least one primitive", "give {name: [triangle, ...]}")
-    checked = {}
-    for primitive, triangles in scene.items():
-        try:
-            array = np.asarray(triangles, dtype=float)
-        except (TypeError, ValueError):
-            array = np.empty(())
-        if array.shape == (0,):
-            array = np.empty((0, 3, 3))
-        if array.ndim != 3 or array.shape[1:] != (3, 3):
-            refuse(f"scene[{primitive!r}]: shape {array.shape}", "must be a list of triangles of three points (x, y, z)", "reshape it")
-        if not np.isfinite(array).all():
-            refuse(f"scene[{primitive!r}]", "contains NaN or infinity", "remove or repair these triangles")
-        checked[primitive] = array
-    if not any(len(array) for array in checked.values()):
-        refuse("scene", "has no triangles", "give at least one")
-    return checked
-
-
-def _checked_lights(lights: Any) -> list[Light]:
-    try:
-        given = [] if lights is None else list(lights)
-    except TypeError:
-        refuse(f"light: {type(lights).__name__}", "must be a list of (energy, (x, y, z))", "put the light into a list")
-    return [_checked_light(light, number) for number, light in enumerate(given)]
-
-
-def _checked_light(light: Any, number: int) -> Light:
-    place = f"light[{number}]"
-    try:
-        energy, (x, y, z) = light
-    except (TypeError, ValueError):
-        refuse(place, "must be (energy, (x, y, z))", "give the irradiance of a horizontal plane and the direction of travel")
-    energy, way = real(energy, f"{place} energy"), tuple(real(value, f"{place} direction") for value in (x, y, z))
-    if energy < 0.0:
-        refuse(f"{place} energy = {energy}", "must not be negative", "give an irradiance")
-    if way[2] >= 0.0:
-        refuse(f"{place} direction = {way}", "light must travel downwards, z < 0", "reverse its sign")
-    if _descent_deg(way) < _LEAST_DESCENT_DEG:
-        refuse(f"{place} direction = {way}", f"must descend by {_LEAST_DESCENT_DEG} degrees or more", "leave this light out")
-    return energy, way
-
-
-def _descent_deg(way: Sequence[float]) -> float:
-    x, y, z = way
-    return math.degrees(math.atan2(-z, math.hypot(x, y)))
-
-
-def _checked_pattern(pattern: Any) -> Optional[tuple[float, float, float, float]]:
-    if pattern is None:
-        return None
-    flat = np.asarray(pattern, dtype=object).ravel().tolist()
-    if len(flat) != 4:
-        refuse(f"pattern: {len(flat)} numbers", "must be (xmin, ymin, xmax, ymax)", "give four numbers")
-    x_lo, y_lo, x_hi, y_hi = (real(value, "pattern") for value in flat)
-    if not (x_lo < x_hi and y_lo < y_hi):
-        refuse(f"pattern = {tuple(flat)}", "has no area", "give (xmin, ymin, xmax, ymax)")
-    return x_lo, y_lo, x_hi, y_hi
-
-
-def _checked_material(material: Any, place: str) -> Material:
-    if not isinstance(material, Sequence) or isinstance(material, str) or len(material) not in (1, 2, 4):
-        refuse(
-            f"{place} = {material!r}", "must be (reflectance,), (reflectance, transmittance) or both pairs by face", "give a tuple"
-        )
-    checked = tuple(real(value, place) for value in material)
-    for reflectance, transmittance in (_faces(checked)[:2], _faces(checked)[2:]):
-        if reflectance < 0.0 or transmittance < 0.0 or reflectance + transmittance > 1.0:
-            refuse(f"{place} = {material!r}", "reflectance and transmittance are fractions, together at most 1", "correct them")
-    return checked
