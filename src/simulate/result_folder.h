@@ -57,7 +57,7 @@ struct ProfileOverlays {
 // Reads the overlays, before any work starts. Throws Error (input).
 [[nodiscard]] ProfileOverlays read_overlays(const ResultRequest& request, const RadiationModel& model);
 
-// Throws Error (input) for pictures that the scene cannot provide.
+// Throws Error (input) for pictures that the scene cannot provide, and warns of planes if it has none.
 void check_pictures(const ResultRequest& request, const RadiationModel& model);
 
 // Returns whether exports or pictures show the light of single triangles, which the simulation must then estimate.

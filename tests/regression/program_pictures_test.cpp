@@ -193,6 +193,16 @@ TEST_F(Pictures, OfLightThatIsNotThereAreLeftOut) {
   EXPECT_FALSE(exists("rank_indirect.png") || exists("hue_total.png"));
 }
 
+TEST_F(Pictures, OfPlanesThatAreNotThereAreNamed) {
+  const Arguments planes{"--images", "planes", "--device", "cpu", "--passes", "8", "--grid", "0.1"};
+  const Outcome outcome = run(Arguments{"run", "plates.toml", "-o", "out"} + planes);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: --images planes draws nothing; give the scene a [[plane]]"), std::string::npos)
+      << outcome.err;
+  folder_.write("plane.toml", std::string(plates_scene) + "[[plane]]\nheight = 0.5\n");
+  EXPECT_EQ(run(Arguments{"run", "plane.toml", "-o", "out"} + planes).err.find("draws nothing"), std::string::npos);
+}
+
 TEST_F(Pictures, AsExrHoldTheValuesThemselves) {
   simulate("plates.toml", quick_picture + Arguments{"--images", "none", "--export", "csv"});
   draw({"out", "--field", "direct", "--view", "top", "-o", "values.exr"});

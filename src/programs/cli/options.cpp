@@ -104,6 +104,7 @@ void warn_of_pictures_not_drawn(const CLI::App& command, RunOptions& options) {
   } else if (!draws_any(options, [](const Picture& picture) { return has_top(picture.chart); })) {
     warn_without_effect(command, {"--range"}, no_upper_end, options);
   }
+  if (draws(options, "none")) warn_without_effect(command, {"--band"}, "--images none draws no picture", options);
   if (!draws(options, "all") && !draws(options, "profile")) {
     warn_without_effect(command, {"--compare"}, "profile.png is not among the --images", options);
   }

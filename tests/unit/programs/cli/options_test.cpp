@@ -328,7 +328,7 @@ TEST(Options, WithoutEffectAreNamed) {
   const auto of_run = [&](std::initializer_list<const char*> words) { return names_of(parse_run(words)); };
   using Names = std::vector<std::string>;
   EXPECT_EQ(of_run({"run", "a.toml", "--images", "none", "--size", "80x80", "--compare", "b", "--band", "PAR"}),
-            (Names{"--size", "--compare"}));
+            (Names{"--size", "--band", "--compare"}));
   EXPECT_EQ(of_run({"run", "a.toml", "--images", "hue_total", "--compare", "b", "--range", "9"}),
             (Names{"--range", "--compare"}));
   EXPECT_EQ(of_run({"run", "a.toml", "--images", "profile,planes", "--compare", "b", "--view", "top"}), Names{"--view"});
