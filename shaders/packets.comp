@@ -16,7 +16,8 @@ layout(constant_id = 1) const bool has_soil = true;
 layout(set = 0, binding = 2, scalar) readonly buffer Scene { PacketBlock scene; };
 layout(set = 0, binding = 3, scalar) readonly buffer Packets { Packet packets[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Landings { Landing landings[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer PacketOrder { uint ordered_packets; uint packet_order[]; };  // the order in which packets are followed
+// The order in which packets are followed.
+layout(set = 0, binding = 5, scalar) readonly buffer PacketOrder { uint ordered_packets; uint packet_order[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer Inbox { uint inbox_count; PausedPacket inbox[]; };
 layout(set = 0, binding = 7, scalar) buffer Outbox { uint outbox_count; PausedPacket outbox[]; };
 layout(push_constant, scalar) uniform Push { PacketPush push; };

@@ -5,7 +5,6 @@
 #include "base/sealed_file.h"
 #include "base/version.h"
 #include "files/results/exports/exports.h"
-#include "files/results/tables/result_writer.h"
 #include "files/results/tables/work_settings.h"
 #include "simulate/result_folder.h"
 

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 

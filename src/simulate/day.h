@@ -18,7 +18,6 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <vector>
 
 namespace sunfleck {
 

@@ -6,7 +6,7 @@
 #include "files/results/exports/day_netcdf.h"
 #include "files/results/exports/organ_steps_netcdf.h"
 #include "files/results/exports/plane_day_netcdf.h"
-#include "files/results/tables/day_receivers.h"
+#include "files/results/tables/day_tables.h"
 #include "files/results/tables/plane_day.h"
 #include "files/results/tables/table_text.h"
 #include "pictures/charts/pictures.h"

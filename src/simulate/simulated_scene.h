@@ -10,7 +10,6 @@
 #include "pictures/charts/pictures.h"
 
 #include <memory>
-#include <string>
 
 namespace sunfleck {
 

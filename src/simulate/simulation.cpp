@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/stopwatch.h"
 #include "base/version.h"
 #include "devices/tracers/cpu_tracer.h"
 #include "physics/light/beam_grid.h"

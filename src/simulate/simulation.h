@@ -12,8 +12,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
-#include <span>
 
 namespace sunfleck {
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "base/check.h"
 #include "base/error.h"

@@ -1,6 +1,5 @@
 #include "devices/tracers/engine.h"
 
-#include "base/error.h"
 #include "base/log.h"
 #include "devices/tracers/cpu_tracer.h"
 #include "devices/tracers/vulkan_tracer.h"

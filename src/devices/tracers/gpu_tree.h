@@ -2,7 +2,6 @@
 // The tree on the device, shared by everything that traces it.
 
 #include "devices/gpu/buffer.h"
-#include "devices/gpu/compute.h"
 #include "physics/bvh/bvh.h"
 
 namespace sunfleck {

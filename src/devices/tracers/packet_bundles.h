@@ -1,8 +1,8 @@
 #pragma once
 // Follows packets of one direction, such as rays towards the sun, in bundles that share their visits to the tree.
 
-#include "devices/tracers/cpu_walk.h"
 #include "devices/tracers/trace_domain.h"
+#include "physics/bvh/bvh.h"
 #include "shared/layout.h"
 
 #include <span>

@@ -1,5 +1,7 @@
 #include "devices/tracers/packet_order.h"
 
+#include "shared/rounds.h"
+
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 

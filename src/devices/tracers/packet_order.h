@@ -1,7 +1,7 @@
 #pragma once
 // The order in which packets are traced side by side.
 
-#include "shared/rounds.h"
+#include "shared/layout.h"
 
 #include <cstdint>
 #include <span>

@@ -96,8 +96,8 @@ class RoundBuffers {
   [[nodiscard]] std::vector<const GpuBuffer*> of(std::size_t lane, const OtherBuffer& instead = {}) const;
 
  private:
-  using Buffers =
-      std::array<GpuBuffer, round_buffer_count>;  // in a lane those of the scene are missing, and the other way round
+  // In a lane those of the scene are missing, and the other way round.
+  using Buffers = std::array<GpuBuffer, round_buffer_count>;
 
   void make_room(const RoundSizes& sizes, bool of_scene, Buffers& buffers);
 

@@ -14,7 +14,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <vector>
 
 namespace sunfleck {
 

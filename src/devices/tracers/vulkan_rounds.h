@@ -11,7 +11,6 @@
 #include "devices/tracers/round_steps.h"
 #include "devices/tracers/trace_domain.h"
 #include "devices/tracers/vulkan_choices.h"
-#include "physics/transport/indirect/device_rounds.h"
 #include "physics/transport/model/tracer.h"
 
 #include <cstddef>

@@ -6,6 +6,7 @@
 #include "base/check.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>

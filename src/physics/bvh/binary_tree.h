@@ -6,7 +6,6 @@
 
 #include <oneapi/tbb/parallel_invoke.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -1,7 +1,5 @@
 #include "physics/bvh/encode.h"
 
-#include "base/check.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>

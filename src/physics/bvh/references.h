@@ -37,10 +37,9 @@ struct ImageRanges {
 
 // Returns the references to all elements with corners of their own. In a periodic plot an element whose box reaches beyond the
 // border is referenced again wherever a copy of it, shifted by whole periods, reaches into the plot enlarged by border_margin_m
-// on every side. The order is by element, with image (0, 0) first if it reaches into the plot. A centroid in the plot does not
-// by itself make image (0, 0) a reference of the period, but the element's own box always overlaps the plot, so it is one.
-// Elements whose area_m2 is 0 and copies of earlier elements have no reference, so nothing can hit them. Throws Error (input)
-// for more than 2^31 references, or for a copy 2^15 periods away.
+// on every side. The order is by element, with image (0, 0) first if it reaches into the plot. That of a wrapped element always
+// does, since its centroid lies in the plot. Elements whose area_m2 is 0 and copies of earlier elements have no reference, so
+// nothing can hit them. Throws Error (input) for more than 2^31 references, or for a copy 2^15 periods away.
 [[nodiscard]] std::vector<Reference> make_references(const Canopy& canopy);
 
 // Returns the corners of a reference: the element's corners + (dx * period x, 0, dz * period z), summed in double, rounded

@@ -2,7 +2,6 @@
 
 #include "base/check.h"
 #include "base/error.h"
-#include "physics/light/sky_model.h"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,6 @@
 #include <future>
 #include <list>
 #include <memory>
-#include <utility>
 
 namespace sunfleck {
 namespace {

@@ -2,6 +2,7 @@
 // The work of a rank other than 0: it makes the replicates that rank 0 orders, until rank 0 ends it.
 
 #include "physics/transport/indirect/replicate.h"
+#include "physics/transport/model/tracer.h"
 #include "simulate/cluster/mailbox.h"
 
 #include <chrono>

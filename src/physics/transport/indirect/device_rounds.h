@@ -18,14 +18,14 @@ namespace sunfleck {
 struct RoundsOrder {
   const IndirectScene& scene;
   const WaitingFlux& places;  // where flux waits before the first round, but for the landings
-  std::shared_ptr<const KeptLandings>
-      landings;                      // kept by the tracer; packets also start from block.sampled of them; null: none
+  // Kept by the tracer; packets also start from block.sampled of them. Null: none.
+  std::shared_ptr<const KeptLandings> landings;
   shared::PassBlock block;           // `choices` are the device's own
   double packets = 0.0;              // of the first round, approximately; no round has many more unless packets are aimed
   std::vector<std::uint64_t> faces;  // coefficients: what each reflects, then what each scatters, [face * columns + column]
   std::vector<shared::RoundColumn> columns;  // [column]
-  std::vector<std::uint64_t>
-      totals;  // the small sums (shared/rounds.h), then what moved, [place of the stacks * columns + column]
+  // The small sums (shared/rounds.h), then what moved, [place of the stacks * columns + column].
+  std::vector<std::uint64_t> totals;
 
   // Returns for how many packets a round has room: each column may need a least number of its own. Only where packets are aimed may a
   // round draw more.

@@ -10,7 +10,6 @@
 #include "physics/transport/indirect/indirect_scene.h"
 #include "physics/transport/indirect/packet_books.h"
 #include "physics/transport/indirect/pass_arrays.h"
-#include "physics/transport/indirect/replicate.h"
 #include "physics/transport/model/tracer.h"
 
 #include <glm/glm.hpp>

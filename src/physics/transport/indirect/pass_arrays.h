@@ -22,8 +22,8 @@ inline constexpr std::size_t most_at_a_time = std::size_t{1} << 18U;
 
 // Points at which beam rays landed; see landing_points.h.
 struct LandingPoints {
-  std::vector<EmissionPoint>
-      places;  // [point], on the side on which the sampled ray landed; `u` is the ray's number in the sample
+  // [point], on the side on which the sampled ray landed; `u` is the ray's number in the sample.
+  std::vector<EmissionPoint> places;
   // [point * lights + light], the flux of that light that lands there, relative to all points; below 0 where it lands on the
   // other side of the element. Empty if the same flux lands at every point.
   std::vector<double> weights;

@@ -1,7 +1,6 @@
 #include "physics/transport/indirect/place_sums.h"
 
 #include "base/check.h"
-#include "base/large_pages.h"
 #include "physics/transport/model/columns.h"
 
 #include <oneapi/tbb/parallel_sort.h>

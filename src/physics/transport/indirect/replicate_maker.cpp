@@ -5,13 +5,13 @@
 #include "physics/light/beam_grid.h"
 #include "physics/transport/indirect/beam_landings.h"
 #include "physics/transport/indirect/counted_thread.h"
+#include "physics/transport/indirect/indirect.h"
 #include "physics/transport/model/beam_block.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <limits>
 #include <utility>
 

@@ -3,11 +3,9 @@
 // host draws and books the packets of another.
 
 #include "physics/transport/indirect/conversion.h"
-#include "physics/transport/indirect/indirect.h"
 #include "physics/transport/indirect/pass_arrays.h"
 #include "physics/transport/indirect/replicate.h"
 #include "physics/transport/indirect/sky_rays.h"
-#include "physics/transport/model/beam_block.h"
 #include "physics/transport/model/canopy_areas.h"
 #include "physics/transport/model/stand_aim.h"
 #include "physics/transport/model/surfaces.h"

@@ -2,7 +2,7 @@
 // Arithmetic over the columns of a place or packet, such as two hundred wavebands: in vectors by Google Highway where there are
 // many, one by one where there are few. Both give the same bits on every kind of processor.
 
-#include "physics/transport/model/model.h"
+#include "physics/canopy/optics.h"
 #include "shared/quanta.h"
 
 #include <algorithm>

@@ -3,9 +3,7 @@
 // half-width of its confidence interval.
 
 #include "physics/canopy/role.h"
-#include "physics/transport/model/counters.h"
 #include "physics/transport/model/statistics.h"
-#include "physics/transport/model/tracer.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>

@@ -17,7 +17,6 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <utility>
 #include <vector>
 

@@ -7,7 +7,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,5 @@
 #include "physics/transport/triangles/shrinkage.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <vector>
 

@@ -3,7 +3,6 @@
 // most likely is (Stephens 2017, Biostatistics 18:275). Its vectors give the same bits on every kind of processor.
 
 #include <array>
-#include <cstddef>
 #include <span>
 
 namespace sunfleck {

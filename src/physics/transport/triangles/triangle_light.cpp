@@ -3,8 +3,6 @@
 #include "physics/light/sun.h"
 #include "physics/transport/triangles/beam_shares.h"
 #include "physics/transport/triangles/pooling.h"
-#include "physics/transport/triangles/shadow_points.h"
-#include "physics/transport/triangles/surface_tree.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
