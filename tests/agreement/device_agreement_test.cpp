@@ -223,11 +223,12 @@ class ViewAgreement : public DeviceAgreement {
     const Prepared prepared(model);
     const shared::ViewBlock view = view_of(model, prepared.layout, from, to);
     const std::vector<glm::vec2> offsets = sample_offsets(3);
-    const std::vector<shared::SeenSurface> expected = see_with_cpu(prepared.bvh, view, offsets, {});
+    const std::vector<shared::SeenSurface> expected = view_with_cpu(prepared.bvh, {view, offsets, {}})->see(0, view.height, {});
     ASSERT_EQ(expected.size(), 160U * 120U * 3U);
     for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {
       const GpuTree tree(context(), prepared.bvh, fetch);
-      const std::vector<shared::SeenSurface> seen = see_with_gpu(context(), tree, prepared.bvh, view, offsets, {});
+      const std::vector<shared::SeenSurface> seen =
+          view_with_gpu(context(), tree, prepared.bvh, {view, offsets, {}})->see(0, view.height, {});
       ASSERT_EQ(seen.size(), expected.size());
       std::size_t apart = 0;
       for (std::size_t k = 0; k < seen.size(); ++k) apart += std::memcmp(&seen[k], &expected[k], sizeof seen[k]) == 0 ? 0 : 1;

@@ -1,6 +1,7 @@
 // Tests runs with a time limit, using a clock that advances by one second with each reported replicate.
 #include "support/light_mix.h"
 #include "support/models.h"
+#include "support/solve_states.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ Timed timed(const SolveSettings& settings) {
   monitor.clock_s = [&] { return now_s.load(); };
   monitor.report = [&](const Progress&) { ++now_s; };
   monitor.wants_state = [] { return true; };
-  monitor.receive_state = [&](const SolveState& state) { run.state = state; };
+  monitor.receive_state = [&](const SolveStateView& state) { run.state = copy_of(state); };
   run.result = solve(model, prepared.layout, tracer, settings, monitor);
   return run;
 }

@@ -172,6 +172,38 @@ class Inspector {
   double area_of_triangles_ = 0.0;
 };
 
+struct BvhStatistics {
+  // Expected node visits + triangle tests per ray that meets the root box; all nodes and triangles if that box has no area.
+  double sah_cost = 0.0;
+  std::size_t inner_children = 0;
+  std::size_t leaf_children = 0;
+};
+
+// Returns the figures of a whole tree.
+inline BvhStatistics statistics(const Bvh& bvh) {
+  BvhStatistics result;
+  if (bvh.nodes.empty()) return result;
+  DoubleBox root;
+  double area_of_visits = 0.0;
+  for (const BvhNode& node : bvh.nodes) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      const unsigned meta = node.meta[k];
+      if (meta == 0) continue;
+      const bool inner = ((node.inner_mask >> k) & 1) != 0;
+      const Box decoded = child_box(node, static_cast<int>(k));
+      const DoubleBox box{decoded.lo, decoded.hi};
+      const int visits = inner ? 1 : std::popcount(meta >> 5U);
+      area_of_visits += visits * box.half_area();
+      ++(inner ? result.inner_children : result.leaf_children);
+      if (&node == &bvh.nodes.front()) root.grow(box.lo, box.hi);
+    }
+  }
+  const double root_area = root.half_area();
+  result.sah_cost =
+      root_area > 0.0 ? 1.0 + area_of_visits / root_area : static_cast<double>(bvh.nodes.size() + bvh.triangles.size());
+  return result;
+}
+
 struct Line {
   glm::dvec3 origin, direction;
 };

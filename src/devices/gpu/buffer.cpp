@@ -122,10 +122,4 @@ void download(const GpuContext& context, const GpuBuffer& buffer, std::span<std:
   submission.finish();
 }
 
-void fill(const GpuContext& context, const GpuBuffer& buffer, std::uint32_t word) {
-  Submission submission(context);
-  submission.fill(buffer, word);
-  submission.finish();
-}
-
 }  // namespace sunfleck

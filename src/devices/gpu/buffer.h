@@ -40,6 +40,5 @@ struct GpuBuffer {
 // Do what Submission does with the same names, each in a submission of its own.
 void upload(const GpuContext& context, const GpuBuffer& buffer, std::span<const std::byte> data, std::size_t offset = 0);
 void download(const GpuContext& context, const GpuBuffer& buffer, std::span<std::byte> data, std::size_t offset = 0);
-void fill(const GpuContext& context, const GpuBuffer& buffer, std::uint32_t word);
 
 }  // namespace sunfleck

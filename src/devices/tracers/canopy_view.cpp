@@ -372,17 +372,6 @@ std::uint32_t samples_at_once(const TracerDevice& device) {
   return std::max(in_cache, threads * for_a_thread);
 }
 
-std::vector<shared::SeenSurface> see_with_gpu(const GpuContext& context, const GpuTree& tree, const Bvh& bvh,
-                                              const shared::ViewBlock& view, const std::vector<glm::vec2>& offsets,
-                                              const StopQuestion& stop) {
-  return view_with_gpu(context, tree, bvh, {view, offsets, {}})->see(0, view.height, stop);
-}
-
-std::vector<shared::SeenSurface> see_with_cpu(const Bvh& bvh, const shared::ViewBlock& view,
-                                              const std::vector<glm::vec2>& offsets, const StopQuestion& stop) {
-  return view_with_cpu(bvh, {view, offsets, {}})->see(0, view.height, stop);
-}
-
 std::vector<glm::vec2> sample_offsets(int count) {
   constexpr double plastic = 1.32471795724474602596;
   std::vector<glm::vec2> offsets;

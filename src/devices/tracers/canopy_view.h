@@ -58,13 +58,6 @@ class CanopyViewer {
                                                           CanopyLook look);
 [[nodiscard]] std::unique_ptr<CanopyViewer> view_with_cpu(const Bvh& bvh, CanopyLook look);
 
-// Return the samples of the whole picture of a single plot, fewer than 2^32; empty if stopped.
-[[nodiscard]] std::vector<shared::SeenSurface> see_with_gpu(const GpuContext& context, const GpuTree& tree, const Bvh& bvh,
-                                                            const shared::ViewBlock& view,
-                                                            const std::vector<glm::vec2>& offsets, const StopQuestion& stop);
-[[nodiscard]] std::vector<shared::SeenSurface> see_with_cpu(const Bvh& bvh, const shared::ViewBlock& view,
-                                                            const std::vector<glm::vec2>& offsets, const StopQuestion& stop);
-
 // Returns `count` places spread evenly over a pixel, from the additive sequence of the plastic number (Roberts 2018, "The
 // unreasonable effectiveness of quasirandom sequences").
 [[nodiscard]] std::vector<glm::vec2> sample_offsets(int count);

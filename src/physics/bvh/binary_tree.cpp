@@ -74,8 +74,8 @@ class BinaryBuilder {
  public:
   explicit BinaryBuilder(BinaryTree& tree) : items_(tree.items), nodes_(tree.nodes) {}
 
-  // Builds a subtree that is at most `levels` high. The recursion is as deep as the tree: at most max_binary_height. Subtrees
-  // share neither items nor nodes, so that several threads may build them.
+  // Builds a subtree that is at most `levels` high, which is how deep the recursion is. Subtrees share neither items nor nodes, so
+  // that several threads may build them.
   void build(const ItemRange& range, int levels) {
     if (range.subtree.count < 2) return;
     DCHECK(ceil_log2(range.subtree.count), <=, levels);

@@ -2,8 +2,6 @@
 // Internal to bvh: the binary tree from which the collapse makes the tree with eight children (collapse.h). It takes 40 bytes
 // per reference, since nodes have no boxes: those few that the collapse keeps are measured again from the items.
 
-#include "physics/bvh/bvh.h"
-
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <cstdint>
@@ -76,12 +74,8 @@ void in_both_children(const Subtree& subtree, const Left& left, const Right& rig
   right();
 }
 
-// A binary tree of at most this height always fits into max_bvh_depth levels of eight children: a level holds three binary
-// ones.
-inline constexpr int max_binary_height = 3 * max_bvh_depth;
-
 // Orders the items and fills the nodes. The tree is at most max_height high, which must be enough for splitting into equal
 // halves throughout.
-void build_binary_tree(BinaryTree& tree, int max_height = max_binary_height);
+void build_binary_tree(BinaryTree& tree, int max_height);
 
 }  // namespace sunfleck::detail

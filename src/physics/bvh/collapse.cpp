@@ -102,7 +102,7 @@ class Collapser {
   [[nodiscard]] bool is_leaf(const Subtree& s) const { return s.count == 1 || plan_of(s).leaf(); }
   [[nodiscard]] int height(const Subtree& s) const { return s.count == 1 ? 0 : plan_of(s).height(); }
 
-  // Ylitie et al. 2017, equations 2 to 5. The recursion is at most max_binary_height deep.
+  // Ylitie et al. 2017, equations 2 to 5. The recursion is as deep as the binary tree.
   Costs solve(const Subtree& subtree) {
     Costs costs;
     if (subtree.count == 1) {

@@ -17,6 +17,6 @@ struct ItemContents {
 
 // Returns the compressed tree over the items, at most `max_depth` levels deep, whose binary tree is at most three times as
 // high. Writes the plans into `tree`.
-[[nodiscard]] Bvh collapse(BinaryTree& tree, const ItemContents& contents, int max_depth = max_bvh_depth);
+[[nodiscard]] Bvh collapse(BinaryTree& tree, const ItemContents& contents, int max_depth);
 
 }  // namespace sunfleck::detail

@@ -130,8 +130,8 @@ SunPosition sun_position(const UtcTime& time, const Place& place, std::optional<
   return observed_sun(time, place, delta_t_s).position;
 }
 
-double sun_hour_angle_rad(const UtcTime& time, const Place& place, std::optional<double> delta_t_s) {
-  return observed_sun(time, place, delta_t_s).hour_angle_rad;
+double sun_hour_angle_rad(const UtcTime& time, const Place& place) {
+  return observed_sun(time, place, {}).hour_angle_rad;
 }
 
 double default_delta_t_s(const UtcTime& time) {

@@ -45,7 +45,7 @@ struct Air {
 [[nodiscard]] SunPosition sun_position(const UtcTime& time, const Place& place, std::optional<double> delta_t_s = {});
 
 // Returns the local hour angle that belongs to sun_position: 0 at transit, positive afterwards, -pi..pi.
-[[nodiscard]] double sun_hour_angle_rad(const UtcTime& time, const Place& place, std::optional<double> delta_t_s = {});
+[[nodiscard]] double sun_hour_angle_rad(const UtcTime& time, const Place& place);
 
 // Returns terrestrial minus universal time: from 1972 by the leap seconds known to ERFA (the last one is kept for later
 // years), before 1972 by the polynomials of Espenak and Meeus (2006).

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 namespace sunfleck {
 namespace {
@@ -35,33 +34,10 @@ NumberPieces<T> numbers_of(const Series& series) {
   };
 }
 
-template <class T>
-NumberPieces<T> one_piece(const std::vector<T>& values) {
-  return [&values](const std::function<void(std::span<const T>)>& take) { take(values); };
-}
-
-template <class T>
-std::vector<T> all_of(const NumberPieces<T>& pieces) {
-  std::vector<T> values;
-  pieces([&](std::span<const T> piece) { values.insert(values.end(), piece.begin(), piece.end()); });
-  return values;
-}
-
 }  // namespace
 
 SumPieces pieces_of(const Series& series) {
   return {numbers_of<std::int64_t>(series), numbers_of<double>(series)};
-}
-
-SolveStateView::SolveStateView(Work of_work, std::vector<double> shares, std::size_t check, SumPieces pieces)
-    : work(of_work), ray_shares(std::move(shares)), next_check(check), sums(std::move(pieces)) {}
-
-SolveStateView::SolveStateView(const SolveState& state)
-    : SolveStateView(state.work, state.ray_shares, state.next_check,
-                     {one_piece(state.sums.integers), one_piece(state.sums.reals)}) {}
-
-SolveStateView::operator SolveState() const {
-  return {work, ray_shares, next_check, {all_of(sums.integers), all_of(sums.reals)}};
 }
 
 bool restore(Series& series, const PlainSums& plain) {

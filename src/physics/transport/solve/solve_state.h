@@ -50,10 +50,6 @@ struct SolveState {
 
 // A state as it is handed over and written; what it is made of must outlive it.
 struct SolveStateView {
-  SolveStateView(Work of_work, std::vector<double> shares, std::size_t check, SumPieces pieces);
-  SolveStateView(const SolveState& state);  // NOLINT(google-explicit-constructor): a view of the state
-  operator SolveState() const;              // NOLINT(google-explicit-constructor): a copy
-
   Work work;
   std::vector<double> ray_shares;
   std::size_t next_check = first_check;

@@ -39,9 +39,13 @@ void run(ComputePipeline& pipeline, std::uint64_t threads, const Push& push, con
 }
 
 GpuBuffer make_buffer(const GpuContext& context, BufferUse use, std::span<const std::uint32_t> words) {
-  GpuBuffer buffer = create_buffer(context, use, words.size_bytes(), "test data");
-  upload(context, buffer, std::as_bytes(words));
-  return buffer;
+  return create_filled_buffer(context, use, std::as_bytes(words), "test data");
+}
+
+void fill(const GpuContext& context, const GpuBuffer& buffer, std::uint32_t word) {
+  Submission submission(context);
+  submission.fill(buffer, word);
+  submission.finish();
 }
 
 std::vector<std::uint32_t> read_words(const GpuContext& context, const GpuBuffer& buffer) {

@@ -30,7 +30,7 @@ BinaryTree unordered(const Canopy& canopy) {
 // Returns the tree of items that are the elements of a canopy.
 Bvh collapsed(BinaryTree& tree, const Canopy& canopy) {
   const auto triangle = [&](std::uint32_t item) { return reference_triangle(canopy, {item}); };
-  return detail::collapse(tree, {.triangle = triangle, .copy = nullptr});
+  return detail::collapse(tree, {.triangle = triangle, .copy = nullptr}, max_bvh_depth);
 }
 
 Subtree left_of(const BinaryTree& tree, const Subtree& s) {
@@ -55,7 +55,7 @@ TEST(BinaryTree, IsNoHigherThanAsked) {
     return isolated(std::move(corners));
   }();
   BinaryTree free = unordered(shrinking);
-  detail::build_binary_tree(free);
+  detail::build_binary_tree(free, 3 * max_bvh_depth);
   EXPECT_GT(height(free, {0, 0, 1000}), 14);  // so that the limits below take effect
   for (const int limit : {10, 11, 14}) {
     BinaryTree tree = unordered(shrinking);
@@ -149,7 +149,7 @@ TEST(Collapse, IsNoDearerThanGreedy) {
   for (const double size : {0.01, 0.1, 0.5}) {
     const Canopy canopy = isolated(scattered(20000, 1.0, size, 8));
     BinaryTree tree = unordered(canopy);
-    detail::build_binary_tree(tree);
+    detail::build_binary_tree(tree, 3 * max_bvh_depth);
     Greedy greedy;
     collapse_greedily(tree, {0, 0, 20000}, greedy);
     const Bvh bvh = collapsed(tree, canopy);

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/sealed_file.h"
 #include "support/error_text.h"
+#include "support/solve_states.h"
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +52,7 @@ class RunStoreTest : public ::testing::Test {
 
 TEST_F(RunStoreTest, GivesBackWhatWasWritten) {
   EXPECT_FALSE(store_.read(shape_));
-  store_.write(state_);
+  store_.write(test::view_of(state_));
   const std::optional<SolveState> read = store_.read(shape_);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->work.rays, state_.work.rays);
@@ -67,7 +68,7 @@ TEST_F(RunStoreTest, GivesBackWhatWasWritten) {
 }
 
 TEST_F(RunStoreTest, ReadsNoStateThatIsDamaged) {
-  store_.write(state_);
+  store_.write(test::view_of(state_));
   const std::string good = bytes();
   for (std::size_t length = 0; length < good.size(); ++length) {
     folder_.write(run_state_file, good.substr(0, length));
@@ -88,7 +89,7 @@ TEST_F(RunStoreTest, ReadsNoStateThatIsDamaged) {
 }
 
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherVersion) {
-  store_.write(state_);
+  store_.write(test::view_of(state_));
   folder_.write(run_state_file, "SUNRUNS1" + bytes().substr(8));
   const std::string message = refusal();
   expect_three_parts(message);
@@ -97,7 +98,7 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherVersion) {
 
 // The checksum is right, but this program writes other maps.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
-  store_.write(state_);
+  store_.write(test::view_of(state_));
   const json good = *unsealed("SUNRUNS9", bytes());
   const auto expect_refused = [&](const json& content) {
     std::ostringstream bytes;
@@ -125,7 +126,7 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
 
 // Ten million times the file's content is neither reserved nor read.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherSize) {
-  store_.write(state_);
+  store_.write(test::view_of(state_));
   StateShape other = shape_;
   other.integers = 6;
   EXPECT_THROW(static_cast<void>(store_.read(other)), Error);
@@ -135,7 +136,7 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherSize) {
 }
 
 TEST_F(RunStoreTest, NamesTheFirstSettingThatDiffers) {
-  store_.write(state_);
+  store_.write(test::view_of(state_));
   ordered_json other = run_settings;
   other["seed"] = 2;
   EXPECT_NE(refusal(other).find("that run has other settings: seed was 1, now 2"), std::string::npos) << refusal(other);
@@ -149,7 +150,7 @@ TEST_F(RunStoreTest, NamesTheFirstSettingThatDiffers) {
 
 TEST_F(RunStoreTest, FailsInOneLineWhereNothingCanBeWritten) {
   const RunStore nowhere(folder_ / "absent", run_settings);
-  EXPECT_THROW(nowhere.write(state_), Error);
+  EXPECT_THROW(nowhere.write(test::view_of(state_)), Error);
 }
 
 }  // namespace

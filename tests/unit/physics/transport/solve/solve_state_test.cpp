@@ -6,6 +6,7 @@
 #include "physics/transport/solve/work_planner.h"
 #include "support/light_mix.h"
 #include "support/result_numbers.h"
+#include "support/solve_states.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ class SolveStateTest : public ::testing::Test {
     Monitor monitor;
     monitor.interrupted = [&] { return last.replicates() >= replicates; };
     monitor.wants_state = [] { return true; };
-    monitor.receive_state = [&](const SolveState& state) { last = state; };
+    monitor.receive_state = [&](const SolveStateView& state) { last = test::copy_of(state); };
     settings_.replicates_at_once = 1;  // otherwise other finished replicates would be added
     EXPECT_EQ(solve_from(from, monitor).stop, StopReason::interrupted);
     settings_.replicates_at_once = 2;
@@ -86,7 +87,7 @@ TEST_F(SolveStateTest, GoesOnWithoutPacketsAndReceivers) {
   Monitor monitor;
   monitor.interrupted = [&] { return state.replicates() >= 3; };
   monitor.wants_state = [] { return true; };
-  monitor.receive_state = [&](const SolveState& now) { state = now; };
+  monitor.receive_state = [&](const SolveStateView& now) { state = test::copy_of(now); };
   const RadiationResult stopped = solve(model_, prepared.layout, tracer, settings_, monitor);
   ASSERT_EQ(stopped.stop, StopReason::interrupted);
   const RadiationResult whole = solve(model_, prepared.layout, tracer, settings_, {});
@@ -132,7 +133,7 @@ TEST_F(SolveStateTest, GoesOnWithSeveralLights) {
     Monitor monitor;
     monitor.interrupted = [&] { return state.replicates() >= replicates; };
     monitor.wants_state = [] { return true; };
-    monitor.receive_state = [&](const SolveState& now) { state = now; };
+    monitor.receive_state = [&](const SolveStateView& now) { state = test::copy_of(now); };
     settings_.replicates_at_once = 1;
     EXPECT_TRUE(solve_all(from.replicates() > 0 ? &from : nullptr, monitor).empty());
     settings_.replicates_at_once = 2;
@@ -148,9 +149,9 @@ TEST_F(SolveStateTest, IsHandedOverWhenAskedForAndNotOfPilots) {
   int states = 0;
   Monitor monitor;
   monitor.wants_state = [&] { return ++questions % 5 == 0; };
-  monitor.receive_state = [&](const SolveState& state) {
+  monitor.receive_state = [&](const SolveStateView& state) {
     ++states;
-    EXPECT_EQ(state.replicates(), 5U * static_cast<std::size_t>(states));
+    EXPECT_EQ(test::copy_of(state).replicates(), 5U * static_cast<std::size_t>(states));
   };
   const RadiationResult result = solve_from(nullptr, monitor);
   EXPECT_EQ(static_cast<std::size_t>(questions), result.direct.replicates - 1);  // not called again once the run is done
