@@ -26,7 +26,7 @@ void main() {
     packet.origin = point_on_triangle(corners.a, corners.b, corners.c, at.x, at.y);
     normal = normal_of_side(corners.a, corners.b, corners.c, side);
   }
-  packet.origin = in_front_of(packet.origin, normal, pass.offset);
+  packet.origin = point_along(packet.origin, normal, pass.offset);
   if (pass.period.x > 0.0) {
     InPeriod moved = moved_into_period(packet.origin, pass.period, pass.per_period);
     packet.origin = moved.at;

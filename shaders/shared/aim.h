@@ -21,10 +21,8 @@ const uint least_aim_bits = 10u;
 // the sphere it keeps all of them.
 INLINE uint64_t aimed_part(StandSphere stand, vec3 point) {
   const uint64_t all = uint64_t(1u) << 32u;
-  EXACT float x = point.x - stand.centre.x;
-  EXACT float y = point.y - stand.centre.y;
-  EXACT float z = point.z - stand.centre.z;
-  EXACT float squared = x * x + y * y + z * z;
+  EXACT vec3 away = point - stand.centre;
+  EXACT float squared = away.x * away.x + away.y * away.y + away.z * away.z;
   EXACT float radius_squared = stand.radius * stand.radius;
   if (squared <= radius_squared) return all;
   EXACT float ratio = stand.radius * exact_inverse_root(squared);

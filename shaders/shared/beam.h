@@ -21,10 +21,8 @@ INLINE vec3 beam_origin(BeamBlock beam, uint ray) {
   const uvec4 words = random_words(beam.key, ray, 0u);
   EXACT float u = (float(column) + unit_interval(words.x)) * beam.per_column;
   EXACT float v = (float(row) + unit_interval(words.y)) * beam.per_row;
-  EXACT float x = beam.corner.x + (beam.edge_u.x * u + beam.edge_v.x * v);
-  EXACT float y = beam.corner.y + (beam.edge_u.y * u + beam.edge_v.y * v);
-  EXACT float z = beam.corner.z + (beam.edge_u.z * u + beam.edge_v.z * v);
-  return vec3(x, y, z);
+  EXACT vec3 at = beam.corner + (beam.edge_u * vec3(u) + beam.edge_v * vec3(v));
+  return at;
 }
 
 // The next border of the period that a ray reaches.
@@ -56,13 +54,11 @@ INLINE float held_within(float value, float lo, float hi) {
 // Returns the point where the ray enters the next period: exactly on the opposite border, so that no error of wrapping
 // accumulates.
 INLINE vec3 enter_next_period(Ray ray, Crossing crossing, vec2 period) {
-  EXACT float x = ray.origin.x + crossing.t * ray.direction.x;
-  EXACT float y = ray.origin.y + crossing.t * ray.direction.y;
-  EXACT float z = ray.origin.z + crossing.t * ray.direction.z;
+  const vec3 at = point_along(ray.origin, ray.direction, crossing.t);
   const float border_x = ray.inverse.x > 0.0f ? 0.0f : period.x;
   const float border_z = ray.inverse.z > 0.0f ? 0.0f : period.y;
-  return vec3(crossing.along_x ? border_x : held_within(x, 0.0f, period.x), y,
-              crossing.along_x ? held_within(z, 0.0f, period.y) : border_z);
+  return vec3(crossing.along_x ? border_x : held_within(at.x, 0.0f, period.x), at.y,
+              crossing.along_x ? held_within(at.z, 0.0f, period.y) : border_z);
 }
 
 // The point where a ray that travels downwards meets the ground, and how far the ray is followed to find elements.
@@ -137,9 +133,7 @@ INLINE uint layer_of(float y, float base_y, float layers_per_metre, uint layers)
 // reaches into its layer.
 INLINE float landing_y(float a, float b, float c, float weight_b, float weight_c) {
   EXACT float y = a + (weight_b * (b - a) + weight_c * (c - a));
-  const float lo = a < b ? (a < c ? a : c) : (b < c ? b : c);
-  const float hi = a > b ? (a > c ? a : c) : (b > c ? b : c);
-  return held_within(y, lo, hi);
+  return held_among(y, a, b, c);
 }
 
 SHARED_END

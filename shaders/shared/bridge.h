@@ -2,7 +2,7 @@
 // Rules of the shared text: 32-bit float, uint, uint64_t, vectors and free functions; suffixes f and u always; no overloads,
 // references, doubles or library calls that are not named here. Lines that decide hit or miss store into EXACT variables: no
 // contraction of a*b+c. Division of floats, roots, trigonometry, min and max are not used, because devices may differ in their
-// last bit; floor is exact everywhere.
+// last bit, nor is the product of a vector and a number, which is written v * vec3(x); floor is exact everywhere.
 #ifndef SUNFLECK_SHARED_BRIDGE_H
 #define SUNFLECK_SHARED_BRIDGE_H
 

@@ -9,9 +9,9 @@ SHARED_BEGIN
 
 // Returns the largest magnitude among the components.
 INLINE float largest_component(vec3 v) {
-  const float x = uintBitsToFloat(floatBitsToUint(v.x) & 0x7fffffffu);
-  const float y = uintBitsToFloat(floatBitsToUint(v.y) & 0x7fffffffu);
-  const float z = uintBitsToFloat(floatBitsToUint(v.z) & 0x7fffffffu);
+  const float x = magnitude(v.x);
+  const float y = magnitude(v.y);
+  const float z = magnitude(v.z);
   const float xy = x > y ? x : y;
   return xy > z ? xy : z;
 }
@@ -22,10 +22,8 @@ INLINE float inverse_power_of_two(float x) {
 }
 
 INLINE vec3 exact_times(vec3 v, float factor) {
-  EXACT float x = v.x * factor;
-  EXACT float y = v.y * factor;
-  EXACT float z = v.z * factor;
-  return vec3(x, y, z);
+  EXACT vec3 product = v * vec3(factor);
+  return product;
 }
 
 // Returns the unit normal of a triangle's upper side; straight up if it has no area. Edges and normal are brought to magnitudes
@@ -89,27 +87,11 @@ INLINE vec2 even_weights(uint u, uint v) {
   return vec2(weight_b, weight_c);
 }
 
-// Returns x, moved to between the smallest and the largest of three numbers.
-INLINE float held_among(float x, float a, float b, float c) {
-  const float least = a < b ? (a < c ? a : c) : (b < c ? b : c);
-  const float largest = a > b ? (a > c ? a : c) : (b > c ? b : c);
-  return x < least ? least : (x > largest ? largest : x);
-}
-
 // Returns a point of a triangle. Rounding does not move it out of the triangle's box, where it could lie behind a wall that meets
 // the triangle at an edge.
 INLINE vec3 point_on_triangle(vec3 a, vec3 b, vec3 c, float weight_b, float weight_c) {
-  EXACT float x = a.x + (b.x - a.x) * weight_b + (c.x - a.x) * weight_c;
-  EXACT float y = a.y + (b.y - a.y) * weight_b + (c.y - a.y) * weight_c;
-  EXACT float z = a.z + (b.z - a.z) * weight_b + (c.z - a.z) * weight_c;
-  return vec3(held_among(x, a.x, b.x, c.x), held_among(y, a.y, b.y, c.y), held_among(z, a.z, b.z, c.z));
-}
-
-INLINE vec3 in_front_of(vec3 point, vec3 normal, float offset) {
-  EXACT float x = point.x + normal.x * offset;
-  EXACT float y = point.y + normal.y * offset;
-  EXACT float z = point.z + normal.z * offset;
-  return vec3(x, y, z);
+  EXACT vec3 at = a + (b - a) * vec3(weight_b) + (c - a) * vec3(weight_c);
+  return vec3(held_among(at.x, a.x, b.x, c.x), held_among(at.y, a.y, b.y, c.y), held_among(at.z, a.z, b.z, c.z));
 }
 
 // A coordinate moved into the period 0 to `period`.

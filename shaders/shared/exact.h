@@ -6,11 +6,28 @@
 
 SHARED_BEGIN
 
+INLINE float magnitude(float x) {
+  return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
+}
+
+// Returns x, moved to between the smallest and the largest of three numbers.
+INLINE float held_among(float x, float a, float b, float c) {
+  const float least = a < b ? (a < c ? a : c) : (b < c ? b : c);
+  const float largest = a > b ? (a > c ? a : c) : (b > c ? b : c);
+  return x < least ? least : (x > largest ? largest : x);
+}
+
+// Returns origin + t direction.
+INLINE vec3 point_along(vec3 origin, vec3 direction, float t) {
+  EXACT vec3 at = origin + direction * vec3(t);
+  return at;
+}
+
 // Returns 1 / x within two units in the last place, for 2^-100 < |x| < 2^100: an integer guess (error below 13 %) and four
 // Newton steps y (2 - x y), each of which squares the error.
 INLINE float exact_reciprocal(float x) {
   const uint sign = floatBitsToUint(x) & 0x80000000u;
-  const float a = uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
+  const float a = magnitude(x);
   float y = uintBitsToFloat(0x7ef311c3u - floatBitsToUint(a));
   for (uint step = 0u; step < 4u; ++step) {
     EXACT float product = a * y;
@@ -25,8 +42,7 @@ INLINE float exact_reciprocal(float x) {
 // lengths stay finite.
 INLINE float direction_reciprocal(float x) {
   const uint sign = floatBitsToUint(x) & 0x80000000u;
-  const float magnitude = uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
-  if (magnitude < 8.673617379884035e-19f) return uintBitsToFloat(floatBitsToUint(1152921504606846976.0f) | sign);
+  if (magnitude(x) < 8.673617379884035e-19f) return uintBitsToFloat(floatBitsToUint(1152921504606846976.0f) | sign);
   return exact_reciprocal(x);
 }
 

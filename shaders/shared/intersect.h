@@ -24,10 +24,6 @@ struct TriangleHit {
   bool met;
 };
 
-INLINE float magnitude(float x) {
-  return x < 0.0f ? -x : x;
-}
-
 // Returns the vector with its component `axis` last and the others in cyclic order.
 INLINE vec3 axis_last(vec3 v, uint axis) {
   return axis == 0u ? vec3(v.y, v.z, v.x) : (axis == 1u ? vec3(v.z, v.x, v.y) : v);

@@ -7,36 +7,29 @@
 
 SHARED_BEGIN
 
-// Returns the direction of the ray through the point (x, y) of the picture, 0..1 from the left and from the top; not for a
-// fisheye. Its length is such that t is the depth along the forward axis.
-INLINE vec3 view_direction(ViewBlock view, float x, float y) {
-  if (view.kind == view_orthographic) return view.forward;
+// Returns `from`, moved to the point (x, y) of the picture, 0..1 from the left and from the top.
+INLINE vec3 in_picture(ViewBlock view, vec3 from, float x, float y) {
   EXACT float across = 2.0f * x - 1.0f;
   EXACT float up = 1.0f - 2.0f * y;
-  EXACT float dx = view.forward.x + (view.right.x * across + view.up.x * up);
-  EXACT float dy = view.forward.y + (view.right.y * across + view.up.y * up);
-  EXACT float dz = view.forward.z + (view.right.z * across + view.up.z * up);
-  return vec3(dx, dy, dz);
+  EXACT vec3 at = from + (view.right * vec3(across) + view.up * vec3(up));
+  return at;
+}
+
+// Returns the direction of the ray through the point (x, y) of the picture; not for a fisheye. Its length is such that t is the
+// depth along the forward axis.
+INLINE vec3 view_direction(ViewBlock view, float x, float y) {
+  return view.kind == view_orthographic ? view.forward : in_picture(view, view.forward, x, y);
 }
 
 // Returns the point of the camera through which the ray of (x, y) passes.
 INLINE vec3 view_position(ViewBlock view, float x, float y) {
-  if (view.kind != view_orthographic) return view.position;
-  EXACT float across = 2.0f * x - 1.0f;
-  EXACT float up = 1.0f - 2.0f * y;
-  EXACT float px = view.position.x + (view.right.x * across + view.up.x * up);
-  EXACT float py = view.position.y + (view.right.y * across + view.up.y * up);
-  EXACT float pz = view.position.z + (view.right.z * across + view.up.z * up);
-  return vec3(px, py, pz);
+  return view.kind != view_orthographic ? view.position : in_picture(view, view.position, x, y);
 }
 
 // Returns the start of the ray. It is no farther from the scene than needed, since the boxes of the tree are padded for
 // rounding errors over lengths of the tree's own size.
 INLINE vec3 view_origin(ViewBlock view, vec3 position, vec3 direction) {
-  EXACT float x = position.x + view.start * direction.x;
-  EXACT float y = position.y + view.start * direction.y;
-  EXACT float z = position.z + view.start * direction.z;
-  return vec3(x, y, z);
+  return point_along(position, direction, view.start);
 }
 
 INLINE float view_depth(ViewBlock view, float t) {

@@ -158,7 +158,7 @@ INLINE TextOutput all_of_the_text(BeamBlock beam, ViewBlock view, TextInput give
   result.scattered = cosine_direction(result.normal, given.drawn.x, given.drawn.y);
   result.corner_weights = even_weights(given.drawn.x, given.drawn.y);
   result.point = point_on_triangle(given.a, given.b, given.c, result.corner_weights.x, result.corner_weights.y);
-  result.front = in_front_of(result.point, result.normal, given.offset.x);
+  result.front = point_along(result.point, result.normal, given.offset.x);
   result.near_x = wrapped_into(result.front.x, given.period.x, exact_reciprocal(given.period.x));
   result.far_z = wrapped_into(given.far, given.period.y, exact_reciprocal(given.period.y));
   result.placed = placed_point(turn_of_text(given), given.origin);

@@ -258,9 +258,9 @@ TEST(PointOnTriangle, StaysWithinTheBoxOfItsCorners) {
   }
 }
 
-TEST(InFrontOf, GoesAlongTheNormal) {
-  EXPECT_EQ(in_front_of({1.0F, 2.0F, 3.0F}, straight_up, 0.25F), vec3(1.0F, 2.25F, 3.0F));
-  EXPECT_EQ(in_front_of({1.0F, 2.0F, 3.0F}, {0.5F, -0.5F, -1.0F}, 0.5F), vec3(1.25F, 1.75F, 2.5F));
+TEST(PointAlong, GoesAlongTheDirection) {
+  EXPECT_EQ(point_along({1.0F, 2.0F, 3.0F}, straight_up, 0.25F), vec3(1.0F, 2.25F, 3.0F));
+  EXPECT_EQ(point_along({1.0F, 2.0F, 3.0F}, {0.5F, -0.5F, -1.0F}, 0.5F), vec3(1.25F, 1.75F, 2.5F));
 }
 
 // Expects a coordinate to lie in the period and to add up again within the rounding of its size.

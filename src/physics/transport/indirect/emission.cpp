@@ -15,7 +15,7 @@ PacketStart start_at(const Canopy& canopy, std::uint32_t surface, float a, float
     point_m = shared::point_on_triangle(corners[0], corners[1], corners[2], a, b);
     start.normal = shared::normal_of_side(corners[0], corners[1], corners[2], surface % 2);
   }
-  point_m = shared::in_front_of(point_m, start.normal, frame.offset_m);
+  point_m = shared::point_along(point_m, start.normal, frame.offset_m);
   if (canopy.period_m.x > 0.0) {
     const shared::InPeriod moved =
         shared::moved_into_period(point_m, glm::vec2(canopy.period_m), glm::vec2(1.0 / canopy.period_m));
