@@ -1,5 +1,6 @@
 #include "devices/tracers/cpu_tracer.h"
 
+#include "base/stopwatch.h"
 #include "devices/tracers/beam_bundles.h"
 #include "devices/tracers/packet_bundles.h"
 #include "devices/tracers/packet_way.h"
@@ -131,7 +132,7 @@ TraceOutcome CpuTracer::count_landings(const shared::BeamBlock& beam, const Land
   const std::uint32_t rays = beam.columns * beam.rows;
   for (std::uint32_t first = 0; first < rays;) {
     if (stop && stop()) return TraceOutcome::stopped;
-    const DispatchClock clock;
+    const Stopwatch watch;
     const std::uint32_t end = first + std::min(beam_budget_.rays(), rays - first);
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, rays_per_batch), [&](const auto& range) {
       if (walk_ == CpuWalk::tree) return count_in_bundles(bvh_, domain_, beam, range.begin(), range.end(), landings);
@@ -139,7 +140,7 @@ TraceOutcome CpuTracer::count_landings(const shared::BeamBlock& beam, const Land
         finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, landings);
       }
     });
-    beam_budget_.record_duration(end - first, clock.seconds());
+    beam_budget_.record_duration(end - first, watch.seconds());
     first = end;
   }
   return TraceOutcome::finished;
@@ -175,14 +176,14 @@ TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const 
                               std::span<shared::Landing> landings, const StopQuestion& stop) {
   for (std::size_t first = 0; first < packets.size();) {
     if (stop && stop()) return TraceOutcome::stopped;
-    const DispatchClock clock;
+    const Stopwatch watch;
     const std::size_t end = std::min(packets.size(), first + packet_budget_.rays());
     const std::size_t least =
         have_one_direction(packets.subspan(first, std::min<std::size_t>(2, end - first))) ? rays_per_batch : 256;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, least), [&](const auto& range) {
       trace_part(scene, packets.subspan(range.begin(), range.size()), landings.subspan(range.begin(), range.size()));
     });
-    packet_budget_.record_duration(static_cast<std::uint32_t>(end - first), clock.seconds());
+    packet_budget_.record_duration(static_cast<std::uint32_t>(end - first), watch.seconds());
     first = end;
   }
   return TraceOutcome::finished;

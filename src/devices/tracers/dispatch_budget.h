@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 
 namespace sunfleck {
@@ -36,17 +35,6 @@ class DispatchBudget {
   std::uint32_t most_;
   double seconds_ = 0.0;
   std::atomic<std::uint32_t> rays_ = 0;
-};
-
-// Starts when constructed.
-class DispatchClock {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 #pragma once
 // Rays or packets on the device that may need several dispatches.
 
+#include "base/stopwatch.h"
 #include "devices/gpu/buffer.h"
 #include "devices/gpu/compute.h"
 #include "devices/gpu/context.h"
@@ -55,11 +56,11 @@ class PausedWork {
                    const After& after, const Finish& finish_on_cpu) {
     while (push.count > 0) {
       if (stop && stop()) return TraceOutcome::stopped;
-      const DispatchClock clock;
+      const Stopwatch watch;
       Submission submission(context_);
       if (push.from_inbox == 0) before(submission);
       const std::uint32_t paused = dispatch(push, buffers, submission, after);
-      budget_.record_duration(push.count, clock.seconds());
+      budget_.record_duration(push.count, watch.seconds());
       push.first = 0;
       push.count = paused == 0 ? 0 : take_out_stuck(outbox_, paused, finish_on_cpu);
       push.from_inbox = 1;

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/random.h"
+#include "base/stopwatch.h"
 #include "physics/light/beam_grid.h"
 #include "physics/transport/indirect/beam_landings.h"
 #include "physics/transport/indirect/counted_thread.h"
@@ -11,21 +12,14 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <utility>
 
 namespace sunfleck {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Number of the first light's stream of random numbers, apart from those of replicates.
 constexpr std::uint64_t light_stream = std::uint64_t{1} << 56U;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -303,21 +297,21 @@ std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, st
 
 std::optional<ReplicateSet> ReplicateMaker::make(const ReplicateOrder& order, std::span<const Conversion> conversions,
                                                  PassArrays& arrays, const StopQuestion& stop) {
-  const Clock::time_point start = Clock::now();
+  Stopwatch watch;
   ReplicateSet replicates(lights_.size());
   LightFromAbove light{aim(order.aimed), sky_ ? &sky(order.aimed) : nullptr, std::vector<FirstLandings>(lights_.size()), {}};
   for (std::size_t k = 0; k < lights_.size(); ++k) {
     if (!make_direct(order, k, conversions[k], replicates[k], light.first[k], arrays.recorded, stop)) return std::nullopt;
     light.quanta.push_back(&conversions[k].quanta);
   }
-  const double direct_s = seconds_since(start);
+  const double direct_s = watch.lap();
   double indirect_s = 0.0;
   if (indirect_ && order.packets > 0.0) {
     std::optional<IndirectSums> packets = run_indirect_pass(*indirect_, order, light, arrays, stop);
     if (!packets) return std::nullopt;
     std::vector<IndirectSums> by_light = sums_by_light(*std::move(packets), lights_.size(), arrays.memory);
     for (std::size_t k = 0; k < lights_.size(); ++k) replicates[k].packets = std::move(by_light[k]);
-    indirect_s = seconds_since(start) - direct_s;
+    indirect_s = watch.lap();
   }
   const auto lights = static_cast<double>(lights_.size());
   for (Replicate& replicate : replicates) {
