@@ -26,28 +26,20 @@ class DeviceTurn {
   int drawings_waiting_ = 0;
 };
 
-// Hold a turn for the lifetime of the object.
-class DrawingTurn {
+// Holds a turn for the lifetime of the object.
+template <void (DeviceTurn::*begin)()>
+class HeldTurn {
  public:
-  explicit DrawingTurn(DeviceTurn& turn) : turn_(turn) { turn_.begin_drawing(); }
-  ~DrawingTurn() { turn_.end(); }
-  DrawingTurn(const DrawingTurn&) = delete;
-  DrawingTurn& operator=(const DrawingTurn&) = delete;
+  explicit HeldTurn(DeviceTurn& turn) : turn_(turn) { (turn_.*begin)(); }
+  ~HeldTurn() { turn_.end(); }
+  HeldTurn(const HeldTurn&) = delete;
+  HeldTurn& operator=(const HeldTurn&) = delete;
 
  private:
   DeviceTurn& turn_;
 };
-
-class TracingTurn {
- public:
-  explicit TracingTurn(DeviceTurn& turn) : turn_(turn) { turn_.begin_tracing(); }
-  ~TracingTurn() { turn_.end(); }
-  TracingTurn(const TracingTurn&) = delete;
-  TracingTurn& operator=(const TracingTurn&) = delete;
-
- private:
-  DeviceTurn& turn_;
-};
+using DrawingTurn = HeldTurn<&DeviceTurn::begin_drawing>;
+using TracingTurn = HeldTurn<&DeviceTurn::begin_tracing>;
 
 // A tracer that takes turns; both arguments must outlive it.
 class TurnTakingTracer final : public Tracer {
