@@ -51,7 +51,7 @@ Landings trace_rays(Tracer& tracer, const RadiationModel& model, const CounterLa
 }
 
 struct Cut {
-  TreeFetch fetch;
+  BufferUse use;
   VulkanChoices choices;
 };
 
@@ -61,7 +61,7 @@ class DeviceAgreement : public DeviceTest {
   void expect_on_device(const RadiationModel& model, const Prepared& prepared, const shared::BeamBlock& beam, Cut cut,
                         const Counters& counters, const Landings& landings) const {
     SCOPED_TRACE("in dispatches of " + std::to_string(cut.choices.rays_per_dispatch));
-    const GpuTree tree(context(), prepared.bvh, cut.fetch);
+    const GpuTree tree(context(), prepared.bvh, cut.use);
     const auto words = prepared.layout.words();
     VulkanTracer tracer(context(), prepared.bvh, tree, tracer_scene(model), words, cut.choices);
     EXPECT_EQ(words_apart(count(tracer, beam, prepared.layout), counters), 0U);
@@ -80,8 +80,8 @@ class DeviceAgreement : public DeviceTest {
     const Counters expected = count(cpu, beam, prepared.layout);
     expect_all_counted(expected, beam, model.plot.periodic);
     const Landings landings = trace_rays(cpu, model, prepared.layout, beam);
-    for (const Cut& cut : {Cut{TreeFetch::texel_buffers, {}}, Cut{TreeFetch::storage_buffers, {1000, 128}},
-                           Cut{TreeFetch::texel_buffers, {64, 32}}}) {
+    for (const Cut& cut :
+         {Cut{BufferUse::uniform_texel, {}}, Cut{BufferUse::storage, {1000, 128}}, Cut{BufferUse::uniform_texel, {64, 32}}}) {
       expect_on_device(model, prepared, beam, cut, expected, landings);
     }
     if (doubted_rays == 0) return;
@@ -225,8 +225,8 @@ class ViewAgreement : public DeviceAgreement {
     const std::vector<glm::vec2> offsets = sample_offsets(3);
     const std::vector<shared::SeenSurface> expected = view_with_cpu(prepared.bvh, {view, offsets, {}})->see(0, view.height, {});
     ASSERT_EQ(expected.size(), 160U * 120U * 3U);
-    for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {
-      const GpuTree tree(context(), prepared.bvh, fetch);
+    for (const BufferUse use : {BufferUse::uniform_texel, BufferUse::storage}) {
+      const GpuTree tree(context(), prepared.bvh, use);
       const std::vector<shared::SeenSurface> seen =
           view_with_gpu(context(), tree, prepared.bvh, {view, offsets, {}})->see(0, view.height, {});
       ASSERT_EQ(seen.size(), expected.size());

@@ -83,8 +83,8 @@ class PacketsAgreement : public DeviceTest {
       EXPECT_NE(landing.surface, shared::lost_on_its_way);
     }
     EXPECT_EQ(on_elements > 0, model.canopy.size() > 0);
-    for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {
-      const GpuTree tree(context(), prepared.bvh, fetch);
+    for (const BufferUse use : {BufferUse::uniform_texel, BufferUse::storage}) {
+      const GpuTree tree(context(), prepared.bvh, use);
       VulkanTracer whole(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
       EXPECT_EQ(landings_apart(follow(whole, scene, packets), expected), 0U);
       for (const VulkanChoices cut : {VulkanChoices{64, 32}, VulkanChoices{1000, 128}}) {
@@ -101,7 +101,7 @@ class PacketsAgreement : public DeviceTest {
 
   void expect_same_run(const RadiationModel& model, const SolveSettings& settings) const {
     const Prepared prepared(model);
-    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
     VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
     const auto theirs = all_numbers(solve(model, prepared.layout, device, settings, {}));
@@ -192,7 +192,7 @@ TEST_F(PacketsAgreement, OfWholeRunsInTwoBands) {
 TEST_F(PacketsAgreement, TakeOneSubmissionARound) {
   const RadiationModel model = paper_model(random_leaves(100, 0.12, 5), unit_plot, beijing_sun());
   const Prepared prepared(model);
-  const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+  const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
   VulkanChoices on_host;
   on_host.rounds_at = RoundsAt::host;
   VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), on_host);

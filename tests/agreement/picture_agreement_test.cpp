@@ -256,8 +256,8 @@ class PictureAgreement : public DeviceTest {
   void expect_same_pictures(const RadiationModel& model, double height_m, int repeat) const {
     const Prepared prepared(model);
     const PictureSize size{120, 90, 3};
-    const GpuTree texels(context(), prepared.bvh, TreeFetch::texel_buffers);
-    const GpuTree storage(context(), prepared.bvh, TreeFetch::storage_buffers);
+    const GpuTree texels(context(), prepared.bvh, BufferUse::uniform_texel);
+    const GpuTree storage(context(), prepared.bvh, BufferUse::storage);
     for (const Camera& camera : cameras(model, height_m)) {
       const CanopyLook look = look_of(model, prepared.layout, camera, size, repeat);
       const Seen expected = see_on_cpu(prepared, look);
@@ -324,7 +324,7 @@ TEST_F(PictureAgreement, OfAPileTooHighForOneDispatchAmidstItsCopies) {
 TEST_F(PictureAgreement, StopsWhenAsked) {
   const RadiationModel model = maize_model({1, 1, 0.6, 0.6, 3}, beijing_sun());
   const Prepared prepared(model);
-  const GpuTree tree(context(), prepared.bvh, TreeFetch::texel_buffers);
+  const GpuTree tree(context(), prepared.bvh, BufferUse::uniform_texel);
   const CanopyLook look = look_of(model, prepared.layout, cameras(model, 2.2)[0], {40, 30, 1}, 3);
   EXPECT_TRUE(view_with_gpu(context(), tree, prepared.bvh, look)->see(0, 30, [] { return true; }).empty());
   EXPECT_TRUE(view_with_cpu(prepared.bvh, look)->see(0, 30, [] { return true; }).empty());

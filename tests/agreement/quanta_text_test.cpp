@@ -91,7 +91,7 @@ TEST_F(QuantaText, GivesTheSameWordsOnTheDevice) {
     upload(context(), given, std::as_bytes(std::span(inputs)));
     const GpuBuffer* const buffers[] = {&given, &results};
     const shared::QuantaPush push{quanta_batch};
-    pipeline.run(quanta_batch, std::as_bytes(std::span(&push, 1)), buffers);
+    pipeline.run(quanta_batch, bytes_of(push), buffers);
     download(context(), results, std::as_writable_bytes(std::span(outputs)));
     for (std::size_t i = 0; i < quanta_batch; ++i) {
       const shared::QuantaOutput expected = shared::all_of_the_quanta(inputs[i]);

@@ -205,7 +205,7 @@ class RoundsAgreement : public DeviceTest {
   template <class Wrapper = RoundsCounter>
   void expect_same_run(const RadiationModel& model, const SolveSettings& settings, VulkanChoices choices = {}) const {
     const Prepared prepared(model);
-    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
     choices.rounds_at = RoundsAt::device;
     VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), choices);
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
@@ -368,7 +368,7 @@ TEST_F(RoundsAgreement, OfLightsThatShareTheirPackets) {
     (void)solve_lights(moments, prepared.layout, tracer, fixed, {}, nullptr, {}, take);
     return numbers;
   };
-  const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+  const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
   VulkanChoices choices = together(8);
   choices.rounds_at = RoundsAt::device;
   VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(moments.front()), prepared.layout.words(), choices);
@@ -411,7 +411,7 @@ class RoundsTraffic : public RoundsAgreement {
 
   [[nodiscard]] Measured measure(const RadiationModel& model, double packets, VulkanChoices choices) const {
     const Prepared prepared(model);
-    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
     choices.rounds_at = RoundsAt::device;
     VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words(), choices);
     const DeviceTraffic before = context().traffic();

@@ -42,7 +42,7 @@ TEST_F(SensorsAgreement, InMaize) {
     model.plot.periodic = periodic;
     if (!periodic) model.canopy.period_m = glm::dvec2(0.0);
     const Prepared prepared(model);
-    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
     VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
     CpuTracer cpu(prepared.bvh, tracer_scene(model));
     const std::vector<double> expected = read(model, prepared, cpu);

@@ -183,7 +183,7 @@ TEST_F(SharedText, GivesTheSameBitsOnTheDevice) {
     const GpuBuffer given = storage_of(context(), std::span<const shared::TextInput>(inputs));
     const GpuBuffer* const buffers[] = {&beam_buffer, &view_buffer, &given, &results};
     const shared::TextPush push{{}, batch};
-    pipeline.run(batch, std::as_bytes(std::span(&push, 1)), buffers);
+    pipeline.run(batch, bytes_of(push), buffers);
     download(context(), results, std::as_writable_bytes(std::span(outputs)));
     for (std::size_t i = 0; i < batch; ++i) {
       const shared::TextOutput expected = shared::all_of_the_text(beam, view, inputs[i]);

@@ -31,7 +31,7 @@ using SparsePlot = DeviceTest;
 TEST_F(SparsePlot, TenMillionLandingsAreTheSame) {
   const RadiationModel& model = sparse_plot();
   const Prepared& prepared = prepared_plot();
-  const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+  const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
   VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
   CpuTracer cpu(prepared.bvh, tracer_scene(model));
   std::uint64_t rays = 0;
@@ -55,11 +55,11 @@ class WalkOnDevice {
  public:
   WalkOnDevice(const GpuContext& context, const Bvh& bvh)
       : context_(context),
-        tree_(context, bvh, preferred_fetch(context, bvh)),
+        tree_(context, bvh, preferred_use(context, bvh)),
         pipeline_(context,
                   {"tree_walk",
                    tree_walk_spirv,
-                   {tree_.use(), tree_.use(), BufferUse::storage, BufferUse::storage},
+                   {tree_.use, tree_.use, BufferUse::storage, BufferUse::storage},
                    sizeof(shared::TextPush),
                    shared::group_size},
                   {}) {}
@@ -70,7 +70,7 @@ class WalkOnDevice {
     const GpuBuffer found = create_buffer(context_, BufferUse::storage, rays.size() * sizeof(shared::WalkedHit), "hits");
     const GpuBuffer* const buffers[] = {&tree_.nodes, &tree_.triangles, &given, &found};
     const shared::TextPush push{direction, static_cast<std::uint32_t>(rays.size())};
-    pipeline_.run(rays.size(), std::as_bytes(std::span(&push, 1)), buffers);
+    pipeline_.run(rays.size(), bytes_of(push), buffers);
     std::vector<shared::WalkedHit> hits(rays.size());
     download(context_, found, std::as_writable_bytes(std::span(hits)));
     return hits;

@@ -63,9 +63,9 @@ void register_device(const GpuContext* context) {
   for (const Rays rays : {Rays::beam, Rays::leaf}) {
     add_benchmark(fmt::format("device/agree/{}", name_of(rays)), agree, context, rays)->Iterations(1)->Repetitions(1);
     add_benchmark(fmt::format("device/fetch/{}/texel", name_of(rays)), with_choice, context, rays,
-                  OurChoices{TreeFetch::texel_buffers, {}});
+                  OurChoices{BufferUse::uniform_texel, {}});
     add_benchmark(fmt::format("device/fetch/{}/storage", name_of(rays)), with_choice, context, rays,
-                  OurChoices{TreeFetch::storage_buffers, {}});
+                  OurChoices{BufferUse::storage, {}});
     for (const std::uint32_t size : {32U, 64U, 128U}) {
       add_benchmark(fmt::format("device/group/{}/{}", name_of(rays), size), with_choice, context, rays,
                     OurChoices{{}, {0, size}});

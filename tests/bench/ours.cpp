@@ -13,7 +13,7 @@ Ours::Ours(const Stand& stand, const Bvh& bvh, const GpuContext* context, const 
     tracer_ = std::make_unique<CpuTracer>(bvh, stand.tracer_scene());
     return;
   }
-  tree_.emplace(*context, bvh, choices.fetch.value_or(preferred_fetch(*context, bvh)));
+  tree_.emplace(*context, bvh, choices.use.value_or(preferred_use(*context, bvh)));
   tracer_ =
       std::make_unique<VulkanTracer>(*context, bvh, *tree_, stand.tracer_scene(), stand.prepared.layout.words(), choices.cut);
 }

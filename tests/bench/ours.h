@@ -14,7 +14,7 @@ namespace sunfleck::bench {
 
 // How the Vulkan path works; by default the program's own choices.
 struct OurChoices {
-  std::optional<TreeFetch> fetch;
+  std::optional<BufferUse> use;
   VulkanChoices cut;
 };
 

@@ -109,7 +109,7 @@ TEST_F(ExtremeCounters, CountUpToTheirLastNumber) {
   EXPECT_EQ(std::accumulate(plain.begin(), plain.end(), std::uint64_t{0}), std::uint64_t{beam.columns} * beam.rows);
   std::vector<std::uint32_t> begun(plain.size());
   for (std::size_t word = 0; word < begun.size(); ++word) begun[word] = 0xffffffffU - plain[word];
-  const GpuTree tree(context(), prepared.bvh, TreeFetch::texel_buffers);
+  const GpuTree tree(context(), prepared.bvh, BufferUse::uniform_texel);
   VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
   for (Tracer* tracer : {static_cast<Tracer*>(&cpu), static_cast<Tracer*>(&device)}) {
     std::vector<std::uint32_t> counters = begun;

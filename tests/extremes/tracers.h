@@ -26,8 +26,8 @@ class EveryTracer : public DeviceTest {
     std::vector<shared::Landing> expected = landings_of(cpu, scene, packets);
     CpuTracer doubter(prepared.bvh, tracer_scene(model), CpuWalk::every_element);
     expect_same(landings_of(doubter, scene, packets), expected, "every element tested");
-    for (const TreeFetch fetch : {TreeFetch::texel_buffers, TreeFetch::storage_buffers}) {
-      const GpuTree tree(context(), prepared.bvh, fetch);
+    for (const BufferUse use : {BufferUse::uniform_texel, BufferUse::storage}) {
+      const GpuTree tree(context(), prepared.bvh, use);
       VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
       expect_same(landings_of(device, scene, packets), expected, "device");
     }
@@ -38,7 +38,7 @@ class EveryTracer : public DeviceTest {
   RadiationResult run(const RadiationModel& model, const SolveSettings& settings) const {
     const Prepared prepared(model);
     RadiationResult result = test::simulate(model, prepared, settings);
-    const GpuTree tree(context(), prepared.bvh, preferred_fetch(context(), prepared.bvh));
+    const GpuTree tree(context(), prepared.bvh, preferred_use(context(), prepared.bvh));
     VulkanTracer device(context(), prepared.bvh, tree, tracer_scene(model), prepared.layout.words());
     EXPECT_TRUE(all_numbers(solve(model, prepared.layout, device, settings, {})) == all_numbers(result));
     EXPECT_EQ(result.lost_rays, 0U);

@@ -83,6 +83,12 @@ GpuBuffer create_buffer(const GpuContext& context, BufferUse use, std::size_t by
   }
 }
 
+GpuBuffer create_filled_buffer(const GpuContext& context, BufferUse use, std::span<const std::byte> content, const char* what) {
+  GpuBuffer buffer = create_buffer(context, use, content.size(), what);
+  upload(context, buffer, content);
+  return buffer;
+}
+
 std::vector<GpuBuffer> create_storage_buffers(const GpuContext& context, std::span<const std::size_t> bytes, const char* what) {
   std::vector<GpuBuffer> all;
   std::vector<std::size_t> offsets;

@@ -256,19 +256,9 @@ class CpuViewer final : public LookingViewer {
 };
 
 ShaderCode view_shader(const GpuTree& tree) {
-  const std::span<const std::uint32_t> spirv = tree.fetch == TreeFetch::texel_buffers
-                                                   ? std::span<const std::uint32_t>(view_spirv)
-                                                   : std::span<const std::uint32_t>(view_storage_spirv);
   std::vector<BufferUse> uses(6, BufferUse::storage);
-  uses[0] = uses[1] = tree.use();
-  return {"view", spirv, std::move(uses), sizeof(shared::ViewPush), shared::group_size};
-}
-
-template <class T>
-GpuBuffer upload_storage(const GpuContext& context, std::span<const T> data, const char* what) {
-  GpuBuffer buffer = create_buffer(context, BufferUse::storage, data.size_bytes(), what);
-  upload(context, buffer, std::as_bytes(data));
-  return buffer;
+  uses[0] = uses[1] = tree.use;
+  return {"view", tree.variant(view_spirv, view_storage_spirv), std::move(uses), sizeof(shared::ViewPush), shared::group_size};
 }
 
 class GpuViewer final : public LookingViewer {
@@ -311,8 +301,8 @@ class GpuViewer final : public LookingViewer {
   // Reuses the buffers of an earlier look that are large enough.
   void prepare() {
     slice_ = samples_per_slice();
-    blocks_ = upload_storage(context_, std::span<const shared::ViewBlock>(views()), "the cameras");
-    places_ = upload_storage(context_, std::span<const glm::vec2>(offsets()), "the places of samples");
+    blocks_ = create_filled_buffer(context_, BufferUse::storage, std::as_bytes(std::span(views())), "the cameras");
+    places_ = create_filled_buffer(context_, BufferUse::storage, std::as_bytes(std::span(offsets())), "the places of samples");
     make_room(directions_, is_fisheye() ? slice_ * sizeof(glm::vec3) : 0, "the directions of a fisheye");
     make_room(slice_seen_, slice_ * sizeof(shared::SeenSurface), "the surfaces of a picture");
   }
@@ -342,7 +332,7 @@ class GpuViewer final : public LookingViewer {
 
   void run(const shared::ViewPush& push) {
     const GpuBuffer* const buffers[] = {&tree_.nodes, &tree_.triangles, &blocks_, &places_, &directions_, &slice_seen_};
-    pipeline_.run(push.count, std::as_bytes(std::span(&push, 1)), buffers);
+    pipeline_.run(push.count, bytes_of(push), buffers);
   }
 
   const GpuContext& context_;

@@ -54,10 +54,9 @@ Engine::Engine(const DeviceChoice& device, const Bvh& bvh, TraceDomain domain, s
 }
 
 void Engine::open_vulkan(TraceDomain domain, std::size_t counter_words, double seconds_per_dispatch) {
-  const TreeFetch fetch = preferred_fetch(*context_, bvh_);
-  if (fetch == TreeFetch::storage_buffers)
-    say("the tree is too large for this device's texel buffers: storage buffers are used");
-  tree_ = std::make_unique<GpuTree>(*context_, bvh_, fetch);
+  const BufferUse use = preferred_use(*context_, bvh_);
+  if (use == BufferUse::storage) say("the tree is too large for this device's texel buffers: storage buffers are used");
+  tree_ = std::make_unique<GpuTree>(*context_, bvh_, use);
   VulkanChoices choices;
   choices.seconds_per_dispatch = seconds_per_dispatch;
   tracer_ = std::make_unique<VulkanTracer>(*context_, bvh_, *tree_, domain, counter_words, choices);

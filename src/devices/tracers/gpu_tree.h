@@ -4,21 +4,24 @@
 #include "devices/gpu/buffer.h"
 #include "physics/bvh/bvh.h"
 
+#include <cstdint>
+#include <span>
+
 namespace sunfleck {
 
-// How the shaders read the tree.
-enum class TreeFetch { texel_buffers, storage_buffers };
-
-// Returns texel buffers if they can hold the tree: 1.4 to 1.9 times faster on lavapipe.
-[[nodiscard]] TreeFetch preferred_fetch(const GpuContext& context, const Bvh& bvh);
+// Returns how the shaders read the tree best: as texels if these buffers can hold it, 1.4 to 1.9 times faster on lavapipe.
+[[nodiscard]] BufferUse preferred_use(const GpuContext& context, const Bvh& bvh);
 
 struct GpuTree {
-  GpuTree(const GpuContext& context, const Bvh& bvh, TreeFetch fetch);
+  GpuTree(const GpuContext& context, const Bvh& bvh, BufferUse use);
 
-  // Returns the use of bindings 0 and 1 of every shader that includes tree.glsl.
-  [[nodiscard]] BufferUse use() const { return nodes.use; }
+  // Returns the variant of a shader that reads the tree as it is stored.
+  [[nodiscard]] std::span<const std::uint32_t> variant(std::span<const std::uint32_t> with_texel_buffers,
+                                                       std::span<const std::uint32_t> with_storage_buffers) const {
+    return use == BufferUse::uniform_texel ? with_texel_buffers : with_storage_buffers;
+  }
 
-  TreeFetch fetch;
+  BufferUse use;    // of bindings 0 and 1 of every shader that includes tree.glsl
   bool has_copies;  // for the specialisation constant of traverse.glsl
   GpuBuffer nodes, triangles;
 };

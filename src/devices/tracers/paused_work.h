@@ -72,20 +72,20 @@ class PausedWork {
   // Records a dispatch of as many groups as a buffer says. Rays that pause stay in `outbox`, which must be empty, for resume().
   void record(Submission& submission, const Push& push, const GpuBuffer& groups, std::size_t offset,
               const std::vector<const GpuBuffer*>& buffers, const GpuBuffer& outbox) {
-    submission.run(pipeline_, groups, offset, std::as_bytes(std::span(&push, 1)), bound(buffers, outbox));
+    submission.run(pipeline_, groups, offset, bytes_of(push), bound(buffers, outbox));
   }
   // Brings rays that paused in a recorded dispatch to their end, as run() does, and empties their outbox.
   template <class After, class Finish>
   TraceOutcome resume(const GpuBuffer& outbox, const std::vector<const GpuBuffer*>& buffers, const StopQuestion& stop,
                       const After& after, const Finish& finish_on_cpu) {
     std::uint32_t paused = 0;
-    download(context_, outbox, std::as_writable_bytes(std::span(&paused, 1)));
+    download(context_, outbox, writable_bytes_of(paused));
     Push push{};
     push.count = take_out_stuck(outbox, paused, finish_on_cpu);
     push.from_inbox = 1;
     std::swap(inbox_, outbox_);
     constexpr std::uint32_t none = 0;
-    upload(context_, outbox, std::as_bytes(std::span(&none, 1)));
+    upload(context_, outbox, bytes_of(none));
     return run(
         push, buffers, stop, [](Submission&) {}, after, finish_on_cpu);
   }
@@ -98,10 +98,10 @@ class PausedWork {
   static constexpr std::size_t head_bytes = sizeof(std::uint32_t);
 
   static ShaderCode code_of(const WorkShader& shader, const GpuTree& tree, std::uint32_t group_size) {
-    std::vector<BufferUse> bindings{tree.use(), tree.use()};
+    std::vector<BufferUse> bindings{tree.use, tree.use};
     bindings.resize(bindings.size() + shader.buffers + 2, BufferUse::storage);
-    const bool texel = tree.fetch == TreeFetch::texel_buffers;
-    return {shader.name, texel ? shader.with_texel_buffers : shader.with_storage_buffers, bindings, sizeof(Push), group_size};
+    return {shader.name, tree.variant(shader.with_texel_buffers, shader.with_storage_buffers), bindings, sizeof(Push),
+            group_size};
   }
 
   [[nodiscard]] std::vector<const GpuBuffer*> bound(const std::vector<const GpuBuffer*>& buffers,
@@ -117,9 +117,9 @@ class PausedWork {
   std::uint32_t dispatch(const Push& push, const std::vector<const GpuBuffer*>& buffers, Submission& submission,
                          const After& after) {
     std::uint32_t paused = 0;
-    submission.upload(outbox_, std::as_bytes(std::span(&paused, 1)));
-    submission.run(pipeline_, push.count, std::as_bytes(std::span(&push, 1)), bound(buffers, outbox_));
-    submission.download(outbox_, std::as_writable_bytes(std::span(&paused, 1)));
+    submission.upload(outbox_, bytes_of(paused));
+    submission.run(pipeline_, push.count, bytes_of(push), bound(buffers, outbox_));
+    submission.download(outbox_, writable_bytes_of(paused));
     after(submission, outbox_);
     submission.finish();
     return paused;

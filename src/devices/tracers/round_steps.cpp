@@ -133,7 +133,7 @@ void RoundSteps::run(Submission& submission, Lanes lanes, ComputePipeline& shade
                      shared::RoundPush push, const OtherBuffer& instead) {
   const Submission::SideBySide side_by_side(submission);
   for (std::size_t lane = lanes.first; lane < lanes.end; ++lane) {
-    submission.run(shader, threads, std::as_bytes(std::span(&push, 1)), buffers_.of(lane, instead));
+    submission.run(shader, threads, bytes_of(push), buffers_.of(lane, instead));
   }
 }
 
@@ -144,8 +144,7 @@ void RoundSteps::run_sampled(Submission& submission, std::span<const RoundsPass>
     if (order.landings == nullptr) continue;
     const GpuBuffer& landings = dynamic_cast<const LandingsOnDevice&>(*order.landings).buffer();
     constexpr shared::RoundPush push{};
-    submission.run(shader, order.block.sampled.count, std::as_bytes(std::span(&push, 1)),
-                   buffers_.of(lane, {RoundBuffer::landings, &landings}));
+    submission.run(shader, order.block.sampled.count, bytes_of(push), buffers_.of(lane, {RoundBuffer::landings, &landings}));
   }
 }
 
@@ -160,8 +159,8 @@ void RoundSteps::add_landings(Submission& submission, std::span<const RoundsPass
 void RoundSteps::run_groups(Submission& submission, ComputePipeline& shader, std::uint32_t kind, shared::RoundPush push) {
   const Submission::SideBySide side_by_side(submission);
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
-    submission.run(shader, buffer(RoundBuffer::groups, lane), RoundBuffers::offset_of_groups(kind),
-                   std::as_bytes(std::span(&push, 1)), buffers_.of(lane));
+    submission.run(shader, buffer(RoundBuffer::groups, lane), RoundBuffers::offset_of_groups(kind), bytes_of(push),
+                   buffers_.of(lane));
   }
 }
 

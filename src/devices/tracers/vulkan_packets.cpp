@@ -46,9 +46,9 @@ TraceOutcome VulkanPackets::trace(const shared::PacketBlock& scene, std::span<co
     const shared::PacketPush push{0, static_cast<std::uint32_t>(slice.size()), 0};
     const std::span<shared::Landing> landed = landings.subspan(first, slice.size());
     const auto send = [&](Submission& submission) {
-      submission.upload(scene_, std::as_bytes(std::span(&scene, 1)));
+      submission.upload(scene_, bytes_of(scene));
       submission.upload(packets_, std::as_bytes(slice));
-      submission.upload(order_, std::as_bytes(std::span(&push.count, 1)));
+      submission.upload(order_, bytes_of(push.count));
       submission.upload(order_, std::as_bytes(std::span(order)), sizeof(push.count));
     };
     const auto take = [&](Submission& submission, const GpuBuffer&) {

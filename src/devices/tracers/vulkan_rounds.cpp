@@ -86,7 +86,7 @@ bool VulkanRounds::lacks_room(const RoundsPass& pass, const shared::RoundState& 
 
 void VulkanRounds::give(Submission& submission, std::span<const RoundsPass> passes) {
   steps_.give(submission, passes);
-  submission.upload(scene_, std::as_bytes(std::span(&passes.front().order->scene.block, 1)));
+  submission.upload(scene_, bytes_of(passes.front().order->scene.block));
 }
 
 std::vector<const GpuBuffer*> VulkanRounds::traced(std::size_t lane) const {
@@ -211,16 +211,14 @@ TraceOutcome VulkanRounds::send(const shared::PacketBlock& scene, std::uint32_t 
 std::pair<std::uint32_t, shared::Landing> VulkanRounds::finish_on_cpu(const shared::PacketBlock& scene, std::size_t lane,
                                                                       const shared::PausedPacket& paused) const {
   shared::Packet packet;
-  download(context_, steps_.buffer(RoundBuffer::packets, lane), std::as_writable_bytes(std::span(&packet, 1)),
-           paused.packet * sizeof(packet));
+  download(context_, steps_.buffer(RoundBuffer::packets, lane), writable_bytes_of(packet), paused.packet * sizeof(packet));
   return {paused.packet, cpu_.finish_packet(scene, packet, paused)};
 }
 
 void VulkanRounds::book(const Finished& finished, std::size_t lane, shared::RoundPush part) {
   Submission submission(context_);
   for (const auto& [packet, landing] : finished) {
-    submission.upload(steps_.buffer(RoundBuffer::landings, lane), std::as_bytes(std::span(&landing, 1)),
-                      packet * sizeof(landing));
+    submission.upload(steps_.buffer(RoundBuffer::landings, lane), bytes_of(landing), packet * sizeof(landing));
   }
   steps_.book(submission, lane, part, nullptr);
   submission.finish();

@@ -109,7 +109,7 @@ TraceOutcome VulkanTracer::follow_beam(const shared::BeamBlock& beam, std::span<
   std::uint32_t first = 0;
   const auto send = [&](Submission& submission) {
     if (first > 0) return;
-    submission.upload(beam_, std::as_bytes(std::span(&beam, 1)));
+    submission.upload(beam_, bytes_of(beam));
     submission.fill(counters_, 0);
   };
   while (first < rays) {
@@ -140,7 +140,7 @@ void VulkanTracer::finish_on_cpu(const shared::BeamBlock& beam, std::span<const 
     cpu_.finish_ray(beam, ray, counters, std::span(&landing, 1));
     if (!record.fetched.empty()) record.fetched[ray.ray] = landing;
     if (record.buffer == nullptr) continue;
-    submission.upload(*record.buffer, std::as_bytes(std::span(&landing, 1)), ray.ray * sizeof(landing));
+    submission.upload(*record.buffer, bytes_of(landing), ray.ray * sizeof(landing));
   }
   submission.finish();
 }

@@ -33,8 +33,7 @@ struct OwnTree {
 class DeviceTracer final : OwnTree, public VulkanTracer {
  public:
   DeviceTracer(const GpuContext& context, const Bvh& bvh, TraceDomain domain, std::size_t counter_words)
-      : OwnTree{GpuTree(context, bvh, preferred_fetch(context, bvh))},
-        VulkanTracer(context, bvh, tree, domain, counter_words) {}
+      : OwnTree{GpuTree(context, bvh, preferred_use(context, bvh))}, VulkanTracer(context, bvh, tree, domain, counter_words) {}
 };
 
 TracerMaker tracer_maker(const GpuContext* context) {

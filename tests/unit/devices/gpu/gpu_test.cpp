@@ -35,7 +35,7 @@ ComputePipeline make_pipeline(const GpuContext& context, Mode mode, std::uint32_
 
 void run(ComputePipeline& pipeline, std::uint64_t threads, const Push& push, const GpuBuffer& words, const GpuBuffer& texels) {
   const GpuBuffer* buffers[] = {&words, &texels};
-  pipeline.run(threads, std::as_bytes(std::span(&push, 1)), buffers);
+  pipeline.run(threads, bytes_of(push), buffers);
 }
 
 GpuBuffer make_buffer(const GpuContext& context, BufferUse use, std::span<const std::uint32_t> words) {
@@ -135,7 +135,7 @@ TEST_F(GpuTest, CopiesFillsAndDispatchesSeeEachOtherInOneSubmission) {
   submission.fill(buffer, 7);
   submission.upload(buffer, std::as_bytes(std::span(words)));
   submission.download(buffer, std::as_writable_bytes(std::span(before)));
-  submission.run(pipeline, count, std::as_bytes(std::span(&push, 1)), buffers);
+  submission.run(pipeline, count, bytes_of(push), buffers);
   submission.download(buffer, std::as_writable_bytes(std::span(after)));
   submission.finish();
   EXPECT_EQ(context().traffic().submissions - start.submissions, 1U);
@@ -160,7 +160,7 @@ TEST_F(GpuTest, APipelineRunsAgainInASubmissionWithTheSameBuffers) {
   Submission submission(context());
   for (const std::uint32_t number : {1U, 20U, 300U}) {
     const Push push{count, number};
-    submission.run(pipeline, count, std::as_bytes(std::span(&push, 1)), buffers);
+    submission.run(pipeline, count, bytes_of(push), buffers);
   }
   submission.download(buffer, std::as_writable_bytes(std::span(sums)));
   submission.finish();
@@ -182,8 +182,8 @@ TEST_F(GpuTest, EarlierCommandsSayHowManyGroupsRun) {
     auto counter = make_pipeline(context(), Mode::add);
     const Push add{2, more}, push{count, 42};
     Submission submission(context());
-    submission.run(counter, 2, std::as_bytes(std::span(&add, 1)), number);
-    submission.run(pipeline, groups, 4, std::as_bytes(std::span(&push, 1)), buffers);
+    submission.run(counter, 2, bytes_of(add), number);
+    submission.run(pipeline, groups, 4, bytes_of(push), buffers);
     submission.finish();
     const std::uint32_t threads = (2 + more) * 64;
     const auto sums = read_words(context(), buffer);
@@ -206,9 +206,9 @@ TEST_F(GpuTest, AFullStagingMemoryEndsASubmissionEarlyAndOtherBuffersOfAPipeline
   submission.fill(one, 0);
   for (const GpuBuffer* buffer : {&one, &many, &one}) {
     const GpuBuffer* buffers[] = {buffer, &texels};
-    submission.run(pipeline, 1, std::as_bytes(std::span(&push, 1)), buffers);
+    submission.run(pipeline, 1, bytes_of(push), buffers);
   }
-  submission.download(one, std::as_writable_bytes(std::span(&sum, 1)));
+  submission.download(one, writable_bytes_of(sum));
   submission.download(many, std::as_writable_bytes(std::span(all)));
   submission.finish();
   EXPECT_EQ(context().traffic().submissions - start, 3U);
@@ -234,7 +234,7 @@ TEST_F(GpuTest, CommandsSideBySideWaitForThoseBeforeAndBeforeThoseAfter) {
     for (std::uint32_t k = 0; k < sides; ++k) {
       const Push push{count, (k + 1) * number};
       const GpuBuffer* bound[] = {&buffers[k], &texels};
-      submission.run(pipeline, count, std::as_bytes(std::span(&push, 1)), bound);
+      submission.run(pipeline, count, bytes_of(push), bound);
     }
   }
   for (std::size_t k = 0; k < sides; ++k) submission.download(buffers[k], std::as_writable_bytes(std::span(sums[k])));
@@ -293,7 +293,7 @@ TEST_F(GpuTest, RunRefusesWhatDoesNotFitTheShader) {
   const Push push{1, 1};
   const GpuBuffer* buffers[] = {&buffer, &texels};
   EXPECT_THROW(pipeline.run(1, {}, buffers), std::logic_error);
-  EXPECT_THROW(pipeline.run(1, std::as_bytes(std::span(&push, 1)), std::span(buffers).first(1)), std::logic_error);
+  EXPECT_THROW(pipeline.run(1, bytes_of(push), std::span(buffers).first(1)), std::logic_error);
 }
 
 TEST_F(GpuTest, OneRunReachesTheLastThreadOfTheLargestDispatch) {
