@@ -1,6 +1,6 @@
 #include "simulate/memory_forecast.h"
 
-#include "devices/tracers/cpu_tracer.h"
+#include "base/threads.h"
 #include "physics/bvh/references.h"
 #include "physics/transport/indirect/place_sums.h"
 #include "physics/transport/model/surfaces.h"

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/threads.h"
 #include "base/version.h"
-#include "devices/tracers/cpu_tracer.h"
 #include "physics/transport/indirect/replicate_maker.h"
 #include "simulate/cluster/rank_worker.h"
 #include "simulate/interrupt.h"

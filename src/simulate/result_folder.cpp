@@ -4,7 +4,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
-#include "devices/tracers/cpu_tracer.h"
+#include "base/threads.h"
 #include "files/results/exports/exports.h"
 #include "files/results/stores/result_store.h"
 #include "files/results/stores/run_store.h"

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/threads.h"
 #include "base/version.h"
-#include "devices/tracers/cpu_tracer.h"
 #include "physics/light/beam_grid.h"
 #include "physics/transport/receivers/sensors.h"
 #include "simulate/checkpoint.h"

@@ -1,9 +1,9 @@
 // Measures the building of a tree from triangles, ours and Embree's, on one thread each.
 
+#include "base/threads.h"
 #include "bench/benches.h"
 #include "bench/measure.h"
 #include "bench/peer.h"
-#include "devices/tracers/cpu_tracer.h"
 #include "physics/bvh/build.h"
 
 #include <benchmark/benchmark.h>

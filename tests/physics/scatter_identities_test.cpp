@@ -1,6 +1,7 @@
 // Tests what must hold in every scene whose leaves reflect and transmit (B14 of the validation table), and that a run gives the
 // same numbers with any number of threads.
 #include "base/error.h"
+#include "base/threads.h"
 #include "support/comparison.h"
 #include "support/leaf_scenes.h"
 #include "support/result_numbers.h"

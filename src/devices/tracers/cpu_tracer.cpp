@@ -8,8 +8,6 @@
 #include "shared/beam.h"
 
 #include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -188,19 +186,5 @@ TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const 
   }
   return TraceOutcome::finished;
 }
-
-int cpu_thread_count(int threads) {
-  return threads > 0 ? threads : tbb::info::default_concurrency();
-}
-
-struct CpuThreads::Limit {
-  tbb::global_control control;
-};
-
-CpuThreads::CpuThreads(int threads)
-    : limit_(new Limit{tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                           static_cast<std::size_t>(cpu_thread_count(threads)))}) {}
-
-CpuThreads::~CpuThreads() = default;
 
 }  // namespace sunfleck

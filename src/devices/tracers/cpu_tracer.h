@@ -10,8 +10,6 @@
 #include "physics/transport/model/tracer.h"
 #include "shared/layout.h"
 
-#include <memory>
-
 namespace sunfleck {
 
 enum class CpuWalk { tree, every_element };
@@ -61,22 +59,6 @@ class CpuTracer final : public Tracer {
   CpuWalk walk_;
   float triangle_size_squared_;
   DispatchBudget beam_budget_, packet_budget_;  // rays between two checks whether to stop
-};
-
-// Returns how many threads the CPU path has if `threads` are asked for; 0 asks for all cores.
-[[nodiscard]] int cpu_thread_count(int threads);
-
-// Sets the number of threads of the CPU path for the lifetime of the object; 0: all cores.
-class CpuThreads {
- public:
-  explicit CpuThreads(int threads);
-  ~CpuThreads();
-  CpuThreads(const CpuThreads&) = delete;
-  CpuThreads& operator=(const CpuThreads&) = delete;
-
- private:
-  struct Limit;
-  std::unique_ptr<Limit> limit_;
 };
 
 }  // namespace sunfleck

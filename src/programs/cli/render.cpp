@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "devices/tracers/cpu_tracer.h"
+#include "base/threads.h"
 #include "files/results/stores/result_store.h"
 #include "pictures/charts/pictures.h"
 #include "pictures/drawing/exr_writer.h"

@@ -5,6 +5,7 @@
 #include "base/folder_lock.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "base/version.h"
 #include "devices/tracers/cpu_tracer.h"
 #include "devices/tracers/engine.h"

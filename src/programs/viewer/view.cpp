@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "devices/tracers/cpu_tracer.h"
+#include "base/threads.h"
 #include "devices/tracers/engine.h"
 #include "pictures/drawing/text.h"
 #include "programs/cli/terminal.h"

@@ -1,6 +1,6 @@
 #include "physics/transport/indirect/counted_thread.h"
 
-#include "devices/tracers/cpu_tracer.h"
+#include "base/threads.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
