@@ -53,18 +53,13 @@ class PacketSearches final : public SearchSource {
 
 }  // namespace
 
-CpuTracer::CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk)
+CpuTracer::CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk, double stop_check_s)
     : bvh_(bvh),
       domain_(domain),
       walk_(walk),
       triangle_size_squared_(triangle_size_squared(bvh)),
-      beam_budget_(rays_per_slice, 0.0),
-      packet_budget_(packets_per_slice, 0.0) {}
-
-void CpuTracer::check_stop_every(double seconds) {
-  beam_budget_.aim_at(seconds);
-  packet_budget_.aim_at(seconds);
-}
+      beam_budget_(rays_per_slice, stop_check_s),
+      packet_budget_(packets_per_slice, stop_check_s) {}
 
 TracerDevice CpuTracer::device() const {
   return {"cpu", walk_ == CpuWalk::tree ? "CPU path" : "CPU path, every element tested", "", true};

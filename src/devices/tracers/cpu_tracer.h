@@ -16,11 +16,8 @@ enum class CpuWalk { tree, every_element };
 
 class CpuTracer final : public Tracer {
  public:
-  // The tree must outlive the tracer.
-  CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk = CpuWalk::tree);
-
-  // Makes the tracer check about every `seconds` seconds whether to stop, from now on. Nothing may be traced meanwhile.
-  void check_stop_every(double seconds);
+  // The tree must outlive the tracer, which checks about every `stop_check_s` seconds whether to stop; 0: less often.
+  CpuTracer(const Bvh& bvh, TraceDomain domain, CpuWalk walk = CpuWalk::tree, double stop_check_s = 0.0);
 
   [[nodiscard]] TracerDevice device() const override;
   [[nodiscard]] bool serves_several() const override { return true; }

@@ -11,13 +11,8 @@ namespace sunfleck {
 // Without a requested time it is always the maximum. Several threads may ask and record at the same time.
 class DispatchBudget {
  public:
-  DispatchBudget(std::uint32_t most, double seconds) : most_(most) { aim_at(seconds); }
-
-  // Begins anew with another requested time.
-  void aim_at(double seconds) {
-    seconds_ = seconds;
-    rays_ = seconds > 0.0 ? std::min(most_, least) : most_;
-  }
+  DispatchBudget(std::uint32_t most, double seconds)
+      : most_(most), seconds_(seconds), rays_(seconds > 0.0 ? std::min(most, least) : most) {}
 
   [[nodiscard]] std::uint32_t rays() const { return rays_; }
 
@@ -33,8 +28,8 @@ class DispatchBudget {
  private:
   static constexpr std::uint32_t least = 4096;
   std::uint32_t most_;
-  double seconds_ = 0.0;
-  std::atomic<std::uint32_t> rays_ = 0;
+  double seconds_;
+  std::atomic<std::uint32_t> rays_;
 };
 
 }  // namespace sunfleck

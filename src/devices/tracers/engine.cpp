@@ -44,9 +44,7 @@ Engine::Engine(const DeviceChoice& device, const Bvh& bvh, TraceDomain domain, s
   if (context_) {
     open_vulkan(domain, counter_words, seconds);
   } else {
-    auto cpu = std::make_unique<CpuTracer>(bvh, domain);
-    if (seconds > 0.0) cpu->check_stop_every(seconds);
-    tracer_ = std::move(cpu);
+    tracer_ = std::make_unique<CpuTracer>(bvh, domain, CpuWalk::tree, seconds);
   }
   if (use == EngineUse::one_thread) return;
   turn_ = std::make_unique<DeviceTurn>();

@@ -181,8 +181,7 @@ TEST(RememberedBeams, ForgetABeamThatWasStopped) {
 TEST(CpuTracer, CountsTheSameHoweverOftenItAsks) {
   Stand stand;
   CpuTracer cpu(stand.bvh, {true, true});
-  CpuTracer often(stand.bvh, {true, true});
-  often.check_stop_every(1e-7);
+  CpuTracer often(stand.bvh, {true, true}, CpuWalk::tree, 1e-7);
   int questions = 0;
   std::vector<std::uint32_t> counters(stand.layout.words(), 3);
   const shared::BeamBlock beam = make_beam_block(stand.model, stand.layout, 50000, 1, 0);
