@@ -2,6 +2,7 @@
 // Loops that the threads of a run share.
 
 #include "base/prefetch.h"
+#include "base/rounding.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -10,10 +11,6 @@
 #include <cstddef>
 
 namespace sunfleck {
-
-[[nodiscard]] constexpr std::size_t block_count(std::size_t count, std::size_t block_size) {
-  return (count + block_size - 1) / block_size;
-}
 
 // Calls take(block, first, end) for each block of the numbers below `count`, `block_size` of them but in the last one, in any
 // order and several at a time.

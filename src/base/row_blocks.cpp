@@ -26,7 +26,7 @@ void* fetch(std::size_t bytes) {
 std::size_t bytes_of_block(std::size_t row_bytes, std::size_t most_rows) {
   const std::size_t wanted = std::clamp(row_bytes * most_rows / blocks_of_all, least_block_bytes, most_block_bytes);
   const std::size_t bytes = std::max(wanted, row_bytes);
-  return bytes < page_bytes ? bytes : (bytes + page_bytes - 1) / page_bytes * page_bytes;
+  return bytes < page_bytes ? bytes : rounded_up(bytes, page_bytes);
 }
 
 }  // namespace

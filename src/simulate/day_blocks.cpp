@@ -1,5 +1,6 @@
 #include "simulate/day_blocks.h"
 
+#include "base/rounding.h"
 #include "physics/transport/model/result.h"
 #include "physics/transport/solve/darkness.h"
 
@@ -35,7 +36,7 @@ void plan_blocks(const RadiationModel& model, std::size_t most, DayPlan& plan) {
   const std::vector<DayStep>& steps = plan.course.steps;
   plan.blocks.clear();
   const auto cut = [&](std::size_t first, std::size_t end) {
-    const std::size_t parts = (end - first + most - 1) / most;
+    const std::size_t parts = block_count(end - first, most);
     for (std::size_t part = 0; part < parts; ++part) {
       plan.blocks.push_back({first + (end - first) * part / parts, first + (end - first) * (part + 1) / parts});
     }

@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/rounding.h"
 
 namespace sunfleck {
 
@@ -98,7 +99,7 @@ std::vector<GpuBuffer> create_storage_buffers(const GpuContext& context, std::sp
       check_limits(context, BufferUse::storage, each, what);
       all.push_back(without_memory(context, BufferUse::storage, each));
       const vk::MemoryRequirements own = all.back().handles->buffer.getMemoryRequirements();
-      offsets.push_back((together.size + own.alignment - 1) / own.alignment * own.alignment);
+      offsets.push_back(rounded_up(together.size, own.alignment));
       together.size = offsets.back() + own.size;
       together.alignment = std::max(together.alignment, own.alignment);
       together.memoryTypeBits &= own.memoryTypeBits;

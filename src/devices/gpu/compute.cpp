@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/rounding.h"
 
 namespace sunfleck {
 
@@ -113,7 +114,7 @@ void ComputePipeline::record_binding(std::size_t binding, std::span<const std::b
 
 void ComputePipeline::record(std::size_t binding, std::uint64_t threads, std::span<const std::byte> push) const {
   record_binding(binding, push);
-  const std::uint64_t groups = (threads + code_.group_size - 1) / code_.group_size;
+  const std::uint64_t groups = block_count(threads, code_.group_size);
   context_.handles().commands.dispatch(static_cast<std::uint32_t>(groups), 1, 1);
 }
 

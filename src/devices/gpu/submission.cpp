@@ -37,7 +37,7 @@ void Submission::begin_command() {
 
 std::span<std::byte> Submission::stage(std::size_t wanted) {
   constexpr std::size_t alignment = 256;
-  staged_ = (staged_ + alignment - 1) / alignment * alignment;
+  staged_ = rounded_up(staged_, alignment);
   if (staged_ >= Staging::bytes) finish();
   const std::span<std::byte> piece(context_.handles().staging.data + staged_, std::min(wanted, Staging::bytes - staged_));
   staged_ += piece.size();

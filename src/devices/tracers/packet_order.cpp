@@ -1,5 +1,6 @@
 #include "devices/tracers/packet_order.h"
 
+#include "base/rounding.h"
 #include "shared/rounds.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -45,7 +46,7 @@ void order_window(std::span<const shared::Packet> packets, std::uint32_t first, 
 
 std::vector<std::uint32_t> order_by_direction(std::span<const shared::Packet> packets) {
   std::vector<std::uint32_t> order(packets.size());
-  const std::size_t windows = (packets.size() + window - 1) / window;
+  const std::size_t windows = block_count(packets.size(), window);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows, windows_per_task), [&](const auto& range) {
     for (std::size_t first = range.begin() * window; first < std::min(range.end() * window, packets.size()); first += window) {
       const std::size_t count = std::min(window, packets.size() - first);

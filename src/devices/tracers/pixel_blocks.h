@@ -1,6 +1,7 @@
 #pragma once
 // Divides a picture into squares of pixels, whose rays have much in common.
 
+#include "base/rounding.h"
 #include "devices/tracers/bundle_walk.h"
 #include "shared/view_layout.h"
 
@@ -18,10 +19,10 @@ class PixelBlocks {
   PixelBlocks(const shared::ViewBlock& view, std::uint32_t rows)
       : picture_columns_(view.width), picture_rows_(rows), samples_(view.samples) {
     while (samples_in_block() > rays_per_bundle && columns_ * rows_ > 1) (rows_ < columns_ ? columns_ : rows_) /= 2;
-    across_ = (picture_columns_ + columns_ - 1) / columns_;
+    across_ = block_count(picture_columns_, columns_);
   }
 
-  [[nodiscard]] std::uint32_t count() const { return across_ * ((picture_rows_ + rows_ - 1) / rows_); }
+  [[nodiscard]] std::uint32_t count() const { return across_ * block_count(picture_rows_, rows_); }
   [[nodiscard]] std::uint32_t samples_in_block() const { return columns_ * rows_ * samples_; }
 
   // Calls visit(numbers of samples) for each bundle of a block.

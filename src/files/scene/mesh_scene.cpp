@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/rounding.h"
 #include "files/formats/mesh/mesh_survey.h"
 #include "files/scene/scene_patterns.h"
 #include "files/scene/toml_text.h"
@@ -96,7 +97,7 @@ class MeshSceneText {
     cell_m_ = glm::max(margin * cell_m_, glm::dvec2(std::max(0.5 * larger_m, least_m)));
     cell_m_ = {rounded_up(cell_m_.x), rounded_up(cell_m_.y)};
     rows_ = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(meshes_.size()))));
-    columns_ = (meshes_.size() + rows_ - 1) / rows_;
+    columns_ = block_count(meshes_.size(), rows_);
   }
 
   void add_head() {

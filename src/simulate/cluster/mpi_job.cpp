@@ -1,6 +1,7 @@
 #include "simulate/cluster/mpi_job.h"
 
 #include "base/error.h"
+#include "base/rounding.h"
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -35,7 +36,7 @@ class MpiMailbox final : public Mailbox {
   [[nodiscard]] int ranks() const override { return ranks_; }
 
   void post(int to, LetterKind kind, std::vector<std::byte> content) override {
-    const std::size_t words = 1 + (content.size() + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
+    const std::size_t words = 1 + block_count(content.size(), sizeof(std::uint64_t));
     if (words > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
       throw_failure("a replicate's message", fmt::format("{} bytes are more than MPI sends in one message", content.size()),
                     "run on one machine");

@@ -1,6 +1,7 @@
 #include "files/results/exports/netcdf_rows.h"
 
 #include "base/check.h"
+#include "base/rounding.h"
 #include "base/zlib_streams.h"
 #include "files/results/exports/netcdf_file.h"
 #include "files/results/exports/netcdf_library.h"
@@ -49,7 +50,7 @@ NetcdfRows::~NetcdfRows() {
 
 void NetcdfRows::put(std::size_t row, std::span<const float> values) {
   EXPECT(values.size(), ==, variables_.size() * columns_);
-  const std::size_t chunks = chunk_ > 0 ? (columns_ + chunk_ - 1) / chunk_ : 0;
+  const std::size_t chunks = chunk_ > 0 ? block_count(columns_, chunk_) : 0;
   std::vector<std::vector<std::uint8_t>> all(variables_.size() * chunks);
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     const std::size_t begin = k % chunks * chunk_;

@@ -1,5 +1,7 @@
 #include "physics/transport/triangles/shrinkage.h"
 
+#include "base/rounding.h"
+
 #include <limits>
 #include <vector>
 
@@ -182,7 +184,7 @@ HWY_EXPORT(shrink);
 
 // Returns differences with finite noise, evenly spread over all.
 Samples sampled(std::span<const double> seen, std::span<const double> noise) {
-  const std::size_t stride = (seen.size() + most_samples - 1) / most_samples;
+  const std::size_t stride = block_count(seen.size(), most_samples);
   Samples samples;
   std::size_t lane = at_once;
   for (std::size_t i = 0; i < seen.size(); i += stride) {
