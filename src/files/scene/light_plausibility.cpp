@@ -148,8 +148,7 @@ std::vector<std::string> emission_warnings(const TomlTable& root, const Radiatio
   std::set<std::string> shining;
   for (const Surface& surface : Surfaces(model).of) {
     const SurfaceOptics& optics = model.optics[surface.optics];
-    const bool emits = std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w) { return w > 0.0; });
-    if (emits && is_called_leaf(surface, model)) shining.insert(optics.name);
+    if (optics.shines() && is_called_leaf(surface, model)) shining.insert(optics.name);
   }
   std::vector<std::string> warnings;
   const auto all = root.table("optics");

@@ -42,9 +42,8 @@ Stand stand_of(const RadiationModel& model) {
 }
 
 bool has_lamp(const RadiationModel& model, std::size_t band) {
-  return std::any_of(model.optics.begin(), model.optics.end(), [&](const SurfaceOptics& optics) {
-    return !optics.emission_w_m2.empty() && optics.emission_w_m2[band] > 0.0;
-  });
+  return std::any_of(model.optics.begin(), model.optics.end(),
+                     [&](const SurfaceOptics& optics) { return optics.exitance_w_m2(band) > 0.0; });
 }
 
 bool is_dark(const BandLight& light) {

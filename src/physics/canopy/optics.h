@@ -3,6 +3,8 @@
 
 #include "physics/canopy/role.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -41,6 +43,13 @@ struct SurfaceOptics {
   glm::dvec3 rgb{0.06, 0.12, 0.05};   // reflectance in red, green and blue, for pictures only
   std::vector<double> emission_w_m2;  // [waveband], exitance of the upper face, cosine-distributed; empty if it is no lamp
   std::optional<Role> role;           // if given
+
+  // Returns the exitance of the upper face; 0 if it is no lamp.
+  [[nodiscard]] double exitance_w_m2(std::size_t band) const { return emission_w_m2.empty() ? 0.0 : emission_w_m2[band]; }
+  // Returns whether it is a lamp that shines in some band.
+  [[nodiscard]] bool shines() const {
+    return std::any_of(emission_w_m2.begin(), emission_w_m2.end(), [](double w_m2) { return w_m2 > 0.0; });
+  }
 };
 
 struct Soil {

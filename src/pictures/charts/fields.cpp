@@ -56,7 +56,7 @@ double largest_sent_w_m2(const RadiationModel& model, std::size_t band) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double sent = model.soil ? model.soil->reflectance[band] : 0.0;
   for (const SurfaceOptics& optics : model.optics) {
-    if (!optics.emission_w_m2.empty() && optics.emission_w_m2[band] > 0.0) return infinite;
+    if (optics.exitance_w_m2(band) > 0.0) return infinite;
     const FaceOptics &upper = optics.upper[band], &lower = optics.lower[band];
     sent = std::max({sent, upper.reflectance + lower.transmittance, lower.reflectance + upper.transmittance});
   }
@@ -170,8 +170,8 @@ double lit_from_w_m2(const RadiationModel& model, std::size_t band, LightField f
   if (field == LightField::sky) return unlit_share * sky;
   double lamps_w = 0.0;
   for (std::size_t e = 0; e < model.canopy.size(); ++e) {
-    const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
-    if (!optics.emission_w_m2.empty()) lamps_w += optics.emission_w_m2[band] * area_m2(model.canopy.corners[e]);
+    const double exitance_w_m2 = model.optics[model.canopy.optics_of[e]].exitance_w_m2(band);
+    if (exitance_w_m2 > 0.0) lamps_w += exitance_w_m2 * area_m2(model.canopy.corners[e]);
   }
   return unlit_share * (beam + sky + lamps_w / model.plot.area_m2());
 }

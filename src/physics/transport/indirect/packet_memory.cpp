@@ -10,11 +10,8 @@ namespace {
 constexpr double ray_bytes = sizeof(shared::Packet) + sizeof(shared::Landing);
 
 double lamp_count(const RadiationModel& model) {
-  const auto glows = [&](std::uint16_t optics) {
-    const std::vector<double>& emission_w_m2 = model.optics[optics].emission_w_m2;
-    return std::any_of(emission_w_m2.begin(), emission_w_m2.end(), [](double exitance) { return exitance > 0.0; });
-  };
-  return static_cast<double>(std::count_if(model.canopy.optics_of.begin(), model.canopy.optics_of.end(), glows));
+  const auto shines = [&](std::uint16_t optics) { return model.optics[optics].shines(); };
+  return static_cast<double>(std::count_if(model.canopy.optics_of.begin(), model.canopy.optics_of.end(), shines));
 }
 
 // Returns the number of first landings. The indirect pass takes a sample of the beam's landings, at most one for each

@@ -32,9 +32,9 @@ std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Inci
     double lamps_w = 0.0;
     for (std::size_t e = 0; e < model.canopy.size(); ++e) {
       const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
-      if (optics.emission_w_m2.empty() || optics.emission_w_m2[b] <= 0.0 || copied[e]) continue;
+      if (optics.exitance_w_m2(b) <= 0.0 || copied[e]) continue;
       lamp_w.resize(model.canopy.size());
-      lamp_w[e] = optics.emission_w_m2[b] * area_m2(model.canopy.corners[e]);
+      lamp_w[e] = optics.exitance_w_m2(b) * area_m2(model.canopy.corners[e]);
       lamps_w += lamp_w[e];
     }
     const double incident_w = per_ray_w * static_cast<double>(incidence.rays) + lamps_w + sky_w;

@@ -9,10 +9,6 @@ namespace sunfleck {
 
 namespace {
 
-bool emits(const SurfaceOptics& optics) {
-  return std::any_of(optics.emission_w_m2.begin(), optics.emission_w_m2.end(), [](double w_m2) { return w_m2 > 0.0; });
-}
-
 // The role of a surface as given, or as suggested by a name or by its emission.
 struct NamedRole {
   std::optional<Role> role;
@@ -37,7 +33,7 @@ class RoleNames {
     if (by_organ == Role::soil || by_optics == Role::soil) return {Role::soil};
     if (by_organ) return {by_organ};
     if (by_optics) return {by_optics};
-    if (optics != nullptr && emits(*optics)) return {Role::lamp};
+    if (optics != nullptr && optics->shines()) return {Role::lamp};
     return {};
   }
 

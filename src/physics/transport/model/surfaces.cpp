@@ -87,7 +87,7 @@ bool scatters(const RadiationModel& model, std::size_t band) {
   if (model.soil && model.soil->reflectance[band] > 0.0) return true;
   for (const SurfaceOptics& optics : model.optics) {
     if (sends_on(optics.upper[band]) || sends_on(optics.lower[band])) return true;
-    if (!optics.emission_w_m2.empty() && optics.emission_w_m2[band] > 0.0) return true;
+    if (optics.exitance_w_m2(band) > 0.0) return true;
   }
   return false;
 }

@@ -138,9 +138,8 @@ class SensorMeasurement {
     if (light_.sky) light_w_m2 += light_.sky_w_m2[band] * light_.sky->spherical_irradiance();
     double brightest = model_.soil ? model_.soil->reflectance[band] * light_w_m2 : 0.0;
     for (const SurfaceOptics& optics : model_.optics) {
-      const double emission = optics.emission_w_m2.empty() ? 0.0 : optics.emission_w_m2[band];
       for (const auto* face : {&optics.upper, &optics.lower}) {
-        brightest = std::max(brightest, emission + (1.0 - (*face)[band].absorptance()) * light_w_m2);
+        brightest = std::max(brightest, optics.exitance_w_m2(band) + (1.0 - (*face)[band].absorptance()) * light_w_m2);
       }
     }
     return brightest;
