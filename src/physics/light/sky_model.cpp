@@ -12,14 +12,8 @@ namespace sunfleck {
 
 namespace {
 
-constexpr double half_turn = std::numbers::pi;
-
-struct StandardType {
-  double a, b, c, d, e;
-};
-
-// ISO 15469:2004 (CIE S 011/E:2003), table 1: standard parameters of types 1 to 15.
-constexpr std::array<StandardType, 15> standard_types{{
+// ISO 15469:2004 (CIE S 011/E:2003), table 1: standard parameters of types 1 to 15, without the offset, which follows from d.
+constexpr std::array<SkyShape, 15> standard_types{{
     {4.0, -0.70, 0.0, -1.0, 0.0},     // 1 overcast, steep gradation, azimuthal uniformity
     {4.0, -0.70, 2.0, -1.5, 0.15},    // 2
     {1.1, -0.80, 0.0, -1.0, 0.0},     // 3
@@ -97,7 +91,7 @@ double air_mass_at_zenith(double zenith_rad) {
 }
 
 double zenith_angle_rad(const SunPosition& sun) {
-  return std::clamp(half_turn / 2.0 - sun.elevation_rad, 0.0, half_turn / 2.0);
+  return std::clamp(std::numbers::pi / 2.0 - sun.elevation_rad, 0.0, std::numbers::pi / 2.0);
 }
 
 double linear(const std::array<double, 4>& x, double zenith_rad, double brightness) {
@@ -107,8 +101,9 @@ double linear(const std::array<double, 4>& x, double zenith_rad, double brightne
 SkyShape standard_shape(int type) {
   EXPECT(type, >=, 1);
   EXPECT(type, <=, 15);
-  const StandardType& t = standard_types[static_cast<std::size_t>(type - 1)];
-  return {t.a, t.b, t.c, t.d, t.e, std::exp(t.d * half_turn / 2.0), 0.0};
+  SkyShape shape = standard_types[static_cast<std::size_t>(type - 1)];
+  shape.offset = std::exp(shape.d * std::numbers::pi / 2.0);
+  return shape;
 }
 
 }  // namespace
@@ -140,10 +135,8 @@ SkyShape sky_shape(const SkyModel& model, const SunPosition& sun) {
     }
     case SkyKind::general:
       return standard_shape(model.cie_type);
-    case SkyKind::all_weather: {
-      const AllWeather w = all_weather(model.dni_w_m2, model.dhi_w_m2, sun);
-      return {w.a, w.b, w.c, w.d, w.e, 0.0, 0.0};
-    }
+    case SkyKind::all_weather:
+      return all_weather(model.dni_w_m2, model.dhi_w_m2, sun).shape;
     case SkyKind::lights:
       break;
   }
@@ -164,15 +157,16 @@ AllWeather all_weather(double dni_w_m2, double dhi_w_m2, const SunPosition& sun)
   w.brightness = std::clamp(w.brightness, least, most_brightness);
 
   const BinTable& x = all_weather_bins[static_cast<std::size_t>(w.bin - 1)];
-  w.a = linear(x[0], zenith, w.brightness);
-  w.b = std::min(linear(x[1], zenith, w.brightness), largest_b);
-  w.a = std::max(w.a, -std::exp(-w.b));  // otherwise the zenith's radiance would be negative
-  w.c = linear(x[2], zenith, w.brightness);
-  w.d = linear(x[3], zenith, w.brightness);
-  w.e = linear(x[4], zenith, w.brightness);
+  SkyShape& shape = w.shape;
+  shape.a = linear(x[0], zenith, w.brightness);
+  shape.b = std::min(linear(x[1], zenith, w.brightness), largest_b);
+  shape.a = std::max(shape.a, -std::exp(-shape.b));  // otherwise the zenith's radiance would be negative
+  shape.c = linear(x[2], zenith, w.brightness);
+  shape.d = linear(x[3], zenith, w.brightness);
+  shape.e = linear(x[4], zenith, w.brightness);
   if (w.bin == 1) {  // the paper's equations 8 and 9
-    w.c = std::exp(std::pow(w.brightness * (x[2][0] + x[2][1] * zenith), x[2][2])) - x[2][3];
-    w.d = -std::exp(w.brightness * (x[3][0] + x[3][1] * zenith)) + x[3][2] + w.brightness * x[3][3];
+    shape.c = std::exp(std::pow(w.brightness * (x[2][0] + x[2][1] * zenith), x[2][2])) - x[2][3];
+    shape.d = -std::exp(w.brightness * (x[3][0] + x[3][1] * zenith)) + x[3][2] + w.brightness * x[3][3];
   }
   return w;
 }

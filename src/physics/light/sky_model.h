@@ -55,7 +55,7 @@ struct AllWeather {
   double clearness = 1.0;   // epsilon
   double brightness = 0.0;  // delta
   int bin = 1;              // 1..8
-  double a = 0.0, b = 0.0, c = 0.0, d = 0.0, e = 0.0;
+  SkyShape shape;
 };
 [[nodiscard]] AllWeather all_weather(double dni_w_m2, double dhi_w_m2, const SunPosition& sun);
 

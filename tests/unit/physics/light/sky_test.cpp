@@ -146,7 +146,7 @@ TEST(Sky, AllWeatherGivesTheTable) {  // E4
     EXPECT_NEAR(w.clearness, row.clearness, 2e-5);
     EXPECT_NEAR(w.brightness, row.brightness, 1e-5);
     EXPECT_EQ(w.bin, row.bin);
-    const std::array<double, 5> shape{w.a, w.b, w.c, w.d, w.e};
+    const std::array<double, 5> shape{w.shape.a, w.shape.b, w.shape.c, w.shape.d, w.shape.e};
     for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(shape[i], row.shape[i], 2e-5 * (1.0 + std::abs(row.shape[i]))) << row.bin;
     const Sky sky(all_weather_model(row.dni, row.dhi), paper_sun);
     EXPECT_NEAR(zenith_radiance(sky) / row.zenith, 1.0, 3e-4);
@@ -163,8 +163,8 @@ TEST(Sky, AllWeatherIsNeverNegativeNorInfinite) {
         const AllWeather w = all_weather(dni, dhi, sun);
         EXPECT_GE(w.clearness, 1.0);
         EXPECT_LE(w.clearness, 12.01);
-        EXPECT_LT(w.b, 0.0);
-        EXPECT_GE(1.0 + w.a * std::exp(w.b), -1e-12);
+        EXPECT_LT(w.shape.b, 0.0);
+        EXPECT_GE(1.0 + w.shape.a * std::exp(w.shape.b), -1e-12);
         const Sky sky(all_weather_model(dni, dhi), sun);
         EXPECT_TRUE(std::isfinite(sky.spherical_irradiance()));
         EXPECT_GE(sky.spherical_irradiance(), 1.0);
