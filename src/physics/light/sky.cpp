@@ -83,11 +83,14 @@ void fill_row(int row, const SkyShape& shape, const SunPosition& sun, std::span<
 
 }  // namespace
 
-Sky::Sky(const SkyModel& model, const SunPosition& sun) {
-  if (model.kind == SkyKind::lights)
+Sky::Sky(const SkyModel& model, const std::optional<SunPosition>& sun) {
+  EXPECT(sun.has_value() || !model.follows_sun(), ==, true);
+  if (model.kind == SkyKind::lights) {
     take_lights(model.lights);
-  else
-    take_shape(sky_shape(model, sun), sun);
+  } else {
+    const SunPosition at = sun.value_or(SunPosition{});
+    take_shape(sky_shape(model, at), at);
+  }
 }
 
 void Sky::take_lights(const std::vector<SkyLight>& lights) {

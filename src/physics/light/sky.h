@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,9 @@ class Sky {
   static constexpr int rows = 180;  // with these, vertical planes differ from the models' by at most 3e-4
   static constexpr int columns = 360;
 
-  // `sun` matters only if model.follows_sun(); a sun below the horizon counts as on it. Throws Error (input) for a list
-  // whose weights are all zero.
-  Sky(const SkyModel& model, const SunPosition& sun);
+  // `sun` may be missing unless model.follows_sun() (EXPECT); a sun below the horizon counts as on it. Throws Error (input) for a
+  // list whose weights are all zero.
+  Sky(const SkyModel& model, const std::optional<SunPosition>& sun);
 
   // Returns a sky whose radiance is the mean of these skies' radiances. All of them must be of cells, or all the same list
   // (EXPECT).

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace sunfleck {
 namespace {
@@ -44,10 +43,7 @@ struct FromAbove {
 FromAbove light_from_above(const RadiationModel& model, std::size_t band) {
   FromAbove light;
   if (model.has_beam()) light.beam_w_m2 = model.bands[band].direct_w_m2 / std::sin(model.sun->elevation_rad);
-  if (model.has_sky()) {
-    const SunPosition sun = model.sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0});
-    light.sky_w_m2 = model.bands[band].diffuse_w_m2 * Sky(*model.sky, sun).spherical_irradiance();
-  }
+  if (model.has_sky()) light.sky_w_m2 = model.bands[band].diffuse_w_m2 * Sky(*model.sky, model.sun).spherical_irradiance();
   return light;
 }
 

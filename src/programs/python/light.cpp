@@ -30,7 +30,7 @@ std::pair<double, double> sun_position_deg(double unix_s, double latitude_deg, d
 Sky sky_of(const std::string& file, const std::string& text, bool allow_outside) {
   const Scene scene = read_scene(SceneText{file, text, {}}, {.allow_outside = allow_outside});
   if (!scene.model.sky) throw_input("sky", "the scene has no sky", "add [sky] with a model");
-  return {*scene.model.sky, scene.model.sun.value_or(SunPosition{})};
+  return {*scene.model.sky, scene.model.sun};
 }
 
 py::array radiance(const Sky& sky, const Doubles& elevation_deg, const Doubles& azimuth_deg) {

@@ -47,9 +47,7 @@ std::vector<std::size_t> lights_with_sky(Lights lights) {
 
 std::vector<Sky> skies_of(Lights lights) {
   std::vector<Sky> skies;
-  for (const std::size_t k : lights_with_sky(lights)) {
-    skies.emplace_back(*lights[k].sky, lights[k].sun.value_or(SunPosition{0.5 * std::numbers::pi, 0.0}));
-  }
+  for (const std::size_t k : lights_with_sky(lights)) skies.emplace_back(*lights[k].sky, lights[k].sun);
   return skies;
 }
 

@@ -27,7 +27,7 @@ SensorLight::SensorLight(const RadiationModel& model) {
     for (const Waveband& band : model.bands) beam_w_m2.push_back(band.direct_w_m2 / std::sin(model.sun->elevation_rad));
   }
   if (model.has_sky()) {
-    sky.emplace(*model.sky, model.sun.value_or(SunPosition{}));
+    sky.emplace(*model.sky, model.sun);
     for (const Waveband& band : model.bands) sky_w_m2.push_back(band.diffuse_w_m2);
   }
 }

@@ -187,7 +187,7 @@ TEST(Sky, FollowsTheSunWhereItShould) {
 }
 
 TEST(Sky, TurnsWithTheSun) {
-  const Sky before(general(12), {0.7, 20.0 * degree}), after(general(12), {0.7, 275.0 * degree});
+  const Sky before(general(12), SunPosition{0.7, 20.0 * degree}), after(general(12), SunPosition{0.7, 275.0 * degree});
   for (int azimuth = 0; azimuth < 360; ++azimuth)
     EXPECT_NEAR(before.radiance(to_sky(0.9, (azimuth + 0.5) * degree)), after.radiance(to_sky(0.9, (azimuth + 255.5) * degree)),
                 1e-12);
@@ -204,9 +204,9 @@ TEST(Sky, IsContinuousAtTheZenithAndEndsAtTheHorizon) {
     return worst;
   };
   for (const SkyModel& model : {general(12), general(15), all_weather_model(900, 80)}) {
-    const Sky zenith(model, {pi / 2.0, 0.0});
-    EXPECT_LT(furthest(zenith, Sky(model, {pi / 2.0 - 1e-7, 4.0})), 1e-5);
-    EXPECT_EQ(furthest(Sky(model, {0.0, 1.0}), Sky(model, {-0.3, 1.0})), 0.0);
+    const Sky zenith(model, SunPosition{pi / 2.0, 0.0});
+    EXPECT_LT(furthest(zenith, Sky(model, SunPosition{pi / 2.0 - 1e-7, 4.0})), 1e-5);
+    EXPECT_EQ(furthest(Sky(model, SunPosition{0.0, 1.0}), Sky(model, SunPosition{-0.3, 1.0})), 0.0);
   }
 }
 
