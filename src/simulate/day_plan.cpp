@@ -56,8 +56,7 @@ sys_days read_date(const char* option, const std::string& text) {
   const int day = dashes ? number_of(view.substr(8, 2), 2) : -1;
   const std::string place = fmt::format("{} {}", option, printable(text));
   if (year < 0 || month < 0 || day < 0) throw_input(place, "must be a date YYYY-MM-DD", "give 2002-08-08, for example");
-  const year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
-                            std::chrono::day(static_cast<unsigned>(day))};
+  const year_month_day date = std::chrono::year(year) / month / day;
   if (!date.ok()) throw_input(place, "there is no such date", "check the month and the day");
   if (year < first_year || year > last_year) {
     throw_input(place, fmt::format("must lie in the years {} to {}", first_year, last_year), "give a date in this range");
@@ -78,9 +77,7 @@ UtcTime utc_at(const LocalDate& date, double minutes) {
 
 std::vector<sys_days> dates_of(const DayRequest& request, const SunMoment& moment) {
   const UtcTime local = plus_seconds(moment.time, moment.offset_minutes * seconds_per_minute);
-  sys_days first =
-      sys_days(year_month_day{std::chrono::year(local.year), std::chrono::month(static_cast<unsigned>(local.month)),
-                              std::chrono::day(static_cast<unsigned>(local.day))});
+  sys_days first(std::chrono::year(local.year) / local.month / local.day);
   if (!request.date.empty()) first = read_date("--date", request.date);
   const sys_days last = request.to_date.empty() ? first : read_date("--to-date", request.to_date);
   if (last < first) {
@@ -94,14 +91,19 @@ std::vector<sys_days> dates_of(const DayRequest& request, const SunMoment& momen
   return dates;
 }
 
-struct Daylight {
-  int from_min = minutes_per_day, to_min = 0;
+// Local hours of a date, minutes since midnight.
+struct Hours {
+  int from_min = 0, to_min = 0;
+
+  [[nodiscard]] std::size_t steps(int step_min) const {
+    return static_cast<std::size_t>(std::max(0, to_min - from_min + step_min - 1) / step_min);
+  }
 };
 
 // Returns the span from the first sunrise to the last sunset of the dates. Where the clock is far from local time, one of them
 // lies beyond midnight.
-Daylight daylight(const std::vector<sys_days>& dates, const SunMoment& moment) {
-  Daylight light;
+Hours daylight(const std::vector<sys_days>& dates, const SunMoment& moment) {
+  Hours light{minutes_per_day, 0};
   for (const sys_days day : dates) {
     const LocalDate date = local_date(day, moment.offset_minutes);
     const SunEvents events = sun_events(date, moment.place);
@@ -115,21 +117,12 @@ Daylight daylight(const std::vector<sys_days>& dates, const SunMoment& moment) {
   return light;
 }
 
-// Local hours of a date, minutes since midnight.
-struct Hours {
-  int from_min = 0, to_min = 0;
-
-  [[nodiscard]] std::size_t steps(int step_min) const {
-    return static_cast<std::size_t>(std::max(0, to_min - from_min + step_min - 1) / step_min);
-  }
-};
-
 // Returns the requested hours; where they are not given, those of daylight, rounded outwards to whole steps. Returns nothing if
 // the sun does not rise then.
 std::optional<Hours> hours_of(const DayRequest& request, const std::vector<sys_days>& dates, const SunMoment& moment) {
   Hours hours;
   if (request.from.empty() || request.to.empty()) {
-    const Daylight light = daylight(dates, moment);
+    const Hours light = daylight(dates, moment);
     if (light.from_min >= light.to_min) return std::nullopt;
     const int step = request.step_min;
     const bool past_midnight = light.from_min < 0 || light.to_min > minutes_per_day;

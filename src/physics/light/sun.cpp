@@ -27,22 +27,20 @@ std::string moment_text(const UtcTime& t) {
   return fmt::format("time {:04}-{:02}-{:02} {:02}:{:02}:{:04.1f} UTC", t.year, t.month, t.day, t.hour, t.minute, t.second);
 }
 
+void refuse_year_outside(const UtcTime& time, int first, int last) {
+  if (time.year >= first && time.year <= last) return;
+  throw_input(moment_text(time), fmt::format("the sun's position is known for {}..{}", first_year, last_year),
+              "give a year between them");
+}
+
 JulianDate julian_date(const UtcTime& time) {
-  if (time.year < first_year - 1 || time.year > last_year + 1)
-    throw_input(moment_text(time), fmt::format("the sun's position is known for {}..{}", first_year, last_year),
-                "give a year between them");
+  refuse_year_outside(time, first_year - 1, last_year + 1);
   double origin = 0.0, days = 0.0;
   if (eraCal2jd(time.year, time.month, time.day, &origin, &days) != 0)
     throw_input(moment_text(time), "no such date in the calendar", "give month 1..12 and a day that month has");
   if (time.hour < 0 || time.hour > 23 || time.minute < 0 || time.minute > 59 || !(time.second >= 0.0 && time.second < 61.0))
     throw_input(moment_text(time), "no such time of day", "give hour 0..23, minute 0..59, second 0..60");
   return {origin + days, (time.hour * 3600.0 + time.minute * 60.0 + time.second) / seconds_per_day};
-}
-
-void refuse_year_outside(const UtcTime& time) {
-  if (time.year < first_year || time.year > last_year)
-    throw_input(moment_text(time), fmt::format("the sun's position is known for {}..{}", first_year, last_year),
-                "give a year between them");
 }
 
 // Returns terrestrial minus universal time by the polynomials for 1900 to 1986 of Espenak and Meeus (2006), "Five millennium
@@ -89,7 +87,7 @@ eraASTROM observe(const JulianDate& universal, const JulianDate& terrestrial, co
 Observed observed_sun(const UtcTime& time, const Place& place, std::optional<double> delta_t_s) {
   EXPECT(std::abs(place.latitude_rad), <=, std::numbers::pi / 2.0);
   EXPECT(std::abs(place.longitude_rad), <=, 2.0 * std::numbers::pi);
-  refuse_year_outside(time);
+  refuse_year_outside(time, first_year, last_year);
   const JulianDate universal = julian_date(time);
   const double delta_t = delta_t_s ? *delta_t_s : default_delta_t_s(time);
   const JulianDate terrestrial{universal.midnight, universal.fraction + delta_t / seconds_per_day};

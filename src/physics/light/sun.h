@@ -1,6 +1,7 @@
 #pragma once
 // The position of the sun, from angles or from date, time and place.
 
+#include <compare>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -20,6 +21,8 @@ struct UtcTime {
   int hour = 0;
   int minute = 0;
   double second = 0.0;
+
+  friend auto operator<=>(const UtcTime&, const UtcTime&) = default;
 };
 
 struct Place {

@@ -1,6 +1,7 @@
 #pragma once
 // Sunrise, transit and sunset.
 
+#include <numbers>
 #include <optional>
 
 #include "physics/light/sun.h"
@@ -8,7 +9,7 @@
 namespace sunfleck {
 
 // The convention of almanacs and of Reda and Andreas (2004), A.2: refraction 34', semi-diameter 16'.
-inline constexpr double rise_set_elevation_rad = -0.8333 * 3.14159265358979323846 / 180.0;
+inline constexpr double rise_set_elevation_rad = -0.8333 * std::numbers::pi / 180.0;
 
 struct SunEvents {
   std::optional<UtcTime> sunrise;  // empty if the sun does not rise before its transit (polar day or night)

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 namespace sunfleck {
 
@@ -20,18 +20,9 @@ constexpr double spitters_solar_constant_w_m2 = 1370.0;  // Spitters et al. 1986
 constexpr double solar_constant_w_m2 = 1367.0;           // World Radiometric Centre, as in Duffie and Beckman 1980
 constexpr double sea_level_pressure_hpa = 1013.25;       // ISO 2533
 
-bool is_leap(int year) {
-  return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
-}
-
 std::string text_of(const UtcTime& time) {
   return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02.0f} UTC", time.year, time.month, time.day, time.hour, time.minute,
                      std::floor(time.second));
-}
-
-bool is_before(const UtcTime& a, const UtcTime& b) {
-  return std::tie(a.year, a.month, a.day, a.hour, a.minute, a.second) <
-         std::tie(b.year, b.month, b.day, b.hour, b.minute, b.second);
 }
 
 // Returns the clearness index, the ratio of global irradiance to that outside the atmosphere, for a sun above the horizon.
@@ -48,7 +39,7 @@ Broadband split(double global_w_m2, double direct_horizontal_w_m2, const SunPosi
 UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
   UtcTime local = plus_seconds(time, 60.0 * weather.zone_minutes);
   const UtcTime first = plus_seconds(weather.intervals.front().start, 60.0 * weather.zone_minutes);
-  if (local.month == 2 && local.day == 29 && !is_leap(first.year)) {
+  if (local.month == 2 && local.day == 29 && !std::chrono::year(first.year).is_leap()) {
     throw_input("weather at " + text_of(time), fmt::format("the year of {} has no 29 February", weather.name),
                 "choose another date, or a file with one");
   }
@@ -61,7 +52,7 @@ UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
   if (!weather.intervals.empty()) {
     const WeatherInterval& last = weather.intervals.back();
     const UtcTime end = plus_seconds(last.start, last.length_s);
-    const bool within = !is_before(time, weather.intervals.front().start) && is_before(time, end);
+    const bool within = time >= weather.intervals.front().start && time < end;
     why = within ? fmt::format("{} has a gap there", weather.name)
                  : fmt::format("{} covers {} to {}", weather.name, text_of(weather.intervals.front().start), text_of(end));
   }
@@ -79,10 +70,11 @@ double Broadband::global_w_m2(const SunPosition& sun) const {
 }
 
 int day_of_year(const UtcTime& time) {
-  constexpr int days_before[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
   EXPECT(time.month, >=, 1);
   EXPECT(time.month, <=, 12);
-  return days_before[time.month - 1] + time.day + (time.month > 2 && is_leap(time.year) ? 1 : 0);
+  const std::chrono::year year(time.year);
+  const std::chrono::sys_days date(year / time.month / time.day), first(year / 1 / 1);
+  return static_cast<int>((date - first).count()) + 1;
 }
 
 double extraterrestrial_normal_w_m2(double constant_w_m2, std::optional<int> day) {
@@ -159,7 +151,7 @@ const WeatherInterval& interval_at(const Weather& weather, const UtcTime& time) 
   if (weather.intervals.empty()) refuse_time(weather, time);
   const UtcTime asked = weather.every_year ? in_typical_year(weather, time) : time;
   const auto next = std::upper_bound(weather.intervals.begin(), weather.intervals.end(), asked,
-                                     [](const UtcTime& t, const WeatherInterval& each) { return is_before(t, each.start); });
+                                     [](const UtcTime& t, const WeatherInterval& each) { return t < each.start; });
   if (next == weather.intervals.begin()) refuse_time(weather, time);
   const WeatherInterval& interval = *std::prev(next);
   if (seconds_between(interval.start, asked) >= interval.length_s) refuse_time(weather, time);
