@@ -34,10 +34,6 @@ double canopy_bytes(const RadiationModel& model) {
                              model.canopy.size() * (sizeof(std::uint32_t) + sizeof(std::uint16_t)));
 }
 
-double tree_bytes(const Bvh& bvh) {
-  return static_cast<double>(bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(BvhTriangle));
-}
-
 // The memory of the sums over replicates.
 struct SumBytes {
   double tracing = 0.0;   // those of the run, and of its pilot until the run has two replicates
@@ -113,8 +109,9 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const bool on_cpu = engine.device().kind == "cpu";
   const double at_their_peak = on_cpu ? 1.0 : at_their_peak_on_device;
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
-  const double on_device = on_cpu ? 0.0 : tree_bytes(tree.bvh) + 4.0 * tree.layout.words();
-  const double throughout = canopy_bytes(model) + tree_bytes(tree.bvh) + on_device;
+  const auto tree_bytes = static_cast<double>(simulation.tree_bytes());
+  const double on_device = on_cpu ? 0.0 : tree_bytes + 4.0 * tree.layout.words();
+  const double throughout = canopy_bytes(model) + tree_bytes + on_device;
   const auto computing = [&](const SumBytes& sums) {
     return std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
                      sums.tracing + in_the_making * run->replicate_bytes, sums.ending, elements * stored});
