@@ -8,8 +8,4 @@ Tracing::Tracing(const RadiationModel& model, const DeviceChoice& device, Engine
       engine(device, tree.bvh, trace_domain(model), tree.layout.words(), use),
       open_s(watch_.lap()) {}
 
-bool is_done(StopReason stop) {
-  return stop == StopReason::bound_reached || stop == StopReason::work_done;
-}
-
 }  // namespace sunfleck

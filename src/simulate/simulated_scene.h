@@ -36,7 +36,4 @@ struct SimulatedScene {
   [[nodiscard]] Drawing drawing() const { return {*scene, tracing->tree.layout, result, tracing->engine}; }
 };
 
-// Returns whether a run did all the requested work.
-[[nodiscard]] bool is_done(StopReason stop);
-
 }  // namespace sunfleck

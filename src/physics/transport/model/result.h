@@ -195,6 +195,11 @@ struct SensorSummary {
 
 enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, time_spent, interrupted };
 
+// Returns whether a run did all the requested work.
+[[nodiscard]] constexpr bool is_done(StopReason stop) {
+  return stop == StopReason::bound_reached || stop == StopReason::work_done;
+}
+
 struct RadiationResult {
   static constexpr std::int64_t parts_per_landing = 1 << 16;  // in side_direct
 

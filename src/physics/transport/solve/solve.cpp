@@ -312,8 +312,7 @@ class Solver {
   SharedOutcome finish(StopReason reason) {
     queue_.end();
     maker_.free_spare_memory();
-    const bool stopped = reason != StopReason::bound_reached && reason != StopReason::work_done;
-    if (stopped && series_) keep_state();
+    if (!is_done(reason) && series_) keep_state();
     const bool use_fallback = fallback_ && (!series_ || series_->replicates() < 2);
     if (use_fallback) {
       series_ = std::move(fallback_);
