@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace sunfleck {
@@ -61,8 +60,7 @@ bool Checkpoint::is_finished() const {
   }
   expect_same_settings(settings_, noted, "that finished run", folder_);
   for (const ExportKind kind : export_kinds) {
-    const bool asked = std::find(exports_.begin(), exports_.end(), export_name(kind)) != exports_.end();
-    const auto lack = asked ? lack_of(folder_, "run", export_file(kind)) : std::nullopt;
+    const auto lack = holds(exports_, export_name(kind)) ? lack_of(folder_, "run", export_file(kind)) : std::nullopt;
     if (lack) throw_input(fmt::format("--export {}", export_name(kind)), *lack, cure_of_lack);
   }
   return true;

@@ -43,10 +43,6 @@ constexpr std::array<std::string_view, 14> day_files = {"day.csv",
                                                         day_plot,
                                                         season_plot};
 
-bool has(const std::vector<std::string>& words, const char* word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 StoredStep stored_step(const FinishedSteps& day, std::size_t step, StepFields fields) {
   std::optional<StoredStep> stored = day.store.read(step, fields);
   if (!stored) throw_failure(fmt::format("step {}", step + 1), "its file is missing or damaged", "run again with --resume");
@@ -160,7 +156,7 @@ class DayFolder {
         say(fmt::format("{}: {:.1f} MB", fields_file, static_cast<double>(fs::file_size(file, error)) * 1e-6));
       });
     }
-    if (!has(request_.exports, "nc")) return;
+    if (!holds(request_.exports, "nc")) return;
     for (std::size_t p = 0; p < day_.model.planes.size(); ++p) {
       attempt_netcdf(plane_day_stem(day_.model.planes[p]) + ".nc", [&](const fs::path& file, const fs::path& aside) {
         const auto maps = [&](std::size_t i) { return stored_step(day_, i, StepFields::none).maps; };
@@ -175,7 +171,7 @@ class DayFolder {
   }
 
   void draw() {
-    const auto wanted = [&](const char* image) { return has(request_.images, image) || has(request_.images, "all"); };
+    const auto wanted = [&](const char* image) { return holds(request_.images, image) || holds(request_.images, "all"); };
     TablePlots plots(folder_, written_.unwritten);
     if (wanted("day")) plots.draw("day.gp", variables("day.csv"), day_plot);
     if (wanted("season") && day_.course.dates.size() > 1) plots.draw("season.gp", variables("season.csv"), season_plot);
@@ -207,7 +203,7 @@ class DayFolder {
 }  // namespace
 
 StepFields wanted_fields(const ResultRequest& request, const DayCourse& course) {
-  return course.dates.size() == 1 || has(request.exports, "nc") ? StepFields::kept : StepFields::none;
+  return course.dates.size() == 1 || holds(request.exports, "nc") ? StepFields::kept : StepFields::none;
 }
 
 WrittenDay write_day_files(const fs::path& folder, const ResultRequest& request, const FinishedSteps& day) {

@@ -3,13 +3,20 @@
 
 #include "pictures/charts/picture.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sunfleck {
+
+// Returns whether a list of words, such as exports or images, holds one.
+[[nodiscard]] inline bool holds(const std::vector<std::string>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 // CARIBU's files that accompany a mesh given instead of a scene file.
 struct StandFiles {
@@ -18,7 +25,12 @@ struct StandFiles {
   std::optional<double> scale;          // metres per unit of the mesh and the domain; default 1
 
   // Returns the first of these options that was given, in this order, for messages; empty if none was.
-  [[nodiscard]] std::string first_given() const;
+  [[nodiscard]] std::string first_given() const {
+    if (!optics.empty()) return "--optics";
+    if (!light.empty()) return "--light";
+    if (!domain.empty()) return "--domain";
+    return scale ? "--scale" : "";
+  }
 };
 
 struct SceneRequest {

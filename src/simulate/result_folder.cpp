@@ -40,10 +40,6 @@ std::string file_of(const Picture& picture) {
   return stem_of(picture) + ".png";
 }
 
-bool asks_for(const ResultRequest& request, const std::string& image) {
-  return std::find(request.images.begin(), request.images.end(), image) != request.images.end();
-}
-
 // Returns whether a run or a day writes a receiver's map or plot under this name: "plane_", its height, and perhaps a word.
 bool is_plane_file(const std::filesystem::path& file) {
   constexpr std::string_view begin = "plane_";
@@ -56,7 +52,7 @@ bool is_plane_file(const std::filesystem::path& file) {
 std::vector<Picture> named_pictures(const ResultRequest& request) {
   std::vector<Picture> named;
   for (const Picture& picture : all_pictures()) {
-    if (asks_for(request, stem_of(picture)) || request.extra_picture == picture) named.push_back(picture);
+    if (holds(request.images, stem_of(picture)) || request.extra_picture == picture) named.push_back(picture);
   }
   return named;
 }
@@ -64,7 +60,7 @@ std::vector<Picture> named_pictures(const ResultRequest& request) {
 // Returns the pictures requested by name, and the usual pictures if `all` is requested.
 std::vector<Picture> wanted_pictures(const ResultRequest& request, const RadiationModel& model, const RadiationResult& result) {
   std::vector<Picture> wanted = named_pictures(request);
-  if (!asks_for(request, "all")) return wanted;
+  if (!holds(request.images, "all")) return wanted;
   const bool indirect = result.indirect.packets + result.indirect.sky_rays > 0;
   for (const Picture& picture : usual_pictures(model.has_beam(), indirect)) {
     if (std::find(wanted.begin(), wanted.end(), picture) == wanted.end()) wanted.push_back(picture);
@@ -94,8 +90,7 @@ void write_export_files(const std::filesystem::path& folder, const ResultRequest
   const std::size_t band = picture_band(drawing.scene.model, request.pictures.band);
   const std::vector<ElementColour> colours = element_colours(drawing, band);
   for (const ExportKind kind : export_kinds) {
-    const bool asked = std::find(request.exports.begin(), request.exports.end(), export_name(kind)) != request.exports.end();
-    if (!asked) continue;
+    if (!holds(request.exports, export_name(kind))) continue;
     unwritten.attempt(export_file(kind), [&] {
       write_exports(std::span(&kind, 1), folder, record, drawing.scene.model, drawing.result, colours);
     });
@@ -165,9 +160,9 @@ void write_plots(const std::filesystem::path& folder, const ResultRequest& reque
     figures = agreement_figures(found);
   }
   TablePlots plots(folder, unwritten);
-  if (asks_for(request, "all") || asks_for(request, "profile"))
+  if (holds(request.images, "all") || holds(request.images, "profile"))
     plots.draw("profile.gp", profile_variables(folder, request, record.title, band.name, overlays, figures), profile_plot_file);
-  if (!asks_for(request, "all") && !asks_for(request, "planes")) return;
+  if (!holds(request.images, "all") && !holds(request.images, "planes")) return;
   for (std::size_t plane = 0; plane < result.planes.size() && !interrupted(); ++plane) {
     const std::string stem = plane_stem(result.planes[plane].height_m);
     plots.draw("plane.gp", plane_variables(folder, record.title, model, stem, band), stem + ".png");
@@ -301,11 +296,11 @@ ProfileOverlays read_overlays(const ResultRequest& request, const RadiationModel
 void check_pictures(const ResultRequest& request, const RadiationModel& model) {
   check_view(model, request.pictures);
   for (const Picture& picture : named_pictures(request)) check_field(model, picture);
-  if (asks_for(request, "planes") && model.planes.empty()) warn("--images planes draws nothing; give the scene a [[plane]]");
+  if (holds(request.images, "planes") && model.planes.empty()) warn("--images planes draws nothing; give the scene a [[plane]]");
 }
 
 bool shows_triangles(const ResultRequest& request) {
-  return asks_for(request, "all") || !request.exports.empty() || !named_pictures(request).empty();
+  return holds(request.images, "all") || !request.exports.empty() || !named_pictures(request).empty();
 }
 
 UnwrittenFiles write_whole_result(const std::filesystem::path& folder, const ResultRequest& request,

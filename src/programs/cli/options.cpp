@@ -62,12 +62,8 @@ void read_errors(const OptionWords& words, RunOptions& options) {
   if (!options.indirect_error) options.indirect_error = words.both_errors;
 }
 
-bool draws(const RunOptions& options, std::string_view word) {
-  return std::find(options.images.begin(), options.images.end(), word) != options.images.end();
-}
-
 void check_images(const RunOptions& options) {
-  if (!draws(options, "none") || (options.images.size() == 1 && !options.extra_picture)) return;
+  if (!holds(options.images, "none") || (options.images.size() == 1 && !options.extra_picture)) return;
   throw_input(fmt::format("--images {}", fmt::join(options.images, ",")),
               "none cannot be combined with other pictures, --chart or --field", "remove either none or the others");
 }
@@ -75,8 +71,7 @@ void check_images(const RunOptions& options) {
 // Adds the table that CARIBU's users expect.
 void add_caribu_table(RunOptions& options) {
   const std::string table = export_name(ExportKind::caribu);
-  const bool given = std::find(options.exports.begin(), options.exports.end(), table) != options.exports.end();
-  if (is_can_file(options.scene) && !given) options.exports.push_back(table);
+  if (is_can_file(options.scene) && !holds(options.exports, table)) options.exports.push_back(table);
 }
 
 // Warns of each of the options that was given, but changes nothing.
@@ -91,7 +86,7 @@ bool draws_any(const RunOptions& options, const std::function<bool(const Picture
   if (options.extra_picture && is_meant(*options.extra_picture)) return true;
   const std::vector<Picture> pictures = all_pictures();
   return std::any_of(pictures.begin(), pictures.end(), [&](const Picture& picture) {
-    return is_meant(picture) && (draws(options, "all") || draws(options, stem_of(picture)));
+    return is_meant(picture) && (holds(options.images, "all") || holds(options.images, stem_of(picture)));
   });
 }
 
@@ -104,8 +99,8 @@ void warn_of_pictures_not_drawn(const CLI::App& command, RunOptions& options) {
   } else if (!draws_any(options, [](const Picture& picture) { return has_top(picture.chart); })) {
     warn_without_effect(command, {"--range"}, no_upper_end, options);
   }
-  if (draws(options, "none")) warn_without_effect(command, {"--band"}, "--images none draws no picture", options);
-  if (!draws(options, "all") && !draws(options, "profile")) {
+  if (holds(options.images, "none")) warn_without_effect(command, {"--band"}, "--images none draws no picture", options);
+  if (!holds(options.images, "all") && !holds(options.images, "profile")) {
     warn_without_effect(command, {"--compare"}, "profile.png is not among the --images", options);
   }
 }
@@ -124,7 +119,8 @@ RunOptions finished(RunOptions options, const OptionWords& words, const CLI::App
 DayOptions finished(DayOptions options, const OptionWords& words, const CLI::App& command) {
   read_errors(words, options.run);
   check_images(options.run);
-  if (draws(options.run, "none")) warn_without_effect(command, {"--band"}, "--images none draws no picture", options.run);
+  if (holds(options.run.images, "none"))
+    warn_without_effect(command, {"--band"}, "--images none draws no picture", options.run);
   if (options.to_date.empty() && options.run.images == std::vector<std::string>{"season"}) {
     options.run.without_effect.emplace_back("--images season draws nothing for a single date; give --to-date, or --images day");
   }
