@@ -49,20 +49,15 @@ class DayRun {
 
   SimulatedDay run() {
     for (const DayBlock& block : plan_.blocks) {
-      if (stopped()) break;
+      if (hooks_.interrupted()) break;
       day_.steps = block.first;  // the unlit ones before it
       if (!find(block) && !simulate(block)) return day_;
     }
-    if (!stopped()) day_.steps = plan_.course.steps.size();
+    if (!hooks_.interrupted()) day_.steps = plan_.course.steps.size();
     return day_;
   }
 
  private:
-  [[nodiscard]] bool stopped() const {
-    return (hooks_.monitor.interrupted && hooks_.monitor.interrupted()) ||
-           (hooks_.ranks != nullptr && hooks_.ranks->interrupted());
-  }
-
   // Takes over a block whose steps were all simulated earlier.
   [[nodiscard]] bool find(const DayBlock& block) {
     std::vector<StoredStep> steps;
@@ -162,7 +157,7 @@ class DayRun {
         if (!too_little) keep(state);
       };
     }
-    monitor.interrupted = [&] { return too_little || stopped(); };
+    monitor.interrupted = [&] { return too_little || hooks_.interrupted(); };
     monitor.report = [&](const Progress& state) {
       ++replicates;
       const bool judged = !settings.begin_with.empty() && replicates == judged_replicates;
@@ -175,7 +170,7 @@ class DayRun {
     const auto take = [&](std::size_t light, RadiationResult result, const SharedOutcome& outcome) {
       simulation_.add_sensors(lights[light], with_seed_of(block.first + light, settings), monitor, watch, result);
       // What stopped the block may have cut the light of its triangles short.
-      if (too_little || stopped() || result.stop == StopReason::interrupted) return;
+      if (too_little || hooks_.interrupted() || result.stop == StopReason::interrupted) return;
       StoredStep step = stored_step(lights[light], result);
       const double lap_s = watch.lap();
       if (light == 0) shared_s = lap_s / static_cast<double>(lights.size());
@@ -186,8 +181,7 @@ class DayRun {
       sink_.take(block.first + light, step);
       count(block.first + light, step);
     };
-    static_cast<void>(simulation_.solve_lights(lights, settings, monitor,
-                                               hooks_.ranks != nullptr ? hooks_.ranks->helpers() : nullptr, sums, take));
+    static_cast<void>(simulation_.solve_lights(lights, settings, monitor, hooks_.helpers(), sums, take));
     return !too_little;
   }
 

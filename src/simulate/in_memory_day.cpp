@@ -66,7 +66,7 @@ InMemoryDay simulate_in_memory(Scene scene, const DayRequest& request, const Wor
   RunHooks hooks{monitor};
   const Stopwatch clock;
   hooks.monitor.interrupted = [&] {
-    return (monitor.interrupted && monitor.interrupted()) || (work.max_seconds && clock.seconds() >= *work.max_seconds);
+    return monitor.is_interrupted() || (work.max_seconds && clock.seconds() >= *work.max_seconds);
   };
   const StepFields keep = work.triangle_light ? StepFields::kept : StepFields::none;
   MemorySink sink(simulation.model(), plan, keep);

@@ -80,6 +80,14 @@ void check_grid(const WorkRequest& work, const Scene& scene) {
       "give a wider grid or more --passes");
 }
 
+bool RunHooks::interrupted() const {
+  return monitor.is_interrupted() || (ranks != nullptr && ranks->interrupted());
+}
+
+ReplicateHelpers* RunHooks::helpers() const {
+  return ranks != nullptr ? ranks->helpers() : nullptr;
+}
+
 Simulation::Simulation(std::shared_ptr<Scene> scene, std::shared_ptr<Tracing> tracing, int threads)
     : scene_(std::move(scene)), tracing_(std::move(tracing)), threads_(threads) {}
 
@@ -108,10 +116,9 @@ void Simulation::remember_beams(std::size_t most_bytes) {
 
 RadiationResult Simulation::solve(const SolveSettings& settings, const Monitor& monitor, ReplicateHelpers* helpers) {
   const CpuThreads limit(threads_);
-  Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
   const RadiationModel& model = scene_->model;
   Stopwatch watch;
-  RadiationResult result = sunfleck::solve(model, layout(), tracer, settings, monitor, helpers);
+  RadiationResult result = sunfleck::solve(model, layout(), tracer(), settings, monitor, helpers);
   add_sensors(model, settings, monitor, watch, result);
   return result;
 }
@@ -120,7 +127,6 @@ void Simulation::add_sensors(const RadiationModel& model, const SolveSettings& s
                              const Stopwatch& watch, RadiationResult& result) {
   if (model.sensors.empty() || result.stop == StopReason::interrupted) return;
   const CpuThreads limit(threads_);
-  Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
   SensorSettings sensors;
   sensors.rays = sensor_rays(settings);
   sensors.seed = settings.seed;
@@ -137,7 +143,7 @@ void Simulation::add_sensors(const RadiationModel& model, const SolveSettings& s
     };
   }
   Stopwatch sensor_watch;
-  auto readings = measure_sensors(model, layout(), tracer, sensors, monitor.interrupted);
+  auto readings = measure_sensors(model, layout(), tracer(), sensors, monitor.interrupted);
   if (!readings) {
     result.stop = StopReason::interrupted;
     return;
@@ -152,21 +158,17 @@ void Simulation::add_sensors(const RadiationModel& model, const SolveSettings& s
 SharedOutcome Simulation::solve_lights(Lights lights, const SolveSettings& settings, const Monitor& monitor,
                                        ReplicateHelpers* helpers, const WantedSums& sums, const TakeLight& take) {
   const CpuThreads limit(threads_);
-  Tracer& tracer = beams_ ? *beams_ : tracing_->engine.tracer();
-  return sunfleck::solve_lights(lights, layout(), tracer, settings, monitor, helpers, sums, take);
+  return sunfleck::solve_lights(lights, layout(), tracer(), settings, monitor, helpers, sums, take);
 }
 
 SimulatedScene Simulation::run(const SolveSettings& settings, const RunHooks& hooks) {
   Stopwatch watch;
   Monitor monitor = hooks.monitor;
   if (hooks.ranks != nullptr) {
-    monitor.interrupted = [&] {
-      return (hooks.monitor.interrupted && hooks.monitor.interrupted()) || hooks.ranks->interrupted();
-    };
+    monitor.interrupted = [&] { return hooks.interrupted(); };
   }
   if (hooks.checkpoint != nullptr) hooks.checkpoint->attend(monitor, model());
-  SimulatedScene done =
-      simulated(settings, solve(settings, monitor, hooks.ranks != nullptr ? hooks.ranks->helpers() : nullptr));
+  SimulatedScene done = simulated(settings, solve(settings, monitor, hooks.helpers()));
   if (hooks.ranks != nullptr) {
     done.record.ranks = hooks.ranks->count();
     hooks.ranks->release();

@@ -31,6 +31,10 @@ struct RunHooks {
   Monitor monitor;
   Checkpoint* checkpoint = nullptr;  // keeps the run's state
   Ranks* ranks = nullptr;            // make replicates too
+
+  // Returns whether the monitor or the ranks ask to end the run.
+  [[nodiscard]] bool interrupted() const;
+  [[nodiscard]] ReplicateHelpers* helpers() const;
 };
 
 class Simulation {
@@ -92,6 +96,8 @@ class Simulation {
 
  private:
   Simulation(std::shared_ptr<Scene> scene, std::shared_ptr<Tracing> tracing, int threads);
+
+  [[nodiscard]] Tracer& tracer() { return beams_ ? *beams_ : tracing_->engine.tracer(); }
 
   std::shared_ptr<Scene> scene_;
   std::shared_ptr<Tracing> tracing_;

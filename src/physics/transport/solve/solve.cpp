@@ -41,8 +41,7 @@ class Solver {
         wanted_sums_(wanted_sums),
         take_(std::move(take)),
         maker_(lights, layout, tracer),
-        judge_(lights, settings, maker_.has_indirect_pass(), tracer,
-               [&monitor] { return monitor.interrupted && monitor.interrupted(); }),
+        judge_(lights, settings, maker_.has_indirect_pass(), tracer, [&monitor] { return monitor.is_interrupted(); }),
         planner_(model_, settings, maker_),
         queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
 
@@ -70,7 +69,7 @@ class Solver {
   // Returns true once the run has to end, and records the reason. Any thread may call it.
   bool must_stop() {
     const std::lock_guard lock(stop_mutex_);
-    if (monitor_.interrupted && monitor_.interrupted()) {
+    if (monitor_.is_interrupted()) {
       stop_ = StopReason::interrupted;
       return true;
     }
@@ -283,7 +282,7 @@ class Solver {
       const bool due = done >= next_check_;
       if (due) judge_.judge_triangles(*series_);
       // It may have cut the judgement of triangles short.
-      if (due && monitor_.interrupted && monitor_.interrupted()) return finish(StopReason::interrupted);
+      if (due && monitor_.is_interrupted()) return finish(StopReason::interrupted);
       const bool good = due && judge_.bounds_hold(*series_);
       report(good ? done : std::max(judge_.needed_replicates(*series_), due ? done + 1 : next_check_));
       if (good) return finish(StopReason::bound_reached);

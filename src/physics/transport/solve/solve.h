@@ -82,6 +82,8 @@ struct Monitor {
   std::function<bool()> wants_state;
   std::function<void(const SolveStateView&)> receive_state;
   std::function<double()> clock_s;  // called by several threads; empty: the steady clock
+
+  [[nodiscard]] bool is_interrupted() const { return interrupted && interrupted(); }
 };
 
 // The work of a run as its pilots forecast it.
