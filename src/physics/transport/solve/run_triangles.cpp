@@ -59,7 +59,7 @@ TriangleLight RunTriangles::estimate(const RunSums& sums, double confidence, std
                                      std::span<const std::int64_t> indirect, std::span<const std::int64_t> sky) {
   const TriangleScene scene = scene_of(sums);
   if (!*neighbours_) neighbours_->emplace(scene.model, scene.layout, scene.surfaces);
-  if (!estimator_) estimator_.emplace(scene, **neighbours_, tracer_, seed_);
+  if (!estimator_) estimator_.emplace(**neighbours_, tracer_, seed_);
   const std::vector<std::int64_t> half_indirect = sums.half_side_landed.all();
   const std::vector<std::int64_t> half_sky = sums.half_side_sky.all();
   const std::vector<double> variances = landings_variance(sums, confidence);
@@ -67,7 +67,7 @@ TriangleLight RunTriangles::estimate(const RunSums& sums, double confidence, std
   const std::size_t half = (sums.replicates + 1) / 2;
   const TriangleSums of_triangles{sums.replicates, half, landings, sums.half_elements, indirect,
                                   half_indirect,   sky,  half_sky, variances,          noise};
-  return estimator_->estimate(sums.conversion.exposure, of_triangles, stop_);
+  return estimator_->estimate(scene, of_triangles, stop_);
 }
 
 void RunTriangles::judge(const RunSums& sums, const Accuracy& accuracy) {

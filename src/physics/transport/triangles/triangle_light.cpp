@@ -76,8 +76,8 @@ class Estimation {
 
   void estimate_indirect() {
     const std::size_t bands = scene_.model.bands.size();
-    light_.side_indirect.assign(sums_.indirect.begin(), sums_.indirect.end());
-    light_.side_sky.assign(sums_.sky.begin(), sums_.sky.end());
+    light_.side_indirect.resize(sums_.indirect.size());
+    light_.side_sky.resize(sums_.sky.size());
     light_.indirect_variance.resize(sums_.indirect.size());
     std::vector<std::int64_t> scattered(sums_.indirect.begin(), sums_.indirect.end());
     std::vector<std::int64_t> half_scattered(sums_.half_indirect.begin(), sums_.half_indirect.end());
@@ -216,27 +216,16 @@ TriangleNeighbours::TriangleNeighbours(const RadiationModel& model, const Counte
                     [&](std::size_t t) { trees[t] = make_surface_tree(model.canopy, surfaces.number_of, areas_m2, t); });
 }
 
-TriangleEstimator::TriangleEstimator(const TriangleScene& scene, const TriangleNeighbours& neighbours, Tracer& tracer,
-                                     std::uint64_t seed)
-    : model_(scene.model),
-      layout_(scene.layout),
-      surfaces_(scene.surfaces),
-      tracer_(tracer),
-      seed_(seed),
-      neighbours_(neighbours) {}
-
-TriangleLight TriangleEstimator::estimate(const BeamExposure& exposure, const TriangleSums& sums, const StopQuestion& stop) {
-  if (!shades_ && model_.has_beam()) {
-    shades_ = ask_shadow_points(model_, layout_, exposure, neighbours_.trees.front(), tracer_, seed_, stop);
+TriangleLight TriangleEstimator::estimate(const TriangleScene& scene, const TriangleSums& sums, const StopQuestion& stop) {
+  if (!shades_ && scene.model.has_beam()) {
+    shades_ = ask_shadow_points(scene.model, scene.layout, scene.exposure, neighbours_.trees.front(), tracer_, seed_, stop);
   }
   std::optional<std::vector<ElementShade>> shades = shades_;
   if (shades) {
-    const std::vector<std::uint32_t> doubted = BeamShares(exposure, sums, neighbours_.areas_m2).doubted(*shades);
-    if (!ask_doubted(model_, layout_, doubted, tracer_, seed_, stop, *shades)) shades.reset();
+    const std::vector<std::uint32_t> doubted = BeamShares(scene.exposure, sums, neighbours_.areas_m2).doubted(*shades);
+    if (!ask_doubted(scene.model, scene.layout, doubted, tracer_, seed_, stop, *shades)) shades.reset();
   }
-  return Estimation({model_, layout_, surfaces_, exposure}, sums, neighbours_.areas_m2, neighbours_.trees,
-                    shades ? &*shades : nullptr)
-      .run();
+  return Estimation(scene, sums, neighbours_.areas_m2, neighbours_.trees, shades ? &*shades : nullptr).run();
 }
 
 TriangleErrors triangle_errors(const TriangleScene& scene, const TriangleLight& light, double confidence) {

@@ -50,23 +50,21 @@ struct TriangleNeighbours {
 
 class TriangleEstimator {
  public:
-  // All arguments must outlive the estimator, which keeps what the points showed: `exposure` of later scenes may differ only in
-  // the number of rays.
-  TriangleEstimator(const TriangleScene& scene, const TriangleNeighbours& neighbours, Tracer& tracer, std::uint64_t seed);
+  // Neighbours and tracer must outlive the estimator, which keeps what the points showed: later scenes may differ only in the number
+  // of rays.
+  TriangleEstimator(const TriangleNeighbours& neighbours, Tracer& tracer, std::uint64_t seed)
+      : neighbours_(neighbours), tracer_(tracer), seed_(seed) {}
 
   // Estimates the light of each element and side. Scattered light and sky light are pooled over neighbours (pooling.h). Of the
   // beam, points of the element are asked whether they see the sun (shadow_points.h), and their share is joined with the
   // beam's landings by the variances of both, which the scatter of the one around the other shows (beam_shares.h); if `stop` ends
   // that, the landings are pooled too. The sums over each side of a surface stay what landed there, to the last quantum.
-  [[nodiscard]] TriangleLight estimate(const BeamExposure& exposure, const TriangleSums& sums, const StopQuestion& stop);
+  [[nodiscard]] TriangleLight estimate(const TriangleScene& scene, const TriangleSums& sums, const StopQuestion& stop);
 
  private:
-  const RadiationModel& model_;
-  const CounterLayout& layout_;
-  const Surfaces& surfaces_;
+  const TriangleNeighbours& neighbours_;
   Tracer& tracer_;
   std::uint64_t seed_;
-  const TriangleNeighbours& neighbours_;
   std::optional<std::vector<ElementShade>> shades_;
 };
 
