@@ -87,10 +87,10 @@ BeamGrid endless_beam_grid(glm::dvec2 period_m, double top_m, glm::dvec3 to_sun,
   return grid;
 }
 
-BeamGrid isolated_beam_grid(glm::dvec3 lo_m, glm::dvec3 hi_m, glm::dvec3 to_sun, double rays) {
+BeamGrid isolated_beam_grid(const BeamBox& box, glm::dvec3 to_sun, double rays) {
   EXPECT(to_sun.y, >, 0.0);
   const BeamFrame frame(to_sun);
-  Shadow shadow = frame.shadow({lo_m, hi_m});
+  Shadow shadow = frame.shadow(box);
   shadow.widen(shadow.margin_m());
   BeamGrid grid = frame.grid(shadow.lo, shadow.hi, shadow.hi.z);
   choose_cells(grid, rays);

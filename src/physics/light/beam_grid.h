@@ -31,14 +31,13 @@ inline constexpr std::uint64_t max_grid_rays = std::uint64_t{1} << 28U;
 // vector towards the sun, with a positive y. The grid has about `rays` nearly square cells, at least one.
 [[nodiscard]] BeamGrid endless_beam_grid(glm::dvec2 period_m, double top_m, glm::dvec3 to_sun, double rays);
 
-// Returns the grid before an isolated stand: the rectangle perpendicular to the beam that just covers the shadow of the box
-// lo_m..hi_m.
-[[nodiscard]] BeamGrid isolated_beam_grid(glm::dvec3 lo_m, glm::dvec3 hi_m, glm::dvec3 to_sun, double rays);
-
 // A box with two opposite corners.
 struct BeamBox {
   glm::dvec3 lo_m{0.0}, hi_m{0.0};
 };
+
+// Returns the grid before an isolated stand: the rectangle perpendicular to the beam that just covers the shadow of the box.
+[[nodiscard]] BeamGrid isolated_beam_grid(const BeamBox& box, glm::dvec3 to_sun, double rays);
 
 // A grid whose rays each carry the flux of `weight` rays of a finer one.
 struct WeightedBeamGrid {

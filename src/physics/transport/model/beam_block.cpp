@@ -35,17 +35,12 @@ BeamBox seen_box(const CounterLayout& layout) {
 
 }  // namespace
 
-BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays) {
-  const glm::dvec3 to_sun = direction_to_sun(*model.sun);
-  if (model.plot.periodic) return endless_beam_grid(model.canopy.period_m, layout.box.above_m(), to_sun, rays);
-  const BeamBox box = seen_box(layout);
-  return isolated_beam_grid(box.lo_m, box.hi_m, to_sun, rays);
-}
-
 std::vector<WeightedBeamGrid> make_grids(const RadiationModel& model, const CounterLayout& layout, const StandAim* aim,
                                          double rays) {
-  if (aim == nullptr) return {{make_grid(model, layout, rays), 1}};
-  return aimed_beam_grids({aim->lo_m, aim->hi_m}, seen_box(layout), direction_to_sun(*model.sun), rays);
+  const glm::dvec3 to_sun = direction_to_sun(*model.sun);
+  if (model.plot.periodic) return {{endless_beam_grid(model.canopy.period_m, layout.box.above_m(), to_sun, rays), 1}};
+  if (aim == nullptr) return {{isolated_beam_grid(seen_box(layout), to_sun, rays), 1}};
+  return aimed_beam_grids({aim->lo_m, aim->hi_m}, seen_box(layout), to_sun, rays);
 }
 
 shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays, std::uint64_t seed,

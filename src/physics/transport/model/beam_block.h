@@ -13,9 +13,6 @@
 
 namespace sunfleck {
 
-// Returns the grid of about `rays` beam rays over the plot, or around an isolated stand. The model must have a beam.
-[[nodiscard]] BeamGrid make_grid(const RadiationModel& model, const CounterLayout& layout, double rays);
-
 // Returns one replicate's beam rays in the form that tracers take; `rays` is their approximate number.
 [[nodiscard]] shared::BeamBlock make_beam_block(const RadiationModel& model, const CounterLayout& layout, double rays,
                                                 std::uint64_t seed, std::uint64_t replicate);
@@ -33,7 +30,8 @@ struct BeamPart {
   [[nodiscard]] std::uint64_t rays() const { return std::uint64_t{block.columns} * block.rows; }
 };
 
-// Returns the grids of all beam rays, the first with weight 1. `aim` may be null: there is then one grid, that of make_grid.
+// Returns the grids of all beam rays, the first with weight 1 and about `rays` of them. `aim` may be null: there is then one grid,
+// over the plot or around an isolated stand. The model must have a beam.
 [[nodiscard]] std::vector<WeightedBeamGrid> make_grids(const RadiationModel& model, const CounterLayout& layout,
                                                        const StandAim* aim, double rays);
 
