@@ -12,12 +12,6 @@
 namespace sunfleck {
 namespace {
 
-// The period numbers first..last of the copies that reach into the enlarged plot.
-struct ImageRange {
-  int first = 0;
-  int last = 0;
-};
-
 // Returns the images with lo + n * period <= period + margin and hi + n * period >= -margin.
 ImageRange images_on_axis(float lo_m, float hi_m, double period_m, double margin_m, std::size_t element) {
   if (period_m == 0.0) return {};
@@ -37,8 +31,8 @@ void append_images(std::vector<Reference>& references, std::size_t element, cons
     references.push_back({static_cast<std::uint32_t>(element), static_cast<std::int16_t>(dx), static_cast<std::int16_t>(dz)});
   };
   if (images.holds_origin()) append(0, 0);
-  for (int dz = images.first_z; dz <= images.last_z; ++dz) {
-    for (int dx = images.first_x; dx <= images.last_x; ++dx) {
+  for (int dz = images.z.first; dz <= images.z.last; ++dz) {
+    for (int dx = images.x.first; dx <= images.x.last; ++dx) {
       if (dx != 0 || dz != 0) append(dx, dz);
     }
   }
@@ -53,9 +47,8 @@ glm::vec2 border_margin_m(const Canopy& canopy) {
 
 ImageRanges images_of(const Canopy& canopy, const Box& box, std::size_t element) {
   const glm::vec2 margin_m = border_margin_m(canopy);
-  const ImageRange x = images_on_axis(box.lo.x, box.hi.x, canopy.period_m.x, margin_m.x, element);
-  const ImageRange z = images_on_axis(box.lo.z, box.hi.z, canopy.period_m.y, margin_m.y, element);
-  return {x.first, x.last, z.first, z.last};
+  return {images_on_axis(box.lo.x, box.hi.x, canopy.period_m.x, margin_m.x, element),
+          images_on_axis(box.lo.z, box.hi.z, canopy.period_m.y, margin_m.y, element)};
 }
 
 std::vector<Reference> make_references(const Canopy& canopy) {

@@ -20,15 +20,20 @@ struct Reference {
   std::int16_t dz = 0;
 };
 
-// The copies of something that reach into the plot: periods first_x..last_x along x and likewise along z.
-struct ImageRanges {
-  int first_x = 0, last_x = 0;
-  int first_z = 0, last_z = 0;
+// The periods first..last along an axis.
+struct ImageRange {
+  int first = 0, last = 0;
 
-  [[nodiscard]] std::uint64_t count() const {
-    return static_cast<std::uint64_t>(last_x - first_x + 1) * static_cast<std::uint64_t>(last_z - first_z + 1);
-  }
-  [[nodiscard]] bool holds_origin() const { return first_x <= 0 && last_x >= 0 && first_z <= 0 && last_z >= 0; }
+  [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(last - first + 1); }
+  [[nodiscard]] bool holds_origin() const { return first <= 0 && last >= 0; }
+};
+
+// The copies of something that reach into the plot.
+struct ImageRanges {
+  ImageRange x, z;
+
+  [[nodiscard]] std::uint64_t count() const { return x.count() * z.count(); }
+  [[nodiscard]] bool holds_origin() const { return x.holds_origin() && z.holds_origin(); }
 };
 
 // Returns the copies of a box that reach into the plot enlarged by border_margin_m; the first copy alone in an isolated stand.

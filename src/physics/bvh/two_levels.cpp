@@ -63,21 +63,6 @@ struct PlacedCopy {
   Box box;
 };
 
-BvhCopy make_copy(const shared::CopyTurn& turn, std::uint32_t part, std::uint32_t first_element) {
-  BvhCopy copy{};
-  copy.shift = {turn.shift.x, turn.shift.y, turn.shift.z};
-  copy.mark = 0xffffffffU;
-  copy.first_element = first_element;
-  copy.cos_out = turn.cos_out;
-  copy.sin_out = turn.sin_out;
-  copy.scale = turn.scale;
-  copy.cos_back = turn.cos_back;
-  copy.sin_back = turn.sin_back;
-  copy.per_scale = turn.per_scale;
-  copy.part = part;
-  return copy;
-}
-
 void grow(Box& box, const glm::vec3& point) {
   box.lo = glm::min(box.lo, point);
   box.hi = glm::max(box.hi, point);
@@ -124,10 +109,9 @@ class TwoLevels {
     if (canopy_.corners.own().empty()) return;
     Bvh tree = build_own_tree(canopy_, padding_m_, depth_of_triangles);
     if (tree.triangles.empty()) return;
-    parts_.push_back({own_corners, std::move(tree), {}});
-    parts_.back().pieces = pieces_of(parts_.back().tree);
+    add_part(own_corners, std::move(tree));
     count(parts_.back().tree.triangles.size());
-    for (const Piece& piece : parts_.back().pieces) copies_.push_back(placed_piece(unturned, 0, piece));
+    for (const Piece& piece : parts_.back().pieces) copies_.push_back(placed_piece(unturned, 0, 0, piece));
   }
 
   // Boxes are padded so that rounding in the canopy's frame loses no hit.
@@ -151,15 +135,32 @@ class TwoLevels {
     }
     const auto triangle = [&](std::uint32_t item) { return bvh_triangle(mesh.corners[traced[item]], traced[item], 0); };
     part_of_mesh_.push_back(static_cast<std::uint32_t>(parts_.size()));
-    parts_.push_back({number, build_tree(tree, {.triangle = triangle, .copy = nullptr}, depth_of_triangles), {}});
-    if (!traced.empty()) parts_.back().pieces = pieces_of(parts_.back().tree);
+    add_part(number, build_tree(tree, {.triangle = triangle, .copy = nullptr}, depth_of_triangles));
   }
 
-  [[nodiscard]] PlacedCopy placed_piece(const shared::CopyTurn& turn, std::uint32_t part, const Piece& piece) const {
-    PlacedCopy placed{make_copy(turn, part, 0), nowhere};
-    placed.copy.root = piece.root;
-    placed.copy.first_triangle = piece.first_triangle;
-    placed.copy.triangles = piece.triangles;
+  void add_part(std::uint32_t mesh, Bvh tree) {
+    std::vector<Piece> pieces;
+    if (!tree.triangles.empty()) pieces = pieces_of(tree);
+    parts_.push_back({mesh, std::move(tree), std::move(pieces)});
+  }
+
+  [[nodiscard]] PlacedCopy placed_piece(const shared::CopyTurn& turn, std::uint32_t first_element, std::uint32_t part,
+                                        const Piece& piece) const {
+    PlacedCopy placed{.box = nowhere};
+    BvhCopy& copy = placed.copy;
+    copy.shift = {turn.shift.x, turn.shift.y, turn.shift.z};
+    copy.mark = 0xffffffffU;
+    copy.root = piece.root;
+    copy.first_element = first_element;
+    copy.cos_out = turn.cos_out;
+    copy.sin_out = turn.sin_out;
+    copy.scale = turn.scale;
+    copy.cos_back = turn.cos_back;
+    copy.sin_back = turn.sin_back;
+    copy.per_scale = turn.per_scale;
+    copy.part = part;
+    copy.first_triangle = piece.first_triangle;
+    copy.triangles = piece.triangles;
     const std::span<const BvhTriangle> all = parts_[part].tree.triangles;
     for (const BvhTriangle& t : all.subspan(piece.first_triangle, piece.triangles)) {
       for (const auto& corner : {t.a, t.b, t.c}) {
@@ -172,12 +173,11 @@ class TwoLevels {
   void add_images(const MeshCopy& placed) {
     const std::uint32_t part = part_of_mesh_[placed.mesh];
     for (const Piece& piece : parts_[part].pieces) {
-      PlacedCopy copy = placed_piece(placed.turn, part, piece);
-      copy.copy.first_element = placed.first_element;
+      const PlacedCopy copy = placed_piece(placed.turn, placed.first_element, part, piece);
       const ImageRanges images = images_of(canopy_, copy.box, placed.first_element);
       count(images.count() * copy.copy.triangles);
-      for (int dz = images.first_z; dz <= images.last_z; ++dz) {
-        for (int dx = images.first_x; dx <= images.last_x; ++dx) copies_.push_back(moved(copy, dx, dz));
+      for (int dz = images.z.first; dz <= images.z.last; ++dz) {
+        for (int dx = images.x.first; dx <= images.x.last; ++dx) copies_.push_back(moved(copy, dx, dz));
       }
     }
   }
