@@ -97,8 +97,7 @@ void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSum
     sums.hit.push_back(static_cast<std::uint32_t>(e));
     const std::uint32_t number = surfaces.number_of[e];
     const Surface& surface = surfaces.of[number];
-    sums.surface[number].upper += element.upper;
-    sums.surface[number].lower += element.lower;
+    sums.surface[number] += element;
     const double lit_m2 = static_cast<double>(element.both()) * double{exposure.lit_m2_per_landing(e)};
     sums.organ_lit_m2[surface.organ] += lit_m2;
     const std::uint32_t plant = areas.plants.of_surface[number];
@@ -109,9 +108,7 @@ void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSum
     for (std::size_t layer = first; layer < layout.end_layer(e, first); ++layer, ++bin) {
       const std::uint32_t upper = counters[layout.first_bin_word + 2 * bin];
       const std::uint32_t lower = counters[layout.first_bin_word + 2 * bin + 1];
-      BeamLandings& in_layer = sums.layer_optics[layer * model.optics.size() + surface.optics];
-      in_layer.upper += upper;
-      in_layer.lower += lower;
+      sums.layer_optics[layer * model.optics.size() + surface.optics] += {upper, lower};
       if (areas.foliage[e]) sums.layer_lit_m2[layer] += (1.0 * upper + lower) * double{exposure.lit_m2_per_landing(e)};
     }
   }

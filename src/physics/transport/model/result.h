@@ -128,6 +128,13 @@ struct BeamLandings {
   std::uint64_t lower = 0;
 
   [[nodiscard]] std::uint64_t both() const { return upper + lower; }
+  [[nodiscard]] std::uint64_t side(std::size_t number) const { return number == 0 ? upper : lower; }
+
+  BeamLandings& operator+=(const BeamLandings& more) {
+    upper += more.upper;
+    lower += more.lower;
+    return *this;
+  }
 };
 
 // The map of a horizontal receiver. Cells are numbered x fastest; the sums over the cells are the flux through the whole
@@ -268,8 +275,7 @@ struct RadiationResult {
       const double landings = static_cast<double>(side_direct[side]) / static_cast<double>(parts_per_landing);
       return area_m2 > 0.0 ? landings * ground_per_ray_m2 * beam_w_m2 / area_m2 : 0.0;
     }
-    const BeamLandings& landed = elements[side / 2];
-    return irradiance_w_m2(side % 2 == 0 ? landed.upper : landed.lower, area_m2, beam_w_m2);
+    return irradiance_w_m2(elements[side / 2].side(side % 2), area_m2, beam_w_m2);
   }
 
  private:

@@ -175,12 +175,12 @@ class Addition {
     std::vector<double> direct_absorbed(organs * bands), indirect_landed(organs * bands), indirect_absorbed(organs * bands);
     for (std::size_t s = 0; s < surfaces_.of.size(); ++s) {
       const Surface& surface = surfaces_.of[s];
-      const double sides[2] = {static_cast<double>(direct_.surface[s].upper), static_cast<double>(direct_.surface[s].lower)};
-      landed[surface.organ] += sides[0] + sides[1];
+      const BeamLandings& landings = direct_.surface[s];
+      landed[surface.organ] += static_cast<double>(landings.both());
       for (std::size_t b = 0; b < bands; ++b) {
         const std::size_t place = surface.organ * bands + b;
         for (std::size_t side = 0; side < 2; ++side) {
-          direct_absorbed[place] += sides[side] * conversion_.absorptance(surface.optics, side, b);
+          direct_absorbed[place] += static_cast<double>(landings.side(side)) * conversion_.absorptance(surface.optics, side, b);
           if (indirect_ == nullptr) continue;
           const auto quanta = static_cast<double>(indirect_->surface_landed[(s * 2 + side) * bands + b]);
           indirect_landed[place] += quanta;
@@ -211,12 +211,12 @@ class Addition {
     std::vector<double> incident_w(plants.size() * bands), absorbed_w(plants.size() * bands);
     for (std::size_t s = 0; s < surfaces_.of.size(); ++s) {
       if (plants.of_surface[s] == PlantAreas::no_plant) continue;
-      const double sides[2] = {static_cast<double>(direct_.surface[s].upper), static_cast<double>(direct_.surface[s].lower)};
+      const BeamLandings& landings = direct_.surface[s];
       for (std::size_t b = 0; b < bands; ++b) {
         const std::size_t place = plants.of_surface[s] * bands + b;
         const double w_per_quantum = quanta_[b].w_m2_per_quantum * model_.plot.area_m2();
         for (std::size_t side = 0; side < 2; ++side) {
-          double flux_w = sides[side] * conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
+          double flux_w = static_cast<double>(landings.side(side)) * conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b);
           if (indirect_ != nullptr) {
             flux_w += static_cast<double>(indirect_->surface_landed[(s * 2 + side) * bands + b]) * w_per_quantum;
           }
@@ -256,9 +256,8 @@ class Addition {
         double absorbed_structure = 0.0;
         for (std::size_t o = 0; o < optics_count; ++o) {
           const BeamLandings& landings = direct_.layer_optics[k * optics_count + o];
-          const double sides[2] = {static_cast<double>(landings.upper), static_cast<double>(landings.lower)};
           for (std::size_t side = 0; side < 2; ++side) {
-            double flux = sides[side] * share_ * conversion_.beam_w_m2(b);
+            double flux = static_cast<double>(landings.side(side)) * share_ * conversion_.beam_w_m2(b);
             if (indirect_ != nullptr) {
               flux +=
                   static_cast<double>(indirect_->layer_landed[((k * optics_count + o) * 2 + side) * bands + b]) * per_quantum;
@@ -295,11 +294,8 @@ class Addition {
   void add_landings() {
     for (const std::uint32_t e : direct_.hit) {
       const BeamLandings landings = conversion_.element_landings(replicate_.counters, e);
-      sums_.elements[e].upper += landings.upper;
-      sums_.elements[e].lower += landings.lower;
-      if (!in_half()) continue;
-      sums_.half_elements[e].upper += landings.upper;
-      sums_.half_elements[e].lower += landings.lower;
+      sums_.elements[e] += landings;
+      if (in_half()) sums_.half_elements[e] += landings;
     }
   }
 
@@ -313,7 +309,6 @@ class Addition {
       sums_.direct_spread[e].add(static_cast<double>(landings.both()));
       sums_.element_hits[e] += landings.both() + (indirect_ != nullptr ? indirect_->element_hits[e] : 0);
       const double per_area = conversion_.areas.per_m2[e];
-      const double sides[2] = {static_cast<double>(landings.upper), static_cast<double>(landings.lower)};
       for (std::size_t b = 0; b < bands; ++b) {
         double absorbed = 0.0;
         double landed = 0.0;
@@ -324,7 +319,9 @@ class Addition {
                     model_.plot.area_m2() * per_area;
           }
           landed += other;
-          const double incident = sides[side] * conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b) * per_area + other;
+          const double incident =
+              static_cast<double>(landings.side(side)) * conversion_.ground_per_ray_m2 * conversion_.beam_w_m2(b) * per_area +
+              other;
           absorbed += incident * conversion_.absorptance(model_.canopy.optics_of[e], side, b);
           if (!sums_.side_spread.empty()) sums_.side_spread[(2 * e + side) * bands + b].add(incident);
         }
