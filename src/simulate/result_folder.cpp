@@ -296,7 +296,8 @@ ProfileOverlays read_overlays(const ResultRequest& request, const RadiationModel
 void check_pictures(const ResultRequest& request, const RadiationModel& model) {
   check_view(model, request.pictures);
   for (const Picture& picture : named_pictures(request)) check_field(model, picture);
-  if (holds(request.images, "planes") && model.planes.empty()) warn("--images planes draws nothing; give the scene a [[plane]]");
+  if (holds(request.images, "planes") && model.planes.empty())
+    warn("--images planes draws nothing; give the scene a [[plane]]");
 }
 
 bool shows_triangles(const ResultRequest& request) {

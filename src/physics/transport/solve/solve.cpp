@@ -8,15 +8,13 @@
 #include "physics/transport/solve/replicate_helpers.h"
 #include "physics/transport/solve/replicate_queue.h"
 #include "physics/transport/solve/result_of.h"
+#include "physics/transport/solve/run_limits.h"
 #include "physics/transport/solve/series.h"
 #include "physics/transport/solve/work_planner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -25,10 +23,6 @@ namespace {
 
 // First number of the pilots' replicates, apart from those of the run.
 constexpr std::uint64_t pilot_stream = std::uint64_t{1} << 40U;
-
-double steady_clock_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 class Solver {
  public:
@@ -43,13 +37,14 @@ class Solver {
         maker_(lights, layout, tracer),
         judge_(lights, settings, maker_.has_indirect_pass(), tracer, [&monitor] { return monitor.is_interrupted(); }),
         planner_(model_, settings, maker_),
-        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return must_stop(); }) {}
+        limits_(settings, monitor),
+        queue_(maker_, settings.max_rays ? nullptr : helpers, [this] { return limits_.must_stop(); }) {}
 
   SharedOutcome run() {
     if (settings_.resume_from != nullptr) return resume(*settings_.resume_from);
     const bool told = !settings_.begin_with.empty() && !planner_.fixed();
     const std::optional<Work> work = told ? earlier_work() : choose_work();
-    if (!work) return finish(stop_);
+    if (!work) return finish(limits_.reason());
     begin(*work);
     return run_on();
   }
@@ -63,23 +58,6 @@ class Solver {
   }
 
  private:
-  [[nodiscard]] double clock_s() const { return monitor_.clock_s ? monitor_.clock_s() : steady_clock_s(); }
-  [[nodiscard]] double seconds() const { return clock_s() - start_s_; }
-
-  // Returns true once the run has to end, and records the reason. Any thread may call it.
-  bool must_stop() {
-    const std::lock_guard lock(stop_mutex_);
-    if (monitor_.is_interrupted()) {
-      stop_ = StopReason::interrupted;
-      return true;
-    }
-    if (settings_.max_seconds && seconds() >= *settings_.max_seconds) {
-      stop_ = StopReason::time_spent;
-      return true;
-    }
-    return false;
-  }
-
   std::optional<Work> choose_work() {
     std::optional<Work> work = planner_.choose([this](const Work& pilot) { return run_pilots(pilot); });
     if (work && !ray_needs_.empty()) ray_shares_ = planner_.spare_rays(ray_needs_, *work);
@@ -115,7 +93,7 @@ class Solver {
 
   // Makes pilots, which become the fallback, even if stopped.
   std::optional<SeriesOutcome> run_pilots(const Work& pilot) {
-    const double before = seconds();
+    const double before = limits_.seconds();
     begin(pilot, pilot_stream);
     while (series_->replicates() < pilot_replicates) {
       if (!add_replicate(pilot_replicates, pilot_replicates)) {
@@ -130,8 +108,8 @@ class Solver {
     share_rays();
     SeriesOutcome pilots = outcome();
     pilots.rays_each = static_cast<double>(series_->traced()) / static_cast<double>(pilots.replicates);
-    pilots.seconds_each = (seconds() - before) / static_cast<double>(pilots.replicates);
-    if (settings_.max_seconds) pilots.seconds_left = std::max(0.0, *settings_.max_seconds - seconds());
+    pilots.seconds_each = (limits_.seconds() - before) / static_cast<double>(pilots.replicates);
+    pilots.seconds_left = limits_.seconds_left().value_or(0.0);
     keep_fallback();
     return pilots;
   }
@@ -145,7 +123,7 @@ class Solver {
     queue_.end();
     work_ = work;
     begun_with_ = 0;
-    begun_s_ = seconds();
+    begun_s_ = limits_.seconds();
     completion_ = {};
     judge_.begin_series();
     ReplicateOrder first = order(work);
@@ -219,23 +197,12 @@ class Solver {
     if (!planner_.fixed()) progress.bound = direct_lags ? settings_.accuracy.direct : settings_.accuracy.indirect;
     if (!std::isnan(direct + indirect)) progress.relative_error = direct_lags ? direct : indirect;
     const auto done = static_cast<double>(series_->replicates());
-    const double each_s = (seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
-    const double left = std::min(static_cast<double>(expected) - done, affordable_replicates(each_s));
+    const double each_s = (limits_.seconds() - begun_s_) / std::max(1.0, done - static_cast<double>(begun_with_));
+    const double left = std::min(static_cast<double>(expected) - done,
+                                 limits_.affordable_replicates(each_s, series_->traced(), series_->replicates()));
     progress.fraction = completion_.update(done, done + left);
     progress.seconds_left = left * each_s;
     monitor_.report(progress);
-  }
-
-  // Returns how many more replicates the limits on time and rays allow.
-  [[nodiscard]] double affordable_replicates(double seconds_each) const {
-    double most = std::numeric_limits<double>::infinity();
-    if (settings_.max_seconds) most = std::max(0.0, *settings_.max_seconds - seconds()) / std::max(seconds_each, 1e-9);
-    if (settings_.max_rays && series_->replicates() > 0) {
-      const auto traced = static_cast<double>(series_->traced());
-      const double each = std::max(1.0, traced / static_cast<double>(series_->replicates()));
-      most = std::min(most, std::floor(std::max(0.0, static_cast<double>(*settings_.max_rays) - traced) / each));
-    }
-    return most;
   }
 
   // Frees the pilots' sums as soon as no result will be made from them.
@@ -265,7 +232,7 @@ class Solver {
   SharedOutcome run_fixed() {
     const auto all = static_cast<std::size_t>(planner_.asked_replicates());
     while (series_->replicates() < all) {
-      if (spent() || !add_replicate(all, all)) return finish(stop_);
+      if (spent() || !add_replicate(all, all)) return finish(limits_.reason());
       report(all);
       if (monitor_.wants_state && monitor_.wants_state()) keep_state();
     }
@@ -277,7 +244,7 @@ class Solver {
   SharedOutcome run_to_bound() {
     while (true) {
       const bool was_stopped_at_check = series_->replicates() >= next_check_;
-      if (!was_stopped_at_check && (spent() || !add_replicate(next_check_, most_replicates))) return finish(stop_);
+      if (!was_stopped_at_check && (spent() || !add_replicate(next_check_, most_replicates))) return finish(limits_.reason());
       const std::size_t done = series_->replicates();
       const bool due = done >= next_check_;
       if (due) judge_.judge_triangles(*series_);
@@ -299,13 +266,9 @@ class Solver {
 
   // Returns true if the next replicate would need more rays than are left.
   bool spent() {
-    if (!settings_.max_rays) return false;
     const std::size_t done = series_->replicates();
     const std::uint64_t run = series_->traced();
-    const std::uint64_t next = done > 0 ? run / done : series_->grid_rays;
-    if (run + next <= *settings_.max_rays) return false;
-    stop_ = StopReason::rays_spent;
-    return true;
+    return limits_.lacks_rays(run, done > 0 ? run / done : series_->grid_rays);
   }
 
   SharedOutcome finish(StopReason reason) {
@@ -364,8 +327,8 @@ class Solver {
     if (!lights_[light].has_beam()) result.direct.relative_error = 0.0;
     // Replicates overlap, so the elapsed time is divided in proportion to the time spent in each pass.
     const double busy_s = direct_s_ + indirect_s_;
-    result.indirect.seconds = busy_s > 0.0 ? seconds() * indirect_s_ / busy_s : 0.0;
-    result.direct.seconds = seconds() - result.indirect.seconds;
+    result.indirect.seconds = busy_s > 0.0 ? limits_.seconds() * indirect_s_ / busy_s : 0.0;
+    result.direct.seconds = limits_.seconds() - result.indirect.seconds;
     if (!planner_.fixed()) {
       result.direct.bound = settings_.accuracy.direct;
       if (maker_.has_indirect_pass()) result.indirect.bound = settings_.accuracy.indirect;
@@ -383,10 +346,8 @@ class Solver {
   ReplicateMaker maker_;
   Judge judge_;
   WorkPlanner planner_;
-  double start_s_ = clock_s();
+  RunLimits limits_;
   std::unique_ptr<Series> series_, fallback_;
-  std::mutex stop_mutex_;
-  StopReason stop_ = StopReason::interrupted;
   Work work_;
   std::uint64_t traced_ = 0;
   std::size_t next_check_ = first_check;
