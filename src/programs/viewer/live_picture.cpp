@@ -59,6 +59,11 @@ std::vector<std::uint32_t> words_of(const Image& image) {
 
 }  // namespace
 
+std::optional<std::uint32_t> LivePictureFrame::surface_at(glm::ivec2 pixel) const {
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= width || pixel.y >= height) return std::nullopt;
+  return surface[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixel.x)];
+}
+
 void write_frame(const LivePictureFrame& frame, const std::filesystem::path& file) {
   Image image{frame.width, frame.height, {}};
   image.pixels.reserve(frame.pixels.size());

@@ -45,6 +45,9 @@ struct LivePictureFrame {
   std::optional<Pick> pick;             // what the next two describe
   std::optional<PickedOrgan> organ;     // if anything is picked
   std::optional<PickedElement> picked;  // if a triangle is picked
+
+  // Returns the surface at a pixel; nothing outside the picture.
+  [[nodiscard]] std::optional<std::uint32_t> surface_at(glm::ivec2 pixel) const;
 };
 
 // Writes the frame's picture as a PNG. Throws Error (failure).

@@ -2,7 +2,10 @@
 
 #include "base/text.h"
 #include "files/formats/mesh/mesh_reader.h"
+#include "physics/canopy/axes.h"
 #include "simulate/scene_source.h"
+
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -25,6 +28,14 @@ std::vector<std::string> names_of(const std::vector<Named>& things) {
   return names;
 }
 
+// Returns the number of triangles and the size of the plot in a line.
+std::string text_of_plot(const RadiationModel& model) {
+  const Plot& plot = model.plot;
+  const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
+  return fmt::format("{}, plot {:.4g} x {:.4g} m{}", counted(model.canopy.size(), "triangle"), size_m.x, size_m.y,
+                     plot.periodic ? ", periodic" : "");
+}
+
 // Returns the run options for the scene that is shown, which decides the folder and the name of saved files.
 RunOptions run_options(const ViewOptions& options, const std::filesystem::path& file) {
   RunOptions run = options.run;
@@ -43,6 +54,7 @@ Session::Session(const ViewOptions& options, const std::filesystem::path& scene_
     : file(scene_file),
       simulation(checked_scene(options, file, files), options.run, EngineUse::shared_with_window),
       title(simulation.scene().title),
+      plot_text(text_of_plot(simulation.model())),
       light_of_scene(request_of(simulation.scene())),
       bands(names_of(simulation.model().bands)),
       optics(names_of(simulation.model().optics)),

@@ -25,8 +25,8 @@ class Session {
           const std::function<void()>& notify);
 
   std::filesystem::path file;
-  Simulation simulation;  // only `light` changes its light
-  const std::string title;
+  Simulation simulation;                         // only `light` changes its light
+  const std::string title, plot_text;            // plot_text: number of triangles, size of the plot
   const LightRequest light_of_scene;             // initial light
   const std::vector<std::string> bands, optics;  // names
   const std::vector<std::string> warnings;       // of the scene, one line each

@@ -1,12 +1,10 @@
 #include "programs/viewer/viewer.h"
 
 #include "base/error.h"
-#include "base/file.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "files/formats/mesh/mesh_reader.h"
-#include "physics/canopy/axes.h"
 #include "programs/cli/terminal.h"
 #include "programs/viewer/compass.h"
 #include "programs/viewer/panel.h"
@@ -69,10 +67,7 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   state_.news = {};
   state_.title = session_->title;
   state_.device = device_line(session_->simulation.device());
-  const Plot& plot = scene.model.plot;
-  const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
-  state_.plot_text = fmt::format("{}, plot {:.4g} x {:.4g} m{}", counted(scene.model.canopy.size(), "triangle"), size_m.x,
-                                 size_m.y, plot.periodic ? ", periodic" : "");
+  state_.plot_text = session_->plot_text;
   state_.bands = session_->bands;
   state_.optics_names = session_->optics;
   if (state_.band() == 0) state_.options.band.clear();
@@ -89,7 +84,7 @@ void Viewer::enter(std::unique_ptr<Session> session) {
   asked_picture_.reset();
   shown_frame_ = 0;
   save_told_ = true;
-  placed_.reset();
+  camera_fit_.forget();
   told_problems_ = {};
   for (const std::string& warning : session_->warnings) warn(warning);
   if (!session_->warnings.empty()) say_to_user(session_->warnings.front(), false);
@@ -180,7 +175,7 @@ void Viewer::frame() {
   take_keys();
   obey(orders);
   play();
-  place_camera(picture_frame());
+  camera_fit_.place(state_, *session_, picture_frame());
   ask_for_light();
   ask_for_picture();
   tell_controls();
@@ -207,9 +202,8 @@ void Viewer::take_news() {
   }
   if (news.request == light_number_) tell_problem(told_problems_[0], news.problem);
   tell_problem(told_problems_[1], session_->picture.problem());
-  if (saving_picture_.valid() && saving_picture_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    tell_saved(saving_picture_.get());
-  if (const std::optional<SaveOutcome> outcome = session_->picture.take_saved()) tell_saved(*outcome);
+  for (const std::optional<SaveOutcome>& outcome : {frame_saver_.take_saved(), session_->picture.take_saved()})
+    if (outcome) tell_saved(*outcome);
   tell_assumed_light();
 }
 
@@ -281,7 +275,7 @@ void Viewer::take_keys() {
 void Viewer::choose_view(ViewKind view) {
   state_.options.view = view;
   state_.camera_as_given = true;
-  placed_.reset();
+  camera_fit_.forget();
 }
 
 void Viewer::obey(const PanelOrders& orders) {
@@ -316,55 +310,12 @@ fs::path Viewer::save_folder() const {
 }
 
 void Viewer::save_picture() {
-  if (saving_picture_.valid() || !state_.frame) return;
-  const fs::path folder = save_folder();
-  std::error_code error;
-  fs::path file;
-  do {
-    file = folder / fmt::format("view_{}_{:03d}.png", stem_of(state_.picture), ++saved_pictures_);
-  } while (fs::exists(file, error));
-  if (state_.own_size) return session_->picture.save(picture_to_save(), file);
-  saving_picture_ = std::async(std::launch::async, [frame = state_.frame, folder, file] {
-    try {
-      make_folder(folder);
-      write_frame(*frame, file);
-      return SaveOutcome{true, file.string()};
-    } catch (const std::exception& problem) {
-      return SaveOutcome{false, problem.what()};
-    }
-  });
-}
-
-// Fits an unmoved camera to the size of the file.
-PictureRequest Viewer::picture_to_save() const {
-  PictureRequest request{state_.hand.camera, state_.options, state_.picture, std::nullopt, false};
-  request.options.width = state_.save_width;
-  request.options.height = state_.save_height;
-  const double aspect = static_cast<double>(state_.save_width) / state_.save_height;
-  if (state_.camera_as_given) {
-    request.camera = picture_camera(session_->light.geometry(), session_->simulation.layout(), request.options);
-  } else if (request.camera.kind == Projection::fisheye) {
-    request.camera = fisheye_view(request.camera.position_m, aspect);
+  if (frame_saver_.busy() || !state_.frame) return;
+  const fs::path file = frame_saver_.next_file(save_folder(), state_.picture);
+  if (state_.own_size) {
+    session_->picture.save(picture_to_save(state_, *session_), file);
   } else {
-    request.camera.aspect = aspect;
-  }
-  return request;
-}
-
-// Fits an unmoved camera to the window as `render` would fit its picture.
-void Viewer::place_camera(const PictureFrame& place) {
-  state_.options.width = std::max(64, static_cast<int>(place.width_px));
-  state_.options.height = std::max(64, static_cast<int>(place.height_px));
-  const double aspect = static_cast<double>(state_.options.width) / state_.options.height;
-  const Placed now{state_.options.view, state_.options.width, state_.options.height};
-  if (state_.camera_as_given) {
-    if (std::exchange(placed_, now) == now) return;
-    const Camera camera = picture_camera(session_->light.geometry(), session_->simulation.layout(), state_.options);
-    state_.hand = in_hand(camera, 0.5 * (place.lo_m + place.hi_m));
-  } else if (state_.hand.camera.kind == Projection::fisheye) {
-    state_.hand.camera = fisheye_view(state_.hand.camera.position_m, aspect);
-  } else {
-    state_.hand.camera.aspect = aspect;
+    frame_saver_.save(state_.frame, file);
   }
 }
 
@@ -373,11 +324,10 @@ void Viewer::pick(glm::ivec2 pixel) {
   const LivePictureFrame& frame = *state_.frame;
   const std::optional<Pick> earlier = std::exchange(state_.picked, std::nullopt);
   picked_told_ = false;
-  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= frame.width || pixel.y >= frame.height) return;
-  const std::uint32_t surface = frame.surface[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(frame.width) +
-                                              static_cast<std::size_t>(pixel.x)];
+  const std::optional<std::uint32_t> surface = frame.surface_at(pixel);
+  if (!surface) return;
   const Canopy& canopy = session_->light.geometry().model.canopy;
-  const std::uint32_t element = surface / 2;
+  const std::uint32_t element = *surface / 2;
   if (element >= canopy.size()) return;
   const bool again = earlier && canopy.organ_of[earlier->element] == canopy.organ_of[element];
   state_.picked = Pick{element, again ? Pick::What::triangle : Pick::What::organ};
@@ -433,11 +383,9 @@ void Viewer::say_to_user(const std::string& message, bool problem) {
 
 void Viewer::tell_controls() {
   if (!events_.wanted()) return;
-  json fields = json::object();
-  for (const auto& [name, place] : state_.controls) fields[name] = {place[0], place[1], place[2], place[3]};
-  state_.controls.clear();
-  const json controls = {{"picture", {picture_frame().left_px, 0, picture_frame().width_px, picture_frame().height_px}},
-                         {"controls", fields}};
+  const PictureFrame place = picture_frame();
+  const json controls = {{"picture", {place.left_px, 0, place.width_px, place.height_px}},
+                         {"controls", std::exchange(state_.controls, {})}};
   const std::string text = controls.dump();
   if (text == told_controls_) return;
   told_controls_ = text;

@@ -2,7 +2,9 @@
 // The main loop of the window: handles input and draws frames.
 
 #include "programs/cli/options.h"
+#include "programs/viewer/camera_fit.h"
 #include "programs/viewer/events.h"
+#include "programs/viewer/frame_saver.h"
 #include "programs/viewer/hands.h"
 #include "programs/viewer/scene_loader.h"
 #include "programs/viewer/session.h"
@@ -32,13 +34,6 @@ class Viewer {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // The view and size for which an unmoved camera was placed.
-  struct Placed {
-    ViewKind view;
-    int width, height;
-    friend bool operator==(const Placed&, const Placed&) = default;
-  };
-
   // Enters a loaded scene. Camera and charts stay as they are if the same scene is reloaded; the light is the scene's.
   void enter(std::unique_ptr<Session> session);
   // Begins to load a scene, now or after the one that is being loaded.
@@ -53,14 +48,12 @@ class Viewer {
   void take_keys();
   void obey(const PanelOrders& orders);
   void choose_view(ViewKind view);
-  void place_camera(const PictureFrame& place);
   void pick(glm::ivec2 pixel);
   void play();
   void ask_for_light();
   void ask_for_picture();
   void save_picture();
   void tell_saved(const SaveOutcome& outcome);
-  [[nodiscard]] PictureRequest picture_to_save() const;
   void tell_assumed_light();
   [[nodiscard]] std::filesystem::path save_folder() const;
   void tell_problem(std::string& told, const std::string& problem);
@@ -80,7 +73,7 @@ class Viewer {
   SceneLoader loader_;
 
   ViewerState state_;
-  std::optional<Placed> placed_;
+  CameraFit camera_fit_;
   Hands hands_;
   std::optional<LightRequest> asked_light_;
   std::optional<PictureRequest> asked_picture_;
@@ -91,11 +84,10 @@ class Viewer {
   std::uint64_t told_done_ = 0;
   std::uint64_t shown_frame_ = 0;
   bool new_pixels_ = true;
-  int saved_pictures_ = 0;
   double message_until_s_ = 0.0;
   std::string told_controls_;
   bool save_told_ = true;
-  std::future<SaveOutcome> saving_picture_;
+  FrameSaver frame_saver_;
   std::array<std::string, 2> told_problems_;  // of light and picture
   bool picked_told_ = false;
   std::optional<double> told_assumed_;
