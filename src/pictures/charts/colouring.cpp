@@ -52,15 +52,15 @@ void colour_soil(Colouring& colouring, const FieldValues& values, const ScaleLim
   for (std::size_t i = 0; i < cells.size(); ++i) {
     colouring.colours[values.first_cell + i] = soil_colour(top > 0.0 ? cells[i] / top : 0.0);
   }
-  colouring.legend.push_back({soil_colour(1.0), fmt::format("soil at {:.3g}", top)});
-  colouring.legend.push_back({soil_colour(0.0), "soil at 0"});
+  colouring.legend.entries.push_back({soil_colour(1.0), fmt::format("soil at {:.3g}", top)});
+  colouring.legend.entries.push_back({soil_colour(0.0), "soil at 0"});
 }
 
 Colouring ranked(const FieldValues& values, const RankScale& scale, const ScaleLimits& limits) {
   Colouring colouring;
   colouring.colours.reserve(values.w_m2.size());
   for (const double value : values.w_m2) colouring.colours.push_back(rank_colour(rank_of(scale, value)));
-  colouring.legend = rank_legend(scale, rank_shares(scale, values.w_m2, values.area_m2));
+  colouring.legend.entries = rank_legend(scale, rank_shares(scale, values.w_m2, values.area_m2));
   const bool soil_apart = values.first_cell < values.area_m2.size() && values.area_m2[values.first_cell] == 0.0;
   if (soil_apart) colour_soil(colouring, values, limits);
   return colouring;
@@ -74,8 +74,8 @@ Colouring mapped(const FieldValues& values, const MapScale& scale) {
   ColourBar bar{0.0, scale.top, {}};
   for (int k = 0; k <= steps; ++k)
     bar.colours.push_back(scale.top > 0.0 ? viridis(static_cast<double>(k) / steps) : viridis(0));
-  colouring.bar = bar;
-  if (scale.open) colouring.legend.push_back({viridis(1.0), fmt::format("> {:.3g}", scale.top)});
+  colouring.legend.bar = bar;
+  if (scale.open) colouring.legend.entries.push_back({viridis(1.0), fmt::format("> {:.3g}", scale.top)});
   return colouring;
 }
 
@@ -113,9 +113,9 @@ Colouring hue_mapped(const FieldValues& values, const SurfaceColours& surfaces, 
   }
   const double top = std::min(largest_w_m2, brightest_swatch * weighted_quantile(values.w_m2, values.area_m2, map_top_share));
   for (const double level : round_levels(top, swatches)) {
-    colouring.legend.push_back({hue_colour(tones, surfaces.typical, level), fmt::format("{:.6g}", level)});
+    colouring.legend.entries.push_back({hue_colour(tones, surfaces.typical, level), fmt::format("{:.6g}", level)});
   }
-  colouring.legend.push_back({Colour{}, "0"});
+  colouring.legend.entries.push_back({Colour{}, "0"});
   colouring.note = fmt::format("hue mapping, log-mean {:.3g} W m⁻²", tones.log_mean_w_m2);
   return colouring;
 }
@@ -158,8 +158,8 @@ Colouring colour_field(ChartKind chart, const FieldValues& values, const Surface
       colouring = mapped(values, map_scale(values, limits));
       break;
   }
-  colouring.legend_title = title;
-  if (chart == ChartKind::hue) colouring.legend_title += fmt::format(" (as on {})", surfaces.name);
+  colouring.legend.title = title;
+  if (chart == ChartKind::hue) colouring.legend.title += fmt::format(" (as on {})", surfaces.name);
   return colouring;
 }
 

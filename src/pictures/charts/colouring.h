@@ -3,12 +3,11 @@
 
 #include "pictures/charts/fields.h"
 #include "pictures/charts/picture.h"
-#include "pictures/drawing/chart.h"
 #include "pictures/drawing/colour_scale.h"
+#include "pictures/drawing/legend.h"
 
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -16,9 +15,7 @@ namespace sunfleck {
 
 struct Colouring {
   std::vector<Colour> colours;  // linear, [surface number]
-  std::string legend_title;
-  std::vector<LegendEntry> legend;
-  std::optional<ColourBar> bar;
+  Legend legend;
   std::string note;  // for the footer; may be empty
 };
 

@@ -16,6 +16,7 @@
 #include "pictures/drawing/view_block.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -57,30 +58,19 @@ std::string footer_line(LightField field, const RadiationResult& result, std::si
   return note.empty() ? line : line + (line.empty() ? "" : "; ") + note;
 }
 
-// One look at a scene, passed on in bands of rows.
-class Look {
- public:
-  Look(const Drawing& drawing, const PictureOptions& options, const Camera& camera)
-      : options_(options),
-        samples_at_once_(samples_at_once(drawing.engine.device())),
-        viewer_(drawing.engine.viewer(picture_look(drawing.scene.model, drawing.layout, options, camera))) {}
-
-  // Passes on every band of rows, from top to bottom. Returns false if stopped.
-  template <class Receive>
-  [[nodiscard]] bool each_band(const StopQuestion& stop, const Receive& receive) const {
-    for (const RowBand& rows : row_bands(options_.width, options_.height, options_.samples, samples_at_once_)) {
-      const auto samples = viewer_->see(static_cast<std::uint32_t>(rows.first), static_cast<std::uint32_t>(rows.count), stop);
-      if (samples.empty()) return false;
-      receive(surface_image(samples, rows, options_));
-    }
-    return true;
+// Looks at the scene once, and passes on every band of rows from top to bottom. Returns false if stopped.
+template <class Receive>
+[[nodiscard]] bool each_band(const Drawing& drawing, const PictureOptions& options, const Camera& camera,
+                             const StopQuestion& stop, const Receive& receive) {
+  const auto viewer = drawing.engine.viewer(picture_look(drawing.scene.model, drawing.layout, options, camera));
+  for (const RowBand& rows :
+       row_bands(options.width, options.height, options.samples, samples_at_once(drawing.engine.device()))) {
+    const auto samples = viewer->see(static_cast<std::uint32_t>(rows.first), static_cast<std::uint32_t>(rows.count), stop);
+    if (samples.empty()) return false;
+    receive(surface_image(samples, rows, options));
   }
-
- private:
-  const PictureOptions& options_;
-  std::uint32_t samples_at_once_;
-  std::unique_ptr<CanopyViewer> viewer_;
-};
+  return true;
+}
 
 // Returns how many charts are drawn in one look at the scene: as many as their colours of all surfaces fit into half a
 // gibibyte, and at least one.
@@ -102,8 +92,7 @@ bool draw_together(const Drawing& drawing, const PictureOptions& options, const 
   });
   std::vector<ChartCanvas> canvases;
   for (ChartContent& content : contents) canvases.emplace_back(frame, std::move(content.colours));
-  const Look look(drawing, options, camera);
-  const bool seen = look.each_band(stop, [&](const SurfaceImage& rows) {
+  const bool seen = each_band(drawing, options, camera, stop, [&](const SurfaceImage& rows) {
     tbb::parallel_for(std::size_t{0}, canvases.size(), [&](std::size_t k) { canvases[k].paint(rows); });
   });
   if (!seen) return false;
@@ -174,12 +163,13 @@ Camera view_of(ViewKind view, std::span<const glm::dvec3> points_m, double aspec
 
 std::size_t picture_band(const RadiationModel& model, const std::string& name) {
   if (name.empty()) return 0;
-  std::string known;
+  std::vector<std::string_view> known;
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     if (model.bands[b].name == name) return b;
-    known += (known.empty() ? "" : ", ") + model.bands[b].name;
+    known.push_back(model.bands[b].name);
   }
-  throw_input(fmt::format("--band {}", printable(name)), "the scene has no such waveband", "give one of " + known);
+  throw_input(fmt::format("--band {}", printable(name)), "the scene has no such waveband",
+              fmt::format("give one of {}", fmt::join(known, ", ")));
 }
 
 void check_view(const RadiationModel& model, const PictureOptions& options) {
@@ -281,8 +271,8 @@ ChartContent chart_content(const ChartSource& source, const PictureOptions& opti
   const std::string title = field_title(picture.field, model.bands[band].name, of_leaves);
   Colouring colouring = colour_field(picture.chart, values, surfaces, title, limits);
   return {std::move(colouring.colours),
-          {source.title, subtitle_line(model, source.result), colouring.legend_title, colouring.legend,
-           footer_line(picture.field, source.result, band, colouring.note), colouring.bar}};
+          {source.title, subtitle_line(model, source.result), std::move(colouring.legend),
+           footer_line(picture.field, source.result, band, colouring.note)}};
 }
 
 double drawing_bytes(const CounterLayout& layout, const RadiationModel& model, const PictureOptions& options,
@@ -319,9 +309,8 @@ std::optional<ExrImage> draw_values(const Drawing& drawing, const PictureOptions
   const std::size_t band = picture_band(model, options.band);
   const FieldValues values = field_values(model, drawing.layout, drawing.result, band, field);
   ValueImage image;
-  const Look look(drawing, options, picture_camera(drawing.scene, drawing.layout, options));
-  const bool seen =
-      look.each_band(stop, [&](const SurfaceImage& rows) { append_rows(image, resolve_values(rows, values.w_m2)); });
+  const bool seen = each_band(drawing, options, picture_camera(drawing.scene, drawing.layout, options), stop,
+                              [&](const SurfaceImage& rows) { append_rows(image, resolve_values(rows, values.w_m2)); });
   if (!seen) return std::nullopt;
   for (std::uint32_t& surface : image.surface) {
     surface = surface < 2 * model.canopy.size() ? surface / 2 : SurfaceImage::nothing;

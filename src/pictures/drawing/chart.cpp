@@ -195,7 +195,7 @@ Image ChartCanvas::finish(const ChartText& text) {
   const LegendRoom room = {{frame_.width - layout.margin, top_px},
                            std::min(0.4 * frame_.width, frame_.width - 2.0 * layout.margin),
                            frame_.height - top_px - layout.margin};
-  draw_legend(image_, face, {text.legend_title, text.bar, text.legend}, room, layout.label);
+  draw_legend(image_, face, text.legend, room, layout.label);
   return std::move(image_);
 }
 

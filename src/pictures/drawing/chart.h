@@ -9,7 +9,6 @@
 #include "pictures/drawing/north_arrow.h"
 #include "pictures/drawing/surface_image.h"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,11 +18,9 @@ namespace sunfleck {
 // Text of a chart: UTF-8, one line each. A line too long for the picture is set in a smaller size.
 struct ChartText {
   std::string title;
-  std::string subtitle;      // may be empty
-  std::string legend_title;  // as Legend::title
-  std::vector<LegendEntry> legend;
-  std::string footer;            // may be empty
-  std::optional<ColourBar> bar;  // below the entries of the legend
+  std::string subtitle;  // may be empty
+  Legend legend;
+  std::string footer;  // may be empty
 };
 
 // The content of a chart, and its size. A fisheye's chart has the horizon's circle and N, E, S, W instead of axes and border.

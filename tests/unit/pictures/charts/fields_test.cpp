@@ -61,11 +61,12 @@ TEST(ColourField, EndsNoScaleAboveWhatIsPossible) {
   const SurfaceColours surfaces{std::vector<Colour>(6, Colour{0.5, 0.5, 0.5}), "leaf", {0.5, 0.5, 0.5}};
   ScaleLimits limits;
   limits.largest_w_m2 = 90.0;
-  EXPECT_EQ(colour_field(ChartKind::map, values, surfaces, "", limits).bar->hi, 90.0);
-  EXPECT_GT(colour_field(ChartKind::map, values, surfaces, "").bar->hi, 90.0);
-  EXPECT_EQ(colour_field(ChartKind::rank_interval, values, surfaces, "", limits).legend.front().label.substr(0, 8), "≥ 72.0");
+  EXPECT_EQ(colour_field(ChartKind::map, values, surfaces, "", limits).legend.bar->hi, 90.0);
+  EXPECT_GT(colour_field(ChartKind::map, values, surfaces, "").legend.bar->hi, 90.0);
+  EXPECT_EQ(colour_field(ChartKind::rank_interval, values, surfaces, "", limits).legend.entries.front().label.substr(0, 8),
+            "≥ 72.0");
   limits.top_w_m2 = 200.0;
-  EXPECT_EQ(colour_field(ChartKind::map, values, surfaces, "", limits).bar->hi, 200.0) << "a given end stands";
+  EXPECT_EQ(colour_field(ChartKind::map, values, surfaces, "", limits).legend.bar->hi, 200.0) << "a given end stands";
 }
 
 TEST(LitFrom, IsAThousandthOfTheLightThatIsShown) {
@@ -87,8 +88,8 @@ TEST(ColourField, DrawsTheSoilOnAScaleOfItsOwn) {
   const auto brightness = [&](std::size_t i) { return colouring.colours[i][1]; };
   EXPECT_LT(brightness(4), brightness(5));
   EXPECT_LT(brightness(5), brightness(6));
-  ASSERT_GE(colouring.legend.size(), 3U);
-  const LegendEntry* const last = &colouring.legend.back();
+  ASSERT_GE(colouring.legend.entries.size(), 3U);
+  const LegendEntry* const last = &colouring.legend.entries.back();
   EXPECT_EQ(last[-2].label, "unlit   25 %");
   EXPECT_EQ(last[-1].label, "soil at 0.5");
   EXPECT_EQ(last[-1].colour, colouring.colours[6]);
@@ -101,7 +102,7 @@ TEST(ColourField, GivesBareSoilTheFiveClasses) {
   values.first_cell = 0;
   const Colouring colouring = colour_field(ChartKind::rank, values, {}, "");
   for (int rank = 0; rank < 5; ++rank) EXPECT_EQ(colouring.colours[static_cast<std::size_t>(rank)], rank_colour(rank));
-  EXPECT_EQ(colouring.legend.size(), 5U);
+  EXPECT_EQ(colouring.legend.entries.size(), 5U);
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ std::vector<Camera> all_cameras(double aspect) {
 }
 
 ChartText some_text() {
-  ChartText text{"Maize", "Sun at 53°", "Total PAR irradiance, W m⁻²", {{colours[0], "soil"}}, "1 million rays", {}};
-  text.bar = ColourBar{0.0, 400.0, {{0.1, 0.0, 0.2}, {0.9, 0.8, 0.1}}};
+  ChartText text{"Maize", "Sun at 53°", {"Total PAR irradiance, W m⁻²", {}, {{colours[0], "soil"}}}, "1 million rays"};
+  text.legend.bar = ColourBar{0.0, 400.0, {{0.1, 0.0, 0.2}, {0.9, 0.8, 0.1}}};
   return text;
 }
 

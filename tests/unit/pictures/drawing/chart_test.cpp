@@ -164,14 +164,15 @@ TEST(DrawChart, LaysLinesOnTheGround) {
 
 ChartText full_text() {
   const RankScale scale{{0.0, 80.0, 160.0, 240.0, 320.0, 438.0}};
-  return {"Maize, sparse planting", "Sun at 53.0° elevation", "Direct PAR irradiance, W m⁻²", rank_legend(scale), "seed 1"};
+  return {
+      "Maize, sparse planting", "Sun at 53.0° elevation", {"Direct PAR irradiance, W m⁻²", {}, rank_legend(scale)}, "seed 1"};
 }
 
 TEST(DrawChart, PrintsTheLegendInExactlyTheClassColours) {
   const ChartText text = full_text();
   const SurfaceImage seen = empty_scene(full_width, full_height);
   const Image image = draw_chart(seen, leaf_colours, averted_view(), chart_plot, chart_height_m, text);
-  for (const LegendEntry& entry : text.legend) {
+  for (const LegendEntry& entry : text.legend.entries) {
     const auto count = std::count(image.pixels.begin(), image.pixels.end(), to_srgb(entry.colour));
     EXPECT_GT(count, 1000);  // a swatch measures 49 x 27 pixels, its outline included
   }
@@ -203,7 +204,7 @@ TEST(DrawChart, KeepsTextOfAnyLengthWithinTheMargins) {
       EXPECT_LE(right, width - margin);
       EXPECT_GE(top, margin);
       EXPECT_LE(bottom, height - margin + 0.0175 * 0.24 * height);  // allows for the footer's descenders
-      for (std::string* line : {&text.title, &text.subtitle, &text.legend_title, &text.footer}) *line += std::string(200, 'W');
+      for (std::string* line : {&text.title, &text.subtitle, &text.legend.title, &text.footer}) *line += std::string(200, 'W');
     }
   }
 }
