@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 namespace sunfleck {
@@ -20,28 +19,28 @@ constexpr std::size_t most_columns = 1000;
 void take_header(NumberTable& table, std::size_t line, const std::vector<std::string_view>& names) {
   table.header_line = line;
   if (names.size() > most_columns)
-    refuse_table(table, line, fmt::format("{} columns", names.size()), fmt::format("a table may have at most {}", most_columns),
-                 "remove the columns that are not needed");
+    refuse_line(table.file, line, fmt::format("{} columns", names.size()),
+                fmt::format("a table may have at most {}", most_columns), "remove the columns that are not needed");
   for (const std::string_view name : names) {
-    if (name.empty()) refuse_table(table, line, "a column without a name", "the header must name every column", "name it");
+    if (name.empty()) refuse_line(table.file, line, "a column without a name", "the header must name every column", "name it");
     if (table.find_column(name))
-      refuse_table(table, line, fmt::format("column {} twice", in_quotes(name)), "column names must differ", "rename one");
+      refuse_line(table.file, line, fmt::format("column {} twice", in_quotes(name)), "column names must differ", "rename one");
     table.columns.emplace_back(name);
   }
 }
 
 void take_row(NumberTable& table, std::size_t line, const std::vector<std::string_view>& cells) {
   if (cells.size() != table.columns.size()) {
-    refuse_table(table, line, fmt::format("{} cells", cells.size()),
-                 fmt::format("the header in line {} has {} columns", table.header_line, table.columns.size()),
-                 "give one cell per column, separated by commas, with a decimal point in numbers");
+    refuse_line(table.file, line, fmt::format("{} cells", cells.size()),
+                fmt::format("the header in line {} has {} columns", table.header_line, table.columns.size()),
+                "give one cell per column, separated by commas, with a decimal point in numbers");
   }
   NumberTable::Row row{line, {}};
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::optional<double> value = cells[c].empty() ? std::numeric_limits<double>::quiet_NaN() : parse_number(cells[c]);
     if (!value) {
-      refuse_table(table, line, fmt::format("{} = {}", table.columns[c], in_quotes(cells[c])), "not a finite number",
-                   "correct the number");
+      refuse_line(table.file, line, fmt::format("{} = {}", table.columns[c], in_quotes(cells[c])), "not a finite number",
+                  "correct the number");
     }
     row.cells.push_back(*value);
   }
@@ -49,11 +48,6 @@ void take_row(NumberTable& table, std::size_t line, const std::vector<std::strin
 }
 
 }  // namespace
-
-void refuse_table(const NumberTable& table, std::size_t line, std::string_view what, std::string_view why,
-                  std::string_view cure) {
-  refuse_line(table.file, line, what, why, cure);
-}
 
 std::optional<std::size_t> NumberTable::find_column(std::string_view name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
@@ -64,8 +58,8 @@ std::optional<std::size_t> NumberTable::find_column(std::string_view name) const
 std::size_t NumberTable::column(std::string_view name) const {
   const std::optional<std::size_t> found = find_column(name);
   if (!found) {
-    refuse_table(*this, header_line, fmt::format("no column {}", name), "it is required",
-                 "use a file as written by this program");
+    refuse_line(file, header_line, fmt::format("no column {}", name), "it is required",
+                "use a file as written by this program");
   }
   return *found;
 }
@@ -73,12 +67,7 @@ std::size_t NumberTable::column(std::string_view name) const {
 NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header, SourceFiles* files) {
   NumberTable table;
   table.file = file;
-  std::error_code error;
-  const std::uintmax_t bytes_there = std::filesystem::file_size(file, error);
-  if (!error && bytes_there > most_bytes) {
-    refuse_table(table, 0, fmt::format("{} bytes", bytes_there), "a table may have at most 10 MB", "give fewer rows");
-  }
-  const std::string bytes = read_source(file, files);
+  const std::string bytes = read_source(file, files, most_bytes);
   std::vector<std::string_view> cells;
   for (LineReader lines(without_mark(bytes)); lines.next();) {
     const std::string_view line = trimmed(lines.line());
@@ -96,9 +85,9 @@ NumberTable read_number_table(const std::filesystem::path& file, const HeaderChe
     }
   }
   if (table.columns.empty())
-    refuse_table(table, 0, "only blank lines and comments", "a line of column names must come first", "check the file");
+    refuse_line(table.file, 0, "only blank lines and comments", "a line of column names must come first", "check the file");
   if (table.rows.empty())
-    refuse_table(table, table.header_line, "no rows below the header", "at least one is required", "check the file");
+    refuse_line(table.file, table.header_line, "no rows below the header", "at least one is required", "check the file");
   return table;
 }
 

@@ -38,8 +38,4 @@ using HeaderCheck = std::function<void(const NumberTable&)>;
 [[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header = {},
                                             SourceFiles* files = nullptr);
 
-// Throws Error (input) about that line of the file, or about the whole file for line 0.
-[[noreturn]] void refuse_table(const NumberTable& table, std::size_t line, std::string_view what, std::string_view why,
-                               std::string_view cure);
-
 }  // namespace sunfleck

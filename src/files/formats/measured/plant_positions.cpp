@@ -30,23 +30,23 @@ void check_position_columns(const NumberTable& table, HeightColumn height) {
     };
     if (is_known(column)) continue;
     if (column.find_first_of(";\t") != column.npos)
-      refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
-                   "commas separate the columns of a table", "put commas between the cells, and points into the numbers");
+      refuse_line(table.file, table.header_line, fmt::format("column {}", in_quotes(column)),
+                  "commas separate the columns of a table", "put commas between the cells, and points into the numbers");
     if (parse_number(column))
-      refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
-                   "the first line must name the columns", "begin with a line such as plant,x,z,heading,scale");
+      refuse_line(table.file, table.header_line, fmt::format("column {}", in_quotes(column)),
+                  "the first line must name the columns", "begin with a line such as plant,x,z,heading,scale");
     if (is_known(lower_case(column)))
-      refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)),
-                   "names of columns are in small letters", fmt::format("write {}", lower_case(column)));
-    refuse_table(table, table.header_line, fmt::format("column {}", in_quotes(column)), "it is not known here",
-                 fmt::format("use {}", fmt::join(known_columns, ", ")));
+      refuse_line(table.file, table.header_line, fmt::format("column {}", in_quotes(column)),
+                  "names of columns are in small letters", fmt::format("write {}", lower_case(column)));
+    refuse_line(table.file, table.header_line, fmt::format("column {}", in_quotes(column)), "it is not known here",
+                fmt::format("use {}", fmt::join(known_columns, ", ")));
   }
   const char* other = height == HeightColumn::y ? "z" : "y";
   for (const char* column : {"x", other}) {
     if (table.find_column(column)) continue;
-    refuse_table(table, table.header_line, fmt::format("no column {}", column),
-                 height == HeightColumn::y ? "plants need x (south) and z (west)" : "plants need x (east) and y (north)",
-                 fmt::format("begin with a line such as plant,x,{},heading,scale", other));
+    refuse_line(table.file, table.header_line, fmt::format("no column {}", column),
+                height == HeightColumn::y ? "plants need x (south) and z (west)" : "plants need x (east) and y (north)",
+                fmt::format("begin with a line such as plant,x,{},heading,scale", other));
   }
 }
 
@@ -82,7 +82,7 @@ class RowReader {
   [[nodiscard]] double in_range(std::string_view column, double lo, double hi, const char* cure) const {
     const double value = row_.cells[table_.column(column)];
     if (std::isnan(value)) {
-      refuse_table(table_, row_.line, fmt::format("{} is empty", column), "every row needs all columns", "fill it in");
+      refuse_line(table_.file, row_.line, fmt::format("{} is empty", column), "every row needs all columns", "fill it in");
     }
     if (value < lo || value > hi) refuse_cell(column, value, fmt::format("must lie in {:g}..{:g}", lo, hi), cure);
     return value;
@@ -96,7 +96,7 @@ class RowReader {
   }
 
   [[noreturn]] void refuse_cell(std::string_view column, double value, const std::string& why, const char* cure) const {
-    refuse_table(table_, row_.line, fmt::format("{} = {:g}", column, value), why, cure);
+    refuse_line(table_.file, row_.line, fmt::format("{} = {:g}", column, value), why, cure);
   }
 
   const NumberTable& table_;
@@ -116,8 +116,8 @@ std::vector<PlantPosition> read_plant_positions(const std::filesystem::path& fil
     if (!positions.back().plant) continue;
     const auto [earlier, fresh] = line_of.try_emplace(*positions.back().plant, row.line);
     if (fresh) continue;
-    refuse_table(table, row.line, fmt::format("plant = {}", *positions.back().plant),
-                 fmt::format("line {} has the same number", earlier->second), "number every plant differently");
+    refuse_line(table.file, row.line, fmt::format("plant = {}", *positions.back().plant),
+                fmt::format("line {} has the same number", earlier->second), "number every plant differently");
   }
   return positions;
 }

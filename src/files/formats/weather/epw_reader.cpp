@@ -27,7 +27,7 @@ constexpr std::string_view again = "download the file again, or use another one"
 
 class EpwReader {
  public:
-  explicit EpwReader(const WeatherSource& source) : source_(source), lines_(source.bytes) {}
+  EpwReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), lines_(bytes) {}
 
   WeatherFile read() {
     read_header();
@@ -38,8 +38,8 @@ class EpwReader {
     }
     const std::size_t hours = result_.weather.intervals.size();
     if (hours != ordinary_hours && hours != leap_hours) {
-      refuse(source_, 0, fmt::format("{} rows found", hours),
-             fmt::format("a year has {} or {} hours", ordinary_hours, leap_hours), again);
+      refuse_line(file_, 0, fmt::format("{} rows found", hours),
+                  fmt::format("a year has {} or {} hours", ordinary_hours, leap_hours), again);
     }
     result_.weather.source = Weather::Source::intervals;
     result_.weather.every_year = true;
@@ -57,16 +57,16 @@ class EpwReader {
     const std::string_view cell = field <= cells_.size() ? cells_[field - 1] : std::string_view();
     const std::optional<double> value = parse_number(cell);
     if (!value) {
-      refuse(source_, lines_.number(), fmt::format("{} {}", name, in_quotes(cell)),
-             fmt::format("field {} must be a number", field), again);
+      refuse_line(file_, lines_.number(), fmt::format("{} {}", name, in_quotes(cell)),
+                  fmt::format("field {} must be a number", field), again);
     }
     return *value;
   }
   [[nodiscard]] double number(std::size_t field, std::string_view name, double lo, double hi) const {
     const double value = number(field, name);
     if (value < lo || value > hi) {
-      refuse(source_, lines_.number(), fmt::format("{} = {}", name, value), fmt::format("must lie in {}..{}", lo, hi),
-             "correct it");
+      refuse_line(file_, lines_.number(), fmt::format("{} = {}", name, value), fmt::format("must lie in {}..{}", lo, hi),
+                  "correct it");
     }
     return value;
   }
@@ -74,19 +74,20 @@ class EpwReader {
   void read_header() {
     for (std::size_t i = 0; i < header_lines; ++i) {
       if (!lines_.next())
-        refuse(source_, 0, fmt::format("ends after {} lines", i), "an EPW file begins with eight header lines", again);
+        refuse_line(file_, 0, fmt::format("ends after {} lines", i), "an EPW file begins with eight header lines", again);
       split_cells(lines_.line(), cells_);
       if (i == 0) read_location();
       if (cells_.front() == "DATA PERIODS" && number(3, "records per hour") != 1.0) {
-        refuse(source_, lines_.number(), fmt::format("{} records per hour", cells_[2]), "only one is supported",
-               "use hourly values, or a CSV");
+        refuse_line(file_, lines_.number(), fmt::format("{} records per hour", cells_[2]), "only one is supported",
+                    "use hourly values, or a CSV");
       }
     }
   }
 
   void read_location() {
     if (cells_.front() != "LOCATION") {
-      refuse(source_, 1, fmt::format("begins with {}", in_quotes(cells_.front())), "an EPW file begins with LOCATION", again);
+      refuse_line(file_, 1, fmt::format("begins with {}", in_quotes(cells_.front())), "an EPW file begins with LOCATION",
+                  again);
     }
     Place place;
     place.latitude_rad = glm::radians(number(7, "latitude", -90.0, 90.0));
@@ -107,17 +108,18 @@ class EpwReader {
       }
     }
     if (month == month_ && day == day_ && hour == hour_) return;
-    refuse(source_, lines_.number(), fmt::format("month {}, day {}, hour {}", month, day, hour),
-           month_ > 12 ? std::string("the year is over") : fmt::format("hour {} of {}/{} is expected", hour_, month_, day_),
-           again);
+    refuse_line(
+        file_, lines_.number(), fmt::format("month {}, day {}, hour {}", month, day, hour),
+        month_ > 12 ? std::string("the year is over") : fmt::format("hour {} of {}/{} is expected", hour_, month_, day_),
+        again);
   }
 
   [[nodiscard]] double irradiance(std::size_t field, std::string_view name) const {
     const double value = number(field, name);
     if (value >= missing_from) return -1.0;
     if (value < 0.0 || value > most_broadband_w_m2) {
-      refuse(source_, lines_.number(), fmt::format("{} = {}", name, value),
-             fmt::format("must lie in 0..{} Wh m-2, or be {}", most_broadband_w_m2, missing_from), "correct it");
+      refuse_line(file_, lines_.number(), fmt::format("{} = {}", name, value),
+                  fmt::format("must lie in 0..{} Wh m-2, or be {}", most_broadband_w_m2, missing_from), "correct it");
     }
     return value;
   }
@@ -138,7 +140,7 @@ class EpwReader {
     result_.weather.intervals.push_back(interval);
   }
 
-  const WeatherSource& source_;
+  const std::filesystem::path& file_;
   LineReader lines_;
   std::vector<std::string_view> cells_;
   WeatherFile result_;
@@ -149,8 +151,8 @@ class EpwReader {
 
 }  // namespace
 
-WeatherFile read_epw(const WeatherSource& source) {
-  return EpwReader(source).read();
+WeatherFile read_epw(const std::filesystem::path& file, std::string_view bytes) {
+  return EpwReader(file, bytes).read();
 }
 
 }  // namespace sunfleck

@@ -31,10 +31,10 @@ struct Columns {
 
 class StationReader {
  public:
-  explicit StationReader(const WeatherSource& source) : source_(source) {}
+  StationReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
   WeatherFile read() {
-    LineReader lines(source_.bytes);
+    LineReader lines(bytes_);
     while (lines.next()) {
       const std::string_view line = trimmed(lines.line());
       if (line.empty() || line.front() == '#') continue;
@@ -46,10 +46,11 @@ class StationReader {
         read_row();
       }
     }
-    if (columns_.count == 0) refuse(source_, 0, "no line of column names found", "the file has no rows", "begin with time,ghi");
+    if (columns_.count == 0)
+      refuse_line(file_, 0, "no line of column names found", "the file has no rows", "begin with time,ghi");
     if (intervals_.size() < 2) {
-      refuse(source_, 0, fmt::format("{} row found", intervals_.empty() ? "no" : "one"),
-             "an interval lasts until the next one starts, so at least two are needed", "add rows");
+      refuse_line(file_, 0, fmt::format("{} row found", intervals_.empty() ? "no" : "one"),
+                  "an interval lasts until the next one starts, so at least two are needed", "add rows");
     }
     set_lengths();
     WeatherFile result;
@@ -66,28 +67,28 @@ class StationReader {
       for (const auto& [known, column] :
            {std::pair{"time", &columns_.time}, {"ghi", &columns_.ghi}, {"dni", &columns_.dni}, {"dhi", &columns_.dhi}}) {
         if (name != known) continue;
-        if (*column != not_there) refuse(source_, line_, fmt::format("column {}", known), "appears twice", "keep one");
+        if (*column != not_there) refuse_line(file_, line_, fmt::format("column {}", known), "appears twice", "keep one");
         *column = i;
       }
     }
     if (columns_.time == not_there) {
-      refuse(source_, line_, fmt::format("the line of column names is {}", in_quotes(cells_.front())),
-             "no column is named time", "begin with a line such as time,ghi or time,dni,dhi; separate by commas");
+      refuse_line(file_, line_, fmt::format("the line of column names is {}", in_quotes(cells_.front())),
+                  "no column is named time", "begin with a line such as time,ghi or time,dni,dhi; separate by commas");
     }
     const bool one_part = (columns_.dni == not_there) != (columns_.dhi == not_there);
     if (one_part) {
-      refuse(source_, line_, fmt::format("column {} is missing", columns_.dni == not_there ? "dni" : "dhi"),
-             "direct normal and diffuse horizontal irradiance are needed together", "add it, or give only ghi");
+      refuse_line(file_, line_, fmt::format("column {} is missing", columns_.dni == not_there ? "dni" : "dhi"),
+                  "direct normal and diffuse horizontal irradiance are needed together", "add it, or give only ghi");
     }
     if (columns_.ghi == not_there && columns_.dni == not_there) {
-      refuse(source_, line_, "no irradiance", "no columns are named ghi, or dni and dhi", "add such columns, in W m-2");
+      refuse_line(file_, line_, "no irradiance", "no columns are named ghi, or dni and dhi", "add such columns, in W m-2");
     }
   }
 
   void read_row() {
     if (cells_.size() != columns_.count) {
-      refuse(source_, line_, fmt::format("{} cells", cells_.size()), fmt::format("there are {} columns", columns_.count),
-             "give every column a value, separated by commas");
+      refuse_line(file_, line_, fmt::format("{} cells", cells_.size()), fmt::format("there are {} columns", columns_.count),
+                  "give every column a value, separated by commas");
     }
     WeatherInterval interval;
     interval.line = line_;
@@ -98,8 +99,8 @@ class StationReader {
       interval.dhi_w_m2 = read_value("dhi", cells_[columns_.dhi]);
     }
     if (!intervals_.empty() && seconds_between(intervals_.back().start, interval.start) <= 0.0) {
-      refuse(source_, line_, fmt::format("time {}", in_quotes(cells_[columns_.time])),
-             fmt::format("it is not later than that of line {}", intervals_.back().line), "sort the rows by time");
+      refuse_line(file_, line_, fmt::format("time {}", in_quotes(cells_[columns_.time])),
+                  fmt::format("it is not later than that of line {}", intervals_.back().line), "sort the rows by time");
     }
     intervals_.push_back(interval);
   }
@@ -107,13 +108,13 @@ class StationReader {
   double read_value(std::string_view column, std::string_view cell) const {
     const std::optional<double> value = parse_number(cell);
     if (!value) {
-      refuse(source_, line_, fmt::format("{} {}", column, in_quotes(cell)),
-             "must be a number; missing values are not interpolated", "fill it in, or remove the row to leave a gap");
+      refuse_line(file_, line_, fmt::format("{} {}", column, in_quotes(cell)),
+                  "must be a number; missing values are not interpolated", "fill it in, or remove the row to leave a gap");
     }
     if (*value < 0.0 || *value > most_broadband_w_m2) {
-      refuse(source_, line_, fmt::format("{} = {}", column, *value),
-             fmt::format("must lie in 0..{} W m-2", most_broadband_w_m2),
-             *value < 0.0 ? "set the night offset of the pyranometer to 0" : "give the mean over the interval in W m-2");
+      refuse_line(file_, line_, fmt::format("{} = {}", column, *value),
+                  fmt::format("must lie in 0..{} W m-2", most_broadband_w_m2),
+                  *value < 0.0 ? "set the night offset of the pyranometer to 0" : "give the mean over the interval in W m-2");
     }
     return *value;
   }
@@ -180,19 +181,19 @@ class StationReader {
                minute = take_part(rest, ":");
     const auto second = take_seconds(rest);
     if (!year || !month || !day || !hour || !minute || !second)
-      refuse(source_, line_, shown, "is not an ISO 8601 date and time", time_cure);
+      refuse_line(file_, line_, shown, "is not an ISO 8601 date and time", time_cure);
     rest = trimmed(rest);
-    if (rest.empty()) refuse(source_, line_, shown, "has no offset from UTC, so the time is ambiguous", time_cure);
+    if (rest.empty()) refuse_line(file_, line_, shown, "has no offset from UTC, so the time is ambiguous", time_cure);
     const auto offset = take_offset(rest);
-    if (!offset || !rest.empty()) refuse(source_, line_, shown, "its offset from UTC cannot be read", time_cure);
+    if (!offset || !rest.empty()) refuse_line(file_, line_, shown, "its offset from UTC cannot be read", time_cure);
     const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
                                            std::chrono::day(static_cast<unsigned>(*day))};
     if (!date.ok() || *hour > 23 || *minute > 59 || *second >= 60.0)
-      refuse(source_, line_, shown, "there is no such date or time", "correct it");
+      refuse_line(file_, line_, shown, "there is no such date or time", "correct it");
     // Excludes the first and last year for which the sun's position is known, so that the offset cannot lead out of them.
     if (*year <= first_year || *year >= last_year) {
-      refuse(source_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
-             "correct the year");
+      refuse_line(file_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
+                  "correct the year");
     }
     return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * *offset);
   }
@@ -212,7 +213,8 @@ class StationReader {
     intervals_.back().length_s = intervals_[intervals_.size() - 2].length_s;
   }
 
-  const WeatherSource& source_;
+  const std::filesystem::path& file_;
+  std::string_view bytes_;
   Columns columns_;
   std::vector<std::string_view> cells_;
   std::size_t line_ = 0;
@@ -221,8 +223,8 @@ class StationReader {
 
 }  // namespace
 
-WeatherFile read_station(const WeatherSource& source) {
-  return StationReader(source).read();
+WeatherFile read_station(const std::filesystem::path& file, std::string_view bytes) {
+  return StationReader(file, bytes).read();
 }
 
 }  // namespace sunfleck

@@ -2,15 +2,13 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "base/text_reader.h"
 #include "files/formats/weather/epw_reader.h"
 #include "files/formats/weather/station_reader.h"
-#include "files/formats/weather/weather_source.h"
-
-#include <fmt/format.h>
 
 #include <cstdint>
 #include <string>
-#include <system_error>
+#include <string_view>
 
 namespace sunfleck {
 
@@ -33,21 +31,13 @@ bool is_weather_file(const fs::path& file) {
 }
 
 WeatherFile read_weather(const fs::path& file, SourceFiles* files) {
-  WeatherSource source{file, {}};
-  if (!is_weather_file(file)) refuse(source, 0, "unknown format", "weather files are .csv or .epw", "use one of these");
-  std::error_code code;
-  const std::uintmax_t size = fs::file_size(file, code);
-  if (!code && size > most_bytes) {
-    refuse(source, 0, fmt::format("has {} bytes", size), fmt::format("at most {} are allowed", most_bytes),
-           "cut out the days of interest");
-  }
-  const std::string bytes = read_source(file, files);
-  source.bytes = without_mark(bytes);
-  if (source.bytes.empty()) refuse(source, 0, "the file is empty", "a weather file needs at least one row", "export it again");
-  if (bytes.find('\0') != std::string::npos) {
-    refuse(source, 0, "contains a zero byte", "a weather file is plain text", "save it as UTF-8 text");
-  }
-  WeatherFile weather = lower_extension(file) == ".epw" ? read_epw(source) : read_station(source);
+  if (!is_weather_file(file)) refuse_line(file, 0, "unknown format", "weather files are .csv or .epw", "use one of these");
+  const std::string bytes = read_source(file, files, most_bytes);
+  const std::string_view text = without_mark(bytes);
+  if (text.empty()) refuse_line(file, 0, "the file is empty", "a weather file needs at least one row", "export it again");
+  if (text.find('\0') != text.npos)
+    refuse_line(file, 0, "contains a zero byte", "a weather file is plain text", "save it as UTF-8 text");
+  WeatherFile weather = lower_extension(file) == ".epw" ? read_epw(file, text) : read_station(file, text);
   weather.weather.name = printable(shortened(file.filename().string(), longest_name));
   return weather;
 }

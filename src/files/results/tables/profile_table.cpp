@@ -40,15 +40,15 @@ std::optional<double> confidence_of(const NumberTable& table) {
 
 void check_heights(const NumberTable& table, std::size_t height) {
   if (table.rows.size() < 2)
-    refuse_table(table, table.rows.back().line, "only one row", "a profile needs at least one layer and the top plane",
-                 "use a file as written by this program");
+    refuse_line(table.file, table.rows.back().line, "only one row", "a profile needs at least one layer and the top plane",
+                "use a file as written by this program");
   double below = -std::numeric_limits<double>::infinity();
   for (const NumberTable::Row& row : table.rows) {
     const double here = row.cells[height];
-    if (std::isnan(here)) refuse_table(table, row.line, "height_m is empty", "every plane needs a height", "fill it in");
+    if (std::isnan(here)) refuse_line(table.file, row.line, "height_m is empty", "every plane needs a height", "fill it in");
     if (here <= below) {
-      refuse_table(table, row.line, fmt::format("height_m = {:g}", here), "heights must ascend from the ground",
-                   "use a file as written by this program");
+      refuse_line(table.file, row.line, fmt::format("height_m = {:g}", here), "heights must ascend from the ground",
+                  "use a file as written by this program");
     }
     below = here;
   }

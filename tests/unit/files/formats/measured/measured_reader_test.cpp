@@ -86,7 +86,7 @@ TEST_F(Measured, RefusesFilesWithoutContent) {
 
 TEST_F(Measured, RefusesFilesThatAreNoTable) {
   EXPECT_EQ(message(std::string(10'000'001, '0')),
-            "field.csv: 10000001 bytes (a table may have at most 10 MB); give fewer rows");
+            "field.csv: cannot be read (it has 10000001 bytes, but at most 10000000 are allowed); use a smaller file");
   EXPECT_NE(message(std::string("\0\1\2\3\xff\xfe,\x1b[31m", 12)).find("field.csv:1: "), std::string::npos);
   EXPECT_LT(message(std::string(1'000'000, 'x')).size(), 200U) << "a long cell is cut";
 }
