@@ -15,7 +15,8 @@ namespace {
 
 class DaeGeometryReader {
  public:
-  DaeGeometryReader(const XmlFile& xml, const DaeElements& elements) : xml_(xml), elements_(elements) {}
+  DaeGeometryReader(const XmlFile& xml, const DaeElements& elements, std::size_t& numbers_left)
+      : xml_(xml), elements_(elements), numbers_left_(numbers_left) {}
 
   DaeGeometry read(pugi::xml_node mesh) {
     for (const pugi::xml_node element : mesh.children()) {
@@ -73,6 +74,11 @@ class DaeGeometryReader {
     const pugi::xml_node accessor = source.child("technique_common").child("accessor");
     if (!accessor) xml_.refuse_at(source, "a source of positions without an accessor", "it says how to read them");
     const std::vector<double> numbers = xml_.numbers(dae_target(xml_, elements_, accessor, "source", "float_array"));
+    if (numbers.size() > numbers_left_)
+      xml_.refuse_at(vertices, "too many <vertices> share their positions",
+                     "read one by one they are much larger than the file",
+                     "export the file again, with one <vertices> for each mesh");
+    numbers_left_ -= numbers.size();
     const std::size_t stride = size_attribute(accessor, "stride", 1), offset = size_attribute(accessor, "offset", 0);
     const std::size_t count = size_attribute(accessor, "count", 0);
     if (stride < 3) xml_.refuse_at(accessor, fmt::format("positions with stride {}", stride), "a position has three numbers");
@@ -153,6 +159,7 @@ class DaeGeometryReader {
 
   const XmlFile& xml_;
   const DaeElements& elements_;
+  std::size_t& numbers_left_;
   DaeGeometry geometry_;
   std::unordered_map<std::string_view, Range> positions_;  // of <vertices>, by id
 };
@@ -171,8 +178,9 @@ pugi::xml_node dae_target(const XmlFile& xml, const DaeElements& elements, pugi:
   return found->second;
 }
 
-DaeGeometry read_dae_geometry(const XmlFile& xml, const DaeElements& elements, pugi::xml_node geometry) {
-  return DaeGeometryReader(xml, elements).read(geometry.child("mesh"));
+DaeGeometry read_dae_geometry(const XmlFile& xml, const DaeElements& elements, pugi::xml_node geometry,
+                              std::size_t& numbers_left) {
+  return DaeGeometryReader(xml, elements, numbers_left).read(geometry.child("mesh"));
 }
 
 }  // namespace sunfleck

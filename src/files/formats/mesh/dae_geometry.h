@@ -33,7 +33,9 @@ struct DaeGeometry {
 };
 
 // Reads the <mesh> of a <geometry> (COLLADA 1.4.1, section 5); lines are left out. Throws Error (input) for missing data, corners
-// out of range, and polygons with holes.
-[[nodiscard]] DaeGeometry read_dae_geometry(const XmlFile& xml, const DaeElements& elements, pugi::xml_node geometry);
+// out of range, and polygons with holes. `numbers_left` is how many numbers of positions may still be read, since arrays that
+// many <vertices> share would make a small file large; those read are subtracted, and more are refused.
+[[nodiscard]] DaeGeometry read_dae_geometry(const XmlFile& xml, const DaeElements& elements, pugi::xml_node geometry,
+                                            std::size_t& numbers_left);
 
 }  // namespace sunfleck

@@ -69,16 +69,10 @@ class DaeReader {
   };
 
   void find_elements() {
-    pugi::xml_node element = root_;
-    while (element) {
+    root_.parent().find_node([&](const pugi::xml_node& element) {
       if (const pugi::xml_attribute id = element.attribute("id")) elements_.try_emplace(id.value(), element);
-      if (element.first_child()) {
-        element = element.first_child();
-        continue;
-      }
-      while (element && !element.next_sibling()) element = element.parent();
-      if (element) element = element.next_sibling();
-    }
+      return false;
+    });
   }
 
   // COLLADA 1.4.1, <asset>: metres per unit, and which axis is up; y by default. With x up, -y points to the right.
@@ -166,7 +160,7 @@ class DaeReader {
   void add_geometry(pugi::xml_node instance, const DaeVisit& visit) {
     const pugi::xml_node element = dae_target(xml_, elements_, instance, "url", "geometry");
     const auto [entry, is_new] = geometries_.try_emplace(element.attribute("id").value());
-    if (is_new) entry->second = read_dae_geometry(xml_, elements_, element);
+    if (is_new) entry->second = read_dae_geometry(xml_, elements_, element, numbers_left_);
     const DaeGeometry& geometry = entry->second;
     if (builder_.vertex_count() + geometry.positions.size() > most_) refuse_growth(instance);
     const std::uint32_t object = visit.object ? *visit.object : builder_.add_object(trimmed(name_of(element)));
@@ -181,19 +175,8 @@ class DaeReader {
     const bool is_mirrored = glm::determinant(glm::dmat3(visit.to_scene)) < 0.0;
     for (const DaePolygons& part : geometry.parts) {
       if (part.sizes.empty()) continue;
-      add_polygons(part, first, is_mirrored, material_of(instance, part.material), object);
-    }
-  }
-
-  void add_polygons(const DaePolygons& part, std::uint32_t first, bool is_mirrored, std::uint32_t optics,
-                    std::uint32_t object) {
-    const std::uint32_t organ = builder_.object_organ(object, optics);
-    auto corner = part.corners.begin();
-    for (const std::size_t size : part.sizes) {
-      corners_.clear();
-      for (std::size_t i = 0; i < size; ++i) corners_.push_back(first + *corner++);
-      if (is_mirrored) std::reverse(corners_.begin() + 1, corners_.end());  // the front stays the front
-      builder_.add_polygon(corners_, optics, organ);
+      const std::uint32_t optics = material_of(instance, part.material);
+      builder_.add_polygons(part.sizes, part.corners, {first, is_mirrored}, optics, builder_.object_organ(object, optics));
     }
   }
 
@@ -213,11 +196,11 @@ class DaeReader {
   XmlFile xml_;
   pugi::xml_node root_;
   MeshBuilder builder_;
-  std::size_t most_;        // visits and vertices
+  std::size_t most_;  // visits and vertices
+  std::size_t numbers_left_ = 3 * most_;
   std::size_t visits_ = 0;  // nodes entered so far
   DaeElements elements_;
   std::unordered_map<std::string_view, DaeGeometry> geometries_;  // by id
-  std::vector<std::uint32_t> corners_;
 };
 
 }  // namespace

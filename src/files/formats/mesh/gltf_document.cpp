@@ -70,21 +70,6 @@ GlbChunks split_glb(const MeshSource& source) {
   return chunks;
 }
 
-// Returns the deepest nesting of lists and objects.
-std::int64_t depth_of(std::string_view text) {
-  std::int64_t depth = 0, deepest = 0;
-  bool in_string = false;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const char c = text[at];
-    if (in_string && c == '\\') ++at;
-    if (c == '"') in_string = !in_string;
-    if (in_string) continue;
-    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-    if (c == ']' || c == '}') --depth;
-  }
-  return deepest;
-}
-
 // Returns the library's message without the error name in front, [json.exception.parse_error.101].
 std::string_view reason_of(const json::exception& problem) {
   const std::string_view words = problem.what();
@@ -94,10 +79,14 @@ std::string_view reason_of(const json::exception& problem) {
 
 json parse_json(const MeshSource& source, std::string_view text) {
   constexpr int deepest = 100;  // nlohmann copies and prints values recursively
-  if (depth_of(text) > deepest)
-    refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "glTF files need far less", write_again);
+  const auto expect_shallow = [&](int depth, json::parse_event_t event, json&) {
+    const bool opens = event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
+    if (opens && depth >= deepest)
+      refuse(source, 0, fmt::format("JSON nested more than {} deep", deepest), "glTF files need far less", write_again);
+    return true;
+  };
   try {
-    return json::parse(text);
+    return json::parse(text, expect_shallow);
   } catch (const json::exception& problem) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == text.npos || text[first] != '{')

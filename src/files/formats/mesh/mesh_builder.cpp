@@ -83,7 +83,7 @@ std::uint32_t MeshBuilder::default_organ(std::uint32_t optics) {
 }
 
 std::uint32_t MeshBuilder::add_object(std::string_view name) {
-  objects_.push_back({is_utf8(name) && printable(name) == name ? std::string(name) : printable(name), std::nullopt});
+  objects_.push_back({printable(name), std::nullopt});
   return static_cast<std::uint32_t>(objects_.size() - 1);
 }
 
@@ -143,6 +143,18 @@ void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, std::uint3
     refuse(source_, 0, fmt::format("a polygon of {} corners that is not convex", corners.size()),
            fmt::format("at most {} are supported", most_corners_with_ears), "triangulate it");
   for (const CornerTriangle& ear : cut_ears(places)) add(corners[ear[0]], corners[ear[1]], corners[ear[2]]);
+}
+
+void MeshBuilder::add_polygons(std::span<const std::size_t> sizes, std::span<const std::uint32_t> corners,
+                               const PlacedMesh& mesh, std::uint32_t optics, std::uint32_t organ) {
+  std::vector<std::uint32_t> polygon;
+  for (const std::size_t size : sizes) {
+    polygon.clear();
+    for (const std::uint32_t corner : corners.first(size)) polygon.push_back(mesh.first_vertex + corner);
+    corners = corners.subspan(size);
+    if (mesh.is_mirrored) std::reverse(polygon.begin() + 1, polygon.end());
+    add_polygon(polygon, optics, organ);
+  }
 }
 
 }  // namespace sunfleck

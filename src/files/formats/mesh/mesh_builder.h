@@ -50,6 +50,15 @@ class MeshBuilder {
   void add_polygon(std::span<const std::uint32_t> corners, std::uint32_t optics, std::uint32_t organ,
                    std::optional<std::uint64_t> label = std::nullopt);
 
+  // Adds polygons of a placed mesh: the corners of all of them one after the other, counted from the mesh's first vertex, and how
+  // many each polygon has. In a mirrored mesh they are reversed, so that the front stays the front.
+  struct PlacedMesh {
+    std::uint32_t first_vertex = 0;
+    bool is_mirrored = false;
+  };
+  void add_polygons(std::span<const std::size_t> sizes, std::span<const std::uint32_t> corners, const PlacedMesh& mesh,
+                    std::uint32_t optics, std::uint32_t organ);
+
   [[nodiscard]] std::size_t triangle_count() const { return mesh_.triangles.size(); }
   // Replaces the optics and the organ of a triangle.
   void set_surface(std::size_t triangle, std::uint32_t optics, std::uint32_t organ);

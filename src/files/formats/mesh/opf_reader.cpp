@@ -84,18 +84,12 @@ class OpfReader {
     return mesh;
   }
 
-  // Reads all organs below the plant, in the order of the file. The tree may be deep, so that this is no recursion.
+  // Reads all organs below the plant, in the order of the file.
   void read_organs(pugi::xml_node plant) {
-    pugi::xml_node element = plant.first_child();
-    while (element && element != plant) {
+    plant.find_node([&](const pugi::xml_node& element) {
       if (element.name() == std::string_view("geometry")) read_organ(element);
-      if (element.first_child()) {
-        element = element.first_child();
-        continue;
-      }
-      while (element != plant && !element.next_sibling()) element = element.parent();
-      if (element != plant) element = element.next_sibling();
-    }
+      return false;
+    });
   }
 
   void read_organ(pugi::xml_node geometry) {
@@ -111,13 +105,7 @@ class OpfReader {
     for (const glm::dvec3& point : mesh.points)
       static_cast<void>(builder_.add_vertex(placed(geometry, mesh, placement, point)));
     const bool is_mirrored = glm::determinant(glm::dmat3(placement.to_plant)) < 0.0;
-    auto corner = mesh.corners.begin();
-    for (const std::size_t count : mesh.face_corners) {
-      corners_.clear();
-      for (std::size_t i = 0; i < count; ++i) corners_.push_back(first + *corner++);
-      if (is_mirrored) std::reverse(corners_.begin() + 1, corners_.end());  // the front stays the front
-      builder_.add_polygon(corners_, optics, number);
-    }
+    builder_.add_polygons(mesh.face_corners, mesh.corners, {first, is_mirrored}, optics, number);
   }
 
   const OpfMesh& mesh_of(pugi::xml_node shape) const {
@@ -167,7 +155,6 @@ class OpfReader {
   MeshBuilder builder_;
   std::unordered_map<std::int64_t, OpfMesh> meshes_;
   std::unordered_map<std::int64_t, std::int64_t> mesh_of_shape_;
-  std::vector<std::uint32_t> corners_;
 };
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include "files/formats/mesh/mesh_reader.h"
 #include "support/broken_files.h"
+#include "support/error_text.h"
 #include "support/mesh_files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
@@ -67,6 +69,31 @@ TEST(DaeReader, InstancesOfNodes) {
   const Mesh mesh = read_dae_text(swapped(with_nodes(nodes), "<library_visual_scenes>", library + "<library_visual_scenes>"));
   EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "leaf", 0}, {1, "leaf 2", 0}}));
   EXPECT_EQ(mesh.triangles.size(), 4U);
+}
+
+// Returns a file whose many <vertices>, each with a triangle, share one source of many positions.
+std::string with_shared_source(int vertices, int positions) {
+  const char* const corners[] = {"1 0 0 ", "0 1 0 ", "0 0 1 "};
+  std::string numbers, primitives;
+  for (int i = 0; i < positions; ++i) numbers += corners[i % 3];
+  for (int i = 0; i < vertices; ++i) {
+    primitives += fmt::format(
+        "<vertices id=\"v{0}\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles material=\"m\">"
+        "<input semantic=\"VERTEX\" source=\"#v{0}\" offset=\"0\"/><p>0 1 2</p></triangles>",
+        i);
+  }
+  return fmt::format(
+      "<COLLADA><library_geometries><geometry id=\"shape\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"{0}\">{1}"
+      "</float_array><technique_common><accessor source=\"#a\" count=\"{2}\" stride=\"3\"/></technique_common></source>{3}"
+      "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\"><node>{4}</node></visual_scene>"
+      "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>",
+      3 * positions, numbers, positions, primitives, instance);
+}
+
+TEST(DaeReader, VerticesMayShareTheirPositionsButNotMakeASmallFileLarge) {
+  EXPECT_EQ(read_dae_text(with_shared_source(100, 100)).triangles.size(), 100U);
+  const std::string what = refusal_of([] { static_cast<void>(read_dae_text(with_shared_source(1000, 7000))); });
+  EXPECT_NE(what.find("too many <vertices> share their positions"), std::string::npos) << what;
 }
 
 TEST(DaeReader, KindsOfPolygons) {
