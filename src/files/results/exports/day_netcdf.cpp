@@ -1,7 +1,6 @@
 #include "files/results/exports/day_netcdf.h"
 
 #include "base/check.h"
-#include "base/file.h"
 #include "files/results/exports/day_time_axis.h"
 #include "files/results/exports/netcdf_file.h"
 #include "files/results/exports/netcdf_rows.h"
@@ -15,11 +14,11 @@ namespace {
 
 class DayWriter {
  public:
-  DayWriter(const DayFields& day, const std::filesystem::path& file)
+  DayWriter(const DayFields& day, const std::filesystem::path& aside)
       : day_(day),
         columns_(day_columns(day.model)),
-        place_(file),
-        file_("day.nc", file),
+        aside_(aside),
+        file_("day.nc", aside),
         time_(add_time_axis(file_, day.course, day.steps)),
         triangle_(file_.dimension("triangle", day.model.canopy.size())) {}
 
@@ -29,7 +28,7 @@ class DayWriter {
     define_light();
     file_.finish();
     const std::size_t elements = day_.model.canopy.size();
-    NetcdfRows rows("day.nc", place_, light_, elements);
+    NetcdfRows rows("day.nc", aside_, light_, elements);
     const std::vector<float> dark(light_.size() * elements);
     for (std::size_t step = 0; step < day_.steps; ++step) {
       rows.put(step, day_.course.steps[step].unlit() ? dark : day_.fields(step));
@@ -44,10 +43,8 @@ class DayWriter {
       if (!column.is_in(in_netcdf)) continue;
       file_.add(column, {triangle_});
       if (!column.categories) continue;
-      std::vector<std::string> names;
-      for (const std::string& name : *column.categories) names.push_back(printable(name));
-      file_.names(column.name + "_name", file_.dimension(column.name + "_kind", names.size()), names,
-                  fmt::format("name of each value of {}", column.name));
+      const int kinds = file_.dimension(column.name + "_kind", column.categories->size());
+      file_.names(column.name + "_name", kinds, *column.categories, fmt::format("name of each value of {}", column.name));
     }
   }
 
@@ -66,7 +63,7 @@ class DayWriter {
 
   const DayFields& day_;
   std::vector<LightColumn> columns_;
-  std::filesystem::path place_;
+  std::filesystem::path aside_;
   NetcdfFile file_;
   int time_, triangle_;
   std::vector<std::string> light_;  // names of the variables, [band * columns + column]

@@ -29,20 +29,6 @@ constexpr int type_number<float> = NC_FLOAT;
 template <>
 constexpr int type_number<double> = NC_DOUBLE;
 
-int put_all(int file, int variable, const std::int32_t* values) {
-  return netcdf().put_var_int(file, variable, values);
-}
-int put_all(int file, int variable, const std::int64_t* values) {
-  static_assert(sizeof(long long) == sizeof(std::int64_t));
-  return netcdf().put_var_longlong(file, variable, reinterpret_cast<const long long*>(values));
-}
-int put_all(int file, int variable, const float* values) {
-  return netcdf().put_var_float(file, variable, values);
-}
-int put_all(int file, int variable, const double* values) {
-  return netcdf().put_var_double(file, variable, values);
-}
-
 }  // namespace
 
 NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)) {
@@ -84,20 +70,14 @@ int NetcdfFile::define(const std::string& name, int type, const std::vector<int>
 }
 
 template <class T>
-int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimensions) {
+int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units,
+                         std::string_view meaning) {
   const int number = define(name, type_number<T>, dimensions);
   if constexpr (std::is_floating_point_v<T>) {
     const T missing = std::numeric_limits<T>::quiet_NaN();
     check(netcdf().def_var_fill(file_, number, NC_FILL, &missing), fmt::format("variable {}", name));
   }
-  return number;
-}
-
-template <class T>
-int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units,
-                         std::string_view meaning) {
-  const int number = variable<T>(name, dimensions);
-  attribute(number, "long_name", meaning);
+  if (!meaning.empty()) attribute(number, "long_name", meaning);
   if (!units.empty()) attribute(number, "units", units);
   return number;
 }
@@ -111,9 +91,8 @@ void NetcdfFile::attribute(int variable, const std::string& name, std::span<cons
         fmt::format("attribute {}", name));
 }
 
-template <class T>
-void NetcdfFile::put(int variable, std::span<const T> values) {
-  if (!values.empty()) check(put_all(file_, variable, values.data()), "its values cannot be written");
+void NetcdfFile::put_all(int variable, const void* values) {
+  check(netcdf().put_var(file_, variable, values), "its values cannot be written");
 }
 
 int NetcdfFile::variable(const Column& column, const std::vector<int>& dimensions) {
@@ -182,11 +161,10 @@ void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std
   std::vector<std::size_t> begin(count.size());
   begin.at(0) = first;
   count.at(0) = rows;
-  check(netcdf().put_vara_float(file_, variable, begin.data(), count.data(), values.data()), "its values cannot be written");
+  check(netcdf().put_vara(file_, variable, begin.data(), count.data(), values.data()), "its values cannot be written");
 }
 
-void NetcdfFile::names(const std::string& name, int dimension, const std::vector<std::string>& values,
-                       std::string_view meaning) {
+void NetcdfFile::names(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning) {
   std::size_t longest = 1;
   for (const std::string& value : values) longest = std::max(longest, value.size());
   const int length = this->dimension(name + "_length", longest);
@@ -195,10 +173,10 @@ void NetcdfFile::names(const std::string& name, int dimension, const std::vector
   attribute(number, "_Encoding", "utf-8");
   std::string text;
   for (const std::string& value : values) {
-    text += value;
-    text.append(longest - value.size(), '\0');
+    text += printable(value);
+    text.resize(text.size() + longest - value.size());
   }
-  if (!values.empty()) check(netcdf().put_var_text(file_, number, text.data()), "its names cannot be written");
+  if (!values.empty()) put_all(number, text.data());
 }
 
 std::string NetcdfFile::take() {
@@ -213,19 +191,11 @@ void NetcdfFile::finish() {
   check(netcdf().close(std::exchange(file_, -1)), "it cannot be finished");
 }
 
-template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::vector<int>&);
-template int NetcdfFile::variable<std::int64_t>(const std::string&, const std::vector<int>&);
-template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&);
-template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&);
 template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::vector<int>&, std::string_view,
                                                 std::string_view);
 template int NetcdfFile::variable<std::int64_t>(const std::string&, const std::vector<int>&, std::string_view,
                                                 std::string_view);
 template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
 template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
-template void NetcdfFile::put(int, std::span<const std::int32_t>);
-template void NetcdfFile::put(int, std::span<const std::int64_t>);
-template void NetcdfFile::put(int, std::span<const float>);
-template void NetcdfFile::put(int, std::span<const double>);
 
 }  // namespace sunfleck

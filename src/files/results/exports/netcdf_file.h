@@ -1,6 +1,5 @@
 #pragma once
-// A netCDF-4 file in memory or on disk, written by the C library. Dimensions and variables with their attributes come first,
-// then the values.
+// A netCDF-4 file in memory or on disk, written by the C library.
 
 #include "files/results/tables/table.h"
 
@@ -24,13 +23,11 @@ class NetcdfFile {
   NetcdfFile& operator=(const NetcdfFile&) = delete;
 
   // Define a dimension or variable and return its number. Variables with dimensions are compressed (deflate 2 after shuffling);
-  // NaN is the missing value of float and double variables.
+  // NaN is the missing value of float and double variables. They have long_name and units unless these are empty.
   int dimension(const std::string& name, std::size_t size);
   template <class T>  // std::int32_t, std::int64_t, float or double
-  int variable(const std::string& name, const std::vector<int>& dimensions);
-  // Defines a variable with long_name and, unless they are empty, units.
-  template <class T>
-  int variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units, std::string_view meaning);
+  int variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units = {},
+               std::string_view meaning = {});
 
   // Defines a variable for a column of numbers, which refers to that of its half-widths, if there is one. Row numbers and unsigned
   // numbers become std::int64_t.
@@ -43,9 +40,11 @@ class NetcdfFile {
   void attribute(int variable, const std::string& name, std::string_view text);
   void attribute(int variable, const std::string& name, std::span<const std::int32_t> numbers);
 
-  // Writes all values, the last dimension fastest. The first put ends the definitions.
+  // Writes all values, of the type that the variable was defined with, the last dimension fastest.
   template <class T>
-  void put(int variable, std::span<const T> values);
+  void put(int variable, std::span<const T> values) {
+    if (!values.empty()) put_all(variable, values.data());
+  }
   void put(int variable, const Column& column);
   void put_rows(int variable, std::size_t first, std::size_t rows, std::span<const float> values);
 
@@ -59,8 +58,8 @@ class NetcdfFile {
     return number;
   }
 
-  // Writes a variable of names, `name`(dimension, name_length), padded with zeros.
-  void names(const std::string& name, int dimension, const std::vector<std::string>& values, std::string_view meaning);
+  // Writes a variable of names, `name`(dimension, name_length), made printable and padded with zeros.
+  void names(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning);
 
   // Completes the file; no other call may follow. Use `take` for a file in memory and `finish` for one on disk.
   [[nodiscard]] std::string take();
@@ -69,6 +68,7 @@ class NetcdfFile {
  private:
   [[nodiscard]] std::vector<std::size_t> shape_of(int variable);
   int define(const std::string& name, int type, const std::vector<int>& dimensions);
+  void put_all(int variable, const void* values);
   void check(int status, std::string_view what);
 
   std::string name_;

@@ -50,12 +50,8 @@ NetcdfLibrary load_netcdf() {
   find("nc_inq_varndims", functions.inq_varndims);
   find("nc_put_att_int", functions.put_att_int);
   find("nc_put_att_text", functions.put_att_text);
-  find("nc_put_var_double", functions.put_var_double);
-  find("nc_put_var_float", functions.put_var_float);
-  find("nc_put_var_int", functions.put_var_int);
-  find("nc_put_var_longlong", functions.put_var_longlong);
-  find("nc_put_var_text", functions.put_var_text);
-  find("nc_put_vara_float", functions.put_vara_float);
+  find("nc_put_var", functions.put_var);
+  find("nc_put_vara", functions.put_vara);
   find("nc_set_var_chunk_cache", functions.set_var_chunk_cache);
   find("nc_strerror", functions.strerror);
   find("nc_sync", functions.sync);

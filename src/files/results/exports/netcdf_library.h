@@ -27,12 +27,8 @@ struct NetcdfLibrary {
   decltype(&nc_inq_varndims) inq_varndims;
   decltype(&nc_put_att_int) put_att_int;
   decltype(&nc_put_att_text) put_att_text;
-  decltype(&nc_put_var_double) put_var_double;
-  decltype(&nc_put_var_float) put_var_float;
-  decltype(&nc_put_var_int) put_var_int;
-  decltype(&nc_put_var_longlong) put_var_longlong;
-  decltype(&nc_put_var_text) put_var_text;
-  decltype(&nc_put_vara_float) put_vara_float;
+  decltype(&nc_put_var) put_var;
+  decltype(&nc_put_vara) put_vara;
   decltype(&nc_set_var_chunk_cache) set_var_chunk_cache;
   decltype(&nc_strerror) strerror;
   decltype(&nc_sync) sync;

@@ -41,19 +41,17 @@ class ResultsWriter {
     const int number = file_.variable(column, {triangle_});
     std::vector<std::int32_t> flags;
     std::string meanings;
-    std::vector<std::string> cleaned;
     for (const std::string& name : *column.categories) {
       if (!flags.empty()) meanings += ' ';
       meanings += flag_word(name);
       flags.push_back(static_cast<std::int32_t>(flags.size()));
-      cleaned.push_back(printable(name));
     }
     if (!flags.empty()) {
       file_.attribute(number, "flag_values", flags);
       file_.attribute(number, "flag_meanings", meanings);
     }
     file_.put(number, column);
-    file_.names(column.name + "_name", file_.dimension(column.name + "_kind", cleaned.size()), cleaned,
+    file_.names(column.name + "_name", file_.dimension(column.name + "_kind", flags.size()), *column.categories,
                 fmt::format("name of each value of {}", column.name));
   }
 
@@ -91,7 +89,7 @@ class ResultsWriter {
 
   void add_bands() {
     std::vector<std::string> names;
-    for (const Waveband& band : data_.model.bands) names.push_back(printable(band.name));
+    for (const Waveband& band : data_.model.bands) names.push_back(band.name);
     const int band = file_.dimension("band", names.size());
     file_.names("band_name", band, names, "waveband");
     for (const Column& column : balance_table(data_.result).columns) {
@@ -120,9 +118,7 @@ class ResultsWriter {
   void add_sensor_table(const Table& table, const std::string& prefix, int dimension) {
     for (Column column : table.columns) {
       if (const auto* names = std::get_if<std::span<const std::string>>(&column.values)) {
-        std::vector<std::string> cleaned;
-        for (const std::string& name : *names) cleaned.push_back(printable(name));
-        file_.names(prefix + "name", dimension, cleaned, column.meaning);
+        file_.names(prefix + "name", dimension, *names, column.meaning);
       } else if (column.is_in(in_arrays)) {
         column.name.insert(0, prefix);
         if (!column.error_column.empty()) column.error_column.insert(0, prefix);

@@ -1,7 +1,6 @@
 #include "files/results/exports/organ_steps_netcdf.h"
 
 #include "base/check.h"
-#include "base/file.h"
 #include "files/results/exports/day_time_axis.h"
 #include "files/results/exports/netcdf_writer.h"
 
@@ -43,7 +42,7 @@ class OrganWriter {
     for (std::size_t o = 0; o < organs.size(); ++o) {
       plants.push_back(organs[o].plant);
       ranks.push_back(organs[o].rank);
-      names.push_back(printable(organs[o].name));
+      names.push_back(organs[o].name);
       roles.emplace_back(role_name(of_.stand.kinds.organ_roles[o]));
     }
     file_.add("plant", {organ_}, "1", "number of the plant, 0 for soil", plants);
