@@ -10,16 +10,6 @@ namespace {
 
 constexpr unsigned outputs = in_csv | in_arrays;
 
-// Adds the energy, and with photon units the photons, of a date: `joules` returns J m-2.
-template <class Joules>
-void add_sum(Table& table, const Waveband& band, const std::string& name, const std::string& meaning, const Joules& joules) {
-  table.add({band.name + name + "_mj_m2", "MJ m-2", "energy of " + meaning},
-            [&](std::size_t row) { return joules(row).scaled(per_mega); });
-  if (!(band.umol_per_joule > 0.0)) return;
-  table.add({band.name + name + "_mol_m2", "mol m-2", "photons of " + meaning},
-            [&](std::size_t row) { return joules(row).scaled(band.umol_per_joule * per_mega); });
-}
-
 void add_sensor_names(Table& table, const std::vector<Sensor>& sensors) {
   const std::vector<std::size_t> by_sensor{1};
   table.add({"sensor", "", "name of the sensor", outputs, by_sensor}, [&](std::size_t s) { return sensors[s].name; });
@@ -90,15 +80,15 @@ Table sensor_day_sums_table(const DayStand& stand, const DayPart& part) {
   add_dates(table, part);
   add_sensor_names(table, model.sensors);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const auto add = [&, b](const char* name, const char* meaning, Estimate SensorReading::*of) {
-      add_sum(table, model.bands[b], name, meaning, [&, b, of](std::size_t row) {
+    const auto add = [&, b](const char* name, const char* fate, Estimate SensorReading::*of) {
+      add_sum(table, model.bands[b], name, fate, [&, b, of](std::size_t row) {
         return part.sums[dates[row / sensors]].sensors[row % sensors * model.bands.size() + b].*of;
       });
     };
-    add("_direct", "the sun's beam", &SensorReading::direct);
-    add("_sky", "unscattered sky light", &SensorReading::sky);
-    add("_scattered", "scattered and emitted light", &SensorReading::scattered);
-    add("_total", "all light", &SensorReading::total);
+    add("_direct", "of the sun's beam", &SensorReading::direct);
+    add("_sky", "of unscattered sky light", &SensorReading::sky);
+    add("_scattered", "of scattered and emitted light", &SensorReading::scattered);
+    add("_total", "of all light", &SensorReading::total);
   }
   return table;
 }
@@ -141,7 +131,7 @@ Table plane_day_sums_table(const DayStand& stand, const DayPart& part) {
   add_dates(table, part);
   add_heights(table, model.planes);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    add_sum(table, model.bands[b], "_down", "all light through the plane, downwards", [&, b](std::size_t row) {
+    add_sum(table, model.bands[b], "_down", "of all light through the plane, downwards", [&, b](std::size_t row) {
       return part.sums[dates[row / planes]].plane_down[row % planes * model.bands.size() + b];
     });
   }

@@ -77,19 +77,16 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
   table.add({"azimuth_deg", "degree", "azimuth of the sun at the middle of the step, clockwise from north"},
             [&](std::size_t i) { return steps[i].sun.azimuth_rad / degree; });
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const std::string& band = model.bands[b].name;
-    table.add({band + "_incident", "W m-2", "incident flux per ground area"},
-              [&](std::size_t i) { return lights[i].bands[b].incident; });
-    table.add({band + "_absorbed_vegetation", "W m-2", "flux absorbed by vegetation per ground area"},
-              [&](std::size_t i) { return lights[i].bands[b].absorbed_vegetation; });
-    table.add({band + "_absorbed_structure", "W m-2", "flux absorbed by structures and lamps per ground area"},
-              [&](std::size_t i) { return lights[i].bands[b].absorbed_structure; });
-    table.add({band + "_absorbed_soil", "W m-2", "flux absorbed by soil per ground area"},
-              [&](std::size_t i) { return lights[i].bands[b].absorbed_soil; });
-    table.add({band + "_reflected", "W m-2", "flux that leaves upwards per ground area"},
-              [&](std::size_t i) { return lights[i].bands[b].reflected; });
-    table.add({band + "_transmitted", "W m-2", "flux that leaves downwards per ground area"},
-              [&](std::size_t i) { return lights[i].bands[b].transmitted; });
+    const auto add = [&, b](const char* name, const std::string& flux, Estimate StepBand::*term) {
+      table.add({model.bands[b].name + name, "W m-2", flux + " per ground area"},
+                [&, b, term](std::size_t i) { return lights[i].bands[b].*term; });
+    };
+    add("_incident", "incident flux", &StepBand::incident);
+    add("_absorbed_vegetation", "flux absorbed by vegetation", &StepBand::absorbed_vegetation);
+    add("_absorbed_structure", "flux absorbed by structures and lamps", &StepBand::absorbed_structure);
+    add("_absorbed_soil", "flux absorbed by soil", &StepBand::absorbed_soil);
+    add("_reflected", "flux that leaves upwards", &StepBand::reflected);
+    add("_transmitted", "flux that leaves downwards", &StepBand::transmitted);
   }
   table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in direct sun"},
             [&](std::size_t i) { return as_share(lights[i].sunlit_leaf_fraction); });
@@ -112,15 +109,9 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
   table.add({"steps", "1", "number of its steps"},
             [&](std::size_t d) { return static_cast<std::uint32_t>(sums[dates[d]].steps); });
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const std::string& band = model.bands[b].name;
-    const double umol_per_joule = model.bands[b].umol_per_joule;
     const auto add = [&, b](const std::string& name, const std::string& fate, Estimate StepBand::*term) {
-      const auto joules = [&, b, term](std::size_t d) -> const Estimate& { return sums[dates[d]].bands[b].*term; };
-      table.add({band + name + "_mj_m2", "MJ m-2", "energy " + fate + " per ground area"},
-                [&](std::size_t d) { return joules(d).scaled(per_mega); });
-      if (!(umol_per_joule > 0.0)) return;
-      table.add({band + name + "_mol_m2", "mol m-2", "photons " + fate + " per ground area"},
-                [&](std::size_t d) { return joules(d).scaled(umol_per_joule * per_mega); });
+      add_sum(table, model.bands[b], name, fate + " per ground area",
+              [&, b, term](std::size_t d) -> const Estimate& { return sums[dates[d]].bands[b].*term; });
     };
     add("_incident", "that arrived", &StepBand::incident);
     add("_absorbed_vegetation", "absorbed by vegetation", &StepBand::absorbed_vegetation);
@@ -148,16 +139,10 @@ Table organs_day_table(const DayStand& stand, const DayPart& part) {
   add_organ_names(table, organs, 1);
   table.add({"area_m2", "m2", "one-sided area", table_outputs, by_organ}, stand.kinds.organ_m2);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const std::string& band = model.bands[b].name;
-    const double umol_per_joule = model.bands[b].umol_per_joule;
     const auto joules = [&, b](std::size_t row) -> const Estimate& {
       return sums[dates[row / organs.size()]].organ_absorbed[row % organs.size() * model.bands.size() + b];
     };
-    table.add({band + "_absorbed_mj_m2", "MJ m-2", "energy absorbed by both faces per one-sided area"},
-              [&](std::size_t row) { return joules(row).scaled(per_mega); });
-    if (!(umol_per_joule > 0.0)) continue;
-    table.add({band + "_absorbed_mol_m2", "mol m-2", "photons absorbed by both faces per one-sided area"},
-              [&](std::size_t row) { return joules(row).scaled(umol_per_joule * per_mega); });
+    add_sum(table, model.bands[b], "_absorbed", "absorbed by both faces per one-sided area", joules);
   }
   add_organ_roles(table, stand.kinds.organ_roles, 1);
   return table;
@@ -182,15 +167,14 @@ Table plants_day_table(const DayStand& stand, const DayPart& part) {
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const std::string& band = model.bands[b].name;
     const double umol_per_joule = model.bands[b].umol_per_joule;
-    const auto absorbed = [&, b](std::size_t row, double per_joule) -> Estimate {
-      const Estimate& joules = sums[dates[row / plants.size()]].plant_absorbed[row % plants.size() * model.bands.size() + b];
-      return {joules.value * per_joule, joules.half_width * per_joule};
+    const auto joules = [&, b](std::size_t row) -> const Estimate& {
+      return sums[dates[row / plants.size()]].plant_absorbed[row % plants.size() * model.bands.size() + b];
     };
     table.add({band + "_absorbed_mj", "MJ", "energy that all its organs absorbed"},
-              [&](std::size_t row) { return absorbed(row, per_mega); });
+              [&](std::size_t row) { return joules(row).scaled(per_mega); });
     if (!(umol_per_joule > 0.0)) continue;
     table.add({band + "_absorbed_mol", "mol", "photons that all its organs absorbed"},
-              [&](std::size_t row) { return absorbed(row, umol_per_joule * per_mega); });
+              [&](std::size_t row) { return joules(row).scaled(umol_per_joule * per_mega); });
   }
   return table;
 }
@@ -230,12 +214,7 @@ Table season_table(const DayStand& stand, const DayPart& part) {
       const double area_m2 = kinds[row % kinds.size()].area_m2;
       return area_m2 > 0.0 ? plot_m2 / area_m2 : no_value;
     };
-    table.add({band + "_absorbed_ground_mj_m2", "MJ m-2", "energy absorbed per ground area"},
-              [&](std::size_t row) { return joules(row).scaled(per_mega); });
-    if (umol_per_joule > 0.0) {
-      table.add({band + "_absorbed_ground_mol_m2", "mol m-2", "photons absorbed per ground area"},
-                [&](std::size_t row) { return joules(row).scaled(umol_per_joule * per_mega); });
-    }
+    add_sum(table, model.bands[b], "_absorbed_ground", "absorbed per ground area", joules);
     table.add({band + "_absorbed_share", "1", "share of what arrived"},
               [&](std::size_t row) { return share_of(joules(row), part.sums[dates[row / kinds.size()]].bands[b].incident); });
     table.add({band + "_absorbed_mj_m2", "MJ m-2", "energy absorbed by both faces per one-sided area"},

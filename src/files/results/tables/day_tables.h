@@ -2,6 +2,7 @@
 // The tables of a day by time, date, organ and plant. A table can be made of all steps at once or date by date, with the same
 // rows.
 
+#include "base/units.h"
 #include "files/results/tables/day_course.h"
 #include "files/results/tables/day_stand.h"
 #include "files/results/tables/result_writer.h"
@@ -52,6 +53,17 @@ struct DayTable {
 // Adds the columns `time`, the start of each step, and `date`, which vary along the first axis of a table.
 void add_step_times(Table& table, const DayCourse& course);
 void add_dates(Table& table, const DayPart& part);
+
+// Adds the energy of a date and, with photon units, its photons: the columns BANDname_mj_m2 and BANDname_mol_m2. `joules` returns
+// J m-2 of a row.
+template <class Joules>
+void add_sum(Table& table, const Waveband& band, const std::string& name, const std::string& fate, const Joules& joules) {
+  table.add({band.name + name + "_mj_m2", "MJ m-2", "energy " + fate},
+            [&](std::size_t row) { return joules(row).scaled(per_mega); });
+  if (!(band.umol_per_joule > 0.0)) return;
+  table.add({band.name + name + "_mol_m2", "mol m-2", "photons " + fate},
+            [&](std::size_t row) { return joules(row).scaled(band.umol_per_joule * per_mega); });
+}
 
 // Returns a table of the whole day as text. Where the day was stopped, a line of the head says so.
 [[nodiscard]] std::string day_text(const DayTable& table, const RunRecord& record, const DayStand& stand, const DayPart& day);
