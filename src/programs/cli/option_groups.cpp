@@ -22,6 +22,11 @@ std::string list_of(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+// Makes an option take one word: values separated by commas.
+CLI::Option* listed(CLI::Option* option) {
+  return option->delimiter(',')->allow_extra_args(false)->transform(without_blanks());
+}
+
 void add_bounds(CLI::Option_group& group, RunOptions& options, OptionWords& words) {
   group.add_option("--error", words.both_errors, "Relative error bound of both passes")->check(relative_error());
   group.add_option("--direct-error", options.direct_error, "Relative error bound of the direct pass")->check(relative_error());
@@ -56,13 +61,10 @@ CLI::Option_group& add_simulation(CLI::App& command, RunOptions& options, Option
 
 void add_stand(CLI::App& command, StandFiles& stand) {
   CLI::Option_group& group = *command.add_option_group("A mesh with CARIBU's files instead of a scene");
-  group
-      .add_option(
+  listed(
+      group.add_option(
           "--optics", stand.optics,
-          "Optical properties (.opt), one file per band: par.opt,nir.opt give the bands PAR and NIR; NAME=FILE names a band")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(without_blanks())
+          "Optical properties (.opt), one file per band: par.opt,nir.opt give the bands PAR and NIR; NAME=FILE names a band"))
       ->check(not_empty());
   group.add_option("--light", stand.light, "Light (.light): one direction is the sun, several are a sky")->check(not_empty());
   group.add_option("--domain", stand.domain, "Plot (.8) that repeats without end (default: an isolated stand)")
@@ -131,24 +133,19 @@ void add_run(CLI::App& app, RunOptions& options, OptionWords& words) {
   add_version(run);
   run.add_option("scene", options.scene, "Scene file (TOML), or a .can with CARIBU's files")->required()->check(not_empty());
   run.add_option("-o,--output", options.output, "Result folder (default: results/<scene>)")->check(not_empty());
-  run.add_option(
-         "--export", options.exports,
-         "Per-triangle values for other programs, separated by commas: " + list_of(export_words()) + " (always for a .can)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(without_blanks())
+  listed(run.add_option("--export", options.exports,
+                        "Per-triangle values for other programs, separated by commas: " + list_of(export_words()) +
+                            " (always for a .can)"))
       ->check(one_of(export_words()));
   run.add_option("--measured", options.measured, "Field data (CSV: height_m, sunfleck_ratio), drawn in profile.png")
       ->check(not_empty());
   run.add_option("--compare", options.compare, "Folder of an earlier result to draw beside this one in profile.png")
       ->allow_extra_args(false)
       ->check(not_empty());
-  run.add_option("--images", options.images,
-                 "Pictures, separated by commas: CHART_FIELD, ...; profile; planes; all (profile, planes, and rank and hue of "
-                 "direct, indirect and total) or none")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(without_blanks())
+  listed(run.add_option(
+             "--images", options.images,
+             "Pictures, separated by commas: CHART_FIELD, ...; profile; planes; all (profile, planes, and rank and hue of "
+             "direct, indirect and total) or none"))
       ->check(one_of(image_words()))
       ->capture_default_str();
   run.add_flag(
@@ -186,16 +183,10 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
   day.add_option("--to-date", options.to_date, "Last of several dates, all with the same hours")->check(not_empty());
   day.add_flag("--resume", options.run.resume, "Resume a stopped or killed day from its last saved replicate, or start it");
-  day.add_option("--export", options.run.exports, "nc: write plane_H_day.nc, and day.nc for several dates too")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(without_blanks())
+  listed(day.add_option("--export", options.run.exports, "nc: write plane_H_day.nc, and day.nc for several dates too"))
       ->check(one_of({"nc"}));
-  day.add_option("--images", options.run.images,
-                 "day (the course), season (by kind of organ, of several dates), planes, none or all (default)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(without_blanks())
+  listed(day.add_option("--images", options.run.images,
+                        "day (the course), season (by kind of organ, of several dates), planes, none or all (default)"))
       ->check(one_of({"day", "season", "planes", "all", "none"}));
   day.add_option("--band", options.run.pictures.band, "Waveband of the picture (default: the scene's first)")
       ->check(not_empty());
@@ -244,10 +235,8 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
   CLI::App& validate = *app.add_subcommand("validate", "Run the cases with known answers on this device");
   add_version(validate);
   validate.add_option("-o,--output", options.output, "Result folder (default: results/validate)")->check(not_empty());
-  validate.add_option("--cases", options.cases, "Run only cases whose names contain one of these words, separated by commas")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(without_blanks())
+  listed(validate.add_option("--cases", options.cases,
+                             "Run only cases whose names contain one of these words, separated by commas"))
       ->check(not_empty());
   validate.add_flag("--json", options.json, "Print only the table, as JSON, on standard output");
   add_device(validate, options);
@@ -278,12 +267,8 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
   tradeoff
       .add_option("--grid", options.run.grid_m, "A grid spacing of your own, m: it is measured too, and marked in the plot")
       ->check(positive());
-  tradeoff
-      .add_option("--meshes", options.meshes,
-                  "Measure coarser meshes as well: shares of the triangles to keep, separated by commas")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(without_blanks())
+  listed(tradeoff.add_option("--meshes", options.meshes,
+                             "Measure coarser meshes as well: shares of the triangles to keep, separated by commas"))
       ->check(relative_error());
   tradeoff.add_option("--seed", options.run.seed, "Seed of the first run")
       ->transform(whole_number(0, most_seed))
