@@ -10,6 +10,8 @@
 #include "files/results/stores/run_store.h"
 #include "files/results/stores/step_store.h"
 #include "files/results/tables/plane_writer.h"
+#include "files/results/tables/result_tables.h"
+#include "files/results/tables/table_text.h"
 #include "physics/transport/model/receivers.h"
 #include "pictures/charts/colouring.h"
 #include "pictures/charts/fields.h"
@@ -31,10 +33,6 @@ namespace {
 
 constexpr const char* profile_file = "profile.csv";
 constexpr const char* profile_plot_file = "profile.png";
-constexpr const char* organs_file = "organs.csv";
-constexpr const char* plants_file = "plants.csv";
-constexpr const char* sensors_file = "sensors.csv";
-constexpr const char* sensor_means_file = "sensor_means.csv";
 
 std::string file_of(const Picture& picture) {
   return stem_of(picture) + ".png";
@@ -91,9 +89,8 @@ void write_export_files(const std::filesystem::path& folder, const ResultRequest
   const std::vector<ElementColour> colours = element_colours(drawing, band);
   for (const ExportKind kind : export_kinds) {
     if (!holds(request.exports, export_name(kind))) continue;
-    unwritten.attempt(export_file(kind), [&] {
-      write_exports(std::span(&kind, 1), folder, record, drawing.scene.model, drawing.result, colours);
-    });
+    unwritten.attempt(export_file(kind),
+                      [&] { write_export(kind, folder, record, drawing.scene.model, drawing.result, colours); });
   }
 }
 
@@ -102,12 +99,9 @@ void write_tables(const std::filesystem::path& folder, const RunRecord& record, 
   const auto write = [&](const std::string& name, const auto& text) {
     unwritten.attempt(name, [&] { write_file(folder / name, text()); });
   };
-  write(profile_file, [&] { return profile_csv(record, model, result); });
-  write(organs_file, [&] { return organs_csv(record, model, result); });
-  if (!result.plants.empty()) write(plants_file, [&] { return plants_csv(record, model, result); });
-  if (!result.sensors.empty()) {
-    write(sensors_file, [&] { return sensors_csv(record, model, result); });
-    write(sensor_means_file, [&] { return sensor_means_csv(record, model, result); });
+  for (const ResultTable& table : result_tables) {
+    if (!table.is_of(result) || (table.make == plants_table && result.plants.empty())) continue;
+    write(table.file, [&] { return csv_text(record, table.make(model, result)); });
   }
   for (std::size_t plane = 0; plane < result.planes.size(); ++plane) {
     const std::string stem = plane_stem(result.planes[plane].height_m);
@@ -188,8 +182,8 @@ bool write_pictures(const std::filesystem::path& folder, const ResultRequest& re
 
 // Returns whether a run or a day writes a file of this name, other than the summary.
 bool is_file_of_runs(const std::string& name) {
-  std::vector<std::string> names{profile_file, profile_plot_file, organs_file,       plants_file,
-                                 sensors_file, sensor_means_file, result_store_file, run_state_file};
+  std::vector<std::string> names{profile_plot_file, result_store_file, run_state_file};
+  for (const ResultTable& table : result_tables) names.emplace_back(table.file);
   for (const ExportKind kind : export_kinds) names.emplace_back(export_file(kind));
   for (const Picture& picture : all_pictures()) names.emplace_back(file_of(picture));
   return is_plane_file(name) || is_file_of_days(name) || std::find(names.begin(), names.end(), name) != names.end();

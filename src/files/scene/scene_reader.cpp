@@ -71,9 +71,9 @@ Accuracy read_accuracy(const TomlTable& root) {
   accuracy.indirect = table->number("indirect", bound).value_or(accuracy.indirect);
   const NumberRange confidence{.lo = 0.5, .hi = 0.9999, .cure = "give 0.95 for 95 percent"};
   accuracy.confidence = table->number("confidence", confidence).value_or(accuracy.confidence);
-  constexpr ErrorTarget targets[] = {ErrorTarget::canopy, ErrorTarget::organ, ErrorTarget::triangle, ErrorTarget::sensors};
   const bool has_sensors = !root.tables("sensor").empty();
-  if (const auto of = table->word("of", {"canopy", "organ", "triangle", "sensors"})) accuracy.of = targets[*of];
+  if (const auto of = table->word("of", {"canopy", "organ", "triangle", "sensors"}))
+    accuracy.of = static_cast<ErrorTarget>(*of);
   if (accuracy.of == ErrorTarget::sensors && !has_sensors) {
     table->refuse("of", "the scene has no [[sensor]] that the bounds could hold for",
                   "add one, or use canopy, organ or triangle");

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "files/results/tables/plane_writer.h"
 #include "files/results/tables/result_tables.h"
+#include "files/results/tables/table_text.h"
 #include "pictures/charts/pictures.h"
 #include "programs/python/arrays.h"
 #include "programs/python/columns.h"
@@ -52,6 +53,19 @@ PictureOptions picture_options(std::string band, const std::string& view, std::p
   return options;
 }
 
+// Returns the table of that name, or null; that of triangles is made from the fields.
+const ResultTable* find_table(const std::string& name) {
+  const auto found =
+      std::find_if(result_tables.begin(), result_tables.end(), [&](const ResultTable& table) { return name == table.file; });
+  return found == result_tables.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void refuse_table(const std::string& name) {
+  throw_input(
+      name, "not a table of this result",
+      "use profile.csv, organs.csv, plants.csv, triangles.csv or, if the scene has sensors, sensors.csv or sensor_means.csv");
+}
+
 }  // namespace
 
 const ElementFields& Outcome::fields() {
@@ -63,33 +77,21 @@ std::string Outcome::summary() const {
   return summary_json(simulated_.record, simulated_.scene->model, simulated_.result);
 }
 
-std::string Outcome::table(const std::string& name) const {
-  const RadiationModel& model = simulated_.scene->model;
-  if (name == "profile.csv") return profile_csv(simulated_.record, model, simulated_.result);
-  if (name == "organs.csv") return organs_csv(simulated_.record, model, simulated_.result);
-  if (name == "plants.csv") return plants_csv(simulated_.record, model, simulated_.result);
-  if (name == "triangles.csv") return triangles_csv(simulated_.record, model, simulated_.result);
-  if (name == "sensors.csv" && !simulated_.result.sensors.empty())
-    return sensors_csv(simulated_.record, model, simulated_.result);
-  if (name == "sensor_means.csv" && !simulated_.result.sensors.empty())
-    return sensor_means_csv(simulated_.record, model, simulated_.result);
-  throw_input(
-      name, "not a table of this result",
-      "use profile.csv, organs.csv, plants.csv, triangles.csv or, if the scene has sensors, sensors.csv or sensor_means.csv");
+Table Outcome::table_of(const std::string& name) {
+  if (name == "triangles.csv") return triangles_table(fields());
+  const ResultTable* const table = find_table(name);
+  if (table == nullptr) refuse_table(name);
+  return table->make(simulated_.scene->model, simulated_.result);
+}
+
+std::string Outcome::table(const std::string& name) {
+  const ResultTable* const table = find_table(name);
+  if (table != nullptr && !table->is_of(simulated_.result)) refuse_table(name);
+  return csv_text(simulated_.record, table_of(name));
 }
 
 py::dict Outcome::describe(const std::string& name) {
-  const RadiationModel& model = simulated_.scene->model;
-  const RadiationResult& result = simulated_.result;
-  if (name == "profile.csv") return descriptions_of(layers_table(model, result));
-  if (name == "organs.csv") return descriptions_of(organs_table(model, result));
-  if (name == "plants.csv") return descriptions_of(plants_table(model, result));
-  if (name == "triangles.csv") return descriptions_of(triangles_table(fields()));
-  if (name == "sensors.csv") return descriptions_of(sensors_table(model, result));
-  if (name == "sensor_means.csv") return descriptions_of(sensor_means_table(model, result));
-  if (name == "balance") return descriptions_of(balance_table(result));
-  throw_input(name, "not a table of this result",
-              "use profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv or sensor_means.csv");
+  return descriptions_of(name == "balance" ? balance_table(simulated_.result) : table_of(name));
 }
 
 py::dict Outcome::profile() const {

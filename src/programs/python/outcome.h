@@ -2,6 +2,7 @@
 // A result for Python: arrays by name.
 
 #include "files/results/tables/element_fields.h"
+#include "files/results/tables/table.h"
 #include "simulate/requests.h"
 #include "simulate/simulated_scene.h"
 
@@ -9,7 +10,6 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
-#include <mutex>
 #include <string>
 
 namespace sunfleck {
@@ -20,8 +20,8 @@ class Outcome {
   explicit Outcome(SimulatedScene simulated) : simulated_(std::move(simulated)) {}
 
   [[nodiscard]] bool complete() const { return simulated_.record.complete; }
-  [[nodiscard]] std::string summary() const;                       // summary.json
-  [[nodiscard]] std::string table(const std::string& name) const;  // profile.csv, organs.csv, plants.csv, ...
+  [[nodiscard]] std::string summary() const;                 // summary.json
+  [[nodiscard]] std::string table(const std::string& name);  // profile.csv, organs.csv, plants.csv, ...
   // Returns the unit, the meaning and whether xarray has it, for each column of a table, or of `balance`.
   [[nodiscard]] pybind11::dict describe(const std::string& name);
   [[nodiscard]] pybind11::dict balance() const;       // [band], the energy balance
@@ -45,6 +45,7 @@ class Outcome {
 
  private:
   const ElementFields& fields();
+  [[nodiscard]] Table table_of(const std::string& name);
 
   SimulatedScene simulated_;
   std::unique_ptr<ElementFields> fields_;  // created when first used

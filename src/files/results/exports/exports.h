@@ -9,9 +9,7 @@
 
 #include <array>
 #include <filesystem>
-#include <optional>
 #include <span>
-#include <string_view>
 
 namespace sunfleck {
 
@@ -29,17 +27,10 @@ constexpr std::array<ExportKind, 6> export_kinds = {ExportKind::csv, ExportKind:
 
 [[nodiscard]] const char* export_name(ExportKind kind);  // as in --export
 [[nodiscard]] const char* export_file(ExportKind kind);
-[[nodiscard]] std::optional<ExportKind> export_kind(std::string_view name);
 
-// Writes the files into an existing folder. `colours` ([element], may be empty) are used by canopy.glb and canopy.ply. Throws
-// Error (failure) if a file cannot be written or the canopy is too large for the format.
-void write_exports(std::span<const ExportKind> kinds, const std::filesystem::path& folder, const RunRecord& record,
-                   const RadiationModel& model, const RadiationResult& result, std::span<const ElementColour> colours = {});
-
-inline void write_export(ExportKind kind, const std::filesystem::path& folder, const RunRecord& record,
-                         const RadiationModel& model, const RadiationResult& result,
-                         std::span<const ElementColour> colours = {}) {
-  write_exports({&kind, 1}, folder, record, model, result, colours);
-}
+// Writes the file into an existing folder. `colours` ([element], may be empty) are used by canopy.glb and canopy.ply. Throws
+// Error (failure) if it cannot be written or the canopy is too large for the format.
+void write_export(ExportKind kind, const std::filesystem::path& folder, const RunRecord& record, const RadiationModel& model,
+                  const RadiationResult& result, std::span<const ElementColour> colours = {});
 
 }  // namespace sunfleck

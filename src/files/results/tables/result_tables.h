@@ -7,6 +7,7 @@
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -59,5 +60,20 @@ void add_classes(Table& table, const RadiationModel& model, const char* of, std:
 
 // sensor_means.csv: one row per sensor, the mean over its points.
 [[nodiscard]] Table sensor_means_table(const RadiationModel& model, const RadiationResult& result);
+
+// A table of a run and the name of its file.
+struct ResultTable {
+  const char* file;
+  Table (*make)(const RadiationModel& model, const RadiationResult& result);
+  bool of_sensors = false;
+
+  [[nodiscard]] bool is_of(const RadiationResult& result) const { return !of_sensors || !result.sensors.empty(); }
+};
+// All of them but those of triangles and planes.
+inline constexpr std::array<ResultTable, 5> result_tables = {{{"profile.csv", layers_table},
+                                                              {"organs.csv", organs_table},
+                                                              {"plants.csv", plants_table},
+                                                              {"sensors.csv", sensors_table, true},
+                                                              {"sensor_means.csv", sensor_means_table, true}}};
 
 }  // namespace sunfleck

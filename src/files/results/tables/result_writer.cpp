@@ -2,14 +2,11 @@
 
 #include "base/units.h"
 #include "files/results/tables/judged_figure.h"
-#include "files/results/tables/result_tables.h"
 #include "files/results/tables/summary_parts.h"
-#include "files/results/tables/table_text.h"
 #include "files/results/tables/work_settings.h"
 #include "physics/canopy/axes.h"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -140,37 +137,16 @@ ordered_json judged_json(const std::optional<JudgedFigure>& judged, const Radiat
 }
 
 const char* stop_name(StopReason stop) {
-  switch (stop) {
-    case StopReason::bound_reached:
-      return "bound reached";
-    case StopReason::work_done:
-      return "work done";
-    case StopReason::rays_spent:
-      return "rays spent";
-    case StopReason::replicates_spent:
-      return "replicates spent";
-    case StopReason::time_spent:
-      return "time spent";
-    case StopReason::interrupted:
-      return "interrupted";
-  }
-  return "";
+  constexpr std::array<const char*, 6> names = {"bound reached",    "work done",  "rays spent",
+                                                "replicates spent", "time spent", "interrupted"};  // [StopReason]
+  return names[static_cast<std::size_t>(stop)];
 }
 
 }  // namespace
 
 const char* error_target_name(ErrorTarget target) {
-  switch (target) {
-    case ErrorTarget::canopy:
-      return "canopy";
-    case ErrorTarget::organ:
-      return "organ";
-    case ErrorTarget::triangle:
-      return "triangle";
-    case ErrorTarget::sensors:
-      return "sensors";
-  }
-  return "";
+  constexpr std::array<const char*, 4> names = {"canopy", "organ", "triangle", "sensors"};  // [ErrorTarget]
+  return names[static_cast<std::size_t>(target)];
 }
 
 std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
@@ -237,34 +213,6 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
   }
   if (!record.not_written.empty()) summary["not_written"] = record.not_written;
   return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
-std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  return csv_text(record, layers_table(model, result));
-}
-
-std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  return csv_text(record, organs_table(model, result));
-}
-
-std::string plants_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  return csv_text(record, plants_table(model, result));
-}
-
-std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  return csv_text(record, sensors_table(model, result));
-}
-
-std::string sensor_means_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  return csv_text(record, sensor_means_table(model, result));
-}
-
-std::string triangles_csv(const RunRecord& record, const ElementFields& fields) {
-  return csv_text(record, triangles_table(fields));
-}
-
-std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result) {
-  return triangles_csv(record, make_element_fields(model, result));
 }
 
 }  // namespace sunfleck

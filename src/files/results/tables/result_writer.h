@@ -1,15 +1,12 @@
 #pragma once
-// The result folder: summary.json and the tables. docs/formats.md describes each file and column; units are given in the files.
-// Every file is written aside and renamed, so that none is ever incomplete.
+// The record of a run and its summary.json. docs/formats.md describes each entry.
 
-#include "files/results/tables/element_fields.h"
 #include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/model.h"
 #include "physics/transport/model/result.h"
 #include "physics/transport/model/tracer.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,17 +40,6 @@ struct RunRecord {
 
 // Returns summary.json, indented by two spaces.
 [[nodiscard]] std::string summary_json(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
-
-// Return the tables as text. Numbers have nine significant digits. A cell is empty if there is no value: intervals from too few
-// replicates or hits, and shares of a missing beam. files/results/tables/result_tables.h and
-// files/results/tables/element_fields.h describe rows and columns.
-[[nodiscard]] std::string profile_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] std::string organs_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] std::string plants_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] std::string sensors_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] std::string sensor_means_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] std::string triangles_csv(const RunRecord& record, const RadiationModel& model, const RadiationResult& result);
-[[nodiscard]] std::string triangles_csv(const RunRecord& record, const ElementFields& fields);
 
 [[nodiscard]] const char* error_target_name(ErrorTarget target);  // as in scene files
 

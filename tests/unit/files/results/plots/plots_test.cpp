@@ -3,6 +3,8 @@
 #include "base/units.h"
 #include "files/results/tables/day_tables.h"
 #include "files/results/tables/plane_writer.h"
+#include "files/results/tables/result_tables.h"
+#include "files/results/tables/table_text.h"
 #include "support/gnuplot.h"
 #include "support/small_plane.h"
 
@@ -52,7 +54,7 @@ class Plots : public test::GnuplotTest {
     model.bands = {{"PAR", 100.0, 0.0}};
     RadiationResult result;
     result.layers = layers;
-    return folder_.write("profile" + std::to_string(number) + ".csv", profile_csv(titled(title), model, result));
+    return folder_.write("profile" + std::to_string(number) + ".csv", csv_text(titled(title), layers_table(model, result)));
   }
 
   // Returns the variables that `run` sets for profile.gp.

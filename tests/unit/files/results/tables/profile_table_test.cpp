@@ -2,7 +2,8 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "files/results/tables/result_writer.h"
+#include "files/results/tables/result_tables.h"
+#include "files/results/tables/table_text.h"
 #include "support/error_text.h"
 #include "support/temp_folder.h"
 
@@ -56,7 +57,8 @@ TEST_F(Profile, IsReadAsItWasWritten) {
   record.title = "Stand, dense";
   const RadiationModel model = model_of_two_bands();
   const ProfileTable expected = profile_table(record.title, 0.95, model, two_layers());
-  const ProfileTable got = read_profile_csv(folder_.write("profile.csv", profile_csv(record, model, two_layers())));
+  const std::string text = csv_text(record, layers_table(model, two_layers()));
+  const ProfileTable got = read_profile_csv(folder_.write("profile.csv", text));
   EXPECT_EQ(got.title, expected.title);
   EXPECT_EQ(got.confidence, expected.confidence);
   EXPECT_EQ(got.bands, expected.bands);

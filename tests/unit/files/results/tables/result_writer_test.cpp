@@ -1,7 +1,10 @@
 #include "files/results/tables/result_writer.h"
 
 #include "base/units.h"
+#include "files/results/tables/result_tables.h"
+#include "files/results/tables/table_text.h"
 #include "support/table.h"
+#include "support/triangles_csv.h"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +81,7 @@ void expect_head(const regression::Table& table) {
 }
 
 TEST(ResultWriter, ProfileHasALayerARowAndTheTopPlane) {
-  const regression::Table table(profile_csv(small_record(), small_model(), small_result()));
+  const regression::Table table(csv_text(small_record(), layers_table(small_model(), small_result())));
   expect_head(table);
   ASSERT_EQ(table.size(), 2U);
   EXPECT_EQ(table.cell(0, "leaf_area_index"), "0.5");
@@ -94,7 +97,7 @@ TEST(ResultWriter, ProfileHasALayerARowAndTheTopPlane) {
 }
 
 TEST(ResultWriter, OrgansAreQuotedAndUnknownsEmpty) {
-  const std::string text = organs_csv(small_record(), small_model(), small_result());
+  const std::string text = csv_text(small_record(), organs_table(small_model(), small_result()));
   const regression::Table table(text);
   expect_head(table);
   ASSERT_EQ(table.size(), 2U);
@@ -166,7 +169,7 @@ TEST(ResultWriter, PhotonsHaveErrorsOfTheirOwn) {
   const json photons = json::parse(summary_json(small_record(), model, small_result()))["bands"][1]["umol_m2_s"];
   EXPECT_EQ(photons["absorbed_soil"], 120.0);
   EXPECT_EQ(photons["error"]["absorbed_soil"], 44.0);
-  const regression::Table organs(organs_csv(small_record(), model, small_result()));
+  const regression::Table organs(csv_text(small_record(), organs_table(model, small_result())));
   EXPECT_EQ(organs.cell(0, "B_absorbed_umol_m2_s"), "3");
   EXPECT_EQ(organs.cell(0, "B_absorbed_umol_m2_s_error"), "0.06");
 }

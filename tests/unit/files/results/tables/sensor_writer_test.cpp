@@ -1,6 +1,7 @@
 // Tests sensors.csv and sensor_means.csv.
 
-#include "files/results/tables/result_writer.h"
+#include "files/results/tables/result_tables.h"
+#include "files/results/tables/table_text.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ TEST(SensorWriter, WritesARowForEachPoint) {
   RunRecord record;
   record.title = "two\nlines";
   record.seed = 7;
-  const std::string text = sensors_csv(record, model, result);
+  const std::string text = csv_text(record, sensors_table(model, result));
   const std::string values = "1,0,3,0.5,5,0.125,9,0.75,36,3,2,0,4,0.25,6,0.0625,12,0.5\n";
   const std::string columns =
       "PAR_direct,PAR_direct_error,PAR_sky,PAR_sky_error,PAR_scattered,PAR_scattered_error,PAR_total,PAR_total_error,"
@@ -29,7 +30,7 @@ TEST(SensorWriter, WritesARowForEachPoint) {
   EXPECT_EQ(text.substr(text.find("\nsensor") + 1), "sensor,point,x,y,z," + columns + "\"pole, left\",0,0.1,0.25,1e-09," +
                                                         values + "\"pole, left\",1,0.1,0.333333333,2," + values +
                                                         "ball,0,1,2,3," + values);
-  const std::string means = sensor_means_csv(record, model, result);
+  const std::string means = csv_text(record, sensor_means_table(model, result));
   EXPECT_EQ(means.substr(means.find("\nsensor") + 1),
             "sensor,points," + columns + "\"pole, left\",2," + values + "ball,1," + values);
 }
@@ -37,7 +38,7 @@ TEST(SensorWriter, WritesARowForEachPoint) {
 TEST(SensorWriter, WithoutSensorsThereIsTheHead) {
   RadiationModel model;
   model.bands = {{"PAR", 1.0, 1.0}};
-  const std::string text = sensors_csv({}, model, {});
+  const std::string text = csv_text({}, sensors_table(model, {}));
   EXPECT_TRUE(text.ends_with("PAR_total,PAR_total_error\n"));
 }
 
