@@ -20,17 +20,9 @@ ks = column_of('sunfleck'); kd = column_of(band . '_direct'); kt = column_of(ban
 direct(x) = beam == beam && valid(ks) ? beam * column(ks) : column(kd)
 total(x) = column(kt) - column(kd) + direct(x)
 
-# Cells, metres and watts. The colours reach at least to the full beam, and beyond it to all but the brightest cells, whose
-# excess is noise: four standard deviations above the mean.
-place = remarks[strstrt(remarks, 'horizontal plane at ') + 20:*]
-cells_1 = number(past(', ', place)); cells_2 = number(past(' x ', place))
-stats table using (last_1 = $1, last_2 = $2, total(0)) name 'TOTAL' nooutput
-size_1 = last_1 * cells_1 / (cells_1 - 0.5); size_2 = last_2 * cells_2 / (cells_2 - 0.5)
-# Left to right (a) and bottom to top (b).
-east = column_of('y_m') > 0
-column_a = east ? 1 : 2; column_b = east ? 2 : 1
-size_a = east ? size_1 : size_2; size_b = east ? size_2 : size_1
-cells_a = east ? cells_1 : cells_2; cells_b = east ? cells_2 : cells_1
+# The colours reach at least to the full beam, and beyond it to all but the brightest cells, whose excess is noise: four standard
+# deviations above the mean.
+stats table using (total(0)) name 'TOTAL' nooutput
 bright = TOTAL_mean + 4 * TOTAL_stddev
 bright = bright > TOTAL_max ? TOTAL_max : bright
 bright = positive(beam > bright ? beam : bright, 1)
@@ -51,43 +43,19 @@ note = ratio == ratio ? sprintf('Sunfleck ratio %.4f', ratio) . (error == error 
   : 'No direct beam'
 maps = ratio == ratio ? 2 : 1
 
-# The maps have the shape of the plot; they stand side by side above the sizes, and low ones beside a taller colour bar. A single one
-# stands in the middle.
-width = 1600.0
-widest = maps == 2 ? 590.0 : 1180.0; highest = 760.0
-scale = widest / size_a < highest / size_b ? widest / size_a : highest / size_b
-map_width = scale * size_a; map_height = scale * size_b
+# The maps stand side by side above the sizes, and low ones beside a taller colour bar. A single one stands in the middle.
+widest = maps == 2 ? 590.0 : 1180.0
+base = sizes ? 500 : 125
+load folder . 'map.gp'
 slot = map_width > 340 ? map_width : 340
 left1 = 150 + widest - 0.5 * (slot + map_width)
 left2 = maps == 2 ? left1 + slot + 50 : 755 - 0.5 * map_width
-bar = map_height > 260 ? map_height : 260
-base = sizes ? 500 : 125
-height = 0.0 + ceil(base + bar + 165)
-bottom = base + 0.5 * (bar - map_height)
-set terminal pngcairo noenhanced size width,height font font . ',20' linewidth 2 background '#ffffff'
-set multiplot
-# Viridis at nine positions (van der Walt and Smith 2015, matplotlib), perceptually uniform in colour and in grey.
-set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', 7 '#addc30', \
-  8 '#fde725')
 set cbrange [0:bright]
-set xrange [(east ? 0 : size_a):(east ? size_a : 0)]
-set yrange [(east ? 0 : size_b):(east ? size_b : 0)]
-step(length, room) = (finest = length * room, decade = 10 ** floor(log10(finest)), \
-  decade * (finest <= decade ? 1 : finest <= 2 * decade ? 2 : finest <= 5 * decade ? 5 : 10))
-set xtics step(size_a, 90 / map_width) out nomirror
-set ytics step(size_b, 70 / map_height) out nomirror
-set cbtics out
-unset grid; unset colorbox
-set bmargin at screen bottom / height
-set tmargin at screen (bottom + map_height) / height
+unset colorbox
 set label 1 cut(title, 70) . ' – plane at ' . sprintf('%.3f m', number(place)) at screen 0.5,(1 - 40 / height) center \
   font ',24' textcolor '#101010'
 set label 2 note at screen 0.5,(1 - 82 / height) center font ',18' textcolor '#101010'
 set label 3 (east ? 'y (m), from south to north' : 'X (m), from north to south') at screen ((maps == 2 ? left1 : left2) - 100) / width,(bottom + 0.5 * map_height) / height center rotate by 90
-set xlabel (east ? 'x (m), from west to east' : 'Z (m), from east to west') offset 0,0.2
-# An image needs two cells along each side; single rows are drawn as boxes.
-half_a = 0.5 * size_a / cells_a; half_b = 0.5 * size_b / cells_b
-boxes = cells_a < 2 || cells_b < 2
 
 do for [map = 3 - maps:2] {
   left = map == 1 ? left1 : left2
