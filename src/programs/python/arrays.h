@@ -18,17 +18,13 @@ namespace sunfleck {
   return static_cast<pybind11::ssize_t>(size);
 }
 
-// Returns a read-only array of that shape that refers to a vector without a copy; `owner` lives as long as the array. The
-// vector may be empty.
+// Returns a read-only array of that shape that refers to values without a copy; `owner` lives as long as the array. There may be
+// no values.
 template <class T>
-pybind11::array view_of(const std::vector<T>& values, std::vector<pybind11::ssize_t> shape, const pybind11::handle& owner) {
+pybind11::array view_of(std::span<const T> values, std::vector<pybind11::ssize_t> shape, const pybind11::handle& owner) {
   pybind11::array_t<T> array(std::move(shape), values.data(), owner);
   array.attr("setflags")(pybind11::arg("write") = false);
   return array;
-}
-template <class T>
-pybind11::array view_of(const std::vector<T>& values, const pybind11::handle& owner) {
-  return view_of(values, {static_cast<pybind11::ssize_t>(values.size())}, owner);
 }
 
 // Returns an array that takes over the vector.
@@ -40,7 +36,7 @@ pybind11::array array_of(std::vector<T>&& values, std::vector<pybind11::ssize_t>
 }
 template <class T>
 pybind11::array array_of(std::vector<T>&& values) {
-  const auto size = static_cast<pybind11::ssize_t>(values.size());
+  const pybind11::ssize_t size = signed_size(values.size());
   return array_of(std::move(values), {size});
 }
 

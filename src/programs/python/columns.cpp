@@ -21,7 +21,7 @@ py::list list_of(std::span<const std::string> texts) {
 std::vector<py::ssize_t> shape_of(const Table& table, const Column& column) {
   std::vector<py::ssize_t> shape;
   if (!column.axes) return {table.shape.begin(), table.shape.end()};
-  for (const std::size_t axis : *column.axes) shape.push_back(static_cast<py::ssize_t>(table.shape[axis]));
+  for (const std::size_t axis : *column.axes) shape.push_back(signed_size(table.shape[axis]));
   return shape;
 }
 
@@ -41,9 +41,7 @@ struct MakeObject {
     const std::vector<py::ssize_t> shape = shape_of(table, column);
     if (shape.empty()) return py::float_(static_cast<double>(numbers.front()));
     if (column.owner) return py::array_t<T>(shape, numbers.data(), capsule_of(column.owner));
-    py::array_t<T> view(shape, numbers.data(), holder);
-    view.attr("setflags")(py::arg("write") = false);
-    return view;
+    return view_of(numbers, shape, holder);
   }
 
   static py::capsule capsule_of(const std::shared_ptr<const void>& owner) {

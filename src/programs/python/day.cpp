@@ -172,15 +172,11 @@ std::unique_ptr<Day> day_of(const std::filesystem::path& file, const std::option
   return std::make_unique<Day>(std::move(*day));
 }
 
-DayRequest day_request(std::string from, std::string to, std::string date, std::string to_date, int step_min,
-                       std::optional<int> steps_together) {
-  return {std::move(from), std::move(to), std::move(date), std::move(to_date), step_min, steps_together};
-}
-
 }  // namespace
 
 void bind_day(py::module_& module) {
-  py::class_<DayRequest>(module, "DayRequest").def(py::init(&day_request));
+  py::class_<DayRequest>(module, "DayRequest")
+      .def(py::init<std::string, std::string, std::string, std::string, int, std::optional<int>>());
   py::class_<Day>(module, "Day")
       .def_property_readonly("complete", &Day::complete)
       .def_property_readonly("warnings", &Day::warnings)

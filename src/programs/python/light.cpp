@@ -10,7 +10,6 @@
 
 #include <pybind11/numpy.h>
 
-#include <optional>
 #include <string>
 #include <utility>
 

@@ -147,7 +147,8 @@ void Outcome::write(const ResultRequest& request) const {
 }
 
 py::array Outcome::organ_rows(const py::object& self) const {
-  return view_of(simulated_.scene->model.canopy.organ_of.get(), self);
+  const std::span<const std::uint32_t> organs = simulated_.scene->model.canopy.organ_of.get();
+  return view_of(organs, {signed_size(organs.size())}, self);
 }
 
 py::array Outcome::render(const Picture& picture, const PictureOptions& options) const {

@@ -22,11 +22,6 @@ namespace {
 
 namespace py = pybind11;
 
-// Returns a scene's text with its meshes.
-SceneText text_of(const std::filesystem::path& file, const std::string& text, std::map<std::string, Mesh> meshes) {
-  return {file, text, std::move(meshes)};
-}
-
 // A Simulation as Python uses it: one call at a time.
 class PythonSimulation {
  public:
@@ -34,14 +29,14 @@ class PythonSimulation {
                    std::map<std::string, Mesh> meshes, bool allow_outside, const std::string& device, int threads)
       : access_{.allow_outside = allow_outside} {
     const py::gil_scoped_release release;
-    Scene scene = text ? read_scene(text_of(file, *text, std::move(meshes)), access_) : read_scene(file, access_);
+    Scene scene = text ? read_scene(SceneText{file, *text, std::move(meshes)}, access_) : read_scene(file, access_);
     simulation_.emplace(std::move(scene), DeviceRequest{device, 0, threads});
   }
 
   void relight(const std::filesystem::path& file, const std::string& text) {
     const Turn turn(busy_);
     const py::gil_scoped_release release;
-    simulation_->relight(text_of(file, text, {}), access_);
+    simulation_->relight(SceneText{file, text, {}}, access_);
   }
 
   std::unique_ptr<Outcome> run(const WorkRequest& request, const py::object& progress) {

@@ -303,7 +303,7 @@ def day(
     when = (str(start or ""), str(stop or ""), str(date or ""), str(to_date or ""))
     most = None if together is None else whole(together, "together", 1, 96)
     request = _core.DayRequest(*when, whole(step, "step", 1, 24 * 60), most)
-    machine = (str(device), whole(threads, "threads", 0, 1024))
+    machine = (str(device), whole(threads, "threads", 0, 4096))
     source = SceneSource(scene, folder)
     given = (os.fspath(source.file), source.text, source.meshes, allow_outside, request, work, None if triangles is None else bool(triangles), *machine)
     with reporting(progress) as report, contextlib.ExitStack() as around:

@@ -8,14 +8,10 @@ from collections.abc import Mapping
 from typing import Any, Optional, Union
 
 import numpy as np
-import tomli_w
 
 from . import _core
 from ._errors import refuse
 from ._options import real, whole
-from ._scene import _plain
-
-Time = Union[datetime.datetime, np.datetime64, str]
 
 
 def sun_position(time: Any, latitude: float, longitude: float, altitude: float = 0.0) -> tuple[Any, Any]:
@@ -110,12 +106,12 @@ def sky(
     """
     given = {"type": type, "dni": dni, "dhi": dhi, "file": file}
     table = {**(model if isinstance(model, Mapping) else {"model": model}), **{key: value for key, value in given.items() if value is not None}}
-    tables: dict[str, Any] = {"plot": {"size": [1.0, 1.0]}, "sky": _plain(table, "sky"), "band": [{"name": "all", "diffuse": 1.0}]}
+    tables: dict[str, Any] = {"plot": {"size": [1.0, 1.0]}, "sky": table, "band": [{"name": "all", "diffuse": 1.0}]}
     if sun is not None:
-        tables["sun"] = _plain(sun, "sun")
+        tables["sun"] = sun
     from ._scene import SceneSource
     from ._simulation import without_line_numbers
 
     source = SceneSource(tables, folder)
     with without_line_numbers(source):
-        return Sky(_core.Sky(os.fspath(source.file), tomli_w.dumps(tables), allow_outside))
+        return Sky(_core.Sky(os.fspath(source.file), source.text, allow_outside))

@@ -12,8 +12,6 @@ import numpy as np
 from . import _core
 from ._errors import refuse
 
-Number = Union[int, float, np.integer, np.floating]
-
 
 def real(value: Any, name: str) -> float:
     """Returns the value if it is a finite number."""

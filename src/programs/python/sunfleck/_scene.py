@@ -55,9 +55,7 @@ class SceneSource:
         for key, value in changes.items():
             if value is None:
                 tables.pop(key, None)
-            elif key == "optics":
-                tables[key] = {**tables.get(key, {}), **_plain(value, key)}
-            elif key == "soil":
+            elif key in ("optics", "soil"):
                 tables[key] = {**tables.get(key, {}), **_plain(value, key)}
             else:
                 tables[key] = _plain(value, key)
@@ -167,6 +165,15 @@ def _numbers(part: Mapping[str, Any], key: str, fallback: int, count: int, place
     return np.broadcast_to(array, (count,))
 
 
+def _distinct(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the distinct items or rows in order of first appearance and, for each of `values`, the index of its own."""
+    found, first, inverse = np.unique(values, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first, kind="stable")
+    number = np.empty(len(order), dtype=np.uint32)
+    number[order] = np.arange(len(order), dtype=np.uint32)
+    return found[order], number[inverse.reshape(-1)]
+
+
 def _names(part: Mapping[str, Any], key: str, fallback: Any, count: int, place: str) -> tuple[list[str], np.ndarray]:
     """Returns the distinct names and, per triangle, the index of its name, given one name for all or one each."""
     name = f"{place}.{key}"
@@ -180,11 +187,8 @@ def _names(part: Mapping[str, Any], key: str, fallback: Any, count: int, place: 
         refuse(f"{name}: shape {array.shape}", f"must be one name, or one for each of {count} triangles", "correct its length")
     if not all(isinstance(item, str) for item in array.tolist()):
         refuse(f"{name}: an item that is not a string", "must be names", "give a list of str")
-    found, first, inverse = np.unique(array.astype(str), return_index=True, return_inverse=True)
-    order = np.argsort(first, kind="stable")  # in order of first appearance
-    rank = np.empty(len(order), dtype=np.uint32)
-    rank[order] = np.arange(len(order), dtype=np.uint32)
-    return [str(found[i]) for i in order], rank[inverse]
+    names, number = _distinct(array.astype(str))
+    return [str(item) for item in names], number
 
 
 def _mesh(part: Mapping[str, Any], place: str) -> Any:
@@ -199,10 +203,7 @@ def _mesh(part: Mapping[str, Any], place: str) -> Any:
     plants = _numbers(part, "plant", 1, count, place)
     ranks = _numbers(part, "rank", 0, count, place)
     keys = np.stack([plants.astype(np.int64), kinds.astype(np.int64), ranks.astype(np.int64)], axis=1)
-    found, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first, kind="stable")
-    number = np.empty(len(order), dtype=np.uint32)
-    number[order] = np.arange(len(order), dtype=np.uint32)
-    organs = [(int(found[i, 0]), kind_names[found[i, 1]], int(found[i, 2])) for i in order]
+    found, number = _distinct(keys)
+    organs = [(int(plant), kind_names[kind], int(rank)) for plant, kind, rank in found]
     flat = np.ascontiguousarray(vertices.reshape(-1, 3), dtype=np.float64)
-    return _core.Mesh(flat, triangles, optics, optics_names, number[inverse.reshape(-1)], organs)
+    return _core.Mesh(flat, triangles, optics, optics_names, number, organs)

@@ -70,7 +70,7 @@ class Simulation:
     ) -> None:
         self._source = SceneSource(scene, folder)
         self._light: dict[str, Any] = {}
-        checked_threads = whole(threads, "threads", 0, 1024)
+        checked_threads = whole(threads, "threads", 0, 4096)
         with self._tidied():
             self._core = _core.Simulation(
                 os.fspath(self._source.file), self._source.text, self._source.meshes, allow_outside, str(device), checked_threads
