@@ -42,26 +42,16 @@ class SharedVector {
   [[nodiscard]] bool empty() const { return get().empty(); }
   [[nodiscard]] const T* data() const { return get().data(); }
   [[nodiscard]] const T& operator[](std::size_t k) const { return (*values_)[k]; }
-  [[nodiscard]] const T& front() const { return get().front(); }
   [[nodiscard]] const T& back() const { return get().back(); }
   [[nodiscard]] auto begin() const { return get().begin(); }
   [[nodiscard]] auto end() const { return get().end(); }
 
   [[nodiscard]] T& operator[](std::size_t k) { return own()[k]; }
-  [[nodiscard]] T& front() { return own().front(); }
   [[nodiscard]] T& back() { return own().back(); }
   [[nodiscard]] auto begin() { return own().begin(); }
   [[nodiscard]] auto end() { return own().end(); }
   void push_back(T value) { own().push_back(std::move(value)); }
   void reserve(std::size_t size) { own().reserve(size); }
-  void resize(std::size_t size) { own().resize(size); }
-  void resize(std::size_t size, const T& value) { own().resize(size, value); }
-  void assign(std::size_t size, const T& value) { own().assign(size, value); }
-  template <class Iterator>
-  void assign(Iterator first, Iterator last) {
-    own().assign(first, last);
-  }
-  void clear() { values_.reset(); }
 
   friend bool operator==(const SharedVector& a, const SharedVector& b) { return a.values_ == b.values_ || a.get() == b.get(); }
 

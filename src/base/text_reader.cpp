@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <clocale>
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
@@ -16,10 +17,10 @@ namespace {
 
 constexpr std::string_view blanks = " \t\f\v";
 
-// Returns the cell of a table trimmed and without enclosing double quotes.
-std::string_view unquoted(std::string_view cell) {
-  cell = trimmed(cell);
-  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+// Returns 0 for a number too small for a double and infinity for one too large, which from_chars leaves open; in any locale.
+double limit_of(const std::string& word) {
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  return ::strtod_l(word.c_str(), nullptr, plain);
 }
 
 }  // namespace
@@ -63,13 +64,18 @@ std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
-void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
+std::string_view unquoted(std::string_view cell) {
+  cell = trimmed(cell);
+  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator) {
   cells.clear();
   while (true) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(unquoted(line.substr(0, comma)));
-    if (comma == line.npos) return;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    cells.push_back(unquoted(line.substr(0, end)));
+    if (end == line.npos) return;
+    line.remove_prefix(end + 1);
   }
 }
 
@@ -77,10 +83,9 @@ std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   double value = 0.0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-  // from_chars leaves the value unchanged both on underflow and on overflow; strtod distinguishes them.
-  if (code == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
-  if (code == std::errc::invalid_argument || !std::isfinite(value)) return std::nullopt;
+  if (end != word.data() + word.size() || word.empty() || code == std::errc::invalid_argument) return std::nullopt;
+  if (code == std::errc::result_out_of_range) value = limit_of(std::string(word));
+  if (!std::isfinite(value)) return std::nullopt;
   return value;
 }
 

@@ -36,9 +36,11 @@ class LineReader {
 [[nodiscard]] std::string_view next_word(std::string_view& rest);
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-// Splits a line of a CSV table at its commas into `cells`, and strips blanks and enclosing double quotes from each. The views
-// point into `line`.
-void split_cells(std::string_view line, std::vector<std::string_view>& cells);
+// Returns the cell of a table trimmed and without enclosing double quotes.
+[[nodiscard]] std::string_view unquoted(std::string_view cell);
+
+// Splits a line of a table at its separators into `cells`, each unquoted. The views point into `line`.
+void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator = ',');
 
 // Parse a finite number or an integer; return nothing unless the whole word is one.
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);

@@ -6,6 +6,7 @@
 #include "devices/tracers/gpu_tree.h"
 #include "pictures/drawing/chart.h"
 #include "pictures/drawing/view_block.h"
+#include "support/box_views.h"
 #include "support/copies.h"
 #include "support/device.h"
 

@@ -20,7 +20,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
-#include <numbers>
 #include <system_error>
 #include <utility>
 
@@ -43,12 +42,12 @@ std::string shown(const std::filesystem::path& file) {
   return printable(file.filename().string());
 }
 
-// Returns the surface and species that optics of this name belong to; nothing for soil.
 struct CaribuSurface {
   enum class Kind { leaf, stem } kind = Kind::leaf;
   std::size_t species = 1;
 };
 
+// Returns the surface and species that optics of this name belong to; nothing for soil.
 std::optional<CaribuSurface> surface_named(const std::string& canopy, const std::string& name) {
   if (role_from_name(name) == Role::soil) return std::nullopt;
   for (const auto& [prefix, kind] : {std::pair<std::string_view, CaribuSurface::Kind>{"leaf", CaribuSurface::Kind::leaf},

@@ -25,12 +25,6 @@ namespace {
 
 constexpr std::string_view default_optics = "leaf";  // for triangles without a material
 
-// Returns a direction of the file's axes in the scene's: X south, Y up, Z west.
-glm::dvec3 in_scene(const glm::dvec3& v, FileAxis up) {
-  if (up == FileAxis::z) return {-v.y, v.z, -v.x};
-  return up == FileAxis::x ? glm::dvec3(-v.z, v.x, -v.y) : v;
-}
-
 // Returns the number rounded up to two digits.
 double rounded_up(double x) {
   const double digit = std::pow(10.0, std::floor(std::log10(x)) - 1.0);
@@ -49,8 +43,10 @@ SurveyedMesh surveyed(const MeshToShow& mesh, bool allow_outside, SourceFiles* f
   check_nameable(mesh.name);
   SurveyedMesh result{mesh, survey_mesh(read_mesh_as_is(mesh.file, allow_outside, files), frame_of_format(mesh.file)), {}, {}};
   const FrameGuess& frame = result.survey.frame;
-  const glm::dvec3 a = in_scene(result.survey.shape.lo, frame.up) * frame.metres_per_unit;
-  const glm::dvec3 b = in_scene(result.survey.shape.hi, frame.up) * frame.metres_per_unit;
+  const auto in_scene = [&](const glm::dvec3& v) {
+    return scene_direction(frame.up, Axes::south_up_west, v) * frame.metres_per_unit;
+  };
+  const glm::dvec3 a = in_scene(result.survey.shape.lo), b = in_scene(result.survey.shape.hi);
   result.lo_m = glm::min(a, b);
   result.hi_m = glm::max(a, b);
   return result;

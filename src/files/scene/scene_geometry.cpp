@@ -4,9 +4,9 @@
 #include "base/suggestions.h"
 #include "files/formats/mesh/mesh_content.h"
 #include "files/formats/mesh/mesh_survey.h"
-#include "files/scene/plain_name.h"
 #include "files/scene/scene_files.h"
 #include "files/scene/scene_positions.h"
+#include "files/scene/toml_text.h"
 #include "physics/canopy/canopy.h"
 #include "physics/canopy/shared_meshes.h"
 
@@ -91,7 +91,7 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
   if (optics.empty() && has_plain_role(role)) import.optics = role_name(*role);
   import.allow_outside = access.allow_outside;
   import.axes = plot.axes;
-  if (const auto up = table.word("up", {"y", "z", "x"})) import.up = static_cast<UpAxis>(*up);
+  if (const auto up = table.word("up", {"x", "y", "z"})) import.up = static_cast<FileAxis>(*up);
   import.scale = table.number("scale", {.lo = 0.0, .hi = 1e9, .lo_open = true, .cure = "give 0.01 for a file in cm"})
                      .value_or(import.scale);
   if (const auto split = table.word("split", organ_split_names())) import.split = static_cast<OrganSplit>(*split);
@@ -99,7 +99,7 @@ GeometryPart read_mesh_part(const TomlTable& table, const SceneText& source, con
   const Mesh* given = table.has("mesh") ? find_given_mesh(table, source) : nullptr;
   fs::path file = given != nullptr ? fs::path() : find_mesh(table, source.file, access);
   // What is digitised for a scene with z up has z up itself.
-  if (!import.up && plot.axes == Axes::east_north_up && !frame_of_format(file).up) import.up = UpAxis::z;
+  if (!import.up && plot.axes == Axes::east_north_up && !frame_of_format(file).up) import.up = FileAxis::z;
   return GeometryPart{.table = table,
                       .maize = std::nullopt,
                       .mesh = given,
@@ -151,11 +151,6 @@ const OpticsInput* find_optics(const OpticsByName& defined, const std::string& n
   return found == defined.end() ? nullptr : &found->second;
 }
 
-// Returns the name as a TOML key, in quotes if it has other characters.
-std::string key_of(const std::string& name) {
-  return is_plain_name(name) ? name : fmt::format("\"{}\"", printable(name));
-}
-
 bool is_soil(std::string_view optics_name) {
   return role_from_name(optics_name) == Role::soil;
 }
@@ -164,8 +159,8 @@ bool is_soil(std::string_view optics_name) {
 std::string cure_of_undefined(const std::string& name, const OpticsByName& defined) {
   std::vector<std::string> names;
   for (const auto& [known, input] : defined) names.push_back(known);
-  const std::string add = is_soil(name) ? fmt::format("add [optics.{}] or [soil]", key_of(name))
-                                        : fmt::format("add [optics.{}] with reflectance", key_of(name));
+  const std::string add = is_soil(name) ? fmt::format("add [optics.{}] or [soil]", toml_key(printable(name)))
+                                        : fmt::format("add [optics.{}] with reflectance", toml_key(printable(name)));
   const auto nearest = nearest_word(name, names);
   return nearest ? fmt::format("did you mean {}? Otherwise {}", printable(*nearest), add) : add;
 }

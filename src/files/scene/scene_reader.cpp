@@ -136,7 +136,7 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
 // Returns whether every mesh is read with up = "z".
 bool all_z_up(std::span<const GeometryPart> parts) {
   return !parts.empty() && std::all_of(parts.begin(), parts.end(),
-                                       [](const GeometryPart& part) { return part.maize || part.import.up == UpAxis::z; });
+                                       [](const GeometryPart& part) { return part.maize || part.import.up == FileAxis::z; });
 }
 
 // Returns the digest of a scene; `files` are those read for the text.

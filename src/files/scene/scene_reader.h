@@ -8,7 +8,6 @@
 #include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/model.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>

@@ -4,6 +4,7 @@
 #include "base/suggestions.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,11 +120,9 @@ std::optional<Role> read_role(const TomlTable& table) {
   if (table.is_text("role")) {
     const std::string word = table.text("role").value_or("");
     const auto meant = role_from_name(word);
-    if (meant && word != role_name(*meant)) {
-      std::string all;
-      for (const std::string_view name : role_names) all += (all.empty() ? "" : ", ") + std::string(name);
-      table.refuse("role", "must be one of " + all, fmt::format("did you mean {}?", role_name(*meant)));
-    }
+    if (meant && word != role_name(*meant))
+      table.refuse("role", fmt::format("must be one of {}", fmt::join(role_names, ", ")),
+                   fmt::format("did you mean {}?", role_name(*meant)));
   }
   const auto number = table.word("role", {role_names.begin(), role_names.end()});
   if (!number) return std::nullopt;

@@ -1,5 +1,7 @@
 #include "files/scene/text_number.h"
 
+#include "base/text_reader.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +9,6 @@
 
 namespace sunfleck {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 // Returns the text with a decimal point and a hyphen for a typographic minus.
 std::string in_ascii(std::string_view text) {

@@ -7,6 +7,7 @@
 #include "files/scene/toml_parse.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -103,12 +104,6 @@ std::string cure_of_key(std::string_view key, const std::vector<std::string>& kn
   return did_you_mean(key, known, otherwise);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 }  // namespace
 
 TomlTable TomlTable::parse(const std::string& file, std::string_view text) {
@@ -161,7 +156,7 @@ void TomlTable::allow(std::initializer_list<std::string_view> keys) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
     throw_input(place(key.str()), "is not a key of " + (name_.empty() ? "a scene file" : name_),
-                cure_of_key(key.str(), known, "remove it, or use one of " + joined(known)));
+                cure_of_key(key.str(), known, fmt::format("remove it, or use one of {}", fmt::join(known, ", "))));
   }
 }
 
@@ -257,13 +252,14 @@ std::optional<std::string> TomlTable::text(std::string_view key) const {
 
 std::optional<std::size_t> TomlTable::word(std::string_view key, const std::vector<std::string>& words) const {
   if (has(key) && !is_text(key)) {
-    refuse(key, fmt::format("must be one of {}, not {}", joined(words), kind_of(*find(key))), "choose one of them, in quotes");
+    refuse(key, fmt::format("must be one of {}, not {}", fmt::join(words, ", "), kind_of(*find(key))),
+           "choose one of them, in quotes");
   }
   const auto value = text(key);
   if (!value) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *value);
   if (found == words.end()) {
-    refuse(key, "must be one of " + joined(words), did_you_mean(*value, words, "choose one of them"));
+    refuse(key, fmt::format("must be one of {}", fmt::join(words, ", ")), did_you_mean(*value, words, "choose one of them"));
   }
   return static_cast<std::size_t>(found - words.begin());
 }

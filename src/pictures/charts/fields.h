@@ -44,11 +44,9 @@ struct FieldValues {
 [[nodiscard]] double lit_from_w_m2(const RadiationModel& model, std::size_t band, LightField field);
 
 // Returns the largest irradiance that a side, or both faces of an element together, can have from that light; infinite where
-// there is no such limit. It is the sum of - the beam on a plane that faces it; - all light of the sky, as on a sphere
-// (Sky::spherical_irradiance); - light that surfaces send: a side sends at most the part a (what it reflects and what comes
-// through from the other side) of the
-//   largest irradiance, which is therefore at most 1 / (1 - a) times the other two; a / (1 - a) of them on each face is sent by
-//   surfaces. There is no limit with lamps, or if a = 1.
+// there is no such limit. It is the sum of the beam on a plane that faces it, of all light of the sky, as on a sphere
+// (Sky::spherical_irradiance), and of what surfaces send: with a the largest share that a side sends on (reflected, or transmitted
+// from the other side), a / (1 - a) of the other two on each face. There is no limit with lamps, or if a = 1.
 [[nodiscard]] double largest_possible_w_m2(const RadiationModel& model, std::size_t band, LightField field, int faces);
 
 // Returns that limit for the level ground: the light from above on open ground, and what surfaces send as above.

@@ -1,7 +1,6 @@
 #include "pictures/charts/open_spot.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/gtx/norm.hpp>
 #include <glm/vec2.hpp>
 #include <vector>

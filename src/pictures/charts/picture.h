@@ -55,7 +55,7 @@ struct PictureOptions {
 // Returns the stem of the picture's file: chart_field, e.g. "rank_direct".
 [[nodiscard]] std::string stem_of(const Picture& picture);
 
-// Returns every possible picture, ordered by stem.
+// Returns every possible picture.
 [[nodiscard]] std::vector<Picture> all_pictures();
 // Returns the pictures for which `all` stands: rank and hue of direct light if there is any, and of indirect and total light if
 // some light is indirect.

@@ -185,10 +185,6 @@ Camera fisheye_view(glm::dvec3 position_m, double aspect) {
   return camera;
 }
 
-bool in_view(const Camera& camera, glm::dvec2 at) {
-  return camera.kind != Projection::fisheye || glm::length(from_zenith(camera, at)) <= 1.0;
-}
-
 glm::dvec3 ray_origin(const Camera& camera, glm::dvec2 at) {
   if (camera.kind != Projection::orthographic) return camera.position_m;
   const glm::dvec2 aside_m = from_middle(camera, at) * camera.half_height_m;

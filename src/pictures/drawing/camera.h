@@ -29,6 +29,8 @@ struct Camera {
   double half_height_m = 1.0;          // orthographic: half the height that the picture shows
   glm::dvec2 circle_centre{0.5, 0.5};  // fisheye: place of `forward` in the picture, x and y as in ray_direction
   double circle_radius = 0.5;          // fisheye: radius of the circle 90 degrees from `forward`, in picture heights
+
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 // Returns a camera that looks from `position_m` at `look_at_m` with Y up; straight up or down, X is up in the picture.
@@ -38,7 +40,7 @@ struct Camera {
 inline constexpr double axis_overhang = 0.08;
 
 // Returns the corners of a box and the tips of the user's axes, which begin in a corner of its ground and extend beyond it.
-[[nodiscard]] std::vector<glm::dvec3> box_with_axes(glm::dvec3 lo_m, glm::dvec3 hi_m, Axes axes = Axes::south_up_west);
+[[nodiscard]] std::vector<glm::dvec3> box_with_axes(glm::dvec3 lo_m, glm::dvec3 hi_m, Axes axes);
 
 // Returns a three-quarter view from the south-west and above that just fits all points with a margin. The margin leaves room
 // for titles at the top and a legend at the right. Views need at least two different points.
@@ -51,25 +53,10 @@ inline constexpr double axis_overhang = 0.08;
 // appear side by side as in a section across them. Margins are as above.
 [[nodiscard]] Camera side_view(std::span<const glm::dvec3> points_m, double aspect);
 
-// Return the views that fit a box with its axes.
-[[nodiscard]] inline Camera three_quarter_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect,
-                                               Axes axes = Axes::south_up_west) {
-  return three_quarter_view(box_with_axes(lo_m, hi_m, axes), aspect);
-}
-[[nodiscard]] inline Camera top_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west) {
-  return top_view(box_with_axes(lo_m, hi_m, axes), aspect);
-}
-[[nodiscard]] inline Camera side_view(glm::dvec3 lo_m, glm::dvec3 hi_m, double aspect, Axes axes = Axes::south_up_west) {
-  return side_view(box_with_axes(lo_m, hi_m, axes), aspect);
-}
-
 // Returns a view straight up from a point that shows the upper hemisphere as a circle, as in canopy photographs: the zenith in
 // the centre, the horizon on the edge, north up and therefore east left. Leaves room for titles, the legend and the letters
 // around the circle.
 [[nodiscard]] Camera fisheye_view(glm::dvec3 position_m, double aspect);
-
-// Returns true if the camera has a ray through the point (x, y) of the picture; a fisheye has none outside its circle.
-[[nodiscard]] bool in_view(const Camera& camera, glm::dvec2 at);
 
 // Returns the origin of the ray through the point (x, y) of the picture; x runs 0..1 to the right, y 0..1 downwards.
 [[nodiscard]] glm::dvec3 ray_origin(const Camera& camera, glm::dvec2 at);

@@ -1,7 +1,6 @@
 #include "pictures/drawing/scene_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,6 @@
 #pragma once
 // Holds what a camera sees as numbers: the link between viewing and colouring.
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

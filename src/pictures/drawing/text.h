@@ -26,7 +26,6 @@ class Typeface {
 
   // Height of capitals and depth of descenders below the baseline, for a type size (em) of 1.
   static constexpr double cap_height = 0.73;
-  static constexpr double descent = 0.24;
 
   // Returns the advance width of a line of UTF-8 with kerning. Invalid UTF-8 counts, and is drawn, as U+FFFD.
   [[nodiscard]] double width_px(std::string_view line, double size_px) const;

@@ -105,7 +105,7 @@ MeshToWrite read_input(const ConvertOptions& options) {
                       .scale = options.stand.scale.value_or(1.0),
                       .allow_outside = options.allow_outside,
                       .keeps_colours = true};
-    if (options.z_up) import.up = UpAxis::z;
+    if (options.z_up) import.up = FileAxis::z;
     const std::vector<std::string>& splits = organ_split_names();
     const auto split = std::find(splits.begin(), splits.end(), options.split);
     if (split != splits.end()) import.split = static_cast<OrganSplit>(split - splits.begin());

@@ -111,8 +111,7 @@ struct DayJob {
   const fs::path& folder;
   const DayPlan& plan;
   StepStore& store;
-  // Returns everything on which the bytes depend.
-  const ordered_json& settings;
+  const ordered_json& settings;  // everything on which the bytes depend
 };
 
 // Writes all files, the summary last, and prints the summary or a report.

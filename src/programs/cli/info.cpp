@@ -37,9 +37,8 @@ ordered_json device_json(const DeviceDescription& device) {
           {"lacks", device.unusable}};
 }
 
-std::string clock_time(const std::optional<UtcTime>& utc, int offset_minutes) {
-  if (!utc) return "none";
-  const double minutes = utc->hour * 60.0 + utc->minute + utc->second / 60.0 + offset_minutes;
+std::string clock_time(const UtcTime& utc, int offset_minutes) {
+  const double minutes = utc.hour * 60.0 + utc.minute + utc.second / 60.0 + offset_minutes;
   const int of_day = static_cast<int>(std::floor(minutes * 60.0 + 0.5)) % 86400;
   const int seconds = (of_day + 86400) % 86400;
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
@@ -61,9 +60,9 @@ ordered_json sun_json(const Scene& scene) {
   if (!scene.moment) return sun;
   const int offset = scene.moment->offset_minutes;
   const SunEvents events = sun_events(local_date(*scene.moment), scene.moment->place);
-  if (events.sunrise) sun["sunrise"] = clock_time(events.sunrise, offset);
+  if (events.sunrise) sun["sunrise"] = clock_time(*events.sunrise, offset);
   sun["transit"] = clock_time(events.transit, offset);
-  if (events.sunset) sun["sunset"] = clock_time(events.sunset, offset);
+  if (events.sunset) sun["sunset"] = clock_time(*events.sunset, offset);
   return sun;
 }
 

@@ -14,7 +14,6 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <system_error>
 

@@ -72,10 +72,7 @@ class TradeoffMeasurement {
   [[nodiscard]] double reference_packets() const { return reference_parts * tradeoff_replicates * plan_.reference_packets; }
 
   [[nodiscard]] bool stop() const {
-    return interrupted() || (options_.run.max_seconds && seconds() >= *options_.run.max_seconds);
-  }
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return interrupted() || (options_.run.max_seconds && since_start_.seconds() >= *options_.run.max_seconds);
   }
 
   struct Simulated {
@@ -243,7 +240,7 @@ class TradeoffMeasurement {
   TradeoffReport& report_;
   const std::filesystem::path& table_;
   std::array<TradeoffReference, 3> references_;  // [light]
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Stopwatch since_start_;
   double foreseen_ = 1.0;  // rays and packets, as far as can be predicted
   std::uint64_t rays_ = 0, last_direct_ = 0, last_indirect_ = 0;
   double finest_bound_ = widest_bound;

@@ -20,7 +20,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace sunfleck {

@@ -45,8 +45,8 @@ SolveSettings live_settings(const RunOptions& options, const Scene& scene) {
   return settings;
 }
 
-double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::string what_went_wrong(const std::exception& error) {
@@ -169,8 +169,8 @@ void LiveLight::work() {
 bool LiveLight::wants_result() const {
   if (save_asked_) return true;
   const std::lock_guard lock(news_mutex_);
-  const double pause_s = std::max(least_pause_s, pause_per_second * seconds_between(asked_at_, Clock::now()));
-  return news_.result_request != news_.request || seconds_between(last_result_, Clock::now()) >= pause_s;
+  const double pause_s = std::max(least_pause_s, pause_per_second * seconds_since(asked_at_));
+  return news_.result_request != news_.request || seconds_since(last_result_) >= pause_s;
 }
 
 void LiveLight::begin_request(const LightRequest& request, std::uint64_t number) {
@@ -315,7 +315,7 @@ void LiveLight::take_result(RadiationResult result, std::uint64_t number, bool c
 void LiveLight::tell(const RadiationResult& result, std::uint64_t number, bool complete) {
   const std::lock_guard lock(news_mutex_);
   last_result_ = Clock::now();
-  news_.seconds = seconds_between(asked_at_, last_result_);
+  news_.seconds = seconds_since(asked_at_);
   ++news_.version;
   news_.result_request = number;
   news_.complete = complete;

@@ -2,12 +2,12 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/stopwatch.h"
 #include "pictures/drawing/chart.h"
 #include "pictures/drawing/image_writer.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <exception>
 #include <new>
 #include <utility>
@@ -20,16 +20,6 @@ constexpr double preview_s = 0.035;
 // No preview is drawn if one sample per pixel takes no longer than this.
 constexpr double soon_s = 0.06;
 constexpr int coarsest_step = 12;  // pixels
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-bool same_camera(const Camera& a, const Camera& b) {
-  return a.position_m == b.position_m && a.forward == b.forward && a.right == b.right && a.up == b.up &&
-         a.tan_half_fov == b.tan_half_fov && a.aspect == b.aspect && a.kind == b.kind && a.half_height_m == b.half_height_m &&
-         a.circle_centre == b.circle_centre && a.circle_radius == b.circle_radius;
-}
 
 // Enlarges a small picture: repeats each sample over the pixels of the large picture that it stands for.
 SurfaceImage enlarged(const SurfaceImage& small, int width, int height) {
@@ -75,7 +65,7 @@ void write_frame(const LivePictureFrame& frame, const std::filesystem::path& fil
 }
 
 bool same_look(const PictureRequest& a, const PictureRequest& b) {
-  return same_camera(a.camera, b.camera) && a.options.width == b.options.width && a.options.height == b.options.height &&
+  return a.camera == b.camera && a.options.width == b.options.width && a.options.height == b.options.height &&
          a.options.samples == b.options.samples && a.options.repeat == b.options.repeat;
 }
 
@@ -268,11 +258,11 @@ std::vector<shared::SeenSurface> LivePicture::see(const PictureOptions& options,
   const auto rows = static_cast<std::uint32_t>(std::clamp(preview_s / row_s, 1.0, static_cast<double>(options.height)));
   const auto height = static_cast<std::uint32_t>(options.height);
   for (std::uint32_t row = 0; row < height; row += rows) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const std::uint32_t count = std::min(rows, height - row);
     const std::vector<shared::SeenSurface> seen = viewer_->see(row, count, stop);
     if (seen.empty()) return {};
-    const double speed = static_cast<double>(seen.size()) / std::max(1e-6, seconds_since(start));
+    const double speed = static_cast<double>(seen.size()) / std::max(1e-6, watch.seconds());
     samples_per_second_ += 0.3 * (speed - samples_per_second_);
     all.insert(all.end(), seen.begin(), seen.end());
   }
@@ -280,7 +270,7 @@ std::vector<shared::SeenSurface> LivePicture::see(const PictureOptions& options,
 }
 
 bool LivePicture::look_at(Sight& sight, Fineness fineness, Haste haste) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   PictureOptions options = sight.request.options;
   if (fineness != Fineness::full) options.samples = 1;
   if (fineness == Fineness::preview) {
@@ -296,7 +286,7 @@ bool LivePicture::look_at(Sight& sight, Fineness fineness, Haste haste) {
   if (fineness == Fineness::preview)
     sight.seen = enlarged(sight.seen, sight.request.options.width, sight.request.options.height);
   sight.fineness = fineness;
-  sight.look_s = seconds_since(start);
+  sight.look_s = watch.seconds();
   return true;
 }
 
@@ -322,7 +312,7 @@ void LivePicture::refresh_content(const PictureRequest& request) {
 }
 
 void LivePicture::paint(const Sight& sight) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Image image = draw_chart(sight.seen, content_->chart.colours, sight.request.camera, light_.geometry().model.plot,
                                  tracing_.tree.layout.layers.height_m, content_->chart.text);
   auto next = std::make_shared<LivePictureFrame>();
@@ -337,7 +327,7 @@ void LivePicture::paint(const Sight& sight) {
   next->light = content_->light;
   next->look = sight.look;
   next->look_s = sight.look_s;
-  next->paint_s = seconds_since(start);
+  next->paint_s = watch.seconds();
   next->organ = content_->organ;
   next->picked = content_->picked;
   if (next->organ) {

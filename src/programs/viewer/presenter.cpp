@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t patience_ns = 200'000'000;  // wait for an image; a hidden window may not deliver one
-constexpr const char* no_window_cure = "use `sunfleck render` for a picture, or `sunfleck run` for results and pictures";
 
 constexpr std::array wanted_formats{vk::Format::eB8G8R8A8Unorm, vk::Format::eR8G8B8A8Unorm};
 
@@ -49,8 +48,7 @@ bool can_draw(const vk::raii::PhysicalDevice& physical, const vk::raii::SurfaceK
 }
 
 // Returns the rank of a device, smaller is better.
-int rank(const vk::PhysicalDeviceProperties& properties, const std::string& preferred) {
-  if (!preferred.empty() && preferred == properties.deviceName.data()) return 0;
+int rank(const vk::PhysicalDeviceProperties& properties) {
   switch (properties.deviceType) {
     case vk::PhysicalDeviceType::eDiscreteGpu:
       return 1;
@@ -77,9 +75,8 @@ void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, vk:
 
 }  // namespace
 
-Presenter::Presenter(const vk::raii::Instance& instance, vk::raii::SurfaceKHR surface, const std::string& device)
-    : surface_(std::move(surface)) {
-  take_device(instance, device);
+Presenter::Presenter(const vk::raii::Instance& instance, vk::raii::SurfaceKHR surface) : surface_(std::move(surface)) {
+  take_device(instance);
   create_device();
   create_pass();
 }
@@ -88,12 +85,12 @@ Presenter::~Presenter() {
   if (*device_) device_.waitIdle();
 }
 
-void Presenter::take_device(const vk::raii::Instance& instance, const std::string& device) {
+void Presenter::take_device(const vk::raii::Instance& instance) {
   int best = std::numeric_limits<int>::max();
   for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance)) {
     const auto properties = physical.getProperties();
-    if (rank(properties, device) >= best || !can_draw(physical, surface_)) continue;
-    best = rank(properties, device);
+    if (rank(properties) >= best || !can_draw(physical, surface_)) continue;
+    best = rank(properties);
     description_.name = properties.deviceName.data();
     description_.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
     physical_ = std::move(physical);

@@ -7,17 +7,18 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
-#include <string>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace sunfleck {
 
+// What to do without a window.
+inline constexpr const char* no_window_cure = "use `sunfleck render` for a picture, or `sunfleck run` for results and pictures";
+
 class Presenter {
  public:
-  // The instance must outlive the object. `device` names the preferred device. Throws Error (device) if no device can draw into
-  // the surface.
-  Presenter(const vk::raii::Instance& instance, vk::raii::SurfaceKHR surface, const std::string& device);
+  // The instance must outlive the object. Throws Error (device) if no device can draw into the surface.
+  Presenter(const vk::raii::Instance& instance, vk::raii::SurfaceKHR surface);
   ~Presenter();
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
@@ -62,7 +63,7 @@ class Presenter {
     glm::ivec2 at{0};
   };
 
-  void take_device(const vk::raii::Instance& instance, const std::string& device);
+  void take_device(const vk::raii::Instance& instance);
   void create_device();
   void create_pass();
   void create_swapchain(glm::ivec2 size_px);

@@ -17,10 +17,6 @@ json face_fields(const PickedElement::Face& face) {
           {"scattered", face.scattered_w_m2}};
 }
 
-json estimate_fields(const Estimate& estimate) {
-  return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.half_width)}};
-}
-
 }  // namespace
 
 json converged_fields(const LightNews& news, std::size_t band) {
@@ -47,10 +43,10 @@ json picked_fields(const LivePictureFrame& frame) {
                  {"rank", organ.rank},
                  {"area_m2", organ.area_m2},
                  {"triangles", organ.triangles},
-                 {"sunlit", estimate_fields(organ.sunlit_fraction)},
-                 {"direct", estimate_fields(organ.direct)},
-                 {"indirect", estimate_fields(organ.indirect)},
-                 {"absorbed", estimate_fields(organ.absorbed)}};
+                 {"sunlit", estimate_json(organ.sunlit_fraction)},
+                 {"direct", estimate_json(organ.direct)},
+                 {"indirect", estimate_json(organ.indirect)},
+                 {"absorbed", estimate_json(organ.absorbed)}};
   if (!frame.picked) return fields;
   const PickedElement& picked = *frame.picked;
   fields["element"] = picked.element;

@@ -8,7 +8,6 @@
 #include "programs/viewer/live_picture.h"
 
 #include <array>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>

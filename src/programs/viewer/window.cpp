@@ -19,7 +19,6 @@
 namespace sunfleck {
 namespace {
 
-constexpr const char* no_display_cure = "use `sunfleck render` for a picture, or `sunfleck run` for results and pictures";
 constexpr float font_px = 15.0F;
 
 std::string glfw_reason() {
@@ -32,10 +31,10 @@ std::string glfw_reason() {
 class Library {
  public:
   Library() {
-    if (glfwInit() != GLFW_TRUE) throw_device("the window", "no display: " + glfw_reason(), no_display_cure);
+    if (glfwInit() != GLFW_TRUE) throw_device("the window", "no display: " + glfw_reason(), no_window_cure);
     if (glfwVulkanSupported() == GLFW_TRUE) return;
     glfwTerminate();
-    throw_device("the window", "no Vulkan driver on this machine draws into windows", no_display_cure);
+    throw_device("the window", "no Vulkan driver on this machine draws into windows", no_window_cure);
   }
   ~Library() { glfwTerminate(); }
   Library(const Library&) = delete;
@@ -64,8 +63,8 @@ class Window::Screen {
       open(settings);
       VkSurfaceKHR surface = VK_NULL_HANDLE;
       if (glfwCreateWindowSurface(*instance_, window_, nullptr, &surface) != VK_SUCCESS)
-        throw_device("the window", "no Vulkan surface: " + glfw_reason(), no_display_cure);
-      presenter_ = std::make_unique<Presenter>(instance_, vk::raii::SurfaceKHR(instance_, surface), settings.device);
+        throw_device("the window", "no Vulkan surface: " + glfw_reason(), no_window_cure);
+      presenter_ = std::make_unique<Presenter>(instance_, vk::raii::SurfaceKHR(instance_, surface));
       start_panels(settings);
     } catch (const vk::SystemError& error) {
       close();
@@ -111,7 +110,7 @@ class Window::Screen {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     window_ = glfwCreateWindow(settings.width, settings.height, settings.title.c_str(), nullptr, nullptr);
-    if (window_ == nullptr) throw_device("the window", "it cannot be opened: " + glfw_reason(), no_display_cure);
+    if (window_ == nullptr) throw_device("the window", "it cannot be opened: " + glfw_reason(), no_window_cure);
     glfwSetWindowUserPointer(window_, this);
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
       auto& screen = *static_cast<Screen*>(glfwGetWindowUserPointer(window));

@@ -17,7 +17,6 @@ struct WindowSettings {
   std::string title;
   int width = 1280;  // in desktop units
   int height = 800;
-  std::string device;  // name of the drawing device if it can draw into windows; otherwise the best one is used
   Validation validation = Validation::off;
   std::span<const unsigned char> font;  // of the panels: the bytes of a TrueType file, which must outlive the window
 };

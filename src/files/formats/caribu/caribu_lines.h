@@ -3,7 +3,6 @@
 
 #include "base/text_reader.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <string_view>
 

@@ -19,7 +19,6 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -59,13 +58,13 @@ class DaeReader {
       if (++visits_ > most_) refuse_growth(visit.node);
       enter(visit, open);
     }
-    return {builder_.take(), frame.is_z_up};
+    return {builder_.take(), frame.up};
   }
 
  private:
   struct DaeFrame {
     glm::dmat4 to_scene{1.0};
-    bool is_z_up = false;
+    FileAxis up = FileAxis::y;
   };
 
   void find_elements() {
@@ -91,7 +90,7 @@ class DaeReader {
       xml_.refuse_at(asset.child("up_axis"), fmt::format("up_axis {}", in_quotes(up)), "must be X_UP, Y_UP or Z_UP");
     const glm::dmat4 x_up(glm::dvec4(0, 1, 0, 0), glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1));
     const glm::dmat4 scale = glm::scale(glm::dmat4(1.0), glm::dvec3(unit_m));
-    return {up == "X_UP" ? scale * x_up : scale, up == "Z_UP"};
+    return {up == "X_UP" ? scale * x_up : scale, up == "Z_UP" ? FileAxis::z : FileAxis::y};
   }
 
   [[noreturn]] void refuse_growth(pugi::xml_node node) const {

@@ -1,6 +1,7 @@
 #pragma once
 // Reads COLLADA files (.dae).
 
+#include "files/formats/mesh/file_axis.h"
 #include "files/formats/mesh/mesh_source.h"
 #include "physics/canopy/mesh.h"
 
@@ -8,7 +9,7 @@ namespace sunfleck {
 
 struct DaeMesh {
   Mesh mesh;
-  bool is_z_up = false;  // otherwise y is up
+  FileAxis up = FileAxis::y;  // y or z
 };
 
 // Reads a .dae file: the triangles, polygons, fans and strips of the geometries that the nodes of its scene place, with the

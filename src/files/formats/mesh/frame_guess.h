@@ -1,6 +1,8 @@
 #pragma once
 // Guesses the unit of a mesh and which of its axes points up, where its format does not say.
 
+#include "files/formats/mesh/file_axis.h"
+
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -8,8 +10,6 @@
 #include <string_view>
 
 namespace sunfleck {
-
-enum class FileAxis { x, y, z };
 
 // How far a guess can be trusted. `known` is no guess: the format defines it.
 enum class Certainty { known, sure, likely, unsure };

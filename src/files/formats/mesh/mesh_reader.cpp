@@ -13,7 +13,6 @@
 #include "files/formats/mesh/opf_reader.h"
 #include "files/formats/mesh/ply_reader.h"
 #include "files/formats/mesh/stl_reader.h"
-#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +35,7 @@ enum class MeshFormat { can, dae, gltf, obj, opf, ply, stl, unknown };
 // A mesh in the frame of its file.
 struct FileMesh {
   Mesh mesh;
-  UpAxis up = UpAxis::y;
+  FileAxis up = FileAxis::y;
   double unit_m = 1.0;
 };
 
@@ -54,17 +53,17 @@ MeshFormat format_of(const std::filesystem::path& file) {
 FileMesh read_format(const MeshSource& source, MeshFormat format) {
   switch (format) {
     case MeshFormat::can:
-      return {read_can(source), UpAxis::z};
+      return {read_can(source), FileAxis::z};
     case MeshFormat::dae: {
       DaeMesh read = read_dae(source);
-      return {std::move(read.mesh), read.is_z_up ? UpAxis::z : UpAxis::y};
+      return {std::move(read.mesh), read.up};
     }
     case MeshFormat::gltf:
       return {read_gltf(source)};
     case MeshFormat::obj:
       return {read_obj(source)};
     case MeshFormat::opf:
-      return {read_opf(source), UpAxis::z, 0.01};  // centimetres
+      return {read_opf(source), FileAxis::z, 0.01};  // centimetres
     case MeshFormat::ply:
       return {read_ply(source)};
     case MeshFormat::stl:
@@ -80,13 +79,10 @@ FileMesh read_format(const MeshSource& source, MeshFormat format) {
 }
 
 // Converts to the scene's axes and metres. Elements are stored in single precision, so coordinates must be finite in that.
-void place(const std::string& where, Mesh& mesh, UpAxis up, const MeshImport& import, double unit_m) {
+void place(const std::string& where, Mesh& mesh, FileAxis up, const MeshImport& import, double unit_m) {
   const double scale = import.scale * unit_m;
   for (glm::dvec3& v : mesh.vertices) {
-    if (up == UpAxis::y) v = scene_direction_of_y_up(import.axes, v);
-    if (up == UpAxis::z) v = {-v.y, v.z, -v.x};
-    if (up == UpAxis::x) v = {-v.z, v.x, -v.y};
-    v *= scale;
+    v = scene_direction(up, import.axes, v) * scale;
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (std::isnan(v.x + v.y + v.z) || largest > std::numeric_limits<float>::max())
       throw_input(fmt::format("{}: a vertex at ({}, {}, {}) m after scaling by {}", where, v.x, v.y, v.z, scale),
@@ -94,21 +90,14 @@ void place(const std::string& where, Mesh& mesh, UpAxis up, const MeshImport& im
   }
 }
 
-// Returns the index of the first number that is out of range.
-std::optional<std::size_t> first_beyond(std::span<const std::uint32_t> numbers, std::size_t count) {
-  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) { return number >= count; });
-  if (found == numbers.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - numbers.begin());
-}
-
 void check_numbers(const std::string& where, const char* what, std::span<const std::uint32_t> numbers, std::size_t triangles,
                    std::size_t count) {
   if (numbers.size() != triangles)
     throw_input(fmt::format("{}: {} {} numbers", where, numbers.size(), what), fmt::format("there are {} triangles", triangles),
                 "give one for each triangle");
-  const auto beyond = first_beyond(numbers, count);
-  if (!beyond) return;
-  throw_input(fmt::format("{}: {} number {} of triangle {}", where, what, numbers[*beyond], *beyond),
+  const auto beyond = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) { return number >= count; });
+  if (beyond == numbers.end()) return;
+  throw_input(fmt::format("{}: {} number {} of triangle {}", where, what, *beyond, beyond - numbers.begin()),
               fmt::format("there are {}, counted from 0", count), "correct the numbers");
 }
 
@@ -165,7 +154,7 @@ Mesh import_mesh(Mesh mesh, const std::string& place_of_mesh, const MeshImport& 
   if (!mesh.labels.empty() && mesh.labels.size() != mesh.triangles.size())
     throw_input(fmt::format("{}: {} labels", place_of_mesh, mesh.labels.size()),
                 fmt::format("there are {} triangles", mesh.triangles.size()), "give one for each triangle, or none");
-  place(place_of_mesh, mesh, import.up.value_or(UpAxis::y), import, 1.0);
+  place(place_of_mesh, mesh, import.up.value_or(FileAxis::y), import, 1.0);
   split_organs(mesh, import.split);
   return mesh;
 }

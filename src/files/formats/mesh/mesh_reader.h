@@ -2,6 +2,7 @@
 // Reads mesh files: glTF and GLB, OBJ, PLY, STL, COLLADA, OPF, CARIBU .can and .can.gz. The file's name determines the format.
 
 #include "base/source_files.h"
+#include "files/formats/mesh/file_axis.h"
 #include "files/formats/mesh/mesh_source.h"
 #include "files/formats/mesh/organ_split.h"
 #include "physics/canopy/mesh.h"
@@ -13,11 +14,9 @@
 
 namespace sunfleck {
 
-enum class UpAxis { y, z, x };
-
 struct MeshImport {
   std::optional<std::string> optics;  // for triangles whose file names no material
-  std::optional<UpAxis> up;           // default: z for .can and .opf, what the file says for .dae, otherwise y
+  std::optional<FileAxis> up;         // default: z for .can and .opf, what the file says for .dae, otherwise y
   double scale = 1.0;                 // > 0; the units of .dae and .opf files are applied besides
   bool allow_outside = false;         // true if the buffers of a glTF file may lie outside its folder
   OrganSplit split = OrganSplit::names;

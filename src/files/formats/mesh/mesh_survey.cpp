@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -37,7 +35,7 @@ double longest_edge(const Corners& c) {
   return std::max({glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
 }
 
-// The number of triangles at each edge, as pairs of places.
+// The two places of an edge, the lower one first.
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 struct EdgeUse {
@@ -326,7 +324,7 @@ MeshSurvey survey_mesh(const Mesh& mesh, const KnownFrame& known) {
 }
 
 Mesh read_mesh_as_is(const std::filesystem::path& file, bool allow_outside, SourceFiles* files, NamedParts* named) {
-  MeshImport import{.optics = std::string(no_material), .up = UpAxis::y, .scale = 1.0, .allow_outside = allow_outside};
+  MeshImport import{.optics = std::string(no_material), .up = FileAxis::y, .scale = 1.0, .allow_outside = allow_outside};
   import.named = named;
   if (is_collada(file)) import.up.reset();
   Mesh mesh = read_mesh(file, import, files);

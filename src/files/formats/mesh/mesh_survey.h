@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,11 +40,11 @@ struct MeshDefects {
   std::size_t slivers = 0;         // others whose longest edge is over 100 times their height
   std::size_t coincident = 0;      // with the three corners of an earlier triangle, in any order
   std::size_t crowded_edges = 0;   // edges of three or more triangles (non-manifold)
-  std::size_t flipped_edges =
-      0;  // edges of two triangles of one piece that face opposite ways, so its upper face changes sides
+  // Edges of two triangles of one piece that face opposite ways, so that its upper face changes sides.
+  std::size_t flipped_edges = 0;
   std::size_t unused_vertices = 0;
-  std::vector<std::string>
-      organs;  // that hold flat triangles, slivers or coincident triangles, by first triangle, without repeats
+  // Those that hold flat triangles, slivers or coincident triangles, by first triangle, without repeats.
+  std::vector<std::string> organs;
 };
 
 struct MeshSurvey {

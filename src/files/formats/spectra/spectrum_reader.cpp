@@ -27,24 +27,13 @@ using Cells = std::vector<std::string_view>;
 
 constexpr std::string_view table_cure = "give columns such as wavelength_nm,reflectance,transmittance";
 
-std::string_view unquoted(std::string_view cell) {
-  cell = trimmed(cell);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trimmed(cell.substr(1, cell.size() - 2));
-  return cell;
-}
-
 Cells cells_of(std::string_view line, char separator) {
   Cells cells;
   if (separator == ' ') {
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) cells.push_back(unquoted(word));
     return cells;
   }
-  for (;;) {
-    const std::size_t end = line.find(separator);
-    cells.push_back(unquoted(line.substr(0, end)));
-    if (end == line.npos) break;
-    line.remove_prefix(end + 1);
-  }
+  split_cells(line, cells, separator);
   if (cells.size() > 1 && cells.back().empty()) cells.pop_back();  // a separator at the end of the line
   return cells;
 }

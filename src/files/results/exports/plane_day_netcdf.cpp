@@ -6,7 +6,6 @@
 #include "files/results/tables/plane_day.h"
 #include "files/results/tables/plane_map.h"
 
-#include <algorithm>
 #include <limits>
 #include <string>
 

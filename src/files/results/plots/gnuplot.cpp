@@ -1,6 +1,7 @@
 #include "files/results/plots/gnuplot.h"
 
 #include "base/file.h"
+#include "base/stopwatch.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,13 +11,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -79,7 +78,7 @@ std::vector<std::string> plain_environment() {
   std::vector<std::string> kept{"LC_ALL=C.UTF-8"};
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
-    const auto begins = [&](std::string_view name) { return text.substr(0, name.size()) == name; };
+    const auto begins = [&](std::string_view name) { return text.starts_with(name); };
     if (!begins("LC_") && !begins("LANG") && !begins("GNUTERM") && !begins("GNUPLOT_") && !begins("GDFONTPATH"))
       kept.emplace_back(text);
   }
@@ -134,7 +133,7 @@ std::string last_message(std::string_view messages) {
 
 // Waits until gnuplot ends; kills it after the time limit or if its output is too large. Returns why it failed, or nothing.
 std::optional<std::string> wait_for(pid_t child, const Gnuplot& gnuplot, const Files& files) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto end_all = [&] {
     ::kill(-child, SIGKILL);
     while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
@@ -145,7 +144,7 @@ std::optional<std::string> wait_for(pid_t child, const Gnuplot& gnuplot, const F
     ended = ::waitpid(child, &state, WNOHANG);
     if (ended < 0 && errno != EINTR) return std::strerror(errno);
     if (ended == child) break;
-    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > gnuplot.limit_s) {
+    if (watch.seconds() > gnuplot.limit_s) {
       end_all();
       return fmt::format("it did not end within {:g} s", gnuplot.limit_s);
     }

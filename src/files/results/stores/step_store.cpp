@@ -71,7 +71,7 @@ void remove_steps(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const bool aside = is_left_aside(name, settings_file) || is_left_aside(name, state_file);
-    if (name.rfind("step_", 0) == 0 || name == state_file || aside) files.push_back(entry.path());
+    if (name.starts_with("step_") || name == state_file || aside) files.push_back(entry.path());
   }
   for (const fs::path& file : files) remove_file(file);
 }
@@ -130,10 +130,6 @@ void StepStore::begin() {
 void StepStore::finish() {
   write_settings(true);
   remove_steps(folder_);
-}
-
-void StepStore::write(std::size_t step, const StoredStep& stored) const {
-  begin_write(step, stored).get();
 }
 
 std::future<void> StepStore::begin_write(std::size_t step, const StoredStep& stored) const {

@@ -59,9 +59,8 @@ class StepStore {
   // Records that the tables are written and removes the steps.
   void finish();
 
-  void write(std::size_t step, const StoredStep& stored) const;
   // Writes a step in another thread, which also waits for the disk; the data are copied before this returns. The future throws
-  // what `write` would throw.
+  // Error (failure) if that fails.
   [[nodiscard]] std::future<void> begin_write(std::size_t step, const StoredStep& stored) const;
   // Returns nothing if the step is missing, was made with other settings, or its file is damaged. The fields of triangles may be
   // left out to save time.

@@ -113,7 +113,7 @@ std::string day_summary_json(const DaySummary& day) {
       {"device", {{"kind", record.device.kind}, {"name", record.device.name}, {"driver", record.device.driver}}},
       {"triangles", day.model.canopy.size()},
       {"organs", day.model.canopy.organs.size()},
-      {"plants", plant_count(day.model.canopy)},
+      {"plants", numbered_plants(day.model.canopy)},
       {"axes", axes_name(day.model.plot.axes)},
       {"plot_area_m2", day.model.plot.area_m2()},
       {"area_by_role_m2", area_by_role_json(day.model)},

@@ -21,8 +21,8 @@ constexpr std::string_view absorbed_suffix = "_absorbed";
 std::vector<std::string> bands_of(const NumberTable& table) {
   std::vector<std::string> bands;
   for (const std::string& column : table.columns) {
-    const std::size_t length = column.size() - std::min(column.size(), absorbed_suffix.size());
-    if (length > 0 && column.substr(length) == absorbed_suffix) bands.push_back(column.substr(0, length));
+    if (column.size() > absorbed_suffix.size() && column.ends_with(absorbed_suffix))
+      bands.push_back(column.substr(0, column.size() - absorbed_suffix.size()));
   }
   return bands;
 }
@@ -32,7 +32,7 @@ std::optional<double> confidence_of(const NumberTable& table) {
   constexpr std::string_view key = ", confidence ";
   for (const std::string& comment : table.comments) {
     const std::size_t at = comment.find(key);
-    if (comment.rfind("seed ", 0) == 0 && at != std::string::npos)
+    if (comment.starts_with("seed ") && at != std::string::npos)
       return parse_number(std::string_view(comment).substr(at + key.size()));
   }
   return {};

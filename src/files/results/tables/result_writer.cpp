@@ -69,10 +69,6 @@ ordered_json bands_json(const RadiationModel& model, const RadiationResult& resu
   return bands;
 }
 
-ordered_json estimate_json(const Estimate& estimate) {
-  return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.half_width)}};
-}
-
 // Returns the sunlit and the shaded leaf area and what each absorbs by band, W m-2 of its own area.
 ordered_json leaf_classes_json(const RadiationModel& model, const RadiationResult& result) {
   const ShadeClassResult& classes = result.leaf_classes;
@@ -163,7 +159,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"triangles", model.canopy.size()},
       {"instances", {{"meshes", model.canopy.corners.meshes().size()}, {"copies", model.canopy.corners.copies().size()}}},
       {"organs", model.canopy.organs.size()},
-      {"plants", plant_count(model.canopy)},
+      {"plants", numbered_plants(model.canopy)},
       {"axes", axes_name(model.plot.axes)},
       {"plot_area_m2", model.plot.area_m2()},
       {"area_by_role_m2", area_by_role_json(model)},

@@ -1,6 +1,7 @@
 #pragma once
 // Parts of the summaries in JSON.
 
+#include "physics/transport/model/statistics.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <cmath>
@@ -21,6 +22,10 @@ template <class T>
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
+[[nodiscard]] inline nlohmann::ordered_json estimate_json(const Estimate& estimate) {
+  return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.half_width)}};
+}
+
 // Returns the one-sided area of each role, m2, without roles that no surface has.
 [[nodiscard]] inline nlohmann::ordered_json area_by_role_json(const RadiationModel& model) {
   const auto areas_m2 = area_of_roles_m2(model);
@@ -31,8 +36,8 @@ template <class T>
   return by_role;
 }
 
-// Returns the number of plants; plant 0 is soil.
-[[nodiscard]] inline std::size_t plant_count(const Canopy& canopy) {
+// Returns how many plants have a number, with or without vegetation; 0 is that of soil.
+[[nodiscard]] inline std::size_t numbered_plants(const Canopy& canopy) {
   std::set<std::uint32_t> plants;
   for (const Organ& organ : canopy.organs) {
     if (organ.plant > 0) plants.insert(organ.plant);

@@ -1,6 +1,7 @@
 #include "files/results/tables/table_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iterator>
@@ -59,13 +60,9 @@ std::string csv_text(const RunRecord& record, const Table& table) {
 std::string csv_head(const RunRecord& record, const Table& table) {
   std::string text = table_head(record, table.content, table.units);
   for (const std::string& note : table.notes) text += "# " + note + '\n';
-  char separator = '\0';
-  for (const Column* column : csv_columns(table)) {
-    if (separator != '\0') text += separator;
-    text += column->name;
-    separator = ',';
-  }
-  return text + '\n';
+  std::vector<std::string_view> names;
+  for (const Column* column : csv_columns(table)) names.push_back(column->name);
+  return text + fmt::format("{}\n", fmt::join(names, ","));
 }
 
 std::string csv_rows(const Table& table) {

@@ -179,7 +179,7 @@ const std::vector<Breakage> breakages = {
     {"FileUnknownFormat", "plates.obj", "scene.toml", "\"scene.toml\"", "geometry.file", ".glb"},
     {"FileIsFolder", "plates.obj", ".", "file    =", "geometry.file", "name a mesh file"},
     {"FileWithNul", "plates.obj", "plates.obj\\u0000", "plates.obj", "geometry.file", "control characters"},
-    {"UpUnknown", "\"y\"", "\"w\"", "\"w\"", "geometry.up", "one of y, z, x"},
+    {"UpUnknown", "\"y\"", "\"w\"", "\"w\"", "geometry.up", "one of x, y, z"},
     {"ScaleZero", "scale   = 0.5", "scale = 0", "scale = 0", "geometry.scale", "file in cm"},
     {"ScaleHuge", "scale   = 0.5", "scale = 1e9", "plates.obj", "geometry.file", "scale = 0.001"},
     {"HeadingCount", "[0, 90.0]", "[0, 90.0, 180]", "heading", "geometry.heading", "give one for each"},

@@ -1,6 +1,7 @@
 // Tests how views fit a scene into the picture.
 #include "pictures/charts/pictures.h"
 
+#include "support/box_views.h"
 #include "support/leaf_scenes.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ TEST(PictureCamera, ComesNoCloserThanPlantsNeed) {
     const double share = filled_share(scene, camera);
     EXPECT_GE(share, 0.6);
     const ShownBox box = shown_box(scene.model, layout);
-    for (const glm::dvec3& corner : box_with_axes(box.lo_m, box.hi_m)) {
+    for (const glm::dvec3& corner : box_with_axes(box.lo_m, box.hi_m, Axes::south_up_west)) {
       const auto seen = project(camera, corner);
       ASSERT_TRUE(seen);
       EXPECT_GT(std::min(seen->at.x, seen->at.y), 0.0);

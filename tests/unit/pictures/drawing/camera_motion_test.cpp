@@ -1,5 +1,7 @@
 #include "pictures/drawing/camera_motion.h"
 
+#include "support/box_views.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,6 @@
 #include "pictures/drawing/camera.h"
+
+#include "support/box_views.h"
 #include "support/viewed_box.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // Tests charts painted band by band, in every projection, with copies of the plot.
 
 #include "pictures/drawing/chart.h"
+#include "support/box_views.h"
 #include "support/chart_scenes.h"
 #include "support/pixels.h"
 

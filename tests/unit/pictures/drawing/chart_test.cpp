@@ -1,4 +1,5 @@
 #include "pictures/drawing/chart.h"
+#include "support/box_views.h"
 #include "support/chart_scenes.h"
 #include "support/pixels.h"
 

@@ -1,6 +1,7 @@
 #include "pictures/drawing/north_arrow.h"
 
 #include "pictures/drawing/chart.h"
+#include "support/box_views.h"
 #include "support/chart_scenes.h"
 #include "support/pixels.h"
 

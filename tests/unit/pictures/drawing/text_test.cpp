@@ -33,7 +33,7 @@ TEST(Typeface, DrawsWithinTheLineItMeasuresAndNowhereElse) {
   const Image image = drawn(line);
   // Bearings of single letters may stick out by a tenth of the size; accented capitals rise to 0.95 of it.
   const double left = 20.0 - 0.1 * size_px, right = 20.0 + Typeface().width_px(line, size_px) + 0.1 * size_px;
-  const double top = 50.0 - 0.95 * size_px - 1.0, bottom = 50.0 + Typeface::descent * size_px + 1.0;
+  const double top = 50.0 - 0.95 * size_px - 1.0, bottom = 50.0 + 0.24 * size_px + 1.0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       if (x + 1 > left && x < right && y + 1 > top && y < bottom) continue;

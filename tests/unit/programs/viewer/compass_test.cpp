@@ -1,6 +1,7 @@
 #include "programs/viewer/compass.h"
 
 #include "pictures/drawing/chart.h"
+#include "support/box_views.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #include "programs/viewer/live_picture.h"
 
 #include "base/error.h"
+#include "support/box_views.h"
 #include "support/live_scene.h"
 
 #include <gtest/gtest.h>

@@ -45,7 +45,7 @@ TEST(DaeReader, UnitAndUpAxis) {
   expect_at(second("Y_UP"), {0.01, 0, 0});
   expect_at(second("X_UP"), {0, 0.01, 0});
   expect_at(second("Z_UP"), {0, 0, -0.01});
-  expect_at(second("Z_UP", {.up = UpAxis::y, .scale = 2.0}), {0.02, 0, 0});
+  expect_at(second("Z_UP", {.up = FileAxis::y, .scale = 2.0}), {0.02, 0, 0});
 }
 
 TEST(DaeReader, TransformsFollowTheNodeTree) {

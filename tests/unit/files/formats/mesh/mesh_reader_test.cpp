@@ -25,7 +25,7 @@ Mesh read_text(const TempFolder& folder, const std::string& name, std::string_vi
 }
 
 MeshImport as_it_stands(const char* optics = "leaf") {
-  return {.optics = optics, .up = UpAxis::y};
+  return {.optics = optics, .up = FileAxis::y};
 }
 
 TEST(MeshReader, EveryFormatGivesTheSameSquare) {
@@ -73,10 +73,10 @@ TEST(MeshReader, TurnsZUpFilesAndScales) {
   const std::string text = "v 1 2 3\nv 4 2 3\nv 1 5 3\nusemtl a\nf 1 2 3\n";
   const glm::dvec3 as_y_up(2, 4, 6), as_z_up(-4, 6, -2);
   EXPECT_EQ(read_text(folder, "a.obj", text, {.scale = 2.0}).vertices[0], as_y_up);
-  EXPECT_EQ(read_text(folder, "a.obj", text, {.up = UpAxis::z, .scale = 2.0}).vertices[0], as_z_up);
+  EXPECT_EQ(read_text(folder, "a.obj", text, {.up = FileAxis::z, .scale = 2.0}).vertices[0], as_z_up);
   const std::string can = "p 1 100001001001 3 1 2 3 4 2 3 1 5 3\n";
   EXPECT_EQ(read_text(folder, "a.can", can, {.scale = 2.0}).vertices[0], as_z_up);
-  EXPECT_EQ(read_text(folder, "a.can", can, {.up = UpAxis::y, .scale = 2.0}).vertices[0], as_y_up);
+  EXPECT_EQ(read_text(folder, "a.can", can, {.up = FileAxis::y, .scale = 2.0}).vertices[0], as_y_up);
 }
 
 TEST(MeshReader, CanLabelsGiveOrgans) {

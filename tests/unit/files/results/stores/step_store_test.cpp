@@ -81,7 +81,7 @@ TEST_F(StepStoreTest, GivesBackWhatWasWritten) {
   const StepStore& store = store_;
   EXPECT_FALSE(store.read(7));
   const StoredStep step = some_step(model_);
-  store.write(7, step);
+  store.begin_write(7, step).get();
   const std::optional<StoredStep> read = store.read(7);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->light.bands[0].incident.half_width, 0.0);
@@ -120,14 +120,14 @@ TEST_F(StepStoreTest, GivesBackWhatWasWritten) {
 TEST_F(StepStoreTest, LeavesOutFieldsOfTriangles) {
   const StepStore small(folder_.path(), model_, day_settings, StepFields::none);
   store_.begin();
-  store_.write(7, some_step(model_));
+  store_.begin_write(7, some_step(model_)).get();
   const std::optional<StoredStep> read = store_.read(7, StepFields::none);
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->fields.empty());
   EXPECT_EQ(read->maps.size(), 10U);
   StoredStep without = some_step(model_);
   without.fields.clear();
-  small.write(8, without);
+  small.begin_write(8, without).get();
   EXPECT_TRUE(small.read(8));
   EXPECT_FALSE(store_.read(8)) << "it has no fields";
 }
@@ -148,7 +148,7 @@ TEST_F(StepStoreTest, WritesMeanwhileWhatItWasGiven) {
 
 TEST_F(StepStoreTest, ReadsNoStepThatIsDamaged) {
   store_.begin();
-  store_.write(7, some_step(model_));
+  store_.begin_write(7, some_step(model_)).get();
   const std::string good = read_file(folder_ / step_file_);
   for (std::size_t length = 0; length < good.size(); length += 1 + length / 8) {
     folder_.write(step_file_, good.substr(0, length));
@@ -168,7 +168,7 @@ TEST_F(StepStoreTest, ReadsNoStepThatIsDamaged) {
 
 TEST_F(StepStoreTest, ReadsNoStepOfAnotherDayOrNumber) {
   store_.begin();
-  store_.write(7, some_step(model_));
+  store_.begin_write(7, some_step(model_)).get();
   ordered_json other = day_settings;
   other["seed"] = 2;
   EXPECT_FALSE(StepStore(folder_.path(), model_, other, StepFields::kept).read(7));
@@ -185,7 +185,7 @@ TEST_F(StepStoreTest, TellsWhatAnEarlierDayLeft) {
   EXPECT_EQ(store_.find(), StepStore::Found::nothing);
   store_.begin();
   EXPECT_EQ(store_.find(), StepStore::Found::begun);
-  store_.write(0, some_step(model_));
+  store_.begin_write(0, some_step(model_)).get();
   folder_.write("steps/step_fields.tmp", "half a file");
   folder_.write("steps/notes.txt", "of the user");
   EXPECT_EQ(StepStore(folder_.path(), model_, day_settings, StepFields::kept).find(), StepStore::Found::begun);
